@@ -5,12 +5,13 @@ from __future__ import annotations
 import argparse
 import gc
 import os
+import re
 import signal
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 # Before numpy is loaded. The page has threads of its own; those of the linear algebra would fight
 # with them over matrices of ten rows, and cost four times what they save.
@@ -35,7 +36,9 @@ def options(arguments: Sequence[str] | None = None) -> argparse.Namespace:
         prog="bearing-explorer",
         description="Serve the Bearing explorer: a page with a damaged ball bearing and sliders.",
     )
-    parser.add_argument("--port", type=int, default=5006, help="port to listen on (5006)")
+    parser.add_argument(
+        "--port", type=_number(0, 65_535), default=5006, help="port to listen on (5006)"
+    )
     parser.add_argument(
         "--address",
         default="localhost",
@@ -45,39 +48,47 @@ def options(arguments: Sequence[str] | None = None) -> argparse.Namespace:
     parser.add_argument(
         "--allow-websocket-origin",
         action="append",
+        type=_host,
         metavar="HOST[:PORT]",
         help="host name under which browsers reach the page, where it is not localhost; repeatable",
     )
     parser.add_argument(
-        "--num-procs", type=int, default=1, help="processes that share the port (1)"
+        "--num-procs", type=_number(1, 99_999), default=1, help="processes that share the port (1)"
     )
     parser.add_argument(
-        "--root-path", default="", help="path in front of the page behind a proxy, such as /lab"
+        "--root-path",
+        type=_matching(r"[\w.~/-]*", "a path of letters, digits, and the characters / . _ ~ -"),
+        default="",
+        help="path in front of the page behind a proxy, such as /lab",
     )
     parser.add_argument(
         "--frame-ancestor",
         action="append",
+        type=_matching(
+            r"(https?://)?[\w.*-]+(:(\d+|\*))?(/[\w.~/-]*)?",
+            "an origin, such as https://lms.example.org",
+        ),
         metavar="ORIGIN",
         help="another site that may show the page in a frame, such as https://lms.example.org; "
         "repeatable",
     )
     parser.add_argument(
         "--max-sessions",
-        type=_positive,
+        type=_number(1, 99_999),
         default=100,
         metavar="N",
         help="sessions at once in a process (100); later ones are asked to come back",
     )
     parser.add_argument(
         "--max-message-mb",
-        type=_positive,
+        type=_number(1, 99_999),
         default=4,
         metavar="N",
         help="megabytes that a browser may send in one message (4)",
     )
     parser.add_argument(
         "--idle-minutes",
-        type=_positive,
+        type=_number(1, 99_999),
         default=60,
         metavar="N",
         help="after which a page that is not used is closed (60)",
@@ -97,11 +108,34 @@ def options(arguments: Sequence[str] | None = None) -> argparse.Namespace:
     return parser.parse_args(arguments)
 
 
-def _positive(text: str) -> int:
-    value = int(text)
-    if value < 1:
-        raise argparse.ArgumentTypeError(f"{value} is out of range; allowed: at least 1")
-    return value
+def _number(at_least: int, at_most: int) -> Callable[[str], int]:
+    """Return a reader of whole numbers."""
+
+    def read(text: str) -> int:
+        if not (text.isascii() and text.isdecimal() and at_least <= int(text[:9]) <= at_most):
+            _refuse(text, f"a whole number from {at_least} to {at_most}")
+        return int(text)
+
+    return read
+
+
+def _matching(pattern: str, allowed: str) -> Callable[[str], str]:
+    """Return a reader of texts that match all of a pattern."""
+    return lambda text: text if re.fullmatch(pattern, text, re.ASCII) else _refuse(text, allowed)
+
+
+def _host(text: str) -> str:
+    from bearing_explorer.kit.serve.hosts import origins_of
+
+    try:
+        origins_of(text)
+    except ValueError:
+        _refuse(text, "a host, such as lab.example.org:8443 or https://lab.example.org")
+    return text
+
+
+def _refuse(text: str, allowed: str) -> NoReturn:
+    raise argparse.ArgumentTypeError(f"{text!r} cannot be used; allowed: {allowed}")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -148,8 +182,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 idle=60.0 * chosen.idle_minutes,
             ),
         )
-    except OSError as error:
-        _say(f"Cannot listen on {chosen.address} port {chosen.port}: {error.strerror}.")
+    except (OSError, UnicodeError) as error:
+        why = getattr(error, "strerror", None) or error
+        _say(f"Cannot listen on {chosen.address} port {chosen.port}: {why}.")
         return 1
 
     loop = server.io_loop
@@ -163,7 +198,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if chosen.num_procs > 1:
         _end_with_parent(loop)
     shown = "localhost" if chosen.address in ("0.0.0.0", "::", "127.0.0.1") else chosen.address
-    url = f"http://{shown}:{chosen.port}{chosen.root_path.rstrip('/')}/"
+    url = f"http://{shown}:{server.port}{server.prefix}/"
 
     compiling.begin(
         _say if chosen.num_procs == 1 else str,
@@ -198,7 +233,8 @@ def _end_with_parent(loop: Any) -> None:
 
 
 def _say(text: str) -> None:
-    print(text, flush=True)
+    encoding = sys.stdout.encoding or "utf-8"
+    print(text.encode(encoding, "backslashreplace").decode(encoding), flush=True)  # names of files
 
 
 if __name__ == "__main__":

@@ -15,9 +15,10 @@ import panel as pn
 from bearing_explorer.kit.assets import asset_text, scripts
 from bearing_explorer.kit.compute import compiling
 from bearing_explorer.kit.plots.theme import dark_properties, themes
-from bearing_explorer.kit.serve.fast import PLAIN
+from bearing_explorer.kit.serve.bokeh_internals import PLAIN
 from bearing_explorer.kit.serve.live import on_loop
-from bearing_explorer.kit.serve.template import PageTemplate
+from bearing_explorer.kit.serve.panel_internals import PageTemplate
+from bearing_explorer.kit.serve.serving import collect_now_and_then
 from bearing_explorer.kit.session import Half, Section, Session
 from bearing_explorer.kit.views.base import View
 from bearing_explorer.kit.views.still_figure import Figure
@@ -161,6 +162,7 @@ def page(lessons: Path | None = None) -> PageTemplate:
     doc = pn.state.curdoc
     pn.state.onload(lambda: on_loop(doc, session.start))
     pn.state.on_session_destroyed(lambda _: session.stop())
+    pn.state.on_session_destroyed(lambda _: collect_now_and_then())
     if doc is not None:
         doc.title = "Bearing explorer"
     return template

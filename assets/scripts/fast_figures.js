@@ -1,5 +1,5 @@
 // What BokehJS does anew at each repaint of a figure, and need not. Its private names of
-// BokehJS stand here; those of Bokeh and Panel in serve/fast.py.
+// BokehJS stand here; those of Bokeh in serve/bokeh_internals.py.
 //
 // A slider that is dragged repaints up to ten figures thirty times a second, each with a few lines
 // of some hundred points. Most of that time goes into what is the same each time or is never seen:
@@ -491,6 +491,19 @@
       }
       if (waiting.size === 0) queueMicrotask(lay_out_waiting)
       waiting.add(top)
+    }
+  })
+
+  // Bokeh zooms by the whole of a pinch at each of its steps: a figure runs away where fingers part,
+  // and jumps where they come together. Here it stays under them.
+  const wheel = module("models/tools/gestures/wheel_zoom_tool", "WheelZoomToolView")
+  const pinch = method(wheel, "_pinch")
+  part("pinch", [pinch, method(wheel, "zoom")], () => {
+    wheel._pinch_start = function () { this.pinched = 1 }
+    wheel._pinch = function ({ sx, sy, scale }) {
+      const by = scale / (this.pinched ?? 1)
+      this.pinched = scale
+      this.zoom(sx, sy, (1 - 1 / by) / this.model.speed)
     }
   })
 

@@ -64,18 +64,18 @@
   const documents = () => window.Bokeh?.documents ?? []
   const paint_all = () => {
     for (const doc of documents()) {
-      for (const model of doc._all_models.values()) paint(model)
+      for (const model of doc.all_models) paint(model)
       if (followed.has(doc)) continue
       followed.add(doc)
-      let known = doc._all_models.size, waiting = false
+      let known = doc.all_models.size, waiting = false
       doc.on_change(() => {
         const as_it_comes = theme === "light" && !large
-        if (as_it_comes || waiting || doc._all_models.size === known) return
+        if (as_it_comes || waiting || doc.all_models.size === known) return
         waiting = true
         queueMicrotask(() => {
           waiting = false
-          known = doc._all_models.size
-          for (const model of doc._all_models.values()) paint(model)
+          known = doc.all_models.size
+          for (const model of doc.all_models) paint(model)
         })
       })
     }
@@ -102,7 +102,7 @@
       if (el.matches?.(".off-screen")) clear_all(el.shadowRoot)
     // colours that come out of a mapper are worked out with the numbers
     for (const doc of documents())
-      for (const model of doc._all_models.values())
+      for (const model of doc.all_models)
         if (model.type === "GlyphRenderer") model.data_source.change.emit()
     window.dispatchEvent(new CustomEvent("explorer-theme", { detail: theme }))
   }

@@ -275,18 +275,6 @@
   const bokeh_class = (place, name) => {
     try { return Bokeh.require(place)[name]?.prototype } catch { /* moved */ }
   }
-  // Bokeh zooms by the whole of a pinch at each of its steps: a figure runs away where fingers part,
-  // and jumps where they come together. Here it stays under them.
-  const pinch_with_fingers = () => {
-    const tool = bokeh_class("models/tools/gestures/wheel_zoom_tool", "WheelZoomToolView")
-    if (!tool?._pinch || !tool.zoom) return
-    tool._pinch_start = function () { this.pinched = 1 }
-    tool._pinch = function ({ sx, sy, scale }) {
-      const by = scale / (this.pinched ?? 1)
-      this.pinched = scale
-      this.zoom(sx, sy, (1 - 1 / by) / this.model.speed)
-    }
-  }
   // Figures have their places some time after their numbers: the event "laid-out".
   const announce_layouts = () => {
     const plot = bokeh_class("models/plots/plot", "PlotView"), follow = plot?.after_layout
@@ -300,7 +288,6 @@
 
   const begin = () => {
     if (!window.Bokeh?.documents?.length) return setTimeout(begin, 30)
-    pinch_with_fingers()
     announce_layouts()
     announce("figures")
     if (location.hash.includes("projector")) announce("projector", true)

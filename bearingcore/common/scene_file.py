@@ -123,6 +123,7 @@ def from_toml(text: str) -> dict[str, Any]:
     ValueError
         for text that is too long or not TOML.
     """
+    checks.instance("text", text, str, "a text in TOML")
     if len(text) > LARGEST_TEXT:
         raise checks.refuse("length of the text", len(text), f"at most {LARGEST_TEXT} characters")
     for sign, most in MOST_OF.items():

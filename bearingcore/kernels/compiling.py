@@ -10,6 +10,15 @@ compiled again and takes its place; what cannot be written is not kept.
 Fast mathematics that drops NaN or reorders sums stays off: NaN where an answer is missing.
 "contract" alone of all that fastmath means: a·b + c in one instruction, rounded once, which makes
 statics a quarter faster. NaN, signs and the order of sums are as written.
+
+Private names of Numba stand in this file alone, and are looked for as it is loaded:
+
+* `Compiler`, `JITCodeLibrary`, and the options in `_OPTIONS` and `_CALLED_BY_KERNELS`: kernels are
+  compiled in a tenth of the time, and marching takes an eleventh (`PartLibrary`).
+* `FunctionCache`, `CompileResultCacheImpl`, `dumps`: the cache above (`KernelCache`).
+
+Where one is gone, or with the environment variable ``BEARING_EXPLORER_PLAIN=1``, kernels are
+compiled in Numba's public ways, and kept in a folder that is named after the sources.
 """
 
 from __future__ import annotations
@@ -17,10 +26,12 @@ from __future__ import annotations
 import glob
 import hashlib
 import logging
+import os
 import pickle
 import shutil
 import uuid
 from collections.abc import Callable
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 from types import SimpleNamespace
@@ -28,17 +39,31 @@ from typing import Any
 
 import numba
 from numba import njit
-from numba.core.caching import FunctionCache
-from numba.core.codegen import JITCodeLibrary
-from numba.core.compiler import Compiler
-from numba.core.serialize import dumps
 
 log = logging.getLogger(__name__)
 
-_OPTIONS = {
+PLAIN = os.environ.get("BEARING_EXPLORER_PLAIN", "0") not in ("", "0")
+"""True where Numba's public ways are taken."""
+
+try:
+    from numba.core.caching import CompileResultCacheImpl, FunctionCache
+    from numba.core.codegen import JITCodeLibrary
+    from numba.core.compiler import Compiler
+    from numba.core.serialize import dumps
+
+    _LOCATORS: list[Any] = list(CompileResultCacheImpl._locator_classes)
+except (ImportError, AttributeError) as error:
+    log.warning("kernels are compiled slowly with Numba %s: %s", numba.__version__, error)
+    CompileResultCacheImpl = FunctionCache = JITCodeLibrary = Compiler = object
+    _LOCATORS, dumps, PLAIN = [object], pickle.dumps, True
+
+_PUBLIC_OPTIONS = {
     "nogil": True,
     "fastmath": {"contract"},
     "error_model": "numpy",  # x/0 is inf or NaN; an exception would be code at each division
+}
+_OPTIONS = {
+    **_PUBLIC_OPTIONS,
     "no_cfunc_wrapper": True,
     # said everywhere, or it is as in the function that happens to be the first to call it
     "forceinline": False,
@@ -90,6 +115,8 @@ def compiled(function: Callable[..., Any]) -> Any:
 
     It makes no arrays and returns none, as nothing compiled does.
     """
+    if PLAIN:
+        return njit(cache=_keep_plain(), **_PUBLIC_OPTIONS)(function)
     kernel = njit(**_OPTIONS)(function)
     if not hasattr(kernel, "_cache"):  # compiling is switched off
         return kernel
@@ -105,7 +132,7 @@ def compiled(function: Callable[..., Any]) -> Any:
 
 def called(function: Callable[..., Any]) -> Any:
     """A function for kernels to call."""
-    return njit(**_CALLED_BY_KERNELS)(function)
+    return njit(**(_PUBLIC_OPTIONS if PLAIN else _CALLED_BY_KERNELS))(function)
 
 
 def inlined(function: Callable[..., Any]) -> Any:
@@ -116,7 +143,9 @@ def inlined(function: Callable[..., Any]) -> Any:
     compile for it, and a kernel is compiled together with all that it calls, so large functions are
     called at one place.
     """
-    return njit(**{**_CALLED_BY_KERNELS, "forceinline": True})(function)
+    return (
+        called(function) if PLAIN else njit(**_CALLED_BY_KERNELS | {"forceinline": True})(function)
+    )
 
 
 _kernels: list[Any] = []
@@ -130,7 +159,23 @@ def kept_on_disk() -> bool:
 
 def all_on_disk() -> bool:
     """Whether machine code of all kernels, made of the present sources, is on disk."""
+    if PLAIN:
+        return _keep_plain() and any(Path(numba.config.CACHE_DIR).rglob("*.nbi"))
     return bool(_kernels) and all(one._cache._cache_file.has_any() for one in _kernels)
+
+
+@cache
+def _keep_plain() -> bool:
+    """Have Numba keep code in a folder of these sources alone; False where it cannot be written."""
+    own = Path(__file__).parent
+    folder = Path(numba.config.CACHE_DIR or own / "__pycache__") / f"plain-{sources(own)}"
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError:
+        _not_kept.append("plain")
+        return False
+    numba.config.CACHE_DIR = str(folder)
+    return True
 
 
 @cache
@@ -138,11 +183,26 @@ def _warn_once(words: str) -> None:
     log.warning(words)
 
 
+class ReadableFolder(_LOCATORS[0]):  # type: ignore[misc, valid-type]
+    """NUMBA_CACHE_DIR, which may be there to be read only, as that of an image is."""
+
+    def ensure_cache_path(self) -> None:
+        """Raise OSError where the folder can be neither read nor made."""
+        if not Path(self.get_cache_path()).is_dir():
+            super().ensure_cache_path()
+
+
+class _Places(CompileResultCacheImpl):  # type: ignore[misc]
+    _locator_classes = [ReadableFolder, *_LOCATORS]  # noqa: RUF012
+
+
 class KernelCache(FunctionCache):  # type: ignore[misc]
     """numba's cache of a function, of which no fault ends the program.
 
     What cannot be read is removed and compiled anew; what cannot be written is not kept.
     """
+
+    _impl_class = _Places
 
     def __init__(self, function: Callable[..., Any]) -> None:
         super().__init__(function)
@@ -214,10 +274,11 @@ class KernelFiles:
         if hashlib.sha256(content).digest() == digest:
             return content[32:] if content.startswith(self._version) else None
         _warn_once("kept machine code is broken and made anew")
-        if file.is_dir():
-            shutil.rmtree(file)
-        else:
-            file.unlink(missing_ok=True)
+        with suppress(OSError):  # it may have another owner
+            if file.is_dir():
+                shutil.rmtree(file)
+            else:
+                file.unlink()
         return None
 
 

@@ -36,6 +36,10 @@ the scheduler to carry, however many there are in all."""
 LOOK_AGAIN = 5.0
 """[s] after which the size of the cluster is asked for again."""
 
+_NOT_WRITABLE = {
+    *(errno.EACCES, errno.EPERM, errno.EROFS, errno.ENOENT, errno.ENOTDIR, errno.EEXIST),
+    *(errno.ENAMETOOLONG, errno.ELOOP),
+}
 FULL = "the disk is full. What is finished is kept: the same sweep resumes once there is room"
 
 LOST = "the scheduler or the connection to it is lost; what is finished is kept in the store"
@@ -126,9 +130,12 @@ def sweep(
     try:
         return _in_store(path, grid, region_shape, cluster, progress)
     except OSError as error:
-        if error.errno not in (errno.ENOSPC, errno.EDQUOT):
+        if error.errno in (errno.ENOSPC, errno.EDQUOT):
+            raise OSError(error.errno, FULL, str(path)) from None
+        if error.errno not in _NOT_WRITABLE:
             raise
-        raise OSError(error.errno, FULL, str(path)) from None
+        allowed = f"a folder that can be written ({error.strerror})"
+        raise checks.refuse("store", str(path), allowed) from None
 
 
 Cluster = AbstractContextManager["Client"]

@@ -75,9 +75,10 @@ def coordinates(grid: Grid) -> dict[str, NDArray[Any]]:
 
 def local_path(store: str | os.PathLike[str]) -> Path:
     """The folder of a store, absolute; ValueError for an address."""
-    if "://" in os.fspath(store):
-        raise checks.refuse("store", os.fspath(store), "a folder that this and all workers see")
-    return Path(store).absolute()
+    name = os.fspath(store) if isinstance(store, os.PathLike) else store
+    if "://" in checks.instance("store", name, str, "a folder") or "\0" in name:
+        raise checks.refuse("store", name, "a folder that this and all workers see")
+    return Path(name).absolute()
 
 
 def prepare(path: Path, grid: Grid, region_shape: Sequence[int]) -> tuple[int, ...]:

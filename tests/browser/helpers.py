@@ -18,6 +18,8 @@ from urllib.error import URLError
 from urllib.parse import urlparse
 from urllib.request import urlopen
 
+import pytest
+from bearing_explorer.kit.serve.bokeh_internals import PLAIN
 from playwright.sync_api import BrowserContext, Locator, Page, Playwright
 
 CHROMIUM_OPTIONS = (
@@ -29,6 +31,9 @@ CHROMIUM_OPTIONS = (
     "--disable-background-networking",
     "--disable-component-update",
     "--disable-sync",
+)
+QUICK_ONLY = pytest.mark.skipif(
+    PLAIN, reason="counts work that only private names of BokehJS save, which PLAIN leaves out"
 )
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = Path(__file__).parent / "pages"

@@ -6,7 +6,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.browser.explorer_page import open_page, rest, show, wait
-from tests.browser.helpers import Server
+from tests.browser.helpers import QUICK_ONLY, Server
 
 # Each time that a figure is laid out: its section, with whether that is closed.
 _WATCH = """() => {
@@ -58,6 +58,7 @@ def _work_of(page: Page) -> Callable[[str], float]:
     return opening
 
 
+@QUICK_ONLY
 def test_a_tab_costs_no_more_for_those_that_were_open(page: Page, explorer: Server) -> None:
     page.emulate_media(reduced_motion="no-preference")  # as people have it: the bearing turns
     page.goto(explorer.url)
@@ -74,6 +75,7 @@ def test_a_tab_costs_no_more_for_those_that_were_open(page: Page, explorer: Serv
     expect(stops).to_have_count(0)  # it would cost as much as a drag, unseen
 
 
+@QUICK_ONLY
 def test_only_what_is_open_is_laid_out_and_not_once_a_change(page: Page, explorer: Server) -> None:
     page.goto(f"{explorer.url}?v=1&tab=vibration")
     page.wait_for_function("window.__tab == 'vibration'")
@@ -100,6 +102,7 @@ _COUNT_PAINTS = """() => {
 }"""
 
 
+@QUICK_ONLY
 def test_a_tab_that_opens_again_is_neither_sent_nor_painted(page: Page, explorer: Server) -> None:
     sent: list[int] = []
 

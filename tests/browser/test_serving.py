@@ -1,6 +1,9 @@
 """The page in a real browser behind a proxy, and what a browser shows when there is no room."""
 
+import os
 import signal
+import subprocess
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 
@@ -121,7 +124,10 @@ def ends_cleanly(server: Server, by: signal.Signals) -> None:
 
 @pytest.mark.proof
 def test_the_page_works_without_the_speedups(page: Page) -> None:
-    with serving(explorer_server(environment={"BEARING_EXPLORER_PLAIN": "1"})) as server:
+    plain = {"BEARING_EXPLORER_PLAIN": "1"}
+    compiled = [sys.executable, "-m", "tests.helpers.compiled"]
+    subprocess.run(compiled, check=True, env=os.environ | plain)
+    with serving(explorer_server(environment=plain)) as server:
         page.goto(server.url)
         can_be_used(page)
         page.locator(".tab-load").click()

@@ -9,7 +9,8 @@ import asyncio
 import json
 import re
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -69,12 +70,13 @@ class PageClient:
         self._learn(reply["doc"])
         await self.patch(message("document_ready"))
 
-    async def open_socket(self, origin: str | None = None) -> None:
+    async def open_socket(
+        self, origin: str | None = None, headers: Mapping[str, str] = MappingProxyType({})
+    ) -> None:
         """The websocket alone; also once more."""
         self._welcome = self._over = False
         address = re.sub("^http", "ws", self.url) + "ws"
-        headers = {"Origin": origin} if origin else {}
-        request = HTTPRequest(address, headers=headers)
+        request = HTTPRequest(address, headers={"Origin": origin} if origin else dict(headers))
         self._socket = await websocket_connect(
             request, subprotocols=["bokeh", self.token], max_message_size=LARGEST
         )

@@ -57,6 +57,13 @@ def wait_until(holds: Callable[[], bool], seconds: float = 120.0) -> None:
         time.sleep(0.05)
 
 
+async def until(holds: Callable[[], bool], seconds: float = 120.0) -> None:
+    end = time.monotonic() + seconds
+    while not holds():
+        assert time.monotonic() < end
+        await asyncio.sleep(0.05)
+
+
 async def closed(client: PageClient, seconds: float = 120.0) -> None:
     """Wait until the server ends a connection."""
     end = time.monotonic() + seconds

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from bearingcore import Defect, MeasuredFloor, RoughFloor, Scene, presets
 from bearingcore.common.scene_file import LARGEST_TEXT
+from bearingcore.errors import FieldError
 from bearingcore.scene.floor import MOST_ROWS
 
 
@@ -59,3 +60,5 @@ def test_a_text_that_is_no_toml_is_quoted_on_one_line() -> None:
         Scene.from_toml('name = "a"\nload = = 3\n')
     assert "\\n" not in str(refusal.value)
     assert "line 2" in str(refusal.value)
+    with pytest.raises(FieldError, match="text is None; allowed: a text"):
+        Scene.from_toml(None)

@@ -207,3 +207,47 @@ def test_a_folder_that_cannot_be_written_is_left_alone(package: Path, tmp_path: 
         for folder, mode in modes.items():
             folder.chmod(mode)
     assert before == {file: file.read_bytes() for file in package.rglob("*.kernel*")}
+
+
+@pytest.mark.proof
+def test_kernels_of_somebody_else_are_read_and_left_alone(package: Path, tmp_path: Path) -> None:
+    """As in an image, where they are root's."""
+    kept = tmp_path / "kept"
+    told(start(package, kept))
+    [file] = kept.rglob("*.kernel")
+    for content in (file.read_bytes(), b"broken"):
+        file.write_bytes(content)
+        file.parent.chmod(0o555)
+        try:
+            process = start(package, kept, obeying())
+            out, err = process.communicate(timeout=300.0)
+        finally:
+            file.parent.chmod(0o755)
+        hits = "0" if content == b"broken" else "1"
+        assert (process.returncode, out.split()[:2]) == (0, ["8.0", hits]), err
+        assert ("broken" in err) == (hits == "0")
+        assert file.read_bytes() == content
+
+
+@pytest.mark.proof
+@pytest.mark.parametrize("gone", [False, True])
+def test_public_ways_give_the_same_and_stay_up_to_date(
+    package: Path, tmp_path: Path, gone: bool
+) -> None:
+    """As asked for, and with a Numba that has other private names."""
+    if gone:
+        gone_name = "import numba.core.caching as c; del c.CompileResultCacheImpl"
+        (package / "__init__.py").write_text(gone_name)
+    environment = {} if gone else {"BEARING_EXPLORER_PLAIN": "1"}
+
+    def run() -> list[str]:
+        process = start(package, tmp_path, environment=environment)
+        out, err = process.communicate(timeout=300.0)
+        assert process.returncode == 0, err
+        assert ("kernels are compiled slowly with Numba" in err) == gone, err
+        return out.split()
+
+    assert run() == ["8.0", "0", "False", "True"]
+    assert run() == ["8.0", "1", "True", "True"]
+    write_callee(package, "Later", "2.0")
+    assert run()[:2] == ["10.0", "0"]

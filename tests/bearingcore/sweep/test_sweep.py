@@ -24,6 +24,7 @@ from hypothesis import settings as hypothesis_settings
 from hypothesis import strategies as st
 
 from bearingcore import Scene, modes, orbit, presets, simulate
+from bearingcore.errors import FieldError
 from bearingcore.statics.status import StaticStatus
 from bearingcore.sweep import OUTPUTS, STATUSES, sweep
 from bearingcore.sweep import grid as grid_module
@@ -418,6 +419,9 @@ def test_other_folders_are_left_alone(tmp_path: Path) -> None:
     assert [file.name for file in tmp_path.iterdir()] == ["thesis.tex"]
     with pytest.raises(ValueError, match="folder"):
         sweep(RIG, {"extent": [0.1]}, FEW, store="s3://bucket/results.zarr")
+    for place in (tmp_path / "thesis.tex" / "results", "/proc/none/results", "a\0b", "x" * 300, 3):
+        with pytest.raises(FieldError, match=r"store is .* allowed: a folder"):
+            sweep(RIG, {"extent": [0.1]}, FEW, store=place)
 
 
 # ------------------------------------------------------------------------------ killed

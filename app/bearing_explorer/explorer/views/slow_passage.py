@@ -32,8 +32,8 @@ from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.element_words import element_name
 from bearing_explorer.kit.plots.layers import draw, uprights
 from bearing_explorer.kit.plots.ranges import StickyRange
-from bearing_explorer.kit.serve.live_component import LiveComponent
 from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.kit.serve.panel_internals import LiveComponent
 from bearing_explorer.kit.views.base import Ranges, Sources
 from bearing_explorer.kit.widgets.form import stack
 from bearingcore import Bearing

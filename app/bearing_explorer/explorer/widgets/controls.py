@@ -16,7 +16,7 @@ from bearing_explorer.explorer.state.choice_list import CHOICE_LIST, Choice
 from bearing_explorer.explorer.state.field_values import CAGE_ANGLE, SCENE_GROUPS, SHOWN_FIELDS
 from bearing_explorer.kit.assets import asset_text, scripts
 from bearing_explorer.kit.messages import take
-from bearing_explorer.kit.serve.live_component import LiveComponent
+from bearing_explorer.kit.serve.panel_internals import LiveComponent
 
 
 def spec_of(groups: Iterable[str], *choices: Choice) -> dict[str, Any]:

@@ -12,7 +12,12 @@ from bokeh.document import Document
 from panel.io.state import set_curdoc
 from panel.models.esm import DataEvent
 
-from bearing_explorer.kit.serve.fast import dispatch_event, locked, send_changes, sockets_of
+from bearing_explorer.kit.serve.bokeh_internals import (
+    dispatch_event,
+    locked,
+    send_changes,
+    sockets_of,
+)
 
 _SHORT = 0.01
 """[s] of work on the event loop after which others only have what they have ready."""

@@ -30,7 +30,7 @@ from collections.abc import Mapping
 import numpy as np
 from bokeh.models import ColumnDataSource, CustomJS, Range1d, Spacer
 
-from bearing_explorer.kit.serve.fast import PLAIN
+from bearing_explorer.kit.serve.bokeh_internals import PLAIN
 
 Columns = Mapping[str, np.ndarray]
 

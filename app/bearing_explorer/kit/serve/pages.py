@@ -14,6 +14,7 @@ from tornado.web import RequestHandler
 
 from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.serve.address import LONGEST_ADDRESS, TOO_LONG
+from bearing_explorer.kit.serve.hosts import AllowedHosts
 
 
 def message_page(title: str, words: str) -> str:
@@ -33,6 +34,7 @@ def write_html(handler: RequestHandler, status: int, title: str, words: str) -> 
 class PageHandler(panel_server.DocHandler):  # type: ignore[misc]
     """The page, or a sentence that asks to come back later."""
 
+    hosts: ClassVar[AllowedHosts]
     most_sessions: ClassVar[int] = 100
     one_at_a_time: ClassVar[asyncio.Lock] = asyncio.Lock()
     """With a pause after each page, in which those who have one are drawn: of 20 who come at once
@@ -42,15 +44,43 @@ class PageHandler(panel_server.DocHandler):  # type: ignore[misc]
         """A session, and the page that connects to it."""
         if len(self.request.uri or "") > LONGEST_ADDRESS:
             self.redirect(f"?v={TOO_LONG}")  # relative: a path such as //elsewhere would lead there
+        elif not self.hosts.allow_page(self.request):
+            write_html(self, 403, "This address does not work", _UNKNOWN_HOST)
         elif {"bokeh-token", "bokeh-session-id"} & set(self.request.arguments):
             write_html(self, 400, "This address does not work", _NO_SESSION)
-        elif len(list(self.application_context.sessions)) >= self.most_sessions:
-            self.set_header("Retry-After", "60")
-            write_html(self, 503, "The server is full", _FULL.format(self.most_sessions))
+        elif self.is_full(self.application_context):
+            self._ask_to_come_back()
         else:
             async with self.one_at_a_time:
+                if self.is_full(self.application_context):  # by now
+                    self._ask_to_come_back()
+                    return
                 await super().get(*arguments, **named)
                 await asyncio.sleep(0.03)
+
+    @classmethod
+    def is_full(cls, context: Any) -> bool:
+        """Return True if an application may have no more sessions."""
+        return len(list(context.sessions)) >= cls.most_sessions
+
+    @classmethod
+    async def make_session(cls, context: Any, name: Any, request: Any, token: str) -> Any | None:
+        """Return the session of a token, made anew if it is over; None where there is no room.
+
+        A page's token outlives its session, and may be used at any time.
+        """
+        known = {session.id: session for session in context.sessions}
+        if name in known:
+            return known[name]
+        async with cls.one_at_a_time:
+            if cls.is_full(context) and all(name != session.id for session in context.sessions):
+                return None
+            return await context.create_session_if_needed(name, request, token)
+
+    def _ask_to_come_back(self) -> None:
+        self.set_header("Retry-After", "60")
+        words = f"{SERVER_IS_FULL.format(self.most_sessions)} Try again in a minute."
+        write_html(self, 503, "The server is full", words)
 
     def head(self, *arguments: Any, **named: Any) -> None:
         """For monitors: no session is made."""
@@ -62,7 +92,11 @@ class PageHandler(panel_server.DocHandler):  # type: ignore[misc]
         self.finish()
 
 
-_FULL = "This server has room for {} people at once. Try again in a minute."
+SERVER_IS_FULL = "This server has room for {} people at once."
+_UNKNOWN_HOST = (
+    "This server does not know the name in the address. Whoever runs it can allow the name with "
+    "--allow-websocket-origin."
+)
 _NO_SESSION = "A session cannot be named in an address. Leave the part after the question mark out."
 
 

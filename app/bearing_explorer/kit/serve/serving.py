@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import asyncio
+import ctypes
 import gc
+import itertools
 import os
 import secrets
 import sys
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,12 +18,12 @@ import panel as pn
 from bokeh.server.urls import per_app_patterns
 from bokeh.settings import settings
 from tornado.ioloop import PeriodicCallback
-from tornado.routing import Rule
 
-from bearing_explorer.kit.serve.connections import HTTP_OPTIONS, bound
-from bearing_explorer.kit.serve.fast import find_models_quickly
+from bearing_explorer.kit.serve.bokeh_internals import find_models_quickly, parts_of
 from bearing_explorer.kit.serve.headers import Headers
-from bearing_explorer.kit.serve.pages import HasControls, Icon, Missing, PageHandler
+from bearing_explorer.kit.serve.hosts import AllowedHosts
+from bearing_explorer.kit.serve.pages import Icon, Missing, PageHandler
+from bearing_explorer.kit.serve.tornado_internals import HTTP_OPTIONS, bound
 from bearing_explorer.kit.serve.websocket import LiveSocket, close_idle
 
 SESSION_GRACE_SECONDS = 15.0
@@ -70,9 +73,6 @@ def make_server(
     find_models_quickly()
     settings.perform_document_validation = False  # the tests do it
     options: dict[str, Any] = {}
-    LiveSocket.schemes = dict(map(_origin, origins))
-    if origins:
-        options["websocket_origin"] = list(LiveSocket.schemes)
     if root_path:
         options["prefix"] = root_path
     server = pn.serve(
@@ -92,25 +92,19 @@ def make_server(
         include_cookies=[],
         websocket_max_message_size=limits.message,
         http_server_kwargs=dict(HTTP_OPTIONS),
+        transforms=[Headers],
         unused_session_lifetime_milliseconds=int(1e3 * SESSION_GRACE_SECONDS),
         check_unused_sessions_milliseconds=1000,
         default_handler_class=Missing,
         extra_patterns=[(r"/favicon.ico", Icon)],
         **options,
     )
-    bound(server._http)
+    if parts := parts_of(server):
+        bound(*parts)
+    PageHandler.hosts = LiveSocket.hosts = AllowedHosts(server.port, address, origins)
     sys.setswitchinterval(_SWITCH_INTERVAL)
-    server._tornado.add_transform(Headers)
-    server._tornado.default_router.rules.insert(0, Rule(HasControls(), Missing))
     PeriodicCallback(lambda: close_idle(limits.idle), min(5000.0, 250.0 * limits.idle)).start()
     return server
-
-
-def _origin(text: str) -> tuple[str, tuple[str, ...]]:
-    """An allowed host with its port, and the schemes of pages there: both where none is given."""
-    scheme, separator, host = text.rpartition("://")
-    host = host.rstrip("/").lower()
-    return host, (scheme.lower(),) if separator else ("http", "https")
 
 
 _YOUNG, _MIDDLE, _FULL = 2000, 10, 1000  # Python's own: 700, 10, 10
@@ -121,8 +115,22 @@ def freeze_startup_objects() -> None:
 
     Sessions refer to each other in circles, which only collections free; Panel starts one five
     seconds after the last session has ended. Full ones while a class is there free nothing, and
-    hold the event loop for a second each with thirty sessions: they come a hundred times less.
+    hold the event loop for a second each with thirty sessions: they come a hundred times less, and
+    where people come and go without an end `collect_now_and_then` has them.
     """
     gc.collect()
     gc.freeze()
     gc.set_threshold(_YOUNG, _MIDDLE, _FULL)
+
+
+_ENDED_SESSIONS = 20
+"""After which there is a collection: 4 to 5 MB each."""
+_ended = itertools.count(1)
+
+
+def collect_now_and_then() -> None:
+    """Free the memory of ended sessions, once for every so many; to be called as one ends."""
+    if next(_ended) % _ENDED_SESSIONS == 0:
+        gc.collect()
+        with suppress(AttributeError, OSError):  # another C library than glibc
+            ctypes.CDLL(None).malloc_trim(0)

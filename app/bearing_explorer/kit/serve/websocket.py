@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import time
 from typing import Any, ClassVar
-from urllib.parse import urlsplit
 
+from bokeh.util.token import check_token_signature, get_session_id, get_token_payload
 from panel.io import server as panel_server
 
 from bearing_explorer.kit.serve import live
@@ -16,52 +16,78 @@ from bearing_explorer.kit.serve.allowed_messages import (
     is_allowed,
     is_costly,
 )
-from bearing_explorer.kit.serve.fast import locked
+from bearing_explorer.kit.serve.bokeh_internals import apply_patch
+from bearing_explorer.kit.serve.hosts import AllowedHosts
 from bearing_explorer.kit.serve.log import log_warning
+from bearing_explorer.kit.serve.pages import SERVER_IS_FULL, PageHandler
+
+MOST_SOCKETS = 4
+"""Of one session: its page has one, and for a moment a second when it connects again."""
 
 
 class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
     """The websocket of one browser."""
 
     connected: ClassVar[set[LiveSocket]] = set()
-    schemes: ClassVar[dict[str, tuple[str, ...]]] = {}
-    """Schemes by which pages of the hosts that are allowed by name may have come."""
+    hosts: ClassVar[AllowedHosts]
     largest: ClassVar[int] = 4 * 2**20
     """Of a message with all of its frames [bytes]; `websocket_max_message_size` bounds a frame."""
     last_message_at = 0.0
     """When the browser sent something last [s of `time.monotonic`]."""
+    session_name = _named_token = ""
     _size = 0
     connection: Any
     receiver: Any
 
-    def check_origin(self, origin: str) -> bool:
-        """Whether a page of this origin may connect.
+    async def prepare(self) -> None:
+        """Refuse a foreign page before anything else is done for it."""
+        if self.hosts.allow_socket(self.request):
+            await super().prepare()
+            return
+        headers = self.request.headers
+        names = {name: repr(headers.get(name))[:200] for name in ("Host", "Origin")}
+        log_warning("refused a websocket", **names, allow="--allow-websocket-origin")
+        self.set_status(403)
+        self.finish()
 
-        Bokeh compares hosts alone. This server speaks http: a page that came by https came through
-        a proxy, whose name has been allowed, or from elsewhere.
-        """
-        try:
-            scheme, host = urlsplit(origin).scheme, urlsplit(origin).netloc.lower()
-            allowed = self.schemes.get(host, ("http",))
-            return scheme in allowed and bool(super().check_origin(origin))
-        except ValueError:  # it is no address at all
-            return False
+    def check_origin(self, origin: str) -> bool:
+        """Return True if a page of this origin may connect; not every Tornado asks."""
+        return self.hosts.allow_origin(origin)
+
+    def select_subprotocol(self, subprotocols: list[str]) -> str | None:
+        """Keep the token, which comes as the name of a second protocol."""
+        self._named_token = subprotocols[-1] if subprotocols else ""
+        chosen: str | None = super().select_subprotocol(subprotocols)
+        return chosen
 
     async def open(self, *arguments: Any, **named: Any) -> None:
         """Connect to the session that the token names."""
+        self.last_message_at = time.monotonic()
         try:
-            super().open(*arguments, **named)
+            if not self._is_signed() or await self._has_place():
+                super().open(*arguments, **named)
         except Exception as error:
             self._refuse(error)
 
-    async def _async_open(self, token: str) -> None:
-        self.last_message_at = time.monotonic()
-        try:
-            await super()._async_open(token)
-        except Exception as error:
-            self._refuse(error)
-        else:
-            self.connected.add(self)
+    def _is_signed(self) -> bool:
+        """Whether the token is of this server and not over; Bokeh refuses one that is not."""
+        app, token = self.application, self._named_token
+        signed = check_token_signature(token, signed=app.sign_sessions, secret_key=app.secret_key)
+        return signed and get_token_payload(token).get("session_expiry", 0.0) > time.time()
+
+    async def _has_place(self) -> bool:
+        """Whether there is room for the session, and in it; else the connection is closed."""
+        token, context = self._named_token, self.application_context
+        name = get_session_id(token)
+        if await PageHandler.make_session(context, name, self.request, token) is None:
+            self.close(1013, SERVER_IS_FULL.format(PageHandler.most_sessions))
+            return False
+        if sum(name == other.session_name for other in self.connected) >= MOST_SOCKETS:
+            self.close(1008, "This page is connected too often.")
+            return False
+        self.session_name = name
+        self.connected.add(self)
+        return True
 
     async def on_message(self, fragment: str | bytes) -> None:
         """Take a frame; whoever sends what the page does not send is disconnected."""
@@ -99,20 +125,7 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
                 await live.hand_on(session, model, found[1])
         message.content["events"] = [e for e in others if is_allowed(e, session.document.models)]
         if message.content["events"]:
-            await self._patch(message)
-
-    async def _patch(self, message: Any) -> None:
-        """Apply a patch on the event loop: from 3.10 on Bokeh does it in a thread."""
-        session = self.connection.session
-
-        async def apply(document: Any) -> None:
-            session._current_patch_connection = self.connection
-            try:
-                message.apply_to_document(document, session)
-            finally:
-                session._current_patch_connection = None
-
-        await locked(session, apply)
+            await apply_patch(message, self.connection)
 
     def _refuse(self, error: Exception) -> None:
         log_warning("refused", why=type(error).__name__)

@@ -39,8 +39,8 @@ from bearing_explorer.kit.compute.jobs import Jobs
 from bearing_explorer.kit.plots.compared_curves import WITHOUT_DEFECT, CurveKey
 from bearing_explorer.kit.plots.element_words import with_elements_of
 from bearing_explorer.kit.plots.zoom import zoomable
-from bearing_explorer.kit.serve.live_component import LiveComponent
 from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.kit.serve.panel_internals import LiveComponent
 from bearing_explorer.kit.views.content import Content
 from bearing_explorer.kit.views.python_lines import lines_of
 from bearing_explorer.kit.widgets.facts import sentence_html, table_to_read

@@ -14,7 +14,7 @@ import param
 from numpy.typing import NDArray
 
 from bearing_explorer.kit.assets import asset_path, asset_text
-from bearing_explorer.kit.serve.live_component import LiveComponent
+from bearing_explorer.kit.serve.panel_internals import LiveComponent
 from bearingcore.common import count, number
 from bearingcore.units import UNITS
 

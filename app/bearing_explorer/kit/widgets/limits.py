@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 import param
 
 from bearing_explorer.kit.assets import asset_text, scripts
-from bearing_explorer.kit.serve.live_component import LiveComponent
+from bearing_explorer.kit.serve.panel_internals import LiveComponent
 from bearingcore import Limit
 from bearingcore.common import number, with_prefix
 from bearingcore.statics import NO_OIL

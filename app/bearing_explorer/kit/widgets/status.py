@@ -9,7 +9,7 @@ import param
 
 from bearing_explorer.kit.assets import asset_text, scripts
 from bearing_explorer.kit.messages import TabChange, take
-from bearing_explorer.kit.serve.live_component import LiveComponent
+from bearing_explorer.kit.serve.panel_internals import LiveComponent
 
 
 class StatusLine(LiveComponent):

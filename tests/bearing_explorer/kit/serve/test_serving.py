@@ -6,27 +6,29 @@ import re
 import signal
 from pathlib import Path
 from socket import IPPROTO_TCP, TCP_NODELAY
+from types import SimpleNamespace
 from typing import Any
 
 import panel as pn
 import pytest
 from bearing_explorer.kit.serve.allowed_messages import by_id, component_message, is_allowed
 from bearing_explorer.kit.serve.headers import policy
-from bearing_explorer.kit.serve.pages import message_page
+from bearing_explorer.kit.serve.hosts import AllowedHosts
+from bearing_explorer.kit.serve.pages import SERVER_IS_FULL, message_page
 from bearing_explorer.kit.serve.serving import Limits
-from bearing_explorer.kit.serve.websocket import LiveSocket
+from bearing_explorer.kit.serve.websocket import MOST_SOCKETS, LiveSocket
 from bokeh.document import Document
 from bokeh.model import util as model_util
 from bokeh.models import CustomJS, Spacer
 from tornado.httpclient import HTTPClientError
 from tornado.websocket import websocket_connect
 
-from tests.browser.helpers import explorer_server, free_port
+from tests.browser.helpers import explorer_server
 from tests.browser.helpers import serving as server_up
 from tests.helpers.loops import run
 from tests.helpers.page_client import PageClient
 from tests.helpers.proxies import Proxy
-from tests.helpers.served import SMALL, closed, get, origin, served, session_of, wait_until
+from tests.helpers.served import SMALL, closed, get, origin, served, session_of, until, wait_until
 
 
 def test_every_answer_has_the_headers_and_no_more_than_it_needs() -> None:
@@ -66,45 +68,86 @@ def test_names_of_sessions_cannot_be_made_up() -> None:
         )
         assert await socket.read_message() is None
         await client.open_page()
-        with pytest.raises(HTTPClientError):
-            await client.open_socket("http://another.example")
 
     served(forge)
 
 
+LAB, OWN = "lab.example.org", "127.0.0.1:{port}"
+
+
 @pytest.mark.parametrize(
-    ("origins", "comes_from", "connects"),
+    ("named", "host", "origin", "connects"),
     [
-        ((), "http://127.0.0.1:{port}", True),
-        (("127.0.0.1:{port}",), "http://127.0.0.1:{port}", True),
-        (("127.0.0.1:{port}",), "https://127.0.0.1:{port}", True),
-        (("https://lab.example.org",), "https://lab.example.org", True),
-        (("https://lab.example.org",), "http://lab.example.org", False),
-        (("lab.example.org",), "https://lab.example.org", True),
-        (("lab.example.org",), "https://lab.example.org.evil.example", False),
-        ((), "https://localhost:{port}", False),
-        ((), "http://localhost:{port}", True),
-        ((), "null", False),
+        ("", OWN, "http://" + OWN, True),
+        ("", "localhost", "http://localhost:{port}", True),
+        ("", "[::1]:{port}", "http://[::1]:{port}", True),
+        ("", OWN, None, True),  # no browser
+        ("", OWN, "https://localhost:{port}", False),
+        ("", OWN, "http://localhost:1", False),
+        ("", OWN, "null", False),
+        ("", OWN, "", False),
+        ("", "evil.example", "http://evil.example", False),
+        ("", "evil.example:{port}", "http://evil.example:{port}", False),
+        ("", "evil.example", "http://" + OWN, False),
+        ("", "evil.example", None, False),
+        ("", OWN, "http://evil.example", False),
+        ("", OWN, "http://localhost:{port}@evil.example", False),
+        ("", OWN, "http://localhost.evil.example:{port}", False),
+        (LAB, OWN, "http://" + OWN, True),
+        ("127.0.0.1:443", OWN, "https://127.0.0.1", True),
+        (LAB, LAB, "https://" + LAB, True),
+        (LAB, OWN, "https://" + LAB, True),  # a proxy that does not hand the name on
+        (LAB, LAB, f"https://{LAB}:8443", False),
+        (LAB, LAB, f"https://{LAB}.evil.example", False),
+        (LAB, "evil.example", "https://" + LAB, False),
+        ("https://" + LAB, LAB, "https://" + LAB, True),
+        ("https://" + LAB, LAB, "http://" + LAB, False),
+        (f"https://{LAB}:8443", LAB, f"https://{LAB}:8443", True),
+        (f"{LAB}:443", LAB, "https://" + LAB, True),
     ],
 )
-def test_pages_connect_from_where_they_may_have_come(
-    origins: tuple[str, ...], comes_from: str, connects: bool
+@pytest.mark.parametrize("site", [None, "same-origin", "cross-site"])
+def test_only_pages_of_allowed_hosts_connect(
+    named: str, host: str, origin: str | None, connects: bool, site: str | None
 ) -> None:
-    """An https page is none of this server's own, which speaks http, unless its host is named."""
+    """Whatever a browser says of its site, and whether or not the names of both agree."""
+    hosts = AllowedHosts(5006, "127.0.0.1", (named,) if named else ())
+    names = {"Host": host, "Origin": origin, "Sec-Fetch-Site": site}
+    headers = {name: text.format(port=5006) for name, text in names.items() if text is not None}
+    request: Any = SimpleNamespace(host=headers["Host"], headers=headers)
+    assert hosts.allow_socket(request) == connects
 
-    async def connect(url: str, server: Any) -> None:
-        client = PageClient(url)
-        await client.open_page()
-        try:
-            await client.open_socket(comes_from.format(port=server.port))
-        except HTTPClientError:
-            assert not connects
-        else:
-            assert connects
-            await client.close()
 
-    port = free_port()
-    served(connect, origins=[one.format(port=port) for one in origins], port=port)
+def test_strangers_get_neither_page_nor_websocket() -> None:
+    """With the Tornado that is here, which may not ask about origins itself."""
+
+    async def knock(url: str, server: Any) -> None:
+        own = f"localhost:{server.port}"
+        for host, comes_from in (
+            ("evil.example", "http://evil.example"),
+            (own, "http://evil.example"),
+            (own, f"https://{own}"),
+            (own, f"http://{own}"),
+        ):
+            names = {"Host": host, "Origin": comes_from}
+            for site in ({}, {"Sec-Fetch-Site": "same-origin"}):
+                client = PageClient(url)
+                await client.open_page()
+                if comes_from == f"http://{own}":
+                    await client.open_socket(headers=names | site)
+                    assert not client.closed
+                    await client.close()
+                    continue
+                with pytest.raises(HTTPClientError, match="403"):
+                    await client.open_socket(headers=names | site)
+        before = len(session_of(server))
+        stranger = await get(url, headers={"Host": "evil.example"})
+        assert stranger.code == 403
+        assert "--allow-websocket-origin" in stranger.body.decode()
+        assert len(session_of(server)) == before
+        assert (await get(url + "liveness", headers={"Host": "10.0.0.7:5006"})).code == 200
+
+    served(knock, Limits(sessions=20, message=300_000, idle=3600.0))
 
 
 NEW_MODEL = {"type": "object", "name": "CustomJS", "id": "x1", "attributes": {"code": "alert(1)"}}
@@ -324,6 +367,33 @@ def test_those_who_come_too_late_are_asked_to_come_back() -> None:
         assert not there[0].closed, "those who are in can connect"
         assert (await get(url + "?bokeh-session-id=mine")).code == 400
         assert (await get(url + "?v=" + "x" * 20_000)).code == 302
+
+    served(fill)
+
+
+def test_tokens_make_no_more_sessions_than_there_is_room_for() -> None:
+    """A page's token outlives its session; one that is over is made anew."""
+
+    async def fill(url: str, server: Any) -> None:
+        people = [PageClient(url) for _ in range(4 * SMALL.sessions)]
+        for client in people:
+            assert await client.open_page() == 200
+            for session in session_of(server):
+                session.request_expiration()
+            await until(lambda: not session_of(server))
+        await asyncio.gather(*(client.open_socket(origin(url)) for client in people))
+        assert len(session_of(server)) == SMALL.sessions
+        there = [client for client in people if not client.closed]
+        late = [client._socket for client in people if client.closed]
+        assert len(there) == SMALL.sessions
+        assert {socket.close_code for socket in late} == {1013}
+        assert {socket.close_reason for socket in late} == {SERVER_IS_FULL.format(SMALL.sessions)}
+        again = [PageClient(url) for _ in range(MOST_SOCKETS)]
+        for client in again:
+            client.token = there[0].token
+        await asyncio.gather(*(client.open_socket(origin(url)) for client in again))
+        assert [client.closed for client in again].count(True) == 1
+        assert not there[0].closed
 
     served(fill)
 

@@ -1,22 +1,31 @@
-"""Bounds on the size, time and number of requests before they are answered.
+"""Private habits of Tornado, by which requests are bounded; no other file knows any.
 
 Tornado reads a whole request before it asks the page: of bodies, which no page here takes, up to a
-hundred megabytes, and headers for as long as they come.
+hundred megabytes, and headers for as long as they come. `HTTP_OPTIONS` bounds each request by
+public options. Beyond that:
+
+* `close` of a stream, which is replaced, and the `stream` of a request: connections whose headers
+  are under way are counted (`BoundedServer`). Without: a proxy has to count them.
+* `rules` of the first router: a path with control characters is a page that is missing. Without:
+  an answer of 500, and a traceback in the log.
+
+`bound` looks for them at the start and says in the log what is gone. With
+``BEARING_EXPLORER_PLAIN=1`` it is not called (`bokeh_internals`).
 """
 
 from __future__ import annotations
 
-import asyncio
-import socket
 from collections.abc import Callable
-from contextlib import suppress
 from typing import Any
 
+import tornado
 from tornado.httpserver import HTTPServer
 from tornado.httputil import HTTPMessageDelegate, RequestStartLine, ResponseStartLine
-from tornado.iostream import IOStream, UnsatisfiableReadError
+from tornado.iostream import IOStream
+from tornado.routing import Rule
 
-from bearing_explorer.kit.serve.pages import message_page
+from bearing_explorer.kit.serve.log import log
+from bearing_explorer.kit.serve.pages import HasControls, Missing
 
 LARGEST_HEADERS = 64_000
 """Of a request [bytes], its address among them."""
@@ -26,11 +35,6 @@ SLOWEST_HEADERS = 8.0
 """For which headers may be under way, and a connection may wait for its next request [s]."""
 MOST_UNFINISHED = 60
 """Connections at once whose headers are under way; the oldest makes room for another."""
-MOST_ANSWERED, LONGEST_ANSWER, LARGEST_REST = 8, 2.0, 4_000_000
-"""Connections at once that get the sentence about a long address, the time that takes at most [s],
-and how much they may still send [bytes]: a socket closed with bytes unread loses what it was sent.
-"""
-
 HTTP_OPTIONS = {
     "max_header_size": LARGEST_HEADERS,
     "max_body_size": LARGEST_BODY,
@@ -38,15 +42,6 @@ HTTP_OPTIONS = {
     "body_timeout": SLOWEST_HEADERS,
 }
 """Options of Tornado's server."""
-
-_TOO_LONG = message_page(
-    "This address is too long", "A scene with a long measured floor is shared as a file: Share."
-).encode()
-TOO_LONG_ANSWER = (
-    b"HTTP/1.1 431 Request Header Fields Too Large\r\nContent-Type: text/html; charset=utf-8\r\n"
-    b"Content-Security-Policy: default-src 'none'; style-src 'unsafe-inline'\r\n"
-    b"Connection: close\r\nContent-Length: %d\r\n\r\n%s" % (len(_TOO_LONG), _TOO_LONG)
-)
 
 
 class _Started(HTTPMessageDelegate):
@@ -75,7 +70,6 @@ class BoundedServer(HTTPServer):
     """Tornado's server with a bound on connections whose headers are under way."""
 
     _unfinished: dict[int, IOStream]
-    _answered = 0
 
     def handle_stream(self, stream: IOStream, address: tuple) -> None:
         """A connection has come."""
@@ -84,13 +78,11 @@ class BoundedServer(HTTPServer):
         self._unfinished[id(stream)] = stream
         close = stream.close
 
-        def close_with_an_answer(exc_info: Any = False) -> None:
+        def close_and_forget(exc_info: Any = False) -> None:
             self._unfinished.pop(id(stream), None)
-            if isinstance(exc_info, UnsatisfiableReadError) and self._answered < MOST_ANSWERED:
-                self._say_too_long(stream)
             close(exc_info)
 
-        stream.close = close_with_an_answer  # type: ignore[method-assign]
+        stream.close = close_and_forget  # type: ignore[method-assign]
         super().handle_stream(stream, address)
 
     def start_request(self, server_conn: object, request_conn: Any) -> HTTPMessageDelegate:
@@ -102,27 +94,13 @@ class BoundedServer(HTTPServer):
 
         return _Started(super().start_request(server_conn, request_conn), come)
 
-    def _say_too_long(self, stream: IOStream) -> None:
-        """Answer headers that are longer than allowed, and read on until the browser has read."""
-        with suppress(OSError):
-            rest = stream.socket.dup()
-            rest.setblocking(False)
-            rest.send(TOO_LONG_ANSWER)
-            rest.shutdown(socket.SHUT_WR)
-            self._answered += 1
-            asyncio.get_running_loop().create_task(self._drain(rest))
 
-    async def _drain(self, rest: socket.socket) -> None:
-        read = asyncio.get_running_loop().sock_recv
-        with rest, suppress(OSError, TimeoutError):
-            left = LARGEST_REST
-            async with asyncio.timeout(LONGEST_ANSWER):
-                while left > 0 and (came := await read(rest, 65_536)):
-                    left -= len(came)
-        self._answered -= 1
-
-
-def bound(server: HTTPServer) -> None:
-    """Bound the connections of a server that a library has made."""
+def bound(application: Any, server: HTTPServer) -> None:
+    """Bound the connections of a server that a library has made, and refuse odd paths."""
+    rules = getattr(getattr(application, "default_router", None), "rules", None)
+    if rules is None or not hasattr(server, "start_request"):
+        log.warning("connections are not bound: Tornado %s has other names", tornado.version)
+        return
+    rules.insert(0, Rule(HasControls(), Missing))
     server.__class__ = BoundedServer
     server._unfinished = {}  # type: ignore[attr-defined]

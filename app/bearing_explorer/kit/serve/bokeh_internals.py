@@ -1,13 +1,23 @@
-"""Quicker ways where Bokeh and Panel are too slow for a class, and a switch for them.
+"""Private names of Bokeh, and what is quicker by them; no other file uses any.
 
-Measured on two busy cores, with and without: opening three tabs holds the event loop for 253 ms
-instead of 1,231 (`find_models_quickly`); a drag of the Load tab is drawn in 52 ms instead of 82
-(`PackedSource`) or 132 (`assets/scripts/fast_figures.js`); a class of 20 is drawn 74 pictures a
-second instead of 50 (`send_changes`, `dispatch_event`).
+For each: what it is for, as measured on two busy cores, and what happens without it.
 
-Private names of Bokeh and Panel stand in this file, in `live_component` and in `template`. They may
-go with any release: each use has a public way that it falls back to, slower and as right. With the
-environment variable ``BEARING_EXPLORER_PLAIN=1`` the public ways are taken everywhere.
+* Those in `_OF_THE_WALK`, `_property_values`, `_unstable_default_values`: opening three tabs holds
+  the event loop for 253 ms (`find_models_quickly`). Without: 1,231 ms.
+* `_held_events`, `_new_models`, `_references`, `_subscribed_connections`, `_socket`: a change is
+  one message, and a class of 20 gets 74 pictures a second (`send_changes`). Without: 50.
+* `_event_callbacks`: an event goes to its model (`dispatch_event`). Without: every model is asked.
+* `_needs_document_lock`, `_needs_document_lock_on_loop`, `_current_patch_connection`: changes are
+  made on the event loop (`locked`, `apply_patch`). Without: from Bokeh 3.10 on in a thread each.
+* `_http`, `_tornado`: the server's connections are bounded (`parts_of`). Without: a proxy has to.
+
+They may go with any release. `missing` says at the start which of the first kind are gone, and the
+log has it; the others are looked for as they are used.
+
+With the environment variable ``BEARING_EXPLORER_PLAIN=1`` none of them is used, nor what
+`panel_internals`, `tornado_internals`, `assets/scripts/fast_figures.js` and
+`bearingcore/kernels/compiling.py` use: all goes the public ways, slower and as right. Figures get
+their data by Bokeh's own messages then, in 82 ms of a drag instead of 52 (`PackedSource`).
 """
 
 from __future__ import annotations
@@ -31,11 +41,12 @@ from bokeh.model import util as model_util
 from bokeh.protocol.message import Message
 from bokeh.protocol.messages.patch_doc import patch_doc
 from bokeh.server import session as bokeh_session
+from bokeh.server.session import ServerSession
 from bokeh.settings import settings
 from panel.models.esm import DataEvent
 
 PLAIN = os.environ.get("BEARING_EXPLORER_PLAIN", "0") not in ("", "0")
-"""Whether all goes the public ways of Bokeh and Panel."""
+"""True where all goes the public ways."""
 
 log = logging.getLogger(__name__)
 
@@ -67,7 +78,7 @@ def _with_lock(act: Callable[..., Awaitable[None]]) -> Callable[..., Awaitable[N
 
     Its `with_document_locked` takes, from 3.10 on, a way through a thread each time.
     """
-    known = ("_needs_document_lock_on_loop", "_needs_document_lock")
+    known = () if PLAIN else ("_needs_document_lock_on_loop", "_needs_document_lock")
     lock = next((getattr(bokeh_session, n) for n in known if hasattr(bokeh_session, n)), None)
     if lock is not None:
         decorated: Callable[..., Awaitable[None]] = lock(act)
@@ -83,6 +94,29 @@ def _with_lock(act: Callable[..., Awaitable[None]]) -> Callable[..., Awaitable[N
 def locked(session: Any, act: Callable[[Document], Awaitable[None]]) -> Awaitable[None]:
     """Let `act` change the document of a session, while nothing else does."""
     return act(session.document)
+
+
+async def apply_patch(message: Any, connection: Any) -> None:
+    """Apply a patch of a browser on the event loop: from 3.10 on Bokeh does it in a thread."""
+    session = connection.session
+    if PLAIN or not hasattr(session, "_current_patch_connection"):
+        await ServerSession.patch(message, connection)
+        return
+
+    async def apply(document: Document) -> None:
+        session._current_patch_connection = connection
+        try:
+            message.apply_to_document(document, session)
+        finally:
+            session._current_patch_connection = None
+
+    await locked(session, apply)
+
+
+def parts_of(server: Any) -> tuple[Any, Any] | None:
+    """The Tornado application and the server under it; None where they cannot be had."""
+    parts = getattr(server, "_tornado", None), getattr(server, "_http", None)
+    return None if PLAIN or None in parts else parts
 
 
 def dispatch_event(model: Model, event: DataEvent) -> None:
@@ -101,7 +135,7 @@ def dispatch_event(model: Model, event: DataEvent) -> None:
 
 def sockets_of(session: Any) -> list[Any]:
     """The websockets of a session; none where they cannot be found."""
-    connections = tuple(getattr(session, "_subscribed_connections", ()))
+    connections = () if PLAIN else tuple(getattr(session, "_subscribed_connections", ()))
     sockets = (getattr(connection, "_socket", None) for connection in connections)
     return [socket for socket in sockets if socket is not None]
 
@@ -117,7 +151,7 @@ async def send_changes(session: Any, document: Document, change: Callable[[], No
     try:
         change()
     finally:
-        sockets = [] if PLAIN else sockets_of(session)
+        sockets = sockets_of(session)
         held = getattr(callbacks, "_held_events", None)
         if held is not None and sockets:
             patches = [event for event in held if isinstance(event, DocumentPatchedEvent)]

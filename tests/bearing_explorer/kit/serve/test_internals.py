@@ -1,10 +1,13 @@
 """The private names of Bokeh and Panel: whether they are there, and what happens without them."""
 
+import ast
+from pathlib import Path
 from typing import Any
 
+import bearing_explorer
 import panel as pn
 import pytest
-from bearing_explorer.kit.serve import fast
+from bearing_explorer.kit.serve import bokeh_internals
 from bokeh.core.property.descriptors import PropertyDescriptor
 from bokeh.core.serialization import Serializer
 from bokeh.document import Document
@@ -15,12 +18,14 @@ from panel.viewable import Viewable
 
 from tests.helpers.loops import run
 
+APP = Path(bearing_explorer.__file__).parent
+
 
 def test_this_version_has_all_of_them() -> None:
     """The names that are gone, and of which version, are in the message when this fails."""
-    assert fast.missing() == []
+    assert bokeh_internals.missing() == []
     assert hasattr(bokeh_session, "_needs_document_lock")
-    assert fast.sockets_of(session_of(Document(), Socket()))
+    assert bokeh_internals.sockets_of(session_of(Document(), Socket()))
     for owner, name in (
         (Document().callbacks, "_held_events"),
         (Document().models, "_new_models"),
@@ -34,9 +39,29 @@ def test_this_version_has_all_of_them() -> None:
         assert hasattr(owner, name), name
 
 
+def test_no_other_file_uses_a_private_name() -> None:
+    """An attribute with an underscore is one that this program has made, or is in these files."""
+    trees = {file: ast.parse(file.read_text()) for file in APP.rglob("*.py")}
+    used: dict[str, set[str]] = {}
+    made = {"_exit", "_esm", "_stylesheets", "_send_msg"}  # of os; documented by Panel
+    for file, tree in trees.items():
+        for node in ast.walk(tree):
+            if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
+                made.add(node.name)
+            elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+                made.add(node.id)
+            elif isinstance(node, ast.Attribute) and node.attr[:1] == "_" != node.attr[1:2]:
+                of_self = isinstance(node.value, ast.Name) and node.value.id == "self"
+                if isinstance(node.ctx, ast.Store) and of_self:
+                    made.add(node.attr)
+                elif not file.stem.endswith("_internals"):
+                    used.setdefault(node.attr, set()).add(file.name)
+    assert {name: files for name, files in used.items() if name not in made} == {}
+
+
 def test_a_name_that_is_gone_is_named_with_the_version(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delattr(PropertyDescriptor, "has_unstable_default")
-    (sentence,) = fast.missing()
+    (sentence,) = bokeh_internals.missing()
     assert sentence.startswith("PropertyDescriptor.has_unstable_default is gone from bokeh 3.")
 
 
@@ -64,7 +89,7 @@ def session_of(document: Document, socket: Socket) -> ServerSession:
     return session
 
 
-def changed(act: Any = fast.locked) -> tuple[list[Any], Range1d]:
+def changed(act: Any = bokeh_internals.locked) -> tuple[list[Any], Range1d]:
     """What a browser is sent when a range is moved to 1 to 2, and the range."""
     document, socket = Document(), Socket()
     moved = Range1d(0, 1)
@@ -74,7 +99,7 @@ def changed(act: Any = fast.locked) -> tuple[list[Any], Range1d]:
         session = session_of(document, socket)
 
         async def change(doc: Document) -> None:
-            await fast.send_changes(session, doc, lambda: moved.update(start=1, end=2))
+            await bokeh_internals.send_changes(session, doc, lambda: moved.update(start=1, end=2))
 
         await act(session, change)
 

@@ -46,7 +46,8 @@ _NOT_SIGNALS = PULSES | {
     "rpm", "speed", "drehzahl", "temperature", "temperatur", "temp", "current", "strom",
     "torque", "drehmoment", "pressure", "druck", "power", "humidity", "flow", "microphone", "mic",
     "load", "gyro", "gyroscope", "gyr", "magnetic",
-    "magnetometer", "quat", "quaternion",
+    "magnetometer", "quat", "quaternion", "displacement", "displ", "disp", "proximity", "prox",
+    "weg", "verschiebung", "amps", "courant", "currents", "sound",
 }  # fmt: skip
 _COUNTS = {"index", "sample", "samples", "row", "no"}
 """Words for a number of rows; in a name's last part alone: "samples.x" is a signal."""
@@ -93,13 +94,15 @@ class Choice:
     """The columns of this bearing by direction, and the reason.
 
     Where there is a question nothing is chosen, and `options` are the indices of the columns that
-    may be the answer: one of them, or two that are directions of one place.
+    may be the answer: one of them, or two that are directions of one place. A `note` says that the
+    only signal was chosen in spite of its name.
     """
 
     columns: Mapping[str, int]
     reason: str
     question: str = ""
     options: tuple[int, ...] = ()
+    note: str = ""
 
 
 def column_of(name: str) -> Column:
@@ -138,7 +141,10 @@ def names_a_frequency(name: str) -> bool:
     return bool(words & _OF_A_FREQUENCY) and not words & _OF_A_SHAFT
 
 
-_OF_A_FREQUENCY = {"f", "freq", "frequency", "frequencies", "frequenz", "fréquence", "hz"}
+_OF_A_FREQUENCY = {
+    "f", "freq", "frequency", "frequencies", "frequenz", "fréquence", "hz", "khz", "cpm", "order",
+    "orders", "ordnung", "ordnungen", "ordre",
+}  # fmt: skip
 _OF_A_SHAFT = {"shaft", "rotation", "rotational", "rotor", "running", "speed", "turning", "welle"}
 
 
@@ -208,6 +214,8 @@ def choose(
         if column.role == SIGNAL and moving[index] and column.direction != "z"
     ]
     axial = [i for i, one in enumerate(columns) if one.direction == "z" and moving[i]]
+    if not signals and len(axial) == 1:
+        return only_signal(columns[axial[0]].name, axial[0], why)
     if not signals and axial:
         words = "By their names all signals are along the shaft (z). Which is at this bearing?"
         return Choice({}, "", words, tuple(axial))
@@ -231,6 +239,13 @@ def choose(
         question = f"The file holds signals of several places ({known}). Which is at this bearing?"
         return Choice({}, "", question, tuple(signals))
     return _by_direction(columns, signals, why)
+
+
+def only_signal(name: str, index: int, why: str) -> Choice:
+    """Choose the one signal of a file, whatever its name says."""
+    reason = f"{why}, the only signal there" if why else "the only signal there"
+    note = f"“{name}” is read as the vibration across the shaft, since it is the only signal."
+    return Choice({"y": index}, reason, note=note)
 
 
 def _by_direction(columns: Sequence[Column], signals: Sequence[int], why: str) -> Choice:

@@ -7,6 +7,7 @@ import math
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from datetime import datetime
 from types import MappingProxyType
 
 import numpy as np
@@ -14,7 +15,7 @@ import numpy as np
 from bearingcore.common import checks
 from bearingcore.common.arrays import Array
 from bearingcore.common.numbers import number
-from bearingcore.files import facts
+from bearingcore.files import dates, facts
 from bearingcore.files.channels import (
     OTHER,
     PULSES,
@@ -26,10 +27,12 @@ from bearingcore.files.channels import (
     choose,
     column_of,
     names_a_frequency,
+    only_signal,
     words_of,
 )
 from bearingcore.files.collections import Known, recognize
 from bearingcore.files.facts import Finding, Named, is_steady
+from bearingcore.files.other_kinds import kind_in_words, without_spectra
 from bearingcore.files.sampling import (
     Sampling,
     clock_columns,
@@ -153,6 +156,10 @@ class FileContents:
         BPFO and BPFI of the collection's bearing in turns of the shaft, where it is in no list.
     designation
         of the bearing, as a line of the file has it: it may be that of none.
+    recorded
+        date and time of the recording.
+    machine, point
+        names of the machine and of the measuring point.
     """
 
     columns: tuple[Column, ...]
@@ -169,43 +176,34 @@ class FileContents:
     bearing: Finding[str] | None = None
     orders: Finding[tuple[float, float]] | None = None
     designation: Finding[str] | None = None
+    recorded: Finding[datetime] | None = None
+    machine: Finding[str] | None = None
+    point: Finding[str] | None = None
 
 
 def contents_of(table: FileColumns) -> FileContents:
     """Statements of a table about itself, and guesses at the rest."""
+    texts = [f"{name}: {text}" for name, text in table.texts.items()]
+    lines = [*table.remarks, *texts]
     named = [
         *(Named(name, value) for name, value in table.scalars.items()),
-        *facts.named_in(table.remarks),
-        *facts.named_in(f"{name} = {text}" for name, text in table.texts.items()),
+        *facts.named_in(map(dates.without_dates, table.remarks)),
+        *facts.named_in(dates.without_dates(text) for text in texts),
     ]
     hours = table.names[0].strip().lower() in ("hour", "hours", "h", "stunde")
     clock = clock_columns(table.columns) if hours or not table.headed else 0
     clock = 0 if any(index < clock for index in table.given) else clock
     known = recognize(table.names, len(table.columns), clock, named, table.headed, table.name)
     columns, sampling = _columns(table, clock, known)
-    by_hand = {index for index, column in table.given.items() if column.role == SIGNAL}
-    moving = [
-        column.role == SIGNAL
-        and (not by_hand or index in by_hand)
-        and _moves(table.columns[:, index])
+    columns, choice = _chosen(table, columns, sampling, known, lines)
+    picked = list(choice.columns.values()) or [
+        index
         for index, column in enumerate(columns)
+        if column.role == SIGNAL and _moves(table.columns[:, index])
     ]
-    headed = not all(re.fullmatch(r"column \d+|channel \d+", name) for name in table.names)
-    choice = choose(
-        columns,
-        moving,
-        "as given" if by_hand else known.why or ("as the headings say" if headed else ""),
-        table.name,
-        known.row.place,
-    )
-    if not by_hand and sampling is None and (axis := _frequencies(table, columns)):
-        choice = Choice(
-            {}, "", f"“{axis}” rises evenly as in a spectrum: export the signal over time."
-        )
-    picked = list(choice.columns.values()) or [i for i, moves in enumerate(moving) if moves]
     rate = _rate(table, sampling, named, known)
     speed = _speed(table, columns, named) or known.shaft_speed
-    said = {**{one.name: _text(one) for one in named}, **table.texts}
+    said = {**{one.name: _text(one) for one in named}, **dates.dates_said(lines), **table.texts}
     return FileContents(
         columns,
         choice,
@@ -220,8 +218,49 @@ def contents_of(table: FileColumns) -> FileContents:
         known.row.name,
         known.bearing,
         known.orders,
-        facts.designation_in([*table.remarks, *(f"{k}: {v}" for k, v in table.texts.items())]),
+        facts.designation_in(lines),
+        dates.recorded_in(lines, table.name),
+        dates.machine_in(lines, table.name),
+        dates.point_in(lines, table.name),
     )
+
+
+def _chosen(
+    table: FileColumns,
+    columns: Sequence[Column],
+    sampling: Sampling | None,
+    known: Known,
+    lines: Sequence[str],
+) -> tuple[tuple[Column, ...], Choice]:
+    """The columns without those of spectra, and those of this bearing or a question."""
+    headed = not all(re.fullmatch(r"column \d+|channel \d+", name) for name in table.names)
+    why = known.why or ("as the headings say" if headed else "")
+    moving = [_moves(values) for values in table.columns.T]
+    if by_hand := {index for index, column in table.given.items() if column.role == SIGNAL}:
+        moving = [moves and index in by_hand for index, moves in enumerate(moving)]
+        choice = choose(columns, moving, "as given", table.name, known.row.place)
+        return tuple(columns), choice
+    axis = _frequencies(table, columns, timed=sampling is not None)
+    if not known.why:
+        columns = without_spectra(columns, table.columns, axis)
+        name = "" if axis is None or sampling is not None else columns[axis].name
+        if words := kind_in_words(columns, table.columns, lines, table.name, name):
+            return tuple(columns), Choice({}, "", words)
+    choice = choose(columns, moving, why, table.name, known.row.place)
+    left = [
+        index
+        for index, column in enumerate(columns)
+        if column.role == OTHER
+        and column.unit is None
+        and moving[index]
+        and index != axis
+        and not (len(columns) > 1 and sampling_of(table.columns[:, index]).stated)
+    ]
+    if not choice.columns and not choice.options and len(left) == 1:
+        columns = list(columns)
+        columns[left[0]] = dataclasses.replace(columns[left[0]], role=SIGNAL)
+        choice = only_signal(columns[left[0]].name, left[0], why)
+    return tuple(columns), choice
 
 
 def _columns(
@@ -342,18 +381,15 @@ def _described(column: Column, texts: Mapping[str, str]) -> Column:
     return column
 
 
-def _frequencies(table: FileColumns, columns: Sequence[Column]) -> str:
-    """The name of a column of the frequencies of a spectrum; empty where there is none."""
-    return next(
-        (
-            column.name
-            for index, column in enumerate(columns)
-            if index not in table.given
-            and names_a_frequency(column.name)
-            and sampling_of(table.columns[:, index]).stated
-        ),
-        "",
-    )
+def _frequencies(table: FileColumns, columns: Sequence[Column], *, timed: bool) -> int | None:
+    """The column of the frequencies of a spectrum; beside times it need not be called so."""
+    for index, column in enumerate(columns):
+        if index in table.given or column.role not in (OTHER, SPEED):
+            continue
+        named = names_a_frequency(column.name) or column.role == SPEED
+        if (named or timed) and sampling_of(table.columns[:, index]).stated:
+            return index
+    return None
 
 
 def _counts(time: Array, column: Column) -> bool:

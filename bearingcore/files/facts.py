@@ -112,13 +112,13 @@ _RATES = {
     "fs", "datarate", "acquisitionrate", "samplingrate", "odr", "samplespersec", "samplerate",
     "scanrate", "sr", "samplefrequency", "samplingfrequency", "samplefreq",
     "samplingfreq", "sampfreq", "samprate", "abtastrate", "abtastfrequenz", "samplespersecond",
-    "fsample", "fsamp",
+    "fsample", "fsamp", "outputdatarate", "fsampling", "freqsampling",
 }  # fmt: skip
 _INTERVALS = {
     "dt", "deltat", "deltax", "sampleinterval", "samplinginterval", "timestep", "sampleperiod",
     "samplingperiod", "timeincrement", "abtastintervall", "ts", "wfincrement", "xincrement",
     "increment", "xincr", "sampleintervall", "samplespacing", "abscissainc", "horizontalinterval",
-    "tinterval", "δt", "timeresolution",
+    "tinterval", "δt", "timeresolution", "sampletime", "samplestep", "xstep", "deltatime",
 }  # fmt: skip
 _FREQUENCIES = {
     "fr", "fshaft", "shaftfrequency", "shaftrate", "rotationfrequency", "rotationalfrequency",
@@ -132,6 +132,7 @@ _KNOWN = _RATES | _INTERVALS | _FREQUENCIES | _SPEEDS | {"rpm"}
 BEARING_FREQUENCIES = ("bpfo", "bpfi", "ftf", "bsf")
 """Outer and inner race, cage, and one turn of a ball."""
 _LOADS = {"load", "radialload", "last", "radiallast", "force", "radialforce", "loadn", "loadlb"}
+_FACTS = _KNOWN | _LOADS
 
 LEAST_STATED, GREATEST_STATED = 90.0, 5e6
 """[Hz] of recordings of vibration, from the 100 Hz of phones, which are not exact, on; another
@@ -194,7 +195,7 @@ def _in_line(line: str) -> Iterator[Named]:
         if match is not None and match[3] and _OF_A_RATE.fullmatch(match[3]):
             turns = unit_named(match[3]) == "rpm"
             found.append((match[1] or ("rpm" if turns else "rate"), match[2], match[3]))
-        elif match is not None and match[1] and {_key(match[1]), _rate_key(match[1])} & _KNOWN:
+        elif match is not None and match[1] and {_key(match[1]), _rate_key(match[1])} & _FACTS:
             found.append((match[1], match[2], match[3]))
     for name, text, unit in found:
         value = _number(text)
@@ -207,12 +208,7 @@ def _in_line(line: str) -> Iterator[Named]:
 def names_a_fact(line: str) -> bool:
     """Whether a line says a rate, a speed or a load."""
     keys = {_rate_key(one.name) for one in named_in([line])}
-    return (
-        bool(keys & (_KNOWN | _LOADS))
-        or any("rpm" in key for key in keys)
-        or ":" in line
-        or "=" in line
-    )
+    return bool(keys & _FACTS) or any("rpm" in key for key in keys) or ":" in line or "=" in line
 
 
 def _number(text: str) -> float | None:
@@ -229,13 +225,21 @@ def _number(text: str) -> float | None:
 
 def _key(name: str) -> str:
     """The last part of a name, letters and digits only: "bearing.sr" and "Sample rate" as keys."""
-    bare = re.sub(r"[\[(].*?[\])]", "", name).rsplit(".", 1)[-1]
-    return re.sub(r"[\W_]+", "", bare).lower()
+    bare = re.sub(r"[\[(].*?[\])]", "", name).rstrip(" _").rsplit(".", 1)[-1]
+    return re.sub(r"[\W_]+", "", re.sub(r"_\d{1,2}$", "", bare)).lower()  # "Unit_1" of a channel
 
 
 def _rate_key(name: str) -> str:
-    """The same without the unit at its end: "fs_hz"."""
-    return re.sub(r"(?<=\w\w)(in)?[km]?hz$", "", _key(name))
+    """The same without the unit at its end, "fs_hz", and what it is of, "NI_CM_Dt"."""
+    key = re.sub(r"(?<=\w\w)(in)?[km]?hz$", "", _key(name))
+    bare = _OWNERS.sub("", key)
+    return bare if bare in _RATES | _INTERVALS else key
+
+
+_OWNERS = re.compile(
+    r"^(nicm|ni|daq|adc|accel(eration)?|acc|imu|signal|waveform|sensor|vib|vibration|channel|ch"
+    r"|measured|actual|effective)+"
+)
 
 
 _OTHER_RATE = re.compile(
@@ -389,12 +393,18 @@ _UNITS = {
     "unit", "units", "einheit", "einheiten", "yunit", "yunits", "yunitlabel", "unitstring",
     "verticalunit", "verticalunits", "yaxisunit", "yaxisunits", "accelerationunit", "accunit",
     "unity", "unitystring", "engineeringunit", "engineeringunits", "unitofmeasure", "ordinateunit",
+    "unitname", "valueunit", "valueunits", "unitdescription", "niunitdescription", "unitlabel",
+    "ylabel", "yaxis", "yaxislabel", "yaxistitle", "quantity", "measurand", "physicalquantity",
+    "dataunit", "dataunits", "signalunit", "channelunit", "sensorunit", "amplitudeunit",
+    "amplitudeunits", "measurementunit", "engunit", "engunits", "eu", "ordinate",
+    "measuredquantity", "zunit", "valueaxis",
 }  # fmt: skip
 
 
 def unit_of(name: str, text: str) -> str | None:
-    """The unit that words with a name such as "unit" give, or None."""
-    return unit_named(text.strip(" ;,\t\"'[]()")) if _key(name) in _UNITS else None
+    """The unit that words with a name such as "unit" or "quantity" give, or None."""
+    bare = text.strip(" ;,\t\"'[]()")
+    return unit_named(bare) or unit_in(text.strip(' "')) if _key(name) in _UNITS else None
 
 
 def units_said(lines: Iterable[str], texts: Mapping[str, str]) -> list[str | None]:
@@ -402,7 +412,9 @@ def units_said(lines: Iterable[str], texts: Mapping[str, str]) -> list[str | Non
     for line in lines:
         name, _, text = re.sub(r"[:=\t;,]", "\0", line, count=1).partition("\0")
         cells = re.split(r"[\t;,]", text.strip(" \t;,"))
-        units = [unit_of(name, cell) for cell in takewhile(str.strip, cells)]
+        units = [(cell.strip(), unit_of(name, cell)) for cell in takewhile(str.strip, cells)]
+        # words are the quantity of the unit that follows, numbers that of its column
+        units = [unit for cell, unit in units if unit or not re.search(r"\w", cell)]
         if any(units):
             return units if len(set(units)) > 1 else units[:1]
     said = {unit_of(name, text) for name, text in texts.items()} - {None}

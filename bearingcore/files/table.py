@@ -192,7 +192,9 @@ class Table(FileColumns):
         first, last, gaps = self._rows(picked)
         signal = self.columns[first:last, picked]
         cut = dict.fromkeys(cut_off(column[np.isfinite(column)]) for column in signal.T)
-        notes, signal = [*self.notes, *notes, gaps, *cut, self._not_used(picked)], signal * scale
+        only = contents.choice.note if picked == [*contents.choice.columns.values()] else ""
+        notes += [gaps, *cut, self._not_used(picked), only]
+        notes, signal = [*self.notes, *notes], signal * scale
         if sensitivity is None and contents.sensitivity is not None:
             sensitivity = contents.sensitivity.value
         with np.errstate(over="ignore", invalid="ignore"):  # the recording refuses what comes out
@@ -220,7 +222,7 @@ class Table(FileColumns):
             if speed is not None and f"“{column.name}”" in speed.reason:
                 why = f"a guess at the shaft speed: {speed.reason}"
             elif column.role == OTHER:
-                why = "no acceleration, by its heading"
+                why = "no signal of acceleration"
             else:
                 along = {"z": "along the shaft"}.get(column.direction, "another signal")
                 why = column.place or along

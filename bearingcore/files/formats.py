@@ -14,30 +14,16 @@ import re
 import warnings
 import zlib
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
 from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import checks
-from bearingcore.common.arrays import Array
 from bearingcore.errors import FieldError
 from bearingcore.files import libraries
-from bearingcore.files.facts import is_steady
 from bearingcore.files.text import are_sensors, read_text
-from bearingcore.signals.recording import FEWEST_SAMPLES
-
-DEEPEST = 8
-"""Structs, cells and groups inside one another."""
-
-MOST_SCALARS = 200
-"""Single numbers and words of a file that are kept."""
-
-LONGEST_TEXT = 1000
-"""[characters] of words that are kept."""
-
-Answer = tuple[dict[str, Any], Array]
+from bearingcore.files.variables import LONGEST_TEXT, Answer, Variables, check_depth, check_size
 
 
 def read(
@@ -108,6 +94,8 @@ def _format_of(name: str, content: bytes) -> tuple[str, Walk] | None:
         raise checks.refuse("file", name, "no old office document (.xls): save it as .xlsx or CSV")
     if re.match(rb'\s*(\{\s*"|\[[\s\[]*(-?\.?\d|\{))', content) and (values := _json(content)):
         return "JSON file", lambda _, found: _walk_json(values, "", found, 0)
+    if re.search(rb"[\"\t;,] ?\[[-+\d.eE,;\s]{500,}\]", content[:100_000]):
+        return "text with signals in cells", libraries.cells
     if content[:6] == b"Octave":
         raise checks.refuse("file", name, "no binary file of Octave: save -v7 in its place")
     marked = content[:6] == b"MATLAB" or content[126:128] in (b"IM", b"MI")
@@ -152,7 +140,7 @@ def _json(content: bytes) -> Any:
 
 def _walk_json(value: Any, path: str, found: Variables, depth: int) -> None:
     """Lists of numbers, and lists of records by the records' names."""
-    _check_depth(depth)
+    check_depth(depth)
     if isinstance(value, dict) and list(value) == [str(i) for i in range(len(value))]:
         value = list(value.values())  # rows by their numbers, as pandas writes them
     if isinstance(value, list) and value and isinstance(value[0], dict):
@@ -197,7 +185,7 @@ def _wav(name: str, content: bytes, most_numbers: int, most_columns: int) -> Ans
         why = f" ({error})" if type(error) is ValueError else ""
         raise checks.refuse("file", name, f"a whole WAV file{why}") from None
     data = np.atleast_2d(np.asarray(data).T).T
-    _check_size(name, data.shape, most_numbers, most_columns)
+    check_size(name, data.shape, most_numbers, most_columns)
     if rate <= 0 or data.size == 0:
         raise checks.refuse("file", name, "a WAV file with samples and a sample rate")
     columns = data.astype(float)
@@ -210,93 +198,6 @@ def _wav(name: str, content: bytes, most_numbers: int, most_columns: int) -> Ans
     if any("EOF" in str(one.message) for one in warned):
         about["notes"] = ["The file is cut off: its head says that it was longer."]
     return about, columns
-
-
-@dataclass
-class Variables:
-    """Variables of a file: matrices in the kind of number they are stored in, and words."""
-
-    numbers: dict[str, NDArray[Any]] = field(default_factory=dict)
-    texts: dict[str, str] = field(default_factory=dict)
-    objects: list[str] = field(default_factory=list)
-
-    def add(self, path: str, value: NDArray[Any]) -> None:
-        """Keep real numbers as a matrix, or a word; anything else is passed over."""
-        for part in value.dtype.names or ():
-            self.add(f"{path}.{part}" if path else part, value[part].ravel())
-        if value.dtype.kind in "Mm":
-            value = libraries.in_seconds(value)
-        if value.ndim > 2:  # the longest direction is that of the samples
-            longest = int(np.argmax(value.shape))
-            value = np.moveaxis(value, longest, 0).reshape(value.shape[longest], -1)
-        if value.dtype.kind in "iuf" and value.ndim <= 2:
-            self.numbers[path] = np.atleast_2d(value)
-        elif value.dtype.kind in "OSU":
-            words = value.ravel()[: MOST_SCALARS - len(self.texts)].tolist()
-            for index, word in enumerate(words):
-                text = word.decode("utf-8", "replace") if isinstance(word, bytes) else str(word)
-                of = f"{path}{{{index + 1}}}" if len(words) > 1 else path
-                self.texts[of] = text[:LONGEST_TEXT].strip()
-
-    def table(self, name: str, kind: str, most_numbers: int, most_columns: int) -> Answer:
-        """Vectors and matrices about as long as the longest as columns, and the rest."""
-        scalars: dict[str, float] = {}
-        parts: dict[str, NDArray[Any]] = {}
-        for variable, matrix in self.numbers.items():
-            if matrix.size > 1:
-                parts[variable] = matrix.T if matrix.shape[0] < matrix.shape[1] else matrix
-            elif matrix.size and len(scalars) < MOST_SCALARS:
-                with np.errstate(invalid="ignore"):  # signalling NaNs in damaged files
-                    scalars[variable] = float(matrix[0, 0])
-        if self.objects and max((len(part) for part in parts.values()), default=0) < FEWEST_SAMPLES:
-            wanted = (
-                f"one whose signals are arrays; {self.objects[0]} is a table or an object: save "
-            )
-            raise checks.refuse("file", name, f"{wanted}its columns, as in acc = T.acc, or as CSV")
-        if not parts:
-            raise checks.refuse("file", name, f"a {kind} with a vector or matrix of real numbers")
-        rows = max(len(part) for part in parts.values())
-        # what is much shorter was measured otherwise, or is no signal
-        least = max(FEWEST_SAMPLES, rows // 2) if rows >= FEWEST_SAMPLES else rows
-        for variable, part in parts.items():
-            if len(part) >= least:
-                continue
-            # what is said of it, such as its rate, is not of the signals
-            scalars = {
-                name: value
-                for name, value in scalars.items()
-                if not name.startswith(f"{variable}.")
-            }
-            if is_steady(part) and len(scalars) < MOST_SCALARS:
-                scalars[variable] = float(part.mean())
-            elif len(self.texts) < MOST_SCALARS:
-                self.texts[variable] = f"not used: {len(part)} × {part.shape[1]} numbers"
-        parts = {variable: part for variable, part in parts.items() if len(part) >= least}
-        width = sum(part.shape[1] for part in parts.values())
-        _check_size(name, (rows, width), most_numbers, most_columns)
-        columns = np.full((rows, width), np.nan, order="F")
-        names: list[str] = []
-        with np.errstate(invalid="ignore"):
-            for variable, part in parts.items():
-                columns[: len(part), len(names) : len(names) + part.shape[1]] = part
-                several = part.shape[1] > 1
-                names += [f"{variable}(:,{i + 1})" if several else variable
-                          for i in range(part.shape[1])]  # fmt: skip
-        return {"names": names, "scalars": scalars, "texts": self.texts}, columns
-
-
-def _check_size(name: str, shape: tuple[int, ...], most_numbers: int, most_columns: int) -> None:
-    rows, width = shape
-    if width > most_columns:
-        most = f"at most {most_columns}: save those of one bearing alone"
-        raise checks.refuse(f"number of columns in {name}", width, most)
-    if rows * width > most_numbers:
-        raise checks.refuse(f"count of numbers in {name}", rows * width, f"at most {most_numbers}")
-
-
-def _check_depth(depth: int) -> None:
-    if depth > DEEPEST:
-        raise checks.refuse("structs inside one another", "deeper", f"at most {DEEPEST}")
 
 
 # -- MATLAB, versions 4 to 7 -----------------------------------------------------------------------
@@ -314,7 +215,7 @@ def _matlab(value: Any, path: str, found: Variables, depth: int) -> None:
     """A matrix, and what is in a struct or cell."""
     from scipy.io.matlab import MatlabFunction, MatlabOpaque
 
-    _check_depth(depth)
+    check_depth(depth)
     if isinstance(value, MatlabOpaque):
         found.objects.append("a variable" if path == "None" else path)  # as SciPy names it
     if not isinstance(value, np.ndarray) or isinstance(value, MatlabFunction | MatlabOpaque):
@@ -359,7 +260,7 @@ def _hdf5(item: Any, path: str, found: Variables, depth: int) -> None:
     """
     import h5py
 
-    _check_depth(depth)
+    check_depth(depth)
     if isinstance(item, h5py.Group):
         for name in item:
             # MATLAB keeps in #refs# what cells point at
@@ -453,7 +354,7 @@ class _Lines:
 
 def _octave(text: _Lines, path: str, found: Variables, depth: int) -> None:
     """A value of any type; those that are no numbers or words are passed over."""
-    _check_depth(depth)
+    check_depth(depth)
     kind = text.said("type")
     if "complex" in kind or "sparse" in kind:
         return

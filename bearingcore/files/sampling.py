@@ -144,6 +144,16 @@ def longest_run(good: NDArray[np.bool_]) -> tuple[int, int]:
     return int(starts[longest]), int(ends[longest])
 
 
+MOST_SINGLE = 0.01
+"""Of all rows that may be bridged."""
+
+
+def single_gaps(whole: NDArray[np.bool_]) -> NDArray[np.intp]:
+    """Rows that are missing between two that are there, unless they are many."""
+    single = np.flatnonzero(~whole[1:-1] & whole[:-2] & whole[2:]) + 1
+    return single if single.size <= MOST_SINGLE * whole.size else single[:0]
+
+
 def sampling_of(time: Array, unit: float = 1.0) -> Sampling:
     """Sample rate and faults of a column of times in `unit` [s]."""
     n = len(time)

@@ -23,7 +23,7 @@ from bearingcore.common.numbers import count, number
 from bearingcore.files.channels import OTHER, ROLES, SIGNAL, SPEED, TIME, Column
 from bearingcore.files.child import MOST_NUMBERS, read_file
 from bearingcore.files.contents import FileColumns, FileContents, contents_of
-from bearingcore.files.sampling import long_parts, longest_run
+from bearingcore.files.sampling import long_parts, longest_run, single_gaps
 from bearingcore.files.units import (
     SPEEDS,
     TIMES,
@@ -75,9 +75,9 @@ class Table(FileColumns):
         sampling, picked = self.contents.sampling, list(self.contents.choice.columns.values())
         if sampling is not None and sampling.parts:
             return sampling.parts
-        parts = np.stack(
-            runs(np.logical_and.reduce(np.isfinite(self.columns[:, picked]), axis=1)), axis=1
-        )
+        whole = np.isfinite(self.columns[:, picked]).all(axis=1)
+        whole[single_gaps(whole)] = True
+        parts = np.stack(runs(whole), axis=1)
         return long_parts(parts.tolist()) if picked else ()
 
     def one_of_recordings(self, number: int) -> Table:
@@ -189,8 +189,7 @@ class Table(FileColumns):
         units = [self._unit(index, unit) for index in picked]
         scale = checks.real_number("full_scale", full_scale, above=0.0, unit=unit or "")
         rate, notes = self._rate(sample_rate)
-        first, last, gaps = self._rows(picked)
-        signal = self.columns[first:last, picked]
+        signal, gaps = self._without_gaps(picked)
         cut = dict.fromkeys(cut_off(column[np.isfinite(column)]) for column in signal.T)
         only = contents.choice.note if picked == [*contents.choice.columns.values()] else ""
         notes += [gaps, *cut, self._not_used(picked), only]
@@ -301,25 +300,36 @@ class Table(FileColumns):
             notes.append(f"{typed}; {stated.reason} {says} {number(stated.value, 6)} Hz.")
         return rate, notes
 
-    def _rows(self, picked: Sequence[int]) -> tuple[int, int, str]:
-        """The longest part without a jump of the time or a gap in the columns; what is left out."""
+    def _without_gaps(self, picked: Sequence[int]) -> tuple[Array, str]:
+        """The longest part without a jump of the time or a gap; what is bridged and left out."""
         sampling = self.contents.sampling
         first, last = (
             (0, len(self.columns)) if sampling is None else (sampling.first, sampling.last)
         )
-        whole = np.logical_and.reduce(np.isfinite(self.columns[first:last, picked]), axis=1)
+        signal = self.columns[first:last, picked]
+        whole = np.isfinite(signal).all(axis=1)
         filled = np.flatnonzero(whole)
         # gaps at the end are where a column is shorter than the longest
-        last = first + int(filled[-1]) + 1 if filled.size else last
-        missing = int((~whole[: last - first]).sum())
+        signal, whole = np.split(signal, filled[-1:] + 1)[0], np.split(whole, filled[-1:] + 1)[0]
+        said = []
+        single = single_gaps(whole)
+        if single.size:
+            between = 0.5 * (signal[single - 1] + signal[single + 1])
+            signal[single] = np.where(np.isfinite(signal[single]), signal[single], between)
+            whole[single] = True
+            said.append(
+                f"Single numbers are missing in {count(single.size, 'row')}. Each is bridged by "
+                "the mean of its neighbours."
+            )
+        missing = int((~whole).sum())
         begin, end = longest_run(whole)
-        if not missing or end - begin < FEWEST_SAMPLES:
-            return first, last, ""  # the recording says which sample is no number
-        said = (
-            f"Numbers are missing in {count(missing, 'row')}. Only the longest whole part is used: "
-            f"rows {first + begin + 1} to {first + end} of {len(self.columns)}."
-        )
-        return first + begin, first + end, said
+        if missing and end - begin >= FEWEST_SAMPLES:  # else the recording says which is no number
+            said.append(
+                f"Numbers are missing in {count(missing, 'row')}. Only the longest whole part is "
+                f"used: rows {first + begin + 1} to {first + end} of {len(self.columns)}."
+            )
+            signal = signal[begin:end]
+        return signal, " ".join(said)
 
     def index_of(self, column: int | str) -> int:
         """The number from 0 of a column by its number or name; `FieldError` where there is none."""

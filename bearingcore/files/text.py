@@ -102,10 +102,17 @@ def read_text(
     width = style.width
     if width > min(LONG_ROW, most_columns):
         fewer = most_columns if width > most_columns else LONG_ROW
-        turned = _rows(content[begin:], style, min(fewer, width))
+        heads = _cells(remarks[-1], style.delimiter) if remarks else []
+        turned = _rows(content[begin:], style, min(fewer, width), _count_of_facts(heads, width))
         if turned is not None and turned[0].size <= most_numbers:
-            columns, names = turned
-            return _about(columns, names or _headings(remarks, style, columns), remarks)
+            columns, names, cells = turned
+            said = [
+                f"{head}: {each[0]}"
+                for head, each in zip(heads, zip(*cells, strict=True), strict=False)
+                if len(set(each)) == 1
+            ]
+            names = names or _headings(remarks, style, columns)
+            return _about(columns, names, remarks[: len(remarks) - bool(said)] + said)
         if width > most_columns:
             raise checks.refuse(
                 f"number of columns in {name}",
@@ -901,8 +908,22 @@ def _mended(
     return b"".join(lines), notes, [line for _, line, _ in wrong[:SAMPLE]]
 
 
-def _rows(body: bytes, style: _Style, most_rows: int) -> tuple[Array, list[str] | None] | None:
-    """Signals that are written in a row each, as columns with their names; None for others."""
+def _count_of_facts(headings: Sequence[str], width: int) -> int:
+    """Count the first columns that are no samples, by headings such as "time, fs, s0, s1, ..."."""
+    ends = [re.search(r"(\d+)\W*$", heading) for heading in headings]
+    if len(ends) != width or ends[-1] is None:
+        return 0
+    for index in range(width - 1, -1, -1):
+        end = ends[index]
+        if end is None or int(end[1]) != int(ends[-1][1]) - (width - 1 - index):
+            return index + 1
+    return 0
+
+
+def _rows(
+    body: bytes, style: _Style, most_rows: int, facts: int = 0
+) -> tuple[Array, list[str] | None, list[list[str]]] | None:
+    """Signals in a row each as columns, their names, and the facts before them; None for others."""
     width = style.width
     lines = list(islice(_lines_of_numbers(io.BytesIO(body)), most_rows + 1))
     plain = [style.plain(line).rstrip(" ") for line in lines]
@@ -910,6 +931,8 @@ def _rows(body: bytes, style: _Style, most_rows: int) -> tuple[Array, list[str] 
     whole = [row[:width] for row in rows if row is not None and len(row) in (width, width + 1)]
     if width < FEWEST_SAMPLES or len(whole) < len(rows) or len(rows) > most_rows:
         return None
-    named = style.words == (0,)
-    names = [_cells(line, style.delimiter)[0] for line in plain] if named else None
-    return np.delete(np.array(whole).T, style.words, axis=0), names
+    named = facts > 0 or style.words == (0,)
+    cells = [_cells(line, style.delimiter)[:facts] for line in lines]
+    names = [_cells(line, style.delimiter)[0] for line in lines] if named else None
+    without = [*range(facts), *style.words]
+    return np.delete(np.array(whole).T, without, axis=0), names, cells

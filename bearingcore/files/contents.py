@@ -276,7 +276,12 @@ def _columns(
         ]
     said = facts.units_said(table.remarks, table.texts)
     signals = [i for i, column in enumerate(columns) if column.role == SIGNAL]
-    if len(said) > 1 and len(said) == len(signals):  # each channel's own
+    if len(said) == 1 and said[0] not in {*UNITS, *TIMES}:  # a current, say
+        signals = [index for index in signals if columns[index].unit is None]
+        said = said * len(signals)
+    elif len(said) != len(signals) or len(said) == 1:
+        said = []
+    if said:  # each channel's own
         for index, unit in zip(signals, said, strict=True):
             role = SIGNAL if unit is None or unit in UNITS else TIME if unit in TIMES else OTHER
             columns[index] = dataclasses.replace(columns[index], unit=unit, role=role)

@@ -94,7 +94,7 @@ def _format_of(name: str, content: bytes) -> tuple[str, Walk] | None:
         raise checks.refuse("file", name, "no old office document (.xls): save it as .xlsx or CSV")
     if re.match(rb'\s*(\{\s*"|\[[\s\[]*(-?\.?\d|\{))', content) and (values := _json(content)):
         return "JSON file", lambda _, found: _walk_json(values, "", found, 0)
-    if re.search(rb"[\"\t;,] ?\[[-+\d.eE,;\s]{500,}\]", content[:100_000]):
+    if re.search(rb"[\"\t;,] ?\[[-+\d.eE,;\s]{500}", content[:100_000]):
         return "text with signals in cells", libraries.cells
     if content[:6] == b"Octave":
         raise checks.refuse("file", name, "no binary file of Octave: save -v7 in its place")

@@ -113,6 +113,8 @@ def kind_in_words(
     signals = [column for column in columns if column.role == SIGNAL]
     others = [column for column in columns if column.role == OTHER]
     said = [line for line in lines if not _OFF.search(line)] + [file_name] * (not signals)
+    if signals:
+        said = [line for line in said if not any(column.name in line for column in others)]
     headings = [one.name for one in signals or others]
     enveloped = [f"“{name}” is" for name in headings if _ENVELOPE.search(name)]
     if not enveloped or len(enveloped) < len(signals):

@@ -23,7 +23,7 @@ from bearingcore.common.numbers import count, number
 from bearingcore.files.channels import OTHER, ROLES, SIGNAL, SPEED, TIME, Column
 from bearingcore.files.child import MOST_NUMBERS, read_file
 from bearingcore.files.contents import FileColumns, FileContents, contents_of
-from bearingcore.files.sampling import long_parts, longest_run, single_gaps
+from bearingcore.files.sampling import long_parts, longest_run, single_gaps, skipped_rows
 from bearingcore.files.units import (
     SPEEDS,
     TIMES,
@@ -407,7 +407,20 @@ def read_table(name: str, content: bytes) -> Table:
         )
     for words in ("names", "remarks", "stamps", "notes"):
         about[words] = tuple(about.get(words, ()))
-    return Table(columns=columns, **{"name": name, **about})
+    return _with_skipped_rows(Table(columns=columns, **{"name": name, **about}))
+
+
+def _with_skipped_rows(table: Table) -> Table:
+    """The table with a row of gaps wherever the times skip exactly one."""
+    timed = [i for i, column in enumerate(table.contents.columns) if column.role == TIME]
+    rows = skipped_rows(table.columns[:, timed[0]]) if len(timed) == 1 else np.arange(0)
+    if not rows.size:
+        return table
+    columns = np.insert(table.columns, rows, np.nan, axis=0)
+    made = rows + np.arange(rows.size)
+    columns[made, timed[0]] = 0.5 * (columns[made - 1, timed[0]] + columns[made + 1, timed[0]])
+    words = f"The times skip single rows, {rows.size} in all, which count as missing."
+    return dataclasses.replace(table, columns=columns, notes=(*table.notes, words))
 
 
 def join_tables(tables: Sequence[Table]) -> Table:

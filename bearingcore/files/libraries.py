@@ -129,10 +129,10 @@ def _facts_in(sheet: Any) -> list[str]:
     """Names with their values on a short sheet, side by side or one row above the other."""
     if len(sheet) > MOST_FACTS:
         return []
+    sheet = sheet.dropna(how="all")
+    if len(sheet) == 2 and sheet.shape[1] > 2:
+        sheet = sheet.T.dropna()
     rows = [row.dropna().astype(str).tolist() for _, row in sheet.iterrows()]
-    rows = [row for row in rows if row]
-    if len(rows) == 2 and len(rows[0]) == len(rows[1]) > 2:
-        rows = [list(pair) for pair in zip(*rows, strict=True)]
     return [f"{row[0]}: {' '.join(row[1:])}" for row in rows if len(row) > 1]
 
 

@@ -13,13 +13,15 @@ import math
 import re
 import warnings
 import zlib
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from itertools import islice
 from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import checks
+from bearingcore.common.arrays import Array
 from bearingcore.errors import FieldError
 from bearingcore.files import libraries
 from bearingcore.files.text import are_sensors, read_text
@@ -305,81 +307,55 @@ def _as_in_matlab(data: Any) -> NDArray[Any]:
 
 def _walk_octave(content: bytes, found: Variables) -> None:
     """Each value has a head of lines such as "# type: matrix"."""
-    text = _Lines(content.decode("latin-1").splitlines())
-    while text.skip_to("name"):
-        _octave(text, text.said("name"), found, 0)
+    lines = iter(content.decode("latin-1").splitlines())
+    for line in lines:
+        if line.startswith("# name:"):
+            _octave(lines, line.partition(":")[2].strip(), found, 0)
 
 
-class _Lines:
-    """Lines that are read one after another."""
-
-    def __init__(self, lines: list[str]) -> None:
-        self._lines, self._place = lines, 0
-
-    def skip_to(self, key: str) -> bool:
-        """Whether there is another line with this key; it is the next one."""
-        while self._place < len(self._lines):
-            if self._lines[self._place].startswith(f"# {key}:"):
-                return True
-            self._place += 1
-        return False
-
-    def said(self, key: str) -> str:
-        """The word of the next line with this key."""
-        if not self.skip_to(key):
-            raise ValueError(key)
-        return self.take(1)[0].partition(":")[2].strip()
-
-    def take(self, count: int) -> list[str]:
-        """The next lines."""
-        if count < 0 or self._place + count > len(self._lines):
-            raise ValueError("the end of the text")
-        self._place += count
-        return self._lines[self._place - count : self._place]
-
-    def numbers(self, count: int) -> np.ndarray:
-        """The numbers of the next lines in a row."""
-        return np.array(" ".join(self.take(count)).split(), dtype=float)
-
-    def numbers_after(self, key: str) -> np.ndarray:
-        """The numbers of the line after the one that begins so."""
-        while not self.take(1)[0].startswith(f"# {key}"):
-            pass
-        return self.numbers(1)
-
-    def holds(self, key: str) -> bool:
-        """Whether the next line has this key."""
-        return self._lines[self._place].startswith(f"# {key}:")
+def _said(lines: Iterator[str], key: str) -> str:
+    """What the next line with a key says."""
+    for line in lines:
+        if line.startswith(f"# {key}"):
+            return line.partition(":")[2].strip()
+    raise ValueError(key)
 
 
-def _octave(text: _Lines, path: str, found: Variables, depth: int) -> None:
+def _numbers(lines: Iterator[str], count: int = 1) -> Array:
+    """The numbers of the next lines in a row."""
+    return np.array(" ".join(islice(lines, count)).split(), dtype=float)
+
+
+def _octave(lines: Iterator[str], path: str, found: Variables, depth: int) -> None:
     """A value of any type; those that are no numbers or words are passed over."""
     check_depth(depth)
-    kind = text.said("type")
+    kind = _said(lines, "type")
     if "complex" in kind or "sparse" in kind:
         return
     if kind in ("scalar struct", "cell"):
         keys = ("length",) if kind == "scalar struct" else ("rows", "columns")
-        inside = math.prod(int(text.said(key)) for key in keys)
-        for index in range(inside):
-            name = text.said("name")
+        for index in range(math.prod(int(_said(lines, key)) for key in keys)):
+            name = _said(lines, "name")
             part = f"{path}{{{index + 1}}}" if kind == "cell" else f"{path}.{name}"
-            _octave(text, part, found, depth + 1)
+            _octave(lines, part, found, depth + 1)
     elif kind in ("string", "sq_string"):
-        if int(text.said("elements")):
-            found.add(path, np.array([text.take(2)[1]]))
+        if int(_said(lines, "elements")):
+            _said(lines, "length")
+            found.add(path, np.array([next(lines)]))
     elif kind.endswith("scalar"):
-        found.add(path, text.numbers(1))
+        found.add(path, _numbers(lines))
     elif kind.endswith("range"):
-        base, limit, step = text.numbers_after("base, limit, increment")
+        _said(lines, "base, limit, increment")
+        base, limit, step = _numbers(lines)
         found.add(path, base + step * np.arange(round((limit - base) / step) + 1))
-    elif kind.endswith("matrix") and text.holds("rows"):
-        shape = int(text.said("rows")), int(text.said("columns"))
-        found.add(path, text.numbers(shape[0]).reshape(shape))
-    elif kind.endswith("matrix") and text.holds("ndims"):  # of whole numbers, or of more dimensions
-        text.said("ndims")
-        sizes = text.numbers(1).astype(int).tolist()
-        found.add(path, text.numbers(math.prod(sizes)).reshape(sizes, order="F"))
+    elif kind.endswith("matrix"):
+        head, _, count = next(lines).partition(":")
+        if head == "# rows":
+            shape = int(count), int(_said(lines, "columns"))
+            found.add(path, _numbers(lines, shape[0]).reshape(shape))
+        elif head == "# ndims":  # of whole numbers, or of more dimensions
+            sizes = _numbers(lines).astype(int).tolist()
+            found.add(path, _numbers(lines, math.prod(sizes)).reshape(sizes, order="F"))
 
 
 _FORMATS: tuple[tuple[bytes, str, Walk, str], ...] = (

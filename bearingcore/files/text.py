@@ -29,7 +29,6 @@ from bearingcore.files.facts import (
     GREATEST_STATED,
     named_in,
     names_a_fact,
-    sample_rate_in,
     units_said,
 )
 from bearingcore.files.units import UNITS, unit_in, unit_named
@@ -88,53 +87,28 @@ def read_text(
     FieldError
         saying what is wrong, and in which line.
     """
-    if encoding := _of_two_bytes(content[:4096]):
-        content = content.decode(encoding, "replace").encode()
-    if b"\x00" in content[:4096]:
-        raise checks.refuse("file", name, READABLE)
-    content = content.removeprefix(b"\xef\xbb\xbf").rstrip(b"\x00")
-    if re.match(rb"\s*\[", content) and b"\n" not in content.strip():
-        content = content.translate(None, b"[]")  # one array as NumPy and MATLAB show it
-    if b"\n" not in content:
-        content = content.replace(b"\r", b"\n")
-    content = _without_labels(content)
+    content = _without_labels(_of_one_byte(name, content))
     style, begin, remarks = _beginning(name, content)
-    width = style.width
-    if width > min(LONG_ROW, most_columns):
-        fewer = most_columns if width > most_columns else LONG_ROW
-        heads = _cells(remarks[-1], style.delimiter) if remarks else []
-        turned = _rows(content[begin:], style, min(fewer, width), _count_of_facts(heads, width))
-        if turned is not None and turned[0].size <= most_numbers:
-            columns, names, cells = turned
-            said = [
-                f"{head}: {each[0]}"
-                for head, each in zip(heads, zip(*cells, strict=True), strict=False)
-                if len(set(each)) == 1
-            ]
-            names = names or _headings(remarks, style, columns)
-            return _about(columns, names, remarks[: len(remarks) - bool(said)] + said)
-        if width > most_columns:
+    if style.width > min(LONG_ROW, most_columns):
+        # few long rows are signals, not columns
+        turned = _signals_in_rows(content[begin:], style, remarks, most_numbers, most_columns)
+        if turned is not None:
+            return turned
+        if style.width > most_columns:
             raise checks.refuse(
                 f"number of columns in {name}",
-                width,
+                style.width,
                 f"at most {most_columns}: leave out some, or write each signal in a row",
             )
-    if _goes_on(remarks, content[begin:], style):
-        content, width, style = (
-            b"\n".join(content[begin:].split()), 1, dataclasses.replace(style, width=1)
-        )  # fmt: skip
-        begin = 0
-    most_rows = most_numbers // width + 1
-    body, notes = _without_a_cut_line(content[begin:], style)
-    said: list[str] = []
+    body, said, notes = content[begin:], [], []
+    most_rows = most_numbers // style.width + 1
     found = _numbers(body, style, most_rows)
-    if found is None:
+    if found is None:  # some lines hold something else
         above = content.count(b"\n", 0, begin) + 1
-        body, more, said = _mended(name, body, style, above, remarks)
-        notes += more
+        body, notes, said = _mended(name, body, style, above, remarks)
         found = _numbers(body, style, most_rows)
-        if found is None:
-            raise checks.refuse("file", name, READABLE)
+    if found is None:
+        raise checks.refuse("file", name, READABLE)
     read, sensors = found
     if read.size > most_numbers:
         raise checks.refuse(
@@ -146,10 +120,9 @@ def read_text(
     if headings and any(column_of(name).role == TIME for name in headings):
         whole = ~np.isnan(read).all(axis=1)  # what is missing there shows in the times
         read, sensors = read[whole], None if sensors is None else sensors[whole]
-    kept = [i for i in range(width) if i in style.stamps or not np.isnan(read[:, i]).all()]
-    if len(kept) < width and kept:
-        read = read[:, kept]
-        headings = headings and [headings[i] for i in kept]
+    kept = [i for i in range(style.width) if i in style.stamps or not np.isnan(read[:, i]).all()]
+    if kept:
+        read, headings = read[:, kept], headings and [headings[i] for i in kept]
     stamps = [kept.index(i) for i in style.stamps]
     if headings is None:
         read, lines, more = _without_start(read)
@@ -264,14 +237,20 @@ def _side_by_side(
     return np.column_stack(made), heads, times
 
 
-def _of_two_bytes(start: bytes) -> str:
-    """The encoding of a text with two bytes a character, by its mark or its zeros; "" of others."""
-    if start[:2] in (b"\xff\xfe", b"\xfe\xff"):
-        return "utf-16"
+def _of_one_byte(name: str, content: bytes) -> bytes:
+    """A text without marks and with ends of lines, in UTF-8 if it had two bytes a character."""
+    start = content[:4096]
     even, odd = (start[i::2].count(0) for i in (0, 1))
-    if min(even, odd) > 0 or max(even, odd) < 0.45 * len(start) or not start:
-        return ""
-    return "utf-16-le" if odd else "utf-16-be"
+    if start[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        content = content.decode("utf-16", "replace").encode()
+    elif start and min(even, odd) == 0 and max(even, odd) >= 0.45 * len(start):
+        content = content.decode("utf-16-le" if odd else "utf-16-be", "replace").encode()
+    if b"\x00" in content[:4096]:
+        raise checks.refuse("file", name, READABLE)
+    content = content.removeprefix(b"\xef\xbb\xbf").rstrip(b"\x00")
+    if re.match(rb"\s*\[", content) and b"\n" not in content.strip():
+        content = content.translate(None, b"[]")  # one array as NumPy and MATLAB show it
+    return content if b"\n" in content else content.replace(b"\r", b"\n")
 
 
 _LABELLED = re.compile(
@@ -301,30 +280,6 @@ def _without_labels(content: bytes) -> bytes:
         made += [heading.pop()] if said and heading else []
         made.append(",".join(value for _, value, _ in said) if said else text)
     return "\n".join(made).encode()
-
-
-_COUNT = re.compile(r"(?i)npts|n?samples|points|(number|no\.?) of (samples|points|data)")
-
-
-def _goes_on(remarks: list[str], body: bytes, style: _Style) -> bool:
-    """Whether one signal goes on from row to row, as in records of earthquakes.
-
-    The count of its samples that is said above shows it, or its duration.
-    """
-    named = named_in(remarks)
-    counts = {one.value for one in named if _COUNT.fullmatch(one.name)}
-    counts |= {float(said) for line in remarks for said in re.findall(r"(\d+) samples", line)}
-    rate = sample_rate_in(named, "")
-    if rate is not None:
-        lasts = re.findall(r"(?i)duration\D{0,20}(\d+\.?\d*)", " ".join(remarks))
-        counts |= {rate.value * float(seconds) for seconds in lasts}
-    if style.delimiter is not None or style.width == 1 or style.stamps or not counts:
-        return False
-    above = remarks[-1].split()
-    if len(above) == style.width and all(re.match(r"[^\W\d]", cell) for cell in above):
-        return False  # the names of columns
-    rows = body.strip().count(b"\n") + 1
-    return any(rows - 1 < count / style.width <= rows for count in counts)
 
 
 def _about(
@@ -832,8 +787,10 @@ def _numbers(
     return columns[:, :width], sensors
 
 
-def _wrong_lines(lines: Iterable[bytes], style: _Style) -> Iterator[tuple[int, str, str]]:
-    """Lines that are not `width` numbers and gaps: number from 0, the line, what it lacks."""
+def _wrong_lines(
+    lines: Iterable[bytes], style: _Style
+) -> Iterator[tuple[int, str, list[str], str]]:
+    """Lines that are not `width` numbers and gaps: number from 0, text, cells, what they lack."""
     width = style.width
     for index, line in enumerate(lines):
         text = _decoded(line)
@@ -843,23 +800,12 @@ def _wrong_lines(lines: Iterable[bytes], style: _Style) -> Iterator[tuple[int, s
         if len(cells) == width + 1 and not cells[-1]:
             cells.pop()
         words = [_number(cell) is None for cell in cells]
+        short = re.sub(r"[^ -\uffff]", "", text.strip())[:40]
         if any(word for i, word in enumerate(words[:width]) if i not in style.words):
-            yield index, text.strip(), "numbers"
+            yield index, short, cells, "numbers"
         elif len(cells) != width:
             comment = len(cells) > width and all(words[width:])
-            yield index, text.strip(), "" if comment else f"{width} columns as in the first"
-
-
-def _without_a_cut_line(body: bytes, style: _Style) -> tuple[bytes, list[str]]:
-    """Many lines without the last one where that is cut off, and a sentence on it."""
-    last = body.rstrip().rfind(b"\n") + 1
-    # another clock: the time begins with the first line
-    other = dataclasses.replace(style, clock=None if style.clock is None else _Clock())
-    wrong = next(_wrong_lines([body[last:]], other), None)
-    if wrong is None or not wrong[2] or body.count(b"\n") <= FEWEST_SAMPLES:
-        return body, []
-    text = re.sub(r"[^ -\uffff]", "", wrong[1])[:40]
-    return body[:last], [f"The last line, “{text}”, is cut off: it is not used."]
+            yield index, short, cells, "" if comment else f"{width} columns as in the first"
 
 
 def _mended(
@@ -868,71 +814,76 @@ def _mended(
     """Lines with gaps in place of a few that hold no numbers, sentences on them, and their words.
 
     The first line has the number `above`. An oscilloscope's settings are beside its first numbers.
+    The last of many lines may be cut off.
     """
-    lines, width = body.splitlines(keepends=True), style.width
+    lines, width = body.rstrip().splitlines(keepends=True), style.width
+    many_lines = len(lines) > FEWEST_SAMPLES
     few, many = (
-        int(share * len(lines)) + 1 if len(lines) > FEWEST_SAMPLES else 0
-        for share in (MOST_WRONG, MOST_MISSING)
+        int(share * len(lines)) + 1 if many_lines else 0 for share in (MOST_WRONG, MOST_MISSING)
     )
     wrong: list[tuple[int, str, str]] = []
     words: set[str] = set()  # in place of numbers in lines that are whole
     torn = 0
-    for index, text, allowed in _wrong_lines(lines, style):
-        cells = _decoded(lines[index]).split(style.delimiter)
+    notes: list[str] = []
+    for index, text, cells, allowed in _wrong_lines(lines, style):
+        if allowed and index == len(lines) - 1 and many_lines:
+            lines[index] = b""
+            notes = [f"The last line, “{text}”, is cut off: it is not used."]
+            break
         if allowed:
-            wrong.append((index, re.sub(r"[^ -\uffff]", "", text)[:40], allowed))
-            bad = [
-                i
-                for i, cell in enumerate(cells)
-                if i not in style.words and _number(style.plain(cell).strip()) is None
-            ]
-            if len(cells) in (width, width + 1) and bad:
-                words |= {cells[i].strip() for i in bad}
+            wrong.append((index, text, allowed))
+            bad = [i for i, c in enumerate(cells) if i not in style.words and _number(c) is None]
+            if len(cells) == width and bad:
+                words |= {cells[i] for i in bad}
             else:
-                bad, torn = list(range(width)), torn + 1
-                cells = [""] * width
-            for i in bad:
-                cells[i] = "nan"
+                bad, cells, torn = range(width), [""] * width, torn + 1
+            cells = ["nan" if i in bad else cell for i, cell in enumerate(cells)]
             if torn > few or len(wrong) > (many if len(words) <= MOST_MISSING_WORDS else few):
                 raise checks.refuse(f"line {above + wrong[0][0]} of {name}", *wrong[0][1:])
-        lines[index] = (style.delimiter or " ").join(cells[:width]).encode("latin-1", "replace")
-        lines[index] += b"\n"
+        text = (style.delimiter or " ").join(cells[:width])
+        text = text.replace(".", ",") if style.decimal_comma else text
+        lines[index] = text.encode("latin-1", "replace") + b"\n"
     again = {line[:40] for line in remarks}  # headings of a second recording are no news
     wrong = [one for one in wrong if one[1] not in again]
-    if not wrong:
-        return b"".join(lines), [], []
-    index, text, _ = wrong[0]
-    number = "One line lacks" if len(wrong) == 1 else f"{thousands(len(wrong))} lines lack"
-    first = f"line {above + index}, “{text}”"
-    notes = [f"{number} numbers ({first}), which count as missing."]
+    if wrong:
+        index, text, _ = wrong[0]
+        number = "One line lacks" if len(wrong) == 1 else f"{thousands(len(wrong))} lines lack"
+        first = f"line {above + index}, “{text}”"
+        notes.append(f"{number} numbers ({first}), which count as missing.")
     return b"".join(lines), notes, [line for _, line, _ in wrong[:SAMPLE]]
+
+
+def _signals_in_rows(
+    body: bytes, style: _Style, remarks: list[str], most_numbers: int, most_columns: int
+) -> tuple[dict[str, Any], Array] | None:
+    """Signals that are written in a row each, behind facts of each; None for any other table."""
+    width = style.width
+    most_rows = min(most_columns if width > most_columns else LONG_ROW, width)
+    lines = list(islice(_lines_of_numbers(io.BytesIO(body)), most_rows + 1))
+    plain = [style.plain(line).rstrip(" ") for line in lines]
+    rows = [_row(line, style.delimiter, style.words) for line in plain]
+    whole = [row[:width] for row in rows if row is not None and len(row) in (width, width + 1)]
+    if width < FEWEST_SAMPLES or not len(whole) == len(rows) <= most_rows:
+        return None
+    heads = _cells(remarks[-1], style.delimiter) if remarks else []
+    count = _count_of_facts(heads, width)
+    columns = np.delete(np.array(whole).T, [*range(count), *style.words], axis=0)
+    if columns.size > most_numbers:
+        return None
+    cells = [_cells(line, style.delimiter) for line in lines]
+    named = count > 0 or style.words == (0,)
+    names = [row[0] for row in cells] if named else _headings(remarks, style, columns)
+    # what all rows say alike is said of the file
+    facts = [(heads[i], {row[i] for row in cells}) for i in range(count)]
+    said = [f"{head}: {values.pop()}" for head, values in facts if len(values) == 1]
+    return _about(columns, names, (remarks[:-1] if count else remarks) + said)
 
 
 def _count_of_facts(headings: Sequence[str], width: int) -> int:
     """Count the first columns that are no samples, by headings such as "time, fs, s0, s1, ..."."""
     ends = [re.search(r"(\d+)\W*$", heading) for heading in headings]
-    if len(ends) != width or ends[-1] is None:
+    numbers = [int(end[1]) if end else None for end in ends]
+    if len(numbers) != width or numbers[-1] is None:
         return 0
-    for index in range(width - 1, -1, -1):
-        end = ends[index]
-        if end is None or int(end[1]) != int(ends[-1][1]) - (width - 1 - index):
-            return index + 1
-    return 0
-
-
-def _rows(
-    body: bytes, style: _Style, most_rows: int, facts: int = 0
-) -> tuple[Array, list[str] | None, list[list[str]]] | None:
-    """Signals in a row each as columns, their names, and the facts before them; None for others."""
-    width = style.width
-    lines = list(islice(_lines_of_numbers(io.BytesIO(body)), most_rows + 1))
-    plain = [style.plain(line).rstrip(" ") for line in lines]
-    rows = [_row(line, style.delimiter, style.words) for line in plain]
-    whole = [row[:width] for row in rows if row is not None and len(row) in (width, width + 1)]
-    if width < FEWEST_SAMPLES or len(whole) < len(rows) or len(rows) > most_rows:
-        return None
-    named = facts > 0 or style.words == (0,)
-    cells = [_cells(line, style.delimiter)[:facts] for line in lines]
-    names = [_cells(line, style.delimiter)[0] for line in lines] if named else None
-    without = [*range(facts), *style.words]
-    return np.delete(np.array(whole).T, without, axis=0), names, cells
+    first = numbers[-1] - width + 1
+    return max((i + 1 for i, number in enumerate(numbers) if number != first + i), default=0)

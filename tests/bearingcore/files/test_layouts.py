@@ -162,11 +162,6 @@ SLOW = 0.5 + np.arange(N) / 99.7
             RATE, True, "g", ["ax [g]"],
         ),
         (
-            "Duration Time(s)  0.25\nSampling Freq(Hz) 8000Hz\nMemo.  a comment\n"
-            + "\n".join("  ".join(map(str, SIGNAL[i : min(i + 7, N), 0])) for i in range(0, N, 7)),
-            RATE, True, None, ["Memo.  a comment"],
-        ),
-        (
             ";Headers, time,acc\n"
             + lines(lambda i, x, y: f"{1.7e9 + (i + 3 * math.sin(0.11 * i)) / 1690:.6f},{x}"),
             1690, False, None, ["acc"],

@@ -219,26 +219,29 @@ def choose(
     if not signals and axial:
         words = "By their names all signals are along the shaft (z). Which is at this bearing?"
         return Choice({}, "", words, tuple(axial))
+    if not signals and any(column.role == SIGNAL for column in columns):
+        return Choice({}, "", "Every column is the same number throughout.")
     if not signals:
-        still = any(column.role == SIGNAL for column in columns)
-        words = (
-            "Every column is the same number throughout."
-            if still
-            else ("No column looks like a signal of acceleration.")
-        )
-        return Choice({}, "", words)
-    places = {columns[index].place for index in signals} - {""}
-    if len(places) > 1:
-        named = [one for one in places_in(file_name) if one in places]
-        said = named[0] if len(named) == 1 else ""  # two of them name what is in the file
-        place = said or place
-        there = [index for index in signals if place and columns[index].place == place]
-        if there:
-            return _by_direction(columns, there, f"the file's name says {said}" if said else why)
-        known = ", ".join(sorted(places))
-        question = f"The file holds signals of several places ({known}). Which is at this bearing?"
-        return Choice({}, "", question, tuple(signals))
+        return Choice({}, "", "No column looks like a signal of acceleration.")
+    if len({columns[index].place for index in signals} - {""}) > 1:
+        return _by_place(columns, signals, why, file_name, place)
     return _by_direction(columns, signals, why)
+
+
+def _by_place(
+    columns: Sequence[Column], signals: Sequence[int], why: str, file_name: str, place: str
+) -> Choice:
+    """Signals of the one place that the file's name says, or that is known."""
+    places = {columns[index].place for index in signals} - {""}
+    named = [one for one in places_in(file_name) if one in places]
+    said = named[0] if len(named) == 1 else ""  # two of them name what is in the file
+    place = said or place
+    there = [index for index in signals if place and columns[index].place == place]
+    if there:
+        return _by_direction(columns, there, f"the file's name says {said}" if said else why)
+    known = ", ".join(sorted(places))
+    question = f"The file holds signals of several places ({known}). Which is at this bearing?"
+    return Choice({}, "", question, tuple(signals))
 
 
 def only_signal(name: str, index: int, why: str) -> Choice:

@@ -247,57 +247,30 @@ def _chosen(
         if words := kind_in_words(columns, table.columns, lines, table.name, name):
             return tuple(columns), Choice({}, "", words)
     choice = choose(columns, moving, why, table.name, known.row.place)
-    left = [
-        index
-        for index, column in enumerate(columns)
-        if column.role == OTHER
-        and column.unit is None
-        and moving[index]
-        and index != axis
-        and not (len(columns) > 1 and sampling_of(table.columns[:, index]).stated)
-    ]
-    if not choice.columns and not choice.options and len(left) == 1:
-        columns = list(columns)
-        columns[left[0]] = dataclasses.replace(columns[left[0]], role=SIGNAL)
-        choice = only_signal(columns[left[0]].name, left[0], why)
+    if not choice.columns and not choice.options:
+        left = [i for i in range(len(columns)) if i != axis and moving[i]]
+        left = [i for i in left if _may_be_signal(columns, i, table.columns[:, i])]
+        if len(left) == 1:
+            choice = only_signal(columns[left[0]].name, left[0], why)
+            columns = [
+                dataclasses.replace(column, role=SIGNAL) if index in left else column
+                for index, column in enumerate(columns)
+            ]
     return tuple(columns), choice
+
+
+def _may_be_signal(columns: Sequence[Column], index: int, values: Array) -> bool:
+    """Whether a column that is no signal by its name is neither a quantity nor an axis."""
+    column = columns[index]
+    alone = len(columns) == 1 or not sampling_of(values).stated
+    return column.role == OTHER and column.unit is None and alone
 
 
 def _columns(
     table: FileColumns, clock: int, known: Known
 ) -> tuple[tuple[Column, ...], Sampling | None]:
     """The columns, and what the times say where some of them are times."""
-    columns = [_described(column_of(name), table.texts) for name in table.names]
-    labels = [text for name, text in table.texts.items() if _LABELS.fullmatch(name)]
-    if len(labels) == len(columns):  # a cell of the columns' names
-        columns = [
-            dataclasses.replace(column_of(label), name=f"{label}, {column.name}")
-            for label, column in zip(labels, columns, strict=True)
-        ]
-    said = facts.units_said(table.remarks, table.texts)
-    signals = [i for i, column in enumerate(columns) if column.role == SIGNAL]
-    if len(said) == 1 and said[0] not in {*UNITS, *TIMES}:  # a current, say
-        signals = [index for index in signals if columns[index].unit is None]
-        said = said * len(signals)
-    elif len(said) != len(signals) or len(said) == 1:
-        said = []
-    if said:  # each channel's own
-        for index, unit in zip(signals, said, strict=True):
-            role = SIGNAL if unit is None or unit in UNITS else TIME if unit in TIMES else OTHER
-            columns[index] = dataclasses.replace(columns[index], unit=unit, role=role)
-    if known.row.signals:
-        columns = [
-            column if re.fullmatch(known.row.signals, column.name) else Column(column.name, OTHER)
-            for column in columns
-        ]
-    if known.row.places:
-        columns = [
-            dataclasses.replace(column, place=place)
-            for column, place in zip(columns, known.row.places, strict=True)
-        ]
-    along = known.row.directions
-    for index, axis in enumerate(along, len(columns) - len(along)):
-        columns[index] = dataclasses.replace(columns[index], direction=axis)
+    columns = _as_in_collection(_with_units(table, _named_columns(table)), known)
     for index, column in enumerate(columns if len(columns) > 1 else ()):
         if column.role in (SIGNAL, TIME) and _counts(table.columns[:, index], column):
             columns[index] = Column(column.name, OTHER)
@@ -309,14 +282,54 @@ def _columns(
         columns[index] = Column(table.names[index], TIME, "s")
     for index, column in table.given.items():
         columns[index] = column
-    if any(column.role == TIME for column in table.given.values()):
-        time = next(index for index, column in table.given.items() if column.role == TIME)
-        unit, values = columns[time].unit, table.columns[:, time]
-        if unit is None:
-            return tuple(columns), times_of(values)
-        found = sampling_of(values, TIMES[unit])
-        return tuple(columns), dataclasses.replace(found, stated=found.sample_rate is not None)
-    return _with_times(table, columns, stamped)
+    given_times = [index for index, column in table.given.items() if column.role == TIME]
+    if not given_times:
+        return _with_times(table, columns, stamped)
+    unit, values = columns[given_times[0]].unit, table.columns[:, given_times[0]]
+    if unit is None:
+        return tuple(columns), times_of(values)
+    sampling = sampling_of(values, TIMES[unit])
+    return tuple(columns), dataclasses.replace(sampling, stated=sampling.sample_rate is not None)
+
+
+def _named_columns(table: FileColumns) -> list[Column]:
+    """The columns by their headings, or by a cell of their names."""
+    columns = [_described(column_of(name), table.texts) for name in table.names]
+    labels = [text for name, text in table.texts.items() if _LABELS.fullmatch(name)]
+    if len(labels) != len(columns):
+        return columns
+    return [
+        dataclasses.replace(column_of(label), name=f"{label}, {column.name}")
+        for label, column in zip(labels, columns, strict=True)
+    ]
+
+
+def _with_units(table: FileColumns, columns: list[Column]) -> list[Column]:
+    """The columns with the units that lines give, each its own; one may be that of no signal."""
+    units = facts.units_said(table.remarks, table.texts)
+    signals = [index for index, column in enumerate(columns) if column.role == SIGNAL]
+    if len(units) == 1:
+        signals = [index for index in signals if columns[index].unit is None]
+        units = [] if units[0] in {*UNITS, *TIMES} else units * len(signals)
+    for index, unit in zip(signals, units, strict=True) if len(units) == len(signals) else ():
+        role = SIGNAL if unit is None or unit in UNITS else TIME if unit in TIMES else OTHER
+        columns[index] = dataclasses.replace(columns[index], unit=unit, role=role)
+    return columns
+
+
+def _as_in_collection(columns: list[Column], known: Known) -> list[Column]:
+    """The columns with what a public collection says of them."""
+    row = known.row
+    if row.signals:
+        columns = [
+            column if re.fullmatch(row.signals, column.name) else Column(column.name, OTHER)
+            for column in columns
+        ]
+    for index, place in enumerate(row.places):
+        columns[index] = dataclasses.replace(columns[index], place=place)
+    for index, axis in enumerate(row.directions, len(columns) - len(row.directions)):
+        columns[index] = dataclasses.replace(columns[index], direction=axis)
+    return columns
 
 
 def _with_times(

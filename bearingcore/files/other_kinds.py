@@ -120,21 +120,22 @@ def kind_in_words(
     if not enveloped or len(enveloped) < len(signals):
         enveloped = [f"“{line[:60]}”: this is" for line in said if _ENVELOPE.search(line)]
     if frequencies:
-        of = " of an envelope" if enveloped else ""
         axis = f"“{frequencies}” rises as the axis of a spectrum does: this is"
-        return SPECTRUM.format(axis, of)
+        return SPECTRUM.format(axis, " of an envelope" if enveloped else "")
     if enveloped:
         return ENVELOPE.format(enveloped[0])
-    if signals:
-        return ""
-    for line in said:
-        if _SPECTRUM.search(line):
-            return SPECTRUM.format(f"“{line[:60]}”: this is", "")
-    for column in others:
-        if quantity := quantity_of(column):
-            return f"“{column.name}” is {quantity}, not a vibration: {BRING}."
-    for column, numbers in zip(columns, values.T, strict=True):
-        if column.role == OTHER and is_lopsided(numbers):
+    return "" if signals else _without_signals(columns, values, said)
+
+
+def _without_signals(columns: Sequence[Column], values: Array, said: Iterable[str]) -> str:
+    for line in filter(_SPECTRUM.search, said):
+        return SPECTRUM.format(f"“{line[:60]}”: this is", "")
+    others = [index for index, column in enumerate(columns) if column.role == OTHER]
+    for index in others:
+        if quantity := quantity_of(columns[index]):
+            return f"“{columns[index].name}” is {quantity}, not a vibration: {BRING}."
+    for index in others:
+        if is_lopsided(values[:, index]):
             words = "never changes its sign, like a spectrum, an envelope or a trend"
-            return f"“{column.name}” {words}: {BRING}."
+            return f"“{columns[index].name}” {words}: {BRING}."
     return ""

@@ -247,23 +247,20 @@ def _chosen(
         if words := kind_in_words(columns, table.columns, lines, table.name, name):
             return tuple(columns), Choice({}, "", words)
     choice = choose(columns, moving, why, table.name, known.row.place)
-    if not choice.columns and not choice.options:
-        left = [i for i in range(len(columns)) if i != axis and moving[i]]
-        left = [i for i in left if _may_be_signal(columns, i, table.columns[:, i])]
-        if len(left) == 1:
-            choice = only_signal(columns[left[0]].name, left[0], why)
-            columns = [
-                dataclasses.replace(column, role=SIGNAL) if index in left else column
-                for index, column in enumerate(columns)
-            ]
+    if choice.columns or choice.options or known.why:
+        return tuple(columns), choice
+    # of no signal by its name, the only column that swings about zero
+    swings = (table.columns < 0.0).any(axis=0) & (table.columns > 0.0).any(axis=0)
+    left = [
+        index
+        for index, column in enumerate(columns)
+        if column.role == OTHER and column.unit is None and swings[index] and index != axis
+    ]
+    if len(left) == 1:
+        choice = only_signal(columns[left[0]].name, left[0], why)
+        made = dataclasses.replace(columns[left[0]], role=SIGNAL)
+        columns = [made if index in left else column for index, column in enumerate(columns)]
     return tuple(columns), choice
-
-
-def _may_be_signal(columns: Sequence[Column], index: int, values: Array) -> bool:
-    """Whether a column that is no signal by its name is neither a quantity nor an axis."""
-    column = columns[index]
-    alone = len(columns) == 1 or not sampling_of(values).stated
-    return column.role == OTHER and column.unit is None and alone
 
 
 def _columns(
@@ -358,15 +355,16 @@ def _with_times(
     time = max(known, key=lambda index: known[index], default=None)
     if time is None:
         return tuple(columns), None
-    first = found[time]
+    first, names = found[time], [column.name for column in columns]
     for index, other in found.items():
-        rate, usual = other.sample_rate, first.sample_rate
-        if other.stated and rate and usual and abs(rate / usual - 1.0) > TWO_RATES:
-            said = (
-                f"“{columns[time].name}”, where “{columns[index].name}” says {number(rate, 6)} Hz"
-            )
+        if other.stated and (rate := other.sample_rate) and _differ(rate, first.sample_rate):
+            said = f"“{names[time]}”, where “{names[index]}” says {number(rate, 6)} Hz"
             return tuple(columns), dataclasses.replace(first, stated=False, reason=said)
     return tuple(columns), first
+
+
+def _differ(rate: float, other: float | None) -> bool:
+    return other is not None and abs(rate / other - 1.0) > TWO_RATES
 
 
 _LABELS = re.compile(

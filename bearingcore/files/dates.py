@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Mapping
 from datetime import datetime
 
 from bearingcore.files.facts import Finding
@@ -65,30 +65,30 @@ def _date(match: re.Match[str]) -> datetime | None:
     if half := (part["half"] or "").lower():
         hour = hour % 12 + 12 * (half == "p")
     if part["year"]:
-        year, month, day = (
-            int(part["year"]), int(part["month"] or part["joined_month"]),
-            int(part["day"] or part["joined_day"]),
-        )  # fmt: skip
+        year, month = int(part["year"]), int(part["month"] or part["joined_month"])
+        day = int(part["day"] or part["joined_day"])
     else:
-        year, day = int(part["last_year"]), int(part["one"])
-        if part["two"].isdigit():
-            month = int(part["two"])
-            if part["between"] == "/":
-                if max(day, month) <= 12 and day != month and not half:
-                    return None
-                if month > 12 or half:
-                    day, month = month, day
-            elif year < 100 and (part["between"] != "." or not part["minute"]):
-                return None  # the number of a version, or who knows
-        elif (name := part["two"][:3].lower()) in _MONTHS:
-            month = _MONTHS[name]
-        else:
-            return None
+        year = int(part["last_year"])
+        month, day = _month_and_day(part, is_american=bool(half))
+        if part["two"].isdigit() and year < 100 and not (part["between"] == "." and part["minute"]):
+            return None  # the number of a version, or who knows
         year += 2000 * (year < 100)
     try:
         return datetime(year, month, day, hour, int(part["minute"] or 0), int(part["second"] or 0))
     except ValueError:
         return None
+
+
+def _month_and_day(part: Mapping[str, str], *, is_american: bool) -> tuple[int, int]:
+    """Month and day before a year; month 0 of what nobody can tell."""
+    day, word = int(part["one"]), part["two"]
+    if not word.isdigit():
+        return _MONTHS.get(word[:3].lower(), 0), day
+    month = int(word)
+    if part["between"] == "/" and (is_american or month > 12):
+        return day, month
+    unclear = part["between"] == "/" and max(day, month) <= 12 and day != month
+    return 0 if unclear else month, day
 
 
 def without_dates(line: str) -> str:

@@ -271,6 +271,11 @@ def sample_rate_in(named: Sequence[Named], file_name: str) -> Finding[float] | N
         if not in_hz and LEAST_RATE <= 1e3 * first.value <= GREATEST_STATED:
             return Finding(1e3 * first.value, f"{first.reason}, if it is in kHz", False)
         return dataclasses.replace(first, stated=False)
+    return _likely_rate(named, file_name)
+
+
+def _likely_rate(named: Sequence[Named], file_name: str) -> Finding[float] | None:
+    """[Hz] of a number in Hz that may be that of the samples, or of the file's name."""
     for one in named:
         value = one.value * (1e3 if one.unit == "kHz" else 1.0)
         likely = _key(one.name).endswith("rate") or one.unit in ("Hz", "kHz")
@@ -290,31 +295,8 @@ _OTHER_SPEED = re.compile(r"(?i)max|min|limit|rated|nominal|nenn|range|critical|
 
 def shaft_speed_in(named: Sequence[Named], file_name: str) -> Finding[float] | None:
     """[rad/s]"""
-    found: list[Finding[float]] = []
-    rates = {_key(one.name) for one in named} & (_RATES | _INTERVALS)
-    for one in named:
-        key, value = _key(one.name), one.value
-        if not (math.isfinite(value) and value > 0.0):
-            continue
-        words = f"“{one.name}” in the file"
-        if "rpm" in key or (one.unit == "rpm" and not _OTHER_SPEED.search(one.name)):
-            stated = MIDDLE not in one.name
-            found.append(
-                Finding(value * SPEEDS["rpm"], words, stated, strong=True, file_unit="rpm")
-            )
-        elif key in _FREQUENCIES:
-            unit = one.unit if one.unit is not None and one.unit in SPEEDS else "Hz"
-            found.append(Finding(value * SPEEDS[unit], words, file_unit=unit))
-        elif key in _SPEEDS:
-            if one.unit is not None and one.unit in SPEEDS:
-                found.append(Finding(value * SPEEDS[one.unit], words, file_unit=one.unit))
-            else:
-                unit = "Hz" if value <= FASTEST_IN_HZ else "rpm"
-                taken = f"{words}, taken as {unit}"
-                found.append(Finding(value * SPEEDS[unit], taken, False, file_unit=unit))
-        elif key == "rate" and value < LEAST_RATE and one.unit != "kHz":
-            stated = bool(rates)  # two rates: one is that of the samples, the other the shaft's
-            found.append(Finding(value * SPEEDS["Hz"], f"{words}, taken as Hz", stated))
+    rated = bool({_key(one.name) for one in named} & (_RATES | _INTERVALS))
+    found = [speed for one in named if (speed := _speed_of(one, rated)) is not None]
     match = re.search(
         r"(?:(?<![a-z0-9])|(?<=[a-z])(?=\d{3}))(\d+(?:\.\d+)?)[ _-]?rpm(?![a-z])", file_name.lower()
     )
@@ -328,6 +310,29 @@ def shaft_speed_in(named: Sequence[Named], file_name: str) -> Finding[float] | N
     if any(one.taken and abs(one.value / first.value - 1.0) > 0.005 for one in found):
         return _doubted(first)
     return first
+
+
+def _speed_of(named: Named, rated: bool) -> Finding[float] | None:
+    """[rad/s] of one number; `rated`: whether another one is the rate of the samples."""
+    key, value, unit = _key(named.name), named.value, named.unit
+    words = f"“{named.name}” in the file"
+    if not (math.isfinite(value) and value > 0.0):
+        return None
+    if "rpm" in key or (unit == "rpm" and not _OTHER_SPEED.search(named.name)):
+        stated = MIDDLE not in named.name
+        return Finding(value * SPEEDS["rpm"], words, stated, strong=True, file_unit="rpm")
+    if key in _FREQUENCIES | _SPEEDS and unit is not None and unit in SPEEDS:
+        return Finding(value * SPEEDS[unit], words, file_unit=unit)
+    if key in _FREQUENCIES:
+        return Finding(value * SPEEDS["Hz"], words, file_unit="Hz")
+    if key in _SPEEDS:
+        unit = "Hz" if value <= FASTEST_IN_HZ else "rpm"
+        taken = f"{words}, taken as {unit}"
+        return Finding(value * SPEEDS[unit], taken, stated=False, file_unit=unit)
+    if key == "rate" and value < LEAST_RATE and unit != "kHz":
+        # of two rates one is that of the samples, the other the shaft's
+        return Finding(value * SPEEDS["Hz"], f"{words}, taken as Hz", stated=rated)
+    return None
 
 
 def _doubted(first: Finding[float]) -> Finding[float]:

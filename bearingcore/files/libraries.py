@@ -9,6 +9,7 @@ import io
 import os
 import re
 import zipfile
+from collections.abc import Mapping
 from contextlib import suppress
 from typing import Any
 from unittest.mock import patch
@@ -35,6 +36,9 @@ DOCUMENT = re.compile(
 MOST_FACTS = 100
 """Rows of a sheet, or of a data frame with signals in its cells, that say something of a signal."""
 
+_NO_FILE = re.compile(r"^$|/$|(^|/)(\.|__MACOSX/)")
+"""A folder, or what a system hides."""
+
 _TIME_RESPONSE = (0, 1)
 """Function types of data set 58 that are signals over time: general ones, and time responses."""
 
@@ -55,12 +59,7 @@ def unzipped(name: str, content: bytes) -> tuple[list[str], bytes]:
     """
     try:
         with zipfile.ZipFile(io.BytesIO(content)) as packed:
-            files = [
-                one
-                for one in packed.infolist()
-                if one.filename[-1:] not in ("", "/")
-                and not re.search(r"(^|/)(\.|__MACOSX/)", one.filename)
-            ]
+            files = [one for one in packed.infolist() if not _NO_FILE.search(one.filename)]
             if any(one.filename == "[Content_Types].xml" for one in files):
                 raise checks.refuse("file", name, "no office document: save its sheet as CSV")
             named = [one for one in files if name.endswith(f".zip/{one.filename}")]
@@ -223,9 +222,9 @@ def uff(content: bytes, found: Variables) -> None:
     sets = [one for one in sets if one["func_type"] in _TIME_RESPONSE]
     points = {one.get("rsp_node") for one in sets}
     for index, one in enumerate(sets):
-        said = [one.get("id1", ""), _AXES.get(abs(int(one.get("rsp_dir", 0))), "")]
+        said = [_word(one, "id1"), _AXES.get(abs(int(one.get("rsp_dir", 0))), "")]
         said += [f"point {one['rsp_node']}"] if len(points) > 1 else []
-        path = " ".join(word.strip() for word in said if word and word.strip() != "NONE")
+        path = " ".join(filter(None, said))
         path = path if path and path not in found.numbers else f"{path} signal {index + 1}".strip()
         found.add(path, np.asarray(one["data"]))
         if one["abscissa_spacing"]:
@@ -234,9 +233,13 @@ def uff(content: bytes, found: Variables) -> None:
             found.add(f"{path} time [s]", np.asarray(one["x"]))
         words = [("unit", "ordinate_axis_units_lab"), ("date", "id3"), ("remark", "id2")]
         for name, key in words:
-            word = str(one.get(key, "")).strip()
-            if word and word != "NONE":
+            if word := _word(one, key):
                 found.add(f"{path}.{name}", np.array(word))
+
+
+def _word(data_set: Mapping[str, Any], key: str) -> str:
+    word = str(data_set.get(key, "")).strip()
+    return "" if word == "NONE" else word
 
 
 _AXES = {1: "x", 2: "y", 3: "z"}

@@ -12,7 +12,7 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from bearingcore.common.arrays import Array
-from bearingcore.files.channels import OTHER, SIGNAL, Column, words_of
+from bearingcore.files.channels import OTHER, PULSES, SIGNAL, Column, words_of
 from bearingcore.signals.recording import FEWEST_SAMPLES
 
 _ENVELOPE = re.compile(
@@ -35,6 +35,8 @@ _QUANTITIES = (
     ("a temperature", {"°C"}, {"temperature", "temperatur", "temp"}),
     ("a rotation", {"deg/s", "deg", "rad/s"}, {"gyro", "gyroscope", "gyr"}),
     ("a level", {"dB"}, {"db"}),
+    ("a speed", {"rpm"}, {"speed", "rpm", "drehzahl"}),
+    ("a tachometer's signal", set(), PULSES),
 )
 """What a unit, or a word of a heading, measures."""
 
@@ -115,10 +117,10 @@ def kind_in_words(
     said = [line for line in lines if not _OFF.search(line)] + [file_name] * (not signals)
     if signals:
         said = [line for line in said if not any(column.name in line for column in others)]
-    headings = [one.name for one in signals or others]
-    enveloped = [f"“{name}” is" for name in headings if _ENVELOPE.search(name)]
+    enveloped = [one.name for one in signals or others if _ENVELOPE.search(one.name)]
+    enveloped = [f"“{name}” is" for name in enveloped]
     if not enveloped or len(enveloped) < len(signals):
-        enveloped = [f"“{line[:60]}”: this is" for line in said if _ENVELOPE.search(line)]
+        enveloped = [f"“{line[:60]}”: this is" for line in filter(_ENVELOPE.search, said)]
     if frequencies:
         axis = f"“{frequencies}” rises as the axis of a spectrum does: this is"
         return SPECTRUM.format(axis, " of an envelope" if enveloped else "")

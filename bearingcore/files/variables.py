@@ -74,22 +74,7 @@ class Variables:
             wanted = self.instead or f"a {kind} with a vector or matrix of real numbers"
             raise checks.refuse("file", name, wanted)
         rows = max(len(part) for part in parts.values())
-        # what is much shorter was measured otherwise, or is no signal
-        least = max(FEWEST_SAMPLES, rows // 2) if rows >= FEWEST_SAMPLES else rows
-        for variable, part in parts.items():
-            if len(part) >= least:
-                continue
-            # what is said of it, such as its rate, is not of the signals
-            scalars = {
-                name: value
-                for name, value in scalars.items()
-                if not name.startswith(f"{variable}.")
-            }
-            if is_steady(part) and len(scalars) < MOST_SCALARS:
-                scalars[variable] = float(part.mean())
-            elif len(self.texts) < MOST_SCALARS:
-                self.texts[variable] = f"not used: {len(part)} × {part.shape[1]} numbers"
-        parts = {variable: part for variable, part in parts.items() if len(part) >= least}
+        parts, scalars = self._long(parts, scalars, rows)
         width = sum(part.shape[1] for part in parts.values())
         check_size(name, (rows, width), most_numbers, most_columns)
         columns = np.full((rows, width), np.nan, order="F")
@@ -101,6 +86,23 @@ class Variables:
                 names += [f"{variable}(:,{i + 1})" if several else variable
                           for i in range(part.shape[1])]  # fmt: skip
         return {"names": names, "scalars": scalars, "texts": self.texts}, columns
+
+    def _long(
+        self, parts: dict[str, NDArray[Any]], scalars: dict[str, float], rows: int
+    ) -> tuple[dict[str, NDArray[Any]], dict[str, float]]:
+        """The parts that are about as long as the longest, and single numbers with the others."""
+        # what is much shorter was measured otherwise, or is no signal
+        least = max(FEWEST_SAMPLES, rows // 2) if rows >= FEWEST_SAMPLES else rows
+        for variable in [variable for variable, part in parts.items() if len(part) < least]:
+            part = parts.pop(variable)
+            # what is said of it, such as its rate, is not of the signals
+            of = f"{variable}."
+            scalars = {name: value for name, value in scalars.items() if not name.startswith(of)}
+            if is_steady(part) and len(scalars) < MOST_SCALARS:
+                scalars[variable] = float(part.mean())
+            elif len(self.texts) < MOST_SCALARS:
+                self.texts[variable] = f"not used: {len(part)} × {part.shape[1]} numbers"
+        return parts, scalars
 
 
 def check_size(name: str, shape: tuple[int, ...], most_numbers: int, most_columns: int) -> None:

@@ -114,12 +114,7 @@ def column_of(name: str) -> Column:
     first, *more = [word for word in re.split(r"[\W_]+", bare.lower()) if word] or [""]
     if unit is None and len(first) > 1 and more in ([], ["elapsed"]):  # "seconds_elapsed"
         unit = unit_named(first) if kind_of(unit_named(first) or "") == "time" else None
-    timed = (
-        first in _TIMES
-        or (first in _BEFORE_TIME and more[:1] and more[0] in _TIMES | {"stamp"})
-        or re.fullmatch(r"x[_ ]values?", name.strip().lower())  # LabVIEW's time of each row
-    )
-    if (timed and unit is None) or (unit is not None and kind_of(unit) == "time"):
+    if kind_of(unit or "") == "time" or (unit is None and _names_a_time(name, first, more)):
         return Column(name, TIME, unit)
     if unit in SPEEDS:
         return Column(name, OTHER if names_a_frequency(name) else SPEED, unit)
@@ -133,6 +128,13 @@ def column_of(name: str) -> Column:
     if place and re.search(r"[\s_.]V$", name):
         unit, direction = None, "y"  # the vertical one at a place, no voltage
     return Column(name, SIGNAL, unit, direction, place)
+
+
+def _names_a_time(name: str, first: str, more: Sequence[str]) -> bool:
+    """Whether a heading, of which these are the first word and the others, is that of times."""
+    if first in _TIMES or (first in _BEFORE_TIME and more and more[0] in _TIMES | {"stamp"}):
+        return True
+    return bool(re.fullmatch(r"x[_ ]values?", name.strip().lower()))  # LabVIEW's, of each row
 
 
 def names_a_frequency(name: str) -> bool:

@@ -249,18 +249,26 @@ def _chosen(
     choice = choose(columns, moving, why, table.name, known.row.place)
     if choice.columns or choice.options or known.why:
         return tuple(columns), choice
-    # of no signal by its name, the only column that swings about zero
-    swings = (table.columns < 0.0).any(axis=0) & (table.columns > 0.0).any(axis=0)
+    return _with_only_signal(columns, table.columns, axis, why) or (tuple(columns), choice)
+
+
+def _with_only_signal(
+    columns: Sequence[Column], values: Array, axis: int | None, why: str
+) -> tuple[tuple[Column, ...], Choice] | None:
+    """Of no signals by their names, the only column that swings about zero as the signal."""
+    swings = (values < 0.0).any(axis=0) & (values > 0.0).any(axis=0)
     left = [
         index
         for index, column in enumerate(columns)
         if column.role == OTHER and column.unit is None and swings[index] and index != axis
     ]
-    if len(left) == 1:
-        choice = only_signal(columns[left[0]].name, left[0], why)
-        made = dataclasses.replace(columns[left[0]], role=SIGNAL)
-        columns = [made if index in left else column for index, column in enumerate(columns)]
-    return tuple(columns), choice
+    if len(left) != 1:
+        return None
+    made = dataclasses.replace(columns[left[0]], role=SIGNAL)
+    return (
+        tuple(made if index in left else column for index, column in enumerate(columns)),
+        only_signal(made.name, left[0], why),
+    )
 
 
 def _columns(
@@ -352,9 +360,9 @@ def _with_times(
                 reason = f"{sampling.reason} “{column.name}”"
                 found[index] = dataclasses.replace(sampling, reason=reason)
     known = {i: (one.stated, one.sample_rate is not None) for i, one in found.items()}
-    time = max(known, key=lambda index: known[index], default=None)
-    if time is None:
+    if not known:
         return tuple(columns), None
+    time = max(known, key=lambda index: known[index])
     first, names = found[time], [column.name for column in columns]
     for index, other in found.items():
         if other.stated and (rate := other.sample_rate) and _differ(rate, first.sample_rate):

@@ -283,6 +283,11 @@ def _hdf5(item: Any, path: str, found: Variables, depth: int) -> None:
         return
     elif item.shape is not None and "MATLAB_empty" not in item.attrs:
         found.add(path, _as_in_matlab(item))
+    _attributes(item, path, found)
+
+
+def _attributes(item: Any, path: str, found: Variables) -> None:
+    """Words and single numbers that stand at a group or a data set."""
     for name, value in item.attrs.items():
         word = np.size(value) == 1 or np.asarray(value).dtype.kind in "OSU"
         if word and not name.startswith(_OF_THE_FORMAT):

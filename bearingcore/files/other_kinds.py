@@ -112,15 +112,17 @@ def kind_in_words(
     frequencies
         name of a column that rises as the axis of a spectrum does, where there are no times.
     """
-    signals = [column for column in columns if column.role == SIGNAL]
-    others = [column for column in columns if column.role == OTHER]
-    said = [line for line in lines if not _OFF.search(line)] + [file_name] * (not signals)
-    if signals:
-        said = [line for line in said if not any(column.name in line for column in others)]
-    enveloped = [one.name for one in signals or others if _ENVELOPE.search(one.name)]
-    enveloped = [f"“{name}” is" for name in enveloped]
-    if not enveloped or len(enveloped) < len(signals):
-        enveloped = [f"“{line[:60]}”: this is" for line in filter(_ENVELOPE.search, said)]
+    signals, others = (
+        [column.name for column in columns if column.role == role] for role in (SIGNAL, OTHER)
+    )
+    said = [line for line in lines if not _OFF.search(line)]
+    if signals:  # what is said of the other columns does not count
+        said = [line for line in said if not any(name in line for name in others)]
+    else:
+        said.append(file_name)
+    named = list(filter(_ENVELOPE.search, signals or others))
+    enveloped = [f"“{name}” is" for name in named if len(named) >= len(signals)]
+    enveloped += [f"“{line[:60]}”: this is" for line in filter(_ENVELOPE.search, said)]
     if frequencies:
         axis = f"“{frequencies}” rises as the axis of a spectrum does: this is"
         return SPECTRUM.format(axis, " of an envelope" if enveloped else "")

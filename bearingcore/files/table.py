@@ -439,14 +439,7 @@ def join_tables(tables: Sequence[Table]) -> Table:
         raise checks.refuse("tables", "none", "one or more")
     first = tables[0]
     for one in tables[1:]:
-        if one.names != first.names:
-            raise checks.refuse(
-                f"columns of {one.name}", ", ".join(one.names), f"those of {first.name}"
-            )
-        rates = [part.contents.sample_rate for part in (first, one)]
-        known = [rate.value for rate in rates if rate is not None]
-        if len(known) == 1 or (len(known) == 2 and abs(known[1] / known[0] - 1.0) > RATE_DOUBT):
-            raise checks.refuse(f"sample rate of {one.name}", known[-1], "that of the first", "Hz")
+        _check_alike(first, one)
     if sum(one.columns.size for one in tables) > MOST_NUMBERS:
         raise checks.refuse("count of numbers in all files", "more", f"at most {MOST_NUMBERS}")
     columns = np.concatenate([one.columns for one in tables])
@@ -467,3 +460,15 @@ def join_tables(tables: Sequence[Table]) -> Table:
         notes.append(f"{len(tables)} files are joined{gap}.")
     name = first.name if len(tables) == 1 else f"{first.name} to {tables[-1].name}"
     return dataclasses.replace(first, columns=columns, name=name, notes=tuple(notes))
+
+
+def _check_alike(first: Table, other: Table) -> None:
+    """Refuse a file whose columns or sample rate are not those of the first."""
+    if other.names != first.names:
+        raise checks.refuse(
+            f"columns of {other.name}", ", ".join(other.names), f"those of {first.name}"
+        )
+    rates = [part.contents.sample_rate for part in (first, other)]
+    known = [rate.value for rate in rates if rate is not None]
+    if len(known) == 1 or (len(known) == 2 and abs(known[1] / known[0] - 1.0) > RATE_DOUBT):
+        raise checks.refuse(f"sample rate of {other.name}", known[-1], "that of the first", "Hz")

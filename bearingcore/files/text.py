@@ -100,22 +100,7 @@ def read_text(
                 style.width,
                 f"at most {most_columns}: leave out some, or write each signal in a row",
             )
-    body, said, notes = content[begin:], [], []
-    most_rows = most_numbers // style.width + 1
-    found = _numbers(body, style, most_rows)
-    if found is None:  # some lines hold something else
-        above = content.count(b"\n", 0, begin) + 1
-        body, notes, said = _mended(name, body, style, above, remarks)
-        found = _numbers(body, style, most_rows)
-    if found is None:
-        raise checks.refuse("file", name, READABLE)
-    read, sensors = found
-    if read.size > most_numbers:
-        raise checks.refuse(
-            f"count of numbers in {name}",
-            f"over {most_numbers}",
-            f"at most {most_numbers}; split it by rows and join the parts",
-        )
+    read, sensors, said, notes = _read_numbers(name, content, begin, style, remarks, most_numbers)
     headings = _headings(remarks, style, read)
     if headings and any(column_of(name).role == TIME for name in headings):
         whole = ~np.isnan(read).all(axis=1)  # what is missing there shows in the times
@@ -134,6 +119,31 @@ def read_text(
         which = ", ".join(dict.fromkeys(sensors))
         notes.append(f"Rows of several sensors ({which}) are put side by side.")
     return _about(read, headings, remarks + said, stamps, notes)
+
+
+def _read_numbers(
+    name: str, content: bytes, begin: int, style: _Style, remarks: list[str], most_numbers: int
+) -> tuple[Array, NDArray[Any] | None, list[str], list[str]]:
+    """Numbers from a byte on, the sensors of their rows, words among them, and notes on these."""
+    body = content[begin:]
+    said: list[str] = []
+    notes: list[str] = []
+    most_rows = most_numbers // style.width + 1
+    found = _numbers(body, style, most_rows)
+    if found is None:  # some lines hold something else
+        above = content.count(b"\n", 0, begin) + 1
+        body, notes, said = _mended(name, body, style, above, remarks)
+        found = _numbers(body, style, most_rows)
+    if found is None:
+        raise checks.refuse("file", name, READABLE)
+    read, sensors = found
+    if read.size > most_numbers:
+        raise checks.refuse(
+            f"count of numbers in {name}",
+            f"over {most_numbers}",
+            f"at most {most_numbers}; split it by rows and join the parts",
+        )
+    return read, sensors, said, notes
 
 
 _SINCE_1970 = (1e9, 2.2e9)
@@ -611,19 +621,8 @@ def _headings(remarks: Sequence[str], style: _Style, columns: Array) -> list[str
     names = _names(lines[-1], style, columns) if lines else None
     if names is None:
         return None
-    if len(lines) > 1 and _are_units(names):
-        above = _names(lines[-2], style, columns)
-        if above is not None:
-            names = [
-                f"{name} [{unit.strip('[]() ')}]" if unit.strip("[]()- ") else name
-                for name, unit in zip(above, names, strict=True)
-            ]
-    elif len(lines) > 1 and len(set(names)) < len(names):  # pandas' names of two levels
-        above = _names(lines[-2], style, columns)
-        if above is not None and len(set(above)) > 1:
-            names = [f"{a} {b}".strip() for a, b in zip(above, names, strict=True)]
-    elif width > 1 and all(units := [_unit_alone(cell) for cell in names]):
-        names = [f"column {i + 1} [{unit}]" for i, unit in enumerate(units)]
+    above = _names(lines[-2], style, columns) if len(lines) > 1 else None
+    names = _with_units(names, above)
     given = [name for name in names if name]
     if any(re.fullmatch(r"-?\d*[.,]\d+", name) for name in given):
         return None  # numbers beside the settings of an instrument
@@ -635,22 +634,37 @@ def _headings(remarks: Sequence[str], style: _Style, columns: Array) -> list[str
     ]
 
 
+def _with_units(names: list[str], above: list[str] | None) -> list[str]:
+    """The names of a line, or those of the line above with the units, or ends, of this one."""
+    if above is not None and _are_units(names):
+        units = [unit.strip("[]() ") for unit in names]
+        pairs = zip(above, units, strict=True)
+        return [f"{name} [{unit}]" if unit.strip("- ") else name for name, unit in pairs]
+    if above is not None and len(set(names)) < len(names) and len(set(above)) > 1:
+        return [f"{a} {b}".strip() for a, b in zip(above, names, strict=True)]  # pandas' two levels
+    if len(names) > 1 and all(units := [_unit_alone(cell) for cell in names]):
+        return [f"column {i + 1} [{unit}]" for i, unit in enumerate(units)]
+    return names
+
+
 def _is_remark(line: str, style: _Style, width: int) -> bool:
     """Whether a line says something else than the names of columns."""
-    if width > 1:
-        single = [cell for cell in _cells(line, style.delimiter) if cell]
-        said = ":" in line or "=" in line
-        if said and len(single) == width and all(re.search(r"[:=]", cell) for cell in single):
-            return False  # "Ch 1: acc [g], Ch 2: acc [g]"
-        if units_said([line], {}) or (len(single) > 1 and _is_a_value(single)):
-            return True
-        return (said or any(re.match(_VALUE, cell) for cell in single)) and names_a_fact(line)
-    if unit_in(line) in UNITS and re.search(r"[\[(]", line):
-        return False
-    if units_said([line], {}) or re.search(r"[;\t]\s*[^;\t\s]|(^|\s)-?\d[\d.,]*\d", line):
-        return True  # a name and what it is
-    said = ":" in line or "=" in line or len(line.split()) > LONGEST_HEADING
-    return said or bool(named_in([line]))
+    said = ":" in line or "=" in line
+    if width == 1:
+        return not (unit_in(line) in UNITS and re.search(r"[\[(]", line)) and (
+            bool(units_said([line], {}))
+            # a name and what it is
+            or bool(re.search(r"[;\t]\s*[^;\t\s]|(^|\s)-?\d[\d.,]*\d", line))
+            or said
+            or len(line.split()) > LONGEST_HEADING
+            or bool(named_in([line]))
+        )
+    single = [cell for cell in _cells(line, style.delimiter) if cell]
+    if said and len(single) == width and all(re.search(r"[:=]", cell) for cell in single):
+        return False  # "Ch 1: acc [g], Ch 2: acc [g]"
+    if units_said([line], {}) or (len(single) > 1 and _is_a_value(single)):
+        return True
+    return (said or any(re.match(_VALUE, cell) for cell in single)) and names_a_fact(line)
 
 
 _TYPES = re.compile(r"(?i)\W*((float|double|single|u?int)\d*\W*)+")
@@ -835,22 +849,26 @@ def _mended(
             bad = [i for i, c in enumerate(cells) if i not in style.words and _number(c) is None]
             if len(cells) == width and bad:
                 words |= {cells[i] for i in bad}
+                cells = ["nan" if i in bad else cell for i, cell in enumerate(cells)]
             else:
-                bad, cells, torn = range(width), [""] * width, torn + 1
-            cells = ["nan" if i in bad else cell for i, cell in enumerate(cells)]
+                cells, torn = ["nan"] * width, torn + 1
             if torn > few or len(wrong) > (many if len(words) <= MOST_MISSING_WORDS else few):
                 raise checks.refuse(f"line {above + wrong[0][0]} of {name}", *wrong[0][1:])
         text = (style.delimiter or " ").join(cells[:width])
         text = text.replace(".", ",") if style.decimal_comma else text
         lines[index] = text.encode("latin-1", "replace") + b"\n"
     again = {line[:40] for line in remarks}  # headings of a second recording are no news
-    wrong = [one for one in wrong if one[1] not in again]
-    if wrong:
-        index, text, _ = wrong[0]
-        number = "One line lacks" if len(wrong) == 1 else f"{thousands(len(wrong))} lines lack"
-        first = f"line {above + index}, “{text}”"
-        notes.append(f"{number} numbers ({first}), which count as missing.")
-    return b"".join(lines), notes, [line for _, line, _ in wrong[:SAMPLE]]
+    lacking = [(above + index, text) for index, text, _ in wrong if text not in again]
+    return b"".join(lines), notes + _lacking(lacking), [text for _, text in lacking[:SAMPLE]]
+
+
+def _lacking(lines: Sequence[tuple[int, str]]) -> list[str]:
+    """A sentence on numbered lines that lack numbers; none of no line."""
+    if not lines:
+        return []
+    many = "One line lacks" if len(lines) == 1 else f"{thousands(len(lines))} lines lack"
+    number, text = lines[0]
+    return [f"{many} numbers (line {number}, “{text}”), which count as missing."]
 
 
 def _signals_in_rows(

@@ -155,7 +155,11 @@ def unit_in(heading: str) -> str | None:
         before, found, after = bare.partition(mark)
         if found and before.strip() and (unit := unit_named(after)) is not None:
             return unit
-    words = re.split(r"[\s_.,;]+", bare)
+    return _unit_at_end(re.split(r"[\s_.,;]+", bare))
+
+
+def _unit_at_end(words: list[str]) -> str | None:
+    """The unit that the last words of a name are."""
     for count in (3, 2, 1):  # "m_per_s2" is three words at the end of a name
         if len(words) > count or (len(words) == count == 1):
             end = "_".join(words[-count:])

@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from bearingcore.files.units import SPEEDS, UNITS, VOLTAGES, kind_of, unit_in, unit_named
+from bearingcore.files.units import SPEEDS, TIMES, UNITS, VOLTAGES, unit_in, unit_named
 
 SIGNAL, TIME, SPEED, OTHER = "signal", "time", "speed", "other"
 ROLES = (SIGNAL, TIME, SPEED, OTHER)
@@ -112,22 +112,24 @@ def column_of(name: str) -> Column:
     leaf = re.sub(r"^[\w.{}()]*\.(?=[A-Za-z])", "", name.strip())  # of a struct
     bare = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", leaf)
     first, *more = [word for word in re.split(r"[\W_]+", bare.lower()) if word] or [""]
-    if unit is None and len(first) > 1 and more in ([], ["elapsed"]):  # "seconds_elapsed"
-        unit = unit_named(first) if kind_of(unit_named(first) or "") == "time" else None
-    if kind_of(unit or "") == "time" or (unit is None and _names_a_time(name, first, more)):
+    unit = unit or _time_unit(first, more)
+    if unit in TIMES or (unit is None and _names_a_time(name, first, more)):
         return Column(name, TIME, unit)
     if unit in SPEEDS:
         return Column(name, OTHER if names_a_frequency(name) else SPEED, unit)
-    other = (words & _NOT_SIGNALS or words_of(leaf) & _COUNTS or first == "mag") and (
-        unit is None or unit in VOLTAGES
-    )  # of a sensor for it
-    if other or (unit is not None and unit not in UNITS):
+    other = words & _NOT_SIGNALS or words_of(leaf) & _COUNTS or first == "mag"
+    if unit not in (None, *UNITS) or (other and unit in (None, *VOLTAGES)):  # of a sensor for it
         return Column(name, OTHER, unit)
+    if place_in(name) and re.search(r"[\s_.]V$", name):
+        unit, words = None, {"v"}  # the vertical one at a place, no voltage
     direction = next((axis for axis, said in _SAYS.items() if words & said), "")
-    place = place_in(name)
-    if place and re.search(r"[\s_.]V$", name):
-        unit, direction = None, "y"  # the vertical one at a place, no voltage
-    return Column(name, SIGNAL, unit, direction, place)
+    return Column(name, SIGNAL, unit, direction, place_in(name))
+
+
+def _time_unit(first: str, more: Sequence[str]) -> str | None:
+    """The unit of times that a heading such as "seconds" or "seconds_elapsed" is."""
+    unit = unit_named(first) if len(first) > 1 and more in ([], ["elapsed"]) else None
+    return unit if unit in TIMES else None
 
 
 def _names_a_time(name: str, first: str, more: Sequence[str]) -> bool:

@@ -256,11 +256,15 @@ def _with_only_signal(
     columns: Sequence[Column], values: Array, axis: int | None, why: str
 ) -> tuple[tuple[Column, ...], Choice] | None:
     """Of no signals by their names, the only column that swings about zero as the signal."""
-    swings = (values < 0.0).any(axis=0) & (values > 0.0).any(axis=0)
+    below, above = (np.logical_or.reduce(part, axis=0) for part in (values < 0.0, values > 0.0))
     left = [
         index
         for index, column in enumerate(columns)
-        if column.role == OTHER and column.unit is None and swings[index] and index != axis
+        if column.role == OTHER
+        and column.unit is None
+        and index != axis
+        and below[index]
+        and above[index]
     ]
     if len(left) != 1:
         return None
@@ -359,16 +363,20 @@ def _with_times(
                 sampling = times_of(values)
                 reason = f"{sampling.reason} “{column.name}”"
                 found[index] = dataclasses.replace(sampling, reason=reason)
-    known = {i: (one.stated, one.sample_rate is not None) for i, one in found.items()}
-    if not known:
-        return tuple(columns), None
-    time = max(known, key=lambda index: known[index])
-    first, names = found[time], [column.name for column in columns]
+    return tuple(columns), _of_most_certain(found, [column.name for column in columns])
+
+
+def _of_most_certain(found: Mapping[int, Sampling], names: Sequence[str]) -> Sampling | None:
+    """What the columns of times say, each by its index; where they disagree it is not sure."""
+    if not found:
+        return None
+    time = max(found, key=lambda i: (found[i].stated, found[i].sample_rate is not None))
+    first = found[time]
     for index, other in found.items():
         if other.stated and (rate := other.sample_rate) and _differ(rate, first.sample_rate):
             said = f"“{names[time]}”, where “{names[index]}” says {number(rate, 6)} Hz"
-            return tuple(columns), dataclasses.replace(first, stated=False, reason=said)
-    return tuple(columns), first
+            return dataclasses.replace(first, stated=False, reason=said)
+    return first
 
 
 def _differ(rate: float, other: float | None) -> bool:

@@ -190,19 +190,23 @@ def _in_line(line: str) -> Iterator[Named]:
         found = []
     else:
         found = [(one[1], one[2], one[3]) for one in _SEVERAL.finditer(line)]
-    for part in dict.fromkeys((line, *re.split(r"[,;]\s", line))) if not found else ():
-        match = _WITH_UNIT.fullmatch(part.strip())
-        if match is not None and match[3] and _OF_A_RATE.fullmatch(match[3]):
-            turns = unit_named(match[3]) == "rpm"
-            found.append((match[1] or ("rpm" if turns else "rate"), match[2], match[3]))
-        elif match is not None and match[1] and {_key(match[1]), _rate_key(match[1])} & _FACTS:
-            found.append((match[1], match[2], match[3]))
-    for name, text, unit in found:
+    for name, text, unit in found or _without_marks(line):
         value = _number(text)
         if value is not None:
             unit = unit_named(unit) if unit else unit_in(name)
             grouped = re.fullmatch(r"\d{1,3}[.,]\d{3}", text) is not None
             yield Named(name.strip(" :;,=\t"), value, unit, grouped)
+
+
+def _without_marks(line: str) -> Iterator[tuple[str, str, str | None]]:
+    """Names, numbers and units of a line without a mark between them, such as "1500 rpm"."""
+    for part in dict.fromkeys((line, *re.split(r"[,;]\s", line))):
+        match = _WITH_UNIT.fullmatch(part.strip())
+        if match is not None and match[3] and _OF_A_RATE.fullmatch(match[3]):
+            turns = unit_named(match[3]) == "rpm"
+            yield match[1] or ("rpm" if turns else "rate"), match[2], match[3]
+        elif match is not None and match[1] and {_key(match[1]), _rate_key(match[1])} & _FACTS:
+            yield match[1], match[2], match[3]
 
 
 def names_a_fact(line: str) -> bool:
@@ -417,10 +421,10 @@ def units_said(lines: Iterable[str], texts: Mapping[str, str]) -> list[str | Non
     for line in lines:
         name, _, text = re.sub(r"[:=\t;,]", "\0", line, count=1).partition("\0")
         cells = re.split(r"[\t;,]", text.strip(" \t;,"))
-        units = [(cell.strip(), unit_of(name, cell)) for cell in takewhile(str.strip, cells)]
+        said = [(cell.strip(), unit_of(name, cell)) for cell in takewhile(str.strip, cells)]
         # words are the quantity of the unit that follows, numbers that of its column
-        units = [unit for cell, unit in units if unit or not re.search(r"\w", cell)]
+        units = [unit for cell, unit in said if unit or not re.search(r"\w", cell)]
         if any(units):
             return units if len(set(units)) > 1 else units[:1]
-    said = {unit_of(name, text) for name, text in texts.items()} - {None}
-    return list(said) if len(said) == 1 else []
+    of_all = {unit_of(name, text) for name, text in texts.items()} - {None}
+    return list(of_all) if len(of_all) == 1 else []

@@ -21,7 +21,7 @@ _ENVELOPE = re.compile(
 _SPECTRUM = re.compile(r"(?i)spe[ck]tr[aue]|\bfft\b|\bpsd\b|auto ?power")
 _OFF = re.compile(r"(?i)\b(off|none|no|false|disabled|0|aus)\W*$")
 
-_QUANTITIES = (
+_QUANTITIES: tuple[tuple[str, set[str], set[str]], ...] = (
     ("an envelope", {"gE"}, set()),
     ("a current", {"A", "mA", "kA"}, {"current", "currents", "strom", "amps", "courant"}),
     (

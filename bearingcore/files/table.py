@@ -75,7 +75,7 @@ class Table(FileColumns):
         sampling, picked = self.contents.sampling, list(self.contents.choice.columns.values())
         if sampling is not None and sampling.parts:
             return sampling.parts
-        whole = np.isfinite(self.columns[:, picked]).all(axis=1)
+        whole = np.logical_and.reduce(np.isfinite(self.columns[:, picked]), axis=1)
         whole[single_gaps(whole)] = True
         parts = np.stack(runs(whole), axis=1)
         return long_parts(parts.tolist()) if picked else ()

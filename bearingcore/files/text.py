@@ -482,26 +482,30 @@ def _fitted(style: _Style, lines: Sequence[str]) -> tuple[int, _Style] | None:
     if style.delimiter is None and not style.decimal_comma and any("," in p for p in plain):
         return None
     words = _columns_of_words(plain, style.delimiter)
-    first = _row(plain[0], style.delimiter, words)
-    if first is None and len(plain) == SAMPLE and style.delimiter is not None:
-        # LabVIEW's comment is at the end of the first row alone
-        second = _row(plain[1].rstrip(f"{style.delimiter} "), style.delimiter) or []
-        line = style.delimiter.join(_cells(plain[0], style.delimiter)[: len(second)])
-        first = _row(line, style.delimiter) if len(second) > 1 else None
+    first = _row(plain[0], style.delimiter, words) or _row_of_labview(plain, style.delimiter)
     if first is None:
         return None
     rows = [_row(line, style.delimiter, words) for line in plain]
     closed = style.delimiter is not None and plain[0].rstrip(" ").endswith(style.delimiter)
     closed &= not any(row and len(row) == len(first) and row[-1] == row[-1] for row in rows)
     width = len(first) - (closed and len(first) > 1)
-    fits = sum(row is not None and len(row) in (width, width + 1) for row in rows)
+    fits = sum(len(row or ()) in (width, width + 1) for row in rows)
     if style.delimiter == "," and _looks_decimal(plain):
         fits = 0
     marked = style.stamp.sub("?", lines[0]).replace('"', "")
-    cells = _cells(marked, style.delimiter)[:width]
-    stamps = tuple(index for index, cell in enumerate(cells) if cell == "?")
+    cells = np.array(_cells(marked, style.delimiter)[:width])
+    stamps = tuple(np.flatnonzero(cells == "?").tolist())
     clock = _Clock() if clocked else None
     return fits, _Style(style.delimiter, style.decimal_comma, width, stamps, words, clock)
+
+
+def _row_of_labview(lines: Sequence[str], delimiter: str | None) -> list[float] | None:
+    """The numbers of the first line, if a comment ends it alone."""
+    if len(lines) < SAMPLE or delimiter is None:
+        return None
+    second = _row(lines[1].rstrip(f"{delimiter} "), delimiter) or []
+    line = delimiter.join(_cells(lines[0], delimiter)[: len(second)])
+    return _row(line, delimiter) if len(second) > 1 else None
 
 
 def _columns_of_words(lines: Sequence[str], delimiter: str | None) -> tuple[int, ...]:
@@ -642,8 +646,9 @@ def _with_units(names: list[str], above: list[str] | None) -> list[str]:
         return [f"{name} [{unit}]" if unit.strip("- ") else name for name, unit in pairs]
     if above is not None and len(set(names)) < len(names) and len(set(above)) > 1:
         return [f"{a} {b}".strip() for a, b in zip(above, names, strict=True)]  # pandas' two levels
-    if len(names) > 1 and all(units := [_unit_alone(cell) for cell in names]):
-        return [f"column {i + 1} [{unit}]" for i, unit in enumerate(units)]
+    alone = [_unit_alone(cell) for cell in names]
+    if len(names) > 1 and all(alone):
+        return [f"column {i + 1} [{unit}]" for i, unit in enumerate(alone)]
     return names
 
 
@@ -659,7 +664,11 @@ def _is_remark(line: str, style: _Style, width: int) -> bool:
             or len(line.split()) > LONGEST_HEADING
             or bool(named_in([line]))
         )
-    single = [cell for cell in _cells(line, style.delimiter) if cell]
+    return _is_remark_above_several(line, [c for c in _cells(line, style.delimiter) if c], width)
+
+
+def _is_remark_above_several(line: str, single: Sequence[str], width: int) -> bool:
+    said = ":" in line or "=" in line
     if said and len(single) == width and all(re.search(r"[:=]", cell) for cell in single):
         return False  # "Ch 1: acc [g], Ch 2: acc [g]"
     if units_said([line], {}) or (len(single) > 1 and _is_a_value(single)):
@@ -718,20 +727,7 @@ def _names(line: str, style: _Style, columns: Array) -> list[str] | None:
         names = [cell.strip().strip('"').strip() for cell in cells]
         if _is_a_value(names):
             continue
-        while len(names) > width and (
-            _number(names[-1]) is not None or names[-1].lower() in _WORDS_OF_A_ROW
-        ):
-            names.pop()  # LabVIEW names a column of words, which is empty; scopes have settings
-        if len(names) == width + 1 and re.fullmatch(
-            r"\W*(headers|columns|fields)", names[0].lower()
-        ):
-            names.pop(0)
-        if 1 < len(names) < width and np.isnan(columns[:, len(names) :]).all():
-            names += [""] * (width - len(names))  # rows with empty cells at their ends
-        if len(names) == width - 1 and _counts_rows(columns[:, 0]):
-            names.insert(0, "")  # R names no column of the rows' names
-        if len(names) == width + 1 and style.stamps and re.search("date|dat", names[0].lower()):
-            names[:2] = [f"{names[0]} {names[1]}"]  # date and time in a column each
+        names = _with_width(names, style, columns)
         if len(names) == width:
             return names
     names = [cell.strip(' "') for cell in line.split(style.delimiter or "\n")]
@@ -740,6 +736,24 @@ def _names(line: str, style: _Style, columns: Array) -> list[str] | None:
     if len(names) > width and any(known[:width]) and not any(known[width:]):
         return names[:width]  # columns of words at the end, empty and not delimited
     return None
+
+
+def _with_width(names: list[str], style: _Style, columns: Array) -> list[str]:
+    """The names of a heading without those of no column, and with those that need not be there."""
+    width = columns.shape[1]
+    while len(names) > width and (
+        _number(names[-1]) is not None or names[-1].lower() in _WORDS_OF_A_ROW
+    ):
+        names.pop()  # LabVIEW names a column of words, which is empty; scopes have settings
+    if len(names) == width + 1 and re.fullmatch(r"\W*(headers|columns|fields)", names[0].lower()):
+        names.pop(0)
+    if 1 < len(names) < width and np.isnan(columns[:, len(names) :]).all():
+        names += [""] * (width - len(names))  # rows with empty cells at their ends
+    if len(names) == width - 1 and _counts_rows(columns[:, 0]):
+        names.insert(0, "")  # R names no column of the rows' names
+    if len(names) == width + 1 and style.stamps and re.search("date|dat", names[0].lower()):
+        names[:2] = [f"{names[0]} {names[1]}"]  # date and time in a column each
+    return names
 
 
 def _is_a_value(cells: Sequence[str]) -> bool:
@@ -846,13 +860,11 @@ def _mended(
             break
         if allowed:
             wrong.append((index, text, allowed))
-            bad = [i for i, c in enumerate(cells) if i not in style.words and _number(c) is None]
-            if len(cells) == width and bad:
-                words |= {cells[i] for i in bad}
-                cells = ["nan" if i in bad else cell for i, cell in enumerate(cells)]
-            else:
-                cells, torn = ["nan"] * width, torn + 1
-            if torn > few or len(wrong) > (many if len(words) <= MOST_MISSING_WORDS else few):
+            cells, missing = _with_gaps(cells, style)
+            words |= missing
+            torn += not missing
+            most = many if len(words) <= MOST_MISSING_WORDS else few
+            if torn > few or len(wrong) > most:
                 raise checks.refuse(f"line {above + wrong[0][0]} of {name}", *wrong[0][1:])
         text = (style.delimiter or " ").join(cells[:width])
         text = text.replace(".", ",") if style.decimal_comma else text
@@ -860,6 +872,14 @@ def _mended(
     again = {line[:40] for line in remarks}  # headings of a second recording are no news
     lacking = [(above + index, text) for index, text, _ in wrong if text not in again]
     return b"".join(lines), notes + _lacking(lacking), [text for _, text in lacking[:SAMPLE]]
+
+
+def _with_gaps(cells: list[str], style: _Style) -> tuple[list[str], set[str]]:
+    """Cells with gaps in place of words, and these; gaps alone where the line is torn."""
+    bad = [i for i, c in enumerate(cells) if i not in style.words and _number(c) is None]
+    if len(cells) != style.width or not bad:
+        return ["nan"] * style.width, set()
+    return ["nan" if i in bad else cell for i, cell in enumerate(cells)], {cells[i] for i in bad}
 
 
 def _lacking(lines: Sequence[tuple[int, str]]) -> list[str]:

@@ -313,6 +313,7 @@ class Table(FileColumns):
         signal, whole = np.split(signal, filled[-1:] + 1)[0], np.split(whole, filled[-1:] + 1)[0]
         said = []
         single = single_gaps(whole)
+        single = single[~np.isinf(signal[single]).any(axis=1)]  # no gap, but an overflow
         if single.size:
             between = 0.5 * (signal[single - 1] + signal[single + 1])
             signal[single] = np.where(np.isfinite(signal[single]), signal[single], between)

@@ -22,5 +22,4 @@ from bearingcore.bearings.line_contact import STEEL_MODULUS as STEEL_MODULUS
 from bearingcore.bearings.line_contact import STEEL_POISSON as STEEL_POISSON
 from bearingcore.bearings.material import BALL_MATERIALS as BALL_MATERIALS
 from bearingcore.bearings.named import name_of as name_of
-from bearingcore.bearings.nearest import nearest_known as nearest_known
 from bearingcore.bearings.rows import Row as Row

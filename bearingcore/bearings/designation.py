@@ -42,7 +42,6 @@ from bearingcore.bearings.inside import (
     tapered_rollers_from_ratings,
 )
 from bearingcore.bearings.material import BALL_MATERIALS
-from bearingcore.bearings.nearest import nearest_known
 from bearingcore.bearings.self_aligning import USUAL_GROOVE
 from bearingcore.bearings.suffix import (
     ANGULAR_CONTACT,
@@ -177,12 +176,8 @@ def read_designation(text: str) -> Designation:
     basic = None if form is None else _basic(form["letters"] or "", form["number"])
     suffix = "" if form is None else form["suffix"] or ""
     if form is None or basic is None or (_kind_of(basic) == TAPERED_ROLLERS and is_steep(suffix)):
-        near = nearest_known(name) if form is None or basic is None else ""
-        raise checks.refuse(
-            "designation",
-            text[:LONGEST_DESIGNATION],
-            f"a bearing of the series {series_words()}{'; ' * bool(near)}{near}",
-        )
+        allowed = f"a bearing of the series {series_words()}; {BY_FREQUENCIES}"
+        raise checks.refuse("designation", text[:LONGEST_DESIGNATION], allowed)
     kind, size = _kind_of(basic), boundaries()[basic]
     said = read_suffix(name, kind, suffix, form["count"] or "", form["ceramic"] is not None)
     if said.inside:
@@ -253,6 +248,12 @@ def designations(beginning: str = "") -> Iterator[str]:
     table = f"NU{wanted.removeprefix(letters)}" if letters else wanted
     found = (basic for basic in boundaries() if basic.startswith(table))
     return (letters + basic.removeprefix("NU") if letters else basic for basic in found)
+
+
+BY_FREQUENCIES = (
+    "another bearing has other frequencies, however alike: say its own (BPFO, BPFI, BSF, FTF), "
+    "which are in the maker's sheet"
+)
 
 
 def series_words() -> str:

@@ -15,4 +15,4 @@ from bearingcore.diagnosis.part.parts import PARTS as PARTS
 from bearingcore.diagnosis.part.say import perhaps_a_ball as perhaps_a_ball
 from bearingcore.diagnosis.part.status import DiagnosisStatus as DiagnosisStatus
 from bearingcore.diagnosis.trend import LINES as LINES
-from bearingcore.diagnosis.trend import time_in as time_in
+from bearingcore.files.dates import time_in as time_in

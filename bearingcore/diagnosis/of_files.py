@@ -216,8 +216,9 @@ def _recording(
             options = says.choice.options or range(len(table.names))
             names = ", ".join(f'"{table.names[i]}"' for i in options)
             why = says.choice.question or says.choice.reason or "Which column is the signal?"
+            way = "Say it with" if says.choice.options else "If one is a signal all the same, use"
             raise ValueError(
-                f"{table.name}: {why} Say it with columns=[...], one or two of {names}, or by "
+                f"{table.name}: {why} {way} columns=[...], one or two of {names}, or by "
                 f"numbers from 0: {', '.join(map(str, options))}."
             )
         directions, columns = directions or tuple(chosen), tuple(chosen.values())

@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from datetime import datetime
 
 import numpy as np
 
@@ -20,6 +18,7 @@ from bearingcore.diagnosis.part.diagnose import SLIP, diagnose
 from bearingcore.diagnosis.part.evidence import CANNOT_TELL
 from bearingcore.diagnosis.part.listened_signal import NARROWEST
 from bearingcore.diagnosis.part.parts import part_lines
+from bearingcore.files.dates import time_in
 from bearingcore.signals.indicators import indicators
 from bearingcore.signals.kurtogram import kurtogram
 from bearingcore.signals.recording import Recording
@@ -53,12 +52,6 @@ FIRST_BAND = 5.0
 
 HIGHEST_SHARE = 0.49
 """Of the sample rate up to which a band reaches."""
-
-
-_TIME = re.compile(
-    r"(?<!\d)((?:19|20)\d\d)([-_. ]?)(\d\d)\2(\d\d)[-_. T]?(\d\d)[-_.: ]?(\d\d)[-_.: ]?(\d\d)(?!\d)"
-)
-"""Year to second, as in "2004.02.12.10.32.39" or "20040212_103239"."""
 
 
 @dataclass(frozen=True)
@@ -273,18 +266,6 @@ def trend_point(
         probability,
         extent,
     )
-
-
-def time_in(name: str) -> datetime | None:
-    """Date and time in a name, if there is exactly one."""
-    found = _TIME.findall(name)
-    if len(found) != 1:
-        return None
-    digits = "".join(part for part in found[0] if part.isdigit())
-    try:
-        return datetime.strptime(digits, "%Y%m%d%H%M%S")
-    except ValueError:
-        return None
 
 
 def _speed(

@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from bearingcore.files.units import SPEEDS, UNITS, VOLTAGES, kind_of, unit_in, unit_named
+from bearingcore.files.units import SPEEDS, TIMES, UNITS, VOLTAGES, unit_in, unit_named
 
 SIGNAL, TIME, SPEED, OTHER = "signal", "time", "speed", "other"
 ROLES = (SIGNAL, TIME, SPEED, OTHER)
@@ -46,7 +46,8 @@ _NOT_SIGNALS = PULSES | {
     "rpm", "speed", "drehzahl", "temperature", "temperatur", "temp", "current", "strom",
     "torque", "drehmoment", "pressure", "druck", "power", "humidity", "flow", "microphone", "mic",
     "load", "gyro", "gyroscope", "gyr", "magnetic",
-    "magnetometer", "quat", "quaternion",
+    "magnetometer", "quat", "quaternion", "displacement", "displ", "disp", "proximity", "prox",
+    "weg", "verschiebung", "amps", "courant", "currents", "sound",
 }  # fmt: skip
 _COUNTS = {"index", "sample", "samples", "row", "no"}
 """Words for a number of rows; in a name's last part alone: "samples.x" is a signal."""
@@ -93,13 +94,15 @@ class Choice:
     """The columns of this bearing by direction, and the reason.
 
     Where there is a question nothing is chosen, and `options` are the indices of the columns that
-    may be the answer: one of them, or two that are directions of one place.
+    may be the answer: one of them, or two that are directions of one place. A `note` says that the
+    only signal was chosen in spite of its name.
     """
 
     columns: Mapping[str, int]
     reason: str
     question: str = ""
     options: tuple[int, ...] = ()
+    note: str = ""
 
 
 def column_of(name: str) -> Column:
@@ -109,27 +112,31 @@ def column_of(name: str) -> Column:
     leaf = re.sub(r"^[\w.{}()]*\.(?=[A-Za-z])", "", name.strip())  # of a struct
     bare = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", leaf)
     first, *more = [word for word in re.split(r"[\W_]+", bare.lower()) if word] or [""]
-    if unit is None and len(first) > 1 and more in ([], ["elapsed"]):  # "seconds_elapsed"
-        unit = unit_named(first) if kind_of(unit_named(first) or "") == "time" else None
-    timed = (
-        first in _TIMES
-        or (first in _BEFORE_TIME and more[:1] and more[0] in _TIMES | {"stamp"})
-        or re.fullmatch(r"x[_ ]values?", name.strip().lower())  # LabVIEW's time of each row
-    )
-    if (timed and unit is None) or (unit is not None and kind_of(unit) == "time"):
+    unit = unit or _time_unit(first, more)
+    if unit in TIMES or (unit is None and _names_a_time(name, first, more)):
         return Column(name, TIME, unit)
     if unit in SPEEDS:
         return Column(name, OTHER if names_a_frequency(name) else SPEED, unit)
-    other = (words & _NOT_SIGNALS or words_of(leaf) & _COUNTS or first == "mag") and (
-        unit is None or unit in VOLTAGES
-    )  # of a sensor for it
-    if other or (unit is not None and unit not in UNITS):
+    other = words & _NOT_SIGNALS or words_of(leaf) & _COUNTS or first == "mag"
+    if unit not in (None, *UNITS) or (other and unit in (None, *VOLTAGES)):  # of a sensor for it
         return Column(name, OTHER, unit)
+    if place_in(name) and re.search(r"[\s_.]V$", name):
+        unit, words = None, {"v"}  # the vertical one at a place, no voltage
     direction = next((axis for axis, said in _SAYS.items() if words & said), "")
-    place = place_in(name)
-    if place and re.search(r"[\s_.]V$", name):
-        unit, direction = None, "y"  # the vertical one at a place, no voltage
-    return Column(name, SIGNAL, unit, direction, place)
+    return Column(name, SIGNAL, unit, direction, place_in(name))
+
+
+def _time_unit(first: str, more: Sequence[str]) -> str | None:
+    """The unit of times that a heading such as "seconds" or "seconds_elapsed" is."""
+    unit = unit_named(first) if len(first) > 1 and more in ([], ["elapsed"]) else None
+    return unit if unit in TIMES else None
+
+
+def _names_a_time(name: str, first: str, more: Sequence[str]) -> bool:
+    """Whether a heading, of which these are the first word and the others, is that of times."""
+    if first in _TIMES or (first in _BEFORE_TIME and more and more[0] in _TIMES | {"stamp"}):
+        return True
+    return bool(re.fullmatch(r"x[_ ]values?", name.strip().lower()))  # LabVIEW's, of each row
 
 
 def names_a_frequency(name: str) -> bool:
@@ -138,7 +145,10 @@ def names_a_frequency(name: str) -> bool:
     return bool(words & _OF_A_FREQUENCY) and not words & _OF_A_SHAFT
 
 
-_OF_A_FREQUENCY = {"f", "freq", "frequency", "frequencies", "frequenz", "fréquence", "hz"}
+_OF_A_FREQUENCY = {
+    "f", "freq", "frequency", "frequencies", "frequenz", "fréquence", "hz", "khz", "cpm", "order",
+    "orders", "ordnung", "ordnungen", "ordre",
+}  # fmt: skip
 _OF_A_SHAFT = {"shaft", "rotation", "rotational", "rotor", "running", "speed", "turning", "welle"}
 
 
@@ -208,29 +218,41 @@ def choose(
         if column.role == SIGNAL and moving[index] and column.direction != "z"
     ]
     axial = [i for i, one in enumerate(columns) if one.direction == "z" and moving[i]]
+    if not signals and len(axial) == 1:
+        return only_signal(columns[axial[0]].name, axial[0], why)
     if not signals and axial:
         words = "By their names all signals are along the shaft (z). Which is at this bearing?"
         return Choice({}, "", words, tuple(axial))
+    if not signals and any(column.role == SIGNAL for column in columns):
+        return Choice({}, "", "Every column is the same number throughout.")
     if not signals:
-        still = any(column.role == SIGNAL for column in columns)
-        words = (
-            "Every column is the same number throughout."
-            if still
-            else ("No column looks like a signal of acceleration.")
-        )
-        return Choice({}, "", words)
-    places = {columns[index].place for index in signals} - {""}
-    if len(places) > 1:
-        named = [one for one in places_in(file_name) if one in places]
-        said = named[0] if len(named) == 1 else ""  # two of them name what is in the file
-        place = said or place
-        there = [index for index in signals if place and columns[index].place == place]
-        if there:
-            return _by_direction(columns, there, f"the file's name says {said}" if said else why)
-        known = ", ".join(sorted(places))
-        question = f"The file holds signals of several places ({known}). Which is at this bearing?"
-        return Choice({}, "", question, tuple(signals))
+        return Choice({}, "", "No column looks like a signal of acceleration.")
+    if len({columns[index].place for index in signals} - {""}) > 1:
+        return _by_place(columns, signals, why, file_name, place)
     return _by_direction(columns, signals, why)
+
+
+def _by_place(
+    columns: Sequence[Column], signals: Sequence[int], why: str, file_name: str, place: str
+) -> Choice:
+    """Signals of the one place that the file's name says, or that is known."""
+    places = {columns[index].place for index in signals} - {""}
+    named = [one for one in places_in(file_name) if one in places]
+    said = named[0] if len(named) == 1 else ""  # two of them name what is in the file
+    place = said or place
+    there = [index for index in signals if place and columns[index].place == place]
+    if there:
+        return _by_direction(columns, there, f"the file's name says {said}" if said else why)
+    known = ", ".join(sorted(places))
+    question = f"The file holds signals of several places ({known}). Which is at this bearing?"
+    return Choice({}, "", question, tuple(signals))
+
+
+def only_signal(name: str, index: int, why: str) -> Choice:
+    """Choose the one signal of a file, whatever its name says."""
+    reason = f"{why}, the only signal there" if why else "the only signal there"
+    note = f"“{name}” is read as the vibration across the shaft, since it is the only signal."
+    return Choice({"y": index}, reason, note=note)
 
 
 def _by_direction(columns: Sequence[Column], signals: Sequence[int], why: str) -> Choice:

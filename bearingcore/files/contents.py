@@ -7,6 +7,7 @@ import math
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from datetime import datetime
 from types import MappingProxyType
 
 import numpy as np
@@ -14,7 +15,7 @@ import numpy as np
 from bearingcore.common import checks
 from bearingcore.common.arrays import Array
 from bearingcore.common.numbers import number
-from bearingcore.files import facts
+from bearingcore.files import dates, facts
 from bearingcore.files.channels import (
     OTHER,
     PULSES,
@@ -26,10 +27,12 @@ from bearingcore.files.channels import (
     choose,
     column_of,
     names_a_frequency,
+    only_signal,
     words_of,
 )
 from bearingcore.files.collections import Known, recognize
 from bearingcore.files.facts import Finding, Named, is_steady
+from bearingcore.files.other_kinds import kind_in_words, without_spectra
 from bearingcore.files.sampling import (
     Sampling,
     clock_columns,
@@ -153,6 +156,10 @@ class FileContents:
         BPFO and BPFI of the collection's bearing in turns of the shaft, where it is in no list.
     designation
         of the bearing, as a line of the file has it: it may be that of none.
+    recorded
+        date and time of the recording.
+    machine, point
+        names of the machine and of the measuring point.
     """
 
     columns: tuple[Column, ...]
@@ -169,43 +176,34 @@ class FileContents:
     bearing: Finding[str] | None = None
     orders: Finding[tuple[float, float]] | None = None
     designation: Finding[str] | None = None
+    recorded: Finding[datetime] | None = None
+    machine: Finding[str] | None = None
+    point: Finding[str] | None = None
 
 
 def contents_of(table: FileColumns) -> FileContents:
     """Statements of a table about itself, and guesses at the rest."""
+    texts = [f"{name}: {text}" for name, text in table.texts.items()]
+    lines = [*table.remarks, *texts]
     named = [
         *(Named(name, value) for name, value in table.scalars.items()),
-        *facts.named_in(table.remarks),
-        *facts.named_in(f"{name} = {text}" for name, text in table.texts.items()),
+        *facts.named_in(map(dates.without_dates, table.remarks)),
+        *facts.named_in(dates.without_dates(text) for text in texts),
     ]
     hours = table.names[0].strip().lower() in ("hour", "hours", "h", "stunde")
     clock = clock_columns(table.columns) if hours or not table.headed else 0
     clock = 0 if any(index < clock for index in table.given) else clock
     known = recognize(table.names, len(table.columns), clock, named, table.headed, table.name)
     columns, sampling = _columns(table, clock, known)
-    by_hand = {index for index, column in table.given.items() if column.role == SIGNAL}
-    moving = [
-        column.role == SIGNAL
-        and (not by_hand or index in by_hand)
-        and _moves(table.columns[:, index])
+    columns, choice = _chosen(table, columns, sampling, known, lines)
+    picked = list(choice.columns.values()) or [
+        index
         for index, column in enumerate(columns)
+        if column.role == SIGNAL and _moves(table.columns[:, index])
     ]
-    headed = not all(re.fullmatch(r"column \d+|channel \d+", name) for name in table.names)
-    choice = choose(
-        columns,
-        moving,
-        "as given" if by_hand else known.why or ("as the headings say" if headed else ""),
-        table.name,
-        known.row.place,
-    )
-    if not by_hand and sampling is None and (axis := _frequencies(table, columns)):
-        choice = Choice(
-            {}, "", f"“{axis}” rises evenly as in a spectrum: export the signal over time."
-        )
-    picked = list(choice.columns.values()) or [i for i, moves in enumerate(moving) if moves]
     rate = _rate(table, sampling, named, known)
     speed = _speed(table, columns, named) or known.shaft_speed
-    said = {**{one.name: _text(one) for one in named}, **table.texts}
+    said = {**{one.name: _text(one) for one in named}, **dates.dates_said(lines), **table.texts}
     return FileContents(
         columns,
         choice,
@@ -220,7 +218,60 @@ def contents_of(table: FileColumns) -> FileContents:
         known.row.name,
         known.bearing,
         known.orders,
-        facts.designation_in([*table.remarks, *(f"{k}: {v}" for k, v in table.texts.items())]),
+        facts.designation_in(lines),
+        dates.recorded_in(lines, table.name),
+        dates.machine_in(lines, table.name),
+        dates.point_in(lines, table.name),
+    )
+
+
+def _chosen(
+    table: FileColumns,
+    columns: Sequence[Column],
+    sampling: Sampling | None,
+    known: Known,
+    lines: Sequence[str],
+) -> tuple[tuple[Column, ...], Choice]:
+    """The columns without those of spectra, and those of this bearing or a question."""
+    headed = not all(re.fullmatch(r"column \d+|channel \d+", name) for name in table.names)
+    why = known.why or ("as the headings say" if headed else "")
+    moving = [_moves(values) for values in table.columns.T]
+    if by_hand := {index for index, column in table.given.items() if column.role == SIGNAL}:
+        moving = [moves and index in by_hand for index, moves in enumerate(moving)]
+        choice = choose(columns, moving, "as given", table.name, known.row.place)
+        return tuple(columns), choice
+    axis = _frequencies(table, columns, timed=sampling is not None)
+    if not known.why:
+        columns = without_spectra(columns, table.columns, axis)
+        name = "" if axis is None or sampling is not None else columns[axis].name
+        if words := kind_in_words(columns, table.columns, lines, table.name, name):
+            return tuple(columns), Choice({}, "", words)
+    choice = choose(columns, moving, why, table.name, known.row.place)
+    if choice.columns or choice.options or known.why:
+        return tuple(columns), choice
+    return _with_only_signal(columns, table.columns, axis, why) or (tuple(columns), choice)
+
+
+def _with_only_signal(
+    columns: Sequence[Column], values: Array, axis: int | None, why: str
+) -> tuple[tuple[Column, ...], Choice] | None:
+    """Of no signals by their names, the only column that swings about zero as the signal."""
+    below, above = (np.logical_or.reduce(part, axis=0) for part in (values < 0.0, values > 0.0))
+    left = [
+        index
+        for index, column in enumerate(columns)
+        if column.role == OTHER
+        and column.unit is None
+        and index != axis
+        and below[index]
+        and above[index]
+    ]
+    if len(left) != 1:
+        return None
+    made = dataclasses.replace(columns[left[0]], role=SIGNAL)
+    return (
+        tuple(made if index in left else column for index, column in enumerate(columns)),
+        only_signal(made.name, left[0], why),
     )
 
 
@@ -228,32 +279,7 @@ def _columns(
     table: FileColumns, clock: int, known: Known
 ) -> tuple[tuple[Column, ...], Sampling | None]:
     """The columns, and what the times say where some of them are times."""
-    columns = [_described(column_of(name), table.texts) for name in table.names]
-    labels = [text for name, text in table.texts.items() if _LABELS.fullmatch(name)]
-    if len(labels) == len(columns):  # a cell of the columns' names
-        columns = [
-            dataclasses.replace(column_of(label), name=f"{label}, {column.name}")
-            for label, column in zip(labels, columns, strict=True)
-        ]
-    said = facts.units_said(table.remarks, table.texts)
-    signals = [i for i, column in enumerate(columns) if column.role == SIGNAL]
-    if len(said) > 1 and len(said) == len(signals):  # each channel's own
-        for index, unit in zip(signals, said, strict=True):
-            role = SIGNAL if unit is None or unit in UNITS else TIME if unit in TIMES else OTHER
-            columns[index] = dataclasses.replace(columns[index], unit=unit, role=role)
-    if known.row.signals:
-        columns = [
-            column if re.fullmatch(known.row.signals, column.name) else Column(column.name, OTHER)
-            for column in columns
-        ]
-    if known.row.places:
-        columns = [
-            dataclasses.replace(column, place=place)
-            for column, place in zip(columns, known.row.places, strict=True)
-        ]
-    along = known.row.directions
-    for index, axis in enumerate(along, len(columns) - len(along)):
-        columns[index] = dataclasses.replace(columns[index], direction=axis)
+    columns = _as_in_collection(_with_units(table, _named_columns(table)), known)
     for index, column in enumerate(columns if len(columns) > 1 else ()):
         if column.role in (SIGNAL, TIME) and _counts(table.columns[:, index], column):
             columns[index] = Column(column.name, OTHER)
@@ -265,14 +291,54 @@ def _columns(
         columns[index] = Column(table.names[index], TIME, "s")
     for index, column in table.given.items():
         columns[index] = column
-    if any(column.role == TIME for column in table.given.values()):
-        time = next(index for index, column in table.given.items() if column.role == TIME)
-        unit, values = columns[time].unit, table.columns[:, time]
-        if unit is None:
-            return tuple(columns), times_of(values)
-        found = sampling_of(values, TIMES[unit])
-        return tuple(columns), dataclasses.replace(found, stated=found.sample_rate is not None)
-    return _with_times(table, columns, stamped)
+    given_times = [index for index, column in table.given.items() if column.role == TIME]
+    if not given_times:
+        return _with_times(table, columns, stamped)
+    unit, values = columns[given_times[0]].unit, table.columns[:, given_times[0]]
+    if unit is None:
+        return tuple(columns), times_of(values)
+    sampling = sampling_of(values, TIMES[unit])
+    return tuple(columns), dataclasses.replace(sampling, stated=sampling.sample_rate is not None)
+
+
+def _named_columns(table: FileColumns) -> list[Column]:
+    """The columns by their headings, or by a cell of their names."""
+    columns = [_described(column_of(name), table.texts) for name in table.names]
+    labels = [text for name, text in table.texts.items() if _LABELS.fullmatch(name)]
+    if len(labels) != len(columns):
+        return columns
+    return [
+        dataclasses.replace(column_of(label), name=f"{label}, {column.name}")
+        for label, column in zip(labels, columns, strict=True)
+    ]
+
+
+def _with_units(table: FileColumns, columns: list[Column]) -> list[Column]:
+    """The columns with the units that lines give, each its own; one may be that of no signal."""
+    units = facts.units_said(table.remarks, table.texts)
+    signals = [index for index, column in enumerate(columns) if column.role == SIGNAL]
+    if len(units) == 1:
+        signals = [index for index in signals if columns[index].unit is None]
+        units = [] if units[0] in {*UNITS, *TIMES} else units * len(signals)
+    for index, unit in zip(signals, units, strict=True) if len(units) == len(signals) else ():
+        role = SIGNAL if unit is None or unit in UNITS else TIME if unit in TIMES else OTHER
+        columns[index] = dataclasses.replace(columns[index], unit=unit, role=role)
+    return columns
+
+
+def _as_in_collection(columns: list[Column], known: Known) -> list[Column]:
+    """The columns with what a public collection says of them."""
+    row = known.row
+    if row.signals:
+        columns = [
+            column if re.fullmatch(row.signals, column.name) else Column(column.name, OTHER)
+            for column in columns
+        ]
+    for index, place in enumerate(row.places):
+        columns[index] = dataclasses.replace(columns[index], place=place)
+    for index, axis in enumerate(row.directions, len(columns) - len(row.directions)):
+        columns[index] = dataclasses.replace(columns[index], direction=axis)
+    return columns
 
 
 def _with_times(
@@ -297,19 +363,24 @@ def _with_times(
                 sampling = times_of(values)
                 reason = f"{sampling.reason} “{column.name}”"
                 found[index] = dataclasses.replace(sampling, reason=reason)
-    known = {i: (one.stated, one.sample_rate is not None) for i, one in found.items()}
-    time = max(known, key=lambda index: known[index], default=None)
-    if time is None:
-        return tuple(columns), None
+    return tuple(columns), _of_most_certain(found, [column.name for column in columns])
+
+
+def _of_most_certain(found: Mapping[int, Sampling], names: Sequence[str]) -> Sampling | None:
+    """What the columns of times say, each by its index; where they disagree it is not sure."""
+    if not found:
+        return None
+    time = max(found, key=lambda i: (found[i].stated, found[i].sample_rate is not None))
     first = found[time]
     for index, other in found.items():
-        rate, usual = other.sample_rate, first.sample_rate
-        if other.stated and rate and usual and abs(rate / usual - 1.0) > TWO_RATES:
-            said = (
-                f"“{columns[time].name}”, where “{columns[index].name}” says {number(rate, 6)} Hz"
-            )
-            return tuple(columns), dataclasses.replace(first, stated=False, reason=said)
-    return tuple(columns), first
+        if other.stated and (rate := other.sample_rate) and _differ(rate, first.sample_rate):
+            said = f"“{names[time]}”, where “{names[index]}” says {number(rate, 6)} Hz"
+            return dataclasses.replace(first, stated=False, reason=said)
+    return first
+
+
+def _differ(rate: float, other: float | None) -> bool:
+    return other is not None and abs(rate / other - 1.0) > TWO_RATES
 
 
 _LABELS = re.compile(
@@ -342,18 +413,15 @@ def _described(column: Column, texts: Mapping[str, str]) -> Column:
     return column
 
 
-def _frequencies(table: FileColumns, columns: Sequence[Column]) -> str:
-    """The name of a column of the frequencies of a spectrum; empty where there is none."""
-    return next(
-        (
-            column.name
-            for index, column in enumerate(columns)
-            if index not in table.given
-            and names_a_frequency(column.name)
-            and sampling_of(table.columns[:, index]).stated
-        ),
-        "",
-    )
+def _frequencies(table: FileColumns, columns: Sequence[Column], *, timed: bool) -> int | None:
+    """The column of the frequencies of a spectrum; beside times it need not be called so."""
+    for index, column in enumerate(columns):
+        if index in table.given or column.role not in (OTHER, SPEED):
+            continue
+        named = names_a_frequency(column.name) or column.role == SPEED
+        if (named or timed) and sampling_of(table.columns[:, index]).stated:
+            return index
+    return None
 
 
 def _counts(time: Array, column: Column) -> bool:

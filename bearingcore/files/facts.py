@@ -112,13 +112,13 @@ _RATES = {
     "fs", "datarate", "acquisitionrate", "samplingrate", "odr", "samplespersec", "samplerate",
     "scanrate", "sr", "samplefrequency", "samplingfrequency", "samplefreq",
     "samplingfreq", "sampfreq", "samprate", "abtastrate", "abtastfrequenz", "samplespersecond",
-    "fsample", "fsamp",
+    "fsample", "fsamp", "outputdatarate", "fsampling", "freqsampling",
 }  # fmt: skip
 _INTERVALS = {
     "dt", "deltat", "deltax", "sampleinterval", "samplinginterval", "timestep", "sampleperiod",
     "samplingperiod", "timeincrement", "abtastintervall", "ts", "wfincrement", "xincrement",
     "increment", "xincr", "sampleintervall", "samplespacing", "abscissainc", "horizontalinterval",
-    "tinterval", "δt", "timeresolution",
+    "tinterval", "δt", "timeresolution", "sampletime", "samplestep", "xstep", "deltatime",
 }  # fmt: skip
 _FREQUENCIES = {
     "fr", "fshaft", "shaftfrequency", "shaftrate", "rotationfrequency", "rotationalfrequency",
@@ -132,6 +132,7 @@ _KNOWN = _RATES | _INTERVALS | _FREQUENCIES | _SPEEDS | {"rpm"}
 BEARING_FREQUENCIES = ("bpfo", "bpfi", "ftf", "bsf")
 """Outer and inner race, cage, and one turn of a ball."""
 _LOADS = {"load", "radialload", "last", "radiallast", "force", "radialforce", "loadn", "loadlb"}
+_FACTS = _KNOWN | _LOADS
 
 LEAST_STATED, GREATEST_STATED = 90.0, 5e6
 """[Hz] of recordings of vibration, from the 100 Hz of phones, which are not exact, on; another
@@ -189,14 +190,7 @@ def _in_line(line: str) -> Iterator[Named]:
         found = []
     else:
         found = [(one[1], one[2], one[3]) for one in _SEVERAL.finditer(line)]
-    for part in dict.fromkeys((line, *re.split(r"[,;]\s", line))) if not found else ():
-        match = _WITH_UNIT.fullmatch(part.strip())
-        if match is not None and match[3] and _OF_A_RATE.fullmatch(match[3]):
-            turns = unit_named(match[3]) == "rpm"
-            found.append((match[1] or ("rpm" if turns else "rate"), match[2], match[3]))
-        elif match is not None and match[1] and {_key(match[1]), _rate_key(match[1])} & _KNOWN:
-            found.append((match[1], match[2], match[3]))
-    for name, text, unit in found:
+    for name, text, unit in found or _without_marks(line):
         value = _number(text)
         if value is not None:
             unit = unit_named(unit) if unit else unit_in(name)
@@ -204,15 +198,21 @@ def _in_line(line: str) -> Iterator[Named]:
             yield Named(name.strip(" :;,=\t"), value, unit, grouped)
 
 
+def _without_marks(line: str) -> Iterator[tuple[str, str, str | None]]:
+    """Names, numbers and units of a line without a mark between them, such as "1500 rpm"."""
+    for part in dict.fromkeys((line, *re.split(r"[,;]\s", line))):
+        match = _WITH_UNIT.fullmatch(part.strip())
+        if match is not None and match[3] and _OF_A_RATE.fullmatch(match[3]):
+            turns = unit_named(match[3]) == "rpm"
+            yield match[1] or ("rpm" if turns else "rate"), match[2], match[3]
+        elif match is not None and match[1] and {_key(match[1]), _rate_key(match[1])} & _FACTS:
+            yield match[1], match[2], match[3]
+
+
 def names_a_fact(line: str) -> bool:
     """Whether a line says a rate, a speed or a load."""
     keys = {_rate_key(one.name) for one in named_in([line])}
-    return (
-        bool(keys & (_KNOWN | _LOADS))
-        or any("rpm" in key for key in keys)
-        or ":" in line
-        or "=" in line
-    )
+    return bool(keys & _FACTS) or any("rpm" in key for key in keys) or ":" in line or "=" in line
 
 
 def _number(text: str) -> float | None:
@@ -229,13 +229,21 @@ def _number(text: str) -> float | None:
 
 def _key(name: str) -> str:
     """The last part of a name, letters and digits only: "bearing.sr" and "Sample rate" as keys."""
-    bare = re.sub(r"[\[(].*?[\])]", "", name).rsplit(".", 1)[-1]
-    return re.sub(r"[\W_]+", "", bare).lower()
+    bare = re.sub(r"[\[(].*?[\])]", "", name).rstrip(" _").rsplit(".", 1)[-1]
+    return re.sub(r"[\W_]+", "", re.sub(r"_\d{1,2}$", "", bare)).lower()  # "Unit_1" of a channel
 
 
 def _rate_key(name: str) -> str:
-    """The same without the unit at its end: "fs_hz"."""
-    return re.sub(r"(?<=\w\w)(in)?[km]?hz$", "", _key(name))
+    """The same without the unit at its end, "fs_hz", and what it is of, "NI_CM_Dt"."""
+    key = re.sub(r"(?<=\w\w)(in)?[km]?hz$", "", _key(name))
+    bare = _OWNERS.sub("", key)
+    return bare if bare in _RATES | _INTERVALS else key
+
+
+_OWNERS = re.compile(
+    r"^(nicm|ni|daq|adc|accel(eration)?|acc|imu|signal|waveform|sensor|vib|vibration|channel|ch"
+    r"|measured|actual|effective)+"
+)
 
 
 _OTHER_RATE = re.compile(
@@ -267,6 +275,11 @@ def sample_rate_in(named: Sequence[Named], file_name: str) -> Finding[float] | N
         if not in_hz and LEAST_RATE <= 1e3 * first.value <= GREATEST_STATED:
             return Finding(1e3 * first.value, f"{first.reason}, if it is in kHz", False)
         return dataclasses.replace(first, stated=False)
+    return _likely_rate(named, file_name)
+
+
+def _likely_rate(named: Sequence[Named], file_name: str) -> Finding[float] | None:
+    """[Hz] of a number in Hz that may be that of the samples, or of the file's name."""
     for one in named:
         value = one.value * (1e3 if one.unit == "kHz" else 1.0)
         likely = _key(one.name).endswith("rate") or one.unit in ("Hz", "kHz")
@@ -286,31 +299,8 @@ _OTHER_SPEED = re.compile(r"(?i)max|min|limit|rated|nominal|nenn|range|critical|
 
 def shaft_speed_in(named: Sequence[Named], file_name: str) -> Finding[float] | None:
     """[rad/s]"""
-    found: list[Finding[float]] = []
-    rates = {_key(one.name) for one in named} & (_RATES | _INTERVALS)
-    for one in named:
-        key, value = _key(one.name), one.value
-        if not (math.isfinite(value) and value > 0.0):
-            continue
-        words = f"“{one.name}” in the file"
-        if "rpm" in key or (one.unit == "rpm" and not _OTHER_SPEED.search(one.name)):
-            stated = MIDDLE not in one.name
-            found.append(
-                Finding(value * SPEEDS["rpm"], words, stated, strong=True, file_unit="rpm")
-            )
-        elif key in _FREQUENCIES:
-            unit = one.unit if one.unit is not None and one.unit in SPEEDS else "Hz"
-            found.append(Finding(value * SPEEDS[unit], words, file_unit=unit))
-        elif key in _SPEEDS:
-            if one.unit is not None and one.unit in SPEEDS:
-                found.append(Finding(value * SPEEDS[one.unit], words, file_unit=one.unit))
-            else:
-                unit = "Hz" if value <= FASTEST_IN_HZ else "rpm"
-                taken = f"{words}, taken as {unit}"
-                found.append(Finding(value * SPEEDS[unit], taken, False, file_unit=unit))
-        elif key == "rate" and value < LEAST_RATE and one.unit != "kHz":
-            stated = bool(rates)  # two rates: one is that of the samples, the other the shaft's
-            found.append(Finding(value * SPEEDS["Hz"], f"{words}, taken as Hz", stated))
+    rated = bool({_key(one.name) for one in named} & (_RATES | _INTERVALS))
+    found = [speed for one in named if (speed := _speed_of(one, rated)) is not None]
     match = re.search(
         r"(?:(?<![a-z0-9])|(?<=[a-z])(?=\d{3}))(\d+(?:\.\d+)?)[ _-]?rpm(?![a-z])", file_name.lower()
     )
@@ -324,6 +314,29 @@ def shaft_speed_in(named: Sequence[Named], file_name: str) -> Finding[float] | N
     if any(one.taken and abs(one.value / first.value - 1.0) > 0.005 for one in found):
         return _doubted(first)
     return first
+
+
+def _speed_of(named: Named, rated: bool) -> Finding[float] | None:
+    """[rad/s] of one number; `rated`: whether another one is the rate of the samples."""
+    key, value, unit = _key(named.name), named.value, named.unit
+    words = f"“{named.name}” in the file"
+    if not (math.isfinite(value) and value > 0.0):
+        return None
+    if "rpm" in key or (unit == "rpm" and not _OTHER_SPEED.search(named.name)):
+        stated = MIDDLE not in named.name
+        return Finding(value * SPEEDS["rpm"], words, stated, strong=True, file_unit="rpm")
+    if key in _FREQUENCIES | _SPEEDS and unit is not None and unit in SPEEDS:
+        return Finding(value * SPEEDS[unit], words, file_unit=unit)
+    if key in _FREQUENCIES:
+        return Finding(value * SPEEDS["Hz"], words, file_unit="Hz")
+    if key in _SPEEDS:
+        unit = "Hz" if value <= FASTEST_IN_HZ else "rpm"
+        taken = f"{words}, taken as {unit}"
+        return Finding(value * SPEEDS[unit], taken, stated=False, file_unit=unit)
+    if key == "rate" and value < LEAST_RATE and unit != "kHz":
+        # of two rates one is that of the samples, the other the shaft's
+        return Finding(value * SPEEDS["Hz"], f"{words}, taken as Hz", stated=rated)
+    return None
 
 
 def _doubted(first: Finding[float]) -> Finding[float]:
@@ -389,12 +402,18 @@ _UNITS = {
     "unit", "units", "einheit", "einheiten", "yunit", "yunits", "yunitlabel", "unitstring",
     "verticalunit", "verticalunits", "yaxisunit", "yaxisunits", "accelerationunit", "accunit",
     "unity", "unitystring", "engineeringunit", "engineeringunits", "unitofmeasure", "ordinateunit",
+    "unitname", "valueunit", "valueunits", "unitdescription", "niunitdescription", "unitlabel",
+    "ylabel", "yaxis", "yaxislabel", "yaxistitle", "quantity", "measurand", "physicalquantity",
+    "dataunit", "dataunits", "signalunit", "channelunit", "sensorunit", "amplitudeunit",
+    "amplitudeunits", "measurementunit", "engunit", "engunits", "eu", "ordinate",
+    "measuredquantity", "zunit", "valueaxis",
 }  # fmt: skip
 
 
 def unit_of(name: str, text: str) -> str | None:
-    """The unit that words with a name such as "unit" give, or None."""
-    return unit_named(text.strip(" ;,\t\"'[]()")) if _key(name) in _UNITS else None
+    """The unit that words with a name such as "unit" or "quantity" give, or None."""
+    bare = text.strip(" ;,\t\"'[]()")
+    return unit_named(bare) or unit_in(text.strip(' "')) if _key(name) in _UNITS else None
 
 
 def units_said(lines: Iterable[str], texts: Mapping[str, str]) -> list[str | None]:
@@ -402,8 +421,10 @@ def units_said(lines: Iterable[str], texts: Mapping[str, str]) -> list[str | Non
     for line in lines:
         name, _, text = re.sub(r"[:=\t;,]", "\0", line, count=1).partition("\0")
         cells = re.split(r"[\t;,]", text.strip(" \t;,"))
-        units = [unit_of(name, cell) for cell in takewhile(str.strip, cells)]
+        said = [(cell.strip(), unit_of(name, cell)) for cell in takewhile(str.strip, cells)]
+        # words are the quantity of the unit that follows, numbers that of its column
+        units = [unit for cell, unit in said if unit or not re.search(r"\w", cell)]
         if any(units):
             return units if len(set(units)) > 1 else units[:1]
-    said = {unit_of(name, text) for name, text in texts.items()} - {None}
-    return list(said) if len(said) == 1 else []
+    of_all = {unit_of(name, text) for name, text in texts.items()} - {None}
+    return list(of_all) if len(of_all) == 1 else []

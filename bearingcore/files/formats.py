@@ -13,8 +13,8 @@ import math
 import re
 import warnings
 import zlib
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator, Sequence
+from itertools import islice
 from typing import Any, cast
 
 import numpy as np
@@ -24,20 +24,8 @@ from bearingcore.common import checks
 from bearingcore.common.arrays import Array
 from bearingcore.errors import FieldError
 from bearingcore.files import libraries
-from bearingcore.files.facts import is_steady
 from bearingcore.files.text import are_sensors, read_text
-from bearingcore.signals.recording import FEWEST_SAMPLES
-
-DEEPEST = 8
-"""Structs, cells and groups inside one another."""
-
-MOST_SCALARS = 200
-"""Single numbers and words of a file that are kept."""
-
-LONGEST_TEXT = 1000
-"""[characters] of words that are kept."""
-
-Answer = tuple[dict[str, Any], Array]
+from bearingcore.files.variables import LONGEST_TEXT, Answer, Variables, check_depth, check_size
 
 
 def read(
@@ -108,6 +96,8 @@ def _format_of(name: str, content: bytes) -> tuple[str, Walk] | None:
         raise checks.refuse("file", name, "no old office document (.xls): save it as .xlsx or CSV")
     if re.match(rb'\s*(\{\s*"|\[[\s\[]*(-?\.?\d|\{))', content) and (values := _json(content)):
         return "JSON file", lambda _, found: _walk_json(values, "", found, 0)
+    if re.search(rb"[\"\t;,] ?\[[-+\d.eE,;\s]{500}", content[:100_000]):
+        return "text with signals in cells", libraries.cells
     if content[:6] == b"Octave":
         raise checks.refuse("file", name, "no binary file of Octave: save -v7 in its place")
     marked = content[:6] == b"MATLAB" or content[126:128] in (b"IM", b"MI")
@@ -152,7 +142,7 @@ def _json(content: bytes) -> Any:
 
 def _walk_json(value: Any, path: str, found: Variables, depth: int) -> None:
     """Lists of numbers, and lists of records by the records' names."""
-    _check_depth(depth)
+    check_depth(depth)
     if isinstance(value, dict) and list(value) == [str(i) for i in range(len(value))]:
         value = list(value.values())  # rows by their numbers, as pandas writes them
     if isinstance(value, list) and value and isinstance(value[0], dict):
@@ -197,7 +187,7 @@ def _wav(name: str, content: bytes, most_numbers: int, most_columns: int) -> Ans
         why = f" ({error})" if type(error) is ValueError else ""
         raise checks.refuse("file", name, f"a whole WAV file{why}") from None
     data = np.atleast_2d(np.asarray(data).T).T
-    _check_size(name, data.shape, most_numbers, most_columns)
+    check_size(name, data.shape, most_numbers, most_columns)
     if rate <= 0 or data.size == 0:
         raise checks.refuse("file", name, "a WAV file with samples and a sample rate")
     columns = data.astype(float)
@@ -210,93 +200,6 @@ def _wav(name: str, content: bytes, most_numbers: int, most_columns: int) -> Ans
     if any("EOF" in str(one.message) for one in warned):
         about["notes"] = ["The file is cut off: its head says that it was longer."]
     return about, columns
-
-
-@dataclass
-class Variables:
-    """Variables of a file: matrices in the kind of number they are stored in, and words."""
-
-    numbers: dict[str, NDArray[Any]] = field(default_factory=dict)
-    texts: dict[str, str] = field(default_factory=dict)
-    objects: list[str] = field(default_factory=list)
-
-    def add(self, path: str, value: NDArray[Any]) -> None:
-        """Keep real numbers as a matrix, or a word; anything else is passed over."""
-        for part in value.dtype.names or ():
-            self.add(f"{path}.{part}" if path else part, value[part].ravel())
-        if value.dtype.kind in "Mm":
-            value = libraries.in_seconds(value)
-        if value.ndim > 2:  # the longest direction is that of the samples
-            longest = int(np.argmax(value.shape))
-            value = np.moveaxis(value, longest, 0).reshape(value.shape[longest], -1)
-        if value.dtype.kind in "iuf" and value.ndim <= 2:
-            self.numbers[path] = np.atleast_2d(value)
-        elif value.dtype.kind in "OSU":
-            words = value.ravel()[: MOST_SCALARS - len(self.texts)].tolist()
-            for index, word in enumerate(words):
-                text = word.decode("utf-8", "replace") if isinstance(word, bytes) else str(word)
-                of = f"{path}{{{index + 1}}}" if len(words) > 1 else path
-                self.texts[of] = text[:LONGEST_TEXT].strip()
-
-    def table(self, name: str, kind: str, most_numbers: int, most_columns: int) -> Answer:
-        """Vectors and matrices about as long as the longest as columns, and the rest."""
-        scalars: dict[str, float] = {}
-        parts: dict[str, NDArray[Any]] = {}
-        for variable, matrix in self.numbers.items():
-            if matrix.size > 1:
-                parts[variable] = matrix.T if matrix.shape[0] < matrix.shape[1] else matrix
-            elif matrix.size and len(scalars) < MOST_SCALARS:
-                with np.errstate(invalid="ignore"):  # signalling NaNs in damaged files
-                    scalars[variable] = float(matrix[0, 0])
-        if self.objects and max((len(part) for part in parts.values()), default=0) < FEWEST_SAMPLES:
-            wanted = (
-                f"one whose signals are arrays; {self.objects[0]} is a table or an object: save "
-            )
-            raise checks.refuse("file", name, f"{wanted}its columns, as in acc = T.acc, or as CSV")
-        if not parts:
-            raise checks.refuse("file", name, f"a {kind} with a vector or matrix of real numbers")
-        rows = max(len(part) for part in parts.values())
-        # what is much shorter was measured otherwise, or is no signal
-        least = max(FEWEST_SAMPLES, rows // 2) if rows >= FEWEST_SAMPLES else rows
-        for variable, part in parts.items():
-            if len(part) >= least:
-                continue
-            # what is said of it, such as its rate, is not of the signals
-            scalars = {
-                name: value
-                for name, value in scalars.items()
-                if not name.startswith(f"{variable}.")
-            }
-            if is_steady(part) and len(scalars) < MOST_SCALARS:
-                scalars[variable] = float(part.mean())
-            elif len(self.texts) < MOST_SCALARS:
-                self.texts[variable] = f"not used: {len(part)} × {part.shape[1]} numbers"
-        parts = {variable: part for variable, part in parts.items() if len(part) >= least}
-        width = sum(part.shape[1] for part in parts.values())
-        _check_size(name, (rows, width), most_numbers, most_columns)
-        columns = np.full((rows, width), np.nan, order="F")
-        names: list[str] = []
-        with np.errstate(invalid="ignore"):
-            for variable, part in parts.items():
-                columns[: len(part), len(names) : len(names) + part.shape[1]] = part
-                several = part.shape[1] > 1
-                names += [f"{variable}(:,{i + 1})" if several else variable
-                          for i in range(part.shape[1])]  # fmt: skip
-        return {"names": names, "scalars": scalars, "texts": self.texts}, columns
-
-
-def _check_size(name: str, shape: tuple[int, ...], most_numbers: int, most_columns: int) -> None:
-    rows, width = shape
-    if width > most_columns:
-        most = f"at most {most_columns}: save those of one bearing alone"
-        raise checks.refuse(f"number of columns in {name}", width, most)
-    if rows * width > most_numbers:
-        raise checks.refuse(f"count of numbers in {name}", rows * width, f"at most {most_numbers}")
-
-
-def _check_depth(depth: int) -> None:
-    if depth > DEEPEST:
-        raise checks.refuse("structs inside one another", "deeper", f"at most {DEEPEST}")
 
 
 # -- MATLAB, versions 4 to 7 -----------------------------------------------------------------------
@@ -314,7 +217,7 @@ def _matlab(value: Any, path: str, found: Variables, depth: int) -> None:
     """A matrix, and what is in a struct or cell."""
     from scipy.io.matlab import MatlabFunction, MatlabOpaque
 
-    _check_depth(depth)
+    check_depth(depth)
     if isinstance(value, MatlabOpaque):
         found.objects.append("a variable" if path == "None" else path)  # as SciPy names it
     if not isinstance(value, np.ndarray) or isinstance(value, MatlabFunction | MatlabOpaque):
@@ -359,7 +262,7 @@ def _hdf5(item: Any, path: str, found: Variables, depth: int) -> None:
     """
     import h5py
 
-    _check_depth(depth)
+    check_depth(depth)
     if isinstance(item, h5py.Group):
         for name in item:
             # MATLAB keeps in #refs# what cells point at
@@ -380,6 +283,11 @@ def _hdf5(item: Any, path: str, found: Variables, depth: int) -> None:
         return
     elif item.shape is not None and "MATLAB_empty" not in item.attrs:
         found.add(path, _as_in_matlab(item))
+    _attributes(item, path, found)
+
+
+def _attributes(item: Any, path: str, found: Variables) -> None:
+    """Words and single numbers that stand at a group or a data set."""
     for name, value in item.attrs.items():
         word = np.size(value) == 1 or np.asarray(value).dtype.kind in "OSU"
         if word and not name.startswith(_OF_THE_FORMAT):
@@ -404,81 +312,55 @@ def _as_in_matlab(data: Any) -> NDArray[Any]:
 
 def _walk_octave(content: bytes, found: Variables) -> None:
     """Each value has a head of lines such as "# type: matrix"."""
-    text = _Lines(content.decode("latin-1").splitlines())
-    while text.skip_to("name"):
-        _octave(text, text.said("name"), found, 0)
+    lines = iter(content.decode("latin-1").splitlines())
+    for line in lines:
+        if line.startswith("# name:"):
+            _octave(lines, line.partition(":")[2].strip(), found, 0)
 
 
-class _Lines:
-    """Lines that are read one after another."""
-
-    def __init__(self, lines: list[str]) -> None:
-        self._lines, self._place = lines, 0
-
-    def skip_to(self, key: str) -> bool:
-        """Whether there is another line with this key; it is the next one."""
-        while self._place < len(self._lines):
-            if self._lines[self._place].startswith(f"# {key}:"):
-                return True
-            self._place += 1
-        return False
-
-    def said(self, key: str) -> str:
-        """The word of the next line with this key."""
-        if not self.skip_to(key):
-            raise ValueError(key)
-        return self.take(1)[0].partition(":")[2].strip()
-
-    def take(self, count: int) -> list[str]:
-        """The next lines."""
-        if count < 0 or self._place + count > len(self._lines):
-            raise ValueError("the end of the text")
-        self._place += count
-        return self._lines[self._place - count : self._place]
-
-    def numbers(self, count: int) -> np.ndarray:
-        """The numbers of the next lines in a row."""
-        return np.array(" ".join(self.take(count)).split(), dtype=float)
-
-    def numbers_after(self, key: str) -> np.ndarray:
-        """The numbers of the line after the one that begins so."""
-        while not self.take(1)[0].startswith(f"# {key}"):
-            pass
-        return self.numbers(1)
-
-    def holds(self, key: str) -> bool:
-        """Whether the next line has this key."""
-        return self._lines[self._place].startswith(f"# {key}:")
+def _said(lines: Iterator[str], key: str) -> str:
+    """What the next line with a key says."""
+    for line in lines:
+        if line.startswith(f"# {key}"):
+            return line.partition(":")[2].strip()
+    raise ValueError(key)
 
 
-def _octave(text: _Lines, path: str, found: Variables, depth: int) -> None:
+def _numbers(lines: Iterator[str], count: int = 1) -> Array:
+    """The numbers of the next lines in a row."""
+    return np.array(" ".join(islice(lines, count)).split(), dtype=float)
+
+
+def _octave(lines: Iterator[str], path: str, found: Variables, depth: int) -> None:
     """A value of any type; those that are no numbers or words are passed over."""
-    _check_depth(depth)
-    kind = text.said("type")
+    check_depth(depth)
+    kind = _said(lines, "type")
     if "complex" in kind or "sparse" in kind:
         return
     if kind in ("scalar struct", "cell"):
         keys = ("length",) if kind == "scalar struct" else ("rows", "columns")
-        inside = math.prod(int(text.said(key)) for key in keys)
-        for index in range(inside):
-            name = text.said("name")
+        for index in range(math.prod(int(_said(lines, key)) for key in keys)):
+            name = _said(lines, "name")
             part = f"{path}{{{index + 1}}}" if kind == "cell" else f"{path}.{name}"
-            _octave(text, part, found, depth + 1)
+            _octave(lines, part, found, depth + 1)
     elif kind in ("string", "sq_string"):
-        if int(text.said("elements")):
-            found.add(path, np.array([text.take(2)[1]]))
+        if int(_said(lines, "elements")):
+            _said(lines, "length")
+            found.add(path, np.array([next(lines)]))
     elif kind.endswith("scalar"):
-        found.add(path, text.numbers(1))
+        found.add(path, _numbers(lines))
     elif kind.endswith("range"):
-        base, limit, step = text.numbers_after("base, limit, increment")
+        _said(lines, "base, limit, increment")
+        base, limit, step = _numbers(lines)
         found.add(path, base + step * np.arange(round((limit - base) / step) + 1))
-    elif kind.endswith("matrix") and text.holds("rows"):
-        shape = int(text.said("rows")), int(text.said("columns"))
-        found.add(path, text.numbers(shape[0]).reshape(shape))
-    elif kind.endswith("matrix") and text.holds("ndims"):  # of whole numbers, or of more dimensions
-        text.said("ndims")
-        sizes = text.numbers(1).astype(int).tolist()
-        found.add(path, text.numbers(math.prod(sizes)).reshape(sizes, order="F"))
+    elif kind.endswith("matrix"):
+        head, _, count = next(lines).partition(":")
+        if head == "# rows":
+            shape = int(count), int(_said(lines, "columns"))
+            found.add(path, _numbers(lines, shape[0]).reshape(shape))
+        elif head == "# ndims":  # of whole numbers, or of more dimensions
+            sizes = _numbers(lines).astype(int).tolist()
+            found.add(path, _numbers(lines, math.prod(sizes)).reshape(sizes, order="F"))
 
 
 _FORMATS: tuple[tuple[bytes, str, Walk, str], ...] = (

@@ -9,17 +9,17 @@ import io
 import os
 import re
 import zipfile
+from collections.abc import Mapping
 from contextlib import suppress
-from typing import TYPE_CHECKING, Any
+from typing import Any
 from unittest.mock import patch
 
 import numpy as np
 
 from bearingcore.common import checks
 from bearingcore.errors import FieldError
-
-if TYPE_CHECKING:
-    from bearingcore.files.formats import Variables
+from bearingcore.files.other_kinds import BRING
+from bearingcore.files.variables import Variables
 
 MOST_UNPACKED = 2**28
 """[bytes] of a file in a zip."""
@@ -36,8 +36,17 @@ DOCUMENT = re.compile(
 )
 """Documents and pictures that come with signals in a zip or a folder."""
 
+MOST_FACTS = 100
+"""Rows of a sheet, or of a data frame with signals in its cells, that say something of a signal."""
+
+_NO_FILE = re.compile(r"^$|/$|(^|/)(\.|__MACOSX/)")
+"""A folder, or what a system hides."""
+
 _TIME_RESPONSE = (0, 1)
 """Function types of data set 58 that are signals over time: general ones, and time responses."""
+
+_FREQUENCY = 18
+"""Type of the abscissa of its spectra."""
 
 
 def unzipped(name: str, content: bytes) -> tuple[list[str], bytes]:
@@ -53,12 +62,7 @@ def unzipped(name: str, content: bytes) -> tuple[list[str], bytes]:
     """
     try:
         with zipfile.ZipFile(io.BytesIO(content)) as packed:
-            files = [
-                one
-                for one in packed.infolist()
-                if one.filename[-1:] not in ("", "/")
-                and not re.search(r"(^|/)(\.|__MACOSX/)", one.filename)
-            ]
+            files = [one for one in packed.infolist() if not _NO_FILE.search(one.filename)]
             if any(one.filename == "[Content_Types].xml" for one in files):
                 raise checks.refuse("file", name, "no office document: save its sheet as CSV")
             named = [one for one in files if name.endswith(f".zip/{one.filename}")]
@@ -106,7 +110,7 @@ def _names_in(content: bytes) -> list[str]:
 
 
 def longest_sheet(name: str, content: bytes) -> tuple[bytes, list[str]]:
-    """The sheet with the most cells as CSV, and which one where there are several."""
+    """The sheet with the most cells as CSV under the facts of the others, and which one it is."""
     import pandas as pd
 
     try:
@@ -122,7 +126,20 @@ def longest_sheet(name: str, content: bytes) -> tuple[bytes, list[str]]:
     longest = max(sheets, key=lambda one: int(sheets[one].count().sum()))
     table = sheets[longest].dropna(how="all").dropna(how="all", axis=1)
     notes = [f"Read is its longest sheet, “{longest}”."] if len(sheets) > 1 else []
-    return table.to_csv(index=False, header=False).encode(), notes
+    facts = [line for one in sheets if one != longest for line in _facts_in(sheets[one])]
+    head = "".join(f"# {line}\n" for line in facts[:MOST_FACTS])
+    return (head + table.to_csv(index=False, header=False)).encode(), notes
+
+
+def _facts_in(sheet: Any) -> list[str]:
+    """Names with their values on a short sheet, side by side or one row above the other."""
+    if len(sheet) > MOST_FACTS:
+        return []
+    sheet = sheet.dropna(how="all")
+    if len(sheet) == 2 and sheet.shape[1] > 2:
+        sheet = sheet.T.dropna()
+    rows = [row.dropna().astype(str).tolist() for _, row in sheet.iterrows()]
+    return [f"{row[0]}: {' '.join(row[1:])}" for row in rows if len(row) > 1]
 
 
 def npy(content: bytes, found: Variables) -> None:
@@ -139,15 +156,8 @@ def npz(content: bytes, found: Variables) -> None:
                 found.add(name, arrays[name])
 
 
-def in_seconds(values: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
-    """Dates as seconds since the first, and durations."""
-    if values.dtype.kind == "M" and values.size:
-        values = values - values.ravel()[0]
-    return values / np.timedelta64(1, "s")
-
-
 def data_frame(content: bytes, found: Variables) -> None:
-    """Columns of numbers, dates and durations of a data frame."""
+    """Columns of numbers, dates and durations of a data frame, and signals in its cells."""
     import pandas as pd
 
     if content[:4] == b"PAR1":
@@ -156,8 +166,32 @@ def data_frame(content: bytes, found: Variables) -> None:
         frame = pd.read_feather(io.BytesIO(content), use_threads=False)
     if not isinstance(frame.index, pd.RangeIndex):
         frame = frame.reset_index()
+    _columns(frame, found)
+
+
+def cells(content: bytes, found: Variables) -> None:
+    """Columns of a text that has signals in its cells, each between brackets."""
+    import pandas as pd
+
+    text = content.decode("utf-8", "replace")
+    heading = text.partition("\n")[0]
+    frame = pd.read_csv(io.StringIO(text), sep=max(";\t,", key=heading.count))
+    for name in frame.columns[(frame.iloc[0].astype(str).str.strip().str[:1] == "[").to_numpy()]:
+        signals = [np.array(re.findall(r"[^\s,;\[\]]+", cell), float) for cell in frame[name]]
+        frame[name] = pd.Series(signals, dtype=object)
+    _columns(frame, found)
+
+
+def _columns(frame: Any, found: Variables) -> None:
     for name in frame.columns:
         values = frame[name]
+        first = values.iloc[0] if len(values) else None
+        if isinstance(first, list | np.ndarray):
+            for index, cell in enumerate(values):
+                of = f"{name}({index + 1})" if len(values) > 1 else str(name)
+                found.add(of, np.asarray(cell, dtype=float))
+        elif isinstance(first, str) and len(values) <= MOST_FACTS:
+            found.add(str(name), np.unique(values.to_numpy(dtype=str)))
         dated = values.dtype.kind in "Mm"
         if dated or values.dtype.kind in "iuf":
             column = values.to_numpy().astype(
@@ -189,25 +223,30 @@ def uff(content: bytes, found: Variables) -> None:
     # it takes names of files alone, and this process writes none
     with patch.object(pyuff.pyuff, "open", lambda *_: io.BytesIO(content), create=True):
         sets = pyuff.UFF(os.devnull).read_sets()
-    sets = [
-        one
-        for one in (sets if isinstance(sets, list) else [sets])
-        if one.get("type") == 58 and one["func_type"] in _TIME_RESPONSE
-    ]
+    sets = [one for one in (sets if isinstance(sets, list) else [sets]) if one.get("type") == 58]
+    if sets and all(one["abscissa_spec_data_type"] == _FREQUENCY for one in sets):
+        found.instead = f"a signal over time; this is a spectrum: export the waveform, or {BRING}"
+    sets = [one for one in sets if one["func_type"] in _TIME_RESPONSE]
     points = {one.get("rsp_node") for one in sets}
     for index, one in enumerate(sets):
-        said = [one.get("id1", ""), _AXES.get(abs(int(one.get("rsp_dir", 0))), "")]
+        said = [_word(one, "id1"), _AXES.get(abs(int(one.get("rsp_dir", 0))), "")]
         said += [f"point {one['rsp_node']}"] if len(points) > 1 else []
-        path = " ".join(word.strip() for word in said if word and word.strip() != "NONE")
+        path = " ".join(filter(None, said))
         path = path if path and path not in found.numbers else f"{path} signal {index + 1}".strip()
         found.add(path, np.asarray(one["data"]))
         if one["abscissa_spacing"]:
             found.add(f"{path}.dt", np.array(float(one["abscissa_inc"])))
         else:
             found.add(f"{path} time [s]", np.asarray(one["x"]))
-        unit = str(one.get("ordinate_axis_units_lab", "")).strip()
-        if unit and unit != "NONE":
-            found.add(f"{path}.unit", np.array(unit))
+        words = [("unit", "ordinate_axis_units_lab"), ("date", "id3"), ("remark", "id2")]
+        for name, key in words:
+            if word := _word(one, key):
+                found.add(f"{path}.{name}", np.array(word))
+
+
+def _word(data_set: Mapping[str, Any], key: str) -> str:
+    word = str(data_set.get(key, "")).strip()
+    return "" if word == "NONE" else word
 
 
 _AXES = {1: "x", 2: "y", 3: "z"}

@@ -23,7 +23,7 @@ from bearingcore.common.numbers import count, number
 from bearingcore.files.channels import OTHER, ROLES, SIGNAL, SPEED, TIME, Column
 from bearingcore.files.child import MOST_NUMBERS, read_file
 from bearingcore.files.contents import FileColumns, FileContents, contents_of
-from bearingcore.files.sampling import long_parts, longest_run
+from bearingcore.files.sampling import long_parts, longest_run, single_gaps, skipped_rows
 from bearingcore.files.units import (
     SPEEDS,
     TIMES,
@@ -75,9 +75,9 @@ class Table(FileColumns):
         sampling, picked = self.contents.sampling, list(self.contents.choice.columns.values())
         if sampling is not None and sampling.parts:
             return sampling.parts
-        parts = np.stack(
-            runs(np.logical_and.reduce(np.isfinite(self.columns[:, picked]), axis=1)), axis=1
-        )
+        whole = np.logical_and.reduce(np.isfinite(self.columns[:, picked]), axis=1)
+        whole[single_gaps(whole)] = True
+        parts = np.stack(runs(whole), axis=1)
         return long_parts(parts.tolist()) if picked else ()
 
     def one_of_recordings(self, number: int) -> Table:
@@ -189,10 +189,11 @@ class Table(FileColumns):
         units = [self._unit(index, unit) for index in picked]
         scale = checks.real_number("full_scale", full_scale, above=0.0, unit=unit or "")
         rate, notes = self._rate(sample_rate)
-        first, last, gaps = self._rows(picked)
-        signal = self.columns[first:last, picked]
+        signal, gaps = self._without_gaps(picked)
         cut = dict.fromkeys(cut_off(column[np.isfinite(column)]) for column in signal.T)
-        notes, signal = [*self.notes, *notes, gaps, *cut, self._not_used(picked)], signal * scale
+        only = contents.choice.note if picked == [*contents.choice.columns.values()] else ""
+        notes += [gaps, *cut, self._not_used(picked), only]
+        notes, signal = [*self.notes, *notes], signal * scale
         if sensitivity is None and contents.sensitivity is not None:
             sensitivity = contents.sensitivity.value
         with np.errstate(over="ignore", invalid="ignore"):  # the recording refuses what comes out
@@ -220,7 +221,7 @@ class Table(FileColumns):
             if speed is not None and f"“{column.name}”" in speed.reason:
                 why = f"a guess at the shaft speed: {speed.reason}"
             elif column.role == OTHER:
-                why = "no acceleration, by its heading"
+                why = "no signal of acceleration"
             else:
                 along = {"z": "along the shaft"}.get(column.direction, "another signal")
                 why = column.place or along
@@ -299,25 +300,37 @@ class Table(FileColumns):
             notes.append(f"{typed}; {stated.reason} {says} {number(stated.value, 6)} Hz.")
         return rate, notes
 
-    def _rows(self, picked: Sequence[int]) -> tuple[int, int, str]:
-        """The longest part without a jump of the time or a gap in the columns; what is left out."""
+    def _without_gaps(self, picked: Sequence[int]) -> tuple[Array, str]:
+        """The longest part without a jump of the time or a gap; what is bridged and left out."""
         sampling = self.contents.sampling
         first, last = (
             (0, len(self.columns)) if sampling is None else (sampling.first, sampling.last)
         )
-        whole = np.logical_and.reduce(np.isfinite(self.columns[first:last, picked]), axis=1)
+        signal = self.columns[first:last, picked]
+        whole = np.isfinite(signal).all(axis=1)
         filled = np.flatnonzero(whole)
         # gaps at the end are where a column is shorter than the longest
-        last = first + int(filled[-1]) + 1 if filled.size else last
-        missing = int((~whole[: last - first]).sum())
+        signal, whole = np.split(signal, filled[-1:] + 1)[0], np.split(whole, filled[-1:] + 1)[0]
+        said = []
+        single = single_gaps(whole)
+        single = single[~np.isinf(signal[single]).any(axis=1)]  # no gap, but an overflow
+        if single.size:
+            between = 0.5 * (signal[single - 1] + signal[single + 1])
+            signal[single] = np.where(np.isfinite(signal[single]), signal[single], between)
+            whole[single] = True
+            said.append(
+                f"Single numbers are missing in {count(single.size, 'row')}. Each is bridged by "
+                "the mean of its neighbours."
+            )
+        missing = int((~whole).sum())
         begin, end = longest_run(whole)
-        if not missing or end - begin < FEWEST_SAMPLES:
-            return first, last, ""  # the recording says which sample is no number
-        said = (
-            f"Numbers are missing in {count(missing, 'row')}. Only the longest whole part is used: "
-            f"rows {first + begin + 1} to {first + end} of {len(self.columns)}."
-        )
-        return first + begin, first + end, said
+        if missing and end - begin >= FEWEST_SAMPLES:  # else the recording says which is no number
+            said.append(
+                f"Numbers are missing in {count(missing, 'row')}. Only the longest whole part is "
+                f"used: rows {first + begin + 1} to {first + end} of {len(self.columns)}."
+            )
+            signal = signal[begin:end]
+        return signal, " ".join(said)
 
     def index_of(self, column: int | str) -> int:
         """The number from 0 of a column by its number or name; `FieldError` where there is none."""
@@ -399,7 +412,20 @@ def read_table(name: str, content: bytes, give_up: Callable[[], bool] | None = N
         )
     for words in ("names", "remarks", "stamps", "notes"):
         about[words] = tuple(about.get(words, ()))
-    return Table(columns=columns, **{"name": name, **about})
+    return _with_skipped_rows(Table(columns=columns, **{"name": name, **about}))
+
+
+def _with_skipped_rows(table: Table) -> Table:
+    """The table with a row of gaps wherever the times skip exactly one."""
+    timed = [i for i, column in enumerate(table.contents.columns) if column.role == TIME]
+    rows = skipped_rows(table.columns[:, timed[0]]) if len(timed) == 1 else np.arange(0)
+    if not rows.size:
+        return table
+    columns = np.insert(table.columns, rows, np.nan, axis=0)
+    made = rows + np.arange(rows.size)
+    columns[made, timed[0]] = 0.5 * (columns[made - 1, timed[0]] + columns[made + 1, timed[0]])
+    words = f"The times skip single rows, {rows.size} in all, which count as missing."
+    return dataclasses.replace(table, columns=columns, notes=(*table.notes, words))
 
 
 def join_tables(tables: Sequence[Table]) -> Table:
@@ -418,14 +444,7 @@ def join_tables(tables: Sequence[Table]) -> Table:
         raise checks.refuse("tables", "none", "one or more")
     first = tables[0]
     for one in tables[1:]:
-        if one.names != first.names:
-            raise checks.refuse(
-                f"columns of {one.name}", ", ".join(one.names), f"those of {first.name}"
-            )
-        rates = [part.contents.sample_rate for part in (first, one)]
-        known = [rate.value for rate in rates if rate is not None]
-        if len(known) == 1 or (len(known) == 2 and abs(known[1] / known[0] - 1.0) > RATE_DOUBT):
-            raise checks.refuse(f"sample rate of {one.name}", known[-1], "that of the first", "Hz")
+        _check_alike(first, one)
     if sum(one.columns.size for one in tables) > MOST_NUMBERS:
         raise checks.refuse("count of numbers in all files", "more", f"at most {MOST_NUMBERS}")
     columns = np.concatenate([one.columns for one in tables])
@@ -446,3 +465,15 @@ def join_tables(tables: Sequence[Table]) -> Table:
         notes.append(f"{len(tables)} files are joined{gap}.")
     name = first.name if len(tables) == 1 else f"{first.name} to {tables[-1].name}"
     return dataclasses.replace(first, columns=columns, name=name, notes=tuple(notes))
+
+
+def _check_alike(first: Table, other: Table) -> None:
+    """Refuse a file whose columns or sample rate are not those of the first."""
+    if other.names != first.names:
+        raise checks.refuse(
+            f"columns of {other.name}", ", ".join(other.names), f"those of {first.name}"
+        )
+    rates = [part.contents.sample_rate for part in (first, other)]
+    known = [rate.value for rate in rates if rate is not None]
+    if len(known) == 1 or (len(known) == 2 and abs(known[1] / known[0] - 1.0) > RATE_DOUBT):
+        raise checks.refuse(f"sample rate of {other.name}", known[-1], "that of the first", "Hz")

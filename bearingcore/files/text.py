@@ -29,7 +29,6 @@ from bearingcore.files.facts import (
     GREATEST_STATED,
     named_in,
     names_a_fact,
-    sample_rate_in,
     units_said,
 )
 from bearingcore.files.units import UNITS, unit_in, unit_named
@@ -88,61 +87,27 @@ def read_text(
     FieldError
         saying what is wrong, and in which line.
     """
-    if encoding := _of_two_bytes(content[:4096]):
-        content = content.decode(encoding, "replace").encode()
-    if b"\x00" in content[:4096]:
-        raise checks.refuse("file", name, READABLE)
-    content = content.removeprefix(b"\xef\xbb\xbf").rstrip(b"\x00")
-    if re.match(rb"\s*\[", content) and b"\n" not in content.strip():
-        content = content.translate(None, b"[]")  # one array as NumPy and MATLAB show it
-    if b"\n" not in content:
-        content = content.replace(b"\r", b"\n")
-    content = _without_labels(content)
+    content = _without_labels(_of_one_byte(name, content))
     style, begin, remarks = _beginning(name, content)
-    width = style.width
-    if width > min(LONG_ROW, most_columns):
-        fewer = most_columns if width > most_columns else LONG_ROW
-        turned = _rows(content[begin:], style, min(fewer, width))
-        if turned is not None and turned[0].size <= most_numbers:
-            columns, names = turned
-            return _about(columns, names or _headings(remarks, style, columns), remarks)
-        if width > most_columns:
+    if style.width > min(LONG_ROW, most_columns):
+        # few long rows are signals, not columns
+        turned = _signals_in_rows(content[begin:], style, remarks, most_numbers, most_columns)
+        if turned is not None:
+            return turned
+        if style.width > most_columns:
             raise checks.refuse(
                 f"number of columns in {name}",
-                width,
+                style.width,
                 f"at most {most_columns}: leave out some, or write each signal in a row",
             )
-    if _goes_on(remarks, content[begin:], style):
-        content, width, style = (
-            b"\n".join(content[begin:].split()), 1, dataclasses.replace(style, width=1)
-        )  # fmt: skip
-        begin = 0
-    most_rows = most_numbers // width + 1
-    body, notes = _without_a_cut_line(content[begin:], style)
-    said: list[str] = []
-    found = _numbers(body, style, most_rows)
-    if found is None:
-        above = content.count(b"\n", 0, begin) + 1
-        body, more, said = _mended(name, body, style, above, remarks)
-        notes += more
-        found = _numbers(body, style, most_rows)
-        if found is None:
-            raise checks.refuse("file", name, READABLE)
-    read, sensors = found
-    if read.size > most_numbers:
-        raise checks.refuse(
-            f"count of numbers in {name}",
-            f"over {most_numbers}",
-            f"at most {most_numbers}; split it by rows and join the parts",
-        )
+    read, sensors, said, notes = _read_numbers(name, content, begin, style, remarks, most_numbers)
     headings = _headings(remarks, style, read)
     if headings and any(column_of(name).role == TIME for name in headings):
         whole = ~np.isnan(read).all(axis=1)  # what is missing there shows in the times
         read, sensors = read[whole], None if sensors is None else sensors[whole]
-    kept = [i for i in range(width) if i in style.stamps or not np.isnan(read[:, i]).all()]
-    if len(kept) < width and kept:
-        read = read[:, kept]
-        headings = headings and [headings[i] for i in kept]
+    kept = [i for i in range(style.width) if i in style.stamps or not np.isnan(read[:, i]).all()]
+    if kept:
+        read, headings = read[:, kept], headings and [headings[i] for i in kept]
     stamps = [kept.index(i) for i in style.stamps]
     if headings is None:
         read, lines, more = _without_start(read)
@@ -154,6 +119,31 @@ def read_text(
         which = ", ".join(dict.fromkeys(sensors))
         notes.append(f"Rows of several sensors ({which}) are put side by side.")
     return _about(read, headings, remarks + said, stamps, notes)
+
+
+def _read_numbers(
+    name: str, content: bytes, begin: int, style: _Style, remarks: list[str], most_numbers: int
+) -> tuple[Array, NDArray[Any] | None, list[str], list[str]]:
+    """Numbers from a byte on, the sensors of their rows, words among them, and notes on these."""
+    body = content[begin:]
+    said: list[str] = []
+    notes: list[str] = []
+    most_rows = most_numbers // style.width + 1
+    found = _numbers(body, style, most_rows)
+    if found is None:  # some lines hold something else
+        above = content.count(b"\n", 0, begin) + 1
+        body, notes, said = _mended(name, body, style, above, remarks)
+        found = _numbers(body, style, most_rows)
+    if found is None:
+        raise checks.refuse("file", name, READABLE)
+    read, sensors = found
+    if read.size > most_numbers:
+        raise checks.refuse(
+            f"count of numbers in {name}",
+            f"over {most_numbers}",
+            f"at most {most_numbers}; split it by rows and join the parts",
+        )
+    return read, sensors, said, notes
 
 
 _SINCE_1970 = (1e9, 2.2e9)
@@ -257,14 +247,20 @@ def _side_by_side(
     return np.column_stack(made), heads, times
 
 
-def _of_two_bytes(start: bytes) -> str:
-    """The encoding of a text with two bytes a character, by its mark or its zeros; "" of others."""
-    if start[:2] in (b"\xff\xfe", b"\xfe\xff"):
-        return "utf-16"
+def _of_one_byte(name: str, content: bytes) -> bytes:
+    """A text without marks and with ends of lines, in UTF-8 if it had two bytes a character."""
+    start = content[:4096]
     even, odd = (start[i::2].count(0) for i in (0, 1))
-    if min(even, odd) > 0 or max(even, odd) < 0.45 * len(start) or not start:
-        return ""
-    return "utf-16-le" if odd else "utf-16-be"
+    if start[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        content = content.decode("utf-16", "replace").encode()
+    elif start and min(even, odd) == 0 and max(even, odd) >= 0.45 * len(start):
+        content = content.decode("utf-16-le" if odd else "utf-16-be", "replace").encode()
+    if b"\x00" in content[:4096]:
+        raise checks.refuse("file", name, READABLE)
+    content = content.removeprefix(b"\xef\xbb\xbf").rstrip(b"\x00")
+    if re.match(rb"\s*\[", content) and b"\n" not in content.strip():
+        content = content.translate(None, b"[]")  # one array as NumPy and MATLAB show it
+    return content if b"\n" in content else content.replace(b"\r", b"\n")
 
 
 _LABELLED = re.compile(
@@ -294,30 +290,6 @@ def _without_labels(content: bytes) -> bytes:
         made += [heading.pop()] if said and heading else []
         made.append(",".join(value for _, value, _ in said) if said else text)
     return "\n".join(made).encode()
-
-
-_COUNT = re.compile(r"(?i)npts|n?samples|points|(number|no\.?) of (samples|points|data)")
-
-
-def _goes_on(remarks: list[str], body: bytes, style: _Style) -> bool:
-    """Whether one signal goes on from row to row, as in records of earthquakes.
-
-    The count of its samples that is said above shows it, or its duration.
-    """
-    named = named_in(remarks)
-    counts = {one.value for one in named if _COUNT.fullmatch(one.name)}
-    counts |= {float(said) for line in remarks for said in re.findall(r"(\d+) samples", line)}
-    rate = sample_rate_in(named, "")
-    if rate is not None:
-        lasts = re.findall(r"(?i)duration\D{0,20}(\d+\.?\d*)", " ".join(remarks))
-        counts |= {rate.value * float(seconds) for seconds in lasts}
-    if style.delimiter is not None or style.width == 1 or style.stamps or not counts:
-        return False
-    above = remarks[-1].split()
-    if len(above) == style.width and all(re.match(r"[^\W\d]", cell) for cell in above):
-        return False  # the names of columns
-    rows = body.strip().count(b"\n") + 1
-    return any(rows - 1 < count / style.width <= rows for count in counts)
 
 
 def _about(
@@ -510,26 +482,30 @@ def _fitted(style: _Style, lines: Sequence[str]) -> tuple[int, _Style] | None:
     if style.delimiter is None and not style.decimal_comma and any("," in p for p in plain):
         return None
     words = _columns_of_words(plain, style.delimiter)
-    first = _row(plain[0], style.delimiter, words)
-    if first is None and len(plain) == SAMPLE and style.delimiter is not None:
-        # LabVIEW's comment is at the end of the first row alone
-        second = _row(plain[1].rstrip(f"{style.delimiter} "), style.delimiter) or []
-        line = style.delimiter.join(_cells(plain[0], style.delimiter)[: len(second)])
-        first = _row(line, style.delimiter) if len(second) > 1 else None
+    first = _row(plain[0], style.delimiter, words) or _row_of_labview(plain, style.delimiter)
     if first is None:
         return None
     rows = [_row(line, style.delimiter, words) for line in plain]
     closed = style.delimiter is not None and plain[0].rstrip(" ").endswith(style.delimiter)
     closed &= not any(row and len(row) == len(first) and row[-1] == row[-1] for row in rows)
     width = len(first) - (closed and len(first) > 1)
-    fits = sum(row is not None and len(row) in (width, width + 1) for row in rows)
+    fits = sum(len(row or ()) in (width, width + 1) for row in rows)
     if style.delimiter == "," and _looks_decimal(plain):
         fits = 0
     marked = style.stamp.sub("?", lines[0]).replace('"', "")
-    cells = _cells(marked, style.delimiter)[:width]
-    stamps = tuple(index for index, cell in enumerate(cells) if cell == "?")
+    cells = np.array(_cells(marked, style.delimiter)[:width])
+    stamps = tuple(np.flatnonzero(cells == "?").tolist())
     clock = _Clock() if clocked else None
     return fits, _Style(style.delimiter, style.decimal_comma, width, stamps, words, clock)
+
+
+def _row_of_labview(lines: Sequence[str], delimiter: str | None) -> list[float] | None:
+    """The numbers of the first line, if a comment ends it alone."""
+    if len(lines) < SAMPLE or delimiter is None:
+        return None
+    second = _row(lines[1].rstrip(f"{delimiter} "), delimiter) or []
+    line = delimiter.join(_cells(lines[0], delimiter)[: len(second)])
+    return _row(line, delimiter) if len(second) > 1 else None
 
 
 def _columns_of_words(lines: Sequence[str], delimiter: str | None) -> tuple[int, ...]:
@@ -649,19 +625,8 @@ def _headings(remarks: Sequence[str], style: _Style, columns: Array) -> list[str
     names = _names(lines[-1], style, columns) if lines else None
     if names is None:
         return None
-    if len(lines) > 1 and _are_units(names):
-        above = _names(lines[-2], style, columns)
-        if above is not None:
-            names = [
-                f"{name} [{unit.strip('[]() ')}]" if unit.strip("[]()- ") else name
-                for name, unit in zip(above, names, strict=True)
-            ]
-    elif len(lines) > 1 and len(set(names)) < len(names):  # pandas' names of two levels
-        above = _names(lines[-2], style, columns)
-        if above is not None and len(set(above)) > 1:
-            names = [f"{a} {b}".strip() for a, b in zip(above, names, strict=True)]
-    elif width > 1 and all(units := [_unit_alone(cell) for cell in names]):
-        names = [f"column {i + 1} [{unit}]" for i, unit in enumerate(units)]
+    above = _names(lines[-2], style, columns) if len(lines) > 1 else None
+    names = _with_units(names, above)
     given = [name for name in names if name]
     if any(re.fullmatch(r"-?\d*[.,]\d+", name) for name in given):
         return None  # numbers beside the settings of an instrument
@@ -673,22 +638,42 @@ def _headings(remarks: Sequence[str], style: _Style, columns: Array) -> list[str
     ]
 
 
+def _with_units(names: list[str], above: list[str] | None) -> list[str]:
+    """The names of a line, or those of the line above with the units, or ends, of this one."""
+    if above is not None and _are_units(names):
+        units = [unit.strip("[]() ") for unit in names]
+        pairs = zip(above, units, strict=True)
+        return [f"{name} [{unit}]" if unit.strip("- ") else name for name, unit in pairs]
+    if above is not None and len(set(names)) < len(names) and len(set(above)) > 1:
+        return [f"{a} {b}".strip() for a, b in zip(above, names, strict=True)]  # pandas' two levels
+    alone = [_unit_alone(cell) for cell in names]
+    if len(names) > 1 and all(alone):
+        return [f"column {i + 1} [{unit}]" for i, unit in enumerate(alone)]
+    return names
+
+
 def _is_remark(line: str, style: _Style, width: int) -> bool:
     """Whether a line says something else than the names of columns."""
-    if width > 1:
-        single = [cell for cell in _cells(line, style.delimiter) if cell]
-        said = ":" in line or "=" in line
-        if said and len(single) == width and all(re.search(r"[:=]", cell) for cell in single):
-            return False  # "Ch 1: acc [g], Ch 2: acc [g]"
-        if units_said([line], {}) or (len(single) > 1 and _is_a_value(single)):
-            return True
-        return (said or any(re.match(_VALUE, cell) for cell in single)) and names_a_fact(line)
-    if unit_in(line) in UNITS and re.search(r"[\[(]", line):
-        return False
-    if units_said([line], {}) or re.search(r"[;\t]\s*[^;\t\s]|(^|\s)-?\d[\d.,]*\d", line):
-        return True  # a name and what it is
-    said = ":" in line or "=" in line or len(line.split()) > LONGEST_HEADING
-    return said or bool(named_in([line]))
+    said = ":" in line or "=" in line
+    if width == 1:
+        return not (unit_in(line) in UNITS and re.search(r"[\[(]", line)) and (
+            bool(units_said([line], {}))
+            # a name and what it is
+            or bool(re.search(r"[;\t]\s*[^;\t\s]|(^|\s)-?\d[\d.,]*\d", line))
+            or said
+            or len(line.split()) > LONGEST_HEADING
+            or bool(named_in([line]))
+        )
+    return _is_remark_above_several(line, [c for c in _cells(line, style.delimiter) if c], width)
+
+
+def _is_remark_above_several(line: str, single: Sequence[str], width: int) -> bool:
+    said = ":" in line or "=" in line
+    if said and len(single) == width and all(re.search(r"[:=]", cell) for cell in single):
+        return False  # "Ch 1: acc [g], Ch 2: acc [g]"
+    if units_said([line], {}) or (len(single) > 1 and _is_a_value(single)):
+        return True
+    return (said or any(re.match(_VALUE, cell) for cell in single)) and names_a_fact(line)
 
 
 _TYPES = re.compile(r"(?i)\W*((float|double|single|u?int)\d*\W*)+")
@@ -742,20 +727,7 @@ def _names(line: str, style: _Style, columns: Array) -> list[str] | None:
         names = [cell.strip().strip('"').strip() for cell in cells]
         if _is_a_value(names):
             continue
-        while len(names) > width and (
-            _number(names[-1]) is not None or names[-1].lower() in _WORDS_OF_A_ROW
-        ):
-            names.pop()  # LabVIEW names a column of words, which is empty; scopes have settings
-        if len(names) == width + 1 and re.fullmatch(
-            r"\W*(headers|columns|fields)", names[0].lower()
-        ):
-            names.pop(0)
-        if 1 < len(names) < width and np.isnan(columns[:, len(names) :]).all():
-            names += [""] * (width - len(names))  # rows with empty cells at their ends
-        if len(names) == width - 1 and _counts_rows(columns[:, 0]):
-            names.insert(0, "")  # R names no column of the rows' names
-        if len(names) == width + 1 and style.stamps and re.search("date|dat", names[0].lower()):
-            names[:2] = [f"{names[0]} {names[1]}"]  # date and time in a column each
+        names = _with_width(names, style, columns)
         if len(names) == width:
             return names
     names = [cell.strip(' "') for cell in line.split(style.delimiter or "\n")]
@@ -764,6 +736,24 @@ def _names(line: str, style: _Style, columns: Array) -> list[str] | None:
     if len(names) > width and any(known[:width]) and not any(known[width:]):
         return names[:width]  # columns of words at the end, empty and not delimited
     return None
+
+
+def _with_width(names: list[str], style: _Style, columns: Array) -> list[str]:
+    """The names of a heading without those of no column, and with those that need not be there."""
+    width = columns.shape[1]
+    while len(names) > width and (
+        _number(names[-1]) is not None or names[-1].lower() in _WORDS_OF_A_ROW
+    ):
+        names.pop()  # LabVIEW names a column of words, which is empty; scopes have settings
+    if len(names) == width + 1 and re.fullmatch(r"\W*(headers|columns|fields)", names[0].lower()):
+        names.pop(0)
+    if 1 < len(names) < width and np.isnan(columns[:, len(names) :]).all():
+        names += [""] * (width - len(names))  # rows with empty cells at their ends
+    if len(names) == width - 1 and _counts_rows(columns[:, 0]):
+        names.insert(0, "")  # R names no column of the rows' names
+    if len(names) == width + 1 and style.stamps and re.search("date|dat", names[0].lower()):
+        names[:2] = [f"{names[0]} {names[1]}"]  # date and time in a column each
+    return names
 
 
 def _is_a_value(cells: Sequence[str]) -> bool:
@@ -825,8 +815,10 @@ def _numbers(
     return columns[:, :width], sensors
 
 
-def _wrong_lines(lines: Iterable[bytes], style: _Style) -> Iterator[tuple[int, str, str]]:
-    """Lines that are not `width` numbers and gaps: number from 0, the line, what it lacks."""
+def _wrong_lines(
+    lines: Iterable[bytes], style: _Style
+) -> Iterator[tuple[int, str, list[str], str]]:
+    """Lines that are not `width` numbers and gaps: number from 0, text, cells, what they lack."""
     width = style.width
     for index, line in enumerate(lines):
         text = _decoded(line)
@@ -836,23 +828,12 @@ def _wrong_lines(lines: Iterable[bytes], style: _Style) -> Iterator[tuple[int, s
         if len(cells) == width + 1 and not cells[-1]:
             cells.pop()
         words = [_number(cell) is None for cell in cells]
+        short = re.sub(r"[^ -\uffff]", "", text.strip())[:40]
         if any(word for i, word in enumerate(words[:width]) if i not in style.words):
-            yield index, text.strip(), "numbers"
+            yield index, short, cells, "numbers"
         elif len(cells) != width:
             comment = len(cells) > width and all(words[width:])
-            yield index, text.strip(), "" if comment else f"{width} columns as in the first"
-
-
-def _without_a_cut_line(body: bytes, style: _Style) -> tuple[bytes, list[str]]:
-    """Many lines without the last one where that is cut off, and a sentence on it."""
-    last = body.rstrip().rfind(b"\n") + 1
-    # another clock: the time begins with the first line
-    other = dataclasses.replace(style, clock=None if style.clock is None else _Clock())
-    wrong = next(_wrong_lines([body[last:]], other), None)
-    if wrong is None or not wrong[2] or body.count(b"\n") <= FEWEST_SAMPLES:
-        return body, []
-    text = re.sub(r"[^ -\uffff]", "", wrong[1])[:40]
-    return body[:last], [f"The last line, “{text}”, is cut off: it is not used."]
+            yield index, short, cells, "" if comment else f"{width} columns as in the first"
 
 
 def _mended(
@@ -861,55 +842,86 @@ def _mended(
     """Lines with gaps in place of a few that hold no numbers, sentences on them, and their words.
 
     The first line has the number `above`. An oscilloscope's settings are beside its first numbers.
+    The last of many lines may be cut off.
     """
-    lines, width = body.splitlines(keepends=True), style.width
+    lines, width = body.rstrip().splitlines(keepends=True), style.width
+    many_lines = len(lines) > FEWEST_SAMPLES
     few, many = (
-        int(share * len(lines)) + 1 if len(lines) > FEWEST_SAMPLES else 0
-        for share in (MOST_WRONG, MOST_MISSING)
+        int(share * len(lines)) + 1 if many_lines else 0 for share in (MOST_WRONG, MOST_MISSING)
     )
     wrong: list[tuple[int, str, str]] = []
     words: set[str] = set()  # in place of numbers in lines that are whole
     torn = 0
-    for index, text, allowed in _wrong_lines(lines, style):
-        cells = _decoded(lines[index]).split(style.delimiter)
+    notes: list[str] = []
+    for index, text, cells, allowed in _wrong_lines(lines, style):
+        if allowed and index == len(lines) - 1 and many_lines:
+            lines[index] = b""
+            notes = [f"The last line, “{text}”, is cut off: it is not used."]
+            break
         if allowed:
-            wrong.append((index, re.sub(r"[^ -\uffff]", "", text)[:40], allowed))
-            bad = [
-                i
-                for i, cell in enumerate(cells)
-                if i not in style.words and _number(style.plain(cell).strip()) is None
-            ]
-            if len(cells) in (width, width + 1) and bad:
-                words |= {cells[i].strip() for i in bad}
-            else:
-                bad, torn = list(range(width)), torn + 1
-                cells = [""] * width
-            for i in bad:
-                cells[i] = "nan"
-            if torn > few or len(wrong) > (many if len(words) <= MOST_MISSING_WORDS else few):
+            wrong.append((index, text, allowed))
+            cells, missing = _with_gaps(cells, style)
+            words |= missing
+            torn += not missing
+            most = many if len(words) <= MOST_MISSING_WORDS else few
+            if torn > few or len(wrong) > most:
                 raise checks.refuse(f"line {above + wrong[0][0]} of {name}", *wrong[0][1:])
-        lines[index] = (style.delimiter or " ").join(cells[:width]).encode("latin-1", "replace")
-        lines[index] += b"\n"
+        text = (style.delimiter or " ").join(cells[:width])
+        text = text.replace(".", ",") if style.decimal_comma else text
+        lines[index] = text.encode("latin-1", "replace") + b"\n"
     again = {line[:40] for line in remarks}  # headings of a second recording are no news
-    wrong = [one for one in wrong if one[1] not in again]
-    if not wrong:
-        return b"".join(lines), [], []
-    index, text, _ = wrong[0]
-    number = "One line lacks" if len(wrong) == 1 else f"{thousands(len(wrong))} lines lack"
-    first = f"line {above + index}, “{text}”"
-    notes = [f"{number} numbers ({first}), which count as missing."]
-    return b"".join(lines), notes, [line for _, line, _ in wrong[:SAMPLE]]
+    lacking = [(above + index, text) for index, text, _ in wrong if text not in again]
+    return b"".join(lines), notes + _lacking(lacking), [text for _, text in lacking[:SAMPLE]]
 
 
-def _rows(body: bytes, style: _Style, most_rows: int) -> tuple[Array, list[str] | None] | None:
-    """Signals that are written in a row each, as columns with their names; None for others."""
+def _with_gaps(cells: list[str], style: _Style) -> tuple[list[str], set[str]]:
+    """Cells with gaps in place of words, and these; gaps alone where the line is torn."""
+    bad = [i for i, c in enumerate(cells) if i not in style.words and _number(c) is None]
+    if len(cells) != style.width or not bad:
+        return ["nan"] * style.width, set()
+    return ["nan" if i in bad else cell for i, cell in enumerate(cells)], {cells[i] for i in bad}
+
+
+def _lacking(lines: Sequence[tuple[int, str]]) -> list[str]:
+    """A sentence on numbered lines that lack numbers; none of no line."""
+    if not lines:
+        return []
+    many = "One line lacks" if len(lines) == 1 else f"{thousands(len(lines))} lines lack"
+    number, text = lines[0]
+    return [f"{many} numbers (line {number}, “{text}”), which count as missing."]
+
+
+def _signals_in_rows(
+    body: bytes, style: _Style, remarks: list[str], most_numbers: int, most_columns: int
+) -> tuple[dict[str, Any], Array] | None:
+    """Signals that are written in a row each, behind facts of each; None for any other table."""
     width = style.width
+    most_rows = min(most_columns if width > most_columns else LONG_ROW, width)
     lines = list(islice(_lines_of_numbers(io.BytesIO(body)), most_rows + 1))
     plain = [style.plain(line).rstrip(" ") for line in lines]
     rows = [_row(line, style.delimiter, style.words) for line in plain]
     whole = [row[:width] for row in rows if row is not None and len(row) in (width, width + 1)]
-    if width < FEWEST_SAMPLES or len(whole) < len(rows) or len(rows) > most_rows:
+    if width < FEWEST_SAMPLES or not len(whole) == len(rows) <= most_rows:
         return None
-    named = style.words == (0,)
-    names = [_cells(line, style.delimiter)[0] for line in plain] if named else None
-    return np.delete(np.array(whole).T, style.words, axis=0), names
+    heads = _cells(remarks[-1], style.delimiter) if remarks else []
+    count = _count_of_facts(heads, width)
+    columns = np.delete(np.array(whole).T, [*range(count), *style.words], axis=0)
+    if columns.size > most_numbers:
+        return None
+    cells = [_cells(line, style.delimiter) for line in lines]
+    named = count > 0 or style.words == (0,)
+    names = [row[0] for row in cells] if named else _headings(remarks, style, columns)
+    # what all rows say alike is said of the file
+    facts = [(heads[i], {row[i] for row in cells}) for i in range(count)]
+    said = [f"{head}: {values.pop()}" for head, values in facts if len(values) == 1]
+    return _about(columns, names, (remarks[:-1] if count else remarks) + said)
+
+
+def _count_of_facts(headings: Sequence[str], width: int) -> int:
+    """Count the first columns that are no samples, by headings such as "time, fs, s0, s1, ..."."""
+    ends = [re.search(r"(\d+)\W*$", heading) for heading in headings]
+    numbers = [int(end[1]) if end else None for end in ends]
+    if len(numbers) != width or numbers[-1] is None:
+        return 0
+    first = numbers[-1] - width + 1
+    return max((i + 1 for i, number in enumerate(numbers) if number != first + i), default=0)

@@ -59,13 +59,13 @@ SPEEDS: Mapping[str, float] = MappingProxyType(
 
 _OTHERS = (
     "µm", "mm", "mil", "°C", "A", "%", "Pa", "bar", "Nm", "deg", "deg/s", "µT", "kHz", "dB", "km/h",
-    "W", "kW", "l/min",
+    "W", "kW", "l/min", "mA", "kA", "gE",
 )  # fmt: skip
 
 _WRITTEN = {
     "m/s²": "m/s2 m/s/s m/s^2 m/s**2 ms-2 ms^-2 ms⁻² m·s-2 m·s⁻² m*s-2 m*s^-2 mps2 m_s2 ms2 "
     "m_per_s2 m/sec2 m/sec^2 m/sec²",
-    "g": "gs gn g_n g's g's grav gravity gravities gpeak grms",
+    "g": "gs gn g_n g's g's g-s g-force gforce gee gees grav gravity gravities",
     "mg": "millig milli-g mgs",
     "mm/s²": "mm/s2 mm/s^2 mm/s**2 mms-2 mm_s2 mm_per_s2 mm/sec2 mm/sec²",
     "cm/s²": "cm/s2 cm/s^2 gal",
@@ -98,16 +98,21 @@ _WRITTEN = {
     "deg": "°",
     "deg/s": "dps °/s",
     "µT": "ut",
+    "A": "amp amps ampere amperes",
+    "gE": "gse env-g g-env genv",
 }
 _ALIASES = {unit.lower(): unit for unit in (*UNITS, *_TIMES, *FORCES, *SPEEDS, *_OTHERS)}
 _ALIASES |= {word: unit for unit, words in _WRITTEN.items() for word in words.split()}
 
-_IN_BRACKETS = re.compile(r"[\[(]\s*([^\[\]()]{1,12}?)\s*[\])]")
+_IN_BRACKETS = re.compile(r"[\[(]\s*([^\[\]()]{1,12}?(?:\(s\S{0,3}\))?)\s*[\])]")
 _LOOSE = {
     "g", "gs", "mg", "v", "mv", "s", "ms", "us", "ns", "volt", "volts", "rpm", "g's", "hz", "n",
-    "kn", "ips",
+    "kn", "ips", "um", "µm", "mm", "mil", "mils", "db", "ge", "cpm",
 }  # fmt: skip
 """Short words that are units at the end of a name, as in "sensor_g"."""
+
+_DETECTOR = re.compile(r"[-_(]*(?:pk-?pk|p-p|0-?pk?|rms|peak|pk|eff)\)?$")
+"""A way to take the size of a signal, at the end of its unit: "g-pk", "mm/s RMS"."""
 
 LEAST_LEVEL, GREATEST_LEVEL = 3e-3, 2e3
 """[m/s²] root mean squares that housings of running bearings have: from a shaft that turns a few
@@ -121,7 +126,8 @@ def unit_named(text: str) -> str | None:
     ('m/s²', 'in/s²', None)
     """
     bare = re.sub(r"\s+", "", text).replace("μ", "µ").rstrip(".").lower()
-    return _ALIASES.get(bare)
+    bare = re.sub(r"\((s\S{0,3}?)\)", r"\1", bare)  # m/(s²)
+    return _ALIASES.get(bare) or _ALIASES.get(_DETECTOR.sub("", bare))
 
 
 def unit_in(heading: str) -> str | None:
@@ -132,6 +138,7 @@ def unit_in(heading: str) -> str | None:
     >>> unit_in("1/min")
     'rpm'
     """
+    heading = re.sub(r"(?i)[\[(](pk-?pk|peak|pk|rms)[\])]", "", heading)
     for name in _IN_BRACKETS.findall(heading):
         unit = unit_named(name)
         if unit is not None:
@@ -148,7 +155,11 @@ def unit_in(heading: str) -> str | None:
         before, found, after = bare.partition(mark)
         if found and before.strip() and (unit := unit_named(after)) is not None:
             return unit
-    words = re.split(r"[\s_.,;]+", bare)
+    return _unit_at_end(re.split(r"[\s_.,;]+", bare))
+
+
+def _unit_at_end(words: list[str]) -> str | None:
+    """The unit that the last words of a name are."""
     for count in (3, 2, 1):  # "m_per_s2" is three words at the end of a name
         if len(words) > count or (len(words) == count == 1):
             end = "_".join(words[-count:])

@@ -55,10 +55,7 @@ BEARING_SOURCES = {
 }  # fmt: skip
 """Where a bearing is from, in words."""
 
-OWN_FREQUENCIES = (
-    " Another bearing has other frequencies, however alike: choose “by its frequencies” and take "
-    "them from the maker's sheet."
-)
+OWN_FREQUENCIES = " Choose “by its frequencies” to type them."
 """Follows the refusal of a bearing that is not in the table: a way on."""
 
 

@@ -18,7 +18,7 @@ from bearingcore import (
     presets,
     read_designation,
 )
-from bearingcore.bearings import designations, is_known, nearest_known, series_words
+from bearingcore.bearings import designations, is_known, series_words
 from bearingcore.common import number
 from bearingcore.scene import preset_labels
 from bearingcore.units import read_number
@@ -90,9 +90,7 @@ def _no_match(text: str) -> str:
         except ValueError as error:
             words = words_of(error)
             return f"{words[0].upper()}{words[1:]}."
-    near = nearest_known(text.upper())
-    near = f"{near[:1].upper()}{near[1:]}. " if near else ""
-    return f"No match. {near}Known by number are the series {series_words()}."
+    return f"No match. Known by number are the series {series_words()}."
 
 
 def _designation(text: str) -> Designation | None:

@@ -162,11 +162,6 @@ SLOW = 0.5 + np.arange(N) / 99.7
             RATE, True, "g", ["ax [g]"],
         ),
         (
-            "Duration Time(s)  0.25\nSampling Freq(Hz) 8000Hz\nMemo.  a comment\n"
-            + "\n".join("  ".join(map(str, SIGNAL[i : min(i + 7, N), 0])) for i in range(0, N, 7)),
-            RATE, True, None, ["Memo.  a comment"],
-        ),
-        (
             ";Headers, time,acc\n"
             + lines(lambda i, x, y: f"{1.7e9 + (i + 3 * math.sin(0.11 * i)) / 1690:.6f},{x}"),
             1690, False, None, ["acc"],
@@ -358,6 +353,7 @@ def test_the_longest_sheet_of_excel_is_read() -> None:
     np.testing.assert_allclose(table.columns, FRAME[:500], atol=1e-9)
     assert table.contents.sample_rate.value == pytest.approx(RATE)
     assert table.notes == ("Read is its longest sheet, “Data”.",)
+    assert (FACTS["rpm"](table), FACTS["machine"](table)) == (1490.0, "pump")
 
 
 # -- habits that were read wrongly ----------------------------------------------------------------
@@ -739,6 +735,11 @@ FACTS: dict[str, Callable[[Any], Any]] = {
     "guessed": lambda made: in_rpm(made.contents.shaft_speed, False),
     "why": lambda made: made.contents.shaft_speed.reason,
     "bearing": lambda made: stated(made.contents.designation),
+    "machine": lambda made: stated(made.contents.machine),
+    "point": lambda made: stated(made.contents.point),
+    "recorded": lambda made: str(made.contents.recorded and made.contents.recorded.value),
+    "load": lambda made: stated(made.contents.load),
+    "note": lambda made: made.contents.choice.note,
 }
 
 
@@ -778,6 +779,9 @@ QUARTERS = [f"{d:%Y-%m-%d %H:%M:%S},{a}" for d, a in zip(
     pd.date_range("2024-01-01", periods=N, freq="6h"), SIGNAL[:, 0], strict=True)]  # fmt: skip
 LINES, FIFTY = np.arange(N) * 4.0, np.full(N, 50.0)
 STEP = {"wf_increment": 1.0 / RATE}
+ENVELOPE = np.abs(SIGNAL[:, 1]) + 0.01
+SPECTRUM = ["" if i > 800 else f"{i},{v:.4f}" for i, v in enumerate(ENVELOPE)]
+CSI = "Equipment: P-101\nMeas. Point: M1H\nDate/Time: 12-Mar-24  09:14:55\nRPM= 1797.  (30 Hz)\n"
 CWRU = {f"X097_{side}_time": SIGNAL[:, :1] for side in ("DE", "FE")}
 
 FILES: list[tuple[bytes | str, dict[str, Any]]] = [
@@ -870,6 +874,41 @@ FILES: list[tuple[bytes | str, dict[str, Any]]] = [
     (matlab(**CWRU), {"file": "a.mat", "likely": 48e3}),
     (matlab(**CWRU), {"file": "12k_Drive_End_1.mat", "likely": 12e3, "reason": "12k",
                       "columns": {"y": 0}, "choice": "name says drive end"}),
+    # what is no vibration over time is named, with what to bring; beside a signal it is left
+    *((rows(LINES, SIGNAL[:, 0], heading=heading), {"question": "this is a spectrum"})
+      for heading in ("Order,Amplitude [mm/s]", "Frequency [CPM],v [mm/s]", "X [Hz],Y [dB]")),
+    *((rows(TIME, SIGNAL[:, 0], heading=f"t [s],{heading}"), {"question": f"is {kind}"})
+      for heading, kind in (
+          ("PeakVue (G-s)", "an envelope"), ("a [gE]", "an envelope"), ("I (A)", "a current"),
+          ("disp [µm pk-pk]", "a displacement"), ("mic [Pa]", "a sound"), ("L [dB]", "a level"))),
+    (one("# Signal type: envelope"), {"question": "“Signal type: envelope”: this is an envelope"}),
+    (one("# Unit: A"), {"question": "“column 1” is a current"}),
+    (one("# Envelope: off\n# FFT lines: 3200"), {"columns": {"y": 0}}),
+    (rows(SIGNAL[:, 0] * 0.0 + ENVELOPE, SIGNAL[:, 0]), {"columns": {"y": 1}}),
+    ("\n".join(f"{t:.6f},{a},{more or ','}" for t, a, more in zip(
+        TIME, SIGNAL[:, 0], SPECTRUM, strict=True)),
+     {"roles": ["time", "signal", "other", "other"], "rate": RATE, "columns": {"y": 1}}),
+    # the one signal of a file is that signal, whatever its name
+    *((rows(TIME, SIGNAL[:, 0], heading=f"time,{name}"), {"columns": {"y": 1}, "note": f"“{name}”"})
+      for name in ("z", "acc_z", "axial", "load", "sample")),
+    # units, rates and facts as tools name them
+    (timed(CSI), {"rpm": 1797.0, "machine": "P-101", "point": "M1H",
+                  "recorded": "2024-03-12 09:14:55"}),
+    (timed("# Machine: P-1; Point: MDE-H; Date: 2026-06-01"),
+     {"machine": "P-1", "point": "MDE-H", "recorded": "2026-06-01 00:00:00"}),
+    (timed("x"), {"file": "P-1_2026-06-01.csv", "recorded": "2026-06-01 00:00:00"}),
+    (timed("# Date: 03/04/2024"), {"recorded": "None"}),
+    (one("# speed 1500 rpm\n# load 2 kN"), {"rpm": 1500.0, "load": 2e3, "columns": {"y": 0}}),
+    (one("SampleRate=8000\nUnitName_1=mm/s²\nDataStart=0"), {"rate": RATE, "unit": "mm/s²"}),
+    *((one(f"{words}\nQuantity: Acceleration, g"), {"rate": RATE, "unit": "g"})
+      for words in ("SampleTime[ms];0.125", "NI_CM_Dt,1.25e-4", "accel_odr_hz: 8000")),
+    (rows(TIME, SIGNAL[:, 0], heading="t [s],Accel (G-s)"), {"unit": "g"}),
+    # signals in cells, and in rows behind their facts
+    (f'date,fs,unit,a\n2024-03-12,8000,g,"{SIGNAL[:, 0].tolist()}"\n',
+     {"rate": RATE, "unit": "g", "columns": {"y": 0}}),
+    ("\n".join(",".join(map(str, row)) for row in (
+        ["time", "fs", *(f"s{i}" for i in range(N))], *(["10:00", 8000, *s] for s in SIGNAL.T))),
+     {"rate": RATE, "options": (0, 1)}),
     # a displacement or a temperature is no signal
     (rows(TIME, TIME, SIGNAL[:, 0], heading="gap [µm],temp [°C],acc [g]"),
      {"roles": ["other", "other", "signal"], "columns": {"y": 2}}),
@@ -901,7 +940,7 @@ def test_what_a_file_says(content: bytes | str, said: dict[str, Any]) -> None:
     assert any(np.allclose(one, SIGNAL[missing:, 0], atol=1e-6) for one in made.columns.T)
     for name, expected in said.items():
         found = FACTS[name](made)
-        if name in ("question", "choice", "reason", "trouble", "why"):
+        if name in ("question", "choice", "reason", "trouble", "why", "note"):
             assert expected in found, name
         elif isinstance(expected, float):
             assert found == pytest.approx(expected, rel=1e-4), name

@@ -62,15 +62,20 @@ def test_text_in_many_habits_gives_the_same_recording(content):
 
 
 def test_gaps_matter_only_in_the_columns_taken():
-    """The rows to the longest gap are left out, and a note says so."""
+    """The rows to the longest gap are left out, gaps of one are bridged, and notes say so."""
     lines = text(TABLE).decode().splitlines()
-    lines[700] = lines[700].rsplit(",", 1)[0] + ","
+    for row in (700, 701, 2000, 2100):
+        lines[row] = lines[row].rsplit(",", 1)[0] + ","
     table = read_table("rig.csv", "\n".join(lines).encode())
     assert len(table.recording([1], ["x"], "g").acceleration) == N
     got = table.recording([2], ["y"], "m/s²")
-    np.testing.assert_allclose(got.acceleration[:, 0], SIGNAL[701:, 1], rtol=1e-7, atol=1e-9)
-    assert "missing in 1 row." in got.notes[0]
-    assert "rows 702 to 3000 of 3000" in got.notes[0]
+    expected = SIGNAL[702:, 1].copy()
+    for row in (2000 - 702, 2100 - 702):
+        expected[row] = 0.5 * (expected[row - 1] + expected[row + 1])
+    np.testing.assert_allclose(got.acceleration[:, 0], expected, rtol=1e-7, atol=1e-9)
+    assert "missing in 2 rows. Each is bridged by the mean" in got.notes[0]
+    assert "missing in 2 rows. Only" in got.notes[0]
+    assert "rows 703 to 3000 of 3000" in got.notes[0]
 
 
 @pytest.mark.parametrize(

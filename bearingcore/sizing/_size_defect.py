@@ -43,9 +43,9 @@ APART = 0.16
 EXPLAINED, AHEAD = 0.3, 1.5
 """Misfit below which an extent explains the pass, and how many times as much the next one has."""
 
-NEARLY = 0.02
-"""Misfit by which models err: lengths that have no more than that beyond the best are in its
-interval."""
+NEARLY = 0.1
+"""Lengths whose misfit is greater by no more than this are in the interval of the best: it holds
+the truth where the scene is that of the machine."""
 
 AVERAGED, STEPS_A_CYCLE, MOST_STEPS = 0.12, 10.0, 200_000
 """[s] of a simulation that are averaged; steps in a cycle of the highest frequency, and in a spall,
@@ -223,6 +223,10 @@ def size_defect(
     checks.real_number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")
     if not set(recording.directions) <= set(scene.active_dofs):
         raise checks.refuse("dofs", scene.active_dofs, f"with {', '.join(recording.directions)}")
+    if not scene.bearing.rows_are_alike:
+        raise ValueError(
+            "rows are not alike, so no ball pass is like the next; allowed: rows alike"
+        )
     nominal = scene.bearing.bpfo(scene.shaft_speed)
     if len(scene.defects) > 1:
         return Sizing(SizingStatus.SEVERAL_DEFECTS)

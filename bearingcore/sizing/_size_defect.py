@@ -267,10 +267,7 @@ def size_defect(
 
 
 class _Search:
-    """Mean ball passes of a scene, simulated with any extent and held against the measured one.
-
-    `band` [Hz] is compared, in the directions that were measured.
-    """
+    """Mean ball passes of a scene with any extent, held in a band [Hz] against the measured one."""
 
     def __init__(
         self, scene: Scene, recording: Recording, passes: BallPasses, band: tuple[float, float]

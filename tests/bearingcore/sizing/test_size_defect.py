@@ -32,18 +32,16 @@ def test_an_answer_has_what_a_picture_of_it_needs(sizing: Sizing) -> None:
     assert any(0.8 < count < 1.2 for count in spacings), "what entry and exit do not tell from it"
     assert best.bands == modes(RIG.replace(extent=best.extent)).bands() == modes(best.scene).bands()
     assert f"{math.degrees(best.extent):.1f}°" in sizing.sentence
-    assert len(sizing.table().columns["extent"].values) == len(sizing.candidates)
+    assert sizing.table()["extent"].tolist() == [c.extent for c in sizing.candidates]
 
 
 def test_the_misfit_is_that_of_the_lines_it_comes_with(sizing: Sizing) -> None:
     """By the formula, written out: each direction of power 1."""
     for candidate in sizing.candidates:
-        alike = 0.0, 0.0
         size = np.linalg.norm(sizing.lines, axis=0)
         measured, simulated = sizing.lines / size, candidate.lines / size
-        alike = np.sum(np.conj(measured) * simulated).real / math.sqrt(
-            2.0 * np.sum(np.abs(simulated) ** 2)
-        )
+        alike = np.sum(np.conj(measured) * simulated).real
+        alike /= math.sqrt(2.0 * np.sum(np.abs(simulated) ** 2))
         assert candidate.misfit == pytest.approx(1.0 - alike, abs=1e-9)
     near = np.abs(sizing.lines - sizing.candidates[0].lines).max() / np.abs(sizing.lines).max()
     assert near < 0.05, "the simulated lines are not scaled, and lie over the measured ones"

@@ -40,7 +40,7 @@ SHORTEST, LONGEST = math.radians(0.5), math.radians(90.0)
 APART = 0.16
 """Of a ball spacing: extents that are closer to each other are one candidate."""
 
-EXPLAINED, AHEAD = 0.3, 1.5
+EXPLAINED, AHEAD = 0.25, 1.5
 """Misfit below which an extent explains the pass, and how many times as much the next one has."""
 
 NEARLY = 0.1

@@ -56,11 +56,10 @@ def test_two_spalls_that_touch_are_one_or_left_open() -> None:
     assert math.degrees(sizing.best.extent) == pytest.approx(8.0, abs=1.0) or not sizing.conclusive
 
 
-def test_a_length_of_a_whole_ball_spacing_is_left_open() -> None:
+def test_a_length_of_a_whole_ball_spacing_is_right_or_left_open() -> None:
     """One ball enters as another leaves: on the fan rig 360°/14."""
     sizing = sized(rig(25.7))
-    assert sizing.status == SizingStatus.NOT_APART
-    assert " or " in sizing.sentence
+    assert math.degrees(sizing.best.extent) == pytest.approx(25.7, abs=0.5) or not sizing.conclusive
 
 
 @pytest.mark.parametrize("differing", [{"support": 2.0, "load": 50.0}, {"inner": True}])

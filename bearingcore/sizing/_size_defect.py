@@ -1,7 +1,7 @@
 """The length of a spall of the outer race: each candidate is simulated and held against the signal.
 
 Entry and exit give the length up to whole ball spacings; the frequencies at which the machine rings
-tell which (Petersen, Howard & Prime 2014, Section 4). Signal and simulation are averaged over ball
+decide (Petersen, Howard & Prime 2014, Section 4). Signal and simulation are averaged over ball
 passes. The complex Fourier lines D and S of the two mean passes, all directions together and each
 divided by its measured size, are laid over each other under the delay τ that fits best:
 
@@ -62,10 +62,10 @@ class SizingStatus(Status):
     """The outcome of a sizing."""
 
     SIZED = "sized", "One length explains the mean ball pass, and no other does."
-    NOT_APART = "not told apart", "Several lengths explain the mean ball pass nearly as well."
+    NOT_APART = "not distinguished", "Several lengths explain the mean ball pass nearly as well."
     UNEXPLAINED = "unexplained", "No length explains the mean ball pass in this machine."
     TOO_SHORT = "too short", "The recording holds too few ball passes for a mean."
-    TOO_COARSE = "too coarse", "The sample rate is too low for the frequencies that tell lengths."
+    TOO_COARSE = "too coarse", "The sample rate is too low for the frequencies at which it rings."
     TOO_FAST = "too fast", "Balls pass too often: the machine rings at too few of their harmonics."
     NOT_SIMULATED = "not simulated", "The scene's motion cannot be simulated in so many steps."
     SEVERAL_DEFECTS = "several defects", "The scene has several defects; only one can be sized."
@@ -122,7 +122,7 @@ class Sizing:
         how it ended.
     candidates
         lengths that the signal may mean, the best first: the best two, and those a ball spacing
-        from the best, which entry and exit do not tell from it. Empty where none was simulated.
+        from the best, which have the same entry and exit. Empty where none was simulated.
     frequency : (N,) [Hz]
         of the lines of the mean ball pass that were compared.
     lines : (N, d) complex [m/s²]
@@ -150,7 +150,7 @@ class Sizing:
 
     @property
     def sentence(self) -> str:
-        """The answer with what tells the lengths apart, or why there is none."""
+        """The answer with what distinguishes the lengths, or why there is none."""
         if not self.candidates:
             return self.status.sentence
         best, *others = self.candidates
@@ -280,7 +280,7 @@ class _Search:
         kept = np.flatnonzero((frequency >= band[0]) & (frequency <= band[1]))
         self.order, self.frequency = kept + 1, frequency[kept]
         self.measured = passes.harmonics[kept]
-        # of power 1 in each direction: the weaker one tells lengths apart as well
+        # of power 1 in each direction: the weaker one distinguishes lengths as well
         self.scale = 1.0 / np.maximum(np.linalg.norm(self.measured, axis=0), 1e-300)
         self.steps = max(STEPS_A_CYCLE * band[1] / self.passing, 4.0 * len(frequency))
         self.misfits: dict[float, float] = {}

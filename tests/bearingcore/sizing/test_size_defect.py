@@ -29,7 +29,7 @@ def test_an_answer_has_what_a_picture_of_it_needs(sizing: Sizing) -> None:
     assert best.extent == pytest.approx(EXTENT, abs=math.radians(0.1))
     assert best.ratio == 1.0 < second.ratio == pytest.approx(second.misfit / best.misfit)
     spacings = [abs(c.extent - best.extent) / RIG.bearing.ball_spacing for c in sizing.candidates]
-    assert any(0.8 < count < 1.2 for count in spacings), "what entry and exit do not tell from it"
+    assert any(0.8 < count < 1.2 for count in spacings), "with the same entry and exit"
     assert best.bands == modes(RIG.replace(extent=best.extent)).bands() == modes(best.scene).bands()
     assert f"{math.degrees(best.extent):.1f}°" in sizing.sentence
     assert sizing.table()["extent"].tolist() == [c.extent for c in sizing.candidates]

@@ -7,11 +7,8 @@ from bearingcore.bearings.catalogue import (
     read_catalogue,
 )
 from bearingcore.bearings.designation import Designation, read_designation
-from bearingcore.diagnosis.extent.measure import MeasuredExtent, measure_extent
 from bearingcore.diagnosis.of_files import diagnose
 from bearingcore.diagnosis.part.evidence import Diagnosis, PartEvidence
-from bearingcore.diagnosis.size.sizing import Candidate, Sizing, size_defect
-from bearingcore.diagnosis.trend import Trend, TrendPoint, trend, trend_point
 from bearingcore.dynamics.damping import contact_damping
 from bearingcore.dynamics.modes import Modes, frequency_bands, modes
 from bearingcore.dynamics.motion import Motion, simulate
@@ -31,6 +28,17 @@ from bearingcore.signals.indicators import Indicators, indicators
 from bearingcore.signals.kurtogram import Kurtogram, kurtogram
 from bearingcore.signals.recording import Recording
 from bearingcore.signals.spectrum import Spectrum, envelope_spectrum, spectrum
+from bearingcore.sizing import (
+    Candidate,
+    MeasuredExtent,
+    Sizing,
+    Trend,
+    TrendPoint,
+    measure_extent,
+    size_defect,
+    trend,
+    trend_point,
+)
 from bearingcore.statics.ball_positions import BallPositions, ball_positions, static_state
 from bearingcore.statics.equilibrium import STIFFNESS_TERMS, Equilibrium, equilibrium
 from bearingcore.statics.film import Film, film

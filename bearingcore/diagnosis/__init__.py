@@ -1,4 +1,4 @@
-"""From a measured signal to the machine: which part is damaged, and how large the defect is."""
+"""From a measured signal to the machine: which part is damaged."""
 
 from bearingcore.diagnosis.part.combs import HARMONICS as HARMONICS
 from bearingcore.diagnosis.part.diagnose import SLIP as SLIP
@@ -14,5 +14,3 @@ from bearingcore.diagnosis.part.parts import OUTER as OUTER
 from bearingcore.diagnosis.part.parts import PARTS as PARTS
 from bearingcore.diagnosis.part.say import perhaps_a_ball as perhaps_a_ball
 from bearingcore.diagnosis.part.status import DiagnosisStatus as DiagnosisStatus
-from bearingcore.diagnosis.trend import LINES as LINES
-from bearingcore.files.dates import time_in as time_in

@@ -7,6 +7,7 @@ from bearingcore.files.channels import SPEED as SPEED
 from bearingcore.files.channels import TIME as TIME
 from bearingcore.files.channels import Column as Column
 from bearingcore.files.contents import FileContents as FileContents
+from bearingcore.files.dates import time_in as time_in
 from bearingcore.files.facts import Finding as Finding
 from bearingcore.files.sampling import longest_run as longest_run
 from bearingcore.files.table import files_inside as files_inside

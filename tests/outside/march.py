@@ -44,7 +44,7 @@ def accelerate(t: float, q: Array, v: Array, own: Array, rows: Array, out: Array
     """
     count, ball, ca, sa, lever, apart, clearance, K, n, preload = own[:10]
     extent, depth, race, edge, center, cage, c_contact, least = own[10:18]
-    turn = own[20]  # of the defect
+    turn, spalls = own[20], own[21]  # of the defect; how many alike touch in its extent
     out[:] = 0.0
     for r in range(rows.shape[0]):
         z, facing = rows[r, 0], rows[r, 1]
@@ -54,7 +54,9 @@ def accelerate(t: float, q: Array, v: Array, own: Array, rows: Array, out: Array
             down = slope = 0.0
             if r == 0:
                 away = (phi - center - turn * t + math.pi) % (2.0 * math.pi) - math.pi
-                down, slope = drop(0.5 * extent - abs(away), ball, race, depth, edge)
+                if abs(away) < 0.5 * extent and spalls > 1.0:
+                    away = (away + 0.5 * extent) % (extent / spalls) - 0.5 * extent / spalls
+                down, slope = drop(0.5 * extent / spalls - abs(away), ball, race, depth, edge)
                 slope *= turn - cage if away > 0.0 else cage - turn
             radial = q[0] * c + q[1] * s + z * (q[4] * c - q[3] * s) - clearance
             radial_rate = v[0] * c + v[1] * s + z * (v[4] * c - v[3] * s)
@@ -132,7 +134,8 @@ def by_runge_kutta(
 class Problem:
     """Two rings on a support; arrays by free direction, in SI; speeds [rad/s].
 
-    `no_tension`: contacts never pull; `unbalance` [N] turns with the shaft.
+    `no_tension`: contacts never pull; `unbalance` [N] turns with the shaft; `spalls` that touch
+    share the extent of the defect.
     """
 
     rows: Rows
@@ -146,6 +149,7 @@ class Problem:
     no_tension: bool = False
     unbalance: float = 0.0
     shaft: float = 0.0
+    spalls: int = 1
 
     def packed(self) -> tuple[Array, Array, Array, Array]:
         one, hurt = self.rows, self.rows.defect
@@ -154,7 +158,7 @@ class Problem:
             one.apart, one.clearance, *one.law, one.preload, hurt.extent, hurt.depth, hurt.race,
             EDGES[hurt.edge] + hurt.inner, hurt.center, self.cage, self.c,
             0.0 if self.no_tension else -math.inf, self.unbalance, self.shaft,
-            self.shaft if hurt.inner else 0.0,
+            self.shaft if hurt.inner else 0.0, self.spalls,
         )  # fmt: skip
         free = list(self.free)
         rig = np.stack([self.mass, self.stiffness, self.damping, self.force[free]])

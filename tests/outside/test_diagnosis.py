@@ -11,10 +11,9 @@ import numpy as np
 import pytest
 
 from bearingcore import Bearing, Recording, diagnose, measure_extent, presets, trend
-from bearingcore.diagnosis.extent.measure import ExtentStatus
 from bearingcore.diagnosis.part.evidence import CANNOT_TELL, NONE_SEEN
-from bearingcore.diagnosis.trend import LINES
 from bearingcore.files.table import read_table
+from bearingcore.sizing import LINES, ExtentStatus
 from tests.helpers.recordings import file_from_elsewhere
 from tests.outside.elements import Array
 from tests.outside.witness import witness

@@ -35,7 +35,7 @@ from bearing_explorer.kit.widgets.facts import html_table, html_text
 from bearingcore import Diagnosis
 from bearingcore.bearings import FREQUENCIES
 from bearingcore.common import number, with_prefix
-from bearingcore.diagnosis import time_in
+from bearingcore.files import time_in
 
 FILE = "bearing-report-{}.html"
 NOT_SAID = "not said"

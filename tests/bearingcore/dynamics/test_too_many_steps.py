@@ -10,13 +10,12 @@ import pytest
 
 from bearingcore import equilibrium, kernels, modes, presets, simulate, stiffness_maps
 from bearingcore.common.numbers import thousands
-from bearingcore.diagnosis.size.sizing import size_defect
 from bearingcore.dynamics.orbit import orbit
 from bearingcore.dynamics.speed_runs import speed_run
 from bearingcore.dynamics.status import MotionStatus, OrbitStatus
 from bearingcore.signals.recording import Recording
+from bearingcore.sizing import size_defect
 from bearingcore.statics.ball_positions import ball_positions
-from tests.helpers.recordings import RATE, RIG, noisy, signal_of
 
 STIFF = presets["liew-lim"].replace(
     inner_mass=1.8e-3,
@@ -139,17 +138,10 @@ def test_too_many_contacts_are_not_begun_and_say_what_they_would_cost() -> None:
 # Sizes
 
 
-def test_a_size_that_takes_too_many_steps_is_not_looked_for_and_says_what_it_would_cost(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    signal = Recording(noisy(signal_of(RIG), 20.0), RATE)
-    monkeypatch.setattr("bearingcore.diagnosis.size.search.Search.guesses", begun)
-    sized = size_defect(signal, RIG, fault="outer race", support_known=True, most_steps=100_000)
-    assert sized.sentence.startswith("too many steps: about ")
-    assert sized.sentence.endswith(f"allowed are most_steps = {thousands(1e5)}")
-    assert not sized.candidates
-    assert not sized.conclusive
-    with pytest.raises(AssertionError, match="it was begun"):
-        size_defect(signal, RIG, fault="outer race", support_known=True)
-    with pytest.raises(ValueError, match="most_steps"):
-        size_defect(signal, RIG, fault="outer race", support_known=True, most_steps=0)
+@pytest.mark.usefixtures("_no_marching")
+def test_a_length_is_not_simulated_in_too_many_steps(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("bearingcore.sizing._size_defect.MOST_STEPS", 1000)
+    noise = np.random.default_rng(1).standard_normal((20_480, 2))
+    sizing = size_defect(Recording(noise, 20_480.0), presets["fan-rig"], support_known=True)
+    assert sizing.status == "not simulated"
+    assert not sizing.candidates

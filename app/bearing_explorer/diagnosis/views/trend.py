@@ -41,8 +41,9 @@ from bearing_explorer.kit.views.job_view import Editor, JobView
 from bearing_explorer.kit.views.python_lines import code_of, scene_code, short
 from bearing_explorer.kit.widgets.form import AS_HIGH_AS_SHOWN, FieldSpec, stack
 from bearingcore import Trend, trend
-from bearingcore.diagnosis import CANNOT_TELL, LINES, NONE_SEEN
+from bearingcore.diagnosis import CANNOT_TELL, NONE_SEEN
 from bearingcore.errors import FieldError
+from bearingcore.sizing import LINES
 
 HEIGHT = 210
 COLORS = {

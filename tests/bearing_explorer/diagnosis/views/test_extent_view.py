@@ -15,7 +15,7 @@ from bearing_explorer.diagnosis.views.signal_figure import figure_of
 from bearing_explorer.kit.serve.packed_source import PackedSource
 
 from bearingcore import MeasuredExtent, Recording, presets
-from tests.bearingcore.diagnosis.extent.test_measure_extent import MOTOR, RATE, SPEED, signal
+from tests.bearingcore.sizing.test_measure_extent import MOTOR, RATE, SPEED, signal
 from tests.helpers.loops import run
 from tests.helpers.measuring import at, measuring
 

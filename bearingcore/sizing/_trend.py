@@ -13,7 +13,6 @@ from bearingcore.bearings.named import BearingLike, bearing_of
 from bearingcore.common import checks
 from bearingcore.common.arrays import Array
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
-from bearingcore.diagnosis.extent.measure import MeasuredExtent, measure_extent
 from bearingcore.diagnosis.part.diagnose import SLIP, diagnose
 from bearingcore.diagnosis.part.evidence import CANNOT_TELL
 from bearingcore.diagnosis.part.listened_signal import NARROWEST
@@ -24,6 +23,7 @@ from bearingcore.signals.kurtogram import kurtogram
 from bearingcore.signals.recording import Recording
 from bearingcore.signals.spectrum import Spectrum, envelope_spectrum
 from bearingcore.signals.whitening import local_median
+from bearingcore.sizing._measure_extent import MeasuredExtent, measure_extent
 
 LINES = ("bpfo", "bpfi", "bsf_2", "ftf")
 """Lines of outer race, inner race, ball (twice its spin) and cage."""

@@ -8,7 +8,7 @@ import pytest
 from scipy.optimize import brentq
 
 from bearingcore import Defect, Load, Scene, presets
-from bearingcore.diagnosis.extent.release import plausible_offsets, release_offset
+from bearingcore.sizing._release import plausible_offsets, release_offset
 from bearingcore.statics.equilibrium import equilibrium
 
 MOTOR = presets["6205"].bearing

@@ -12,7 +12,6 @@ from bearingcore.bearings.named import BearingLike, bearing_of
 from bearingcore.common import checks
 from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.diagnosis.extent.knocks import Knocks, MeanPass, Seen, find_knocks
-from bearingcore.diagnosis.extent.release import Offsets, plausible_offsets
 from bearingcore.diagnosis.part.diagnose import SLIP, diagnose
 from bearingcore.diagnosis.part.evidence import Diagnosis
 from bearingcore.diagnosis.part.parts import INNER, OUTER
@@ -20,6 +19,7 @@ from bearingcore.errors import Status
 from bearingcore.scene.defect import EDGES, RACES
 from bearingcore.signals.averaging import least_passes
 from bearingcore.signals.recording import Recording
+from bearingcore.sizing._release import Offsets, plausible_offsets
 
 SLIP_OF_LINES = 0.004
 """By how much balls may pass faster or slower than the lines that a diagnosis has found."""

@@ -10,7 +10,7 @@ import pytest
 from scipy.signal import fftconvolve
 
 from bearingcore import Recording, measure_extent, presets
-from bearingcore.diagnosis.extent.measure import ExtentStatus
+from bearingcore.sizing import ExtentStatus
 from tests.benchmarks.measured_records import records
 from tests.benchmarks.scoreboard import RIGHT, WRONG, extent_verdict
 from tests.outside.witness import witness

@@ -10,7 +10,7 @@ import pytest
 from bearingcore import Recording, presets, read_table, trend
 from bearingcore.bearings.catalogue import catalogue
 from bearingcore.diagnosis.part.evidence import CANNOT_TELL
-from bearingcore.diagnosis.trend import LINES
+from bearingcore.sizing import LINES
 
 MEASURED = os.environ.get("MEASURED_RECORDS", "")
 

@@ -1,1 +1,0 @@
-"""Estimation of the size of a defect."""

@@ -1,0 +1,351 @@
+"""The length of a spall of the outer race: each candidate is simulated and held against the signal.
+
+Entry and exit give the length up to whole ball spacings; the frequencies at which the machine rings
+decide (Petersen, Howard & Prime 2014, Section 4). Signal and simulation are averaged over ball
+passes. The complex Fourier lines D and S of the two mean passes, all directions together and each
+divided by its measured size, are laid over each other under the delay τ that fits best:
+
+    misfit = 1 − max_τ Re Σ conj(D_n) S_n exp(inτ) / (|D| |S|)
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore.common import checks
+from bearingcore.common.arrays import Array, runs, summit
+from bearingcore.common.progress import Progress
+from bearingcore.common.table import ResultTable, shown_as_table, table_of
+from bearingcore.diagnosis.part.diagnose import MOST_SAMPLES, SLIP
+from bearingcore.dynamics.modes import modes
+from bearingcore.dynamics.motion import SETTLING, simulate
+from bearingcore.errors import Status
+from bearingcore.scene.scene import MASSLESS, Scene
+from bearingcore.signals.averaging import BallPasses, average_passes, coefficients, least_passes
+from bearingcore.signals.recording import Recording
+from bearingcore.signals.spectrum import check_samples
+
+BAND, FEWEST_LINES = (0.25, 1.35), 6.0
+"""Of the lowest and the highest natural frequency of the healthy bearing: what is compared; lines
+of the mean ball pass up to there, at least."""
+
+STEP = math.radians(0.5)
+SHORTEST, LONGEST = math.radians(0.5), math.radians(90.0)
+"""[rad] between extents that are simulated, as the misfit is steep; the first and the last."""
+
+APART = 0.16
+"""Of a ball spacing: extents that are closer to each other are one candidate."""
+
+EXPLAINED, AHEAD = 0.25, 1.5
+"""Misfit below which an extent explains the pass, and how many times as much the next one has."""
+
+NEARLY = 0.1
+"""Lengths whose misfit is greater by no more than this are in the interval of the best: it holds
+the truth where the scene is that of the machine."""
+
+AVERAGED, STEPS_A_CYCLE, MOST_STEPS = 0.12, 10.0, 200_000
+"""[s] of a simulation that are averaged; steps in a cycle of the highest frequency, and in a spall,
+an error near 0.2 dB; steps of one simulation at most."""
+
+FINEST = math.radians(0.02)
+"""[rad] to which an extent is refined."""
+
+DELAYS = 4096
+"""Of a ball pass, under which a simulated one is laid over the measured one."""
+
+
+class SizingStatus(Status):
+    """The outcome of a sizing."""
+
+    SIZED = "sized", "One length explains the mean ball pass, and no other does."
+    NOT_APART = "not distinguished", "Several lengths explain the mean ball pass nearly as well."
+    UNEXPLAINED = "unexplained", "No length explains the mean ball pass in this machine."
+    TOO_SHORT = "too short", "The recording holds too few ball passes for a mean."
+    TOO_COARSE = "too coarse", "The sample rate is too low for the frequencies at which it rings."
+    TOO_FAST = "too fast", "Balls pass too often: the machine rings at too few of their harmonics."
+    NOT_SIMULATED = "not simulated", "The scene's motion cannot be simulated in so many steps."
+    SEVERAL_DEFECTS = "several defects", "The scene has several defects; only one can be sized."
+    SUPPORT_UNKNOWN = (
+        "support unknown",
+        "Whole ball spacings are counted by the frequencies at which the machine rings: that needs "
+        "the mass and the stiffness of its support.",
+    )
+    INNER_RACE = (
+        "inner race",
+        "An inner-race defect turns through the load zone, so no ball pass is like the next.",
+    )
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """A length that the signal may mean, as it was simulated.
+
+    Attributes
+    ----------
+    extent, low, high
+        [rad] and the interval around it of lengths that explain the signal nearly as well.
+    misfit
+        of measured and simulated lines: 0 is alike, 1 unlike.
+    ratio
+        of its misfit to the least, 1 for the best candidate.
+    lines : (N, d) complex [m/s²]
+        of its mean ball pass at `Sizing.frequency`, laid over the measured ones; twice their size
+        is the amplitude.
+    bands
+        least and greatest natural frequency [Hz] of each mode as balls pass, by label.
+    scene
+        with this extent.
+    """
+
+    extent: float
+    low: float
+    high: float
+    misfit: float
+    ratio: float
+    lines: NDArray[np.complex128] = field(repr=False)
+    bands: dict[str, tuple[float, float]] = field(repr=False)
+    scene: Scene = field(repr=False)
+
+
+@shown_as_table
+@dataclass(frozen=True)
+class Sizing:
+    """Result of sizing a spall by a signal.
+
+    Attributes
+    ----------
+    status
+        how it ended.
+    candidates
+        lengths that the signal may mean, the best first: the best two, and those a ball spacing
+        from the best, which have the same entry and exit. Empty where none was simulated.
+    frequency : (N,) [Hz]
+        of the lines of the mean ball pass that were compared.
+    lines : (N, d) complex [m/s²]
+        the measured ones, a column for each direction of the recording.
+    extents, misfits : (n,) [rad], (n,)
+        all that was simulated, by rising extent.
+    """
+
+    status: SizingStatus
+    candidates: tuple[Candidate, ...] = ()
+    frequency: Array = field(default_factory=lambda: np.zeros(0), repr=False)
+    lines: NDArray[np.complex128] = field(default_factory=lambda: np.zeros((0, 1), complex))
+    extents: Array = field(default_factory=lambda: np.zeros(0), repr=False)
+    misfits: Array = field(default_factory=lambda: np.zeros(0), repr=False)
+
+    @property
+    def best(self) -> Candidate | None:
+        """The candidate with the least misfit; None where there is none."""
+        return self.candidates[0] if self.candidates else None
+
+    @property
+    def conclusive(self) -> bool:
+        """True where one length explains the signal and no other does."""
+        return self.status == SizingStatus.SIZED
+
+    @property
+    def sentence(self) -> str:
+        """The answer with what distinguishes the lengths, or why there is none."""
+        if not self.candidates:
+            return self.status.sentence
+        best, *others = self.candidates
+        low, extent, high = (math.degrees(end) for end in (best.low, best.extent, best.high))
+        words = f"{extent:.1f}° ({low:.1f} to {high:.1f}°)"
+        if self.status == SizingStatus.UNEXPLAINED:
+            return f"{self.status.sentence} The nearest is {words}, misfit {best.misfit:.2f}."
+        if not self.conclusive:
+            alike = [f"{math.degrees(c.extent):.1f}°" for c in others if c.ratio < AHEAD]
+            return f"{words} or {' or '.join(alike)}. {self.status.sentence}"
+        words += f", misfit {best.misfit:.2f}; {math.degrees(others[0].extent):.1f}° has "
+        words += f"{others[0].misfit:.2f}."
+        spacing = best.scene.bearing.ball_spacing
+        other = min(others, key=lambda c: abs(abs(c.extent - best.extent) - spacing))
+        falls = {mode: (band[0], other.bands[mode][0]) for mode, band in best.bands.items()}
+        mode = max(falls, key=lambda name: np.nan_to_num(abs(falls[name][0] - falls[name][1])))
+        here, there = falls[mode]
+        return (
+            f"{words} As balls pass, mode {mode} falls to {here:.0f} Hz; with "
+            f"{math.degrees(other.extent):.1f}° it would fall to {there:.0f} Hz."
+        )
+
+    def table(self) -> ResultTable:
+        """A row a candidate, the best first."""
+        return table_of(
+            ("extent", "rad", "extent"),
+            ("low", "rad", "low", "of the interval"),
+            ("high", "rad", "high", "of the interval"),
+            ("misfit", "1", "misfit"),
+            ("ratio", "1", "ratio", "of the misfit to the least"),
+            of=self.candidates,
+        )
+
+
+def size_defect(
+    recording: Recording,
+    scene: Scene,
+    *,
+    support_known: bool = False,
+    progress: Progress | None = None,
+) -> Sizing:
+    """Find the length of a spall of the outer race by simulating each that is possible.
+
+    That this race is damaged is taken as known: ask `diagnose` first. Every length is simulated,
+    not only those that entry and exit allow (`measure_extent`): these may mislead.
+
+    Parameters
+    ----------
+    recording
+        acceleration of the housing along y, or x and y: two directions say more.
+    scene
+        bearing, load, support and shaft speed of the machine, and a defect whose centre, depth and
+        edges are taken as known; its extent is not looked at. Balls are taken to be massless: what
+        is compared is far below their resonances.
+    support_known
+        True where mass and stiffness of the support are measured ones, or the signal is a simulated
+        one of the scene. Else there is no length, and the status says why.
+    progress
+        called before each simulation with the part done and words; what it raises ends the search.
+
+    Raises
+    ------
+    ValueError
+        for a shaft that stands still, directions in which the scene does not move, and rows that
+        are not alike.
+    """
+    checks.instance("recording", recording, Recording)
+    checks.instance("scene", scene, Scene)
+    check_samples("acceleration", recording.acceleration, MOST_SAMPLES)
+    checks.real_number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")
+    if not set(recording.directions) <= set(scene.active_dofs):
+        raise checks.refuse("dofs", scene.active_dofs, f"with {', '.join(recording.directions)}")
+    if not scene.bearing.rows_are_alike:
+        raise ValueError(
+            "rows are not alike, so no ball pass is like the next; allowed: rows alike"
+        )
+    nominal = scene.bearing.bpfo(scene.shaft_speed)
+    if len(scene.defects) > 1:
+        return Sizing(SizingStatus.SEVERAL_DEFECTS)
+    if scene.defects[0].race == "inner":
+        return Sizing(SizingStatus.INNER_RACE)
+    if not support_known:
+        return Sizing(SizingStatus.SUPPORT_UNKNOWN)
+    natural = list(modes(scene.healthy()).bands().values())
+    lowest, highest = BAND[0] * np.min(natural), BAND[1] * np.max(natural)
+    if not math.isfinite(highest):
+        raise checks.refuse("load", "one without a static state", "one that the bearing carries")
+    if highest < FEWEST_LINES * nominal:
+        return Sizing(SizingStatus.TOO_FAST)
+    if 0.4 * recording.sample_rate < highest:
+        return Sizing(SizingStatus.TOO_COARSE)
+    if recording.duration * nominal * (1.0 - SLIP) < least_passes(nominal, lowest):
+        return Sizing(SizingStatus.TOO_SHORT)
+    passes = average_passes(
+        recording.acceleration, recording.sample_rate, nominal, SLIP, lowest, highest,
+        min(2.4 * highest, 0.4 * recording.sample_rate), follow=True,
+        shaft=scene.shaft_speed / (2.0 * math.pi),
+    )  # fmt: skip
+    search = _Search(scene, recording, passes, (lowest, highest))
+    for extent in np.arange(SHORTEST, LONGEST, STEP).tolist():
+        if progress is not None:
+            progress(extent / LONGEST, f"{math.degrees(extent):.1f}°")
+        search.misfit(extent)
+    if not math.isfinite(min(search.misfits.values())):
+        return Sizing(SizingStatus.NOT_SIMULATED)
+    candidates = search.candidates()
+    status = SizingStatus.SIZED
+    if candidates[0].misfit > EXPLAINED:
+        status = SizingStatus.UNEXPLAINED
+    elif any(other.ratio < AHEAD for other in candidates[1:]):
+        status = SizingStatus.NOT_APART
+    tried = np.array(sorted(search.misfits.items()))
+    return Sizing(status, candidates, search.frequency, search.measured, tried[:, 0], tried[:, 1])
+
+
+class _Search:
+    """Mean ball passes of a scene with any extent, held in a band [Hz] against the measured one."""
+
+    def __init__(
+        self, scene: Scene, recording: Recording, passes: BallPasses, band: tuple[float, float]
+    ) -> None:
+        self.passing = passes.frequency
+        slip = self.passing / scene.bearing.bpfo(scene.shaft_speed)
+        self.scene = scene.replace(shaft_speed=slip * scene.shaft_speed, balls=MASSLESS)
+        self.columns = [scene.active_dofs.index(name) for name in recording.directions]
+        frequency = passes.harmonic_frequency
+        kept = np.flatnonzero((frequency >= band[0]) & (frequency <= band[1]))
+        self.order, self.frequency = kept + 1, frequency[kept]
+        self.measured = passes.harmonics[kept]
+        # of power 1 in each direction: the weaker one distinguishes lengths as well
+        self.scale = 1.0 / np.maximum(np.linalg.norm(self.measured, axis=0), 1e-300)
+        self.steps = max(STEPS_A_CYCLE * band[1] / self.passing, 4.0 * len(frequency))
+        self.misfits: dict[float, float] = {}
+
+    def simulated(self, extent: float) -> NDArray[np.complex128]:
+        """Lines (N, d) of the mean ball pass with an extent [rad]; NaN where there is no motion."""
+        spacing = self.scene.bearing.ball_spacing
+        steps = math.ceil(max(self.steps, STEPS_A_CYCLE * spacing / extent))
+        averaged = math.ceil(max(AVERAGED * self.passing, 4.0))
+        duration = math.ceil(SETTLING * self.passing + averaged) / self.passing
+        rate = steps * self.passing
+        motion = simulate(
+            self.scene.replace(extent=extent), duration, rate, step_rate=rate, most_steps=MOST_STEPS
+        )
+        last = motion.instant_acceleration("outer")[-averaged * steps :, self.columns]
+        each = coefficients(last.reshape(averaged, steps, -1), int(self.order[-1]))
+        return np.asarray(each.mean(axis=0)[self.order - 1])
+
+    def overlaid(self, extent: float) -> tuple[float, NDArray[np.complex128]]:
+        """Misfit of an extent, and its lines under the delay that fits best."""
+        lines, measured = self.simulated(extent), self.measured * self.scale**2
+        sizes = float(np.linalg.norm(lines * self.scale)) * math.sqrt(measured.shape[1])
+        if not sizes > 0.0:
+            return math.inf, lines
+        padded = np.zeros(DELAYS // 2 + 1, dtype=complex)
+        padded[self.order] = (measured.conj() * lines).sum(axis=1)
+        likeness = np.fft.irfft(padded, DELAYS)
+        place = int(likeness.argmax())
+        delay = place + float(summit(*(likeness[(place + k) % DELAYS] for k in (-1, 0, 1))))
+        lines = np.exp(2j * math.pi * delay / DELAYS * self.order)[:, None] * lines
+        return 1.0 - float(np.vdot(measured, lines).real) / sizes, lines
+
+    def misfit(self, extent: float) -> float:
+        """Misfit of an extent [rad], simulated once."""
+        if extent not in self.misfits:
+            self.misfits[extent] = self.overlaid(extent)[0]
+        return self.misfits[extent]
+
+    def candidates(self) -> tuple[Candidate, ...]:
+        """The best extent, the next one, and those a ball spacing from the best, all refined."""
+        from scipy.optimize import minimize_scalar  # imported late: slow to import
+
+        spacing = self.scene.bearing.ball_spacing
+        ranked = sorted(self.misfits, key=self.misfit)
+        first, starts = ranked[0], ranked[:1]
+        for away, room in ((0.0, LONGEST), (-spacing, APART * spacing), (spacing, APART * spacing)):
+            others = [e for e in ranked if abs(e - first - away) <= room]
+            clear = [e for e in others if min(abs(e - s) for s in starts) > APART * spacing]
+            starts += clear[:1]
+        for extent in starts:
+            ends = (max(extent - STEP, 0.5 * SHORTEST), extent + STEP)
+            minimize_scalar(
+                self.misfit, bounds=ends, method="bounded", options={"xatol": FINEST, "maxiter": 10}
+            )
+        tried = np.array(sorted(self.misfits))
+        misfits = np.array([self.misfits[extent] for extent in tried.tolist()])
+        near = [np.flatnonzero(np.abs(tried - extent) <= STEP) for extent in starts]
+        places = sorted((int(n[misfits[n].argmin()]) for n in near), key=misfits.__getitem__)
+        return tuple(self._candidate(place, misfits[places[0]], tried, misfits) for place in places)
+
+    def _candidate(self, place: int, least: float, tried: Array, misfits: Array) -> Candidate:
+        extent, misfit = float(tried[place]), float(misfits[place])
+        begins, ends = runs(misfits <= max(AHEAD * misfit, misfit + NEARLY))
+        run = int(np.searchsorted(begins, place, "right")) - 1
+        low, high = tried[max(begins[run] - 1, 0)], tried[min(ends[run], len(tried) - 1)]
+        scene, ratio = self.scene.replace(extent=extent), misfit / max(float(least), 1e-12)
+        lines, bands = self.overlaid(extent)[1], modes(scene).bands()
+        return Candidate(extent, float(low), float(high), misfit, ratio, lines, bands, scene)

@@ -108,6 +108,9 @@ def _lines_in_doubt(judged: Judged) -> Reason | None:
     doubtful = max(judged.evidence, key=lambda one: one.without_magnetic)
     if doubtful.magnetic > 0.0 and doubtful.without_magnetic >= NAMED:
         return DiagnosisStatus.MAGNETIC, say.magnetic(doubtful)
+    for one in judged.evidence:
+        if one.line_lead >= LEAD and not math.isnan(one.foreign_spacing):
+            return DiagnosisStatus.OTHER_SHAFT, say.other_shaft(one, judged.shaft)
     seen = [
         one
         for one in judged.evidence

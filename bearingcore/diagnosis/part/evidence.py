@@ -48,6 +48,9 @@ class PartEvidence:
         logarithm of how often noise reaches the sidebands that the part's own turning makes,
         against one signal of a hundred, with its sign changed: above 0 they are there. Infinite for
         an outer race, which stands still.
+    foreign_spacing
+        [Hz] of sidebands that neither the shaft nor the cage makes; NaN where there are none. They
+        are looked for at the outer race, which makes no sidebands of its own.
     depth
         by how much the envelope swings at these lines, as a share of its mean.
     swing
@@ -97,6 +100,7 @@ class PartEvidence:
     band: Band
     direction: str
     kurtosis: float
+    foreign_spacing: float = math.nan
 
     @property
     def modulated(self) -> bool:

@@ -34,6 +34,8 @@ from bearingcore.diagnosis.part.probability import (
     probabilities,
 )
 from bearingcore.diagnosis.part.search import (
+    FINENESS,
+    RARE,
     TURNS,
     Combs,
     Listened,
@@ -80,6 +82,16 @@ its own are then."""
 
 GAPS = 0.25
 """Of the lines of a multiple's comb, that those in between reach where they are of one comb."""
+
+FOREIGN = (0.2, 0.95)
+"""Turns of the shaft between which sidebands of another shaft are looked for: lines of an outer
+race that are an inner race's or a ball's of a slower shaft have theirs there. Above it, real outer
+races have sidebands of the load zone that mix shaft and cage."""
+
+FOREIGN_LEAD = 3.5
+"""[dB] above sidebands of another shaft at which lines are an outer race's as probably as not. Of
+29 measured outer races all are 7.8 dB or more above the strongest; lines of inner races of a slower
+shaft are at most as strong as their sidebands."""
 
 SELDOM, SLIPS = 0.26, 0.25
 """Damaged balls for each damaged race (15 and 57 of the records measured), and the share of the
@@ -204,6 +216,10 @@ def compare(
         else:
             source = finest.above_source(best.frequency)
             best = replace(best, lead=min(best.lead, source), line_lead=min(best.line_lead, source))
+            if lines.part == OUTER:
+                foreign, spacing = min(one.above_foreign(best) for one in compared)
+                spacing = spacing if foreign < LEAD else math.nan
+                best = replace(best, lead=min(best.lead, foreign), foreign_spacing=spacing)
         evidence.append(replace(best, deviations=deviations))
     other, above, swing = max(
         (one.others(evidence) for one in compared), key=lambda found: found[1]
@@ -350,10 +366,7 @@ class _Comparison:
         An outer race stands still and needs none. Where a line may be a race's or a ball's, cage
         sidebands speak for the ball.
         """
-        combs = self.combs
-        one = next(
-            one for one in combs.envelopes if (one.band, one.direction) == (own.band, own.direction)
-        )
+        combs, one = self.combs, self._envelope_of(own)
         level = float(comb_level(_lines(one, one.cleared, own.frequency)[:, None])[0])
 
         def sides(spacing: float) -> float:
@@ -378,6 +391,39 @@ class _Comparison:
         if own.part == BALL and self._windows_of(OUTER, INNER)[place]:
             above = min(above, -race)
         return replace(own, modulation=modulation, lead=min(own.lead, above, modulation + LEAD))
+
+    def above_foreign(self, own: PartEvidence) -> tuple[float, float]:
+        """Lead [dB] of an outer race's lines over sidebands of another shaft, and their spacing [Hz].
+
+        An outer race stands still: only this shaft and its cage change the size of its blows.
+        Sidebands at another distance on both sides of its lines mean that the lines are those of a
+        part that turns with another shaft, or at another speed than the one stated. Infinity where
+        noise reaches as far.
+        """
+        combs, one = self.combs, self._envelope_of(own)
+        resolution = (combs.frequency[1] - combs.frequency[0]) * FINENESS
+        low, high = (turns * combs.shaft for turns in FOREIGN)
+        spacing = np.arange(low, high, resolution / FINENESS)
+        sides = [
+            [lines_at(one.cleared, one.levels.step, np.abs(k * own.frequency + sign * spacing), 1)[0]
+             for sign in (-1.0, 1.0)]
+            for k in range(1, HARMONICS // 2 + 1)
+        ]  # fmt: skip
+        level = np.min(sides, axis=1).mean(axis=0)  # both sidebands of a line, or none
+        made = [k * self.cage for k in (1, 2)] + [k * combs.shaft for k in (0.5, 1.0)]
+        made += [own.frequency / k for k in (2, 3, 4)]  # halves of the lines lie between them
+        for place in made:
+            level[np.abs(spacing - place) <= 1.5 * resolution + 0.005 * place] = -np.inf
+        best = int(level.argmax())
+        if level[best] < noise_level(RARE / len(spacing), one.levels.averages):
+            return math.inf, math.nan
+        lines = float(comb_level(_lines(one, one.cleared, own.frequency)[:, None])[0])
+        return lines - float(level[best]) - FOREIGN_LEAD + LEAD, float(spacing[best])
+
+    def _envelope_of(self, own: PartEvidence) -> Listened:
+        """The envelope in which the lines of a part were seen."""
+        place = own.band, own.direction
+        return next(one for one in self.combs.envelopes if (one.band, one.direction) == place)
 
     def carried(self, around: float) -> float:
         """By how much [dB] lines around a frequency [Hz] have the sidebands that a ball's have.

@@ -39,8 +39,8 @@ TONES_COUNT = 0.6
 """Share of a swing that counts where tones are not whitened away."""
 
 ELSEWHERE = (0.5, 1.9)
-"""Times the stated speed between which the shaft's own lines are looked for where it has none. Twice
-the speed, and half of it, are multiples and parts of its own lines."""
+"""Times the stated speed between which the shaft's own lines are looked for, where it has none.
+Twice the speed, and half of it, are multiples and parts of its own lines."""
 
 CONTRADICTED = 0.5
 """Share of a probability that is left where the shaft's lines contradict the stated speed."""
@@ -118,7 +118,8 @@ def _diagnose(
     if bearing is None:
         return silent(DiagnosisStatus.BEARING_OPEN, say.which_bearing(), source)
     answer = _between(signal, bearing, low, high, slip, source, speed_source)
-    if high > NARROW * low:
+    # sidebands of an inner race or a ball confirm the speed, an outer race has none
+    if high > NARROW * low or answer.fault in (INNER, BALL):
         return answer
     reach = (high - low) / (high + low) + slip
     return _held_against_the_shaft(signal, answer, 0.5 * (low + high), reach)

@@ -10,6 +10,7 @@ from bearingcore.common.numbers import (
     number,
     percent,
     percent_off,
+    probability,
     span,
     thousands,
 )
@@ -83,10 +84,10 @@ def other_shaft(own: PartEvidence, shaft: float) -> str:
     return (
         f"There are impacts at {number(own.frequency, 4)} Hz ({decibels(own.level)} above local "
         f"noise), as of a damaged {own.part}, but with sidebands {number(spacing, 3)} Hz apart, "
-        f"{number(spacing / shaft, 3)} times the shaft speed. Neither this shaft nor its cage makes "
-        f"them, and an {own.part} that stands still has none. Something that turns at "
-        f"{number(60.0 * spacing, 3)} rpm makes these impacts. Check the speed, the sample rate and "
-        "the bearings of other shafts."
+        f"{number(spacing / shaft, 3)} times the shaft speed. Neither this shaft nor its cage "
+        f"makes them, and an {own.part} that stands still has none. Something that turns at "
+        f"{number(60.0 * spacing, 3)} rpm makes these impacts. Check the speed, the sample rate "
+        "and the bearings of other shafts."
     )
 
 
@@ -130,6 +131,15 @@ def damaged(own: PartEvidence) -> str:
     if own.part != BALL and abs(own.slip) > FAR:
         words += " Lines of a race are seldom so far off: check bearing and speed."
     return words
+
+
+def beside(other: PartEvidence) -> str:
+    """The other race than the one named shows its lines too."""
+    return (
+        f" The {other.part} shows too: impacts at {number(other.frequency, 4)} Hz, "
+        f"{decibels(other.level)} above local noise, probability {probability(other.probability)}. "
+        "Inspect both races."
+    )
 
 
 def perhaps_a_ball() -> str:

@@ -44,6 +44,8 @@ WHAT_HELPS = {
     "off.",
     DiagnosisStatus.MAGNETIC: "Measure again at another speed, or look whether the lines end at "
     "once when the motor is switched off.",
+    DiagnosisStatus.OTHER_SHAFT: "Check the shaft speed, the sample rate and the shaft that the "
+    "bearing is on: this record contradicts them.",
     DiagnosisStatus.OTHER_SOURCE: "Check which bearing it is and its speed, look for what else "
     "turns or strikes nearby, and measure again closer to the bearing.",
 }

@@ -37,6 +37,10 @@ FEWEST_PERIODS = 5.0
 OVERSAMPLING = 2.56
 """Sample rate over the upper end of the band, at least: recorders filter above."""
 
+SHAFT_LINES, SHAFT_WIDTH = 3, 0.005
+"""Multiples of the shaft speed that unbalance and misalignment make, and by how much each may be
+off, as a fraction."""
+
 ZONES: Mapping[str, tuple[float, float, float]] = MappingProxyType(
     {
         "medium, rigid": (1.4e-3, 2.8e-3, 4.5e-3),
@@ -219,6 +223,32 @@ def _rms_of_integral(
     amplitudes = dct(motion, norm="ortho", axis=0) * (kept * mended)[:, None]
     found = np.sqrt((amplitudes**2).sum(axis=0) / n)
     return np.asarray(found if samples.ndim > 1 else found[0])
+
+
+def shaft_share(recording: Recording, shaft_speed: float) -> Array:
+    """Share (d,) of the velocity's mean square that 1 to 3 times the shaft speed carry.
+
+    Unbalance, misalignment and looseness make these lines, damaged bearings do not. NaN where
+    there is no velocity, see `Indicators.velocity_reason`.
+
+    Parameters
+    ----------
+    shaft_speed
+        [rad/s]
+
+    Raises
+    ------
+    ValueError
+        for a shaft speed that is not positive.
+    """
+    level = indicators(recording, shaft_speed)
+    turn = shaft_speed / (2.0 * math.pi)
+    squares = np.zeros(len(level.velocity_rms))
+    for line in turn * np.arange(1, SHAFT_LINES + 1):
+        if not level.velocity_reason and level.band[0] < line < level.band[1]:
+            ends = line * (1.0 - SHAFT_WIDTH), line * (1.0 + SHAFT_WIDTH)
+            squares += velocity_rms(recording.acceleration, recording.sample_rate, ends) ** 2
+    return np.asarray(np.minimum(squares / level.velocity_rms**2, 1.0))
 
 
 def _share_kept(frequency: Array, low: float, high: float, line: float) -> Array:

@@ -16,7 +16,7 @@ from bearingcore.common.table import ResultTable, shown_as_table, table_of
 from bearingcore.diagnosis.part.diagnose import SLIP, diagnose
 from bearingcore.diagnosis.part.evidence import CANNOT_TELL
 from bearingcore.diagnosis.part.listened_signal import NARROWEST
-from bearingcore.diagnosis.part.parts import part_lines
+from bearingcore.diagnosis.part.parts import PARTS, part_lines
 from bearingcore.files.dates import time_in
 from bearingcore.signals.indicators import indicators
 from bearingcore.signals.kurtogram import kurtogram
@@ -132,6 +132,15 @@ class Trend:
         """Root mean square (k,) over that of the baseline."""
         rms = self.column("rms")
         return np.asarray(rms / rms[self.baseline])
+
+    def line_change(self, part: str) -> Array:
+        """Amplitude (k,) of a part's line over that of the baseline; NaN where there is none.
+
+        Where the baseline shows no line it is over what noise reaches there: a lower bound.
+        """
+        place = PARTS.index(part)
+        first = np.fmax(self.column("lines"), self.column("noise"))[self.baseline, place]
+        return np.asarray(self.clear_lines[:, place] / first)
 
     @property
     def hours(self) -> Array:

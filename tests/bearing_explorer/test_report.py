@@ -200,6 +200,7 @@ def test_a_measured_signal_has_its_answer_pictures_and_assumptions_on_one_page()
         ("outer race", "C", None, "Soon: the vibration is in zone C", "measure every day"),
         ("outer race", "A", None, "Measure again within a week", "does not clear a bearing"),
         ("outer race", "", 2.5, "Soon: the vibration has clearly grown", "became 2.5 times"),
+        ("outer race", "", 1.1, "Soon: the vibration has clearly grown", "outer race became 4.4"),
         ("none seen", "A", None, "Measure again at the usual interval.", ""),
         ("none seen", "D", None, "Measure again at the usual", "look now for its cause"),
         ("cannot tell", "", 3.0, "This record decides nothing", "became 3 times"),
@@ -212,7 +213,11 @@ def test_the_next_step_rests_on_part_zone_and_growth(
     found = dataclasses.replace(answered(question), fault=fault, probability=0.99)
     grown = None
     if change is not None:
-        grown = SimpleNamespace(points=[0, 1], rms_change=np.array([1.0, change]))
+        points = [SimpleNamespace(fault=fault)] * 2
+        changes = np.array([1.0, change])
+        grown = SimpleNamespace(
+            points=points, baseline=0, rms_change=changes, line_change=lambda part: 4.0 * changes
+        )
     words = next_steps(found, question, zone, grown)
     assert words.startswith(begins)
     assert says in words

@@ -16,6 +16,7 @@ from typing import Any, cast
 
 import numpy as np
 from scipy.optimize import minimize
+from scipy.stats import binomtest
 
 from bearingcore import Diagnosis, MeasuredExtent, diagnose, measure_extent
 from bearingcore.diagnosis.part.decide import NAMED
@@ -153,7 +154,7 @@ def judge(found: Iterable[Record], write: bool) -> int:
     left_out(rows)
     print(f"all machines together set {fitted(rows)}")
     if write:
-        board = {"bins": BINS, "records": rows}
+        board = {"bins": BINS, "share_right": share_right(rows), "records": rows}
         FILE.write_text(json.dumps(board, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
     for words in tables(rows).values():
         print(f"\n{words}")
@@ -164,6 +165,13 @@ def stated(rows: Iterable[Row]) -> tuple[int, int]:
     """How many answers were stated with LIKELY or more, and how many of them are right."""
     sure = [row for row in rows if row["verdict"] != CANNOT and row["probability"] >= LIKELY]
     return len(sure), sum(row["verdict"] == RIGHT for row in sure)
+
+
+def share_right(rows: Iterable[Row]) -> list[float]:
+    """Ends of the exact two-sided 95 % interval of the share of LIKELY answers that are right."""
+    count, right = stated(rows)
+    low, high = binomtest(right, count).proportion_ci(0.95, "exact")
+    return [round(low, 4), round(high, 4)]
 
 
 def tables(rows: Sequence[Row]) -> dict[str, str]:
@@ -178,6 +186,9 @@ def tables(rows: Sequence[Row]) -> dict[str, str]:
     ]
     graded = [row for row in rows if row["grade"] in ("Y1", "Y2")]
     clear = sum(row["verdict"] == RIGHT for row in graded)
+    low, high = (100.0 * end for end in share_right(rows))
+    healthy = _of(rows, "truth", HEALTHY)
+    cleared = sum(row["verdict"] == RIGHT for row in healthy)
     wrong = [f"{row['record']} ({row['answer']})" for row in rows if row["verdict"] == WRONG]
     return {
         "by truth": _table("truth", [(truth, _of(rows, "truth", truth)) for truth in truths]),
@@ -189,7 +200,10 @@ def tables(rows: Sequence[Row]) -> dict[str, str]:
             *by_machine,
         )),
         "sure": f"Of {stated(rows)[0]} answers stated with 90 % or more, {stated(rows)[1]} are "
-        f"right; judged without the machine they are of, {stated(again)[1]} of {stated(again)[0]}.",
+        f"right; judged without the machine they are of, {stated(again)[1]} of {stated(again)[0]}. "
+        f"So many records show that {low:.1f} to {high:.0f} % of such answers are right (exact "
+        f"two-sided 95 % interval). Only {len(healthy)} records are of healthy bearings, of which "
+        f"{cleared} was called so: false alarms are hardly tested.",
         "graded": f"Of the {len(graded)} records here that are graded Y1 or Y2, {clear} are right.",
         "wrong": f"Wrong: {', '.join(wrong) or 'none'}.",
         "extents": _extents(rows),

@@ -131,6 +131,11 @@ def test_a_fault_that_grows() -> None:
     line = found.clear_lines[:, LINES.index("bpfi")]
     assert np.isnan(line[:2]).all()
     assert line[4] / line[3] == pytest.approx(2.0, rel=0.1)
+    grown = found.line_change("inner race")
+    assert np.isnan(grown[:2]).all()
+    assert grown[4] / grown[3] == pytest.approx(line[4] / line[3])
+    hidden = found.points[0].noise[LINES.index("bpfi")]
+    assert grown[4] == pytest.approx(line[4] / hidden)  # the baseline shows no line: at least
 
 
 def passages(apart_deg: float, rate: float = 25_600.0, seed: int = 3) -> Array:

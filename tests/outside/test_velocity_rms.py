@@ -13,6 +13,7 @@ from bearingcore.signals.indicators import (
     displacement_rms,
     indicators,
     severity_zone,
+    shaft_share,
     velocity_rms,
 )
 from tests.outside.witness import witness
@@ -47,6 +48,19 @@ def test_a_burst_counts_alike_wherever_it_is(begin: float) -> None:
     assert found == pytest.approx(1e-3 * math.sqrt(0.8 + 0.2 * 49.0), rel=2e-3)
     assert severity_zone(found, "medium, rigid") == "C"
     assert severity_zone(found, "medium, flexible") == "B"
+
+
+@witness(
+    "signal: shaft_share",
+    by="Parseval's theorem: tones of 4, 3 and 2 mm/s at 1, 2 and 3 turns, 5 mm/s elsewhere",
+    compared="share of the mean square at 1 to 3 turns", within=0.02,
+)  # fmt: skip
+def test_the_share_of_the_shaft_is_that_of_its_three_lines() -> None:
+    levels = {24.7: 4.0, 49.4: 3.0, 74.1: 2.0, 91.0: 5.0}
+    signal = sum(1e-3 * tone(at, 10.0, level) for at, level in levels.items())
+    recording = Recording(np.array(signal)[:, None], RATE, ("y",))
+    assert shaft_share(recording, 2.0 * math.pi * 24.7) == pytest.approx([29.0 / 54.0], abs=0.02)
+    assert shaft_share(recording, 2.0 * math.pi * 40.0) == pytest.approx([0.0], abs=0.02)
 
 
 @pytest.mark.parametrize("duration", [0.5, 0.53, 1.0, 1.05, 2.03, 10.02])

@@ -6,14 +6,21 @@ rule of thumb, and say so.
 
 from __future__ import annotations
 
+import math
+
 from bearing_explorer.diagnosis.diagnoses import Question
 from bearing_explorer.diagnosis.views.part_words import the
+from bearing_explorer.diagnosis.views.trend import line_growth
 from bearingcore import Diagnosis, Trend
-from bearingcore.common import number
+from bearingcore.common import number, percent
 from bearingcore.diagnosis import LIKELY, NONE_SEEN, DiagnosisStatus
 
 GROWN = 2.0
-"""Times the baseline's root mean square from which on the vibration has clearly grown."""
+"""Times the baseline from which on the vibration, or the line of the part that is named, has
+clearly grown."""
+
+MOST = 0.5
+"""Share of the velocity's power from which on it is the shaft's own."""
 
 ONE_RECORD = "One record cannot show how fast the damage grows; a second one can."
 PRACTICE = (
@@ -37,6 +44,8 @@ WHAT_HELPS = {
     "off.",
     DiagnosisStatus.MAGNETIC: "Measure again at another speed, or look whether the lines end at "
     "once when the motor is switched off.",
+    DiagnosisStatus.OTHER_SHAFT: "Check the shaft speed, the sample rate and the shaft that the "
+    "bearing is on: this record contradicts them.",
     DiagnosisStatus.OTHER_SOURCE: "Check which bearing it is and its speed, look for what else "
     "turns or strikes nearby, and measure again closer to the bearing.",
 }
@@ -46,7 +55,11 @@ ALIKE = "at the same point, speed and load"
 
 
 def next_steps(
-    found: Diagnosis, question: Question, zone: str = "", trend: Trend | None = None
+    found: Diagnosis,
+    question: Question,
+    zone: str = "",
+    trend: Trend | None = None,
+    shaft_share: float = math.nan,
 ) -> str:
     """The next step, and how soon, in sentences.
 
@@ -55,21 +68,30 @@ def next_steps(
     zone
         of ISO 20816-3; empty where it is not known.
     trend
-        of several records, where there is one.
+        of several records, where there is one; a complete one.
+    shaft_share
+        of the velocity's power, that the shaft's own lines carry; NaN where it is not known.
     """
     records = len(trend.points) if trend is not None and question.measured.in_si else 1
-    change = float(trend.rms_change[-1]) if trend is not None and records > 1 else 1.0
+    change = rms_change = float(trend.rms_change[-1]) if trend and records > 1 else 1.0
     if not found.names_a_part:
         return _without_a_part(found, zone, change)
+    line = "" if trend is None or records < 2 else line_growth(trend)
+    if trend is not None and line:
+        change = max(change, float(trend.line_change(found.fault)[-1]))
+    of_the_shaft = shaft_share >= MOST
     part = the(found.fault)
-    words = [_how_soon(part, zone, change, found.probability < LIKELY)]
+    words = [_how_soon(part, zone, change, found.probability < LIKELY, of_the_shaft)]
+    if of_the_shaft:
+        words.append(
+            f"Most of the velocity ({percent(shaft_share, 2)} of its power) is the shaft's own, 1 "
+            "to 3 times its speed (unbalance, alignment): a new bearing will not lower it."
+        )
     if found.probability < LIKELY and (zone in ("C", "D") or change >= GROWN):
         words.append(UNSURE)
     if records > 1:
-        words.append(
-            f"Over {records} records the vibration became {number(change, 2)} times that of the "
-            "baseline."
-        )
+        level = f"the vibration became {number(rms_change, 2)} times that of the baseline"
+        words.append(f"Over {records} records {f'{line}, and ' if line else ''}{level}.")
     else:
         words.append(ONE_RECORD)
     if zone in ("A", "B"):
@@ -77,11 +99,13 @@ def next_steps(
     return " ".join([*words, PRACTICE])
 
 
-def _how_soon(part: str, zone: str, change: float, unsure: bool) -> str:
+def _how_soon(part: str, zone: str, change: float, unsure: bool, of_the_shaft: bool) -> str:
     if zone == "D":
+        cause = "find out why the shaft vibrates so, " if of_the_shaft else ""
         return (
             f"Now: the vibration is in zone D, which may damage the machine, and {part} is named. "
-            "Stop it, or take load off it, as soon as the process allows, and change the bearing."
+            "Stop it, or take load off it, as soon as the process allows, "
+            f"{cause}and change the bearing."
         )
     if zone == "C" or change >= GROWN:
         why = "is in zone C, not for long operation" if zone == "C" else "has clearly grown"

@@ -5,6 +5,7 @@ Finished by the browser as a report of a scene is, see `report`.
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
@@ -34,7 +35,7 @@ from bearing_explorer.kit.views.still_figure import Figure
 from bearing_explorer.kit.widgets.facts import html_table, html_text
 from bearingcore import Diagnosis
 from bearingcore.bearings import FREQUENCIES
-from bearingcore.common import number, with_prefix
+from bearingcore.common import number, percent, with_prefix
 from bearingcore.files import time_in
 
 FILE = "bearing-report-{}.html"
@@ -144,7 +145,8 @@ def measured_report(
     if not isinstance(trend, FoundTrend) or trend.series is not measurement.series:
         trend = None
     zone = zone_of(question.measured, kind)
-    steps = next_steps(answer, question, zone, None if trend is None else trend.trend)
+    whole = trend.trend if trend is not None and trend.complete else None
+    steps = next_steps(answer, question, zone, whole, question.measured.shaft_share)
     body = [
         *heading(about, title),
         f"<p>Measuring point: {html_text(said.point or place or NOT_SAID)}. "
@@ -187,6 +189,8 @@ def findings(
         low, high = measured.indicators.band
         most = 1e3 * float(measured.indicators.velocity_rms.max())
         level = f"velocity {number(most, 3)} mm/s RMS, {low:.0f} to {high:.0f} Hz"
+        if math.isfinite(share := measured.shaft_share):
+            level += f", {percent(share, 2)} of its power at 1 to 3 times the shaft speed"
     frequencies = "the shaft speed is not known"
     if speed is not None:
         each = (f"{name.upper()} {number(getattr(question.bearing, name)(speed), 4)} Hz"
@@ -194,10 +198,11 @@ def findings(
         frequencies = f"{', '.join(each)}, at {part_words.turns(answer)}, without slip"
     files = len(measurement.series.tables)
     grown = "one record shows none"
-    if trend is not None and len(trend.trend.points) > 1:
+    if trend is not None and len(trend.trend.points) > 1 and trend.complete:
         grown = words_on(trend.trend, measured.in_si)
     elif files > 1 and measurement.series.together:
-        grown = f"{files} files are there; it is not computed yet"
+        done = 0 if trend is None else len(trend.trend.points)
+        grown = f"not finished: {done} of {files} files are done; make the report again then"
     return [
         ("Severity", f"{level}. {severity(measured, kind)}"),
         ("Frequencies", frequencies),

@@ -18,6 +18,7 @@ from bearingcore import Bearing, Indicators, Kurtogram, Recording, Scene, Spectr
 from bearingcore.common import cached_property
 from bearingcore.diagnosis import NARROWEST
 from bearingcore.files import Column
+from bearingcore.signals import shaft_share
 
 ENVELOPE_TOP = 1000.0
 """[Hz] up to which the spectrum of an envelope is drawn of an unknown machine."""
@@ -156,6 +157,14 @@ class Measured:
     def indicators(self) -> Indicators:
         """Condition indicators of the recording."""
         return core.indicators(self.recording, self.shaft_speed)
+
+    @cached_property
+    def shaft_share(self) -> float:
+        """Share of the velocity's power that the shaft's own lines carry; NaN: not known."""
+        if self.shaft_speed is None or not self.in_si:
+            return math.nan
+        along = int(self.indicators.velocity_rms.argmax())
+        return float(shaft_share(self.recording, self.shaft_speed)[along])
 
     @cached_property
     def _middle(self) -> NDArray[np.float64]:

@@ -8,6 +8,7 @@ import numpy as np
 
 from bearingcore.diagnosis.part import say
 from bearingcore.diagnosis.part.evidence import (
+    BESIDE,
     CANNOT_TELL,
     LIKELY,
     NONE_SEEN,
@@ -66,6 +67,13 @@ def decide(signal: ListenedSignal, judged: Judged, shaft: float | None, source: 
             detail += say.perhaps_a_ball()
         if own.magnetic > 0.0:
             detail += say.magnetic_alike(own)
+        for other in judged.evidence:
+            if (
+                BALL not in (own.part, other.part)
+                and other is not own
+                and other.probability >= BESIDE
+            ):
+                detail += say.beside(other)
     elif (reason := _lines_in_doubt(judged) or _hidden(signal)) is not None:
         status, detail = reason
     elif others_stand_out and judged.other_swing >= LEAST_SWING:
@@ -108,6 +116,9 @@ def _lines_in_doubt(judged: Judged) -> Reason | None:
     doubtful = max(judged.evidence, key=lambda one: one.without_magnetic)
     if doubtful.magnetic > 0.0 and doubtful.without_magnetic >= NAMED:
         return DiagnosisStatus.MAGNETIC, say.magnetic(doubtful)
+    for one in judged.evidence:
+        if one.line_lead >= LEAD and not math.isnan(one.foreign_spacing):
+            return DiagnosisStatus.OTHER_SHAFT, say.other_shaft(one, judged.shaft)
     seen = [
         one
         for one in judged.evidence

@@ -21,7 +21,7 @@ from bearingcore.bearings.named import BearingLike, bearing_of
 from bearingcore.common import checks
 from bearingcore.diagnosis.part import say
 from bearingcore.diagnosis.part.decide import ENOUGH_SWING, decide, silent
-from bearingcore.diagnosis.part.evidence import NONE_SEEN, Diagnosis
+from bearingcore.diagnosis.part.evidence import CANNOT_TELL, NONE_SEEN, Diagnosis
 from bearingcore.diagnosis.part.judged import judge
 from bearingcore.diagnosis.part.listened_signal import ListenedSignal, unfit
 from bearingcore.diagnosis.part.parts import BALL, INNER, OUTER, PartLines, part_lines
@@ -37,6 +37,13 @@ SPEEDS = (2.0 * math.pi * 5.0, 2.0 * math.pi * 100.0)
 
 TONES_COUNT = 0.6
 """Share of a swing that counts where tones are not whitened away."""
+
+ELSEWHERE = (0.5, 1.9)
+"""Times the stated speed between which the shaft's own lines are looked for, where it has none.
+Twice the speed, and half of it, are multiples and parts of its own lines."""
+
+CONTRADICTED = 0.5
+"""Share of a probability that is left where the shaft's lines contradict the stated speed."""
 
 SOURCES = ("given", "from the file", "assumed")
 """Origins of a speed and a bearing; "given" is what a person has said of this measurement."""
@@ -111,10 +118,11 @@ def _diagnose(
     if bearing is None:
         return silent(DiagnosisStatus.BEARING_OPEN, say.which_bearing(), source)
     answer = _between(signal, bearing, low, high, slip, source, speed_source)
-    if answer.names_a_part or high > NARROW * low:
+    # sidebands of an inner race or a ball confirm the speed, an outer race has none
+    if high > NARROW * low or answer.fault in (INNER, BALL):
         return answer
     reach = (high - low) / (high + low) + slip
-    return _if_in_another_unit(signal, answer, 0.5 * (low + high), reach)
+    return _held_against_the_shaft(signal, answer, 0.5 * (low + high), reach)
 
 
 def _between(
@@ -139,24 +147,42 @@ def _between(
     return _second_opinion(signal, part_lines(bearing), answer, shaft, shaft, slip)
 
 
-def _if_in_another_unit(
+def _held_against_the_shaft(
     signal: ListenedSignal, answer: Diagnosis, speed: float, reach: float
 ) -> Diagnosis:
-    """The answer, with a question where the shaft shows at 60 times the speed [Hz], or a 60th.
+    """The answer, held against lines of the shaft at another speed than the stated one [Hz].
 
-    Hz and rpm are confused then, most likely.
+    Lines of the shaft elsewhere, and none at the stated speed, mean that speed or sample rate are
+    wrong: no part is named then, and the answer says which speed the lines show. At 60 times the
+    speed or a 60th of it, Hz and rpm are confused most likely.
     """
+    stated = signal.shaft(speed * (1.0 - reach), speed * (1.0 + reach))
+    if stated.clear:
+        return answer
     least, most = (turning / (2.0 * math.pi) for turning in SPEEDS)
     for other in (60.0 * speed, speed / 60.0):
-        shown = least <= other <= most and _shows(signal, other, reach)
-        if shown and not _shows(signal, speed, reach):
+        if answer.names_a_part or not least <= other <= most:
+            continue
+        if signal.shaft(other * (1.0 - reach), other * (1.0 + reach)).clear:
             return replace(answer, detail=f"{answer.detail} {say.other_unit(speed, other)}")
-    return answer
-
-
-def _shows(signal: ListenedSignal, speed: float, reach: float) -> bool:
-    """Whether the shaft's own lines are clear about a speed [Hz]."""
-    return signal.shaft(speed * (1.0 - reach), speed * (1.0 + reach)).clear
+    if stated.excess >= 0.0:
+        return answer
+    shown = signal.shaft_tones(ELSEWHERE[0] * speed, ELSEWHERE[1] * speed)
+    if not shown.clear:
+        return answer
+    words = say.lines_elsewhere(speed, shown.frequency)
+    if not answer.names_a_part:
+        return replace(answer, detail=f"{answer.detail} {words}")
+    return replace(
+        answer,
+        fault=CANNOT_TELL,
+        status=DiagnosisStatus.OTHER_SHAFT,
+        detail=f"{say.against_the_shaft(answer.of(answer.fault))} {words}",
+        probability=CONTRADICTED * answer.probability,
+        evidence=tuple(
+            replace(one, probability=CONTRADICTED * one.probability) for one in answer.evidence
+        ),
+    )
 
 
 def _speeds(
@@ -253,6 +279,8 @@ def _second_opinion(
     are none of the bearing's show too, so that lines count by a part of their swing; where they do
     not name a part, they keep a bearing from being called healthy.
     """
+    if answer.status == DiagnosisStatus.OTHER_SHAFT:
+        return answer
     judged = judge(signal.unwhitened(), parts, shaft, slip, given).counting(TONES_COUNT)
     again = decide(signal, judged, shaft, answer.speed_source)
     if answer.fault == BALL:  # whitening hides how sharp lines are which nothing modulates

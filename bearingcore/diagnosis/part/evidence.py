@@ -15,6 +15,9 @@ from bearingcore.diagnosis.part.status import DiagnosisStatus
 from bearingcore.signals.filter_bank import Band
 
 NONE_SEEN, CANNOT_TELL = "none seen", "cannot tell"
+BESIDE = 0.5
+"""Probability of a race from which the other one is judged as damaged beside it."""
+
 LIKELY = 0.9
 """Probability from which a part is called damaged without a "probably"."""
 
@@ -48,6 +51,9 @@ class PartEvidence:
         logarithm of how often noise reaches the sidebands that the part's own turning makes,
         against one signal of a hundred, with its sign changed: above 0 they are there. Infinite for
         an outer race, which stands still.
+    foreign_spacing
+        [Hz] of sidebands that neither the shaft nor the cage makes; NaN where there are none. They
+        are looked for at the outer race, which makes no sidebands of its own.
     depth
         by how much the envelope swings at these lines, as a share of its mean.
     swing
@@ -59,7 +65,7 @@ class PartEvidence:
         probability that lines here are magnetic noise at twice the mains' frequency; 0 where they
         are more than 1 % off 100 and 120 Hz.
     probability
-        that this part is the damaged one.
+        that this part is damaged; both races may be.
     sidebands : (h, 2) [dB]
         levels below and above each harmonic, `sideband_spacing` away.
     sideband_spacing
@@ -97,6 +103,7 @@ class PartEvidence:
     band: Band
     direction: str
     kurtosis: float
+    foreign_spacing: float = math.nan
 
     @property
     def modulated(self) -> bool:
@@ -226,6 +233,14 @@ class Diagnosis:
     def perhaps_a_ball(self) -> bool:
         """Whether a damaged ball may have made the lines of the race that is named."""
         return self.fault in (OUTER, INNER) and self.probability < LIKELY
+
+    @property
+    def other_race(self) -> PartEvidence | None:
+        """Evidence of the other race, where one is named and the other is damaged too, probably."""
+        if self.fault not in (OUTER, INNER):
+            return None
+        other = self.of(INNER if self.fault == OUTER else OUTER)
+        return other if other.probability >= BESIDE else None
 
     @property
     def leading(self) -> PartEvidence | None:

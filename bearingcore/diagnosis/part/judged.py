@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.diagnosis.part.combs import HARMONICS, comb_level, lines_at, noise_level
-from bearingcore.diagnosis.part.evidence import OtherLines, PartEvidence, leading_by
+from bearingcore.diagnosis.part.evidence import BESIDE, OtherLines, PartEvidence, leading_by
 from bearingcore.diagnosis.part.listened_signal import ListenedSignal
 from bearingcore.diagnosis.part.mains import magnetic_share
 from bearingcore.diagnosis.part.parts import BALL, INNER, OUTER, PARTS, PartLines
@@ -34,6 +34,8 @@ from bearingcore.diagnosis.part.probability import (
     probabilities,
 )
 from bearingcore.diagnosis.part.search import (
+    FINENESS,
+    RARE,
     TURNS,
     Combs,
     Listened,
@@ -80,6 +82,16 @@ its own are then."""
 
 GAPS = 0.25
 """Of the lines of a multiple's comb, that those in between reach where they are of one comb."""
+
+FOREIGN = (0.2, 0.95)
+"""Turns of the shaft between which sidebands of another shaft are looked for: lines of an outer
+race that are an inner race's or a ball's of a slower shaft have theirs there. Above it, real outer
+races have sidebands of the load zone that mix shaft and cage."""
+
+FOREIGN_LEAD = 3.5
+"""[dB] above sidebands of another shaft at which lines are an outer race's as probably as not. Of
+29 measured outer races all are 7.8 dB or more above the strongest; lines of inner races of a slower
+shaft are at most as strong as their sidebands."""
 
 SELDOM, SLIPS = 0.26, 0.25
 """Damaged balls for each damaged race (15 and 57 of the records measured), and the share of the
@@ -183,40 +195,78 @@ def compare(
     """The evidence of the parts in combs at all resolutions."""
     shaft = resolutions[0].shaft
     compared = [_Comparison(combs, parts, slip, given or shaft) for combs in resolutions]
-    first, finest = compared[0], compared[-1]
+    first = compared[0]
     turning = spin(first.combs, parts, lambda at: first.explained(at, first.ball))
     evidence = []
     for lines in parts:
-        around = turning.frequency if lines.part == BALL else None
-        # the band is chosen by the lines alone: chosen by the sidebands, it is where noise has some
-        best = max((one.clearest(lines, around) for one in compared), key=log_probability)
-        best = max((one.with_sidebands(best) for one in compared), key=log_probability)
-        deviations = turning.of(lines.part)
-        if lines.part == BALL:
-            carried = _carried(compared, best.frequency)
-            best = replace(
-                best,
-                lead=min(best.lead, carried),
-                modulation=min(best.modulation, carried),
-            )
-            if _carried(compared, turning.frequency) < 0.0:
-                deviations = min(deviations, 0.0)
-        else:
-            source = finest.above_source(best.frequency)
-            best = replace(best, lead=min(best.lead, source), line_lead=min(best.line_lead, source))
+        if lines.part != BALL:
+            best = _race(compared, lines)
+            evidence.append(replace(best, deviations=turning.of(lines.part)))
+            continue
+        best = _clearest(compared, lines, turning.frequency)
+        deviations = turning.of(BALL)
+        carried = _carried(compared, best.frequency)
+        best = replace(best, lead=min(best.lead, carried), modulation=min(best.modulation, carried))
+        if _carried(compared, turning.frequency) < 0.0:
+            deviations = min(deviations, 0.0)
         evidence.append(replace(best, deviations=deviations))
     other, above, swing = max(
         (one.others(evidence) for one in compared), key=lambda found: found[1]
     )
     return Judged(
         shaft=shaft,
-        evidence=_weighed(evidence),
+        evidence=_with_the_other_race(compared, _weighed(evidence)),
         other=other,
         other_above_noise=above,
         other_swing=swing,
         detectable=min(_detectable(combs) for combs in resolutions),
         resolutions=resolutions,
     )
+
+
+def _clearest(
+    compared: Sequence[_Comparison],
+    lines: PartLines,
+    around: float | None = None,
+    beside: PartEvidence | None = None,
+) -> PartEvidence:
+    """The evidence of a part at the resolution that speaks most for it."""
+    # the band is chosen by the lines alone: chosen by the sidebands, it is where noise has some
+    best = max((one.clearest(lines, around, beside) for one in compared), key=log_probability)
+    return max((one.with_sidebands(best) for one in compared), key=log_probability)
+
+
+def _race(
+    compared: Sequence[_Comparison], lines: PartLines, beside: PartEvidence | None = None
+) -> PartEvidence:
+    """The evidence of a race; `beside` another race that is damaged, which is no rival then."""
+    best = _clearest(compared, lines, beside=beside)
+    source = compared[-1].above_source(best.frequency)
+    best = replace(best, lead=min(best.lead, source), line_lead=min(best.line_lead, source))
+    if lines.part == INNER:
+        return best
+    # short segments do not resolve what lies beside the cage's lines
+    foreign, spacing = min(one.above_foreign(best) for one in compared[1:] or compared)
+    spacing = spacing if foreign < LEAD else math.nan
+    return replace(best, lead=min(best.lead, foreign), foreign_spacing=spacing)
+
+
+def _with_the_other_race(
+    compared: Sequence[_Comparison], evidence: tuple[PartEvidence, ...]
+) -> tuple[PartEvidence, ...]:
+    """The evidence, where one race is damaged with the other judged as damaged beside it.
+
+    Both races wear together often. The lines of the first, which are louder, are then no reason
+    against the second; all else is asked of it. It is no more probable than the first.
+    """
+    first = max(evidence, key=leading_by)
+    if first.part == BALL or first.probability < BESIDE:
+        return evidence
+    lines = next(one for one in compared[0].parts if one.part not in (first.part, BALL))
+    second = _race(compared, lines, first)
+    second = replace(second, lead=min(second.lead, first.lead))
+    told = _weighed(second if one.part == second.part else one for one in evidence)
+    return tuple(replace(one, probability=min(one.probability, first.probability)) for one in told)
 
 
 def _weighed(evidence: Iterable[PartEvidence]) -> tuple[PartEvidence, ...]:
@@ -250,10 +300,20 @@ class _Comparison:
     @property
     def ball(self) -> PartLines:
         """The lines of a ball."""
-        return next(lines for lines in self.parts if lines.part == BALL)
+        return self._lines_of(BALL)
 
-    def clearest(self, lines: PartLines, around: float | None) -> PartEvidence:
-        """The lines of a part in the band that speaks most for it, perhaps around a place [Hz]."""
+    def _lines_of(self, part: str) -> PartLines:
+        """The lines of a part, by its name."""
+        return next(lines for lines in self.parts if lines.part == part)
+
+    def clearest(
+        self, lines: PartLines, around: float | None, beside: PartEvidence | None
+    ) -> PartEvidence:
+        """The lines of a part in the band that speaks most for it, perhaps around a place [Hz].
+
+        `beside` is a race that is damaged too: what follows from its lines, and these themselves,
+        are no rivals.
+        """
         combs = self.combs
         near_it = within(combs, lines, self.slip, self.given, combs.frequency)
         if around is not None:  # a race's own lines are none of a ball's
@@ -271,8 +331,12 @@ class _Comparison:
             frequency = float(combs.frequency[inside[level[place].argmax()]])
             if frequency not in explained:
                 explained[frequency] = self.explained(frequency, lines)
+                if beside is not None:
+                    also = self.explained(beside.frequency, self._lines_of(beside.part))
+                    explained[frequency] = np.maximum(explained[frequency], also)
             others = float((combs.level[place] - explained[frequency]).max())
-            found.append(self._evidence(lines, combs.envelopes[place], frequency, others))
+            own = self._evidence(lines, combs.envelopes[place], frequency, others)
+            found.append(own if beside is not None else self._below_rivals(own))
         return max(found, key=log_probability)
 
     def explained(self, frequency: float, lines: PartLines) -> NDArray[np.float64]:
@@ -326,8 +390,8 @@ class _Comparison:
                 found[near_it] = True
         return found
 
-    def _above_rivals(self, own: PartEvidence) -> float:
-        """By how much [dB] a part's comb is above the races'.
+    def _below_rivals(self, own: PartEvidence) -> PartEvidence:
+        """The evidence, its lead no more than the [dB] by which a part's comb is above the races'.
 
         A race has the lines of one that is its multiple for free, and sidebands decide where both
         have the same. A damaged ball marks races, so its lines are no rivals of theirs, see
@@ -342,7 +406,8 @@ class _Comparison:
             if lines.part not in (own.part, BALL)
             and not (np.abs(frequency - same) <= tolerance(self.combs, same)).any()
         ]
-        return min(above, default=math.inf)
+        lead = min([own.lead, *above])
+        return replace(own, lead=lead, line_lead=lead)
 
     def with_sidebands(self, own: PartEvidence) -> PartEvidence:
         """The evidence with what its sidebands say: those that the part's own turning makes.
@@ -350,10 +415,7 @@ class _Comparison:
         An outer race stands still and needs none. Where a line may be a race's or a ball's, cage
         sidebands speak for the ball.
         """
-        combs = self.combs
-        one = next(
-            one for one in combs.envelopes if (one.band, one.direction) == (own.band, own.direction)
-        )
+        combs, one = self.combs, self._envelope_of(own)
         level = float(comb_level(_lines(one, one.cleared, own.frequency)[:, None])[0])
 
         def sides(spacing: float) -> float:
@@ -378,6 +440,40 @@ class _Comparison:
         if own.part == BALL and self._windows_of(OUTER, INNER)[place]:
             above = min(above, -race)
         return replace(own, modulation=modulation, lead=min(own.lead, above, modulation + LEAD))
+
+    def above_foreign(self, own: PartEvidence) -> tuple[float, float]:
+        """Lead [dB] of an outer race's lines over sidebands of another shaft; their spacing [Hz].
+
+        An outer race stands still: only this shaft and its cage change the size of its blows.
+        Sidebands at another distance on both sides of its lines mean that the lines are those of a
+        part that turns with another shaft, or at another speed than the one stated. Infinity where
+        noise reaches as far.
+        """
+        combs, one = self.combs, self._envelope_of(own)
+        resolution = (combs.frequency[1] - combs.frequency[0]) * FINENESS
+        low, high = (turns * combs.shaft for turns in FOREIGN)
+        spacing = np.arange(low, high, resolution / FINENESS)
+        lines = own.frequency * np.arange(1, HARMONICS // 2 + 1)
+        sides = [
+            [lines_at(one.cleared, one.levels.step, np.abs(line + away), 1)[0]
+             for away in (-spacing, spacing)]
+            for line in lines.tolist()
+        ]  # fmt: skip
+        level = np.min(sides, axis=1).mean(axis=0)  # both sidebands of a line, or none
+        made = [k * self.cage for k in (1, 2)] + [k * combs.shaft for k in (0.5, 1.0)]
+        made += [own.frequency / k for k in (2, 3, 4)]  # halves of the lines lie between them
+        for place in made:
+            level[np.abs(spacing - place) <= 1.5 * resolution + 0.005 * place] = -np.inf
+        best = int(level.argmax())
+        if level[best] < noise_level(RARE / len(spacing), one.levels.averages):
+            return math.inf, math.nan
+        above = float(comb_level(_lines(one, one.cleared, own.frequency)[:, None])[0]) - level[best]
+        return float(above) - FOREIGN_LEAD + LEAD, float(spacing[best])
+
+    def _envelope_of(self, own: PartEvidence) -> Listened:
+        """The envelope in which the lines of a part were seen."""
+        place = own.band, own.direction
+        return next(one for one in self.combs.envelopes if (one.band, one.direction) == place)
 
     def carried(self, around: float) -> float:
         """By how much [dB] lines around a frequency [Hz] have the sidebands that a ball's have.
@@ -477,9 +573,9 @@ class _Comparison:
             direction=one.direction,
             kurtosis=one.kurtosis,
         )
-        lead = min(own.lead, self._above_rivals(own))
-        if lines.part != BALL:
-            lead = min(lead, _above_gaps(_lines(one, one.levels.depth, frequency)))
+        if lines.part == BALL:
+            return replace(own, line_lead=own.lead)
+        lead = min(own.lead, _above_gaps(_lines(one, one.levels.depth, frequency)))
         return replace(own, lead=lead, line_lead=lead)
 
     def others(self, evidence: Sequence[PartEvidence]) -> tuple[OtherLines, float, float]:

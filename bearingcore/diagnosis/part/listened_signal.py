@@ -31,6 +31,9 @@ ABOVE_ROUNDING = 4.0
 NARROWEST = 16.0
 """Turns of the shaft a second that a band is wide at least."""
 
+NEAR = 0.01
+"""Of a speed that was found in a wide range, within which it is looked for again, finely."""
+
 WHITENING = 3.0
 """Turns of the shaft a second over which a signal is whitened."""
 
@@ -94,6 +97,15 @@ class ListenedSignal:
     def shaft(self, low: float, high: float) -> ShaftLines:
         """The shaft's own lines between two frequencies [Hz]."""
         return shaft_lines(self.columns, self.rate, low, high)
+
+    def shaft_tones(self, low: float, high: float) -> ShaftLines:
+        """The shaft's own lines between two frequencies [Hz], in the vibration alone.
+
+        Damaged balls make combs of the cage in the envelope, which are none of the shaft's.
+        """
+        wide = shaft_lines(self.columns, self.rate, low, high, envelopes=False)
+        near = wide.frequency * (1.0 - NEAR), wide.frequency * (1.0 + NEAR)
+        return shaft_lines(self.columns, self.rate, *near, envelopes=False)
 
 
 def _with_a_floor(samples: np.ndarray) -> np.ndarray:

@@ -10,6 +10,7 @@ from bearingcore.common.numbers import (
     number,
     percent,
     percent_off,
+    probability,
     span,
     thousands,
 )
@@ -77,6 +78,36 @@ def other_unit(speed: float, other: float) -> str:
     )
 
 
+def other_shaft(own: PartEvidence, shaft: float) -> str:
+    """The lines of a part have sidebands of another shaft than the stated one [Hz]."""
+    spacing = own.foreign_spacing
+    return (
+        f"There are impacts at {number(own.frequency, 4)} Hz ({decibels(own.level)} above local "
+        f"noise), as of a damaged {own.part}, but with sidebands {number(spacing, 3)} Hz apart, "
+        f"{number(spacing / shaft, 3)} times the shaft speed. Neither this shaft nor its cage "
+        f"makes them, and an {own.part} that stands still has none. Something that turns at "
+        f"{number(60.0 * spacing, 3)} rpm makes these impacts. Check the speed, the sample rate "
+        "and the bearings of other shafts."
+    )
+
+
+def lines_elsewhere(stated: float, shown: float) -> str:
+    """The lines of the shaft show at another speed [Hz] than the stated one."""
+    return (
+        f"The shaft's own lines are at {number(60.0 * shown, 4)} rpm, {number(shown / stated, 3)} "
+        f"times the stated speed, and none are at {number(60.0 * stated, 4)} rpm: the speed or the "
+        f"sample rate is wrong. If it is the speed, give {number(60.0 * shown, 4)} rpm."
+    )
+
+
+def against_the_shaft(own: PartEvidence) -> str:
+    """Lines fit a part only at a speed that the shaft does not have."""
+    return (
+        f"Impacts at {number(own.frequency, 4)} Hz ({decibels(own.level)} above local noise) fit "
+        f"the {own.part} at the stated speed only, which the signal contradicts."
+    )
+
+
 def damaged(own: PartEvidence) -> str:
     """A part is named."""
     shown = int((own.harmonics > own.noise).sum())
@@ -100,6 +131,15 @@ def damaged(own: PartEvidence) -> str:
     if own.part != BALL and abs(own.slip) > FAR:
         words += " Lines of a race are seldom so far off: check bearing and speed."
     return words
+
+
+def beside(other: PartEvidence) -> str:
+    """The other race than the one named shows its lines too."""
+    return (
+        f" The {other.part} shows too: impacts at {number(other.frequency, 4)} Hz, "
+        f"{decibels(other.level)} above local noise, probability {probability(other.probability)}. "
+        "Inspect both races."
+    )
 
 
 def perhaps_a_ball() -> str:

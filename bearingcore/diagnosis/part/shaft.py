@@ -76,9 +76,14 @@ class ShaftLines(NamedTuple):
 
 
 def shaft_lines(
-    columns: Sequence[NDArray[np.float64]], sample_rate: float, low: float, high: float
+    columns: Sequence[NDArray[np.float64]],
+    sample_rate: float,
+    low: float,
+    high: float,
+    *,
+    envelopes: bool = True,
 ) -> ShaftLines:
-    """The strongest comb between two frequencies [Hz], in vibration and envelope.
+    """The strongest comb between two frequencies [Hz], in vibration and, if wanted, envelope.
 
     Parameters
     ----------
@@ -87,7 +92,7 @@ def shaft_lines(
     """
     segment, top = SEGMENT_TURNS / low, (2 * HARMONICS + 1) * high
     best = ShaftLines(0.5 * (low + high), -np.inf, np.inf)
-    for values, rate in _series(columns, sample_rate, low, top):
+    for values, rate in _series(columns, sample_rate, low, top, envelopes):
         levels = line_levels(values, rate, segment, top, 2.0 * low)
         resolution = 1.0 / min(segment, len(values) / rate)
         count = 1 + int(np.ceil((high - low) * 4.0 * HARMONICS / resolution))
@@ -111,12 +116,18 @@ def shaft_lines(
 
 
 def _series(
-    columns: Sequence[NDArray[np.float64]], sample_rate: float, low: float, top: float
+    columns: Sequence[NDArray[np.float64]],
+    sample_rate: float,
+    low: float,
+    top: float,
+    envelopes: bool,
 ) -> Iterator[tuple[NDArray[np.float64], float]]:
     """Vibration and whitened envelope of each direction, and their rates [Hz]."""
     full = [Band(LOWEST, 0.5 * sample_rate)]
     for samples in columns:
         yield thinned(samples - samples.mean(), sample_rate, top)
+        if not envelopes:
+            continue
         for envelope in squared_envelopes(
             samples, sample_rate, full, top, None, SHAFT_WHITENING * low
         ):

@@ -20,6 +20,10 @@ class DiagnosisStatus(Status):
         "lines without modulation",
         "Impacts repeat at the rate of a part that turns, but are not modulated by its turning.",
     )
+    OTHER_SHAFT = (
+        "of another shaft",
+        "The lines of a part, or those of the shaft, show that another speed made them.",
+    )
     MAGNETIC = (
         "like magnetic noise",
         "Lines of a part show at twice the mains frequency, where magnetic noise of a motor has "

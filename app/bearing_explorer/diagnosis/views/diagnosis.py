@@ -84,7 +84,9 @@ NONE_IN_LIST = "No listed bearing explains the signal."
 
 def on_records() -> str:
     """Worth of the answers on measured records of real machines, as the tests wrote it."""
-    records = json.loads(asset_text("scoreboard.json"))["records"]
+    board = json.loads(asset_text("scoreboard.json"))
+    records, (low, high) = board["records"], board["share_right"]
+    healthy = sum(row["truth"] == "healthy" for row in records)
     answered = [row for row in records if row["verdict"] in ("right", "wrong")]
     sure = [row for row in answered if row["probability"] >= 0.9]
     right, kept = (sum(row["verdict"] == "right" for row in rows) for rows in (answered, sure))
@@ -93,7 +95,9 @@ def on_records() -> str:
     return (
         f"Of {len(records)} measured records of real machines {len(answered)} were answered, "
         f"{right} of them correctly; of {len(sure)} answers stated with 90 % or more {kept} were "
-        f"right; {held} of {len(sized)} measured lengths have the true one in their interval. The "
+        f"right (exact 95 % interval: {100.0 * low:.1f} to {100.0 * high:.0f} %); only {healthy} "
+        f"records are of healthy bearings. {held} of {len(sized)} measured lengths have the true "
+        "one in their interval. The "
         "records are public, of a motor and three rigs; the diagnosis was fitted to them and may "
         "do worse on other machines."
     )

@@ -33,6 +33,9 @@ MACHINE: FieldSpec = {
         *([name, ", ".join(_WORDS[part] for part in name.split(", "))] for name in ZONES),
     ],
 }
+HIGHEST = max(ends[-1] for ends in ZONES.values())
+"""[m/s] above which a vibration is in zone D, whatever the machine."""
+
 MEANING = {
     "A": "as of new machines",
     "B": "fit for long operation",
@@ -110,8 +113,8 @@ def zone_of(measured: Measured, machine: str) -> str:
     if no_zone(measured, machine):
         return ""
     found = measured.indicators
-    velocity, displacement = found.velocity_rms.max(), found.displacement_rms.max()
-    return severity_zone(float(velocity), machine, float(displacement))
+    velocity, displacement = float(found.velocity_rms.max()), float(found.displacement_rms.max())
+    return severity_zone(velocity, machine, displacement) if machine else "D"
 
 
 def no_zone(measured: Measured, machine: str) -> str:
@@ -123,7 +126,7 @@ def no_zone(measured: Measured, machine: str) -> str:
     shaft = 0.0 if speed is None else speed / (2.0 * math.pi)
     if not why and not SHAFT_SPEEDS[0] <= shaft <= SHAFT_SPEEDS[1]:
         why = "the standard is for 120 to 30 000 rpm"
-    if not why and not machine:
+    if not why and not machine and float(measured.indicators.velocity_rms.max()) <= HIGHEST:
         why = "power and support of the machine are not known"
     return why
 
@@ -133,6 +136,12 @@ def severity(measured: Measured, machine: str) -> str:
     if why := no_zone(measured, machine):
         return f"No zone of ISO 20816-3: {why}."
     most, zone = float(measured.indicators.velocity_rms.max()), zone_of(measured, machine)
+    if not machine:
+        return (
+            f"Zone D of ISO 20816-3 for every machine, with {style.number(1e3 * most, 3)} mm/s: "
+            f"{MEANING[zone]}. The highest boundary is {style.number(1e3 * HIGHEST, 3)} mm/s of "
+            "ISO 10816-3:2009, which it replaced; check it there before you act on it."
+        )
     power, support = (_WORDS[part] for part in machine.split(", "))
     size = f"{style.number(1e3 * most, 3)} mm/s"
     ends = f"{style.list_words([style.number(1e3 * end, 3) for end in ZONES[machine]])} mm/s"

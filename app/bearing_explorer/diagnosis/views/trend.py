@@ -41,7 +41,7 @@ from bearing_explorer.kit.views.job_view import Editor, JobView
 from bearing_explorer.kit.views.python_lines import code_of, scene_code, short
 from bearing_explorer.kit.widgets.form import AS_HIGH_AS_SHOWN, FieldSpec, stack
 from bearingcore import Trend, trend
-from bearingcore.diagnosis import CANNOT_TELL, NONE_SEEN
+from bearingcore.diagnosis import CANNOT_TELL, NONE_SEEN, PARTS
 from bearingcore.errors import FieldError
 from bearingcore.sizing import LINES
 
@@ -93,6 +93,11 @@ class FoundTrend:
     recordings: SeriesRecordings
     series: Series
     measured: Measured
+
+    @property
+    def complete(self) -> bool:
+        """Whether all recordings are in it."""
+        return len(self.trend.points) == len(self.recordings.recordings)
 
 
 class TrendOfFiles(JobView[Model, FoundTrend, Editor], MeasuredView):
@@ -184,7 +189,7 @@ class TrendOfFiles(JobView[Model, FoundTrend, Editor], MeasuredView):
             found is not None
             and found.series is self.measurement.series
             and found.measured is self.measured
-            and len(found.trend.points) == len(found.recordings.recordings)
+            and found.complete
         )
 
     def say(self, model: Model | None, sentence: str) -> None:
@@ -321,9 +326,23 @@ def words_on(shown: Trend, in_si: bool) -> str:
     if in_si and most != len(shown.points) - 1:
         top = style.number(float(shown.rms_change[most]), 3)
         words += f"; {top} times at most, in {shown.points[most].name}"
+    if in_si and (line := line_growth(shown)):
+        words += f"; {line}"
     kurtosis = [style.number(point.kurtosis, 3) for point in (first, last)]
     words += f". Kurtosis {kurtosis[0]} in the first, {kurtosis[1]} in the last. "
     return words + part_words(shown)
+
+
+def line_growth(shown: Trend) -> str:
+    """The growth of the line of the part that is named in the last recording; empty without."""
+    part = shown.points[-1].fault
+    change = float(shown.line_change(part)[-1]) if part in PARTS else math.nan
+    if not math.isfinite(change):
+        return ""
+    seen = np.isfinite(shown.line_change(part)[shown.baseline])
+    least = "" if seen else "at least "
+    since = "that of the baseline" if seen else "what noise hides in the baseline"
+    return f"the line of the {part} became {least}{style.number(change, 2)} times {since}"
 
 
 def part_words(shown: Trend) -> str:

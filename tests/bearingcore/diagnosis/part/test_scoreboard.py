@@ -55,4 +55,7 @@ def test_the_page_counts_every_answer_and_every_extent() -> None:
     said = PartDiagnosis.about
     assert f"Of {len(ROWS)} measured records of real machines {len(answered)} were" in said
     assert f"of {count} answers stated with 90 % or more {right} were right" in said
+    # n of n right: the share p with p^n = 2.5 % is the lower end (Clopper and Pearson, 1934)
+    assert count == right
+    assert f"interval: {100.0 * 0.025 ** (1.0 / count):.1f} to 100 %" in said
     assert f"{sizes} of {sizes} measured lengths" in said

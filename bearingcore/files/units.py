@@ -69,7 +69,7 @@ _WRITTEN = {
     "mg": "millig milli-g mgs",
     "mm/s²": "mm/s2 mm/s^2 mm/s**2 mms-2 mm_s2 mm_per_s2 mm/sec2 mm/sec²",
     "cm/s²": "cm/s2 cm/s^2 gal",
-    "in/s²": "in/s2 in/s^2 in/sec2 in/sec^2 ips2 in_per_s2 inch/s2 inch/s²",
+    "in/s²": "in/s2 in/s^2 in/sec2 in/sec^2 in/sec² ips2 in_per_s2 inch/s2 inch/s²",
     "ft/s²": "ft/s2 ft/s^2 ft/sec2",
     "m/s": "m/sec ms-1 mps m_per_s",
     "mm/s": "mm/sec mms-1 mm_s mm_per_s mmps",

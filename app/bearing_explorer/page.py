@@ -143,7 +143,7 @@ def page(lessons: Path | None = None) -> PageTemplate:
         "python_install": PYTHON_INSTALL,
         "scene": scene is not None,
         "signal": signal is not None,
-        "page_script": scripts("element.js", "page.js"),
+        "page_script": scripts("element.js", "pointed.js", "page.js"),
         **{name: helps.get(name, "") for name in ("glossary", "bearing_picture", "python_lines")},
     }.items():
         template.add_variable(name, text)

@@ -14,7 +14,10 @@ const PLAY = "M2.5 1v10l8-5z", PAUSE = "M2 1h3v10H2zM7 1h3v10H7z"
 export function render({ model }) {
   const spec = model.spec
   const still = matchMedia("(prefers-reduced-motion: reduce)").matches
-  const panel = make_rows(model, { changed: () => count_changed() })
+  const panel = make_rows(model, { changed: (name) => {
+    count_changed()
+    if (name === spec.extent) show_spacings()
+  } })
   const { rows, values, send } = panel
 
   // Turns the bearing until it is pressed again. A page that is opened without a scene turns it by
@@ -110,7 +113,7 @@ export function render({ model }) {
     const { least } = panel.limits[name]
     return Number((least + (((value - least) % 360) + 360) % 360).toFixed(2))
   }
-  const follow_hand = ({ kind, defect, began, released, turn, stretch }) => {
+  const follow_hand = ({ kind, defect, began, released, turn, force, more }) => {
     if (began) {
       const own = kind === "load" || defect === selected
       hold = own ? { ...values, turn: 0 } : null
@@ -122,10 +125,10 @@ export function render({ model }) {
     hold ??= { ...values, turn }
     const by = turn - hold.turn
     if (kind === "load") {
-      const size = stretch * Math.hypot(hold.fx_n, hold.fy_n)
-      const angle = Math.atan2(hold.fy_n, hold.fx_n) + by * Math.PI / 180
-      const along = (share) => Math.abs(share) < 0.01 ? 0 : size * share  // by hand nothing is upright
-      panel.move_all({ fx_n: inside("fx_n", along(Math.cos(angle))), fy_n: inside("fy_n", along(Math.sin(angle))) })
+      const held = Math.hypot(hold.fx_n, hold.fy_n), size = force ? Math.hypot(...force) : Math.max(0, held + more)
+      const angle = (held ? Math.atan2(hold.fy_n, hold.fx_n) : -Math.PI / 2) + by * Math.PI / 180
+      const [fx_n, fy_n] = (force ?? [size * Math.cos(angle), size * Math.sin(angle)]).map((one) => Math.abs(one) < 0.01 * size ? 0 : one)  // by hand nothing is upright
+      panel.move_all({ fx_n: inside("fx_n", fx_n), fy_n: inside("fy_n", fy_n) })
     } else if (kind === "middle") panel.move("center_deg", around("center_deg", hold.center_deg + by))
     else {
       const side = kind === "end" ? 1 : -1
@@ -171,6 +174,22 @@ export function render({ model }) {
   const tools = element("div", { class: "tools" }, toggle, more)
   const all = button("", () => { whole = !whole; show_named() }, { class: "all" })
   const form = panel.form({ "aria-label": "Scene" }, search.root, main, tools, rest, all)
+
+  // Ball spacings on the slider of the length, and a cue as a hand crosses one.
+  const cue = element("p", { class: "note", role: "status" })
+  rows[spec.extent].root.append(cue)
+  rows[spec.extent].slider.classList.add("spaced")
+  let inside_before = null
+  const show_spacings = () => {
+    const { least, most } = panel.limits[spec.extent], count = Math.floor(values[spec.extent] / spacing + 1e-9)
+    rows[spec.extent].slider.style.setProperty("--spacing", spacing / (most - least))
+    rows[spec.extent].slider.title = `Ticks: rolling elements are ${spacing.toFixed(1)}\u00b0 apart`
+    cue.hidden = !count
+    cue.textContent = `Now always ${count === 1 ? "one rolling element" : `${count} rolling elements`} inside`
+    if (inside_before !== null && count !== inside_before)
+      cue.animate([{ color: "var(--card)", background: "var(--accent)" }, {}], still ? 0 : 1200)
+    inside_before = count
+  }
 
   let usual = {}, many = 1
   const count_changed = () => {

@@ -23,6 +23,8 @@ function enlarging(model, root) {
   }
 
   let cell = -1  // the one that fills the drawing; -1 if all are shown
+  const explain = () => { part("line").textContent = model.cell_lines[cell] || model.line }
+  model.on("cell_lines", explain)
   const show_cell = (number) => {
     const [view] = figures_on_screen(model.figures)
     if (!view) return
@@ -35,6 +37,7 @@ function enlarging(model, root) {
     x_range.setv({ start: left, end: right })
     y_range.setv({ start: bottom, end: top })
     name.textContent = cell < 0 ? words : `${words}, ${cell + 1} of ${model.cells.length}`
+    explain()
   }
   const step = (by) => show_cell(cell < 0 ? (by > 0 ? 0 : model.cells.length - 1) : (cell + by + model.cells.length) % model.cells.length)
   part("previous").addEventListener("click", () => step(-1))

@@ -96,6 +96,50 @@
     }
   })
 
+  // While a hand moves something, what the curves were before stays faintly beneath them, on the axes of
+  // now. Numbers are replaced as a whole, so that the old ones need not be copied. Curves in cells, whose
+  // axes are numbers of a source that their tag names, are scaled anew.
+  const paint_glyph = method(renderer, "_paint")
+  const paint_line = method(line, "_paint")
+  part("curves of before", [paint_glyph, paint_line], () => {
+    const FAINT = 0.3
+    const before = new Map()  // numbers of sources
+    let painted = []
+    const cells_of = ({ tags: [name] }) => name && globalThis.Bokeh.documents[0].get_model_by_name(name)
+    addEventListener("explorer-hand", ({ detail: held }) => {
+      before.clear()
+      for (const view of painted) view.request_paint()
+      painted = held ? [...globalThis.Bokeh.index.query(({ glyph }) => glyph?.model.type === "Line")] : []
+      for (const { model } of painted)
+        for (const source of [model.data_source, cells_of(model)]) if (source) before.set(source, source.data)
+    })
+    const rescaled = (x, y, was, now) => {
+      if (was.left.length !== now.left.length) return []
+      return y.map((one, i) => {
+        const k = was.left.findIndex((left, k) => x[i] >= left && x[i] <= was.right[k]
+          && one >= was.bottom[k] - 1e-4 && one <= was.top[k] + 1e-4)
+        if (k < 0) return NaN
+        const value = was.low[k] + (one - was.bottom[k]) / (was.top[k] - was.bottom[k]) * (was.high[k] - was.low[k])
+        const share = (value - now.low[k]) / (now.high[k] - now.low[k])
+        return share >= 0 && share <= 1 ? now.bottom[k] + share * (now.top[k] - now.bottom[k]) : NaN
+      })
+    }
+    renderer._paint = function (ctx) {
+      const { data_source: source, tags } = this.model, data = before.get(source)
+      if (data && data !== source.data && this.glyph.model.type === "Line") {
+        const { x, y } = this.glyph.model, cells = tags.length ? cells_of(this.model) : null
+        const old = [data[x.field], data[y.field]]
+        if (cells && cells.data !== before.get(cells)) old[1] = rescaled(...old, before.get(cells), cells.data)
+        const places = { sx: this.xscale.v_compute(old[0]), sy: this.yscale.v_compute(old[1]) }
+        ctx.save()
+        ctx.globalAlpha = FAINT
+        paint_line.call(this.glyph, ctx, places.sy.keys(), places)
+        ctx.restore()
+      }
+      paint_glyph.call(this, ctx)
+    }
+  })
+
   // Where which point is, for a mouse that hits it: found out when that is asked.
   const index_data = method(line, "index_data")
   const index = getter(line, "index")
@@ -325,6 +369,27 @@
       return null
     }
     index_of_views.find_one_by_id = function (id) { return among(this, id) ?? find.call(this, id) }
+  })
+
+  // The layer above a canvas that hears the mouse is a stop of Tab without a name. No key does anything
+  // there: whoever goes by keys passes it.
+  const canvas = view_of("Canvas")
+  const begin = method(canvas, "initialize")
+  part("stops of Tab", [begin], () => {
+    canvas.initialize = function () {
+      begin.call(this)
+      if (this.events_el) this.events_el.tabIndex = -1
+    }
+  })
+
+  // The hint that Ctrl and the wheel zoom is white on white on a dark page.
+  const notify = method(figure, "notify_about")
+  part("colours of hints", [notify], () => {
+    figure.notify_about = function (message) {
+      notify.call(this, message)
+      for (const hint of this._notifications?.elements ?? [])
+        hint.style = { color: "var(--ink)", "background-color": "var(--card)" }
+    }
   })
 
   // Colours and widths of an axis, a grid or a title may come from style sheets, and are asked for

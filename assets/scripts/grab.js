@@ -1,9 +1,10 @@
 // What can be grabbed in a drawing of the bearing: the ends and the middle of a defect, the tip of
-// the arrow. It says how far each was turned and stretched; the controls move (see controls.js).
-// By keys a handle is a slider: Tab comes to it, arrow keys move it, of the arrow up and down its size.
+// the arrow. It says how far each was turned and which force the arrow is; the controls move (see
+// controls.js). By keys a handle is a slider: Tab comes to it, arrow keys move it the way they point; of
+// the arrow up and down change the size.
 // See app/bearing_explorer/explorer/views/bearing_handles.py.
 const NEAR = { mouse: 12, pen: 18, touch: 26 }  // [px]
-const CUED = 29  // [px] of an arrow beside which there is room for the cue
+const CUED = 36  // [px] of the radius of a bore in which there is room for the cue
 const KINDS = ["start", "end", "middle", "load"]
 const CUES = { start: "Drag: length of the defect", end: "Drag: length of the defect",
   middle: "Drag: place of the defect", load: "Drag: load and its direction" }
@@ -29,11 +30,12 @@ if (view?.frame?.bbox?.width > 0) {
       y: plot.y_range.end - (clientY - top - bbox.top) / unit }
   }
   const nearest = (event, near) => {
-    const at = place(event), { x, y, x0, kind, defect } = source.data
+    const at = place(event), { x, y, x0, kind, defect, newtons } = source.data
     let found = null, least = near / at.unit
     for (let i = 0; i < x.length; i++) {
       const far = Math.hypot(x[i] - at.x, y[i] - at.y)
-      if (far < least) [least, found] = [far, { kind: KINDS[kind[i]], defect: defect[i], middle: x0[i] }]
+      if (far < least) [least, found] = [far, { kind: KINDS[kind[i]], defect: defect[i], middle: x0[i], newtons: newtons[i],
+        off: { x: x[i] - x0[i] - at.x, y: y[i] - at.y } }]
     }
     return found
   }
@@ -70,10 +72,14 @@ if (view?.frame?.bbox?.width > 0) {
       event.preventDefault()
       event.stopPropagation()
       if (!moved) say({ kind: one.kind, defect: one.defect, began: true })
-      moved ??= { turn: 0, stretch: 1 }
-      if (one.kind === "load" && !/Left|Right/.test(event.key)) moved.stretch = Math.max(0, moved.stretch + side * LARGER)
-      else moved.turn += side * STEP * ({ start: -1, load: 2 }[one.kind] ?? 1)  // to the right is longer
-      say({ kind: one.kind, defect: one.defect, ...moved })
+      moved ??= { turn: 0, more: 0, step: LARGER * (one.size || one.whole) }
+      const across = /Left|Right/.test(event.key), angle = one.angle * Math.PI / 180
+      if (one.kind === "load" && !across) moved.more += side * moved.step
+      else {
+        const way = across ? -Math.sin(angle) : Math.cos(angle)  // of a turn to the left, on screen
+        moved.turn += side * STEP * (way < -0.1 ? -1 : 1) * (one.kind === "load" ? 2 : 1)
+      }
+      say({ kind: one.kind, defect: one.defect, turn: moved.turn, more: moved.more })
     })
     one.addEventListener("keyup", done)
     one.addEventListener("blur", done)
@@ -81,7 +87,7 @@ if (view?.frame?.bbox?.width > 0) {
     return one
   }
   view.place_handles = () => {
-    const { x, y, x0, kind, defect, value, angle } = source.data, { bbox } = view.frame
+    const { x, y, x0, kind, defect, value, angle, bore, newtons } = source.data, { bbox } = view.frame
     const unit = bbox.width / (plot.x_range.end - plot.x_range.start)
     const at = (right, up) => `translate(${(bbox.left + (right - plot.x_range.start) * unit).toFixed(1)}px, ${(bbox.top + (plot.y_range.end - up) * unit).toFixed(1)}px)`
     while (handles.length > x.length) handles.pop().remove()
@@ -89,25 +95,25 @@ if (view?.frame?.bbox?.width > 0) {
     attribute(cue, "data-words", kind.some((one) => KINDS[one] !== "load") ? "drag arrow or defect" : "drag arrow")
     handles.forEach((one, i) => {
       const [number, place] = [value[i], angle[i]].map((one) => Number(one.toPrecision(3)))
-      one.kind = KINDS[kind[i]]
-      one.defect = defect[i]
+      Object.assign(one, { kind: KINDS[kind[i]], defect: defect[i], size: value[i], angle: angle[i], whole: bore[i] * newtons[i] })
       one.style.transform = at(x[i], y[i])
       const load = one.kind === "load", middle = one.kind === "middle"
       attribute(one, "aria-label", NAMES[one.kind])
-      attribute(one, "aria-valuenow", middle ? place : number)
+      attribute(one, "aria-valuenow", load ? number : place)
       attribute(one, "aria-valuemax", load ? 1e6 : 360)
       attribute(one, "aria-valuetext", load ? `${number} N at ${place}\u00b0` : middle ? `at ${place}\u00b0`
         : `at ${place}\u00b0; defect ${number}\u00b0 long`)
       if (!load) return
       const large = document.documentElement.hasAttribute("data-projector")
-      cue.style.visibility = large || unit * Math.hypot(x[i] - x0[i], y[i]) < CUED ? "hidden" : ""
-      cue.style.transform = at(x0[i] - 0.42 * (x[i] - x0[i]), -0.42 * y[i])
+      cue.style.visibility = large || unit * bore[i] < CUED ? "hidden" : ""
+      const turn = angle[i] * Math.PI / 180, far = -0.4 * bore[i]  // on the other side than the arrow
+      cue.style.transform = at(x0[i] + far * Math.cos(turn), far * Math.sin(turn))
     })
   }
   view.place_handles()
-  const polar = (event) => {
+  const angle_of = (event) => {
     const at = place(event)
-    return { angle: Math.atan2(at.y, at.x - grabbed.middle), radius: Math.hypot(at.y, at.x - grabbed.middle) }
+    return Math.atan2(at.y, at.x - grabbed.middle)
   }
   el.addEventListener("pointerdown", (event) => {
     grabbed = event.button === 0 ? nearest(event, NEAR[event.pointerType] ?? NEAR.mouse) : null
@@ -116,7 +122,7 @@ if (view?.frame?.bbox?.width > 0) {
     event.preventDefault()
     el.setPointerCapture(event.pointerId)
     el.style.cursor = event.composedPath()[0].style.cursor = "grabbing"
-    Object.assign(grabbed, { from: polar(event), last: polar(event), turn: 0 })
+    Object.assign(grabbed, { last: angle_of(event), turn: 0 })
     say({ kind: grabbed.kind, defect: grabbed.defect, began: true })
   }, true)
   el.addEventListener("pointermove", (event) => {
@@ -127,12 +133,12 @@ if (view?.frame?.bbox?.width > 0) {
       return
     }
     event.stopPropagation()
-    const at = polar(event)
-    const by = at.angle - grabbed.last.angle
+    const { x, y } = place(event), { off, newtons } = grabbed, angle = angle_of(event)
+    const by = angle - grabbed.last
     grabbed.turn += Math.atan2(Math.sin(by), Math.cos(by)) * 180 / Math.PI
-    grabbed.last = at
-    say({ kind: grabbed.kind, defect: grabbed.defect, turn: grabbed.turn,
-      stretch: at.radius / grabbed.from.radius })
+    grabbed.last = angle
+    const force = [newtons * (x + off.x), newtons * (y + off.y)]  // its tip stays under the hand
+    say({ kind: grabbed.kind, defect: grabbed.defect, turn: grabbed.turn, force })
   }, true)
   el.addEventListener("pointermove", (event) => {  // after Bokeh, whose layer above all has a cursor of its own
     if (el.style.cursor) event.composedPath()[0].style.cursor = el.style.cursor

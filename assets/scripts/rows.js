@@ -57,7 +57,7 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
   const rows = {}, selects = {}
   let limits = {}, values = {}, second_units = {}
   let pending = null, sent_at = 0, waiting = false
-  let released = false, held = false
+  let released = false, held = false, in_hand = false
 
   const on_way = new Map()  // when changes were sent
   let network = Infinity, held_back = 0, answered = 0
@@ -109,6 +109,7 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
   }
   // The end of a drag: it is one step to undo. A key held down is one too.
   const release = () => {
+    announce("hand", in_hand = false)
     pending = { ...pending }
     released = true
     keep_waiting(send_now)
@@ -121,6 +122,7 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
   }
   const push = (name, value) => push_all({ [name]: value })
   const push_all = (set) => {
+    if (!in_hand) announce("hand", in_hand = true)
     for (const name of Object.keys(set)) rows[name].asked = asked() + 1
     pending = { ...pending, ...set }
     keep_waiting(send_now)

@@ -5,6 +5,13 @@ export function render({ model }) {
   const write = () => { line.innerHTML = model.text }
   model.on("text", write)
   write()
+  // the rolling elements that it names light up in the figures (see pointed.js); of several rows none
+  const point = (named) => {
+    const numbers = [...named.matchAll(/\b(?:ball|roller)s? ([\d, and]*\d)(?! of row)/gi)].flatMap(([, list]) => list.match(/\d+/g))
+    window.dispatchEvent(new CustomEvent("explorer-pointed", { detail: numbers.map(Number) }))
+  }
+  line.addEventListener("pointerenter", () => point(line.textContent))
+  line.addEventListener("pointerleave", () => point(""))
   // as high as it has been at this width, to the part of a pixel: a shorter one would have figures
   // grow, and repaint
   let width

@@ -33,7 +33,10 @@ export function render({ model }) {
     undo: asks({ undo: true }),
     redo: asks({ redo: true }),
     back: asks({ back: true }),
-    reset: asks({ reset: true }),
+    reset: () => {
+      ask(model, { reset: true })
+      for (const zoomed of inside(document)) if (zoomed.matches(".home")) zoomed.click()
+    },
     copy,
     keep: () => model.send_msg({ keep: name.value || name.placeholder }),
     report: () => asks_report(false),

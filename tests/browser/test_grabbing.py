@@ -5,7 +5,7 @@ import re
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
-from tests.browser.explorer_page import settle, value
+from tests.browser.explorer_page import rest, settle, value
 from tests.browser.visitor import Visitor
 
 START, END, MIDDLE, LOAD = range(4)
@@ -115,3 +115,40 @@ def test_handles_are_sliders_for_keys_and_screen_readers(page: Page) -> None:
     page.keyboard.press("PageDown")
     page.keyboard.press("ArrowRight")
     expect(handle("Load")).to_have_attribute("aria-valuetext", re.compile(r"^52\.5 N at 271°"))
+
+
+def test_the_tip_of_the_arrow_stays_under_the_hand_and_comes_back_when_it_is_let_go(
+    page: Page,
+) -> None:
+    x, y = place(page, LOAD)
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + 30.0, y + 60.0, steps=6)
+    rest(page)
+    assert place(page, LOAD) == pytest.approx((x + 30.0, y + 60.0), abs=2.0)
+    page.mouse.up()
+    rest(page)
+    assert place(page, LOAD)[1] < y + 30.0, "within the bore"
+    assert value(page, "fy_n") > 180.0
+
+
+def test_who_misses_a_handle_zooms_nothing_and_reset_ends_a_zoom(page: Page) -> None:
+    x, y = place(page, END)
+    page.mouse.move(x + 18.0, y - 30.0)
+    page.mouse.down()
+    page.mouse.move(x + 60.0, y + 40.0, steps=4)
+    page.mouse.up()
+    settle(page)
+    assert place(page, END) == pytest.approx((x, y))
+    whole = page.get_by_role("button", name="Whole figure", exact=True)
+    expect(whole).to_have_count(0)
+    for way in (whole, page.get_by_role("button", name="Reset", exact=True)):
+        page.keyboard.down("Control")
+        page.mouse.wheel(0, -300)
+        page.keyboard.up("Control")
+        expect(whole).to_be_visible()
+        assert place(page, END) != pytest.approx((x, y), abs=5.0)
+        way.click()
+        expect(whole).to_be_hidden()
+        assert place(page, END) == pytest.approx((x, y))
+        page.mouse.move(x + 18.0, y - 30.0)

@@ -74,6 +74,7 @@ class Explorer(Requests):
             self._settings,
             self.editor.focus,
             moving=True,
+            held=self.bookmarks.moving,
             compared=self.bookmarks.compared,
             before=None if before is None else Reference(before, BEFORE),
             grey_kind=self._grey,

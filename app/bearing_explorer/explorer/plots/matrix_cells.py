@@ -26,9 +26,11 @@ from bokeh.models import (
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
+from bearing_explorer.explorer.results.defect_shape import crossings
+from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.plots import style
-from bearing_explorer.kit.plots.layers import Words
+from bearing_explorer.kit.plots.layers import Glyph, Words, segments
 from bearing_explorer.kit.plots.ranges import StickyRange
 from bearingcore import DOF_NAMES
 from bearingcore.statics import TERM_SYMBOLS
@@ -147,6 +149,26 @@ def write_names(plot: figure, cells: Sequence[Cell]) -> None:
     name = ColumnDataSource({"x": [balls.left], "y": [balls.top]})
     look = {"y_offset": -6, "text_font_size": style.TEXT_SIZE, "text_color": style.INK}
     write(plot, name, f"return {NAMES[-1]!r}", **look)
+
+
+def crossing_layer(source: str) -> Glyph:
+    """The layer of `crossing_lines`."""
+    return segments(source, "#D5DAE0", 1.0, ("element",))
+
+
+def crossing_lines(results: Results, cells: Sequence[Cell]) -> dict[str, NDArray[np.float64]]:
+    """Upright lines in cells over the cage angle where an element passes an edge of a defect.
+
+    Its number is negative where every element in turn passes at the same place.
+    """
+    first, last, _ = results.stretch
+    met = crossings(results.scene, first, last)
+    share = np.array([(angle - first) / (last - first) for angle, _ in met])
+    number = np.array([element + 1.0 for _, element in met])
+    x = np.concatenate([cell.x(share) for cell in cells])
+    low, high = (np.repeat([getattr(c, side) for c in cells], share.size) for side in SIDES[2:])
+    element = np.tile(number if results.over_shaft else -number, len(cells))
+    return {"x0": x, "y0": low, "x1": x, "y1": high, "element": element}
 
 
 def term_sizes(term: Callable[[str], NDArray[np.float64]]) -> list[float]:

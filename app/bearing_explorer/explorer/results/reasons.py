@@ -17,7 +17,7 @@ from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.element_words import element_name, elements
 from bearingcore import DOF_NAMES
 from bearingcore.scene import DOF_SYMBOLS
-from bearingcore.statics import BALL_LOAD, drops_at
+from bearingcore.statics import BALL_LOAD, TERM_SYMBOLS, drops_at
 from bearingcore.sweep import mode_symbol
 
 if TYPE_CHECKING:
@@ -45,6 +45,8 @@ LARGE_SWING = 1.25
 """Greatest load in motion over that at rest from which a swing is not small."""
 _ACROSS = {"x": "the horizontal", "y": "the vertical"}
 _OTHER = {"x": "up and down", "y": "sideways"}
+RADIAL = ("k_xx", "k_yy")
+"""The radial stiffness."""
 _SQUARE = {"x": "cos²φ", "y": "sin²φ"}
 
 
@@ -119,14 +121,16 @@ def _neighbours(bearing: Bearing, which: NDArray[np.int64]) -> NDArray[np.int64]
 
 
 def greatest_load(results: Results) -> str:
-    """The same where a ball carries the most of all positions of the bearing."""
+    """The same at the cage angle where a ball carries the most of all, which it names."""
     found = results.ranges.state
     load = np.where(found.converged[:, None], found.ball_load, -1.0).max(axis=1)
     state = [int(np.argmax(load))]
     if load[state] <= 0.0:
         return ""
-    drop = drops_at(results.scene, found.cage_angles[state], None, found.leads[state])[0]
-    return most_loaded(results.scene, found, state[0], drop)
+    angle = found.cage_angles[state]
+    drop = drops_at(results.scene, angle, None, found.leads[state])[0]
+    why = most_loaded(results.scene, found, state[0], drop)
+    return f"That is with the cage at {style.in_degrees(angle[0])}: {why[0].lower()}{why[1:]}"
 
 
 def _named(bearing: Bearing, which: NDArray[np.int64]) -> str:
@@ -195,7 +199,7 @@ def why_softer(
             )
         else:
             said.append(f"each contact is {'stiffer' if grown > more else 'softer'} on average")
-    return said[0] if said and briefly else style.list_words(said)
+    return style.list_words(said)
 
 
 def from_to(before: float, now: float) -> str:
@@ -250,6 +254,40 @@ def stiffness(results: Results, *, briefly: bool = False) -> str:
     )
 
 
+_LEVER = {"x": "cosα·cosφ", "y": "cosα·sinφ", "z": "sinα"}
+"""Component of a contact's line along a direction."""
+
+
+def stiffness_term(results: Results, term: str) -> str:
+    """Explain a term of the stiffness by what each contact adds to it; empty of most tilts."""
+    found = results.equilibrium
+    if not found.converged.any():
+        return ""
+    one, other = next((a, b) for a in DOF_NAMES for b in DOF_NAMES if term == f"k_{a}{b}")
+    symbol = TERM_SYMBOLS[term].replace(" ", "_", 1)
+    least, most = np.nanmin(found.term(term)), np.nanmax(found.term(term))
+    size = max(abs(least), abs(most))
+    diagonal = (found.term(f"k_{dof}{dof}") for dof in (one, other))
+    scale = math.sqrt(math.prod(float(np.nanmax(np.abs(values))) for values in diagonal))
+    if size <= 1e-6 * scale:
+        return f"{symbol} is zero: {DOF_SYMBOLS[one]} and {DOF_SYMBOLS[other]} are not coupled."
+    if not {one, other} <= _LEVER.keys():
+        return ""
+    if one == other:
+        why = ""
+        if term in RADIAL and results.scene.defects and results.reference_label:
+            why = why_softer(term, radial(results), radial(results.reference))
+        why = f" With the defect {why}." if why else ""
+        return f"Each contact of stiffness k adds k·({_LEVER[one]})² to {symbol}.{why}"
+    text = f"Each contact of stiffness k adds k·({_LEVER[one]})·({_LEVER[other]}) to {symbol}, "
+    if least < -ALIKE * size and most > ALIKE * size:
+        return (
+            f"{text}of either sign: contacts left and right cancel, and the side that "
+            "prevails changes as balls pass."
+        )
+    return f"{text}and one sign prevails: contacts on one side are stiffer, or more."
+
+
 STIFF_WHERE_HELD = "Directions that are held have a stiffness as well."
 """Why terms of directions that cannot move have values: they are the bearing's."""
 
@@ -274,7 +312,8 @@ def _why_held(scene: Scene, held: list[str], briefly: bool) -> str:
     if scene.active_dofs != scene.needed_dofs:
         return f"{names} {'is' if len(held) == 1 else 'are'} held by choice."
     if briefly:
-        return f"Not needed here: {', '.join(DOF_SYMBOLS[dof] for dof in held)}."
+        free = style.list_words([DOF_SYMBOLS[dof] for dof in DOF_NAMES if dof not in held])
+        return f"Only {free} matter here."
     kind = scene.bearing.kind
     why = [kind.left_out] if set(held) - set(kind.needed_directions) and kind.left_out else []
     if scene.active_dofs != kind.needed_directions:
@@ -337,10 +376,18 @@ def frequencies(results: Results) -> str:
 # --- vibration ------------------------------------------------------------------------------------
 
 
-def passes(spectrum: Spectrum, rate: float, lowest_mode: float, *, briefly: bool = False) -> str:
-    """Whether a peak stands at the ball-pass frequency [Hz], why not, and where to see it.
+def passes(
+    spectrum: Spectrum,
+    rate: float,
+    lowest_mode: float,
+    *,
+    healthy: bool = False,
+    briefly: bool = False,
+) -> str:
+    """Say whether a peak stands at the ball-pass frequency [Hz], why not, and where to see it.
 
-    `lowest_mode` [Hz]: the least natural frequency.
+    `lowest_mode` [Hz]: the least natural frequency. `healthy`: there is no defect, whose sign such
+    a peak might seem to be. `briefly`: nothing where the spectrum cannot show it.
     """
     frequency, density = spectrum
     spacing = float(frequency[1] - frequency[0])
@@ -349,7 +396,7 @@ def passes(spectrum: Spectrum, rate: float, lowest_mode: float, *, briefly: bool
         return ""
     if rate < SEPARATE * spacing:
         if briefly:
-            return f"None at {hertz} (ball passes): lines {spacing:.0f} Hz apart, see Vibration."
+            return ""
         return (
             f"No peak at {hertz}, as often as balls pass: lines are {spacing:.0f} Hz apart. See "
             f"each pass in time (Vibration, every {style.with_prefix(1.0 / rate, 's')}) or in the "
@@ -366,9 +413,10 @@ def passes(spectrum: Spectrum, rate: float, lowest_mode: float, *, briefly: bool
             return f"{text}there the level is {below}."
         return f"{text}so slow a force moves the housing little, {below}."
     most = float(frequency[int(np.argmax(level))])
+    why = " No defect: a healthy bearing shakes too as its balls pass." if healthy else ""
     if abs(most - max(round(most / rate), 1) * rate) <= 0.51 * spacing:
-        return f"Peaks stand {hertz} apart, as often as balls pass."
-    return f"A peak stands at {hertz}, as often as balls pass, {below}."
+        return f"Peaks stand {hertz} apart, as often as balls pass.{why}"
+    return f"A peak stands at {hertz}, as often as balls pass, {below}.{why}"
 
 
 def peak(results: Results, rates: Sequence[float], *, briefly: bool = False) -> str:
@@ -387,7 +435,8 @@ def peak(results: Results, rates: Sequence[float], *, briefly: bool = False) -> 
     inside = [label for label, band in bands.items() if _off(most, band) <= most.resolution]
     if own := [label for label in inside if label[:-1] == dof]:
         if briefly:
-            return f"Peak{above} in {mode_symbol(own[0])}: balls excite it."
+            name = mode_symbol(own[0])
+            return f"The highest peak{above} is the {name} resonance, struck by every passing ball."
         return f"{text} {_lies(most, own[0], bands)}: balls that pass make this mode swing."
     for rate in rates:
         halves = round(2.0 * most.frequency / rate) if rate > 0.0 else 0
@@ -398,7 +447,7 @@ def peak(results: Results, rates: Sequence[float], *, briefly: bool = False) -> 
             why = "as often as balls pass" if halves == 2 else "a multiple of the ball passes"
             why = "so the motion does not repeat with each ball pass" if halves % 2 else why
             if briefly:
-                return f"Peak{above} at the line nearest {times}, {why}."
+                return f"The highest peak{above} is at {times}, {why}."
             return (
                 f"{text} lies in no band of {dof}. It is the line nearest {times}, {why} (lines "
                 f"are {most.resolution:.0f} Hz apart)."

@@ -101,6 +101,8 @@ class Results(Content):
         number of the defect that is looked at.
     moving
         whether a slider moves: be quick.
+    held
+        whether a hand still holds what it moves: scales that it measures by stay.
     compared
         scenes that are drawn too, each under a name.
     before
@@ -125,6 +127,7 @@ class Results(Content):
     focus: int = 0
     _: KW_ONLY
     moving: bool = False
+    held: bool = False
     compared: Sequence[Reference] = ()
     before: Reference | None = None
     grey_kind: str = HEALTHY

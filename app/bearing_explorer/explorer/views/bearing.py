@@ -18,7 +18,16 @@ from bearing_explorer.explorer.views.bearing_handles import handles, let_grab
 from bearing_explorer.kit.plots import color_scales, compared_curves, style
 from bearing_explorer.kit.plots.element_words import elements
 from bearing_explorer.kit.plots.heat_map import color_bar
-from bearing_explorer.kit.plots.layers import Glyph, Layer, Words, draw, filled, segments, with_gaps
+from bearing_explorer.kit.plots.layers import (
+    LIT,
+    Glyph,
+    Layer,
+    Words,
+    draw,
+    filled,
+    segments,
+    with_gaps,
+)
 from bearing_explorer.kit.plots.ranges import StickyRange
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import ANSWER, Ranges, Sources, View
@@ -39,7 +48,8 @@ NUMBER_RIGHT, NUMBER_UP = 15.0, 13.0  # [px] from the ends of a bar: the middle 
 MOST_NAMED = 4  # balls in a defect; more are counted
 LINE_PIXELS = 16.0
 KEYWAY = 0.09  # [rad] half its width
-ARROW_LENGTH = 0.82  # of the radius of the bore
+ARROW_SHORTEST, ARROW_LONGEST = 0.15, 0.88  # of the radius of the bore, at rest
+ARROW_END = 1.45  # from the middle, where an arrow that a hand lengthens leaves the figure
 DRAWN_DEPTH = 0.45  # of a ball radius: no defect is drawn deeper
 
 PLACE_AND_SIZE = ("x", "y", "radius")
@@ -50,22 +60,17 @@ IDLE_BALL = style.PAPER
 NO_VALUE = "#C9CED4"
 
 _LOAD_WORDS = """
-const {kind, value, angle} = row
-if (narrow) {
-  if (kind == 0) return value > 0 ? `${si(value, 'N')} at ${rounded(angle, 3)}°` : 'No radial load'
-  if (kind == 1) return `${value > 0 ? '⊙' : '⊗'} ${si(Math.abs(value), 'N')}`
-  if (kind == 4) return `Depth × ${value >= 1 ? value : rounded(value, 2)}`
-  return `M${kind == 2 ? 'x' : 'y'} ${si(value, 'N·m')}`
-}
-if (kind == 0) return value > 0 ? `Radial load ${si(value, 'N')} at ${rounded(angle, 3)}°`
-                                : 'No radial load'
-if (kind == 1) return `Axial load ${si(Math.abs(value), 'N')} ` +
-                      (value > 0 ? '⊙ towards you' : '⊗ away from you')
-if (kind == 4) return `Defect depth × ${value >= 1 ? value : rounded(value, 2)}`
-return `Moment about ${kind == 2 ? 'x' : 'y'} ${si(value, 'N·m')}`
+const {kind, value, angle, more} = row
+const bore = more ? `, bore = ${si(more, 'N')}` : '', at = narrow ? '' : ` at ${rounded(angle, 3)}°`
+if (kind == 0) return value > 0 ? `${si(value, 'N')}${at}${bore}` : 'No radial load'
+if (kind == 1) return `Axial ${value > 0 ? '⊙' : '⊗'} ${si(Math.abs(value), 'N')}`
+const times = value >= 1 ? value : rounded(value, 2)
+if (kind == 4) return `Depth × ${times}${more && !narrow ? `, always ${more} inside` : ''}`
+return `Moment M${kind == 2 ? 'x' : 'y'} ${si(value, 'N·m')}`
 """
 _BAR_WORDS = """
-const text = si(row.load, 'N', 3)
+const below = row.load < 1 && row.load >= 0.001  // beside newtons, no millinewtons
+const text = below ? rounded(row.load, 2) + '\\u00a0N' : si(row.load, 'N', 3)
 let room = 0
 try { room = row.room/(plot.x_range.end - plot.x_range.start)*plot.inner_width } catch {}
 return row.most || room > 7.4*text.length ? text : ''
@@ -104,13 +109,8 @@ _LINE = {"text_font_size": style.TEXT_SIZE, "text_color": style.FAINT_INK}
 _UNDER_A_ROW = {**_LINE, **_MIDDLE, "text_baseline": "top", "y_offset": 20}
 
 
-def layers(
-    prefix: str, colors: LinearColorMapper, inks: LinearColorMapper, *, short: bool = False
-) -> list[Layer]:
-    """From the lowest to the highest; `colors` of loads, and of the numbers on these colours.
-
-    `short`: whether words about the load are short, as they are in any narrow drawing.
-    """
+def layers(prefix: str, colors: LinearColorMapper, inks: LinearColorMapper) -> list[Layer]:
+    """From the lowest to the highest; `colors` of loads, and of the numbers on these colours."""
     load, number = ({"field": "load", "transform": mapper} for mapper in (colors, inks))
     end = Glyph(
         Circle,
@@ -123,6 +123,8 @@ def layers(
         f"{prefix}_balls",
         PLACE_AND_SIZE,
         {"fill_color": load, "line_color": _EDGE, "line_width": 1.2},
+        ("element",),
+        LIT,
     )
 
     def words(name: str, code: str, reads: tuple[str, ...], look: dict[str, Any]) -> Words:
@@ -132,6 +134,7 @@ def layers(
         filled(f"{prefix}_healthy_loads", style.HEALTHY, 0.25),
         filled(f"{prefix}_rings", style.STEEL, line_color=style.STEEL_EDGE, line_width=1.2),
         filled(f"{prefix}_defect", style.DEFECT, 0.55, line_color="#B87A00", line_width=1.2),
+        segments(f"{prefix}_spacings", "#8A5A00", 1.5),
         words(
             "marks",
             "return row.angle + '°'",
@@ -169,10 +172,10 @@ def layers(
             0.0,
             1.0,
             _LOAD_WORDS,
-            ("kind", "value", "angle", "down"),
+            ("kind", "value", "angle", "more", "down"),
             x_share=True,
             y_share=True,
-            fitting=math.inf if short else style.NARROW,
+            fitting=style.NARROW,
             look={**_LINE, "text_baseline": "top", "y_offset": style.text_offset("down")},
         ),
         words("row_words", _ROW_WORDS, ("row", "place"), _UNDER_A_ROW),
@@ -186,25 +189,26 @@ class BearingDrawing(View):
     title = "The bearing"
     about = (
         "Ball loads at the cage angle, seen along the shaft. Rows are side by side. Bars and "
-        "colours: loads of the balls. Grey rim: {grey}. Arrow: the load on the shaft. "
+        "colours: loads of the balls. Grey rim: {grey}. Arrow: the load on the shaft, "
+        "as long as the bore's radius for the load that is said. "
+        "Ticks on the ring: ball spacings from the beginning of the defect. "
         "Compared scenes have dashed rims. The keyway turns with the shaft; z points towards you."
     )
     needs = frozenset({"equilibrium", "now", "drop"})
-    equal_aspect = True
     #: of the names of its sources
     prefix: ClassVar[str] = "bearing"
-    #: whether words about the load are short
-    short: ClassVar[bool] = False
     #: whether the defects and the arrow can be dragged
     grabbed: ClassVar[bool] = True
 
     def build(self, packed: PackedSource) -> Any:
+        self._bore_load = StickyRange(0.0, 100.0, anchor="zero", shrink_below=ARROW_SHORTEST)
         self._load_range = StickyRange(0.0, 100.0, anchor="zero", least_span=1e-3)
         load = packed.range(f"{self.prefix}_load", 0.0, 100.0)
         half = HALF_WIDTH
         plot = self._figure(
             Range1d(-half, half, syncable=False), Range1d(-half, half, syncable=False)
         )
+        plot.toolbar.active_drag = None  # who misses a handle zooms nothing
         shown = packed.range(f"{self.prefix}_width", -half, half)
         aspect = CustomJS(args={"plot": plot, "half": half, "shown": shown}, code=_EQUAL_ASPECT)
         shown.js_on_change("end", aspect)
@@ -232,7 +236,7 @@ class BearingDrawing(View):
                 code="for (const mapper of mappers) mapper.high = load.end",
             ),
         )
-        drawn = layers(self.prefix, colors, inks, short=self.short)
+        drawn = layers(self.prefix, colors, inks)
         for layer, renderer in zip(drawn, draw(plot, packed, drawn), strict=True):
             if layer.source in (f"{self.prefix}_bars", f"{self.prefix}_healthy_loads"):
                 renderer.tags = [ANSWER]
@@ -277,9 +281,12 @@ class BearingDrawing(View):
         wide = half * len(rows)
         healthy = results.reference.load_curves
         several: list[Sources] = []
+        if not results.held:  # or the tip of the arrow would leave the hand
+            self._bore_load.fit(radial_load(scene.load) / ARROW_LONGEST or self._bore_load.end)
+        bore_load = self._bore_load.end
         for row in range(len(rows)):
             own = scene.bearing.balls_of_rows[row]
-            drawn = Shapes(scene, results.cage_angle, row)
+            drawn = Shapes(scene, results.cage_angle, row, bore_load)
             drop = {race: drops[own] for race, drops in results.drop.items()}
             shapes = drawn.all(now.ball_load[0, own], drop, top)
             shapes["healthy_loads"] = drawn.load_rim(*healthy[row], top)
@@ -306,7 +313,9 @@ class BearingDrawing(View):
             f"{self.prefix}_loads", ("x", "y"), results.compared_results, rims
         )
         sources |= {
-            f"{self.prefix}_load_words": load_words(scene.load, drawn.depth_scale),
+            f"{self.prefix}_load_words": load_words(
+                scene.load, drawn.depth_scale, bore_load, always_inside(scene)
+            ),
             f"{self.prefix}_row_words": row_words(scene, wide),
         }
         return sources, {f"{self.prefix}_load": load_range, f"{self.prefix}_width": (-wide, wide)}
@@ -399,25 +408,42 @@ def row_words(scene: Scene, wide: float) -> dict[str, np.ndarray]:
     }
 
 
-def load_words(load: Load, depth_scale: float = 0.0) -> dict[str, np.ndarray]:
+def load_words(
+    load: Load, depth_scale: float = 0.0, bore_load: float = 0.0, inside: int = 0
+) -> dict[str, np.ndarray]:
     """Rows of text in the corner: the radial load always, the others where there are any.
 
     Under them how many times as deep as they are defects are drawn, which is 0 without any.
+    `bore_load` [N] is that of an arrow that ends at the bore; `inside`, how many elements always
+    are in a defect.
     """
-    radial = (math.hypot(load.fx, load.fy), math.degrees(math.atan2(load.fy, load.fx)) % 360.0)
-    rows = [(0, *radial)]
+    angle = math.degrees(math.atan2(load.fy, load.fx)) % 360.0
+    rows: list[tuple[float, ...]] = [(0, radial_load(load), angle, bore_load)]
     rows += [
-        (kind, value, 0.0)
+        (kind, value, 0.0, inside if kind == 4 else 0.0)
         for kind, value in ((1, load.fz), (2, load.mx), (3, load.my), (4, depth_scale))
         if value != 0.0
     ]
-    kind, value, angle = np.array(rows, dtype=float).T
+    kind, value, angles, more = np.array(rows, dtype=float).T
     return {
         "down": LINE_PIXELS * np.arange(kind.size),
         "kind": kind,
         "value": value,
-        "angle": angle,
+        "angle": angles,
+        "more": more,
     }
+
+
+def radial_load(load: Load) -> float:
+    """Return the size [N] of the radial load."""
+    return math.hypot(load.fx, load.fy)
+
+
+def always_inside(scene: Scene) -> int:
+    """Return how many elements of a row are in the longest defect at any cage angle."""
+    longest = max((defect.extent for defect in scene.defects), default=0.0)
+    widest = max(own.ball_spacing for own, _ in scene.bearing.unlike_rows)
+    return math.floor(longest / widest + 1e-9)
 
 
 class Shapes:
@@ -429,7 +455,9 @@ class Shapes:
     hole in it.
     """
 
-    def __init__(self, scene: Scene, cage_angle: float, row: int = 0) -> None:
+    def __init__(
+        self, scene: Scene, cage_angle: float, row: int = 0, bore_load: float = 0.0
+    ) -> None:
         bearing = scene.bearing.of_row(row)
         self.scene, self.cage_angle, self.row = scene, cage_angle, row
         self.unit = max(own.outer_raceway_radius for own, _ in scene.bearing.unlike_rows)
@@ -440,6 +468,9 @@ class Shapes:
         self.pitch = 0.5 * (self.outer_race + self.inner_race)
         self.rim = 1.0 + 1.1 * min(self.ball, 0.18)
         self.bore = max(self.inner_race - 1.1 * self.ball, 0.35 * self.inner_race)
+        # newtons of an arrow of length 1; and its length
+        self.newtons = (bore_load or 2.0 * radial_load(scene.load) or 1.0) / self.bore
+        self.arrow = radial_load(scene.load) / self.newtons
         self.spans = spans(scene, cage_angle, row)
         deepest = max((defect.depth for defect in scene.defects), default=0.0)
         self.depth_scale = (
@@ -454,6 +485,7 @@ class Shapes:
         return {
             "rings": self.rings(),
             "defect": self.defects(),
+            "spacings": self.ball_spacings(),
             "marks": self.angle_marks(),
             "balls": balls,
             "roller_ends": roller_ends(self.scene, balls),
@@ -508,6 +540,26 @@ class Shapes:
             )
         return polar(*parts)
 
+    def ball_spacings(self) -> dict[str, np.ndarray]:
+        """Ticks at whole ball spacings from the beginning of each defect, up to one beyond it."""
+        spacing = self.scene.bearing.of_row(self.row).ball_spacing
+        rings = {"outer": (self.outer_race, self.rim), "inner": (self.inner_race, self.bore)}
+        ticks = [
+            (span.start + number * spacing, rings[span.race])
+            for span in self.spans
+            if span.extent > 0.0
+            for number in range(1, math.floor(span.extent / spacing + 1e-9) + 2)
+        ]
+        angle = np.array([angle for angle, _ in ticks])
+        race, edge = np.array([ring for _, ring in ticks]).reshape(-1, 2).T
+        middle = 0.5 * (race + edge)
+        return {
+            "x0": middle * np.cos(angle),
+            "y0": middle * np.sin(angle),
+            "x1": edge * np.cos(angle),
+            "y1": edge * np.sin(angle),
+        }
+
     def angle_marks(self) -> dict[str, np.ndarray]:
         """0°, 90°, 180° and 270° on the outer ring."""
         degrees = np.array([0.0, 90.0, 180.0, 270.0])
@@ -542,6 +594,8 @@ class Shapes:
             "radius": np.full(angle.size, self.ball),
             "load": load,
             "number": np.arange(1.0, angle.size + 1.0),
+            "element": self.scene.bearing.balls_of_rows[self.row].start
+            + np.arange(1.0, angle.size + 1.0),
         }
 
     def bars(self, load: NDArray[np.float64], top: float) -> dict[str, np.ndarray]:
@@ -594,28 +648,29 @@ class Shapes:
     def handles(self) -> dict[str, np.ndarray]:
         """Where the defects and the arrow can be grabbed."""
         race = {"outer": self.outer_race, "inner": self.inner_race}
-        return handles(self.scene, self.spans, self.row, race, ARROW_LENGTH * self.bore)
+        tip = min(self.arrow, ARROW_END)
+        return handles(self.scene, self.spans, self.row, race, tip, self.bore, self.newtons)
 
     def load_arrow(self) -> dict[str, np.ndarray]:
-        """The radial load on the inner ring, from the shaft's middle; no arrow without one."""
+        """The radial load on the inner ring, from the shaft's middle; no arrow without one.
+
+        A second head marks an arrow that is longer than the figure.
+        """
         load = self.scene.load
-        size = math.hypot(load.fx, load.fy)
-        if size == 0.0:
+        if self.arrow == 0.0:
             return polar()
-        along = np.array([load.fx, load.fy]) / size
-        across = np.array([-along[1], along[0]])
-        length, half, head = ARROW_LENGTH * self.bore, 0.016, 0.11
-        shape = [
-            (0.0, -half),
-            (length - head, -half),
-            (length - head, -3.2 * half),
-            (length, 0.0),
-            (length - head, 3.2 * half),
-            (length - head, half),
-            (0.0, half),
-        ]
-        x, y = np.array([forth * along + aside * across for forth, aside in shape]).T
-        return {"x": x, "y": y}
+        direction = math.atan2(load.fy, load.fx)
+        length, half = min(self.arrow, ARROW_END), 0.016
+        head = min(0.11, 0.6 * length)
+        neck, wide = length - head, 0.47 * head
+        shape = [(0.0, -half), (neck, -half), (neck, -wide), (length, 0.0)]
+        shape += [(along, -aside) for along, aside in reversed(shape[:-1])]
+        parts = [np.array(shape)]
+        if self.arrow > ARROW_END:
+            parts.append(np.array([(neck - head, -wide), (neck, 0.0), (neck - head, wide)]))
+        return polar(
+            *((direction + np.arctan2(y, x), np.hypot(x, y)) for x, y in (p.T for p in parts))
+        )
 
 
 def polar(*parts: tuple[NDArray[np.float64], NDArray[np.float64]]) -> dict[str, np.ndarray]:

@@ -1,5 +1,7 @@
 """Handles of the drawing of the bearing: the ends and middles of defects, the tip of the arrow.
 
+Without a load that tip is in the middle of the shaft.
+
 Each is dragged, or moved by arrow keys once it has the focus, and the sliders follow.
 """
 
@@ -15,7 +17,7 @@ from bearing_explorer.kit.plots.layers import Glyph, add_all, sources_of
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearingcore import Scene
 
-COLUMNS = ("x", "y", "x0", "kind", "defect", "value", "angle")
+COLUMNS = ("x", "y", "x0", "kind", "defect", "value", "angle", "bore", "newtons")
 START, END, MIDDLE, LOAD = range(4)
 """Kinds of handles, as `grab.js` numbers them."""
 
@@ -27,7 +29,13 @@ def dots(source: str) -> Glyph:
 
 
 def handles(
-    scene: Scene, spans: list[Span], row: int, race: dict[str, float], tip: float
+    scene: Scene,
+    spans: list[Span],
+    row: int,
+    race: dict[str, float],
+    tip: float,
+    bore: float,
+    newtons: float,
 ) -> dict[str, np.ndarray]:
     """Columns of the handles of a row, about its middle at 0.
 
@@ -41,6 +49,8 @@ def handles(
         radius of each raceway.
     tip
         distance of the tip of the arrow from the middle.
+    bore, newtons
+        radius of the bore, and load [N] of an arrow of length 1.
     """
     met = [k for k, one in enumerate(scene.defects) if one.row in (None, row)]
     places: list[tuple[float, float, int, int, float]] = []
@@ -52,8 +62,8 @@ def handles(
                 (race[span.race], span.start + turn, kind, number, long) for kind, turn in turns
             ]
     size = float(np.hypot(scene.load.fx, scene.load.fy))
-    if size > 0.0:
-        places.append((tip, float(np.arctan2(scene.load.fy, scene.load.fx)), LOAD, 0, size))
+    direction = float(np.arctan2(scene.load.fy, scene.load.fx)) if size > 0.0 else -0.5 * np.pi
+    places.append((tip, direction, LOAD, 0, size))
     radius, angle, kind, defect, value = np.array(places, dtype=float).reshape(-1, 5).T
     return {
         "x": radius * np.cos(angle),
@@ -63,6 +73,8 @@ def handles(
         "defect": defect,
         "value": value,
         "angle": np.degrees(angle) % 360.0,
+        "bore": np.full(angle.size, bore),
+        "newtons": np.full(angle.size, newtons),
         "size": np.where(kind <= END, 9.0, 0.0),
     }
 

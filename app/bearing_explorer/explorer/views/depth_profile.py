@@ -87,7 +87,11 @@ class DepthProfile(View):
                 "bottom": np.full(angle.size, deepest),
             },
             "depth_profile_path": _path(profile),
-            "depth_profile_balls": {"angle": balls, "drop": results.drop[profile.race][own]},
+            "depth_profile_balls": {
+                "angle": balls,
+                "drop": results.drop[profile.race][own],
+                "element": np.arange(own.start, own.stop) + 1.0,
+            },
         }
         return sources, {
             "depth_profile_angle": (start, end),

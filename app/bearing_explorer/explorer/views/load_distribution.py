@@ -119,6 +119,7 @@ class LoadDistribution(View):
             "load_distribution_balls": {
                 "angle": np.degrees(now.ball_angle[0]) % 360.0,
                 "load": now.ball_load[0],
+                "element": np.arange(1.0, now.ball_load[0].size + 1.0),
             },
         }
         room = 1.0 if len(results.load_curves) == 1 else 1.08  # for the names of the rows
@@ -146,13 +147,15 @@ class LoadDistribution(View):
         if results.over_shaft:
             words += " (the most at each angle in all turns of the shaft)"
         why = reasons.greatest_load(results)
-        words += f". There {why[0].lower()}{why[1:-1]}" if why else ""
+        words += f". {why[:-1]}" if why else ""
         now = results.now
         if now.converged[0]:
             count = int(now.loaded_balls[0])
             words += (
-                f". At this cage angle {count} of {bearing.total_balls} {elements(bearing)} "
-                f"{'carries' if count == 1 else 'carry'} load"
+                f". Now, at {style.in_degrees(results.cage_angle)}, {count} of "
+                f"{bearing.total_balls} {elements(bearing)} "
+                f"{'carries' if count == 1 else 'carry'} load, at most "
+                f"{style.with_prefix(now.ball_load[0].max(), 'N')}"
             )
             if isinstance(now, EquilibriumWithMass) and results.inner_load_curves:
                 words += f". {_both_races(now)}"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from types import MappingProxyType
 from typing import Any, ClassVar
 
@@ -12,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.kit.plots import compared_curves, style
 from bearing_explorer.kit.plots.layers import (
+    LIT,
     ON_PAPER,
     Layer,
     Words,
@@ -36,7 +38,7 @@ NAME_WIDTH, LONG_NAME_WIDTH = 0.17, 0.24  # of "ball 12", and of "ball 12 of row
 ROW_HEIGHT = 0.065  # of its height
 EVENT_ROWS = 3
 
-NAMED = ("ball", "row", "roller")  # columns that name a ball
+NAMED = ("element", "ball", "row", "roller")  # columns that name a ball
 BALL = "${row.roller ? 'roller' : 'ball'} ${row.ball}${row.row ? ` of row ${row.row}` : ''}"
 """The name of a ball in a template of JavaScript."""
 
@@ -127,7 +129,8 @@ class PassageView(View):
 
 def event_lines(prefix: str) -> Layer:
     """The upright lines at events, of the source of that prefix."""
-    return uprights(f"{prefix}_events", "time", style.FAINT_INK, 1.0, 0.55)
+    lines = uprights(f"{prefix}_events", "time", style.FAINT_INK, 1.0, 0.55)
+    return replace(lines, reads=("element",), lit=LIT)
 
 
 def event_names(prefix: str, code: str, reads: tuple[str, ...]) -> Layer:
@@ -148,6 +151,7 @@ def named(bearing: Bearing, balls: NDArray[np.int64]) -> dict[str, np.ndarray]:
     """Columns that name balls, counted from 0 row after row; row 0 is the only one."""
     row, number = np.array([bearing.row_of_ball(ball) for ball in balls.tolist()]).reshape(-1, 2).T
     return {
+        "element": balls + 1.0,
         "ball": number + 1.0,
         "row": row + 1.0 if bearing.rows else np.zeros(balls.size),
         "roller": np.full(balls.size, float(bearing.kind.line_contact)),

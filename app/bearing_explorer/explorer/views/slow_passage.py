@@ -73,7 +73,6 @@ class SlowPassage(BearingDrawing):
     )
     needs = frozenset({"excerpt"})
     prefix = "slow"
-    short = True
     grabbed = False
     at_rest = True
     in_report = False
@@ -118,6 +117,7 @@ class SlowPassage(BearingDrawing):
         load = shown.moving_load[:, own]
         drop = {race: drops[:, own] for race, drops in shown.drop.items()}
         shapes = drawn.all(load[at], {race: one[at] for race, one in drop.items()}, top_range[1])
+        shapes["spacings"] = dict.fromkeys(shapes["spacings"], np.zeros(0))  # it turns
         turned = ball_angles(scene.bearing, cage)[:, own]
         frames = {
             "time": shown.static_time,

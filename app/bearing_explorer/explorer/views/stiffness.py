@@ -71,15 +71,22 @@ class Stiffness(View):
         )
         self._legend = _static_parts(plot)
         cells = packed.source("stiffness_cells", *_CELL_COLUMNS)
-        healthy = packed.source("stiffness_healthy", "x", "y")
-        defective = packed.source("stiffness_defective", "x", "y")
         now = packed.source("stiffness_now", "x", "y", "low", "high")
         axis = packed.source("stiffness_axis", "shaft")
         _moving_parts(plot, cells, axis)
         plot.segment("x", "low", "x", "high", source=now, line_color=style.INK, line_alpha=0.45)
-        plot.line("x", "y", source=healthy, line_color=style.HEALTHY, line_width=1.6)
-        layers.draw(plot, packed, compared_curves.curves("stiffness", "x", "y"))
-        plot.line("x", "y", source=defective, line_color=style.DEFECTIVE, line_width=1.8)
+        looks = {"healthy": (style.HEALTHY, 1.6), "defective": (style.DEFECTIVE, 1.8)}
+        healthy, defective = (
+            layers.curve(f"stiffness_{name}", "x", "y", *look, cells="stiffness_cells")
+            for name, look in looks.items()
+        )
+        curves = [
+            matrix_cells.crossing_layer("stiffness_crossings"),
+            healthy,
+            *compared_curves.curves("stiffness", "x", "y"),
+            defective,
+        ]
+        layers.draw(plot, packed, curves)
         plot.scatter("x", "y", source=now, size=6, color=style.DEFECTIVE, line_color="white")
         units = [*UNITS, ""]
         matrix_cells.axes_when_zoomed(plot, _FRAMES, _SCALE_OF, [cells, axis], units=units)
@@ -146,6 +153,7 @@ class Stiffness(View):
                 "foot": _IS_FOOT * float(results.along(last)),
                 **dict(zip(("low", "high", "now", "zero", "flat"), head, strict=True)),
             },
+            "stiffness_crossings": matrix_cells.crossing_lines(results, _FRAMES),
             "stiffness_axis": {"shaft": np.array([float(results.over_shaft)])},
         }, {}
 
@@ -173,6 +181,9 @@ class Stiffness(View):
         said = f"{'; '.join(parts)}.", why, reasons.not_needed(results.scene), f"{count} {carry}."
         text = f"{' '.join(filter(None, said))} Marked: cage angle {at}."
         return text + (over if results.over_shaft else "")
+
+    def cell_lines(self, content: Results) -> list[str]:
+        return [reasons.stiffness_term(content, term) for term in STIFFNESS_TERMS]
 
     def show(self, results: Results) -> None:
         """Say in the legend whether there is a defect."""

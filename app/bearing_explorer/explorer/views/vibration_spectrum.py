@@ -297,7 +297,8 @@ def why_words(results: Results, *, briefly: bool = False) -> str:
     rates = [rate for _, _, rate in passed(results.scene)]
     words = [reasons.peak(results, rates, briefly=briefly)]
     lowest = min((low for low, _ in results.bands.values() if low == low), default=0.0)
-    words.append(reasons.passes(most, min(rates), lowest, briefly=briefly))
+    healthy = not results.scene.defects
+    words.append(reasons.passes(most, min(rates), lowest, healthy=healthy, briefly=briefly))
     return with_elements_of(results.scene.bearing, " ".join(filter(None, words)))
 
 

@@ -17,6 +17,7 @@ from typing import Any
 
 import numpy as np
 from bokeh import models
+from bokeh.events import MouseLeave, MouseMove
 from bokeh.models import (
     CheckboxGroup,
     ColumnDataSource,
@@ -30,6 +31,7 @@ from bokeh.models import (
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
+from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.serve.packed_source import PackedSource
 
@@ -46,7 +48,11 @@ _PLACES: dict[type[models.Glyph], tuple[str, ...]] = {
     models.VSpan: ("x",),
     models.VStrip: ("x0", "x1"),
 }
-_OF_RENDERER = frozenset({"level", "x_range_name", "y_range_name"})
+_OF_RENDERER = frozenset({"level", "tags", "x_range_name", "y_range_name"})
+
+
+LIT = {"line_color": "#D55E00", "line_width": 3.5}
+"""Look of what belongs to an element that is pointed at."""
 
 
 @dataclass(frozen=True)
@@ -54,7 +60,9 @@ class Glyph:
     """A glyph of Bokeh's of some kind.
 
     `places`: where it is, columns or numbers. `look`: properties of it or of its renderer; `color`
-    is that of its lines and of its inside. `reads`: columns that its `look` reads besides.
+    is that of its lines and of its inside. `reads`: columns that its `look` reads besides; with
+    "element" among them, which numbers rolling elements from 1, those that are pointed at anywhere
+    have the look `lit` (see `pointed.js`).
     """
 
     kind: type[models.Glyph]
@@ -62,6 +70,7 @@ class Glyph:
     places: tuple[str | float, ...]
     look: Mapping[str, Any] = field(default_factory=dict)
     reads: tuple[str, ...] = ()
+    lit: Mapping[str, Any] = field(default_factory=dict)
 
     @property
     def columns(self) -> tuple[str, ...]:
@@ -75,8 +84,15 @@ class Glyph:
         if "color" in look:
             color = look.pop("color")
             look = {"line_color": color, "fill_color": color, **look}
-        places = zip(_PLACES[self.kind], self.places, strict=True)
-        return plot.add_glyph(source, self.kind(**dict(places), **look), **options)
+        places = dict(zip(_PLACES[self.kind], self.places, strict=True))
+        if "element" in self.reads:
+            options["hover_glyph"] = self.kind(**places, **{**look, **self.lit})
+            x, y = places.get("x", places.get("x0")), places.get("y")
+            args = {"plot": plot, "source": source, "x": x, "y": y}
+            point = CustomJS(args=args, code=asset_text("point.js"))
+            plot.js_on_event(MouseMove, point)
+            plot.js_on_event(MouseLeave, point)
+        return plot.add_glyph(source, self.kind(**places, **look), **options)
 
 
 def curve(
@@ -87,10 +103,14 @@ def curve(
     width: float = 2.0,
     dash: Sequence[int] = (),
     alpha: float = 1.0,
+    cells: str = "",
 ) -> Glyph:
-    """A curve; NaN is a gap."""
+    """A curve; NaN is a gap.
+
+    `cells`: source of the cells that it lies in, whose sides and limits (low, high) are its axes.
+    """
     look = {"line_color": color, "line_width": width, "line_alpha": alpha, "line_dash": list(dash)}
-    return Glyph(models.Line, source, (x, y), look)
+    return Glyph(models.Line, source, (x, y), look | ({"tags": [cells]} if cells else {}))
 
 
 def strips(
@@ -112,7 +132,8 @@ def strips(
 def ball_dots(source: str, x: str, y: str) -> Glyph:
     """Balls at this cage angle: white dots that the frame does not cut."""
     look = {"fill_color": "white", "line_color": style.INK, "line_width": 1.6}
-    return Glyph(models.Scatter, source, (x, y), {"size": 8, "level": "annotation", **look})
+    look |= {"size": 8, "level": "annotation"}
+    return Glyph(models.Scatter, source, (x, y), look, ("element",), {"size": 13, **LIT})
 
 
 def uprights(
@@ -137,7 +158,7 @@ def filled(source: str, color: str, alpha: float = 1.0, **line: Any) -> Glyph:
 def segments(source: str, color: Any, width: float, reads: tuple[str, ...] = ()) -> Glyph:
     """Straight lines from ``x0, y0`` to ``x1, y1``; `reads`: columns that the colour reads."""
     line = {"line_color": color, "line_width": width}
-    return Glyph(models.Segment, source, ("x0", "y0", "x1", "y1"), line, reads)
+    return Glyph(models.Segment, source, ("x0", "y0", "x1", "y1"), line, reads, LIT)
 
 
 _WRITE = """

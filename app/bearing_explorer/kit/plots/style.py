@@ -51,8 +51,8 @@ GRID = "#EDEFF2"
 DIRECTIONS = ("x", "y", "z", "rx", "ry")
 DIRECTION_COLORS = ("#0072B2", "#D55E00", "#009E73", "#AA3377", "#56B4E9")
 """Colour of each direction of motion, in the order of `DIRECTIONS`."""
-BALL_COLORS = ("#0072B2", "#D55E00", "#009E73", "#AA3377")
-"""Colours of balls that are shown one by one, taken in turn."""
+BALL_COLORS = ("#009E73", "#AA3377", "#661100", "#8A5A00")
+"""Colours of balls that are shown one by one, taken in turn: not those of x and y beside them."""
 
 FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, sans-serif"
 HTML_FONT = f"font:12.5px/1.45 {FONT}".replace('"', "'")

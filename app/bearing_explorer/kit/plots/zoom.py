@@ -1,4 +1,4 @@
-"""Every figure zooms and pans: with Ctrl and the wheel, two fingers, a box, and back at two clicks.
+"""Every figure zooms: with Ctrl and the wheel, two fingers, a box; a button in it leads back.
 
 One finger goes on scrolling the page, and so does the wheel alone. Ranges from the server move the
 axes of a figure only while it is not zoomed; back is always where they would be then (see
@@ -7,7 +7,10 @@ axes of a figure only while it is not zoomed; back is always where they would be
 
 from __future__ import annotations
 
+from bokeh.events import RangesUpdate
 from bokeh.models import BoxZoomTool, CustomJS, PanTool, Plot, ResetTool, WheelZoomTool
+
+from bearing_explorer.kit.assets import asset_text
 
 _FINGERS = """
 if (matchMedia("(pointer: coarse)").matches) box.active = false
@@ -15,19 +18,24 @@ if (matchMedia("(pointer: coarse)").matches) box.active = false
 _STAY = "if (cb_obj.start != start || cb_obj.end != end) cb_obj.setv({start, end})"
 
 
-def zoomable(plot: Plot, equal_aspect: bool = False) -> None:
-    """Give a figure the tools to zoom and pan. Its ranges for places of words stay as they are.
+def zoomable(plot: Plot) -> None:
+    """Give a figure the tools to zoom. Its ranges for places of words stay as they are.
 
-    With `equal_aspect` a box that is drawn keeps circles round.
+    With `active_drag` None, as of a drawing with handles, no drag zooms or pans it.
     """
-    box = BoxZoomTool(match_aspect=equal_aspect)
     wheel = WheelZoomTool(modifiers="ctrl")
-    plot.add_tools(wheel, box, PanTool(), ResetTool())
-    if plot.toolbar.active_drag == "auto":
-        plot.toolbar.active_drag = box
+    plot.add_tools(wheel, ResetTool())
+    if plot.toolbar.active_drag is not None:
+        box = BoxZoomTool()
+        plot.add_tools(box, PanTool())
+        if plot.toolbar.active_drag == "auto":
+            plot.toolbar.active_drag = box
+        plot.js_on_change("inner_width", CustomJS(args={"box": box}, code=_FINGERS))
     plot.toolbar.active_scroll = wheel
     plot.js_on_event("doubletap", CustomJS(args={"plot": plot}, code="plot.reset.emit()"))
-    plot.js_on_change("inner_width", CustomJS(args={"box": box}, code=_FINGERS))
+    home = CustomJS(args={"plot": plot}, code=asset_text("zoom.js"))
+    plot.js_on_event(RangesUpdate, home)
+    plot.js_on_change("inner_width", home)
     for shown in (plot.x_range, plot.y_range):
         if shown.reset_start is None:  # or nothing would lead back before the first numbers
             shown.update(reset_start=shown.start, reset_end=shown.end)

@@ -74,6 +74,8 @@ class Caption(LiveComponent):
     figures = param.List(default=[])
     #: name, left, right, bottom and top of the cells that it enlarges one by one
     cells = param.List(default=[])
+    #: what is said above each of them; empty strings for nothing
+    cell_lines = param.List(default=[])
     #: a small one: a title that leads to the tab of this name, and a sentence
     compact = param.Boolean(default=False)
     leads_to = param.String()
@@ -124,8 +126,6 @@ class View(Generic[C]):
     needs: frozenset[str] = frozenset()
     #: whether it draws an SVG of the class "picture" by itself instead of Bokeh's figures
     picture: ClassVar[bool] = False
-    #: whether its figures are drawings, in which circles are round
-    equal_aspect: ClassVar[bool] = False
     #: whether it is in a report; one without `needs` only with the result of its job
     in_report: ClassVar[bool] = True
     #: whether it is drawn only once the slider rests, and does not follow a drag
@@ -193,7 +193,7 @@ class View(Generic[C]):
         #: the names of compared scenes, a key a figure that draws them
         self._keys = [key for plot in self.figures if (key := CurveKey(plot)).items]
         for plot in self.figures:
-            zoomable(plot, self.equal_aspect)
+            zoomable(plot)
             plot.syncable = False  # how large it is is not asked on the server
         self.panel: pn.viewable.Viewable = stack(
             self._caption,
@@ -283,9 +283,15 @@ class View(Generic[C]):
             empty=self._results is None or self.is_empty, nothing=self._results is None
         )
         if results is not None:
+            if self.cells and not results.moving:
+                self._caption.put(cell_lines=self.cell_lines(results))
             for key in self._keys:
                 key.show([one.name for one in results.compared])
             self.show(results)
+
+    def cell_lines(self, content: C) -> list[str]:
+        """Return a sentence for each of `cells`, for when it is enlarged; none by default."""
+        return []
 
     def show(self, content: C) -> None:
         """Show what is not in the packed source of this content. On the event loop only."""

@@ -52,6 +52,10 @@ def test_a_ball_in_the_defect_leaves_its_load_to_those_beside_it() -> None:
     most = LoadDistribution(PackedSource()).sentence
     assert "ball 11, nearer the line of the load, lies in the defect" in most(of(RIG))
     assert "in the defect" not in most(of(RIG.healthy()))
+    ranges = of(RIG).ranges.state
+    worst = math.degrees(ranges.cage_angles[np.argmax(ranges.ball_load.max(axis=1))])
+    assert f"That is with the cage at {worst:.1f}°: ball" in most(of(RIG))
+    assert f"Now, at {math.degrees(UNDER) % 360.0:.1f}°, " in most(of(RIG))
 
 
 @pytest.mark.parametrize("name", ["fan-rig", "3208", "nu208"])
@@ -85,10 +89,26 @@ def test_stiffness_falls_as_balls_push_back_sideways_or_as_fewer_carry() -> None
     assert f"sin²φ {share[0]:.2f} → {share[1]:.2f}" in text
     assert "k_yy falls" in text
     assert "farther from the vertical" in text
+    assert "and fewer balls carry" in text
+    assert "and fewer balls carry" in reasons.stiffness(of(RIG), briefly=True)
     assert "hardly changes" in reasons.stiffness(of(SIDEWAYS))
     assert "lie near the vertical" in reasons.stiffness(of(RIG.healthy()))
     assert "lie near the horizontal" in reasons.stiffness(of(SIDEWAYS.healthy()))
     assert "alike" in reasons.stiffness(of(RIG.healthy().replace(fy=0.0, fz=100.0)))
+
+
+def test_each_term_is_what_the_contacts_add() -> None:
+    """k·cos²φ, k·sin²φ and k·sinφ·cosφ of all contacts, with k as the cube root of the load."""
+    why = {term: reasons.stiffness_term(of(RIG), term) for term in ("k_xx", "k_xy", "k_yy", "k_xz")}
+    assert "adds k·(cosα·cosφ)² to k_xx" in why["k_xx"]
+    assert "fewer balls carry" in why["k_yy"]
+    assert "k_xz is zero" in why["k_xz"]
+    assert "left and right cancel" in why["k_xy"]
+    state = equilibrium(RIG, np.linspace(0.0, RIG.bearing.ball_spacing, 25)[:-1])
+    k = np.cbrt(state.ball_load)
+    added = (k * np.sin(state.ball_angle) * np.cos(state.ball_angle)).sum(axis=1)
+    assert np.corrcoef(added, state.term("k_xy"))[0, 1] > 0.99
+    assert added.min() < 0.0 < added.max()
 
 
 def test_a_frequency_moves_with_the_root_of_its_stiffness_or_less() -> None:
@@ -109,6 +129,9 @@ def test_a_peak_is_in_a_band_or_at_a_multiple_of_the_ball_passes() -> None:
     assert "lies in no band of y. It is the line nearest 10 × 172.7 Hz" in fast
     assert "Peaks stand 173 Hz apart" in fast
     rate = FAST.bearing.bpfo(FAST.shaft_speed)
+    healthy = why_words(of(FAST.healthy()))
+    assert "No defect: a healthy bearing shakes too as its balls pass." in healthy
+    assert "healthy" not in fast
     assert 10 * rate == pytest.approx(1728, abs=16)
 
 

@@ -77,6 +77,45 @@ def test_the_arrow_points_along_the_radial_load() -> None:
     assert Shapes(FAN_RIG.replace(fy=0.0), 0.0).load_arrow()["x"].size == 0
 
 
+def test_the_arrow_is_as_long_as_the_load_says_while_a_hand_holds_it_and_fits_at_rest() -> None:
+    view = BearingDrawing(PackedSource())
+
+    def drawn(load: float, held: bool) -> tuple[float, float, int]:
+        """Length, length that the words promise, and parts of the arrow."""
+        sources, _ = view.data(Results(FAN_RIG.replace(fy=-load), held=held))
+        arrow, words = sources["bearing_arrow"], sources["bearing_load_words"]
+        bore = sources["bearing_handles"]["bore"][0]
+        promised = load / words["more"][0] * bore
+        length = float(np.nanmax(np.hypot(arrow["x"], arrow["y"])))
+        return length, promised, int(np.isnan(arrow["x"]).sum()) + 1
+
+    at_rest = drawn(100.0, False)
+    for load in (130.0, 240.0, 20.0):
+        length, promised, parts = drawn(load, True)
+        assert length == pytest.approx(promised) == pytest.approx(at_rest[0] * load / 100.0)
+        assert parts == 1
+    length, promised, parts = drawn(5000.0, True)
+    assert length < 1.5 < promised, "it ends where the figure does"
+    assert parts == 2, "with a second head"
+    length, promised, parts = drawn(5000.0, False)
+    assert length == pytest.approx(promised)
+    assert (length < 0.6, parts) == (True, 1), "let go of, it lies within the bore again"
+
+
+@pytest.mark.parametrize(("extent", "inside"), [(12.9, 0), (25.8, 1), (60.0, 2)])
+def test_ticks_stand_at_whole_ball_spacings(extent: float, inside: int) -> None:
+    scene = FAN_RIG.replace(extent=math.radians(extent))
+    ticks = Shapes(scene, 0.0).ball_spacings()
+    angle = np.degrees(np.arctan2(ticks["y1"], ticks["x1"])) % 360.0
+    begins = 270.0 - 0.5 * extent
+    np.testing.assert_allclose(angle - begins, 360.0 / 14.0 * np.arange(1, inside + 2))
+    words = drawn(scene)["bearing_load_words"]
+    assert words["more"][words["kind"] == 4.0].tolist() == [inside]
+    drops = Results(scene).ranges.state.cage_angles
+    met = [int((Results(scene, float(at)).drop["outer"] > 0.0).sum()) for at in drops[::9]]
+    assert min(met) == inside
+
+
 def test_rows_of_unlike_balls_are_drawn_to_one_scale() -> None:
     pair = presets["7208-back-to-back"]
     low, high = pair.bearing.rows
@@ -112,5 +151,8 @@ def test_handles_stand_at_the_ends_of_the_defect_and_at_the_tip_of_the_arrow(rac
         np.nanmax(np.hypot(arrow["x"], arrow["y"]))
     )
     assert math.cos(tip - math.atan2(-100.0, 30.0)) == pytest.approx(1.0)
-    for nothing in (FAN_RIG.replace(extent=0.0), FAN_RIG.replace(fy=0.0)):
-        assert Shapes(nothing, 0.4).handles()["x"].size == (1 if nothing.load.fy else 3)
+    assert Shapes(FAN_RIG.replace(extent=0.0), 0.4).handles()["kind"].tolist() == [3.0]
+    tip = {
+        name: column[-1] for name, column in Shapes(FAN_RIG.replace(fy=0.0), 0.4).handles().items()
+    }
+    assert (tip["x"], tip["y"], tip["kind"]) == (0.0, 0.0, 3.0), "an arrow begins in the middle"

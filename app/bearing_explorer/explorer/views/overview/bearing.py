@@ -17,7 +17,7 @@ class OverviewBearing(BearingDrawing):
     name = "overview-bearing"
     prefix = "overview_bearing"
     title = "Ball loads"
-    compact = short = True
+    compact = True
     leads_to = "load"
     in_report = False
 

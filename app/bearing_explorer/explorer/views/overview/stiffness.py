@@ -17,6 +17,8 @@ from bearing_explorer.explorer.plots.matrix_cells import (
     UNITS,
     Cell,
     cleaned,
+    crossing_layer,
+    crossing_lines,
     sides_of,
     term_sizes,
     trace_limits,
@@ -34,8 +36,6 @@ from bearingcore.statics import TERM_UNITS
 
 LIVELY = 0.02
 """Of the size of a term: it matters where it swings or is off the healthy one by more."""
-RADIAL = ("k_xx", "k_yy")
-"""Terms that are always shown: sentences speak of them."""
 MOST_POINTS = 61
 """Of a trace: a cell is little more than a hundred pixels wide."""
 
@@ -64,11 +64,12 @@ LAYERS: tuple[Layer, ...] = (
           look={**_SYMBOL_LOOK, "y_offset": -3, "text_font_size": "13px"}),
     Words("overview_terms", "left", "top", f"return {_SUBSCRIPTS}[row.term]", ("term",),
           look={**_SYMBOL_LOOK, "x_offset": 8, "y_offset": -1}),
-    Words("overview_terms", "right", "top", _VALUE_WORDS, ("now", "unit", "term", "left"),
-          fitting=style.NARROW, look=_VALUE_LOOK),
+    Words("overview_terms", "right", "top", _VALUE_WORDS,
+          ("now", "unit", "term", "left", "low", "high"), fitting=style.NARROW, look=_VALUE_LOOK),
+    crossing_layer("overview_crossings"),
     *compared_curves.curves("overview_stiffness", "x", "y", width=1.3),
-    curve("overview_healthy", "x", "y", style.HEALTHY, 1.3),
-    curve("overview_lively", "x", "y", style.DEFECTIVE, 1.8),
+    curve("overview_healthy", "x", "y", style.HEALTHY, 1.3, cells="overview_terms"),
+    curve("overview_lively", "x", "y", style.DEFECTIVE, 1.8, cells="overview_terms"),
     Glyph(Scatter, "overview_term_now", ("x", "y"), _NOW_LOOK),
 )  # fmt: skip
 """Frames and symbols of the cells and what is in them, from the lowest to the highest."""
@@ -126,14 +127,14 @@ class OverviewStiffness(View):
         scales = term_sizes(lambda term: np.concatenate([e.term(term) for e in answers]))
         lively = lively_terms(results, answers, scales)
         cells = cells_for(len(lively))
-        values = np.empty(len(lively))
+        values, ends = np.empty(len(lively)), np.empty((2, len(lively)))
         traces: list[list[tuple[np.ndarray, np.ndarray]]] = [[] for _ in answers]
         marks = np.empty((2, len(lively)))
         for i, (cell, index) in enumerate(zip(cells, lively, strict=True)):
             term, scale = STIFFNESS_TERMS[index], scales[index]
             terms = [cleaned(answer.term(term), scale) for answer in answers]
             values[i] = cleaned(now.term(term), scale)[0]
-            limits = trace_limits(self._limits[index], scale, *terms)
+            limits = ends[:, i] = trace_limits(self._limits[index], scale, *terms)
             for trace, share_of, some, values_of in zip(traces, shares, pick, terms, strict=True):
                 trace.append((cell.x(share_of), cell.y(values_of[some], limits)))
             marks[:, i] = cell.x(np.array(share)), cell.y(np.array(values[i]), limits)
@@ -148,8 +149,11 @@ class OverviewStiffness(View):
                 **sides_of(cells),
                 "term": np.array(lively, dtype=float),
                 "now": values,
+                "low": ends[0],
+                "high": ends[1],
                 "unit": _UNIT[lively],
             },
+            "overview_crossings": crossing_lines(results, cells),
             "overview_term_now": {"x": marks[0], "y": marks[1]},
         }, {}
 
@@ -178,7 +182,7 @@ def lively_terms(
     for i, (term, scale) in enumerate(zip(STIFFNESS_TERMS, scales, strict=True)):
         own, *others = (cleaned(answer.term(term), scale) for answer in answers)
         if term in free and (
-            term in RADIAL or any(is_lively(own, other, scale) for other in others)
+            term in reasons.RADIAL or any(is_lively(own, other, scale) for other in others)
         ):
             found.append(i)
     return found

@@ -1,6 +1,6 @@
 """For the API reference: attributes that are computed once are shown as properties.
 
-griffe knows `functools.cached_property` only, and takes `bearingcore.common.lazy.cached_property`
+griffe knows `functools.cached_property` only, and takes `bearingcore.common._lazy.cached_property`
 for a call.
 """
 
@@ -8,7 +8,7 @@ from typing import Any
 
 from griffe import Attribute, Class, Extension, Function
 
-COMPUTED_ONCE = "bearingcore.common.lazy.cached_property"
+COMPUTED_ONCE = "bearingcore.common._lazy.cached_property"
 
 
 class ComputedOnce(Extension):

@@ -49,7 +49,7 @@ def test_the_tables_of_accuracy_are_those_of_the_files() -> None:
 
 def test_paths_in_the_page_for_contributors_exist() -> None:
     text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
-    known = {"tests/bearingcore/bearings/test_tapered.py", "bearingcore/bearings/tapered.py"}
+    known = {"tests/bearingcore/bearings/test_tapered.py", "bearingcore/bearings/_tapered.py"}
     paths = set(re.findall(r"`((?:bearingcore|tests|assets)/[\w/.]+)`", text)) - known
     paths |= {
         f"app/bearing_explorer/{path}"

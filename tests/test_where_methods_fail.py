@@ -1,7 +1,8 @@
 """Ways to go wrong with this model that one thinks of first, and that the program avoids.
 
-Two more: steps that are too long (`bearingcore/dynamics/test_step_size.py`), and shooting that ends
-on an orbit which no motion follows (`bearingcore/dynamics/test_orbit.py`).
+Two more: steps that are too long (`tests/bearingcore/model/dynamics/test_step_size.py`), and
+shooting that ends on an orbit which no motion follows
+(`tests/bearingcore/model/dynamics/test_orbit.py`).
 """
 
 import math
@@ -13,8 +14,9 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 from scipy.optimize import root
 
-from bearingcore import Motion, Scene, equilibrium, kernels, presets, simulate
-from bearingcore.statics.ball_positions import ball_positions
+from bearingcore import Motion, Scene, equilibrium, presets, simulate
+from bearingcore.model import _kernels as kernels
+from bearingcore.model.statics import ball_positions
 from tests.helpers.contact_law import Array, Balls, newton
 from tests.outside.elements import STEP
 from tests.outside.march import rates

@@ -153,7 +153,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     for sentence in faults_of(chosen.lessons) if chosen.lessons else ():
         _say(f"Lessons: {sentence}")
     from bearingcore import warm
-    from bearingcore.kernels import kept_on_disk
+    from bearingcore.model import kept_on_disk
 
     gc.freeze()
     gc.enable()

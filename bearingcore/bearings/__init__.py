@@ -4,22 +4,59 @@ A bearing is rows; a row is elements, a place, and a contact that says its own k
 here imports one that imports it.
 """
 
-from bearingcore.bearings.ball import USUAL_GROOVES as USUAL_GROOVES
-from bearingcore.bearings.ball import drawn as drawn
-from bearingcore.bearings.catalogue import CATALOGUE_COLUMNS as CATALOGUE_COLUMNS
-from bearingcore.bearings.catalogue import MOST_BYTES as MOST_BYTES
-from bearingcore.bearings.catalogue import NEEDED_COLUMNS as NEEDED_COLUMNS
-from bearingcore.bearings.designation import designations as designations
-from bearingcore.bearings.designation import is_known as is_known
-from bearingcore.bearings.designation import series_words as series_words
-from bearingcore.bearings.drawing import BALL_MATERIAL as BALL_MATERIAL
-from bearingcore.bearings.drawing import OPTIONAL_FIELDS as OPTIONAL_FIELDS
-from bearingcore.bearings.drawing import center_distance as center_distance
-from bearingcore.bearings.frequencies import FREQUENCIES as FREQUENCIES
-from bearingcore.bearings.frequencies import bearing_of_frequencies as bearing_of_frequencies
-from bearingcore.bearings.kinds import KINDS as KINDS
-from bearingcore.bearings.line_contact import STEEL_MODULUS as STEEL_MODULUS
-from bearingcore.bearings.line_contact import STEEL_POISSON as STEEL_POISSON
-from bearingcore.bearings.material import BALL_MATERIALS as BALL_MATERIALS
-from bearingcore.bearings.named import name_of as name_of
-from bearingcore.bearings.rows import Row as Row
+from bearingcore.bearings._ball import USUAL_GROOVES, Ball, drawn
+from bearingcore.bearings._bearing import Bearing
+from bearingcore.bearings._catalogue import (
+    CATALOGUE_COLUMNS,
+    MOST_BYTES,
+    NEEDED_COLUMNS,
+    CatalogueBearing,
+    catalogue,
+    read_catalogue,
+)
+from bearingcore.bearings._designation import (
+    Designation,
+    designations,
+    is_known,
+    read_designation,
+    series_words,
+)
+from bearingcore.bearings._drawing import BALL_MATERIAL, OPTIONAL_FIELDS, Derived, center_distance
+from bearingcore.bearings._frequencies import FREQUENCIES, bearing_of_frequencies
+from bearingcore.bearings._kinds import KINDS
+from bearingcore.bearings._line_contact import STEEL_MODULUS, STEEL_POISSON
+from bearingcore.bearings._material import BALL_MATERIALS
+from bearingcore.bearings._named import BearingLike, bearing_of, name_of
+from bearingcore.bearings._rows import Row
+
+__all__ = [
+    "BALL_MATERIAL",
+    "BALL_MATERIALS",
+    "CATALOGUE_COLUMNS",
+    "FREQUENCIES",
+    "KINDS",
+    "MOST_BYTES",
+    "NEEDED_COLUMNS",
+    "OPTIONAL_FIELDS",
+    "STEEL_MODULUS",
+    "STEEL_POISSON",
+    "USUAL_GROOVES",
+    "Ball",
+    "Bearing",
+    "BearingLike",
+    "CatalogueBearing",
+    "Derived",
+    "Designation",
+    "Row",
+    "bearing_of",
+    "bearing_of_frequencies",
+    "catalogue",
+    "center_distance",
+    "designations",
+    "drawn",
+    "is_known",
+    "name_of",
+    "read_catalogue",
+    "read_designation",
+    "series_words",
+]

@@ -7,18 +7,24 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from bearingcore.bearings.bearing import Bearing
-from bearingcore.bearings.named import BearingLike, bearing_of
-from bearingcore.common import checks
-from bearingcore.common.table import ResultTable, shown_as_table, table_of
-from bearingcore.diagnosis.extent.knocks import Knocks, MeanPass, Seen, find_knocks
-from bearingcore.diagnosis.part.diagnose import SLIP, diagnose
-from bearingcore.diagnosis.part.evidence import Diagnosis
-from bearingcore.diagnosis.part.parts import INNER, OUTER
+from bearingcore.bearings import Bearing, BearingLike, bearing_of
+from bearingcore.common import ResultTable, shown_as_table, table_of
+from bearingcore.common import _checks as checks
 from bearingcore.errors import Status
-from bearingcore.scene.defect import EDGES, RACES
-from bearingcore.signals.averaging import least_passes
-from bearingcore.signals.recording import Recording
+from bearingcore.measured.diagnosis import (
+    INNER,
+    OUTER,
+    SLIP,
+    Diagnosis,
+    Knocks,
+    MeanPass,
+    Seen,
+    diagnose,
+    find_knocks,
+)
+from bearingcore.measured.signals import least_passes
+from bearingcore.model.scene import EDGES, RACES
+from bearingcore.recordings import Recording
 from bearingcore.sizing._release import Offsets, plausible_offsets
 
 SLIP_OF_LINES = 0.004

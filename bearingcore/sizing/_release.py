@@ -21,15 +21,10 @@ from itertools import product
 
 import numpy as np
 
-from bearingcore.bearings.bearing import Bearing
-from bearingcore.bearings.material import BALL_MATERIALS
-from bearingcore.common.arrays import Array, weighted_quantile
-from bearingcore.scene.defect import Defect
-from bearingcore.scene.load import Load
-from bearingcore.scene.presets import FAN_RIG_SUPPORT
-from bearingcore.scene.scene import Scene
-from bearingcore.statics.equilibrium import equilibrium
-from bearingcore.statics.life import dynamic_load_rating
+from bearingcore.bearings import BALL_MATERIALS, Bearing
+from bearingcore.common import Array, weighted_quantile
+from bearingcore.model.scene import FAN_RIG_SUPPORT, Defect, Load, Scene
+from bearingcore.model.statics import dynamic_load_rating, equilibrium
 
 RELEASE_PLACES = 241
 """Ball positions across the spall at which the load is computed."""

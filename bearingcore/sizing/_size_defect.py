@@ -16,18 +16,14 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from bearingcore.common import checks
-from bearingcore.common.arrays import Array, runs, summit
-from bearingcore.common.progress import Progress
-from bearingcore.common.table import ResultTable, shown_as_table, table_of
-from bearingcore.diagnosis.part.diagnose import MOST_SAMPLES, SLIP
-from bearingcore.dynamics.modes import modes
-from bearingcore.dynamics.motion import SETTLING, simulate
+from bearingcore.common import Array, Progress, ResultTable, runs, shown_as_table, summit, table_of
+from bearingcore.common import _checks as checks
 from bearingcore.errors import Status
-from bearingcore.scene.scene import MASSLESS, Scene
-from bearingcore.signals.averaging import BallPasses, average_passes, coefficients, least_passes
-from bearingcore.signals.recording import Recording
-from bearingcore.signals.spectrum import check_samples
+from bearingcore.measured.diagnosis import MOST_SAMPLES, SLIP
+from bearingcore.measured.signals import BallPasses, average_passes, coefficients, least_passes
+from bearingcore.model.dynamics import SETTLING, modes, simulate
+from bearingcore.model.scene import MASSLESS, Scene
+from bearingcore.recordings import Recording, check_samples
 
 BAND, FEWEST_LINES = (0.25, 1.35), 6.0
 """Of the lowest and the highest natural frequency of the healthy bearing: what is compared; lines

@@ -8,21 +8,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bearingcore.bearings.bearing import Bearing
-from bearingcore.bearings.named import BearingLike, bearing_of
-from bearingcore.common import checks
-from bearingcore.common.arrays import Array
-from bearingcore.common.table import ResultTable, shown_as_table, table_of
-from bearingcore.diagnosis.part.diagnose import SLIP, diagnose
-from bearingcore.diagnosis.part.evidence import CANNOT_TELL
-from bearingcore.diagnosis.part.listened_signal import NARROWEST
-from bearingcore.diagnosis.part.parts import PARTS, part_lines
-from bearingcore.files.dates import time_in
-from bearingcore.signals.indicators import indicators
-from bearingcore.signals.kurtogram import kurtogram
-from bearingcore.signals.recording import Recording
-from bearingcore.signals.spectrum import Spectrum, envelope_spectrum
-from bearingcore.signals.whitening import local_median
+from bearingcore.bearings import Bearing, BearingLike, bearing_of
+from bearingcore.common import Array, ResultTable, shown_as_table, table_of
+from bearingcore.common import _checks as checks
+from bearingcore.measured.diagnosis import CANNOT_TELL, NARROWEST, PARTS, SLIP, diagnose, part_lines
+from bearingcore.measured.files import time_in
+from bearingcore.measured.signals import indicators, kurtogram, local_median
+from bearingcore.recordings import Recording, Spectrum, envelope_spectrum
 from bearingcore.sizing._measure_extent import MeasuredExtent, measure_extent
 
 LINES = ("bpfo", "bpfi", "bsf_2", "ftf")

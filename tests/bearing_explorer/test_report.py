@@ -27,9 +27,9 @@ from bearing_explorer.page import SECTIONS
 from bokeh.document import Document
 
 from bearingcore import Defect, presets
-from bearingcore.common.numbers import number, probability
-from bearingcore.diagnosis import DiagnosisStatus
-from bearingcore.dynamics import speed_run
+from bearingcore.common import number, probability
+from bearingcore.measured.diagnosis import DiagnosisStatus
+from bearingcore.model.dynamics import speed_run
 from tests.helpers.measuring import measuring
 
 KINDS = [view for section in SECTIONS for view in section.views]

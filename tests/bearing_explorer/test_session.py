@@ -12,7 +12,7 @@ from bearing_explorer.kit.session import Section
 from bearing_explorer.kit.views.base import View
 
 from bearingcore import presets
-from bearingcore.experiments.simpler_models import alternatives
+from bearingcore.model.experiments import alternatives
 from tests.helpers.loops import run
 from tests.helpers.sessions import SceneSession
 

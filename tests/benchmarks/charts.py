@@ -3,7 +3,7 @@
     python -m tests.benchmarks.charts --ship [--preset NAME ...]
     python -m tests.benchmarks.charts            # only writes the documents anew
 
-`--ship` runs every experiment of `bearingcore.experiments.measurements` on presets, all of them
+`--ship` runs every experiment of `bearingcore.model.experiments._measurements` on presets, all
 unless some are named, and writes a file for each to assets/accuracy as soon as it is measured: two
 to five minutes a preset on a quiet machine. What a scene cannot have is kept in its file with the
 reason, and printed. Then the tables of assets/docs/ACCURACY.md are written from the files.
@@ -20,8 +20,14 @@ from typing import Any
 from bearing_explorer.explorer.views.work_precision import ALLOWED
 
 from bearingcore import presets
-from bearingcore.common.numbers import number, scientific, with_prefix
-from bearingcore.experiments import Experiment, Measurements, Point, measure, measurements_from
+from bearingcore.common import number, scientific, with_prefix
+from bearingcore.model.experiments import (
+    Experiment,
+    Measurements,
+    Point,
+    measure,
+    measurements_from,
+)
 from tests.benchmarks.machine import pace
 
 ASSETS = Path(__file__).parents[2] / "assets"

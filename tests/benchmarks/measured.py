@@ -18,8 +18,7 @@ from pathlib import Path
 import pandas as pd
 
 from bearingcore import Bearing, diagnose, presets
-from bearingcore.diagnosis.part.evidence import LIKELY
-from bearingcore.diagnosis.part.parts import part_lines
+from bearingcore.measured.diagnosis import LIKELY, part_lines
 from tests.benchmarks.measured_records import Record, records
 from tests.benchmarks.scoreboard import WRONG, judge, verdict
 

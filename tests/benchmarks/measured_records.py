@@ -15,7 +15,7 @@ import numpy as np
 from scipy.io import loadmat
 
 from bearingcore import Bearing, Recording
-from bearingcore.files.units import UNITS
+from bearingcore.measured.files import UNITS
 
 HEALTHY, UNKNOWN = "healthy", "unknown"
 

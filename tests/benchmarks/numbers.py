@@ -36,7 +36,7 @@ from bearingcore import (
     spectrum,
     stiffness_maps,
 )
-from bearingcore.scene.packing import length_units
+from bearingcore.model.scene._packing import length_units
 from tests.benchmarks.yardstick import CMotion, CStatics, start_state
 from tests.browser.helpers import find_chromium
 

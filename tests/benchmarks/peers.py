@@ -27,7 +27,7 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import root
 
 from bearingcore import Load, Scene, equilibrium, life, presets, simulate, warm
-from bearingcore.common.numbers import number, scientific, with_prefix
+from bearingcore.common import number, scientific, with_prefix
 from tests.benchmarks.charts import DOCUMENT, put
 from tests.outside.march import rates
 from tests.outside.test_charts import problem

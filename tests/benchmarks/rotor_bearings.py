@@ -11,8 +11,8 @@ import math
 import numpy as np
 
 from bearingcore import Scene, equilibrium, presets
-from bearingcore.common.numbers import number
-from bearingcore.statics.equilibrium import default_cage_angles
+from bearingcore.common import number
+from bearingcore.model.statics import default_cage_angles
 from tests.benchmarks.charts import DOCUMENT, put
 
 PRESETS = ("6205", "6206", "fan-rig")

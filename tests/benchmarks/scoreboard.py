@@ -19,10 +19,18 @@ from scipy.optimize import minimize
 from scipy.stats import binomtest
 
 from bearingcore import Diagnosis, MeasuredExtent, diagnose, measure_extent
-from bearingcore.diagnosis.part.decide import NAMED
-from bearingcore.diagnosis.part.evidence import CANNOT_TELL, LIKELY, NONE_SEEN, PartEvidence
-from bearingcore.diagnosis.part.parts import BALL, INNER, OUTER, PARTS
-from bearingcore.diagnosis.part.probability import LEAD, Calibration, probabilities
+from bearingcore.measured.diagnosis import (
+    CANNOT_TELL,
+    INNER,
+    LIKELY,
+    NONE_SEEN,
+    OUTER,
+    PARTS,
+    PartEvidence,
+)
+from bearingcore.measured.diagnosis._part.decide import NAMED
+from bearingcore.measured.diagnosis._part.parts import BALL
+from bearingcore.measured.diagnosis._part.probability import LEAD, Calibration, probabilities
 from tests.benchmarks.measured_records import GRADES, HEALTHY, UNKNOWN, Record
 
 FILE = Path(__file__).parents[2] / "assets" / "scoreboard.json"

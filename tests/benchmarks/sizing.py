@@ -26,7 +26,8 @@ from typing import NamedTuple
 import numpy as np
 
 from bearingcore import Recording, measure_extent, presets, size_defect
-from bearingcore.dynamics.record import PathEffects, drawn_resonances, simulated_record
+from bearingcore.model.dynamics import PathEffects, simulated_record
+from bearingcore.model.dynamics._record import drawn_resonances
 from bearingcore.sizing import ExtentStatus
 from tests.outside.rigs import RATE, Machine, record
 from tests.outside.test_sizing import scene_of

@@ -15,9 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore import DOF_NAMES, Scene, equilibrium
-from bearingcore.dynamics.damping import packed_motion
-from bearingcore.dynamics.motion import static_start
-from bearingcore.scene.packing import body_numbers
+from bearingcore.model.dynamics._damping import packed_motion
+from bearingcore.model.dynamics._motion import static_start
+from bearingcore.model.scene._packing import body_numbers
 
 SOURCES = Path(__file__).parent / "c_loops"
 FLAGS = ("-O3", "-march=native")

@@ -18,7 +18,7 @@ from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from scipy.io import savemat
 
 from bearingcore import Scene, presets, read_catalogue, read_floor
-from bearingcore.files.table import read_table
+from bearingcore.measured.files import read_table
 from tests.fuzz.inputs import bytes_like, text_like
 from tests.helpers.saved import saved, zipped
 

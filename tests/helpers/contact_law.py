@@ -25,7 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore import DOF_NAMES, Bearing, Scene
-from bearingcore.statics.passes import drops_now
+from bearingcore.model.statics import drops_now
 
 Long = np.longdouble
 Array = NDArray[np.floating]

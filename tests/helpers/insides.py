@@ -5,7 +5,8 @@ import math
 from pathlib import Path
 from typing import NamedTuple
 
-from bearingcore.bearings.designation import inside_of, read_designation
+from bearingcore.bearings import read_designation
+from bearingcore.bearings._designation import inside_of
 
 PUBLISHED = Path(__file__).parents[1] / "reference" / "published_insides.csv"
 

@@ -7,9 +7,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import linprog
 
-from bearingcore import DOF_NAMES, Equilibrium, kernels
-from bearingcore.scene.packing import contacts
-from bearingcore.statics.shortage import descent_direction
+from bearingcore import DOF_NAMES, Equilibrium
+from bearingcore.model import _kernels as kernels
+from bearingcore.model.scene._packing import contacts
+from bearingcore.model.statics._shortage import descent_direction
 from tests.helpers.contact_law import Array, Balls, Long, centers_apart
 
 RESIDUAL = 1e-9

@@ -9,9 +9,10 @@ import math
 
 import numpy as np
 
-from bearingcore import Bearing, Defect, Load, Scene, kernels, presets, simulate
-from bearingcore.scene.scene import WITH_MASS
-from bearingcore.statics.ball_positions import BallPositions
+from bearingcore import Bearing, Defect, Load, Scene, presets, simulate
+from bearingcore.model import _kernels as kernels
+from bearingcore.model.scene import WITH_MASS
+from bearingcore.model.statics import BallPositions
 from tests.helpers.contact_law import TwoContacts
 
 TOLERANCE = 1e-7

@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 
 from bearingcore import EDGES, RACES, Bearing, Defect, Load, Scene, presets
-from bearingcore.bearings.rows import ARRANGEMENTS, Row
+from bearingcore.bearings import Row
+from bearingcore.bearings._rows import ARRANGEMENTS
 
 OWN_ANGLES = "rows with angles of their own"
 UNLIKE = "rows of unlike balls"

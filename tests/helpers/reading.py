@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from bearingcore.files import formats
-from bearingcore.files.child import MOST_COLUMNS, MOST_NUMBERS
+from bearingcore.measured.files import _formats as formats
+from bearingcore.measured.files._child import MOST_COLUMNS, MOST_NUMBERS
 
 
 def read_here(
@@ -28,5 +28,5 @@ def read_here(
 
 def read_in_this_process(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let tables and floors be read by `read_here` during a test."""
-    for module in ("bearingcore.files.table", "bearingcore.files.floor"):
+    for module in ("bearingcore.measured.files._table", "bearingcore.sizing._read_floor"):
         monkeypatch.setattr(f"{module}.read_file", read_here)

@@ -3,10 +3,10 @@
 import dataclasses
 import math
 
-from bearingcore.dynamics.motion import simulate
-from bearingcore.scene.defect import Defect
-from bearingcore.scene.scene import MASSLESS, WITH_MASS, Scene
-from bearingcore.signals.recording import DIRECTIONS, Recording
+from bearingcore.model.dynamics import simulate
+from bearingcore.model.scene import MASSLESS, WITH_MASS, Defect, Scene
+from bearingcore.recordings import Recording
+from bearingcore.recordings._recording import DIRECTIONS
 
 SETTLING = 0.12
 """[s] of motion before the recording begins: several times the slowest mode's decay."""

@@ -2,7 +2,7 @@
 
 import pytest
 
-from bearingcore.experiments.points import least_time
+from bearingcore.model.experiments._points import least_time
 
 
 def measure_once(monkeypatch: pytest.MonkeyPatch) -> None:

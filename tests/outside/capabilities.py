@@ -13,14 +13,12 @@ from pathlib import Path
 import bearing_explorer.explorer.views.paper_figures as paper
 
 import bearingcore
-from bearingcore import signals
-from bearingcore.bearings import KINDS
-from bearingcore.bearings.material import BALL_MATERIALS
-from bearingcore.scene.defect import EDGES, RACES
-from bearingcore.scene.floor import MeasuredFloor, RoughFloor
-from bearingcore.scene.scene import BALLS, CONTACT_LAWS, DOF_NAMES
-from bearingcore.signals.indicators import Indicators
-from bearingcore.sweep.outputs import OUTPUTS
+from bearingcore.bearings import BALL_MATERIALS, KINDS
+from bearingcore.measured import signals
+from bearingcore.measured.signals import Indicators
+from bearingcore.model.scene import CONTACT_LAWS, DOF_NAMES, EDGES, RACES, MeasuredFloor, RoughFloor
+from bearingcore.model.scene._scene import BALLS
+from bearingcore.model.sweeps import OUTPUTS
 
 ROOT = Path(__file__).parents[2]
 
@@ -44,9 +42,9 @@ the diagnosis, which are listed."""
 
 
 def functions_of_signals() -> Iterator[str]:
-    """Public functions of `bearingcore.signals`, each where it is defined."""
+    """Public functions of `bearingcore.measured.signals`, each where it is defined."""
     for module in pkgutil.iter_modules(signals.__path__):
-        found = importlib.import_module(f"bearingcore.signals.{module.name}")
+        found = importlib.import_module(f"bearingcore.measured.signals.{module.name}")
         for name, what in vars(found).items():
             own = inspect.isfunction(what) and what.__module__ == found.__name__
             if own and not name.startswith("_") and name not in PARTS:

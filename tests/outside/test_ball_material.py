@@ -10,10 +10,9 @@ from scipy.optimize import brentq
 from scipy.special import ellipe, ellipk
 
 from bearingcore import Bearing, Scene, life, presets, scene_of
-from bearingcore.bearings.designation import read_designation
-from bearingcore.bearings.material import BALL_MATERIALS
+from bearingcore.bearings import BALL_MATERIALS, read_designation
 from bearingcore.errors import FieldError
-from bearingcore.statics.life import dynamic_load_rating
+from bearingcore.model.statics import dynamic_load_rating
 from tests.outside.witness import witness
 
 STEEL, NITRIDE = (210e9, 0.3), (310e9, 0.26)

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from bearingcore import Bearing, Recording, diagnose, measure_extent, presets, trend
-from bearingcore.diagnosis.part.evidence import CANNOT_TELL, NONE_SEEN
-from bearingcore.files.table import read_table
+from bearingcore.measured.diagnosis import CANNOT_TELL, NONE_SEEN
+from bearingcore.measured.files import read_table
 from bearingcore.sizing import LINES, ExtentStatus
 from tests.helpers.recordings import file_from_elsewhere
 from tests.outside.elements import Array

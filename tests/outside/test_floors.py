@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from bearingcore import Defect, equilibrium, presets, read_floor
-from bearingcore.scene.defect import drop_into
-from bearingcore.scene.floor import MeasuredFloor, RoughFloor
+from bearingcore.model.scene import MeasuredFloor, RoughFloor
+from bearingcore.model.scene._defect import drop_into
 from tests.outside.elements import Defect as Slot
 from tests.outside.elements import Rows
 from tests.outside.witness import witness

@@ -13,8 +13,7 @@ from scipy.integrate import solve_ivp
 from scipy.signal import welch
 
 from bearingcore import presets, simulate
-from bearingcore.sweep.grid import Grid
-from bearingcore.sweep.outputs import Settings
+from bearingcore.model.sweeps import Grid, Settings
 from tests.outside.test_charts import problem
 from tests.outside.witness import witness
 
@@ -207,7 +206,7 @@ def test_steps_are_doubled_where_contacts_let_go(monkeypatch: pytest.MonkeyPatch
         np.sqrt(np.mean(v[len(v) // 2 :] ** 2, axis=0)) for v in (found.outer_velocity, own)
     )
     assert level == pytest.approx(true, rel=0.08)
-    monkeypatch.setattr("bearingcore.dynamics.motion.SAME_LEVEL", 0.0)
+    monkeypatch.setattr("bearingcore.model.dynamics._motion.SAME_LEVEL", 0.0)
     refused = simulate(scene, 1e-3, RATE)
     assert "too few" in refused.reason
     assert np.isnan(refused.outer_acceleration).all()

@@ -16,10 +16,9 @@ from bearingcore import (
     stiffness_maps,
 )
 from bearingcore.errors import FieldError
-from bearingcore.scene.defect import drop_into
-from bearingcore.statics import static_ranges
-from bearingcore.statics.ball_positions import ball_positions, static_state
-from bearingcore.sweep import sweep
+from bearingcore.model.scene._defect import drop_into
+from bearingcore.model.statics import ball_positions, static_ranges, static_state
+from bearingcore.model.sweeps import sweep
 from tests.outside.witness import witness
 
 RPM = math.pi / 30.0

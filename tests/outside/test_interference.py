@@ -28,8 +28,8 @@ from bearingcore import (
     simulate,
     stiffness_maps,
 )
-from bearingcore.dynamics.status import MotionStatus, OrbitStatus
-from bearingcore.statics.status import StaticStatus
+from bearingcore.model.dynamics import MotionStatus, OrbitStatus
+from bearingcore.model.statics._status import StaticStatus
 
 TIGHT = 10e-6
 """[m] Half of an interference of 20 µm on the diameter."""

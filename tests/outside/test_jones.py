@@ -18,8 +18,8 @@ from bearingcore import (
     presets,
     static_state,
 )
-from bearingcore.bearings.material import BallMaterial
-from bearingcore.statics.gyroscopic import GYROSCOPIC_MOMENT
+from bearingcore.bearings._material import BallMaterial
+from bearingcore.model.statics._gyroscopic import GYROSCOPIC_MOMENT
 from tests.outside.elements import point_contact
 from tests.outside.jones import CASES, Jones
 from tests.outside.witness import witness

@@ -31,12 +31,12 @@ from bearingcore import (
     simulate,
     stiffness_maps,
 )
-from bearingcore.bearings.tapered import USUAL_ANGLE
-from bearingcore.common.numbers import with_prefix
-from bearingcore.dynamics.status import MotionStatus, OrbitStatus
-from bearingcore.scene.scene import TILT_FREE
-from bearingcore.statics.status import StaticStatus
-from bearingcore.sweep import STATUSES, sweep
+from bearingcore.bearings._tapered import USUAL_ANGLE
+from bearingcore.common import with_prefix
+from bearingcore.model.dynamics import MotionStatus, OrbitStatus
+from bearingcore.model.scene import TILT_FREE
+from bearingcore.model.statics._status import StaticStatus
+from bearingcore.model.sweeps import STATUSES, sweep
 from tests.helpers.contact_law import Balls
 from tests.helpers.judge import beyond_geometry
 from tests.helpers.random_rows import KINDS, random_scene

@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 
 from bearingcore import Bearing, Recording, diagnose
-from bearingcore.diagnosis.part.evidence import CANNOT_TELL
-from bearingcore.diagnosis.part.status import DiagnosisStatus
+from bearingcore.measured.diagnosis import CANNOT_TELL, DiagnosisStatus
 from tests.outside.motor_signals import INNER_ORDER, OUTER_ORDER, RATIO, TURN, Motor
 from tests.outside.witness import witness
 

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from bearingcore.signals import Spectrogram, order_map
+from bearingcore.measured.signals import Spectrogram, order_map
 from tests.outside.witness import witness
 
 RATE = 25_600.0

@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 from bearingcore import Diagnosis, Recording, diagnose
-from bearingcore.diagnosis.part.evidence import CANNOT_TELL
-from bearingcore.diagnosis.part.status import DiagnosisStatus
+from bearingcore.measured.diagnosis import CANNOT_TELL, DiagnosisStatus
 from tests.outside.motor_signals import INNER_ORDER, OUTER_ORDER, TURN, Motor
 from tests.outside.test_mains_hum import MOTOR_BEARING
 from tests.outside.witness import witness

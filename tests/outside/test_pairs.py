@@ -19,7 +19,7 @@ from bearingcore import (
     read_designation,
     scene_of,
 )
-from bearingcore.bearings.material import BALL_MATERIALS
+from bearingcore.bearings import BALL_MATERIALS
 from tests.outside.witness import witness
 
 Array = NDArray[np.float64]

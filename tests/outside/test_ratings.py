@@ -7,7 +7,7 @@ import pytest
 
 from bearingcore import Bearing, dynamic_load_rating, read_designation
 from bearingcore.bearings import Row
-from bearingcore.bearings.ratings import self_aligning_capacity_factor, static_factor
+from bearingcore.bearings._ratings import self_aligning_capacity_factor, static_factor
 from tests.outside.witness import witness
 
 BALLS = (

@@ -8,8 +8,8 @@ import pytest
 from scipy.optimize import brentq
 
 from bearingcore import Bearing, Scene, dynamic_load_rating, life, presets
-from bearingcore.statics.equilibrium import equilibrium
-from bearingcore.statics.laminae import compressions, drops, law_of
+from bearingcore.model.statics import equilibrium
+from bearingcore.model.statics._laminae import compressions, drops, law_of
 from tests.outside.witness import witness
 
 N_S = 30

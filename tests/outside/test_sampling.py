@@ -14,8 +14,8 @@ import pytest
 from scipy.signal import firwin, freqz, upfirdn, welch
 
 from bearingcore import orbit, presets, simulate
-from bearingcore.dynamics.low_pass import low_passed
-from bearingcore.dynamics.speed_runs import speed_run
+from bearingcore.model.dynamics import speed_run
+from bearingcore.model.dynamics._low_pass import low_passed
 from tests.outside.test_charts import problem
 from tests.outside.witness import witness
 

@@ -23,12 +23,12 @@ from bearingcore import (
     trend,
     trend_point,
 )
-from bearingcore.dynamics.record import TWO_RESONANCES, Resonance
-from bearingcore.signals.averaging import average_passes
-from bearingcore.signals.dropouts import signal_faults
-from bearingcore.signals.shaft_tones import without_shaft_tones
-from bearingcore.signals.spectrograms import spectrogram
-from bearingcore.signals.spectrum_difference import spectrum_difference
+from bearingcore.measured.signals import average_passes, spectrogram
+from bearingcore.measured.signals._dropouts import signal_faults
+from bearingcore.measured.signals._shaft_tones import without_shaft_tones
+from bearingcore.model.dynamics import Resonance
+from bearingcore.model.dynamics._record import TWO_RESONANCES
+from bearingcore.recordings._spectrum_difference import spectrum_difference
 from bearingcore.sizing import LINES
 from tests.outside.elements import Array
 from tests.outside.test_kinds import CASES

@@ -13,8 +13,8 @@ import pytest
 from scipy.linalg import eigvals
 
 from bearingcore import DOF_NAMES, equilibrium, frequency_bands, modes, presets
-from bearingcore.dynamics.modes import contact_damping
-from bearingcore.sweep.grid import Grid
+from bearingcore.model.dynamics import contact_damping
+from bearingcore.model.sweeps import Grid
 from tests.outside.elements import Defect, Rows
 from tests.outside.plane import Plane, damped
 from tests.outside.witness import witness

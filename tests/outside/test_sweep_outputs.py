@@ -6,11 +6,9 @@ from functools import cache
 import numpy as np
 import pytest
 
-from bearingcore.scene.scene import DOF_NAMES
-from bearingcore.statics.equilibrium import TERM_INDICES
-from bearingcore.sweep.grid import Grid
-from bearingcore.sweep.outputs import OUTPUTS, Settings
-from bearingcore.sweep.status import STATUSES, SweepStatus
+from bearingcore.model.scene import DOF_NAMES
+from bearingcore.model.statics._equilibrium import TERM_INDICES
+from bearingcore.model.sweeps import OUTPUTS, STATUSES, Grid, Settings, SweepStatus
 from tests.outside.test_contacts import gamma, pressures
 from tests.outside.test_kinds import CASES, GROUND, MASS, C, problem_of
 from tests.outside.witness import witness

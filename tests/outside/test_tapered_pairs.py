@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from bearingcore import Bearing, equilibrium, presets
-from bearingcore.bearings.designation import read_designation
+from bearingcore.bearings import read_designation
 from tests.outside.witness import witness
 
 CENTRES_MM = {

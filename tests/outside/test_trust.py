@@ -74,14 +74,14 @@ def test_the_document_is_what_is_generated() -> None:
 
 HELD = {
     "README": {
-        "1e-10": "tests/bearingcore/statics/test_static_reference.py",
+        "1e-10": "tests/bearingcore/model/statics/test_static_reference.py",
         "5e-5": "tests/bearingcore/bearings/test_hertz.py",
-        "7e-5": "tests/bearingcore/statics/test_life.py",
+        "7e-5": "tests/bearingcore/model/statics/test_life.py",
         "1.8 %": "tests/bearingcore/bearings/test_designation.py",
         "3.5 %": "tests/bearingcore/bearings/test_designation.py",
     },
     "MODEL": {
-        "1e-10": "tests/bearingcore/statics/test_static_reference.py",
+        "1e-10": "tests/bearingcore/model/statics/test_static_reference.py",
         "1e-8": "tests/outside/test_charts.py",
         "1e-6": "tests/outside/test_statics.py",
         "1 %": "tests/bearingcore/bearings/test_designation.py",
@@ -93,7 +93,7 @@ HELD = {
         "7 %": "tests/outside/test_tapered_pairs.py",
     },
     "LIFE": {
-        "7e-5": "tests/bearingcore/statics/test_life.py",
+        "7e-5": "tests/bearingcore/model/statics/test_life.py",
         "0.5 %": "tests/bearingcore/bearings/test_catalogue.py",
         "0.2 %": "tests/outside/test_ratings.py",
         "0.1 %": "tests/outside/test_roller_life.py",
@@ -103,8 +103,8 @@ HELD = {
     "ACCURACY": {
         "0.1 dB": "tests/outside/test_sampling.py",
         "1 %": "tests/outside/test_turning_defects.py",
-        "2 %": "tests/bearingcore/statics/test_friswell.py",
-        "5 %": "tests/bearingcore/experiments/test_alternatives.py",
+        "2 %": "tests/bearingcore/model/statics/test_friswell.py",
+        "5 %": "tests/bearingcore/model/experiments/test_alternatives.py",
     },
     "DIAGNOSIS": {
         "0.2 %": "tests/outside/test_mains_hum.py",

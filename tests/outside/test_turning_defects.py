@@ -18,8 +18,8 @@ from bearingcore import (
     limits,
     presets,
 )
-from bearingcore.statics.ranges import BALL_LOAD, static_ranges
-from bearingcore.sweep.grid import Grid
+from bearingcore.model.statics import BALL_LOAD, static_ranges
+from bearingcore.model.sweeps import Grid
 from tests.outside.elements import point_contact
 from tests.outside.plane import Plane, undamped
 from tests.outside.witness import witness

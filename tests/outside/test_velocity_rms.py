@@ -9,13 +9,8 @@ import pytest
 
 from bearingcore import Recording
 from bearingcore.errors import FieldError
-from bearingcore.signals.indicators import (
-    displacement_rms,
-    indicators,
-    severity_zone,
-    shaft_share,
-    velocity_rms,
-)
+from bearingcore.measured.signals import indicators, severity_zone, shaft_share
+from bearingcore.measured.signals._indicators import displacement_rms, velocity_rms
 from tests.outside.witness import witness
 
 RATE = 25_600.0

@@ -19,7 +19,7 @@ from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.kit.compute.jobs import Jobs, Kind
 from bearing_explorer.kit.sentences import sentence_of
 from bearingcore import Bearing, Diagnosis, MeasuredExtent, diagnose, measure_extent
-from bearingcore.diagnosis import ListedBearing, explaining_bearings
+from bearingcore.measured.diagnosis import ListedBearing, explaining_bearings
 
 Found = TypeVar("Found")
 

@@ -32,7 +32,7 @@ from bearing_explorer.diagnosis.model import NOT_TAKEN, WANTED
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.kit.compute.jobs import EXTENT, LISTED, PART, READING, Compute, Jobs, JobState
 from bearingcore import Diagnosis, MeasuredExtent, Scene, Table, catalogue
-from bearingcore.diagnosis import ListedBearing
+from bearingcore.measured.diagnosis import ListedBearing
 
 log = logging.getLogger(__name__)
 

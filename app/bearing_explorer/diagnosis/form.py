@@ -27,7 +27,7 @@ from bearing_explorer.kit.sentences import number_of, sentence_of
 from bearingcore import Recording, Table, catalogue
 from bearingcore.common import with_prefix
 from bearingcore.errors import FieldError
-from bearingcore.files import (
+from bearingcore.measured.files import (
     OTHER,
     PLACES,
     SIGNAL,
@@ -44,7 +44,7 @@ from bearingcore.files import (
     longest_run,
     unit_in,
 )
-from bearingcore.signals import FEWEST_SAMPLES
+from bearingcore.recordings import FEWEST_SAMPLES
 from bearingcore.units import STANDARD_GRAVITY
 
 SIGNAL_FIELDS = ("columns", "part", "unit", "full_scale", "sensitivity", "sample_rate")

@@ -18,7 +18,7 @@ from bearing_explorer.kit.sentences import number_of, sentence_of
 from bearingcore import Bearing, Scene
 from bearingcore.bearings import FREQUENCIES, bearing_of_frequencies
 from bearingcore.common import choice, number, span
-from bearingcore.files import FileContents, Finding
+from bearingcore.measured.files import FileContents, Finding
 
 NOT_KNOWN = ""
 FILE, GIVEN, ROUGH, SCENE, SIMULATED = "file", "given", "rough", "scene", "simulated"

@@ -13,7 +13,7 @@ from bearing_explorer.diagnosis.views.part_words import the
 from bearing_explorer.diagnosis.views.trend import line_growth
 from bearingcore import Diagnosis, Trend
 from bearingcore.common import number, percent
-from bearingcore.diagnosis import LIKELY, NONE_SEEN, DiagnosisStatus
+from bearingcore.measured.diagnosis import LIKELY, NONE_SEEN, DiagnosisStatus
 
 GROWN = 2.0
 """Times the baseline from which on the vibration, or the line of the part that is named, has

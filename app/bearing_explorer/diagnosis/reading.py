@@ -29,7 +29,7 @@ from bearing_explorer.diagnosis.signal import Measured
 from bearingcore import Table, read_table
 from bearingcore.common import thousands
 from bearingcore.errors import FieldError
-from bearingcore.files import files_inside
+from bearingcore.measured.files import files_inside
 
 log = logging.getLogger(__name__)
 

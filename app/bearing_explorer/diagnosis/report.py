@@ -36,7 +36,7 @@ from bearing_explorer.kit.widgets.facts import html_table, html_text
 from bearingcore import Diagnosis
 from bearingcore.bearings import FREQUENCIES
 from bearingcore.common import number, percent, with_prefix
-from bearingcore.files import time_in
+from bearingcore.measured.files import time_in
 
 FILE = "bearing-report-{}.html"
 NOT_SAID = "not said"
@@ -81,7 +81,7 @@ def measured_report(
     found
         results of jobs, by view.
     kind
-        power and support of the machine, one of `bearingcore.signals.indicators.ZONES`, for the
+        power and support of the machine, one of `bearingcore.measured.signals.ZONES`, for the
         zone of its vibration; empty where it is not known.
 
     Raises

@@ -16,9 +16,9 @@ import bearingcore as core
 from bearing_explorer.diagnosis.machine import Machine
 from bearingcore import Bearing, Indicators, Kurtogram, Recording, Scene, Spectrum
 from bearingcore.common import cached_property
-from bearingcore.diagnosis import NARROWEST
-from bearingcore.files import Column
-from bearingcore.signals import shaft_share
+from bearingcore.measured.diagnosis import NARROWEST
+from bearingcore.measured.files import Column
+from bearingcore.measured.signals import shaft_share
 
 ENVELOPE_TOP = 1000.0
 """[Hz] up to which the spectrum of an envelope is drawn of an unknown machine."""

@@ -20,7 +20,7 @@ from bearing_explorer.kit.compute import compiling
 from bearing_explorer.kit.compute.cache import cached
 from bearing_explorer.kit.sentences import sentence_of
 from bearingcore import Defect, Motion, Recording, Scene, simulate
-from bearingcore.scene import WITH_MASS
+from bearingcore.model.scene import WITH_MASS
 
 REFERENCE_EXTENT, REFERENCE_DEPTH = math.radians(5.0), 50e-6
 """[rad], [m] of the defect under the load to whose vibration the noise is relative."""

@@ -33,7 +33,7 @@ from bearing_explorer.kit.widgets.facts import html_table, html_text, sentence_h
 from bearing_explorer.kit.widgets.limits import judged, rows_of
 from bearingcore import Scene
 from bearingcore.fields import Field
-from bearingcore.scene import DOF_SYMBOLS
+from bearingcore.model.scene import DOF_SYMBOLS
 
 log = logging.getLogger(__name__)
 

@@ -20,7 +20,7 @@ from bearingcore import (
 )
 from bearingcore.bearings import designations, is_known, series_words
 from bearingcore.common import number
-from bearingcore.scene import preset_labels
+from bearingcore.model.scene import preset_labels
 from bearingcore.units import read_number
 
 MOST_FOUND = 60

@@ -8,7 +8,7 @@ from datetime import UTC, datetime
 from urllib.parse import urlsplit
 
 from bearing_explorer.kit.widgets.facts import html_text
-from bearingcore.sweep import program_version
+from bearingcore.model.sweeps import program_version
 
 _POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'"
 

@@ -29,7 +29,7 @@ from bearing_explorer.kit.views.content import Content
 from bearing_explorer.kit.widgets.form import stack
 from bearing_explorer.kit.widgets.limits import LimitsStrip, judged, rows_of
 from bearing_explorer.kit.widgets.status import StatusLine, Tabs
-from bearingcore.statics import summary
+from bearingcore.model.statics import summary
 
 log = logging.getLogger(__name__)
 

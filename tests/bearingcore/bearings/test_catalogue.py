@@ -5,8 +5,9 @@ import math
 import pytest
 
 from bearingcore import presets
-from bearingcore.bearings.catalogue import MOST_BEARINGS, MOST_BYTES, catalogue, read_catalogue
-from bearingcore.statics.life import dynamic_load_rating
+from bearingcore.bearings import MOST_BYTES, catalogue, read_catalogue
+from bearingcore.bearings._catalogue import MOST_BEARINGS
+from bearingcore.model.statics import dynamic_load_rating
 
 HEAD = "name;balls;ball_diameter_mm;pitch_diameter_mm"
 

@@ -10,23 +10,18 @@ import numpy as np
 import pytest
 
 from bearingcore import Scene, dynamic_load_rating, presets
-from bearingcore.bearings import ratings
-from bearingcore.bearings.designation import (
-    CATALOGUE_ANGLE,
-    SERIES,
-    designations,
-    inside_of,
-    read_designation,
-)
-from bearingcore.bearings.designation_tables import boundaries, clearance, series_of
-from bearingcore.bearings.inside import (
+from bearingcore.bearings import _ratings as ratings
+from bearingcore.bearings import designations, read_designation
+from bearingcore.bearings._designation import CATALOGUE_ANGLE, SERIES, inside_of
+from bearingcore.bearings._designation_tables import boundaries, clearance, series_of
+from bearingcore.bearings._inside import (
     BALL_SIZES,
     MEASURED,
     OTHER_MAKER,
     balls_from_ratings,
     tapered_rollers_from_ratings,
 )
-from bearingcore.bearings.suffix import (
+from bearingcore.bearings._suffix import (
     ANGULAR_CONTACT,
     CLEARANCE_CLASSES,
     DEEP_GROOVE,

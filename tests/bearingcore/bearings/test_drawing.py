@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from bearingcore import Bearing, Defect, Load, Scene, equilibrium, presets
-from bearingcore.bearings.drawing import WIDEST_CONFORMITY
+from bearingcore.bearings._drawing import WIDEST_CONFORMITY
 
 D_B, D_P = 9.525e-3, 46e-3
 DRAWING: dict[str, Any] = {

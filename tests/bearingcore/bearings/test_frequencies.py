@@ -5,7 +5,7 @@ import math
 import pytest
 
 from bearingcore import Bearing, catalogue
-from bearingcore.bearings.frequencies import bearing_of_frequencies
+from bearingcore.bearings import bearing_of_frequencies
 
 TURN = 2.0 * math.pi
 LISTED = [one.bearing for one in catalogue().values()]

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from bearingcore import Bearing, Scene, equilibrium, presets, simulate
-from bearingcore.bearings.hertz import spherical_contact
+from bearingcore.bearings._hertz import spherical_contact
 from bearingcore.errors import FieldError
 
 LIEW_LIM, FAN_RIG = presets["liew-lim"], presets["fan-rig"]

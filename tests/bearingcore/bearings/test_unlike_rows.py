@@ -27,15 +27,12 @@ from bearingcore import (
     size_defect,
     stiffness_maps,
 )
-from bearingcore.bearings.drawing import Derived
-from bearingcore.bearings.rows import Row
-from bearingcore.diagnosis.part.parts import part_lines
-from bearingcore.dynamics.orbit import common_ball_passes
-from bearingcore.dynamics.status import OrbitStatus
-from bearingcore.statics.ball_positions import ball_positions, static_state
-from bearingcore.statics.film import rolling_speed
-from bearingcore.statics.life import race_ratings
-from bearingcore.statics.passes import ball_drop, crossings, drops_now
+from bearingcore.bearings import Derived, Row
+from bearingcore.measured.diagnosis import part_lines
+from bearingcore.model.dynamics import OrbitStatus, common_ball_passes
+from bearingcore.model.statics import ball_drop, ball_positions, crossings, drops_now, static_state
+from bearingcore.model.statics._film import rolling_speed
+from bearingcore.model.statics._life import race_ratings
 
 ONE = presets["7208-25deg"]
 STEEP = math.radians(40.0)

@@ -18,11 +18,11 @@ from bearingcore import (
     Support,
     contact_damping,
     equilibrium,
-    kernels,
     modes,
     presets,
     simulate,
 )
+from bearingcore.model import _kernels as kernels
 from tests.helpers.judge import verdict
 
 LIEW_LIM, FAN_RIG = presets["liew-lim"], presets["fan-rig"]

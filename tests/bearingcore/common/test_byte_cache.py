@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from bearingcore import Defect, RoughFloor, presets
-from bearingcore.common.byte_cache import lru_cache_by_bytes
-from bearingcore.scene.defect import path_tables
+from bearingcore.common._byte_cache import lru_cache_by_bytes
+from bearingcore.model.scene._defect import path_tables
 
 
 def test_results_are_kept_up_to_a_number_of_bytes() -> None:

@@ -20,9 +20,9 @@ from bearingcore import (
     spectrum,
     stiffness_maps,
 )
-from bearingcore.signals.recording import Recording
-from bearingcore.statics.ball_positions import ball_positions
-from bearingcore.sweep.grid import Grid
+from bearingcore.model.statics import ball_positions
+from bearingcore.model.sweeps import Grid
+from bearingcore.recordings import Recording
 
 RIG, ANGULAR = presets["fan-rig"], presets["liew-lim"]
 

@@ -46,7 +46,7 @@ COUNTED = {
 def test_what_would_take_long_to_read_is_counted_and_not_read(
     text: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("bearingcore.common.scene_file.tomllib.loads", None)
+    monkeypatch.setattr("bearingcore.common._scene_file.tomllib.loads", None)
     with pytest.raises(ValueError, match="in the text is"):
         Scene.from_toml(text)
 

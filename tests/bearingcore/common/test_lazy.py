@@ -2,7 +2,7 @@
 
 import threading
 
-from bearingcore.common.lazy import cached_property
+from bearingcore.common import cached_property
 
 
 class Slow:

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given as drawn
 from hypothesis import strategies as st
 
-from bearingcore.common import numbers
+from bearingcore.common import _numbers as numbers
 
 WRITTEN: list[tuple[Callable[..., str], tuple[object, ...], str]] = [
     (numbers.number, (0.0, 3), "0"),

@@ -14,21 +14,18 @@ import numpy as np
 import pytest
 
 import bearingcore as core
-from bearingcore.bearings.frequencies import bearing_of_frequencies
-from bearingcore.bearings.hertz import race_contact
-from bearingcore.bearings.kinds import kind_named
-from bearingcore.bearings.rows import Row
-from bearingcore.common.numbers import thousands
-from bearingcore.common.scene_file import LARGEST_TEXT
-from bearingcore.dynamics.problem import motion_problem
-from bearingcore.dynamics.speed_runs import speed_run
+from bearingcore.bearings import Row, bearing_of_frequencies
+from bearingcore.bearings._hertz import race_contact
+from bearingcore.bearings._kinds import kind_named
+from bearingcore.common import LARGEST_TEXT, thousands
 from bearingcore.errors import FieldError
-from bearingcore.experiments.motions import motion_experiment
-from bearingcore.experiments.statics import statics_experiment
-from bearingcore.files.floor import read_floor
-from bearingcore.files.text import read_text
-from bearingcore.signals.indicators import severity_zone
-from bearingcore.signals.spectrograms import order_map, spectrogram
+from bearingcore.measured.files._text import read_text
+from bearingcore.measured.signals import order_map, severity_zone, spectrogram
+from bearingcore.model.dynamics import speed_run
+from bearingcore.model.dynamics._problem import motion_problem
+from bearingcore.model.experiments._motions import motion_experiment
+from bearingcore.model.experiments._statics import statics_experiment
+from bearingcore.sizing import read_floor
 from tests.helpers.saved import matlab
 
 NAN, INF = math.nan, math.inf

@@ -8,9 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bearingcore import Defect, MeasuredFloor, RoughFloor, Scene, presets
-from bearingcore.common.scene_file import LARGEST_TEXT
+from bearingcore.common import LARGEST_TEXT
 from bearingcore.errors import FieldError
-from bearingcore.scene.floor import MOST_ROWS
+from bearingcore.model.scene import MOST_ROWS
 
 
 @pytest.mark.parametrize("name", list(presets))

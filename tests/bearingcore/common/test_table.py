@@ -26,8 +26,8 @@ from bearingcore import (
     spectrum,
     stiffness_maps,
 )
-from bearingcore.common.table import ResultTable, as_csv, table_of
-from bearingcore.dynamics.speed_runs import speed_run
+from bearingcore.common import ResultTable, as_csv, table_of
+from bearingcore.model.dynamics import speed_run
 from bearingcore.units import UNITS
 
 FAN_RIG, LIEW_LIM = presets["fan-rig"], presets["liew-lim"]
@@ -160,7 +160,9 @@ def test_every_result_with_a_table_is_printed_as_it() -> None:
 
 def public_classes() -> Iterator[tuple[str, str, type]]:
     for found in pkgutil.walk_packages(bearingcore.__path__, "bearingcore."):
-        if not found.name.startswith(("bearingcore.kernels", "bearingcore.files.child_program")):
+        if not found.name.startswith(
+            ("bearingcore.model._kernels", "bearingcore.measured.files._child_program")
+        ):
             for name, thing in vars(importlib.import_module(found.name)).items():
                 if inspect.isclass(thing) and thing.__module__ == found.name:
                     yield found.name, name, thing

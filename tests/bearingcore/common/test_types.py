@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 
 import bearingcore as core
-from bearingcore.bearings.named import bearing_of
-from bearingcore.bearings.rows import Row
-from bearingcore.common import checks
-from bearingcore.dynamics.ross_element import to_ross
+from bearingcore.bearings import Row, bearing_of
+from bearingcore.common import _checks as checks
 from bearingcore.errors import FieldError
+from bearingcore.model.dynamics import to_ross
 
 SCENE = core.presets["6205"]
 BEARING = SCENE.bearing

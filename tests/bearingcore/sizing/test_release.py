@@ -8,8 +8,8 @@ import pytest
 from scipy.optimize import brentq
 
 from bearingcore import Defect, Load, Scene, presets
+from bearingcore.model.statics import equilibrium
 from bearingcore.sizing._release import plausible_offsets, release_offset
-from bearingcore.statics.equilibrium import equilibrium
 
 MOTOR = presets["6205"].bearing
 UNDER = 1.5 * math.pi

@@ -8,7 +8,7 @@ import pytest
 
 from bearingcore import Recording, modes, size_defect
 from bearingcore.errors import FieldError
-from bearingcore.scene.scene import Scene
+from bearingcore.model.scene import Scene
 from bearingcore.sizing import Sizing, SizingStatus
 from tests.helpers.recordings import RATE, RIG, noisy, signal_of
 

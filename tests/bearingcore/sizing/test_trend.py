@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from bearingcore import Recording, presets, read_table, trend
-from bearingcore.bearings.catalogue import catalogue
-from bearingcore.diagnosis.part.evidence import CANNOT_TELL
+from bearingcore.bearings import catalogue
+from bearingcore.measured.diagnosis import CANNOT_TELL
 from bearingcore.sizing import LINES
 
 MEASURED = os.environ.get("MEASURED_RECORDS", "")

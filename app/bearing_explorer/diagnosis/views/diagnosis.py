@@ -33,7 +33,7 @@ from bearing_explorer.kit.views.look_view import LookView
 from bearing_explorer.kit.widgets.form import AS_HIGH_AS_SHOWN, FieldSpec, stack
 from bearingcore import Diagnosis, Recording
 from bearingcore.common import probability
-from bearingcore.diagnosis import HARMONICS, INNER, OUTER, PARTS, DiagnosisStatus
+from bearingcore.measured.diagnosis import HARMONICS, INNER, OUTER, PARTS, DiagnosisStatus
 
 FIELDS: list[FieldSpec] = [
     {

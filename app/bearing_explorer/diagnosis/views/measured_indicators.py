@@ -15,7 +15,7 @@ from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.look_view import LookView
 from bearing_explorer.kit.widgets.facts import Fact, facts_html, facts_pane
 from bearing_explorer.kit.widgets.form import FieldSpec, stack
-from bearingcore.signals import DISPLACEMENT_ZONES, SHAFT_SPEEDS, ZONES, severity_zone
+from bearingcore.measured.signals import DISPLACEMENT_ZONES, SHAFT_SPEEDS, ZONES, severity_zone
 
 MEDIUM = "15 to 300 kW"
 LARGE = "over 300 kW"

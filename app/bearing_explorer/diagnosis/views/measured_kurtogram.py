@@ -18,7 +18,7 @@ from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
 from bearing_explorer.kit.widgets.form import stack
 from bearingcore import Kurtogram
-from bearingcore.signals import BAND_COUNTS
+from bearingcore.measured.signals import BAND_COUNTS
 
 CELLS = 48
 """Across the picture: the least common multiple of the parts into which the range is split."""

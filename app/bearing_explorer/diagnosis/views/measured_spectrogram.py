@@ -17,7 +17,7 @@ from bearing_explorer.kit.plots.levels import decibels
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
 from bearing_explorer.kit.widgets.form import stack
-from bearingcore.signals import spectrogram
+from bearingcore.measured.signals import spectrogram
 
 Array = NDArray[np.float64]
 

@@ -18,8 +18,8 @@ from bearing_explorer.kit.views.base import Ranges, SessionParts, Sources, View
 from bearing_explorer.kit.views.python_lines import code_of, lines_of, short
 from bearingcore import Scene, presets
 from bearingcore.common import ResultTable
-from bearingcore.diagnosis import EnvelopeLines
-from bearingcore.files import ACCELERATIONS, path_in
+from bearingcore.measured.diagnosis import EnvelopeLines
+from bearingcore.measured.files import ACCELERATIONS, path_in
 
 HIGHEST_SHARE = 0.49
 """Of the sample rate up to which a band reaches: a filter's edge lies below half of it."""

@@ -22,7 +22,7 @@ from bearing_explorer.kit.plots.ranges import StickyRange
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
 from bearingcore import Diagnosis, PartEvidence
-from bearingcore.diagnosis import NONE_SEEN, PARTS
+from bearingcore.measured.diagnosis import NONE_SEEN, PARTS
 
 FREQUENCY = style.AxisQuantity("Impact frequency", "f", "Hz")
 ORDER = style.AxisQuantity("Order: times a turn of the shaft", "", "")

@@ -12,7 +12,7 @@ from bearing_explorer.diagnosis.views.part_lines import COLORS, NAMES, leading
 from bearing_explorer.kit.plots import style
 from bearingcore import Diagnosis, MeasuredExtent, PartEvidence
 from bearingcore.common import percent_off, probability
-from bearingcore.diagnosis import LIKELY, NONE_SEEN, SLIP, ListedBearing, perhaps_a_ball
+from bearingcore.measured.diagnosis import LIKELY, NONE_SEEN, SLIP, ListedBearing, perhaps_a_ball
 
 COUNTED = (
     " The number of {} is an estimate: with another one, damage of a race shows at another "

@@ -41,8 +41,8 @@ from bearing_explorer.kit.views.job_view import Editor, JobView
 from bearing_explorer.kit.views.python_lines import code_of, scene_code, short
 from bearing_explorer.kit.widgets.form import AS_HIGH_AS_SHOWN, FieldSpec, stack
 from bearingcore import Trend, trend
-from bearingcore.diagnosis import CANNOT_TELL, NONE_SEEN, PARTS
 from bearingcore.errors import FieldError
+from bearingcore.measured.diagnosis import CANNOT_TELL, NONE_SEEN, PARTS
 from bearingcore.sizing import LINES
 
 HEIGHT = 210
@@ -385,7 +385,7 @@ def python_lines(found: FoundTrend, model: Model) -> str:
     return "\n".join([
         "from pathlib import Path\n",
         "from bearingcore import Recording, Scene, presets, read_table, trend",
-        "from bearingcore.files import Column, path_in\n",
+        "from bearingcore.measured.files import Column, path_in\n",
         f"scene = {scene_code(scene)}",
         "files = [  # columns, directions, meaning given, unit, rate, a 1, V/(m/s²), rad/s, which",
         *files,

@@ -31,7 +31,7 @@ from bearing_explorer.kit.widgets.column_table import ColumnTable
 from bearing_explorer.kit.widgets.file_upload import FileUpload
 from bearing_explorer.kit.widgets.form import Fields, button, choices, entry, row, select
 from bearingcore.common import number
-from bearingcore.files import PLACES, UNITS
+from bearingcore.measured.files import PLACES, UNITS
 
 LABELS = {
     "columns": "Columns",

@@ -33,7 +33,7 @@ from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.layers import Glyph, Words, segments
 from bearing_explorer.kit.plots.ranges import StickyRange
 from bearingcore import DOF_NAMES
-from bearingcore.statics import TERM_SYMBOLS
+from bearingcore.model.statics import TERM_SYMBOLS
 
 UNITS = ("N/m", "N/rad", "N·m/rad")
 """Units of stiffness with no, one and two rotations."""

@@ -10,7 +10,7 @@ from bearing_explorer.kit.assets import asset_path
 from bearing_explorer.kit.compute.jobs import Work
 from bearing_explorer.kit.sentences import words_of
 from bearingcore import Scene, presets
-from bearingcore.experiments import (
+from bearingcore.model.experiments import (
     MEASURED,
     ORBITS,
     STABILITY,

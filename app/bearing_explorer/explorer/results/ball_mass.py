@@ -18,7 +18,7 @@ from bearing_explorer.explorer.results.excerpt import (
 )
 from bearingcore import RACES, Motion, Scene
 from bearingcore.common import ResultTable, level_difference, table_of
-from bearingcore.dynamics import (
+from bearingcore.model.dynamics import (
     QUIETEST_COMPARED,
     RACES_OF_LOADS,
     SETTLING,
@@ -29,8 +29,8 @@ from bearingcore.dynamics import (
     compared_directions,
     flights,
 )
-from bearingcore.dynamics import compare_motions as compare_bands
-from bearingcore.statics import path_kinks
+from bearingcore.model.dynamics import compare_motions as compare_bands
+from bearingcore.model.statics import path_kinks
 
 Array = NDArray[np.float64]
 

@@ -12,7 +12,7 @@ import numpy as np
 from bearing_explorer.explorer.results.excerpt import why_ended
 from bearing_explorer.kit.compute.compiling import StillCompiling
 from bearingcore.common import ResultTable, table_of
-from bearingcore.statics import BALL_LOAD, TERM_UNITS
+from bearingcore.model.statics import BALL_LOAD, TERM_UNITS
 
 if TYPE_CHECKING:
     from bearing_explorer.explorer.results.results import Results

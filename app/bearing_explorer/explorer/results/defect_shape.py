@@ -13,8 +13,8 @@ from bearing_explorer.kit.compute import compiling
 from bearing_explorer.kit.compute.cache import cached
 from bearingcore import Scene
 from bearingcore.common import ResultTable, table_of
-from bearingcore.scene import ball_angles
-from bearingcore.statics import ball_drop
+from bearingcore.model.scene import ball_angles
+from bearingcore.model.statics import ball_drop
 
 TWO_PI = 2.0 * math.pi
 POINTS = 721

@@ -21,8 +21,8 @@ from bearingcore import (
 )
 from bearingcore import limits as limits_of
 from bearingcore.bearings import STEEL_MODULUS, STEEL_POISSON, USUAL_GROOVES
-from bearingcore.scene import WITH_MASS
-from bearingcore.statics import GIVEN, NO_DRAWING, OF_A_CATALOGUE, state_of_limits, unknown
+from bearingcore.model.scene import WITH_MASS
+from bearingcore.model.statics import GIVEN, NO_DRAWING, OF_A_CATALOGUE, state_of_limits, unknown
 
 ASSUMED_GROOVES = (
     f"Assumed, as the groove radii are not known: {USUAL_GROOVES['inner']} (inner) and "

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from bearingcore import RACES, Motion, Scene, equilibrium
 from bearingcore.common import ResultTable, table_of
-from bearingcore.statics import Crossing, crossings, drops_at, passing_rate
+from bearingcore.model.statics import Crossing, crossings, drops_at, passing_rate
 
 STATIC_POINTS = 241
 

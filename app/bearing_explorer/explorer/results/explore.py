@@ -26,7 +26,7 @@ from bearing_explorer.kit.compute.jobs import Work
 from bearing_explorer.kit.sentences import sentence_of
 from bearingcore import DOF_NAMES, Scene
 from bearingcore.common import cached_property, number
-from bearingcore.sweep import (
+from bearingcore.model.sweeps import (
     LIFE,
     MASS,
     MODES,
@@ -67,7 +67,7 @@ NOT_COMPUTED = "not computed"
 class MapOutput:
     """Something that can be mapped.
 
-    `in_sweep` is its name in `bearingcore.sweep.OUTPUTS`, `mode` the mode that it is of.
+    `in_sweep` is its name in `bearingcore.model.sweeps.OUTPUTS`, `mode` the mode that it is of.
     """
 
     name: str

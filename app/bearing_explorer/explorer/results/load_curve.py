@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from bearingcore import Equilibrium
 from bearingcore.common import ResultTable, table_of
-from bearingcore.statics import has_long_period
+from bearingcore.model.statics import has_long_period
 
 Curve = tuple[NDArray[np.float64], NDArray[np.float64]]
 

@@ -20,8 +20,8 @@ from bearing_explorer.kit.compute import compiling
 from bearing_explorer.kit.compute.cache import Overtaken, cached
 from bearingcore import Motion, Orbit, Scene, Spectrum
 from bearingcore.common import thousands
-from bearingcore.dynamics import default_step_rate, fine_step_rate, highest_natural_frequency
-from bearingcore.scene import MASSLESS, WITH_MASS, is_planar
+from bearingcore.model.dynamics import default_step_rate, fine_step_rate, highest_natural_frequency
+from bearingcore.model.scene import MASSLESS, WITH_MASS, is_planar
 
 MOST_STEPS = 400_000
 """Steps of a motion on the page: where a defect is passed so fast that it takes more, the motion is

@@ -16,9 +16,9 @@ from bearing_explorer.explorer.results.chain import LOWEST_PEAK, Peak, direction
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.element_words import element_name, elements
 from bearingcore import DOF_NAMES
-from bearingcore.scene import DOF_SYMBOLS
-from bearingcore.statics import BALL_LOAD, TERM_SYMBOLS, drops_at
-from bearingcore.sweep import mode_symbol
+from bearingcore.model.scene import DOF_SYMBOLS
+from bearingcore.model.statics import BALL_LOAD, TERM_SYMBOLS, drops_at
+from bearingcore.model.sweeps import mode_symbol
 
 if TYPE_CHECKING:
     from bearing_explorer.explorer.results.excerpt import Excerpt

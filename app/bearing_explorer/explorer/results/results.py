@@ -38,9 +38,9 @@ from bearing_explorer.kit.views.content import Content
 from bearing_explorer.kit.views.python_lines import changed_fields, code_of, scene_code, short
 from bearingcore import Equilibrium, Limit, Maps, Modes, Motion, Orbit, Scene, Spectrum
 from bearingcore.common import cached_property
-from bearingcore.dynamics import OrbitStatus, common_ball_passes
-from bearingcore.scene import MASSLESS, WITH_MASS
-from bearingcore.statics import (
+from bearingcore.model.dynamics import OrbitStatus, common_ball_passes
+from bearingcore.model.scene import MASSLESS, WITH_MASS
+from bearingcore.model.statics import (
     EquilibriumWithMass,
     StaticRanges,
     default_cage_angles,

@@ -9,7 +9,7 @@ import bearingcore as core
 from bearing_explorer.kit.compute import compiling
 from bearing_explorer.kit.compute.cache import cached
 from bearingcore import RACES, Equilibrium, Maps, Modes, Scene
-from bearingcore.statics import (
+from bearingcore.model.statics import (
     ANGLES_A_PERIOD,
     BALL_LOAD,
     ROUNDS,

@@ -9,8 +9,8 @@ import numpy as np
 from bearing_explorer.kit.compute.compiling import StillCompiling
 from bearing_explorer.kit.sentences import words_of
 from bearingcore.common import count, number, scientific
-from bearingcore.dynamics import OrbitStatus
-from bearingcore.scene import DOF_SYMBOLS
+from bearingcore.model.dynamics import OrbitStatus
+from bearingcore.model.scene import DOF_SYMBOLS
 
 if TYPE_CHECKING:
     from bearing_explorer.explorer.results.results import Results

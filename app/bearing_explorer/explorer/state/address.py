@@ -64,7 +64,7 @@ from bearing_explorer.kit.serve.address import TOO_LONG
 from bearingcore import DOF_NAMES, Defect, MeasuredFloor, RoughFloor, Scene, presets
 from bearingcore.bearings import BALL_MATERIAL, OPTIONAL_FIELDS, Row
 from bearingcore.fields import SCENE_PARTS, Field, Range
-from bearingcore.scene import MOST_ROWS, TILT_FREE, TILT_HELD
+from bearingcore.model.scene import MOST_ROWS, TILT_FREE, TILT_HELD
 
 VERSION = "1"
 LONGEST_LINK = 7_000

@@ -9,7 +9,7 @@ from bearing_explorer.explorer.state.choice_list import KIND_OF_VARIANT
 from bearing_explorer.explorer.state.field_values import BEARING_GROUPS, SHOWN_FIELDS, defects_of
 from bearingcore import Bearing, Scene
 from bearingcore.common import number
-from bearingcore.scene import LOAD_ALONG, MASSLESS, TILT_FREE
+from bearingcore.model.scene import LOAD_ALONG, MASSLESS, TILT_FREE
 
 MOST_SHOWN_ROWS = 2
 

@@ -13,7 +13,7 @@ from typing import Any
 from bearing_explorer.explorer.state.field_values import defects_of
 from bearingcore import MeasuredFloor, RoughFloor, Scene
 from bearingcore.bearings import KINDS
-from bearingcore.scene import TILT_FREE
+from bearingcore.model.scene import TILT_FREE
 
 NOTHING = object()
 """The value of an option that is None in the core."""

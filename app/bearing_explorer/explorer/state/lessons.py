@@ -71,7 +71,7 @@ from bearing_explorer.explorer.state.scene_editor import SceneEditor, Snapshot
 from bearing_explorer.kit.assets import asset_path
 from bearing_explorer.kit.simulated_signals import NOISES
 from bearingcore import presets
-from bearingcore.statics import TERM_SYMBOLS
+from bearingcore.model.statics import TERM_SYMBOLS
 
 _Entries = TypeVar("_Entries", bound=msgspec.Struct)
 

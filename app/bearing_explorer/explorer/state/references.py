@@ -9,7 +9,7 @@ from bearing_explorer.explorer.state.field_values import defects_of
 from bearing_explorer.kit.plots.compared_curves import WITHOUT_DEFECT
 from bearingcore import Scene
 from bearingcore.common import with_prefix
-from bearingcore.scene import MASSLESS, WITH_MASS
+from bearingcore.model.scene import MASSLESS, WITH_MASS
 
 
 @dataclass(frozen=True)

@@ -62,7 +62,7 @@ from bearingcore.bearings import (
 )
 from bearingcore.common import number, refuse
 from bearingcore.fields import Range
-from bearingcore.scene import TILT_FREE, preset_labels
+from bearingcore.model.scene import TILT_FREE, preset_labels
 from bearingcore.units import read_number
 
 MOST_DEFECTS = 6

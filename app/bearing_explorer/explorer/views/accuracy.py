@@ -38,7 +38,7 @@ from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import SessionParts, figures_in
 from bearing_explorer.kit.widgets.form import Fields, choices, row, select, stack
 from bearingcore import presets
-from bearingcore.experiments import (
+from bearingcore.model.experiments import (
     HARD_CASES,
     MOTION_ERRORS,
     STABILITY,
@@ -46,7 +46,7 @@ from bearingcore.experiments import (
     Experiment,
     Measurements,
 )
-from bearingcore.scene import WITH_MASS, preset_labels
+from bearingcore.model.scene import WITH_MASS, preset_labels
 
 CHARTS = {"motion": ("",), "statics": ("", *HARD_CASES)}
 """The references of each experiment: a chart for each."""

@@ -27,7 +27,7 @@ from bearing_explorer.kit.plots.layers import by_number
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.widgets.form import Fields, button, choices, row, select
 from bearingcore.common import decibels, percent
-from bearingcore.experiments import SPECTRUM, Alternative, Alternatives, alternatives
+from bearingcore.model.experiments import SPECTRUM, Alternative, Alternatives, alternatives
 
 LEAST_HEIGHT = 60
 """[px] of the chart without a model."""

@@ -33,7 +33,7 @@ from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import ANSWER, Ranges, Sources, View
 from bearingcore import Bearing, Load, Scene
 from bearingcore.common import table_of
-from bearingcore.scene import ball_angles
+from bearingcore.model.scene import ball_angles
 
 # The drawing measures lengths in outer raceway radii: its ranges never move.
 HALF_WIDTH, OF_A_ROW = 1.62, 1.7  # the second of each of several rows, whose numbers need more

@@ -22,7 +22,7 @@ from bearing_explorer.kit.views.base import View
 from bearing_explorer.kit.widgets.facts import LiveFacts, html_table, html_text
 from bearingcore import DOF_NAMES
 from bearingcore.common import ResultTable
-from bearingcore.scene import DOF_SYMBOLS
+from bearingcore.model.scene import DOF_SYMBOLS
 
 _UNITS = tuple(("mrad", 1e3) if dof.startswith("r") else ("µm", 1e6) for dof in DOF_NAMES)
 """Unit of the displacement along each direction, and what one of SI is in it."""

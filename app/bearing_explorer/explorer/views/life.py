@@ -32,7 +32,7 @@ from bearing_explorer.kit.widgets.facts import Fact, FactGroup, LiveFacts, facts
 from bearing_explorer.kit.widgets.form import Fields, entry, row
 from bearingcore import Life
 from bearingcore.common import percent
-from bearingcore.statics import LEFT_OUT, hours_in_words, turns_in_words
+from bearingcore.model.statics import LEFT_OUT, hours_in_words, turns_in_words
 
 
 class Field(NamedTuple):

@@ -29,7 +29,7 @@ from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources, View
 from bearingcore import Equilibrium, Scene
 from bearingcore.common import ResultTable, table_of
-from bearingcore.statics import EquilibriumWithMass
+from bearingcore.model.statics import EquilibriumWithMass
 
 OTHER_ROWS = style.DIRECTION_COLORS[1]
 """Colour of the rows after the first."""

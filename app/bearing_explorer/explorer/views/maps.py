@@ -36,7 +36,7 @@ from bearing_explorer.kit.plots.style import in_degrees, number, with_prefix
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources, View
 from bearingcore import STIFFNESS_TERMS
-from bearingcore.statics import TERM_UNITS
+from bearingcore.model.statics import TERM_UNITS
 
 #: kinds of colour scales, as the browser knows them
 ONE_SIGN, TWO_SIGNS, COUNT, FLAT = 0, 1, 2, 3

@@ -30,7 +30,7 @@ from bearing_explorer.kit.plots.layers import Layer, by_number, curve, strips
 from bearing_explorer.kit.plots.levels import SHOWN
 from bearing_explorer.kit.views.base import Ranges, Sources
 from bearing_explorer.kit.views.folded_view import FoldedView
-from bearingcore.dynamics import RACES_OF_LOADS
+from bearingcore.model.dynamics import RACES_OF_LOADS
 
 WORDS = ("enters", "leaves", "strikes inner race", "strikes outer race", "at the far edge")
 """Of events, by the numbers that the packed source carries."""

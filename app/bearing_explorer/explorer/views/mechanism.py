@@ -15,7 +15,7 @@ from bearing_explorer.kit.plots.layers import Glyph, Layer, Words, draw
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
 from bearing_explorer.kit.views.folded_view import FoldedView
-from bearingcore.dynamics import LOWEST_COMPARED
+from bearingcore.model.dynamics import LOWEST_COMPARED
 
 SHARE = style.AxisQuantity("Share that mass adds", "", "%")
 ROOM = 1.06

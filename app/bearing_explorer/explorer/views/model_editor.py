@@ -15,7 +15,7 @@ from bearing_explorer.explorer.widgets.controls import Rows, spec_of
 from bearing_explorer.kit.assets import asset_text, scripts
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.serve.packed_source import PackedSource
-from bearingcore.scene import FREE_TILT_WORDS
+from bearingcore.model.scene import FREE_TILT_WORDS
 
 
 class ModelRows(Rows):

@@ -29,7 +29,7 @@ from bearing_explorer.kit.plots.ranges import ROOM, StickyRange
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources, View
 from bearingcore.common import span
-from bearingcore.sweep import mode_symbol
+from bearingcore.model.sweeps import mode_symbol
 
 FREQUENCY = style.AxisQuantity("Natural frequency", "f", "Hz")
 HEIGHT = 440

@@ -19,8 +19,8 @@ from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources, View
 from bearing_explorer.kit.widgets.form import stack
 from bearingcore.common import table_of
-from bearingcore.dynamics import OrbitStatus
-from bearingcore.scene import MASSLESS
+from bearingcore.model.dynamics import OrbitStatus
+from bearingcore.model.scene import MASSLESS
 
 HEIGHT = 280
 ORBIT_POINTS = 600

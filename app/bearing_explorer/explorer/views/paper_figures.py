@@ -20,7 +20,7 @@ from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.levels import decibels
 from bearingcore import STIFFNESS_TERMS, Maps, Scene, presets, stiffness_maps
 from bearingcore.common import number, prefixed_span, span
-from bearingcore.statics import TERM_UNITS, crossings
+from bearingcore.model.statics import TERM_UNITS, crossings
 
 Array = NDArray[np.float64]
 _SLIPS = "## Errors in the paper"

@@ -38,7 +38,7 @@ from bearing_explorer.kit.views.base import Ranges, Sources
 from bearing_explorer.kit.widgets.form import stack
 from bearingcore import Bearing
 from bearingcore.common import table_of
-from bearingcore.scene import ball_angles
+from bearingcore.model.scene import ball_angles
 
 SIDE_BY_SIDE = """
 :host {

@@ -48,7 +48,7 @@ from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
 from bearing_explorer.kit.widgets.form import FieldSpec
 from bearingcore import Scene
-from bearingcore.dynamics import SpeedRun, speed_run
+from bearingcore.model.dynamics import SpeedRun, speed_run
 
 SPEED = "shaft_speed_hz"
 COUNTS = (25, 49, 97, 193)

@@ -21,7 +21,7 @@ from bearing_explorer.explorer.views.work_precision import (
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.layers import by_number
 from bearing_explorer.kit.widgets.form import stack
-from bearingcore.experiments import DIVERGED, OrbitAtSpeed, StabilityChart
+from bearingcore.model.experiments import DIVERGED, OrbitAtSpeed, StabilityChart
 
 HEIGHT = 340
 UNSTABLE = "#D55E00"

@@ -25,7 +25,7 @@ from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources, View
 from bearingcore import STIFFNESS_TERMS, Scene
 from bearingcore.common import prefixed_span
-from bearingcore.statics import TERM_UNITS
+from bearingcore.model.statics import TERM_UNITS
 
 NARROWEST = 920
 """[px] width from which a cell has room for its symbol and its value."""

@@ -38,8 +38,8 @@ from bearing_explorer.kit.views.base import Ranges, SessionParts, Sources
 from bearing_explorer.kit.views.look_view import LookView
 from bearing_explorer.kit.widgets.form import FieldSpec
 from bearingcore import Scene
-from bearingcore.dynamics import contact_resonance_band
-from bearingcore.scene import WITH_MASS
+from bearingcore.model.dynamics import contact_resonance_band
+from bearingcore.model.scene import WITH_MASS
 
 GREY: FieldSpec = {
     "name": "grey",

@@ -22,7 +22,7 @@ from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.layers import by_number
 from bearing_explorer.kit.widgets.form import stack
 from bearingcore.common import decibels, percent, scientific
-from bearingcore.experiments import METHODS, Experiment, Point
+from bearingcore.model.experiments import METHODS, Experiment, Point
 
 HEIGHT, TALL = 280, 360
 """[px] of a chart, and of one that has a row for itself."""

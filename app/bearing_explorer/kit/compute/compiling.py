@@ -16,9 +16,8 @@ from collections.abc import Callable
 
 from bearing_explorer.kit.compute import default_results
 from bearingcore import Scene, warm
-from bearingcore.kernels import all_on_disk
-from bearingcore.scene import WITH_MASS
-from bearingcore.warm_up import BALLS_WITH_MASS, MOTION, ORBITS, PARTS, STATICS
+from bearingcore.model import BALLS_WITH_MASS, MOTION, ORBITS, PARTS, STATICS, all_on_disk
+from bearingcore.model.scene import WITH_MASS
 
 __all__ = ["BALLS_WITH_MASS", "MOTION", "ORBITS", "STATICS", "StillCompiling", "all_on_disk"]
 

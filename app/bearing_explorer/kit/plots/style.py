@@ -74,7 +74,7 @@ BUTTONS = f"""
 """Style of Bokeh's own buttons and boxes to tick, light and dark."""
 SMALL_TEXT_SIZE = "11px"
 
-# Numbers as text, as `bearingcore.common.numbers` does in sentences.
+# Numbers as text, as `bearingcore.common._numbers` does in sentences.
 JS_PREFIX = """
 const names = {'-12':'p','-9':'n','-6':'µ','-3':'m','0':'','3':'k','6':'M','9':'G','12':'T'}
 const power = (top) => !(top > 0) || !isFinite(top) ? 0 :

@@ -47,7 +47,7 @@ def lines_of(view: View[C], content: C) -> str:
         "\n" if "math." in text or "Path(" in text else "",
         "from bearing_explorer import figures\n",
         f"from bearingcore import {', '.join(core)}\n",
-        "from bearingcore.files import Column\n" if "Column(" in text else "",
+        "from bearingcore.measured.files import Column\n" if "Column(" in text else "",
     ]
     return f"{''.join(imports)}\n{text}\n"
 

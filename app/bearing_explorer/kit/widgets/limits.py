@@ -12,7 +12,7 @@ from bearing_explorer.kit.assets import asset_text, scripts
 from bearing_explorer.kit.serve.panel_internals import LiveComponent
 from bearingcore import Limit
 from bearingcore.common import number, with_prefix
-from bearingcore.statics import NO_OIL
+from bearingcore.model.statics import NO_OIL
 
 
 class LimitsStrip(LiveComponent):

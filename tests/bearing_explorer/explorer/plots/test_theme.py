@@ -12,7 +12,7 @@ from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.plots import compared_curves, style
 from bearing_explorer.kit.plots.theme import DARK_COLORS, DARK_PALETTES, dark_properties
 
-from bearingcore.experiments import METHODS
+from bearingcore.model.experiments import METHODS
 
 FIGURES = [Path(style.__file__).parent, Path(work_precision.__file__).parent]
 #: what lies on top of pictures

@@ -27,7 +27,7 @@ from bearing_explorer.kit.compute.jobs import Work
 from bearing_explorer.kit.serve.packed_source import PackedSource
 
 from bearingcore import presets
-from bearingcore.experiments import (
+from bearingcore.model.experiments import (
     Experiment,
     Measurements,
     OrbitAtSpeed,

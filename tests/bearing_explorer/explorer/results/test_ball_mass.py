@@ -5,7 +5,7 @@ from bearing_explorer.explorer.results.motions import quick_duration
 from bearing_explorer.explorer.results.results import Results
 
 from bearingcore import presets
-from bearingcore.scene.packing import is_planar
+from bearingcore.model.scene import is_planar
 
 FAN_RIG = presets["fan-rig"]
 

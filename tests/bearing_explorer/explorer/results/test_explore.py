@@ -24,7 +24,7 @@ from bearing_explorer.kit.compute.jobs import Work
 from bearing_explorer.kit.serve.packed_source import PackedSource
 
 from bearingcore import equilibrium, modes, presets
-from bearingcore.sweep import sweep as core_sweep
+from bearingcore.model.sweeps import sweep as core_sweep
 
 RIG = presets["fan-rig"].replace(extent=math.radians(20.0))
 LIMITS = limits_of(RIG)

@@ -19,7 +19,7 @@ from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import View
 
 from bearingcore import equilibrium, presets
-from bearingcore.dynamics.status import OrbitStatus
+from bearingcore.model.dynamics import OrbitStatus
 
 
 def test_equal_scenes_share_their_answers() -> None:

@@ -41,7 +41,7 @@ from bearingcore import (
     Scene,
     presets,
 )
-from bearingcore.scene import TILT_FREE
+from bearingcore.model.scene import TILT_FREE
 
 FROZEN = tomllib.loads((Path(__file__).parent / "frozen_links.toml").read_text("utf-8"))["link"]
 

@@ -13,8 +13,8 @@ from bearing_explorer.explorer.state.choice_list import (
 from bearing_explorer.explorer.state.scene_editor import SceneEditor
 
 from bearingcore import CONTACT_LAWS, EDGES, RACES
-from bearingcore.scene import TILT_FREE
-from bearingcore.scene.scene import BALLS
+from bearingcore.model.scene import TILT_FREE
+from bearingcore.model.scene._scene import BALLS
 
 
 def test_every_option_of_the_core_can_be_chosen() -> None:

@@ -48,9 +48,9 @@ from bearingcore import (
     simulate,
     spectrum,
 )
-from bearingcore.diagnosis import SLIP
-from bearingcore.dynamics.ball_motion import contact_resonance_band
-from bearingcore.experiments.motions import motion_experiment
+from bearingcore.measured.diagnosis import SLIP
+from bearingcore.model.dynamics import contact_resonance_band
+from bearingcore.model.experiments._motions import motion_experiment
 from tests.helpers.contact_law import Balls, newton
 from tests.helpers.sessions import SceneSession
 

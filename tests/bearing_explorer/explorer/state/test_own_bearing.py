@@ -9,7 +9,7 @@ from bearing_explorer.explorer.state.choice_list import KIND
 from bearing_explorer.explorer.state.scene_editor import SceneEditor
 
 from bearingcore import Bearing, Scene, equilibrium, presets
-from bearingcore.bearings.rows import Row
+from bearingcore.bearings import Row
 
 KINDS = KIND.names
 

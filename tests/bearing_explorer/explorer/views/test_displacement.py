@@ -16,7 +16,7 @@ from bearing_explorer.kit.serve.packed_source import PackedSource
 from scipy.optimize import brentq
 
 from bearingcore import presets, scene_of
-from bearingcore.scene import FREE_TILT_WORDS
+from bearingcore.model.scene import FREE_TILT_WORDS
 
 RIG = presets["fan-rig"].healthy()
 

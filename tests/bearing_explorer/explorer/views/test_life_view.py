@@ -11,14 +11,8 @@ from bearing_explorer.explorer.views.life import LifeOfBearing, groups_of
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.widgets.limits import rows_of
 
-from bearingcore import (
-    Limit,
-    contact_pressures,
-    dynamic_load_rating,
-    life,
-    presets,
-)
-from bearingcore.statics.validity import state_of_limits
+from bearingcore import Limit, contact_pressures, dynamic_load_rating, life, presets
+from bearingcore.model.statics import state_of_limits
 
 
 def facts(name: str, **given: float) -> dict[str, dict[str, str]]:

@@ -13,8 +13,8 @@ from bearing_explorer.explorer.views.vibration_spectrum import VibrationSpectra
 from bearing_explorer.kit.serve.packed_source import PackedSource
 
 from bearingcore import presets
-from bearingcore.dynamics.ball_comparison import mass_share
-from bearingcore.dynamics.ball_motion import contact_resonance_band
+from bearingcore.model.dynamics import contact_resonance_band
+from bearingcore.model.dynamics._ball_comparison import mass_share
 from tests.helpers.simulated import pit
 
 FAN_RIG = presets["fan-rig"]

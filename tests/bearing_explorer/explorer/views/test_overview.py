@@ -25,7 +25,7 @@ from bearing_explorer.explorer.views.stiffness import Stiffness
 from bearing_explorer.kit.serve.packed_source import PackedSource
 
 from bearingcore import Scene, equilibrium, presets, scene_of
-from bearingcore.scene.scene import FREE_TILT_WORDS
+from bearingcore.model.scene import FREE_TILT_WORDS
 
 FAN_RIG = presets["fan-rig"]
 LONGER = FAN_RIG.replace(extent=FAN_RIG.defect.extent + FAN_RIG.bearing.ball_spacing)

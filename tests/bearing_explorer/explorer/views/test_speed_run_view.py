@@ -21,7 +21,7 @@ from bearing_explorer.kit.compute.jobs import JobState, Work
 from bearing_explorer.kit.serve.packed_source import PackedSource
 
 from bearingcore import presets
-from bearingcore.dynamics.speed_runs import speed_run
+from bearingcore.model.dynamics import speed_run
 
 RIG = presets["fan-rig"].replace(contact_damping=130.0)
 SPEEDS = Sweep(SWEEPABLE[SPEED], np.array([20.0, 30.0, 40.0]))

@@ -20,7 +20,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from bearingcore import Defect, presets
-from bearingcore.bearings.designation import read_designation
+from bearingcore.bearings import read_designation
 
 FAN_RIG = presets["fan-rig"]
 

@@ -11,7 +11,7 @@ from bearing_explorer.kit.compute import cache, compiling, default_results
 from bearing_explorer.kit.compute.compiling import Compilation, StillCompiling
 from bearing_explorer.page import SECTIONS
 
-from bearingcore.warm_up import PARTS
+from bearingcore.model import PARTS
 from tests.helpers.loops import run
 from tests.helpers.served import wait_until
 from tests.helpers.sessions import SceneSession

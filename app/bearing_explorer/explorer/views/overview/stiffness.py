@@ -32,7 +32,7 @@ from bearing_explorer.kit.plots.ranges import ROOM, StickyRange
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources, View
 from bearingcore import STIFFNESS_TERMS, Equilibrium
-from bearingcore.statics import TERM_UNITS
+from bearingcore.model.statics import TERM_UNITS
 
 LIVELY = 0.02
 """Of the size of a term: it matters where it swings or is off the healthy one by more."""

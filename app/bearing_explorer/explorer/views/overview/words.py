@@ -11,8 +11,8 @@ import numpy as np
 from bearing_explorer.explorer.results.chain import Chain, Peak, in_same_order
 from bearing_explorer.explorer.results.reasons import why_softer
 from bearing_explorer.kit.plots import style
-from bearingcore.statics import TERM_SYMBOLS
-from bearingcore.sweep import mode_symbol
+from bearingcore.model.statics import TERM_SYMBOLS
+from bearingcore.model.sweeps import mode_symbol
 
 LEAST = 0.01
 """Of a number: less is no change."""

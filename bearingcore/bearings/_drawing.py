@@ -1,0 +1,199 @@
+"""From the dimensions on a drawing to the numbers of the contact model.
+
+Quantity                                    | Symbol | Name                     | Unit
+------------------------------------------- | ------ | ------------------------ | ----
+groove radii                                | r_i, r_o | inner_, outer_groove_radius | m
+groove radius over ball diameter            | f      | conformity               |
+unloaded distance of the groove centres     | A0     | groove_center_distance   | m
+radius on which inner groove centres lie    | r_d    | groove_center_radius     | m
+unloaded, free contact angle                | α0, α_f | contact_angle, free_contact_angle | rad
+radial clearance on top of α0               | r_L    | radial_clearance         | m
+
+The contact angle and the clearance describe one freedom. With the rings concentric and their
+grooves opposite each other, the groove centres are A0 cos α0 − r_L apart. Pushed along the shaft
+until the balls touch, the inner ring moves them to the distance A0, at the free contact angle
+
+    cos α_f = cos α0 − r_L / A0,
+
+which for α0 = 0 and the diametral clearance s = 2 r_L is Harris's cos α_f = 1 − s/(2 A0). Pushed
+sideways instead, it moves A0 (1 − cos α0) + r_L either way.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+from bearingcore.bearings._hertz import in_series, race_contact
+from bearingcore.bearings._kinematics import GREATEST_CONTACT_ANGLE
+from bearingcore.common import _checks as checks
+from bearingcore.fields import WIDEST_CONFORMITY
+
+GROOVES = ("inner_groove_radius", "outer_groove_radius")
+OPTIONAL_FIELDS = (*GROOVES, "youngs_modulus", "poisson")
+"""Fields of a `Bearing` that only one with a drawing has."""
+
+BALL_MATERIAL = ("ball_youngs_modulus", "ball_poisson")
+"""Those that such a one may have: None where the balls are of the material of the rings."""
+
+DIMENSIONS = ("ball_diameter", "pitch_diameter", "contact_angle", *OPTIONAL_FIELDS, *BALL_MATERIAL)
+"""Fields of a `Bearing` that others are derived from."""
+
+
+class Derived(NamedTuple):
+    """Numbers that follow from a drawing, under the names of the fields of `Bearing`."""
+
+    groove_center_radius: float
+    groove_center_distance: float | None
+    load_deflection_factor: float
+    outer_raceway_radius: float
+    inner_raceway_radius: float
+
+
+def check_groove(race: str, radius: float | None, ball_diameter: float) -> float:
+    """The groove radius [m] of a race as a float; ValueError where no ball runs in such a groove.
+
+    It must pass freely around the ball, and guide it.
+    """
+    name = f"{race}_groove_radius"
+    return checks.real_number(
+        name,
+        radius,  # type: ignore[arg-type]  # None is refused there
+        above=0.5 * ball_diameter,
+        at_most=WIDEST_CONFORMITY * ball_diameter,
+        unit="m",
+    )
+
+
+def center_distance(distance: float | None) -> float:
+    """A0 [m] as a float; ValueError where there are no centres, as of rollers."""
+    return checks.real_number("groove_center_distance", distance, above=0.0, unit="m")  # type: ignore[arg-type]
+
+
+def check_material(name: str, value: float | None) -> float:
+    """A Young's modulus [Pa] or a Poisson's ratio as a float, else ValueError."""
+    if name.endswith("modulus"):
+        return checks.real_number(name, value, above=0.0, unit="Pa")  # type: ignore[arg-type]  # None is refused there
+    return checks.real_number(name, value, at_least=0.0, below=0.5)  # type: ignore[arg-type]
+
+
+def checked(values: Mapping[str, Any]) -> dict[str, float]:
+    """Groove radii and materials of a `Bearing` as floats, of one with a drawing.
+
+    ValueError where one is wrong or missing, or there without groove radii.
+    """
+    if all(values[name] is None for name in OPTIONAL_FIELDS):
+        for name in BALL_MATERIAL:
+            if values[name] is not None:
+                raise checks.refuse(name, values[name], "None, unless the bearing has groove radii")
+        return {}
+    found = {}
+    for name in GROOVES:
+        race = name.partition("_")[0]
+        found[name] = check_groove(race, values[name], values["ball_diameter"])
+    for name in ("youngs_modulus", "poisson", *BALL_MATERIAL):
+        if values[name] is not None or name not in BALL_MATERIAL:
+            found[name] = check_material(name, values[name])
+    return found
+
+
+def check_fit(values: Mapping[str, Any]) -> None:
+    """FieldError where dimensions of a `Bearing` [SI] do not fit together.
+
+    Its `numbers` name the other fields that it is about.
+    """
+    ball, pitch, count = (values[name] for name in ("ball_diameter", "pitch_diameter", "n_balls"))
+    if count != int(count):
+        raise checks.refuse("n_balls", count, "a whole number")
+    if not 0.0 < ball < pitch:
+        raise checks.refuse(
+            "ball_diameter",
+            ball,
+            "above 0 and below the {pitch_diameter} of {pitch_diameter:m}",
+            "m",
+            pitch_diameter=pitch,
+        )
+    if count > 1 and pitch * math.sin(math.pi / count) < ball:
+        most = math.floor(math.pi / math.asin(ball / pitch) + 1e-9)
+        raise checks.refuse(
+            "n_balls",
+            count,
+            "so few that balls of {ball_diameter:m} do not overlap on a circle of "
+            f"{{pitch_diameter:m}}, here at most {most}",
+            ball_diameter=ball,
+            pitch_diameter=pitch,
+        )
+    inner, outer = values["inner_raceway_radius"], values["outer_raceway_radius"]
+    if not inner < outer:
+        raise checks.refuse(
+            "inner_raceway_radius",
+            inner,
+            "below the {outer_raceway_radius} of {outer_raceway_radius:m}",
+            "m",
+            outer_raceway_radius=outer,
+        )
+
+
+def derive(
+    *,
+    ball_diameter: float,
+    pitch_diameter: float,
+    contact_angle: float,
+    inner_groove_radius: float,
+    outer_groove_radius: float,
+    youngs_modulus: float,
+    poisson: float,
+    ball_youngs_modulus: float | None = None,
+    ball_poisson: float | None = None,
+) -> Derived:
+    """A0, r_d, K and the raceway radii from the drawing (SI, rad).
+
+    - A0 = r_i + r_o − D_b;
+    - r_d = D_p/2 + (r_i − D_b/2) cos α0: a ball on the pitch circle touches the inner groove on
+      the far side of its centre from the groove's (Harris, locus of the inner groove centres);
+    - K of both Hertzian contacts in series, see `bearingcore.bearings._hertz`;
+    - raceway radii D_p/2 ± D_b/2, at the bottom of the grooves. Left out: a quarter of the
+      diametral play, some µm; and that balls which touch at α0 roll on a track that is
+      (1 − cos α0) D_b/2 nearer to the pitch circle: at 40° an outer-race defect of a given angle
+      is there 4 % shorter.
+    """
+    material = (youngs_modulus, poisson, ball_youngs_modulus, ball_poisson)
+    factors = [
+        race_contact(
+            race, ball_diameter, pitch_diameter, radius, contact_angle, *material
+        ).load_deflection_factor
+        for race, radius in (("inner", inner_groove_radius), ("outer", outer_groove_radius))
+    ]
+    pitch_radius, r_b = 0.5 * pitch_diameter, 0.5 * ball_diameter
+    return Derived(
+        groove_center_radius=pitch_radius + (inner_groove_radius - r_b) * math.cos(contact_angle),
+        groove_center_distance=inner_groove_radius + outer_groove_radius - ball_diameter,
+        load_deflection_factor=in_series(*factors),
+        outer_raceway_radius=pitch_radius + r_b,
+        inner_raceway_radius=pitch_radius - r_b,
+    )
+
+
+def check_clearance(
+    diametral_clearance: float,
+    contact_angle: float,
+    ball_diameter: float,
+    groove_center_distance: float,
+) -> float:
+    """The clearance [m] on top of a contact angle [rad], if the balls still lock the ring.
+
+    ValueError where the ring would have to move so far along the shaft that the free contact angle
+    passes GREATEST_CONTACT_ANGLE, or for an interference above a ball's diameter.
+    """
+    most = 2.0 * groove_center_distance
+    most *= math.cos(contact_angle) - math.cos(GREATEST_CONTACT_ANGLE)
+    return checks.real_number(
+        "diametral_clearance",
+        diametral_clearance,
+        at_least=-ball_diameter,
+        at_most=most,
+        unit="m",
+        note="more would need a free contact angle above "
+        f"{math.degrees(GREATEST_CONTACT_ANGLE):.0f} degrees",
+    )

@@ -1,0 +1,162 @@
+"""Load ratings of bearings from their dimensions, by ISO 76 and ISO 281.
+
+Quantity                                | Symbol | Unit
+--------------------------------------- | ------ | ------------
+dynamic load rating                     | C_r    | N
+static load rating                      | C_0r   | N
+rows, balls or rollers of a row         | i, Z   |
+ball or roller diameter                 | D      | mm
+roller length that touches              | l      | mm
+contact angle                           | α      | rad
+D cos α / D_p                           | γ      |
+factors of both ratings                 | f_c, f_0 |
+
+    C_r = b_m f_c (i cos α)^0.7 Z^(2/3) D^1.8,    C_0r = f_0 i Z D² cos α,
+
+D^1.8 being 3.647 D^1.4 above 25.4 mm, and of rollers
+
+    C_r = b_m f_c (i l cos α)^(7/9) Z^(3/4) D^(29/27),    C_0r = 44 (1 − γ) i Z l D cos α.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from bearingcore.bearings._ball import USUAL_GROOVES
+from bearingcore.bearings._hertz import race_contact, spherical_contact
+from bearingcore.bearings._kind import ISO_76_BALLS, ISO_76_SELF_ALIGNING
+from bearingcore.common import Array
+
+MATERIAL_FACTOR = 1.3
+"""b_m of ISO 281 for deep-groove, angular-contact and self-aligning ball bearings of today."""
+
+ROLLER_MATERIAL_FACTOR = 1.1
+"""The same for cylindrical roller bearings whose rings are machined, and for tapered rollers."""
+
+LARGE_BALL = 25.4
+"""[mm] above which ISO 281 lets the rating grow less with the ball."""
+
+_SELF_ALIGNING_GAMMA = (
+    *(0.05, 0.06, 0.07, 0.08, 0.09, 0.10, 0.12, 0.14, 0.16, 0.18, 0.20),
+    *(0.22, 0.24, 0.26, 0.28, 0.30, 0.32, 0.34, 0.36, 0.38, 0.40),
+)
+_SELF_ALIGNING_FACTOR = (
+    *(17.3, 18.6, 19.9, 21.1, 22.3, 23.4, 25.6, 27.7, 29.7, 31.7, 33.5),
+    *(35.2, 36.8, 38.2, 39.4, 40.3, 40.9, 41.2, 41.3, 41.0, 40.4),
+)
+"""f_c of ISO 281 for self-aligning ball bearings."""
+
+
+def groove_ratio(f_i: float, f_e: float) -> float:
+    """Effect of the grooves on Q_ci/Q_ce; f are groove radii over the ball diameter."""
+    return f_i / f_e * (2.0 * f_e - 1.0) / (2.0 * f_i - 1.0)
+
+
+def capacity_factor(gamma: ArrayLike, f_i: float, f_e: float) -> Array:
+    """f_c of Lundberg and Palmgren, with the 38.2 that meets the table of ISO 281."""
+    g = np.asarray(gamma, dtype=float)
+    B = 1.04 * ((1.0 - g) / (1.0 + g)) ** 1.72 * groove_ratio(f_i, f_e) ** 0.41
+    shape = g**0.3 * (1.0 - g) ** 1.39 / (1.0 + g) ** (1.0 / 3.0)
+    groove = (2.0 * f_i / (2.0 * f_i - 1.0)) ** 0.41
+    return 38.2 * shape * groove * (1.0 + B ** (10.0 / 3.0)) ** -0.3
+
+
+def self_aligning_capacity_factor(gamma: ArrayLike) -> Array:
+    """f_c of ISO 281 for self-aligning ball bearings, between the numbers of its table."""
+    return np.interp(np.asarray(gamma, dtype=float), _SELF_ALIGNING_GAMMA, _SELF_ALIGNING_FACTOR)
+
+
+def dynamic_rating(
+    factor: ArrayLike, n_balls: ArrayLike, ball_diameter: ArrayLike, cosine: float, rows: int = 1
+) -> Array:
+    """C_r [N] of `rows` rows of balls [m] with the factor f_c and the cosine of α."""
+    D = 1e3 * np.asarray(ball_diameter, dtype=float)
+    size = np.where(D <= LARGE_BALL, D**1.8, 3.647 * D**1.4)
+    number = np.asarray(n_balls, dtype=float) ** (2.0 / 3.0)
+    return MATERIAL_FACTOR * np.asarray(factor) * (rows * cosine) ** 0.7 * number * size
+
+
+def roller_dynamic_rating(
+    n_rollers: ArrayLike,
+    roller_diameter: ArrayLike,
+    roller_length: ArrayLike,
+    pitch_diameter: float,
+    cosine: float = 1.0,
+    rows: int = 1,
+) -> Array:
+    """C_r [N] of `rows` rows of rollers; lengths in m, with the cosine of α.
+
+    f_c with the constants of the explanatory notes on ISO 281 (ISO/TR 1281-1), whose λν = 0.83
+    allows for what a real load along the roller takes.
+    """
+    D, length = np.asarray(roller_diameter, dtype=float), np.asarray(roller_length, dtype=float)
+    gamma = D * cosine / pitch_diameter
+    B = 1.04 * ((1.0 - gamma) / (1.0 + gamma)) ** (143.0 / 108.0)
+    shape = gamma ** (2.0 / 9.0) * (1.0 - gamma) ** (29.0 / 27.0) / (1.0 + gamma) ** 0.25
+    factor = 0.377 * 551.13373 * 0.83 * shape * (1.0 + B**4.5) ** (-2.0 / 9.0)
+    size = (rows * 1e3 * length * cosine) ** (7.0 / 9.0) * (1e3 * D) ** (29.0 / 27.0)
+    number = np.asarray(n_rollers, dtype=float) ** 0.75
+    return np.asarray(ROLLER_MATERIAL_FACTOR * factor * size * number)
+
+
+def roller_static_rating_per_length(
+    n_rollers: ArrayLike, roller_diameter: ArrayLike, pitch_diameter: float, cosine: float = 1.0
+) -> Array:
+    """C_0r [N] of a row of rollers [m] over the length [m] of a roller that touches."""
+    D = np.asarray(roller_diameter, dtype=float)
+    gamma = D * cosine / pitch_diameter
+    return np.asarray(44e6 * (1.0 - gamma) * np.asarray(n_rollers, dtype=float) * D * cosine)
+
+
+def static_rating(
+    factor: ArrayLike, n_balls: ArrayLike, ball_diameter: ArrayLike, cosine: float, rows: int = 1
+) -> Array:
+    """C_0r [N] of `rows` rows of balls [m] with the factor f_0 and the cosine of α."""
+    D = 1e3 * np.asarray(ball_diameter, dtype=float)
+    return np.asarray(factor) * rows * np.asarray(n_balls, dtype=float) * D**2 * cosine
+
+
+def static_factor(gamma: ArrayLike, self_aligning: bool = False) -> Array:
+    """f_0 of ISO 76 for ball bearings, between hundredths of γ.
+
+    What a ball carries at the pressure that the standard allows, by Hertz, on whichever race
+    carries less: it meets the standard's table to its last digit.
+    """
+    factors = _static_factors(self_aligning)
+    g = np.asarray(gamma, dtype=float)
+    return np.interp(g, 0.01 * np.arange(1, len(factors) + 1), factors)
+
+
+@cache
+def _static_factors(self_aligning: bool) -> tuple[float, ...]:
+    """f_0 at γ = 0.01, 0.02, ... 0.40; a load is spread as if a fifth of the balls carried it."""
+    D, modulus, poisson = 0.01, 207e9, 0.3
+    allowed = ISO_76_SELF_ALIGNING if self_aligning else ISO_76_BALLS
+    groove = (USUAL_GROOVES["outer"] if self_aligning else USUAL_GROOVES["inner"]) * D
+
+    def factor(gamma: float) -> float:
+        pitch = D / gamma
+        outer = (
+            spherical_contact(D, 0.5 * (pitch + D), modulus, poisson)
+            if self_aligning
+            else race_contact("outer", D, pitch, USUAL_GROOVES["outer"] * D, 0.0, modulus, poisson)
+        )
+        inner = race_contact("inner", D, pitch, groove, 0.0, modulus, poisson)
+        greatest = max(float(one.greatest_pressure(1.0)) for one in (inner, outer))
+        return (allowed / greatest) ** 3 / 5.0 / (1e3 * D) ** 2
+
+    return tuple(factor(0.01 * k) for k in range(1, 41))
+
+
+def tapered_angle_of(thrust_limit: float) -> float:
+    """Contact angle [rad] of a tapered roller bearing from its e of ISO 281, 1.5 tan α."""
+    return math.atan(thrust_limit / 1.5)
+
+
+def contact_angle_of(axial_factor: float) -> float:
+    """Contact angle [rad] of a self-aligning bearing from its Y_1 of ISO 281, 0.42 cot α."""
+    return math.atan(0.42 / axial_factor)

@@ -1,0 +1,170 @@
+"""Tapered rollers: line contacts at a contact angle that stays as it is, in one row or a pair.
+
+Quantity                                    | Symbol | Name
+------------------------------------------- | ------ | --------------
+diameter of a roller in its middle          | D      | ball_diameter
+length of a roller that lies on the races   | l      | roller_length
+diameter of the circle of those middles     | D_p    | pitch_diameter
+angle of the line of contact                | α      | contact_angle
+
+A roller is pressed by what both races approach each other along its line of contact,
+δ = δ_r cos α + δ_z sin α, and carries Q = K δ^(10/9), K as of a cylindrical roller. The
+line of contact goes through the middle of the roller, which is where a tilt of the ring moves it.
+Races are straight: no displacement turns the line of contact, and where the rings have moved along
+them by half the length of a roller, one has left the other.
+α is that of the outer race, which a catalogue's Y = 0.4 cot α gives (ISO 281).
+
+Left out: the taper of a roller. The inner race is less steep than the outer one by twice half of
+the roller's, some 4°, and the rib takes what the races leave, some per cent of the load, and rubs.
+Nor does a roller swivel or tilt between its races: it is as stiff as its middle.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+from bearingcore.bearings import _inside as inside
+from bearingcore.bearings._contact import Contact
+from bearingcore.bearings._kind import DIRECTIONS, Picture, Variant
+from bearingcore.bearings._line_contact import RollerContact, roller_contact, tapered_profile_drop
+from bearingcore.bearings._roller import Roller, length_of, rollers
+from bearingcore.bearings._rows import USUAL_DISTANCE, arrangement_of
+from bearingcore.common import Array
+from bearingcore.common import _checks as checks
+
+if TYPE_CHECKING:
+    from bearingcore.bearings._bearing import Bearing
+
+
+USUAL_ANGLE = math.radians(14.0361)
+"""14°02′10″, the angle of most bearings of the series 302 and 322 (ISO 355)."""
+
+_PREFIX = "tapered-"
+
+
+def tapered(
+    cls: type[Bearing],
+    n_rollers: int,
+    roller_diameter: float,
+    roller_length: float,
+    pitch_diameter: float,
+    contact_angle: float,
+    radial_clearance: float = 0.0,
+) -> Bearing:
+    """One row of tapered rollers of steel; `Bearing.paired` makes two of it.
+
+    Diameters [m] are those of the middles of the rollers, the angle [rad] is that of the outer
+    race. See `bearingcore.bearings._tapered` for what is left out.
+
+    Raises
+    ------
+    ValueError
+        naming the field, its value and what is allowed.
+    """
+    sizes = (roller_diameter, roller_length, pitch_diameter)
+    return rollers(cls, TAPERED, n_rollers, sizes, contact_angle, radial_clearance)
+
+
+class Tapered(Roller):
+    """Tapered rollers of steel, given by their middles and the angle of the outer race."""
+
+    name = "tapered"
+    variants = (
+        Variant(
+            "tapered",
+            "Tapered rollers",
+            "Line contact at an angle: an axial load has to hold the rings together.",
+        ),
+        Variant(
+            "tapered-back-to-back",
+            "Tapered pair, back to back (O)",
+            "Two rows whose lines of contact meet the shaft far apart: stiff against tilt.",
+        ),
+        Variant(
+            "tapered-face-to-face",
+            "Tapered pair, face to face (X)",
+            "Two rows whose lines of contact meet the shaft close together: soft against tilt.",
+        ),
+    )
+    picture = Picture(
+        element="roller",
+        outer="cylinder",
+        inner="cylinder",
+        dimensions=("roller_length", "contact_angle"),
+        notes=(
+            "a roller on its races, its taper not drawn",
+            "no load and no friction at its rib",
+        ),
+    )
+    directions = needed_directions = DIRECTIONS
+    carries = left_out = ""
+    tilt_unknown = (
+        "Tilt and swivelling of the rollers: not known, as a roller is pressed in its middle in "
+        "this model. A ring that tilts presses their ends on the races. The friction of the rib, "
+        "and the few per cent of the load that it takes, are left out."
+    )
+    estimate_spread = (inside.OTHER_MAKER.ratio_spread, 1)
+    mass_unknown = "tapered rollers: a rib holds them, which is left out"
+
+    def recognizes(self, bearing: Bearing) -> bool:
+        return bearing.roller_length is not None and bearing.contact_angle != 0.0
+
+    def check(self, bearing: Bearing) -> None:
+        length_of(bearing)
+        checks.real_number("contact_angle", bearing.contact_angle, above=0.0, unit="rad")
+        if bearing.is_drawn:
+            raise checks.refuse(
+                "inner_groove_radius", bearing.inner_groove_radius, "None of tapered rollers"
+            )
+        if any(row.own for row in bearing.rows):
+            raise checks.refuse("rows", len(bearing.rows), "rows of tapered rollers that are alike")
+
+    def arrangement(self, bearing: Bearing) -> str:
+        return arrangement_of(bearing.rows)
+
+    def variant(self, bearing: Bearing) -> str:
+        if len(bearing.all_rows) == 1:
+            return "tapered"
+        name = _PREFIX + self.arrangement(bearing)
+        return name if name in [one.name for one in self.variants] else ""
+
+    def nearest(self, bearing: Bearing, variant: str) -> Bearing:
+        diameter, distance, preload = bearing.ball_diameter, bearing.row_distance, bearing.preload
+        made = bearing.tapered(
+            bearing.n_balls,
+            diameter,
+            bearing.roller_length or diameter,
+            bearing.pitch_diameter,
+            bearing.contact_angle or USUAL_ANGLE,
+            bearing.radial_clearance,
+        )
+        if variant == "tapered":
+            return made
+        apart = USUAL_DISTANCE * diameter if distance is None else distance
+        return made.paired(apart, variant.removeprefix(_PREFIX), preload or 0.0)
+
+    def inputs(self, bearing: Bearing) -> tuple[str, ...]:
+        paired = ("row_distance", "preload") if self.arrangement(bearing) else ()
+        return (*super().inputs(bearing), "contact_angle", *paired)
+
+    def facts(self, bearing: Bearing) -> tuple[str, ...]:
+        meet = ("pressure_centers_apart",) if self.arrangement(bearing) else ()
+        return (*meet, *super().facts(bearing))
+
+    def replaced(self, bearing: Bearing, changes: dict[str, Any]) -> Bearing:
+        return super().replaced(bearing, {"kind": self} | changes)
+
+    def contact(self, bearing: Bearing) -> Contact:
+        # a rib holds the roller on the inner race: half its length on, its middle is past the outer
+        return super().contact(bearing)._replace(room=0.5 * length_of(bearing))
+
+    def race_contact(self, bearing: Bearing, race: str) -> RollerContact:
+        across = bearing.pitch_diameter / math.cos(bearing.contact_angle)
+        return roller_contact(race, bearing.ball_diameter, across, length_of(bearing))
+
+    def profile_drop(self, bearing: Bearing, place: Array) -> Array:
+        return tapered_profile_drop(place, bearing.ball_diameter, length_of(bearing))
+
+
+TAPERED = Tapered()

@@ -1,0 +1,133 @@
+"""Checks of what comes in: each returns the value, or raises a `FieldError`.
+
+Of a value of a wrong type it is a `FieldTypeError`, which is a `TypeError` too.
+"""
+
+from __future__ import annotations
+
+import math
+import reprlib
+from typing import Any, SupportsFloat, TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from bearingcore.common._arrays import Array
+from bearingcore.errors import FieldError, FieldTypeError, Interval, MissingError
+
+T = TypeVar("T")
+
+
+def refuse(field: str, value: object, allowed: str, unit: str = "", **numbers: float) -> FieldError:
+    """The error to raise for `field`; `allowed` may hold ``{name:unit}`` for each of `numbers`."""
+    return FieldError(field, value, allowed, unit, numbers)
+
+
+def missing(field: str, wanted: str) -> MissingError:
+    """The error to raise for an argument that has to be given."""
+    return MissingError(field, None, wanted)
+
+
+def instance(field: str, value: object, kind: type[T], wanted: str = "") -> T:
+    """`value` if it is of a type, else FieldTypeError; `wanted` says so in other words.
+
+    Without them the words are the type's own `WANTED`, where it has them.
+    """
+    if isinstance(value, kind):
+        return value
+    article = "an" if kind.__name__[0] in "AEIOU" else "a"
+    wanted = wanted or getattr(kind, "WANTED", f"{article} {kind.__name__}")
+    raise FieldTypeError(field, value, wanted)
+
+
+def _is_number(value: object) -> bool:
+    """False of text and truth values too, which Python turns into numbers."""
+    return isinstance(value, SupportsFloat) and not isinstance(value, bool | np.bool_ | str)
+
+
+def _error(value: object) -> type[FieldError]:
+    """The error for what is no number: of words, None or a truth value it is their type."""
+    return FieldError if _is_number(value) else FieldTypeError
+
+
+def real_number(
+    field: str,
+    value: SupportsFloat,
+    *,
+    at_least: float = -math.inf,
+    at_most: float = math.inf,
+    above: float = -math.inf,
+    below: float = math.inf,
+    unit: str = "",
+    note: str = "",
+) -> float:
+    """`value` as a finite float inside the given limits [unit]; `note` says why they are there.
+
+    Raises
+    ------
+    FieldError
+        naming `field`, its value and the allowed range.
+    """
+    given: object = value
+    try:
+        if _is_number(value):
+            given = x = float(value)
+            if at_least <= x <= at_most and above < x < below and math.isfinite(x):
+                return x
+    except (TypeError, ValueError, OverflowError):
+        pass
+    raise _error(given)(field, given, Interval(at_least, at_most, above, below, note), unit)
+
+
+def keep(part: object, **values: object) -> None:
+    """Set fields of a frozen dataclass, as its `__post_init__` does with what it has checked."""
+    for name, value in values.items():
+        object.__setattr__(part, name, value)
+
+
+def keep_number(
+    part: object, name: str, *, optional: bool = False, of: str = "", **limits: Any
+) -> None:
+    """Check a number of a frozen dataclass, see `real_number`, and keep it there as a float.
+
+    An `optional` one may be None; `of` stands behind the name in a refusal.
+    """
+    value = getattr(part, name)
+    if value is not None or not optional:
+        keep(part, **{name: real_number(name + of, value, **limits)})
+
+
+def choice(field: str, value: object, options: tuple[str, ...]) -> str:
+    """`value` if it is one of `options`, else ValueError."""
+    if not (isinstance(value, str) and value in options):
+        error = FieldError if isinstance(value, str) else FieldTypeError
+        raise error(field, value, ", ".join(options))
+    return value
+
+
+def whole_number(field: str, value: object, *, at_least: int, at_most: int) -> int:
+    """`value` as an int inside the limits, else ValueError. 14.0 counts as 14, True does not."""
+    allowed = f"a whole number from {at_least} to {at_most}"
+    if not _is_number(value):
+        raise FieldTypeError(field, value, allowed)
+    try:
+        x = float(value)  # type: ignore[arg-type]  # what it cannot take is refused
+    except (TypeError, ValueError, OverflowError):
+        raise refuse(field, value, allowed) from None
+    if not at_least <= x <= at_most or x != round(x):
+        raise refuse(field, x, allowed)
+    return round(x)
+
+
+def finite(field: str, values: ArrayLike, unit: str) -> Array:
+    """`values`, one or a row, as a row of finite floats (n,), a copy; else ValueError."""
+    allowed = f"finite numbers [{unit}]"
+    try:
+        row = np.array(values, dtype=float, ndmin=1)
+    except (TypeError, ValueError, OverflowError):
+        raise FieldTypeError(field, values, allowed) from None
+    if row.ndim > 1:
+        raise refuse(field, f"an array of shape {row.shape}", f"{allowed} in a row, shape (n,)")
+    if not np.all(np.isfinite(row)):
+        raise refuse(field, reprlib.repr(values), allowed)
+    return row

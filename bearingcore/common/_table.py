@@ -1,0 +1,290 @@
+"""A result as a table: names, units and numbers in columns.
+
+Every result of the core has `.table()`. What is shown or saved of it comes from there: CSV files,
+tables on the page, lines of Python, labels of axes. Numbers are SI and radians; `in_units` turns
+them into what people read, and puts the unit into the name (`extent_deg`).
+"""
+
+from __future__ import annotations
+
+import csv
+import dataclasses
+import io
+import textwrap
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from html import escape
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from bearingcore.common import _checks as checks
+from bearingcore.units import UNITS, factor_between
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
+
+T = TypeVar("T")
+
+READ_UNITS = {"rad": "deg", "m": "µm"}
+"""Units for people instead of radians and metres."""
+
+MOST_ROWS, MOST_COLUMNS = 10, 8
+"""Of a table that is printed; the middle of a larger one is left out."""
+
+LONGEST_VALUE, LONGEST_REPR = 24, 120
+"""Letters of a value beside its meaning, and of a result in a line."""
+
+
+@dataclass(frozen=True)
+class Column:
+    """Numbers or words of one kind.
+
+    Attributes
+    ----------
+    name
+        the field's term, without its unit: "cage_angle".
+    unit
+        "" for words and counts, "1" for ratios.
+    values : (n,)
+    meaning
+        what it is, in a few words; may be empty.
+    """
+
+    name: str
+    unit: str
+    values: NDArray[Any] = field(repr=False)
+    meaning: str = ""
+
+    @property
+    def named(self) -> str:
+        """Name and unit as one word: "cage_angle_deg"."""
+        suffix = UNITS[self.unit].suffix
+        return f"{self.name}_{suffix}" if suffix else self.name
+
+    def within(self, unit: str) -> Column:
+        """The column in another unit.
+
+        Raises
+        ------
+        ValueError
+            for a unit that it has no factor to.
+        """
+        if unit == self.unit:
+            return self
+        factor = factor_between(self.unit, unit)
+        if factor is None:
+            si = UNITS[self.unit].si
+            known = ", ".join(name for name, other in UNITS.items() if other.si == si)
+            raise checks.refuse(f"unit of {self.name}", unit, known)
+        return Column(self.name, unit, self.values * factor, self.meaning)
+
+
+class ResultTable(Mapping[str, NDArray[Any]]):
+    """Columns of a result by name: `table["k_yy"]` its numbers, `unit("k_yy")` their unit.
+
+    Columns may differ in length where a result has several kinds of rows.
+    """
+
+    def __init__(self, columns: Iterable[Column]) -> None:
+        self.columns = tuple(columns)
+        self._by_name = {column.name: column for column in self.columns}
+        if len(self._by_name) != len(self.columns):
+            names = [column.name for column in self.columns]
+            raise checks.refuse("names of columns", names, "each once")
+
+    def __getitem__(self, name: str) -> NDArray[Any]:
+        """The numbers (n,) of a column."""
+        return self._by_name[name].values
+
+    def __iter__(self) -> Iterator[str]:
+        """Names of the columns."""
+        return iter(self._by_name)
+
+    def __len__(self) -> int:
+        """Number of columns."""
+        return len(self.columns)
+
+    def unit(self, name: str) -> str:
+        """Unit of a column."""
+        return self._by_name[name].unit
+
+    def meaning(self, name: str) -> str:
+        """Meaning of a column, in a few words."""
+        return self._by_name[name].meaning
+
+    def in_units(self, units: Mapping[str, str] = READ_UNITS) -> ResultTable:
+        """The table in other units: `{"rad": "deg"}` turns every column in rad into one in deg."""
+        return ResultTable(
+            column.within(units.get(column.unit, column.unit)) for column in self.columns
+        )
+
+    def prefixed(self, prefix: str) -> ResultTable:
+        """The table with a word before each name, so that two can stand side by side."""
+        return ResultTable(
+            Column(f"{prefix}_{c.name}", c.unit, c.values, c.meaning) for c in self.columns
+        )
+
+    def only(self, *names: str) -> ResultTable:
+        """The columns of these names, in their order."""
+        return ResultTable(self._by_name[name] for name in names)
+
+    def __or__(self, other: ResultTable) -> ResultTable:
+        """Both tables side by side."""
+        return ResultTable([*self.columns, *other.columns])
+
+    def named(self) -> dict[str, NDArray[Any]]:
+        """The numbers under names that hold their units: "cage_angle_deg"."""
+        return {column.named: column.values for column in self.columns}
+
+    def csv(self) -> str:
+        """Comma-separated text under names that hold their units; short columns end empty."""
+        return as_csv(self.named())
+
+    def frame(self) -> DataFrame:
+        """A pandas data frame under names that hold their units; short columns end in NaN."""
+        import pandas as pd  # imported late: it takes as long as all of this package
+
+        return pd.DataFrame({name: pd.Series(values) for name, values in self.named().items()})
+
+    @property
+    def _is_one_row(self) -> bool:
+        return all(column.values.size == 1 for column in self.columns)
+
+    def _lines(self) -> list[tuple[str, str, str]]:
+        """A line a column of a single row: its name, its value with the unit, its meaning."""
+        return [
+            (one.name, f"{_digits(one.values[0])} {_unit(one)}".rstrip(), one.meaning)
+            for one in self.columns
+        ]
+
+    def _headed(self) -> DataFrame:
+        size = self.columns[0].values.size  # what is as long as the first stands in its rows
+        alike = [one for one in self.columns if one.values.size == size]
+        heads = [f"{one.name} [{_unit(one)}]".removesuffix(" []") for one in alike]
+        return self.only(*(one.name for one in alike)).frame().set_axis(heads, axis=1)
+
+    def __str__(self) -> str:
+        """The table as text: of a single row a line a column, of many the first and last rows."""
+        if not self._is_one_row:
+            return str(self._headed().to_string(max_cols=MOST_COLUMNS, max_colwidth=60, **_PRINTED))
+        lines = self._lines()
+        name, value = (max(len(line[i]) for line in lines) for i in (0, 1))
+        value = min(value, LONGEST_VALUE)
+        rows = (f"{one:<{name}}  {of:<{value}}  {what}".rstrip() for one, of, what in lines)
+        return "\n".join(textwrap.fill(row, 100, subsequent_indent=" " * 4) for row in rows)
+
+    def _repr_html_(self) -> str:
+        """The table in a notebook, turned like the text."""
+        if not self._is_one_row:
+            return str(self._headed().to_html(max_cols=2 * MOST_COLUMNS, border=0, **_PRINTED))
+        import pandas as pd
+
+        frame = pd.DataFrame(self._lines(), columns=["", "value", "meaning"])
+        with pd.option_context("display.max_colwidth", None):  # sentences are long
+            return str(frame.to_html(index=False, border=0, justify="left"))
+
+    def __repr__(self) -> str:
+        """The columns by name."""
+        return _cut(f"ResultTable({', '.join(self)})")
+
+
+def table_of(
+    *columns: tuple[str, str, ArrayLike] | tuple[str, str, ArrayLike, str], of: Sequence[Any] = ()
+) -> ResultTable:
+    """A table of (name, unit, numbers) or (name, unit, numbers, meaning).
+
+    Instead of its numbers a column may have the name of an attribute `of` each of some values.
+    """
+    made = []
+    for name, unit, values, *meaning in columns:
+        if isinstance(values, str):
+            values = [getattr(one, values) for one in of]
+        made.append(Column(name, unit, np.asarray(values).ravel(), meaning[0] if meaning else ""))
+    return ResultTable(made)
+
+
+def shown_as_table(result: type[T]) -> type[T]:
+    """A class with `.table()` that is printed as its table, in notebooks too.
+
+    Its `repr` is one line: the first fields, of arrays their shapes.
+    """
+
+    def heading(self: Any) -> str:
+        name, sentence = type(self).__name__, getattr(self, "sentence", "")
+        return f"{name}: {sentence}" if sentence and "sentence" not in self.table() else name
+
+    def text(self: Any) -> str:
+        return f"{heading(self)}\n{self.table()}"
+
+    def html(self: Any) -> str:
+        return f"<p>{escape(heading(self))}</p>{self.table()._repr_html_()}"
+
+    shown: Any = result
+    shown.__repr__, shown._repr_html_ = short_repr, html
+    if "__str__" not in vars(result):
+        shown.__str__ = text
+    return result
+
+
+def short_repr(value: Any) -> str:
+    """Class and first fields of a dataclass or named tuple in a line, of arrays the shapes."""
+    fields = dataclasses.fields(value) if dataclasses.is_dataclass(value) else ()
+    names = [field.name for field in fields if field.repr] or value._fields
+    parts = [f"{name}{of}" for name in names if (of := _short(getattr(value, name)))]
+    return _cut(f"{type(value).__name__}({', '.join(parts or names)})")
+
+
+def _short(value: Any) -> str:
+    """A field in short; empty where it is a value of several fields itself, or nothing."""
+    if isinstance(value, np.ndarray) and value.ndim:
+        return f" {value.shape}"
+    if value is None or (isinstance(value, str) and not value):
+        return ""
+    if isinstance(value, str | tuple):
+        text = repr(value)
+        long = f" ({len(value)},)" if isinstance(value, tuple) else ""
+        return f"={text}" if len(text) <= 40 else long
+    return f"={_digits(value)}" if np.ndim(value) == 0 and np.isreal(value) is True else ""
+
+
+def _cut(text: str) -> str:
+    return text if len(text) <= LONGEST_REPR else f"{text[: LONGEST_REPR - 2]}…)"
+
+
+def _unit(column: Column) -> str:
+    return "" if column.unit == "1" else column.unit
+
+
+def _digits(value: Any) -> str:
+    """A number with six digits, anything else as it is."""
+    return f"{value:.6g}" if isinstance(value, float | np.floating) else str(value)
+
+
+def as_csv(columns: Mapping[str, NDArray[Any]]) -> str:
+    """Columns as comma-separated text; shorter columns end in empty cells."""
+    rows = [np.asarray(column).ravel() for column in columns.values()]
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow([_cell(name) for name in columns])
+    for i in range(max((row.size for row in rows), default=0)):
+        writer.writerow([_cell(row[i]) if i < row.size else "" for row in rows])
+    return text.getvalue()
+
+
+_FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n")
+"""Beginnings of cells that a spreadsheet would compute (OWASP, CSV injection)."""
+
+
+def _cell(value: Any) -> str:
+    """A number with nine digits, or words that no spreadsheet takes for a formula."""
+    if isinstance(value, float | np.floating):
+        return f"{value:.9g}"
+    text = str(value)
+    return f"'{text}" if isinstance(value, str) and text.startswith(_FORMULA) else text
+
+
+_PRINTED: dict[str, Any] = {
+    "max_rows": MOST_ROWS, "show_dimensions": True, "float_format": _digits
+}  # fmt: skip

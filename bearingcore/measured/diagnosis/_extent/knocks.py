@@ -1,0 +1,490 @@
+"""Entry and exit of a ball in the mean ball pass of envelopes.
+
+A linear prediction takes out what rings. The envelope of each frequency band of what it leaves is
+cut into ball passes, which are aligned against slip and averaged. A ball that enters a spall and
+one that leaves it each give a peak. What rings after a single knock swells too, where two
+resonances beat; but that differs from band to band. So two peaks count only where bands that have
+no frequency in common agree on their separation.
+
+Quantity                                            | Name        | Unit
+--------------------------------------------------- | ----------- | --------------
+mean envelope over a ball pass                      | envelope    | of its mean
+angle of the race between the two peaks             | separation  | rad
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+
+from bearingcore.common import Array
+from bearingcore.measured.diagnosis._part.listened_signal import MOST_DROPPED
+from bearingcore.measured.signals import BallPasses, average_passes
+from bearingcore.measured.signals._dropouts import signal_faults
+from bearingcore.measured.signals._filter_bank import Band, split, squared_envelopes
+from bearingcore.recordings import Recording
+
+HARMONICS = 100
+"""Of the ball-pass frequency that a mean pass keeps: a hundredth of a ball pass is resolved."""
+
+NARROWEST = 20.0
+"""Ball-pass frequencies that a band is wide at least: narrower ones ring for longer."""
+
+LOWEST = 3.0
+"""Ball-pass frequencies from which bands are looked at: below lie shaft, cage and rigid bodies."""
+
+PARTS = (1, 2, 3, 4, 6)
+"""Into how many equal bands the range is split: more would hold no knock any more compactly."""
+
+LOW_PARTS = (12, 24)
+"""The same of which only the lowest two bands are taken: a release is soft, and fades upwards."""
+
+PREDICTED_FROM = 50
+"""Samples before each from which it is predicted. What rings can be predicted, knocks cannot: what
+is left after the prediction is compact knocks, see `without_ringing`. Two for each of 25
+resonances; from further back one knock would predict the next."""
+
+MOST_PASSES_HEARD = 440.0
+"""Ball passes of a recording that are looked at: `averaging` leaves out later ones."""
+
+PLACES = 2048
+"""In a mean ball pass."""
+
+LEAST_CONTRAST = 8.0
+"""Height of a peak, in standard errors of the mean pass, below which nothing is seen."""
+
+FAINTEST = 0.1
+"""Height of the second peak as a share of the first: below, prediction and filter leave ripples."""
+
+LEAST_SEEN = 4.0
+"""Standard errors that so faint a peak must be high for its absence to count."""
+
+THIRD = 0.6
+"""Height of a third peak, as a share of the second, from which it is a train of peaks: ringing."""
+
+LEAST_DIP = 0.25
+"""Fall of the envelope between two peaks that count as two, as a share of the lower one."""
+
+SIDE_LOBES, LEAST_NEAR = 3.0, 0.3
+"""A filter answers a knock with ripples of a fifth of its height for a few times one over its band
+width [s]: so near, a second peak must be so high."""
+
+SMOOTHING = (0.015, 0.007, 0.001)
+"""Shares of a ball pass over which a mean pass is smoothed before its peaks are looked for."""
+
+AGREE = (0.06, 0.002)
+"""By how much bands may differ in the separation: a share of it, and of a ball pass. A release is
+gradual: its peak moves a little with frequency, and peaks are no sharper than the mean pass."""
+
+AGREEING, SHOWING = 0.6, 0.4
+"""Share of the second peaks, by their heights, that must agree, and of the bands that must show
+them. Bands above those that show them are not asked."""
+
+ONLY_ONE = 0.3
+"""Share of the bands that may have a second peak where there is one knock."""
+
+ALIKE, UNLIKE = 0.3, 0.22
+"""A ball is released softly and strikes hard: entry and exit differ in their spectra. Two knocks
+whose ratio of heights hardly changes over the bands (four fifths of its natural logarithms lie
+within the first number), and that are not equally high (the logarithm of their ratio is more than
+the second), are a blow and its echo: a ball that bounces."""
+
+RARE = 5.0
+"""Times the shorter way from one peak to the other that the longer one is, from which the shorter
+is taken: spalls that nearly reach the next ball are rare. Below, either way may be from entry to
+exit. Spectra do not decide it: struck structures ring higher as a ball leaves, but in the model
+without mass the entry is mostly the sharper of the two, and with mass now one, now the other."""
+
+FADES = 0.75
+"""Power of frequency with which the later peak fades against the earlier, from which the two are no
+entry and exit: blows whose echo or rebound is duller are not rare."""
+
+STEADY, LEAST_LEFT, MOST_CUTS = 0.05, 0.3, 4
+"""Of a ball pass, by which one pass may be longer than the mean: a cage has inertia. Where passes
+seem to jump by more, some were laid over the wrong knock, and two knocks may be one twice: the
+longer part on either side is averaged alone, so many times and if it is so much of all."""
+
+
+@dataclass(frozen=True)
+class MeanPass:
+    """The mean ball pass of one band's envelope.
+
+    Attributes
+    ----------
+    band
+        [Hz]
+    direction
+        of the recording.
+    envelope : (PLACES,)
+        over one ball pass, its least value 0 and its mean over the whole signal 1.
+    error
+        standard error of `envelope`.
+    """
+
+    band: Band
+    direction: str
+    envelope: Array
+    error: float
+
+    @property
+    def contrast(self) -> float:
+        """Height of the highest peak in standard errors."""
+        return float(self.envelope.max()) / max(self.error, 1e-12)
+
+
+@dataclass(frozen=True)
+class Pair:
+    """Two peaks of a mean pass.
+
+    Attributes
+    ----------
+    first, second
+        their places as shares of a ball pass; the second follows by less than half a one.
+    ratio
+        height of the second over that of the first.
+    third
+        height of a third peak over that of the lower one of both; 0 without.
+    """
+
+    first: float
+    second: float
+    ratio: float
+    third: float = 0.0
+
+    @property
+    def apart(self) -> float:
+        """From the first to the second, as a share of a ball pass."""
+        return (self.second - self.first) % 1.0
+
+    @property
+    def height(self) -> float:
+        """Of the lower one over the higher."""
+        return min(self.ratio, 1.0 / self.ratio)
+
+
+class Seen(StrEnum):
+    """Findings in mean passes."""
+
+    NOTHING = "nothing"
+    ONE = "one knock"
+    UNCLEAR = "unclear"
+    ALIKE = "alike"
+    EITHER = "either way round"
+    TWO = "two knocks"
+
+
+@dataclass(frozen=True)
+class Knocks:
+    """Knocks in the mean passes.
+
+    Attributes
+    ----------
+    passes
+        of the bands that were compared, the one that shows the knocks best first.
+    frequency
+        ball passes a second [Hz].
+    n_passes
+        how many were averaged.
+    seen
+        what the bands show together.
+    separation, deviation
+        from entry to exit as a share of a ball pass, the shorter way round, and its standard
+        deviation; NaN where there are no two knocks.
+    entry, exit
+        places of the two peaks in the first of `passes`, as shares of a ball pass, the shorter way
+        round; NaN without.
+    hidden
+        share of a ball pass within which a second knock may hide in what the first makes ring; NaN
+        where it may be anywhere, or where there are two.
+    """
+
+    passes: tuple[MeanPass, ...]
+    frequency: float
+    n_passes: int
+    seen: Seen
+    separation: float = math.nan
+    deviation: float = math.nan
+    entry: float = math.nan
+    exit: float = math.nan
+    hidden: float = math.nan
+
+
+def find_knocks(recording: Recording, nominal: float, slip: float, turns: float = 0.0) -> Knocks:
+    """The mean ball passes of a recording and the knocks in them.
+
+    Parameters
+    ----------
+    nominal, slip
+        ball passes a second [Hz] over the damaged race, and by how much they may differ, as a
+        fraction.
+    turns
+        of the damage through the load zone in a ball pass: 0 on a race that stands still.
+
+    Raises
+    ------
+    ValueError
+        where the recording holds too few ball passes.
+    """
+    names, envelopes, rate = _envelopes(recording, nominal)
+    if not names:
+        return Knocks((), nominal, 0, Seen.NOTHING)
+    widest = min(0.9 * HARMONICS * nominal, 0.38 * rate)
+    highest = min(20.0 * nominal, widest)
+    left = envelopes
+    for _ in range(MOST_CUTS):
+        found = average_passes(
+            left, rate, nominal, slip, nominal, highest, widest, follow=True, turns=turns
+        )
+        passes = _mean_passes(found, names)
+        jump = _jump(found)
+        if jump is None:
+            return judged(passes, found.frequency, found.n_passes)
+        place = round(jump * rate)
+        left = left[:place] if place > len(left) // 2 else left[place:]
+        if len(left) < LEAST_LEFT * len(envelopes):
+            break
+    return Knocks(tuple(passes), found.frequency, found.n_passes, Seen.UNCLEAR)
+
+
+def _jump(found: BallPasses) -> float | None:
+    """When [s] the passes jump most; None where they are steady."""
+    if found.begins is None:
+        return None
+    away = np.abs(np.diff(found.begins) * found.frequency - 1.0)
+    worst = int(away.argmax())
+    return float(found.begins[worst]) if away[worst] > STEADY else None
+
+
+def _envelopes(recording: Recording, nominal: float) -> tuple[list[tuple[Band, str]], Array, float]:
+    """Bands with their directions, envelopes (n, bands) of mean 1, and their sample rate [Hz]."""
+    sample_rate = recording.sample_rate
+    rate = min(3.0 * HARMONICS * nominal, sample_rate)
+    kept = min(
+        recording.acceleration.shape[0], math.ceil(MOST_PASSES_HEARD * sample_rate / nominal)
+    )
+    time = np.arange(int(kept / sample_rate * rate)) / rate
+    bands = [
+        Band(max(band.low, LOWEST * nominal), band.high)
+        for band in split(sample_rate, NARROWEST * nominal, (*PARTS, *LOW_PARTS))
+        if band.high > 2.0 * LOWEST * nominal
+        and (
+            band.high - band.low > 0.45 * sample_rate / PARTS[-1]
+            or band.low < 1.01 * (band.high - band.low)  # of equal ones the first or the second
+        )
+    ]
+    names, columns = [], []
+    for direction, samples in zip(
+        recording.directions, recording.acceleration[:kept].T, strict=True
+    ):
+        faults = signal_faults(samples)
+        if faults.lost_share > MOST_DROPPED:
+            continue
+        dropped = faults.dropped
+        left = without_ringing(np.where(dropped, 0.0, samples), PREDICTED_FROM)
+        for found in squared_envelopes(
+            left, sample_rate, bands, HARMONICS * nominal, dropped, loudest=math.inf
+        ):
+            values = np.sqrt(np.maximum(found.values, 0.0))
+            values = np.interp(time, np.arange(len(values)) / found.rate, values)
+            columns.append(values / values.mean())
+            names.append((found.band, direction))
+    return names, np.array(columns).T, rate
+
+
+def without_ringing(samples: Array, order: int) -> Array:
+    """The error of a linear prediction of a signal (n,) from the `order` samples before.
+
+    The prediction with the least squared error (Yule and Walker) follows tones and resonances that
+    ring; what excites them is left, with a flat spectrum.
+    """
+    from scipy.fft import irfft, next_fast_len, rfft
+    from scipy.linalg import solve_toeplitz
+    from scipy.signal import lfilter
+
+    samples = samples - samples.mean()
+    size = next_fast_len(len(samples) + order + 1, real=True)
+    likeness = irfft(np.abs(rfft(samples, size)) ** 2, size)[: order + 1]
+    if not likeness[0] > 0.0:
+        return samples
+    likeness[0] *= 1.0 + 1e-6
+    weights = solve_toeplitz(likeness[:-1], likeness[1:])
+    return np.asarray(lfilter(np.concatenate(([1.0], -weights)), [1.0], samples))
+
+
+def _mean_passes(found: BallPasses, names: list[tuple[Band, str]]) -> list[MeanPass]:
+    envelopes = found.waveform(PLACES)
+    errors = np.sqrt(2.0 * found.scatter.sum(axis=0))
+    return [
+        MeanPass(band, direction, envelope - np.quantile(envelope, 0.1), float(error))
+        for (band, direction), envelope, error in zip(names, envelopes.T, errors, strict=True)
+    ]
+
+
+def judged(passes: Sequence[MeanPass], frequency: float, n_passes: int) -> Knocks:
+    """The finding on which mean passes of several bands agree.
+
+    Parameters
+    ----------
+    passes
+        of any bands and directions.
+    frequency
+        ball passes a second [Hz].
+    n_passes
+        how many were averaged.
+    """
+    passes = tuple(sorted(passes, key=lambda one: -one.contrast))
+    if not passes or passes[0].contrast < LEAST_CONTRAST:
+        return Knocks(passes, frequency, n_passes, Seen.NOTHING)
+    shown = [(one, pair) for one in passes if (pair := two_peaks(one, frequency)) is not None]
+    agreeing = _agreeing(shown)
+    if not agreeing:
+        seen = Seen.UNCLEAR if len(shown) > ONLY_ONE * len(passes) else Seen.ONE
+        return Knocks(passes, frequency, n_passes, seen, hidden=_hidden(passes))
+    height = np.array([pair.height for _, pair in agreeing])
+    apart = np.array([pair.apart for _, pair in agreeing])
+    ratios = np.log([pair.ratio for _, pair in agreeing])
+    # a release is soft: above the bands that show it only the exit may be left
+    reached = max(one.band.low for one, _ in agreeing)
+    counted = sum(one.band.low <= reached for one in passes)
+    showing = sum(pair.height for one, pair in shown if one.band.low <= reached)
+    if len(agreeing) < SHOWING * counted or height.sum() < AGREEING * showing:
+        return Knocks(passes, frequency, n_passes, Seen.UNCLEAR, hidden=_hidden(passes))
+    if np.ptp(np.quantile(ratios, (0.1, 0.9))) < ALIKE and abs(np.median(ratios)) > UNLIKE:
+        return Knocks(passes, frequency, n_passes, Seen.ALIKE)
+    separation = float(np.average(apart, weights=height))
+    spread = math.sqrt(float(np.average((apart - separation) ** 2, weights=height)))
+    deviation = max(spread, 0.25 / HARMONICS)
+    best, pair = max(agreeing, key=lambda one: one[1].height)
+    trend = _trend([one.band for one, _ in agreeing], ratios, height)
+    rare = 1.0 - separation > RARE * separation
+    if rare and (trend < -FADES or (trend < 0.0 and _fades(passes, reached, ratios))):
+        return Knocks(passes, frequency, n_passes, Seen.ALIKE)
+    seen = Seen.TWO if rare else Seen.EITHER
+    others = tuple(one for one in passes if one is not best)
+    return Knocks(
+        (best, *others), frequency, n_passes, seen, separation, deviation, pair.first, pair.second
+    )
+
+
+def _hidden(passes: Sequence[MeanPass]) -> float:
+    """Share of a ball pass around the highest peak beyond which every band has fallen.
+
+    To less than `FAINTEST` of it, so that a second knock would show; a release is seen best in the
+    lowest bands, so these have to stand out of the noise. NaN where they do not.
+    """
+    from scipy.ndimage import gaussian_filter1d
+
+    clear = [one for one in passes if _is_clear(one)]
+    if not clear or min(one.band.low for one in clear) > min(one.band.low for one in passes):
+        return math.nan
+    reached = 0.0
+    for one in clear:
+        smooth = gaussian_filter1d(one.envelope, SMOOTHING[1] * PLACES, mode="wrap")
+        above = np.flatnonzero(smooth > FAINTEST * smooth.max()) - int(smooth.argmax())
+        away = np.abs((above + PLACES // 2) % PLACES - PLACES // 2)
+        reached = max(reached, float(away.max()) / PLACES)
+    return reached
+
+
+def _fades(passes: Sequence[MeanPass], reached: float, ratios: Array) -> bool:
+    """Whether the later peak is fainter and gone in a clear band above those that show both.
+
+    An exit is the sharper of the two. A ball that bounces and an echo fade so with frequency.
+    """
+    above = any(one.band.low > reached and _is_clear(one) for one in passes)
+    return above and float(np.median(ratios)) < 0.0
+
+
+def _is_clear(one: MeanPass) -> bool:
+    """Whether a second peak of the faintest kind would stand out of a band's noise."""
+    return FAINTEST * one.contrast > LEAST_SEEN
+
+
+def _trend(bands: list[Band], ratios: Array, weights: Array) -> float:
+    """Slope of logarithms of ratios over the logarithm of frequency, by weighted least squares."""
+    octave = np.log([0.5 * (band.low + band.high) for band in bands])
+    octave -= np.average(octave, weights=weights)
+    return float((weights * octave * ratios).sum() / max((weights * octave**2).sum(), 1e-12))
+
+
+def two_peaks(mean_pass: MeanPass, frequency: float) -> Pair | None:
+    """The two highest peaks of a mean pass; None where there are no two.
+
+    Parameters
+    ----------
+    mean_pass
+    frequency
+        ball passes a second [Hz].
+    """
+    from scipy.ndimage import gaussian_filter1d  # imported late: see `spectrum`
+
+    lobes = SIDE_LOBES * frequency / (mean_pass.band.high - mean_pass.band.low)
+    # knocks far apart before the structure of a single one
+    train = None
+    for width in SMOOTHING:
+        smooth = gaussian_filter1d(mean_pass.envelope, width * PLACES, mode="wrap")
+        found = _two_peaks(smooth, mean_pass.error, lobes)
+        if found is not None and found.third <= THIRD:
+            return found
+        train = train or found
+    return train
+
+
+def _two_peaks(envelope: Array, error: float, lobes: float) -> Pair | None:
+    from scipy.signal import find_peaks, peak_prominences
+
+    shift = int(envelope.argmin())
+    turned = np.roll(envelope, -shift)
+    highest = int(turned.argmax())
+    places, _ = find_peaks(turned)
+    prominence = peak_prominences(turned, places)[0]
+    height = turned[places]
+    away = np.abs(places - highest) / PLACES
+    near = np.minimum(away, 1.0 - away) < lobes
+    enough = (
+        (height >= np.where(near, LEAST_NEAR, FAINTEST) * turned[highest])
+        & (prominence >= LEAST_DIP * height)
+        & (prominence >= LEAST_CONTRAST * error)
+        & (places != highest)
+    )
+    if not enough.any():
+        return None
+    ranked = np.argsort(height * enough)[::-1]
+    third = 0.0
+    if len(ranked) > 1 and enough[ranked[1]]:
+        third = float(height[ranked[1]] / height[ranked[0]])
+    first, second = sorted((highest, int(places[ranked[0]])))
+    if second - first > PLACES // 2:
+        first, second = second, first
+    ratio = float(turned[second] / turned[first])
+    return Pair((first + shift) % PLACES / PLACES, (second + shift) % PLACES / PLACES, ratio, third)
+
+
+def _away(pair: Pair, other: Pair) -> float:
+    """By how much either peak is elsewhere, as a share of a ball pass."""
+    return max(
+        abs((one - two + 0.5) % 1.0 - 0.5)
+        for one, two in ((pair.first, other.first), (pair.second, other.second))
+    )
+
+
+def _agreeing(shown: list[tuple[MeanPass, Pair]]) -> list[tuple[MeanPass, Pair]]:
+    """Most of the mean passes, by height, that show two peaks at the same places.
+
+    None where all their bands have a frequency in common: it may be one resonance that beats.
+    """
+    best: list[tuple[MeanPass, Pair]] = []
+    two = [(m, pair) for m, pair in shown if pair.third <= THIRD]
+    for _, one in two:
+        reach = AGREE[0] * one.apart + AGREE[1]
+        near = [(m, pair) for m, pair in two if _away(pair, one) <= reach]
+        if sum(pair.height for _, pair in near) > sum(pair.height for _, pair in best):
+            best = near
+    bands = [m.band for m, _ in best]
+    if not bands or max(band.low for band in bands) < min(band.high for band in bands):
+        return []
+    return best

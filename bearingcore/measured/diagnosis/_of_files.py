@@ -1,0 +1,236 @@
+"""Diagnosis of a recording, of a file, or of all files of a folder, in one call."""
+
+from __future__ import annotations
+
+import math
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from textwrap import fill
+from typing import Any, overload
+
+from bearingcore.bearings import BearingLike, read_designation
+from bearingcore.common import ResultTable, shown_as_table, table_of
+from bearingcore.common import _checks as checks
+from bearingcore.measured.diagnosis._part.diagnose import diagnose as diagnose_recording
+from bearingcore.measured.diagnosis._part.evidence import Diagnosis
+from bearingcore.measured.files import Finding, Table, kind_of, read_table
+from bearingcore.measured.files._libraries import DOCUMENT
+from bearingcore.measured.files._table import MOST_BYTES
+from bearingcore.recordings import Recording
+
+FILE_OR_FOLDER = "a Recording, or the path of a file or folder that is there"
+
+
+@shown_as_table
+@dataclass(frozen=True)
+class FolderDiagnosis:
+    """Diagnoses of the files of a folder, in the order of their names.
+
+    Attributes
+    ----------
+    names
+        of the files.
+    answers
+        a `Diagnosis` each; None of a file that cannot be read.
+    sentences
+        of the answers, or why a file cannot be read.
+    """
+
+    names: tuple[str, ...]
+    answers: tuple[Diagnosis | None, ...]
+    sentences: tuple[str, ...]
+
+    def __str__(self) -> str:
+        """A paragraph a file, whole."""
+        named = zip(self.names, self.sentences, strict=True)
+        lines = (
+            fill(f"{name}: {words.removeprefix(f'{name}: ')}", 100, subsequent_indent="    ")
+            for name, words in named
+        )
+        return "\n".join(lines)
+
+    def table(self) -> ResultTable:
+        """A row a file: part, probability, shaft speed and the answer in words."""
+        answers = self.answers
+        faults = ["not read" if one is None else one.fault for one in answers]
+        odds = [math.nan if one is None else one.probability for one in answers]
+        speeds = [math.nan if one is None else one.shaft_speed or math.nan for one in answers]
+        return table_of(
+            ("file", "", self.names),
+            ("fault", "", faults),
+            ("probability", "1", odds),
+            ("shaft_speed", "rad/s", speeds),
+            ("sentence", "", self.sentences),
+        )
+
+
+@overload
+def diagnose(
+    recording: Recording,
+    bearing: BearingLike | None = None,
+    shaft_speed: float | tuple[float, float] | None = None,
+    **more: Any,
+) -> Diagnosis: ...
+@overload
+def diagnose(
+    recording: str | os.PathLike[str],
+    bearing: BearingLike | None = None,
+    shaft_speed: float | tuple[float, float] | None = None,
+    **more: Any,
+) -> Diagnosis | FolderDiagnosis: ...
+def diagnose(
+    recording: Recording | str | os.PathLike[str],
+    bearing: BearingLike | None = None,
+    shaft_speed: float | tuple[float, float] | None = None,
+    *,
+    columns: int | str | tuple[int | str, ...] | None = None,
+    directions: tuple[str, ...] | None = None,
+    unit: str | None = None,
+    sample_rate: float | None = None,
+    sensitivity: float | None = None,
+    **more: Any,
+) -> Diagnosis | FolderDiagnosis:
+    """Diagnosis of the damaged part of a bearing from a signal, a file, or a folder of files.
+
+    Parameters
+    ----------
+    recording
+        acceleration of the housing, one direction or two; or the path of a file that `read_table`
+        reads, or of a folder of such files; documents and pictures beside them are left out.
+    bearing
+        its geometry, or its designation or name in `catalogue()`; only balls, diameters and contact
+        angle count. None: that of the file's collection where it is a known one; else it is
+        unknown, no part is named, and the status says so.
+    shaft_speed
+        [rad/s], good to `slip`; a pair (from, to) if it is rough; None: what recording or file say,
+        else it is looked for between 300 and 6000 turns a minute.
+    columns, directions, unit, sample_rate, sensitivity
+        what a file does not say, or says wrongly: see `Table.recording`. Without a unit, or
+        in volts without a sensitivity, the numbers are taken as they are: their scale does not
+        count here.
+    **more
+        `slip` (0.02): by how much balls may pass faster or slower than the shaft speed says, as a
+        fraction. `most_samples` (20,000,000): of all directions that may be analysed; where there
+        are more nothing is begun, and the status says so. `speed_source`, `bearing_source`: where
+        they are from, "given", "from the file" or "assumed", perhaps with words behind a colon.
+
+    Returns
+    -------
+    Diagnosis or FolderDiagnosis
+        of a folder the second, a row a file; a file that cannot be read says why in its row.
+
+    Raises
+    ------
+    ValueError
+        for a speed, slip or source that cannot be, rows that are not alike, a path that leads
+        nowhere, and a file that cannot be read or needs an answer: of which columns, at which rate.
+    """
+    choices: dict[str, Any] = {"columns": columns, "directions": directions, "unit": unit}
+    choices |= {"sample_rate": sample_rate, "sensitivity": sensitivity}
+    if isinstance(recording, Recording):
+        for name, value in choices.items():
+            if value is not None:
+                raise checks.refuse(name, value, "None for a recording, which has it")
+        return diagnose_recording(recording, bearing, shaft_speed, **more)
+    if not isinstance(recording, os.PathLike):
+        recording = checks.instance("recording", recording, str, FILE_OR_FOLDER)
+    path = Path(recording)
+    if path.is_dir():
+        return _of_folder(path, bearing, shaft_speed, choices, more)
+    return _of_file(path, bearing, shaft_speed, choices, more)
+
+
+def _of_folder(
+    folder: Path, bearing: BearingLike | None, shaft_speed: Any, choices: Any, more: Any
+) -> FolderDiagnosis:
+    named = [one for one in sorted(folder.iterdir()) if one.name[0] != "." and one.is_file()]
+    files = [one for one in named if not DOCUMENT.search(one.name)]
+    if not files:
+        raise checks.refuse("recording", str(folder), "a folder with records in it")
+    answers: list[Diagnosis | None] = []
+    sentences = []
+    for one in files:
+        try:
+            found = _of_file(one, bearing, shaft_speed, choices, more)
+            answers.append(found)
+            sentences.append(found.sentence)
+        except ValueError as error:
+            answers.append(None)
+            sentences.append(str(error))
+    return FolderDiagnosis(tuple(one.name for one in files), tuple(answers), tuple(sentences))
+
+
+def _of_file(
+    path: Path, bearing: BearingLike | None, shaft_speed: Any, choices: Any, more: Any
+) -> Diagnosis:
+    if not path.is_file():
+        raise checks.refuse("recording", str(path), FILE_OR_FOLDER)
+    if (size := path.stat().st_size) > MOST_BYTES:
+        most = f"at most {MOST_BYTES // 2**20} MB: split it, or export less of it"
+        raise checks.refuse(f"size of {path.name}", f"{size / 2**20:.0f} MB", most)
+    table = read_table(path.name, path.read_bytes())
+    says = table.contents
+    named = says.bearing or _known(says.designation)
+    if bearing is None and named is not None and named.taken:
+        bearing = named.value
+        more = {"bearing_source": _source(named, f"{bearing}, ")} | more
+    if shaft_speed is None and says.shaft_speed is not None and says.shaft_speed.taken:
+        shaft_speed = says.shaft_speed.value
+        more = {"speed_source": _source(says.shaft_speed)} | more
+    return diagnose_recording(_recording(table, **choices), bearing, shaft_speed, **more)
+
+
+def _known(designation: Finding[str] | None) -> Finding[str] | None:
+    """The designation that a file gives, where a bearing has it."""
+    if designation is not None:
+        try:
+            read_designation(designation.value)
+        except ValueError:
+            return None
+    return designation
+
+
+def _source(finding: Finding[Any], words: str = "") -> str:
+    """Where a fact is from, as `diagnose` says it."""
+    return "from the file" if finding.stated else f"assumed: {words}{finding.reason}"
+
+
+def _recording(
+    table: Table,
+    columns: int | str | tuple[int | str, ...] | None,
+    directions: tuple[str, ...] | None,
+    unit: str | None,
+    sample_rate: float | None,
+    sensitivity: float | None,
+) -> Recording:
+    """The recording in a table, with what the file says where nothing else is given."""
+    says = table.contents
+    if isinstance(columns, (int, str)):
+        columns = (columns,)
+    if columns is None:
+        chosen = says.choice.columns
+        if not chosen:
+            options = says.choice.options or range(len(table.names))
+            names = ", ".join(f'"{table.names[i]}"' for i in options)
+            why = says.choice.question or says.choice.reason or "Which column is the signal?"
+            way = "Say it with" if says.choice.options else "If one is a signal all the same, use"
+            raise ValueError(
+                f"{table.name}: {why} {way} columns=[...], one or two of {names}, or by "
+                f"numbers from 0: {', '.join(map(str, options))}."
+            )
+        directions, columns = directions or tuple(chosen), tuple(chosen.values())
+    if directions is None:
+        directions = ("x", "y")[-len(columns) :]
+    units: dict[int | str, str | None] = {one.name: one.unit for one in says.columns}
+    units |= {number: one.unit for number, one in enumerate(says.columns)}
+    if unit is None and not all(units.get(column) for column in columns):
+        unit = says.unit.value if says.unit.taken else "m/s²"
+    if sensitivity is None and "voltage" in {
+        kind_of(one) for one in [unit or units.get(column) for column in columns] if one
+    }:
+        unit = "m/s²"  # without the sensor's sensitivity, as they are
+    rate = says.sample_rate
+    if sample_rate is None and rate is not None and rate.taken:
+        sample_rate = rate.value
+    return table.recording(columns, directions, unit, sample_rate, sensitivity=sensitivity)

@@ -1,0 +1,293 @@
+"""Which part of a bearing is damaged, from a signal, its geometry and its speed.
+
+Knocks of a damaged part repeat at a frequency that the geometry gives. The signal is whitened, so
+that tones of shaft, mesh and mains lose their weight (Sawalhi & Randall's pre-whitening, smoothed);
+squared envelopes are taken in the bands of the fast kurtogram; in their spectra combs of lines are
+looked for, with one common slip (see `combs`, `judged`, `spin`). What they are worth is a
+probability for each part (`probability`), and a part is named if it is more probable than not.
+The numbers in it are few, and the same for every machine.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from bearingcore.bearings import Bearing, BearingLike, bearing_of
+from bearingcore.common import _checks as checks
+from bearingcore.measured.diagnosis._part import say
+from bearingcore.measured.diagnosis._part.decide import ENOUGH_SWING, decide, silent
+from bearingcore.measured.diagnosis._part.evidence import CANNOT_TELL, NONE_SEEN, Diagnosis
+from bearingcore.measured.diagnosis._part.judged import judge
+from bearingcore.measured.diagnosis._part.listened_signal import ListenedSignal, unfit
+from bearingcore.measured.diagnosis._part.parts import BALL, INNER, OUTER, PartLines, part_lines
+from bearingcore.measured.diagnosis._part.status import DiagnosisStatus
+from bearingcore.measured.diagnosis._part.unknown_speed import NARROW, in_range
+from bearingcore.recordings import Recording
+
+SLIP = 0.02
+"""By how much balls may pass faster or slower than the shaft speed says."""
+
+SPEEDS = (2.0 * math.pi * 5.0, 2.0 * math.pi * 100.0)
+"""[rad/s] between which an unknown shaft is looked for."""
+
+TONES_COUNT = 0.6
+"""Share of a swing that counts where tones are not whitened away."""
+
+ELSEWHERE = (0.5, 1.9)
+"""Times the stated speed between which the shaft's own lines are looked for, where it has none.
+Twice the speed, and half of it, are multiples and parts of its own lines."""
+
+CONTRADICTED = 0.5
+"""Share of a probability that is left where the shaft's lines contradict the stated speed."""
+
+SOURCES = ("given", "from the file", "assumed")
+"""Origins of a speed and a bearing; "given" is what a person has said of this measurement."""
+
+MOST_SAMPLES = 20_000_000
+"""Samples of all directions that are analysed at most by default: about a minute of
+one core, and some gigabytes."""
+
+
+def diagnose(
+    recording: Recording,
+    bearing: BearingLike | None = None,
+    shaft_speed: float | tuple[float, float] | None = None,
+    *,
+    slip: float = SLIP,
+    most_samples: int = MOST_SAMPLES,
+    speed_source: str = "given",
+    bearing_source: str = "given",
+) -> Diagnosis:
+    """Diagnosis of the damaged part of a bearing from a signal.
+
+    Parameters
+    ----------
+    recording
+        acceleration of the housing, one direction or two.
+    bearing
+        its geometry, or its designation; only balls, diameters and contact angle count. None if it
+        is unknown: then no part is named, and the status says so.
+    shaft_speed
+        [rad/s], good to `slip`; a pair (from, to) if it is rough; None if it is unknown: then that
+        of the recording is taken if it carries one, else it is looked for between 300 and 6000
+        turns a minute.
+    slip
+        by how much balls may pass faster or slower than the shaft speed says, as a fraction.
+    most_samples
+        of all directions that may be listened to. Where there are more nothing is begun, and the
+        status says how many there are.
+    speed_source, bearing_source
+        where a speed and a bearing are from, one of `SOURCES`, perhaps with its words behind a
+        colon, as in "assumed: the scene's". The answer says it.
+
+    Raises
+    ------
+    ValueError
+        for a speed, slip or source that cannot be, and for rows that are not alike.
+    """
+    checks.instance("recording", recording, Recording)
+    bearing = None if bearing is None else bearing_of(bearing)
+    for name, said in (("speed_source", speed_source), ("bearing_source", bearing_source)):
+        checks.choice(name, said.partition(":")[0], SOURCES)
+    found = _diagnose(recording, bearing, shaft_speed, slip, most_samples, speed_source)
+    return replace(found, bearing_source="unknown" if bearing is None else bearing_source)
+
+
+def _diagnose(
+    recording: Recording,
+    bearing: Bearing | None,
+    shaft_speed: float | tuple[float, float] | None,
+    slip: float,
+    most_samples: int,
+    speed_source: str,
+) -> Diagnosis:
+    slip = checks.real_number("slip", slip, at_least=0.0, at_most=0.1)
+    low, high, source = _speeds(recording, shaft_speed, speed_source)
+    most = checks.whole_number("most_samples", most_samples, at_least=1, at_most=10**12)
+    if recording.acceleration.size > most:
+        words = say.too_many(recording.acceleration.size, most)
+        return silent(DiagnosisStatus.TOO_LONG, words, source)
+    signal = ListenedSignal(recording)
+    if signal.unusable is not None:
+        return silent(*signal.unusable, source)
+    if bearing is None:
+        return silent(DiagnosisStatus.BEARING_OPEN, say.which_bearing(), source)
+    answer = _between(signal, bearing, low, high, slip, source, speed_source)
+    # sidebands of an inner race or a ball confirm the speed, an outer race has none
+    if high > NARROW * low or answer.fault in (INNER, BALL):
+        return answer
+    reach = (high - low) / (high + low) + slip
+    return _held_against_the_shaft(signal, answer, 0.5 * (low + high), reach)
+
+
+def _between(
+    signal: ListenedSignal,
+    bearing: Bearing,
+    low: float,
+    high: float,
+    slip: float,
+    source: str,
+    speed_source: str,
+) -> Diagnosis:
+    """The diagnosis at a speed between two [Hz], which may be one and the same."""
+    if high <= low * (1.0 + 1e-9):
+        return _at_speed(signal, bearing, low * (1.0 - slip), low * (1.0 + slip), slip, source)
+    if high <= low * (1.0 + 2.0 * slip):  # lines of a part, which slips, give a speed no better
+        source = f"{speed_source} as a range"
+        return _at_speed(signal, bearing, low, high, slip, source, 0.5 * (high / low - 1.0))
+    answer = in_range(signal, bearing, low, high, slip, source)
+    if answer.shaft_speed is None or answer.fault in (OUTER, INNER):
+        return answer
+    shaft = answer.shaft_speed / (2.0 * math.pi)
+    return _second_opinion(signal, part_lines(bearing), answer, shaft, shaft, slip)
+
+
+def _held_against_the_shaft(
+    signal: ListenedSignal, answer: Diagnosis, speed: float, reach: float
+) -> Diagnosis:
+    """The answer, held against lines of the shaft at another speed than the stated one [Hz].
+
+    Lines of the shaft elsewhere, and none at the stated speed, mean that speed or sample rate are
+    wrong: no part is named then, and the answer says which speed the lines show. At 60 times the
+    speed or a 60th of it, Hz and rpm are confused most likely.
+    """
+    stated = signal.shaft(speed * (1.0 - reach), speed * (1.0 + reach))
+    if stated.clear:
+        return answer
+    least, most = (turning / (2.0 * math.pi) for turning in SPEEDS)
+    for other in (60.0 * speed, speed / 60.0):
+        if answer.names_a_part or not least <= other <= most:
+            continue
+        if signal.shaft(other * (1.0 - reach), other * (1.0 + reach)).clear:
+            return replace(answer, detail=f"{answer.detail} {say.other_unit(speed, other)}")
+    if stated.excess >= 0.0:
+        return answer
+    shown = signal.shaft_tones(ELSEWHERE[0] * speed, ELSEWHERE[1] * speed)
+    if not shown.clear:
+        return answer
+    words = say.lines_elsewhere(speed, shown.frequency)
+    if not answer.names_a_part:
+        return replace(answer, detail=f"{answer.detail} {words}")
+    return replace(
+        answer,
+        fault=CANNOT_TELL,
+        status=DiagnosisStatus.OTHER_SHAFT,
+        detail=f"{say.against_the_shaft(answer.of(answer.fault))} {words}",
+        probability=CONTRADICTED * answer.probability,
+        evidence=tuple(
+            replace(one, probability=CONTRADICTED * one.probability) for one in answer.evidence
+        ),
+    )
+
+
+def _speeds(
+    recording: Recording, shaft_speed: float | tuple[float, float] | None, said: str
+) -> tuple[float, float, str]:
+    """The speed from, to [Hz], and where it is from."""
+    turn = 2.0 * math.pi
+    if shaft_speed is None:
+        given = getattr(recording, "shaft_speed", None)
+        if given is not None:
+            speed = checks.real_number("shaft_speed", given, above=0.0, unit="rad/s") / turn
+            return speed, speed, "given by the recording"
+        return SPEEDS[0] / turn, SPEEDS[1] / turn, "looked for"
+    if np.ndim(shaft_speed) == 0:
+        speed = checks.real_number("shaft_speed", shaft_speed, above=0.0, unit="rad/s") / turn  # type: ignore[arg-type]
+        return speed, speed, said
+    try:
+        first, last = shaft_speed  # type: ignore[misc]
+    except (TypeError, ValueError):
+        raise checks.refuse(
+            "shaft_speed", shaft_speed, "a number [rad/s], a pair of them, or None"
+        ) from None
+    first = checks.real_number("lower shaft_speed", first, above=0.0, unit="rad/s")
+    last = checks.real_number("upper shaft_speed", last, at_least=first, unit="rad/s")
+    return first / turn, last / turn, "looked for"
+
+
+def _at_speed(
+    signal: ListenedSignal,
+    bearing: Bearing,
+    low: float,
+    high: float,
+    slip: float,
+    source: str,
+    reach: float = 0.0,
+) -> Diagnosis:
+    """The diagnosis at the middle of two speeds [Hz], or where the shaft's own lines are between.
+
+    `reach` is by how much the middle may be off, as a fraction.
+    """
+    parts = part_lines(bearing)
+    shaft = 0.5 * (low + high)
+    refused = unfit(signal, parts, shaft)
+    if refused is not None:
+        return silent(*refused, source, shaft)
+    given, own = shaft, signal.shaft(low, high)
+    # lines broader than the window that they are looked for in make nothing finer
+    if own.clear and signal.duration * (high - low) > 1.0:
+        shaft = own.frequency
+        given = shaft if reach else given
+        source += ", refined from the shaft lines in the signal"
+    else:
+        slip += reach
+        source += ", its middle" if reach else ""
+    answer = decide(signal, judge(signal, parts, shaft, slip, given), shaft, source)
+    if answer.fault in (OUTER, INNER):
+        return answer
+    return _second_opinion(signal, parts, answer, shaft, given, slip)
+
+
+_IN_DOUBT = (
+    DiagnosisStatus.PERHAPS_A_BALL,
+    DiagnosisStatus.MAGNETIC,
+    DiagnosisStatus.UNMODULATED,
+)
+"""Outcomes that keep a bearing from being called healthy."""
+
+_INSTEAD_OF = {
+    DiagnosisStatus.NONE_SEEN: _IN_DOUBT,
+    **dict.fromkeys(
+        (DiagnosisStatus.IRREGULAR, DiagnosisStatus.INSENSITIVE, DiagnosisStatus.FAINT),
+        (
+            *_IN_DOUBT,
+            DiagnosisStatus.ALIKE,
+            DiagnosisStatus.NOT_ALONE,
+            DiagnosisStatus.OTHER_SOURCE,
+        ),
+    ),
+}
+"""Outcomes of a second opinion that take the place of one that has seen no lines."""
+
+
+def _second_opinion(
+    signal: ListenedSignal,
+    parts: Sequence[PartLines],
+    answer: Diagnosis,
+    shaft: float,
+    given: float,
+    slip: float,
+) -> Diagnosis:
+    """Diagnosis of the signal as it is, where the whitened one names no race.
+
+    A cage that keeps its speed makes lines as sharp as tones, and whitening cuts those. Tones that
+    are none of the bearing's show too, so that lines count by a part of their swing; where they do
+    not name a part, they keep a bearing from being called healthy.
+    """
+    if answer.status == DiagnosisStatus.OTHER_SHAFT:
+        return answer
+    judged = judge(signal.unwhitened(), parts, shaft, slip, given).counting(TONES_COUNT)
+    again = decide(signal, judged, shaft, answer.speed_source)
+    if answer.fault == BALL:  # whitening hides how sharp lines are which nothing modulates
+        alone = again.status == DiagnosisStatus.UNMODULATED and not again.of(BALL).modulated
+        return again if alone else answer
+    if again.fault in (OUTER, INNER):
+        return again
+    seen = again.status in _INSTEAD_OF.get(answer.status, ())
+    if answer.fault == NONE_SEEN and judged.own.swing < ENOUGH_SWING:
+        return answer
+    return again if seen else answer

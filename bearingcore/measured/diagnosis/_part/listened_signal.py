@@ -1,0 +1,143 @@
+"""The signal that a diagnosis listens to: its directions, and what is wrong with each."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Sequence
+
+import numpy as np
+
+from bearingcore.measured.diagnosis._part import say
+from bearingcore.measured.diagnosis._part.combs import HARMONICS
+from bearingcore.measured.diagnosis._part.parts import PartLines
+from bearingcore.measured.diagnosis._part.shaft import ShaftLines, shaft_lines
+from bearingcore.measured.diagnosis._part.status import DiagnosisStatus, Reason
+from bearingcore.measured.signals._dropouts import SignalFaults, signal_faults
+from bearingcore.measured.signals._filter_bank import Envelope, split, squared_envelopes
+from bearingcore.recordings import Recording
+
+FEWEST_PASSES = 12
+"""Knocks in a recording below which nothing is said."""
+
+MOST_DROPPED = 0.5
+"""Share of a recording without signal from which nothing is said."""
+
+NOISE_FLOOR = 1e-4
+"""Of a signal's deviation that is added as noise (-80 dB)."""
+
+ABOVE_ROUNDING = 4.0
+"""Times the power of rounding that a tenth of all frequencies hold where a bearing runs."""
+
+NARROWEST = 16.0
+"""Turns of the shaft a second that a band is wide at least."""
+
+NEAR = 0.01
+"""Of a speed that was found in a wide range, within which it is looked for again, finely."""
+
+WHITENING = 3.0
+"""Turns of the shaft a second over which a signal is whitened."""
+
+
+class ListenedSignal:
+    """The directions of a recording, and what is wrong with each."""
+
+    def __init__(self, recording: Recording) -> None:
+        self.rate = recording.sample_rate
+        self.duration = recording.duration
+        columns = recording.acceleration.T
+        faults = [signal_faults(column) for column in columns]
+        usable = [index for index, one in enumerate(faults) if one.lost_share <= MOST_DROPPED]
+        self.names = [recording.directions[index] for index in usable]
+        self._measured = [np.asarray(columns[index]) for index in usable]
+        self.columns = [_with_a_floor(samples) for samples in self._measured]
+        self.faults: list[SignalFaults] = [faults[index] for index in usable]
+        self.whitening: float | None = WHITENING
+        self.unusable: Reason | None = None
+        if not usable:
+            share = min(one.lost_share for one in faults)
+            self.unusable = DiagnosisStatus.DROPPED_OUT, say.dropout_message(share)
+
+    def unwhitened(self) -> ListenedSignal:
+        """The same signal, not whitened: resonances and tones keep their level."""
+        other = copy.copy(self)
+        other.whitening = None
+        return other
+
+    @property
+    def dropped(self) -> float:
+        """Share of the samples that dropped out."""
+        return max(one.dropped_share for one in self.faults)
+
+    @property
+    def clipped(self) -> float:
+        """Share of the samples that are clipped."""
+        return max(one.clipped_share for one in self.faults)
+
+    @property
+    def only_rounding(self) -> bool:
+        """Whether it holds nothing between its tones, along any direction."""
+        return all(_only_rounding(samples, self.rate) for samples in self._measured)
+
+    def envelopes(self, shaft: float, highest: float) -> list[tuple[str, Envelope]]:
+        """Envelopes in all bands, with their directions."""
+        bands = split(self.rate, NARROWEST * shaft)
+        return [
+            (name, envelope)
+            for name, column, faults in zip(self.names, self.columns, self.faults, strict=True)
+            for envelope in squared_envelopes(
+                column,
+                self.rate,
+                bands,
+                highest,
+                faults.dropped,
+                None if self.whitening is None else self.whitening * shaft,
+            )
+        ]
+
+    def shaft(self, low: float, high: float) -> ShaftLines:
+        """The shaft's own lines between two frequencies [Hz]."""
+        return shaft_lines(self.columns, self.rate, low, high)
+
+    def shaft_tones(self, low: float, high: float) -> ShaftLines:
+        """The shaft's own lines between two frequencies [Hz], in the vibration alone.
+
+        Damaged balls make combs of the cage in the envelope, which are none of the shaft's.
+        """
+        wide = shaft_lines(self.columns, self.rate, low, high, envelopes=False)
+        near = wide.frequency * (1.0 - NEAR), wide.frequency * (1.0 + NEAR)
+        return shaft_lines(self.columns, self.rate, *near, envelopes=False)
+
+
+def _with_a_floor(samples: np.ndarray) -> np.ndarray:
+    """The samples with the noise that any recorder has.
+
+    A computed signal may have none: then the remains of rounding and leakage would show.
+    """
+    noise = np.random.default_rng(0).standard_normal(len(samples))
+    return np.asarray(samples + NOISE_FLOOR * float(samples.std()) * noise)
+
+
+def _only_rounding(samples: np.ndarray, rate: float) -> bool:
+    """Whether between tones there is no more than the steps of the numbers and our own noise.
+
+    Rounding to steps Δ has the power Δ²/12, alike at all frequencies.
+    """
+    from scipy.signal import welch  # imported late: see `spectrum`
+
+    step = float(np.median(np.diff(np.unique(samples)))) if np.ptp(samples) else 0.0
+    rounding = (step**2 / 12.0 + (NOISE_FLOOR * float(samples.std())) ** 2) / (0.5 * rate)
+    density = welch(samples, rate, nperseg=min(4096, len(samples)))[1]
+    return bool(np.quantile(density, 0.9) <= ABOVE_ROUNDING * rounding)
+
+
+def unfit(signal: ListenedSignal, parts: Sequence[PartLines], shaft: float) -> Reason | None:
+    """Why nothing can be said, or None."""
+    slowest = min(lines.order for lines in parts) * shaft
+    top = max(lines.order for lines in parts) * shaft
+    if signal.duration * slowest < FEWEST_PASSES:
+        words = say.too_short(signal.duration, signal.duration * slowest, FEWEST_PASSES)
+        return DiagnosisStatus.TOO_SHORT, words
+    if 0.5 * signal.rate < (HARMONICS + 2.0) * top:
+        words = say.too_slow(signal.rate, 2.0 * (HARMONICS + 2.0) * top)
+        return DiagnosisStatus.TOO_COARSE, words
+    return None

@@ -1,0 +1,155 @@
+"""The diagnosis where the speed is known roughly or not at all: it is looked for."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from bearingcore.bearings import Bearing
+from bearingcore.measured.diagnosis._part import say
+from bearingcore.measured.diagnosis._part.decide import NAMED, decide, silent
+from bearingcore.measured.diagnosis._part.evidence import CANNOT_TELL, Diagnosis
+from bearingcore.measured.diagnosis._part.judged import (
+    NOISE_MARGIN,
+    Judged,
+    compare,
+    judge,
+    listened,
+)
+from bearingcore.measured.diagnosis._part.listened_signal import ListenedSignal, unfit
+from bearingcore.measured.diagnosis._part.parts import PartLines, part_lines
+from bearingcore.measured.diagnosis._part.probability import SURE
+from bearingcore.measured.diagnosis._part.shaft import ERROR, ShaftLines
+from bearingcore.measured.diagnosis._part.status import DiagnosisStatus
+
+NARROW = 1.3
+"""A range of speeds whose ends differ by this factor at most is believed without shaft lines."""
+
+SHAFT_MARGIN = 6.0
+"""[dB] by which the shaft's lines at one speed must be above those at another."""
+
+
+def in_range(
+    signal: ListenedSignal, bearing: Bearing, low: float, high: float, slip: float, source: str
+) -> Diagnosis:
+    """The diagnosis at a speed between two [Hz], which is looked for.
+
+    The strongest comb in the signal may be of each part that has its line there at some speed of
+    the range. Which it is, the shaft's own lines at that speed decide.
+    """
+    parts = part_lines(bearing)
+    slow, fast = unfit(signal, parts, low), unfit(signal, parts, high)
+    if slow is not None and fast is not None and slow[0] == fast[0]:  # at any speed between
+        return silent(*(fast if slow[0] == DiagnosisStatus.TOO_SHORT else slow), source)
+    if (refused := slow or fast) is not None:
+        known = "is known only roughly" if high <= NARROW * low else "is not known"
+        words = say.too_far(known, "fastest" if slow is None else "slowest",
+                            high if slow is None else low, refused[1])  # fmt: skip
+        return silent(DiagnosisStatus.SPEED_OPEN, words, source)
+    own = signal.shaft(low, high)
+    hypotheses = []
+    if own.clear:
+        hypotheses.append(_Hypothesis(own, judge(signal, parts, own.frequency, slip)))
+    middle, reach = 0.5 * (low + high), (high - low) / (high + low) + slip
+    resolutions = listened(signal, parts, middle, reach, known_speed=False)
+    strongest, above = max(
+        (
+            (frequency, level - combs.noise)
+            for combs in resolutions
+            for frequency, level in combs.best.values()
+        ),
+        key=lambda pair: pair[1],
+    )
+    stands_out = above >= NOISE_MARGIN
+    if stands_out:
+        for lines in parts:
+            speed = strongest / lines.order
+            if low * (1.0 - slip) <= speed <= high * (1.0 + slip):
+                hypotheses.append(_Hypothesis.at(signal, parts, speed, slip, low, high))
+    holding = sorted((one for one in hypotheses if one.holds), key=lambda one: -one.shaft.excess)
+    if not holding:
+        if own.clear:
+            return decide(signal, hypotheses[0].judged, own.frequency, _FOUND)
+        if not hypotheses:  # no lines, or such as no part has at any of these speeds
+            judged = compare(resolutions, parts, reach)
+            answer = decide(signal, judged, None, f"{source}, not found")
+            if not answer.names_a_part:
+                return answer
+            # of a part only at a speed outside the range, or too faint to find one
+            best = judged.own
+            beyond = replace(judged, shaft=best.frequency / best.nominal_order)
+            return _undecided_speed(signal, [_Hypothesis(own, beyond)], best.frequency, source)
+        return _undecided_speed(signal, hypotheses, strongest, source)
+    first = holding[0]
+    rival = next((one for one in holding[1:] if not one.agrees(first, slip)), None)
+    alone = high <= NARROW * low and rival is None
+    if not (first.shaft.clear or alone):
+        return _undecided_speed(signal, holding, first.judged.own.frequency, source)
+    if rival is not None and first.shaft.excess < rival.shaft.excess + SHAFT_MARGIN:
+        return _undecided_speed(signal, [first, rival], first.judged.own.frequency, source)
+    part = first.judged.own.part
+    if first.shaft.clear:
+        return decide(signal, first.judged, first.judged.shaft, _FOUND)
+    # any source with lines somewhere in the range would have been taken for the part's
+    width = 2.0 * math.atanh(max(slip, ERROR))
+    judged = first.judged.among(1.0 + math.log(high / low) / width)
+    return decide(signal, judged, judged.shaft, f"taken from the lines of the {part}")
+
+
+_FOUND = "found by the shaft's own lines"
+
+
+def _undecided_speed(
+    signal: ListenedSignal, hypotheses: Sequence[_Hypothesis], frequency: float, source: str
+) -> Diagnosis:
+    """Knocks that may be of one part or another, as the speed may be."""
+    readings: dict[str, float] = {}
+    for one in hypotheses:
+        readings.setdefault(one.judged.own.part, one.judged.shaft)
+    decided = decide(signal, hypotheses[0].judged, None, source)
+    # each reading is as probable as the others: what holds at one speed counts by its share
+    share = SURE / max(2, len(readings))
+    evidence = [replace(one, probability=share * one.probability) for one in decided.evidence]
+    return replace(
+        decided,
+        fault=CANNOT_TELL,
+        status=DiagnosisStatus.SPEED_OPEN,
+        detail=say.which_speed(frequency, list(readings.items())),
+        probability=share,
+        evidence=tuple(evidence),
+    )
+
+
+@dataclass(frozen=True)
+class _Hypothesis:
+    """That the shaft turns at a speed, and what the signal says then."""
+
+    shaft: ShaftLines
+    judged: Judged
+
+    @classmethod
+    def at(
+        cls,
+        signal: ListenedSignal,
+        parts: Sequence[PartLines],
+        speed: float,
+        slip: float,
+        low: float,
+        high: float,
+    ) -> _Hypothesis:
+        """Diagnosis if the shaft turns about `speed` times a second [Hz], between two bounds."""
+        shaft = signal.shaft(max(low, speed * (1.0 - slip)), min(high, speed * (1.0 + slip)))
+        speed = min(max(speed, low), high)
+        return cls(shaft, judge(signal, parts, shaft.frequency if shaft.clear else speed, slip))
+
+    @property
+    def holds(self) -> bool:
+        """Whether a part would be named at that speed."""
+        return self.judged.own.probability >= NAMED
+
+    def agrees(self, other: _Hypothesis, slip: float) -> bool:
+        """Whether another speed is the same, and the part."""
+        ratio = self.judged.shaft / other.judged.shaft
+        same = self.judged.own.part == other.judged.own.part
+        return same and abs(ratio - 1.0) <= 2.0 * slip

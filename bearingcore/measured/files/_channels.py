@@ -1,0 +1,274 @@
+"""Which columns of a file are signals, where and in which direction they were measured."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from bearingcore.measured.files._units import SPEEDS, TIMES, UNITS, VOLTAGES, unit_in, unit_named
+
+SIGNAL, TIME, SPEED, OTHER = "signal", "time", "speed", "other"
+ROLES = (SIGNAL, TIME, SPEED, OTHER)
+
+_SAYS = {
+    "x": {"x", "ax", "accx", "xacc", "hor", "horiz", "horizontal", "h", "lateral"},
+    "y": {"y", "ay", "accy", "yacc", "ver", "vert", "vertical", "vertikal", "v"},
+    "z": {"z", "az", "accz", "zacc", "axial"},
+}
+_PLACES = {
+    "de": "drive end",
+    "nde": "non-drive end",
+    "ode": "non-drive end",
+    "inboard": "inboard",
+    "outboard": "outboard",
+    "fe": "fan end",
+    "ba": "base",
+    "base": "base",
+    "gearbox": "gearbox",
+}
+PLACES = tuple(dict.fromkeys(_PLACES.values()))
+"""Places of sensors that names of columns may say."""
+
+_PHRASES = (
+    ("nondriveend", "non-drive end"),
+    ("oppositedriveend", "non-drive end"),
+    ("driveend", "drive end"),
+    ("fanend", "fan end"),
+)
+PULSES = {
+    "tacho", "tachometer", "tach", "keyphasor", "keyphaser", "trigger", "encoder", "pulse",
+    "pulses",
+}  # fmt: skip
+"""Words for a tachometer's signal."""
+
+_NOT_SIGNALS = PULSES | {
+    "rpm", "speed", "drehzahl", "temperature", "temperatur", "temp", "current", "strom",
+    "torque", "drehmoment", "pressure", "druck", "power", "humidity", "flow", "microphone", "mic",
+    "load", "gyro", "gyroscope", "gyr", "magnetic",
+    "magnetometer", "quat", "quaternion", "displacement", "displ", "disp", "proximity", "prox",
+    "weg", "verschiebung", "amps", "courant", "currents", "sound",
+}  # fmt: skip
+_COUNTS = {"index", "sample", "samples", "row", "no"}
+"""Words for a number of rows; in a name's last part alone: "samples.x" is a signal."""
+
+_TIMES = {
+    "t", "time", "times", "zeit", "temps", "tiempo", "tempo", "timestamp", "timestamps", "clock",
+    "zeitstempel", "uhrzeit", "date", "datetime", "datum", "elapsed", "epoch", "utc", "unix",
+    "timedelta", "ts",
+}  # fmt: skip
+_BEFORE_TIME = {
+    "elapsed", "relative", "rel", "absolute", "abs", "sample", "sampling", "system", "local",
+    "measurement", "recording", "record", "log", "run", "scan", "host", "device", "unix", "time",
+}  # fmt: skip
+"""Words before "time"; elsewhere it may end the name of a signal, as in "X105_DE_time"."""
+
+
+@dataclass(frozen=True)
+class Column:
+    """Meaning of a column.
+
+    Attributes
+    ----------
+    name
+        its heading.
+    role
+        one of `ROLES`: "signal", "time", "speed" or "other".
+    unit
+        that the heading gives, one of `UNITS` for a signal; None where it gives none.
+    direction
+        "x", "y" or "z" as the heading says, else empty.
+    place
+        of the sensor as the heading says, else empty.
+    """
+
+    name: str
+    role: str
+    unit: str | None = None
+    direction: str = ""
+    place: str = ""
+
+
+@dataclass(frozen=True)
+class Choice:
+    """The columns of this bearing by direction, and the reason.
+
+    Where there is a question nothing is chosen, and `options` are the indices of the columns that
+    may be the answer: one of them, or two that are directions of one place. A `note` says that the
+    only signal was chosen in spite of its name.
+    """
+
+    columns: Mapping[str, int]
+    reason: str
+    question: str = ""
+    options: tuple[int, ...] = ()
+    note: str = ""
+
+
+def column_of(name: str) -> Column:
+    """Meaning of a column by its heading."""
+    words = words_of(name) | words_of(re.sub(r"(?<=[a-z])(?=[XYZ]\b)", " ", name))
+    unit = unit_in(name)
+    leaf = re.sub(r"^[\w.{}()]*\.(?=[A-Za-z])", "", name.strip())  # of a struct
+    bare = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", leaf)
+    first, *more = [word for word in re.split(r"[\W_]+", bare.lower()) if word] or [""]
+    unit = unit or _time_unit(first, more)
+    if unit in TIMES or (unit is None and _names_a_time(name, first, more)):
+        return Column(name, TIME, unit)
+    if unit in SPEEDS:
+        return Column(name, OTHER if names_a_frequency(name) else SPEED, unit)
+    other = words & _NOT_SIGNALS or words_of(leaf) & _COUNTS or first == "mag"
+    if unit not in (None, *UNITS) or (other and unit in (None, *VOLTAGES)):  # of a sensor for it
+        return Column(name, OTHER, unit)
+    if place_in(name) and re.search(r"[\s_.]V$", name):
+        unit, words = None, {"v"}  # the vertical one at a place, no voltage
+    direction = next((axis for axis, said in _SAYS.items() if words & said), "")
+    return Column(name, SIGNAL, unit, direction, place_in(name))
+
+
+def _time_unit(first: str, more: Sequence[str]) -> str | None:
+    """The unit of times that a heading such as "seconds" or "seconds_elapsed" is."""
+    unit = unit_named(first) if len(first) > 1 and more in ([], ["elapsed"]) else None
+    return unit if unit in TIMES else None
+
+
+def _names_a_time(name: str, first: str, more: Sequence[str]) -> bool:
+    """Whether a heading, of which these are the first word and the others, is that of times."""
+    if first in _TIMES or (first in _BEFORE_TIME and more and more[0] in _TIMES | {"stamp"}):
+        return True
+    return bool(re.fullmatch(r"x[_ ]values?", name.strip().lower()))  # LabVIEW's, of each row
+
+
+def names_a_frequency(name: str) -> bool:
+    """Whether a heading is that of frequencies, and not of those of a shaft."""
+    words = words_of(name)
+    return bool(words & _OF_A_FREQUENCY) and not words & _OF_A_SHAFT
+
+
+_OF_A_FREQUENCY = {
+    "f", "freq", "frequency", "frequencies", "frequenz", "fréquence", "hz", "khz", "cpm", "order",
+    "orders", "ordnung", "ordnungen", "ordre",
+}  # fmt: skip
+_OF_A_SHAFT = {"shaft", "rotation", "rotational", "rotor", "running", "speed", "turning", "welle"}
+
+
+def place_in(name: str) -> str:
+    """Where a heading or a variable's name says that the sensor was.
+
+    >>> place_in("X105_DE_time"), place_in("Bearing 3 y"), place_in("vertical")
+    ('drive end', 'bearing 3', '')
+    """
+    return next(iter(places_in(name)), "")
+
+
+def places_in(name: str) -> list[str]:
+    """All places that a name says, those of a motor's ends first.
+
+    >>> places_in("pump_DE_NDE.csv"), places_in("non drive end, bearing 1")
+    (['drive end', 'non-drive end'], ['non-drive end', 'bearing 1'])
+    """
+    squeezed, words = re.sub(r"[\W_]+", "", name.lower()), words_of(name)
+    found = []
+    for phrase, place in _PHRASES:
+        if phrase in squeezed:
+            found.append(place)
+            squeezed = squeezed.replace(phrase, " ")
+    found += [place for word, place in _PLACES.items() if word in words]
+    numbered = re.findall(
+        r"(?:bearing|lager|brg)[ _-]?(\d+)|(?<![a-z0-9])b(\d)(?![a-z0-9])", name.lower()
+    )
+    found += [f"bearing {one or other}" for one, other in numbered]
+    found += re.findall(r"(?<![a-z])point \d+", name.lower())
+    return list(dict.fromkeys(found))
+
+
+def words_of(heading: str) -> set[str]:
+    """The words of a heading, without units in brackets."""
+    bare = re.sub(r"[\[(].*?[\])]", " ", heading.lower())
+    return {word for word in re.split(r"[^a-z0-9]+", bare) if word}
+
+
+def choose(
+    columns: Sequence[Column],
+    moving: Sequence[bool],
+    why: str,
+    file_name: str = "",
+    place: str = "",
+) -> Choice:
+    """The columns that are likely this bearing's, or the question which they are.
+
+    Sensors at several places are never taken for several directions.
+
+    Parameters
+    ----------
+    columns
+        of the table.
+    moving
+        whether each holds a signal at all.
+    why
+        the directions of the columns are known.
+    file_name
+        which may say which place it is about.
+    place
+        that of the bearing, where it is known.
+    """
+    signals = [
+        index
+        for index, column in enumerate(columns)
+        if column.role == SIGNAL and moving[index] and column.direction != "z"
+    ]
+    axial = [i for i, one in enumerate(columns) if one.direction == "z" and moving[i]]
+    if not signals and len(axial) == 1:
+        return only_signal(columns[axial[0]].name, axial[0], why)
+    if not signals and axial:
+        words = "By their names all signals are along the shaft (z). Which is at this bearing?"
+        return Choice({}, "", words, tuple(axial))
+    if not signals and any(column.role == SIGNAL for column in columns):
+        return Choice({}, "", "Every column is the same number throughout.")
+    if not signals:
+        return Choice({}, "", "No column looks like a signal of acceleration.")
+    if len({columns[index].place for index in signals} - {""}) > 1:
+        return _by_place(columns, signals, why, file_name, place)
+    return _by_direction(columns, signals, why)
+
+
+def _by_place(
+    columns: Sequence[Column], signals: Sequence[int], why: str, file_name: str, place: str
+) -> Choice:
+    """Signals of the one place that the file's name says, or that is known."""
+    places = {columns[index].place for index in signals} - {""}
+    named = [one for one in places_in(file_name) if one in places]
+    said = named[0] if len(named) == 1 else ""  # two of them name what is in the file
+    place = said or place
+    there = [index for index in signals if place and columns[index].place == place]
+    if there:
+        return _by_direction(columns, there, f"the file's name says {said}" if said else why)
+    known = ", ".join(sorted(places))
+    question = f"The file holds signals of several places ({known}). Which is at this bearing?"
+    return Choice({}, "", question, tuple(signals))
+
+
+def only_signal(name: str, index: int, why: str) -> Choice:
+    """Choose the one signal of a file, whatever its name says."""
+    reason = f"{why}, the only signal there" if why else "the only signal there"
+    note = f"“{name}” is read as the vibration across the shaft, since it is the only signal."
+    return Choice({"y": index}, reason, note=note)
+
+
+def _by_direction(columns: Sequence[Column], signals: Sequence[int], why: str) -> Choice:
+    """Signals of one place by their directions."""
+    named = {axis: [i for i in signals if columns[i].direction == axis] for axis in ("x", "y")}
+    if any(len(there) > 1 for there in named.values()):
+        question = "The file holds several signals of one direction. Which is at this bearing?"
+        return Choice({}, "", question, tuple(signals))
+    by_name = {axis: there[0] for axis, there in named.items() if there}
+    if by_name:
+        return Choice(by_name, why)
+    if len(signals) == 1:
+        only = "the only signal there; its direction is not said"
+        return Choice({"y": signals[0]}, f"{why}, {only}" if why else only)
+    question = (
+        f"The file holds {len(signals)} signals, and nothing says where or in which direction they "
+        "were measured. Which is at this bearing?"
+    )
+    return Choice({}, "", question, tuple(signals))

@@ -1,0 +1,169 @@
+"""Files from outside are read in a process of their own, with limits of time and memory.
+
+Libraries read every format; on damaged or crafted files they may crash, unpack without end or need
+hours. Such a process ends, and a sentence says so. It gives plain arrays and words back: a line of
+JSON and one matrix, nothing that could run here.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
+from threading import Event, Thread
+from typing import IO, Any
+
+import numpy as np
+
+from bearingcore.common import Array
+from bearingcore.common import _checks as checks
+
+PROCESSOR_SECONDS = 10
+"""[s] of computing that reading a file may take."""
+
+WALL_SECONDS = 20.0
+"""[s] that reading a file may take by the clock."""
+
+MEMORY = 500 * 10**6
+"""[bytes] that the process may take in addition to its libraries."""
+
+LONGEST_ANSWER = 2**22
+"""[bytes] of the line of words that is read back."""
+
+MOST_NUMBERS = 16_000_000
+"""Numbers in a file, all columns together."""
+
+MOST_COLUMNS = 1024
+
+TOO_SLOW = f"one that can be read within {PROCESSOR_SECONDS} s"
+DAMAGED = "one without a damaged or unknown part"
+
+_TICK = 0.1
+"""[s] between two looks at the process."""
+
+_PROGRAM = Path(__file__).with_name("_child_program.py")
+_ENVIRONMENT = {
+    "HDF5_PLUGIN_PATH": "::",  # none is loaded
+    "OPENBLAS_NUM_THREADS": "1",
+    "OMP_NUM_THREADS": "1",
+}
+
+
+def read_file(
+    name: str,
+    content: bytes,
+    *,
+    text_only: bool = False,
+    most_numbers: int = MOST_NUMBERS,
+    most_columns: int = MOST_COLUMNS,
+    give_up: Callable[[], bool] | None = None,
+) -> tuple[dict[str, Any], Array]:
+    """Words and numbers of a file: text (CSV), WAV, MATLAB or HDF5, as its first bytes show.
+
+    Parameters
+    ----------
+    name
+        of the file, for sentences; ".mat" at its end marks MATLAB's version 4.
+    content
+        the whole file.
+    text_only
+        take the content for text, whatever it begins with.
+    most_numbers, most_columns
+        that are taken.
+    give_up
+        asked every tenth of a second: True ends the process.
+
+    Returns
+    -------
+    about
+        the other fields of `contents.FileColumns` by name.
+    columns : (n, c)
+        the numbers; gaps are NaN.
+
+    Raises
+    ------
+    FieldError
+        for a damaged, empty or mis-shaped file, or one that takes too much time or memory.
+    """
+    limits = [PROCESSOR_SECONDS, MEMORY, most_numbers, most_columns, text_only]
+    try:
+        child = subprocess.Popen(
+            [sys.executable, "-I", str(_PROGRAM)],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            env={**os.environ, **_ENVIRONMENT},
+        )
+    except OSError:
+        raise checks.refuse("file", name, "one; the system starts no process to read it") from None
+    assert child.stdin is not None
+    assert child.stdout is not None
+    head = json.dumps([name, *limits]).encode() + b"\n"
+    sender = Thread(target=_send, args=(child.stdin, head, content), daemon=True)
+    ended = Event()
+    watch = Thread(target=_watch, args=(child, ended, give_up), daemon=True)
+    sender.start()
+    watch.start()
+    try:
+        answer = _received(child.stdout, most_numbers)
+        late = not watch.is_alive()
+    finally:
+        ended.set()
+        child.kill()
+        code = child.wait()
+        child.stdout.close()
+        sender.join()
+    if answer is None:
+        slow = late or code == -getattr(signal, "SIGXCPU", 0)
+        raise checks.refuse("file", name, TOO_SLOW if slow else DAMAGED)
+    about, columns = answer
+    if "refused" in about:
+        raise checks.refuse(*about["refused"])
+    return about, columns
+
+
+def _watch(
+    child: subprocess.Popen[bytes], ended: Event, give_up: Callable[[], bool] | None
+) -> None:
+    """End the process once it is late or its answer is no longer wanted."""
+    latest = time.monotonic() + WALL_SECONDS
+    while not ended.wait(_TICK):
+        if time.monotonic() > latest or (give_up is not None and give_up()):
+            child.kill()
+            return
+
+
+def _send(pipe: IO[bytes], head: bytes, content: bytes) -> None:
+    with suppress(OSError):  # a process that has ended reads no more
+        pipe.write(head)
+        pipe.write(content)
+    with suppress(OSError):
+        pipe.close()
+
+
+def _received(pipe: IO[bytes], most_numbers: int) -> tuple[dict[str, Any], Array] | None:
+    """Output of the process, limited in size; None where it ended early."""
+    line = pipe.readline(LONGEST_ANSWER)
+    if not line.endswith(b"\n"):
+        return None
+    try:
+        about = json.loads(line)
+    except (ValueError, RecursionError):
+        return None
+    rows, width = about.pop("shape", (0, 0))
+    if rows * width > most_numbers:
+        return None
+    columns = np.empty((rows, width), order="F")
+    rest = columns.ravel(order="K").view(np.uint8).data
+    while rest:
+        count = pipe.readinto(rest)  # type: ignore[attr-defined]
+        if not count:
+            return None
+        rest = rest[count:]
+    return about, columns

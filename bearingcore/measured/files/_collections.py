@@ -1,0 +1,262 @@
+"""Public collections of bearing signals: how their files look, and what is known of them.
+
+Their files leave out what their documents say. What follows from a look is a guess with its
+reason: taken at once, as it is a good one, and open to change. A collection is one row or several
+of COLLECTIONS; the first row whose marks all fit is taken.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from bearingcore.measured.files._facts import Finding, Named, T
+from bearingcore.measured.files._units import FORCES, SPEEDS
+
+
+@dataclass(frozen=True)
+class Collection:
+    """A row: marks by which files are recognised, and what is known of them.
+
+    Attributes
+    ----------
+    name
+        of the collection.
+    clue
+        the clue that is named as the reason.
+    variable
+        regular expression of the whole name of a column.
+    file
+        regular expression in the file's name. Groups named as units of speed or force (`rpm`, `Hz`,
+        `hundred_rpm`, `hundred_N`) are the shaft's speed and the load.
+    scalars
+        last parts of names of single numbers that must be there.
+    rows, widths, headed, clock
+        count of rows; possible counts of columns without those of a clock; whether the file names
+        its columns; columns that are hours, minutes, seconds and their parts.
+    unit, sample_rate, rpm, load_unit
+        of acceleration; [Hz]; of the shaft; of a number named "load".
+    bearing
+        a name of the catalogue, or a designation.
+    orders
+        BPFO and BPFI in turns of the shaft, where the bearing is in no list.
+    place
+        which of several places of sensors is at the bearing.
+    places, directions
+        of all columns, and of the last ones.
+    signals
+        regular expression of the columns that are signals of acceleration; others are not.
+    """
+
+    name: str
+    clue: str
+    variable: str = ""
+    file: str = ""
+    scalars: tuple[str, ...] = ()
+    rows: int | None = None
+    widths: tuple[int, ...] = ()
+    headed: bool | None = None
+    clock: int | None = None
+    unit: str = ""
+    sample_rate: float | None = None
+    rpm: float | None = None
+    load_unit: str = ""
+    bearing: str = ""
+    orders: tuple[float, float] | None = None
+    place: str = ""
+    places: tuple[str, ...] = ()
+    directions: tuple[str, ...] = ()
+    signals: str = ""
+
+
+_CASE_WESTERN = "Case Western Reserve"
+_ALL_OF_CASE_WESTERN: Any = {"unit": "g", "clue": "variables named", "rpm": 1764.0}
+"""Speeds are from 1730 to 1797 rpm, by the load; most files say it."""
+_ENDS = "_(DE|FE|BA)_time"
+_DRIVE_END: Any = {"bearing": "6205-2RS, CWRU drive end", "place": "drive end"}
+_FAN_END: Any = {"bearing": "6203-2RS, CWRU fan end", "place": "fan end"}
+_AT_48_KHZ = (
+    "09[789]|100|109|11[0-2]|12[2-5]|13[5-8]|148|149|15[01]|16[1-4]|17[4-7]|189|19[0-2]"
+    "|20[1-4]|21[3-7]|22[6-9]|23[89]|24[01]|25[0-4]|26[2-5]"
+)
+
+COLLECTIONS = (
+    Collection(
+        _CASE_WESTERN, **_ALL_OF_CASE_WESTERN, variable=f"X({_AT_48_KHZ}){_ENDS}",
+        sample_rate=48_000.0, **_DRIVE_END,
+    ),
+    Collection(
+        _CASE_WESTERN, **_ALL_OF_CASE_WESTERN, variable=f"X(2[789]|3[01])\\d{_ENDS}",
+        sample_rate=12_000.0, **_FAN_END,
+    ),
+    Collection(
+        _CASE_WESTERN, **_ALL_OF_CASE_WESTERN, variable=f"X\\d{{3}}{_ENDS}",
+        sample_rate=12_000.0, **_DRIVE_END,
+    ),
+    Collection(
+        "MFPT", "fields", variable=r"(.*\.)?gs", scalars=("sr", "rate"), unit="g", load_unit="lb",
+        bearing="NICE, MFPT",
+    ),
+    *(
+        Collection(
+            "FEMTO-ST", "columns", file=file, widths=(2,), headed=False, clock=4, unit="g",
+            sample_rate=25_600.0, rpm=rpm, bearing="6804RS, FEMTO-ST", directions=("x", "y"),
+        )
+        for file, rpm in (
+            ("Bearing1_", 1800.0), ("Bearing2_", 1650.0), ("Bearing3_", 1500.0), ("", None),
+        )
+    ),
+    *(
+        Collection(
+            "IMS", "20 480 rows", rows=20_480, widths=(width,), headed=False, unit="g",
+            sample_rate=20_480.0, rpm=2000.0, orders=(7.092, 8.908),
+            places=tuple(f"bearing {index * 4 // width + 1}" for index in range(width)),
+            directions=("x", "y") * 4 if width == 8 else (),
+        )
+        for width in (4, 8)
+    ),
+    Collection(
+        "XJTU-SY", "headings", variable="(?i)horizontal_vibration_signals", unit="g",
+        file=r"((?P<Hz>35|37\.5|40)Hz)?", sample_rate=25_600.0, bearing="UER204, XJTU-SY",
+    ),
+    Collection(
+        "Paderborn", "variables named",
+        variable=r"N\d\d_M\d\d_F\d\d_K\w+\.Y\.vibration_1", signals=r".*\.vibration_1",
+        file=r"(N(?P<hundred_rpm>\d\d)_M\d\d_F(?P<hundred_N>\d\d)_K)?",
+        sample_rate=64_000.0, bearing="6203, Paderborn",
+    ),
+    Collection(
+        "Ottawa (speeds that change)", "channels and name", variable="Channel_1",
+        file=r"^[HIOBC]-[ABCD]-\d", signals="Channel_1", sample_rate=200_000.0,
+        bearing="ER-16K, Ottawa",
+    ),
+    Collection(
+        "Ottawa (UORED-VAFCLS)", "rows and name", file=r"^[HIOBC]_\d+_\d", rows=420_000,
+        sample_rate=42_000.0, rpm=1750.0, signals=r"(.*\(:,1\)|column 1|[Aa]ccel.*)",
+    ),
+    *(
+        Collection(
+            "DIRG", "variable named", variable=rf"{test}\dA_\d{{3}}_\d{{3}}_\d\(:,\d\)",
+            file=rf"({test}\dA_(?P<Hz>\d{{3}})_)?", widths=(6,), unit="m/s²", sample_rate=rate,
+            orders=(3.889, 6.111), place="bearing 1",
+            places=("bearing 1",) * 3 + ("bearing 2",) * 3,
+            directions=("z", "x", "y") * 2,
+        )
+        for test, rate in (("C", 51_200.0), ("E", 102_400.0))
+    ),
+    *(
+        Collection(
+            "HUST (Hanoi)", "variable and name", variable="data", file=rf"^[BION]+{size}0[024]\.",
+            sample_rate=51_200.0, bearing=f"620{size}",
+        )
+        for size in range(4, 9)
+    ),
+    Collection(
+        "HUST (Huazhong)", "name", file=r"^(0\.5X_)?[HIOBC]_(?P<Hz>\d+)Hz", sample_rate=25_600.0,
+        unit="g", bearing="ER-16K, Ottawa",
+    ),
+    Collection(
+        "JNU", "one column and the name", file=r"^(n|ib|ob|tb)(?P<rpm>\d{3,4})(_\d)*\.",
+        widths=(1,), headed=False, sample_rate=50_000.0, bearing="NU205",
+    ),
+    Collection(
+        "UESTC", "variables and name", variable="Data", scalars=("SampleFrequency",),
+        file=r"(^[NBIO]_(?P<rpm>\d{3,4})_\d)?", sample_rate=20_000.0,
+    ),
+    Collection(
+        "HIT-SM", "variable and name", variable=r"[a-z]+\d+_\d+", rows=262_144, widths=(1,),
+        file=r"(^\D+\d?_(?P<rpm>\d{3,4})\.)?", sample_rate=51_200.0, bearing="6205",
+    ),
+)  # fmt: skip
+"""Descriptions of the files are those of the collections' own documents, and of programs that read
+them."""
+
+_SPEEDS = {**SPEEDS, "hundred_rpm": 100.0 * SPEEDS["rpm"]}
+_FORCES = {**FORCES, "hundred_N": 100.0}
+
+
+@dataclass(frozen=True)
+class Known:
+    """Facts that follow for a file from its look, as those of `row`, in SI units."""
+
+    row: Collection = Collection("", "")
+    why: str = ""
+    unit: Finding[str] | None = None
+    sample_rate: Finding[float] | None = None
+    shaft_speed: Finding[float] | None = None
+    load: Finding[float] | None = None
+    bearing: Finding[str] | None = None
+    orders: Finding[tuple[float, float]] | None = None
+
+
+def recognize(
+    names: Sequence[str],
+    rows: int,
+    clock: int,
+    named: Sequence[Named],
+    headed: bool,
+    file_name: str = "",
+) -> Known:
+    """Guess from the look of a file.
+
+    Parameters
+    ----------
+    names
+        of all columns.
+    rows
+        of the table.
+    clock
+        how many of the first columns are hours, minutes, seconds and their parts.
+    named
+        the single numbers of the file.
+    headed
+        whether the file itself names its columns.
+    file_name
+        without folders.
+    """
+    ends = {one.name.rpartition(".")[2] for one in named}
+    for row in COLLECTIONS:
+        in_name = re.search(row.file, file_name, re.IGNORECASE)
+        if (
+            in_name is not None
+            and any(re.fullmatch(row.variable or ".*", name) for name in names)
+            and ends >= set(row.scalars)
+            and row.rows in (None, rows)
+            and (not row.widths or len(names) - clock in row.widths)
+            and row.headed in (None, headed)
+            and row.clock in (None, clock)
+        ):
+            return _known(row, in_name.groupdict(), named)
+    return Known()
+
+
+def _known(row: Collection, in_name: dict[str, str | None], named: Sequence[Named]) -> Known:
+    why = f"{row.clue} as in the {row.name} collection"
+    speed = None if row.rpm is None else _guess(row.rpm * SPEEDS["rpm"], why, "rpm")
+    load = next((one for one in named if one.name.rpartition(".")[2] == "load"), None)
+    force = None
+    if load is not None and row.load_unit and math.isfinite(load.value):
+        force = _guess(load.value * FORCES[row.load_unit], f"“{load.name}”, {why}")
+    for group, text in in_name.items():
+        if text is not None and group in _SPEEDS:
+            unit = "Hz" if group == "Hz" else "rpm"
+            speed = _guess(float(text) * _SPEEDS[group], f"the file's name, {why}", unit)
+        elif text is not None:
+            force = _guess(float(text) * _FORCES[group], f"the file's name, {why}")
+    return Known(
+        row,
+        why,
+        _guess(row.unit, f"{why}, which is in {row.unit}") if row.unit else None,
+        _guess(row.sample_rate, f"{why}, which was sampled so") if row.sample_rate else None,
+        speed,
+        force,
+        _guess(row.bearing, why) if row.bearing else None,
+        _guess(row.orders, why) if row.orders else None,
+    )
+
+
+def _guess(value: T, why: str, unit: str = "") -> Finding[T]:
+    return Finding(value, why, stated=False, strong=True, file_unit=unit)

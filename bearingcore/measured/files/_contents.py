@@ -1,0 +1,557 @@
+"""Meaning of the columns of a file: statements of the file, guesses, open questions."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from datetime import datetime
+from types import MappingProxyType
+
+import numpy as np
+
+from bearingcore.common import Array, number
+from bearingcore.common import _checks as checks
+from bearingcore.measured.files import _dates as dates
+from bearingcore.measured.files import _facts as facts
+from bearingcore.measured.files._channels import (
+    OTHER,
+    PULSES,
+    SIGNAL,
+    SPEED,
+    TIME,
+    Choice,
+    Column,
+    choose,
+    column_of,
+    names_a_frequency,
+    only_signal,
+    words_of,
+)
+from bearingcore.measured.files._collections import Known, recognize
+from bearingcore.measured.files._facts import Finding, Named, is_steady
+from bearingcore.measured.files._other_kinds import kind_in_words, without_spectra
+from bearingcore.measured.files._sampling import (
+    Sampling,
+    clock_columns,
+    clock_time,
+    sampling_of,
+    since_1970,
+    times_of,
+)
+from bearingcore.measured.files._units import ACCELERATIONS, SPEEDS, TIMES, UNITS
+from bearingcore.recordings import FEWEST_SAMPLES
+from bearingcore.units import STANDARD_GRAVITY
+
+USUAL_LEVEL, SPREAD = 3.0, 1.1
+"""[m/s²] root mean square in the middle of 88 public records that say their unit, and the standard
+deviation of its logarithm."""
+
+LIKELY = math.log(0.9 / 0.1)
+"""Logarithm of the odds from which one of two units is called likely."""
+
+FEWEST_PULSES = 8
+"""Of a tachometer that are a speed."""
+
+TWO_RATES = 0.01
+"""Relative difference from which on a column of times and a remark give two sample rates."""
+
+GRAVITY_SHARE = 0.1
+"""Relative difference to gravity up to which a mean is taken for it."""
+
+
+@dataclass(frozen=True)
+class FileColumns:
+    """Columns of numbers out of a file.
+
+    Attributes
+    ----------
+    names
+        of the columns.
+    columns : (n, c)
+        their numbers; gaps are NaN, as is the rest after the end of a shorter column.
+    sample_rate
+        [Hz] where the file's format has it (WAV), else None.
+    scalars
+        single numbers that the file names, such as a speed or a rate.
+    name
+        of the file.
+    texts
+        words that the file names.
+    remarks
+        lines above the numbers.
+    headed
+        whether the file itself names its columns.
+    stamps
+        columns of dates or times of day, in seconds since the first.
+    full_scale_known
+        whether the numbers are in a unit; False for parts of full scale (WAV).
+    notes
+        sentences on what was not read.
+    given
+        what is said of columns by hand, by index; it goes before all guesses.
+
+    Raises
+    ------
+    ValueError
+        for too few rows.
+    """
+
+    names: tuple[str, ...]
+    columns: Array = field(repr=False)
+    sample_rate: float | None = None
+    scalars: Mapping[str, float] = field(default_factory=dict)
+    name: str = ""
+    texts: Mapping[str, str] = field(default_factory=dict)
+    remarks: tuple[str, ...] = ()
+    headed: bool = True
+    stamps: tuple[int, ...] = ()
+    full_scale_known: bool = True
+    notes: tuple[str, ...] = ()
+    given: Mapping[int, Column] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        rows = len(self.columns)
+        if rows < FEWEST_SAMPLES:
+            raise checks.refuse(
+                f"number of rows in {self.name}", rows, f"at least {FEWEST_SAMPLES} samples"
+            )
+        for name in ("scalars", "texts", "given"):
+            checks.keep(self, **{name: MappingProxyType(dict(getattr(self, name)))})
+
+
+@dataclass(frozen=True)
+class FileContents:
+    """Statements of a file about itself, and guesses at the rest.
+
+    Attributes
+    ----------
+    columns
+        role, unit, direction and place of each column.
+    choice
+        the columns of this bearing by direction, or an open question.
+    unit
+        of the chosen columns, or of all signals where none are chosen.
+    sample_rate
+        [Hz]; None where there is not even a guess.
+    shaft_speed
+        [rad/s]
+    load
+        [N]
+    sampling
+        what the column of times says, where there is one.
+    said
+        everything else that the file names, in its own words.
+    frequencies
+        [Hz] of the bearing's parts that the file names, by `facts.BEARING_FREQUENCIES`.
+    sensitivity
+        [V/(m/s²)] of the sensor.
+    collection
+        the public collection that it looks like; empty where it looks like none.
+    bearing
+        that of the collection, by its name in the catalogue or its designation.
+    orders
+        BPFO and BPFI of the collection's bearing in turns of the shaft, where it is in no list.
+    designation
+        of the bearing, as a line of the file has it: it may be that of none.
+    recorded
+        date and time of the recording.
+    machine, point
+        names of the machine and of the measuring point.
+    """
+
+    columns: tuple[Column, ...]
+    choice: Choice
+    unit: Finding[str]
+    sample_rate: Finding[float] | None
+    shaft_speed: Finding[float] | None
+    load: Finding[float] | None
+    sampling: Sampling | None
+    said: Mapping[str, str]
+    frequencies: Mapping[str, float] = field(default_factory=dict)
+    sensitivity: Finding[float] | None = None
+    collection: str = ""
+    bearing: Finding[str] | None = None
+    orders: Finding[tuple[float, float]] | None = None
+    designation: Finding[str] | None = None
+    recorded: Finding[datetime] | None = None
+    machine: Finding[str] | None = None
+    point: Finding[str] | None = None
+
+
+def contents_of(table: FileColumns) -> FileContents:
+    """Statements of a table about itself, and guesses at the rest."""
+    texts = [f"{name}: {text}" for name, text in table.texts.items()]
+    lines = [*table.remarks, *texts]
+    named = [
+        *(Named(name, value) for name, value in table.scalars.items()),
+        *facts.named_in(map(dates.without_dates, table.remarks)),
+        *facts.named_in(dates.without_dates(text) for text in texts),
+    ]
+    hours = table.names[0].strip().lower() in ("hour", "hours", "h", "stunde")
+    clock = clock_columns(table.columns) if hours or not table.headed else 0
+    clock = 0 if any(index < clock for index in table.given) else clock
+    known = recognize(table.names, len(table.columns), clock, named, table.headed, table.name)
+    columns, sampling = _columns(table, clock, known)
+    columns, choice = _chosen(table, columns, sampling, known, lines)
+    picked = list(choice.columns.values()) or [
+        index
+        for index, column in enumerate(columns)
+        if column.role == SIGNAL and _moves(table.columns[:, index])
+    ]
+    rate = _rate(table, sampling, named, known)
+    speed = _speed(table, columns, named) or known.shaft_speed
+    said = {**{one.name: _text(one) for one in named}, **dates.dates_said(lines), **table.texts}
+    return FileContents(
+        columns,
+        choice,
+        _unit(table, columns, picked, known),
+        rate,
+        speed or _speed_of_pulses(table, columns, rate, sampling),
+        facts.load_in(named) or known.load,
+        sampling,
+        said,
+        facts.bearing_frequencies_in(named),
+        facts.sensitivity_in([*table.remarks, *(f"{k}: {v}" for k, v in said.items())]),
+        known.row.name,
+        known.bearing,
+        known.orders,
+        facts.designation_in(lines),
+        dates.recorded_in(lines, table.name),
+        dates.machine_in(lines, table.name),
+        dates.point_in(lines, table.name),
+    )
+
+
+def _chosen(
+    table: FileColumns,
+    columns: Sequence[Column],
+    sampling: Sampling | None,
+    known: Known,
+    lines: Sequence[str],
+) -> tuple[tuple[Column, ...], Choice]:
+    """The columns without those of spectra, and those of this bearing or a question."""
+    headed = not all(re.fullmatch(r"column \d+|channel \d+", name) for name in table.names)
+    why = known.why or ("as the headings say" if headed else "")
+    moving = [_moves(values) for values in table.columns.T]
+    if by_hand := {index for index, column in table.given.items() if column.role == SIGNAL}:
+        moving = [moves and index in by_hand for index, moves in enumerate(moving)]
+        choice = choose(columns, moving, "as given", table.name, known.row.place)
+        return tuple(columns), choice
+    axis = _frequencies(table, columns, timed=sampling is not None)
+    if not known.why:
+        columns = without_spectra(columns, table.columns, axis)
+        name = "" if axis is None or sampling is not None else columns[axis].name
+        if words := kind_in_words(columns, table.columns, lines, table.name, name):
+            return tuple(columns), Choice({}, "", words)
+    choice = choose(columns, moving, why, table.name, known.row.place)
+    if choice.columns or choice.options or known.why:
+        return tuple(columns), choice
+    return _with_only_signal(columns, table.columns, axis, why) or (tuple(columns), choice)
+
+
+def _with_only_signal(
+    columns: Sequence[Column], values: Array, axis: int | None, why: str
+) -> tuple[tuple[Column, ...], Choice] | None:
+    """Of no signals by their names, the only column that swings about zero as the signal."""
+    below, above = (np.logical_or.reduce(part, axis=0) for part in (values < 0.0, values > 0.0))
+    left = [
+        index
+        for index, column in enumerate(columns)
+        if column.role == OTHER
+        and column.unit is None
+        and index != axis
+        and below[index]
+        and above[index]
+    ]
+    if len(left) != 1:
+        return None
+    made = dataclasses.replace(columns[left[0]], role=SIGNAL)
+    return (
+        tuple(made if index in left else column for index, column in enumerate(columns)),
+        only_signal(made.name, left[0], why),
+    )
+
+
+def _columns(
+    table: FileColumns, clock: int, known: Known
+) -> tuple[tuple[Column, ...], Sampling | None]:
+    """The columns, and what the times say where some of them are times."""
+    columns = _as_in_collection(_with_units(table, _named_columns(table)), known)
+    for index, column in enumerate(columns if len(columns) > 1 else ()):
+        if column.role in (SIGNAL, TIME) and _counts(table.columns[:, index], column):
+            columns[index] = Column(column.name, OTHER)
+    if clock:
+        columns[:clock] = [Column(name, TIME) for name in table.names[:clock]]
+        return tuple(columns), sampling_of(clock_time(table.columns, clock))
+    stamped = [index for index in table.stamps if index not in table.given]
+    for index in stamped:
+        columns[index] = Column(table.names[index], TIME, "s")
+    for index, column in table.given.items():
+        columns[index] = column
+    given_times = [index for index, column in table.given.items() if column.role == TIME]
+    if not given_times:
+        return _with_times(table, columns, stamped)
+    unit, values = columns[given_times[0]].unit, table.columns[:, given_times[0]]
+    if unit is None:
+        return tuple(columns), times_of(values)
+    sampling = sampling_of(values, TIMES[unit])
+    return tuple(columns), dataclasses.replace(sampling, stated=sampling.sample_rate is not None)
+
+
+def _named_columns(table: FileColumns) -> list[Column]:
+    """The columns by their headings, or by a cell of their names."""
+    columns = [_described(column_of(name), table.texts) for name in table.names]
+    labels = [text for name, text in table.texts.items() if _LABELS.fullmatch(name)]
+    if len(labels) != len(columns):
+        return columns
+    return [
+        dataclasses.replace(column_of(label), name=f"{label}, {column.name}")
+        for label, column in zip(labels, columns, strict=True)
+    ]
+
+
+def _with_units(table: FileColumns, columns: list[Column]) -> list[Column]:
+    """The columns with the units that lines give, each its own; one may be that of no signal."""
+    units = facts.units_said(table.remarks, table.texts)
+    signals = [index for index, column in enumerate(columns) if column.role == SIGNAL]
+    if len(units) == 1:
+        signals = [index for index in signals if columns[index].unit is None]
+        units = [] if units[0] in {*UNITS, *TIMES} else units * len(signals)
+    for index, unit in zip(signals, units, strict=True) if len(units) == len(signals) else ():
+        role = SIGNAL if unit is None or unit in UNITS else TIME if unit in TIMES else OTHER
+        columns[index] = dataclasses.replace(columns[index], unit=unit, role=role)
+    return columns
+
+
+def _as_in_collection(columns: list[Column], known: Known) -> list[Column]:
+    """The columns with what a public collection says of them."""
+    row = known.row
+    if row.signals:
+        columns = [
+            column if re.fullmatch(row.signals, column.name) else Column(column.name, OTHER)
+            for column in columns
+        ]
+    for index, place in enumerate(row.places):
+        columns[index] = dataclasses.replace(columns[index], place=place)
+    for index, axis in enumerate(row.directions, len(columns) - len(row.directions)):
+        columns[index] = dataclasses.replace(columns[index], direction=axis)
+    return columns
+
+
+def _with_times(
+    table: FileColumns, columns: list[Column], stamped: Sequence[int]
+) -> tuple[tuple[Column, ...], Sampling | None]:
+    """The columns, and what those say that count rows or are times: by name, or as they rise."""
+    found: dict[int, Sampling] = {}
+    for index, column in enumerate(columns):
+        timed, values = column.role == TIME, table.columns[:, index]
+        rises = len(columns) > 1 and column.role == SIGNAL and column.unit is None
+        if index in table.given or not (timed or rises):
+            continue
+        if timed:
+            found[index] = times_of(values, column.unit, sure=index in stamped)
+        elif table.sample_rate is None and (
+            (dated := since_1970(values)) or (sampling := sampling_of(values)).stated
+        ):
+            # what rises evenly all along is no vibration
+            columns[index] = Column(column.name, OTHER)
+            if (dated or not sampling.trouble) and not names_a_frequency(column.name):
+                columns[index] = Column(column.name, TIME)
+                sampling = times_of(values)
+                reason = f"{sampling.reason} “{column.name}”"
+                found[index] = dataclasses.replace(sampling, reason=reason)
+    return tuple(columns), _of_most_certain(found, [column.name for column in columns])
+
+
+def _of_most_certain(found: Mapping[int, Sampling], names: Sequence[str]) -> Sampling | None:
+    """What the columns of times say, each by its index; where they disagree it is not sure."""
+    if not found:
+        return None
+    time = max(found, key=lambda i: (found[i].stated, found[i].sample_rate is not None))
+    first = found[time]
+    for index, other in found.items():
+        if other.stated and (rate := other.sample_rate) and _differ(rate, first.sample_rate):
+            said = f"“{names[time]}”, where “{names[index]}” says {number(rate, 6)} Hz"
+            return dataclasses.replace(first, stated=False, reason=said)
+    return first
+
+
+def _differ(rate: float, other: float | None) -> bool:
+    return other is not None and abs(rate / other - 1.0) > TWO_RATES
+
+
+_LABELS = re.compile(
+    r"(?i)(.*\.)?([a-z0-9]+[ _]?)?"
+    r"(names?|labels?|channels?|sensors?|columns|items|head(ing|er)?s?|legend|titles?)\{\d+\}"
+)
+_DESCRIBES = ("name", "label", "channel", "position", "location", "place", "sensor", "direction")
+
+
+def _described(column: Column, texts: Mapping[str, str]) -> Column:
+    """A column with the place and direction that words next to it in its struct give."""
+    of = column.name.rpartition(".")[0].lower()
+    for name, text in texts.items():
+        parent, _, end = name.lower().rpartition(".")
+        unit = facts.unit_of(end, text)
+        if not parent or parent not in (of, column.name.lower()):
+            continue
+        if unit in TIMES and column.role == TIME:
+            column = dataclasses.replace(column, unit=column.unit or unit)
+        if unit is not None and column.role == SIGNAL and column.unit is None:
+            role = SIGNAL if unit in UNITS else OTHER
+            column = dataclasses.replace(column, unit=unit, role=role)
+        if end in _DESCRIBES:
+            said = column_of(text)
+            column = dataclasses.replace(
+                column,
+                place=column.place or said.place,
+                direction=column.direction or said.direction,
+            )
+    return column
+
+
+def _frequencies(table: FileColumns, columns: Sequence[Column], *, timed: bool) -> int | None:
+    """The column of the frequencies of a spectrum; beside times it need not be called so."""
+    for index, column in enumerate(columns):
+        if index in table.given or column.role not in (OTHER, SPEED):
+            continue
+        named = names_a_frequency(column.name) or column.role == SPEED
+        if (named or timed) and sampling_of(table.columns[:, index]).stated:
+            return index
+    return None
+
+
+def _counts(time: Array, column: Column) -> bool:
+    """Whether a column counts rows: 0, 1, 2, … is no time in seconds."""
+    whole = bool(np.isfinite(time[0])) and time[0] == np.floor(time[0])
+    return column.unit is None and whole and bool(np.all(np.diff(time) == 1.0))
+
+
+def _moves(signal: Array) -> bool:
+    finite = signal[np.isfinite(signal)]
+    return finite.size >= FEWEST_SAMPLES and bool(np.ptp(finite) > 0.0)
+
+
+def _rate(
+    table: FileColumns, sampling: Sampling | None, named: Sequence[Named], known: Known
+) -> Finding[float] | None:
+    if table.sample_rate is not None:
+        return Finding(table.sample_rate, "the head of the file")
+    said = facts.sample_rate_in([*named, *_constants(table)], table.name)
+    timed = None
+    if sampling is not None and sampling.sample_rate is not None:
+        timed = Finding(sampling.sample_rate, sampling.reason, sampling.stated)
+    both = timed and said and said.taken and timed.stated == said.stated
+    if timed and said and both and abs(timed.value / said.value - 1.0) > TWO_RATES:
+        reason = f"{timed.reason}, where {said.reason} is {number(said.value, 6)} Hz"
+        return dataclasses.replace(timed, reason=reason, stated=False)
+    for finding in (timed, said):
+        if finding is not None and finding.stated:
+            return finding
+    return said or timed or known.sample_rate
+
+
+def _unit(
+    table: FileColumns, columns: Sequence[Column], picked: Sequence[int], known: Known
+) -> Finding[str]:
+    units = {columns[index].unit for index in picked} - {None}
+    if len(units) == 1 and (unit := next(iter(units))) is not None:
+        name = next(columns[index].name for index in picked if columns[index].unit)
+        return Finding(unit, f"the name “{name}”")
+    said = facts.units_said(table.remarks, table.texts)
+    if len(said) == 1 and (unit := said[0]) in UNITS and unit is not None:
+        return Finding(unit, "a line of the file")
+    if known.unit is not None:
+        return known.unit
+    if not picked:
+        return Finding("m/s²", "nothing says it", False, supported=False)
+    if table.full_scale_known is False:
+        return Finding("m/s²", "nothing says what full scale is", False, supported=False)
+    signals = [index for index, column in enumerate(columns) if column.role == SIGNAL]
+    return _unit_by_level(table.columns[:, list(picked)], table.columns[:, signals])
+
+
+def _unit_by_level(signals: Array, all_signals: Array) -> Finding[str]:
+    """The unit in which signals are more like those of bearings; gravity may be on any of all."""
+    finite = np.where(np.isfinite(signals), signals, 0.0)
+    with np.errstate(over="ignore", invalid="ignore"):  # numbers of damaged files
+        level = float(np.sqrt(np.mean((finite - finite.mean(axis=0)) ** 2)))
+        means = np.abs(np.where(np.isfinite(all_signals), all_signals, 0.0).mean(axis=0))
+    for unit in ("g", "m/s²", "mm/s²"):
+        gravity = STANDARD_GRAVITY / ACCELERATIONS[unit]
+        standing = means[np.abs(means / gravity - 1.0) < GRAVITY_SHARE]
+        if standing.size and level < gravity:
+            words = f"a mean of {number(float(standing[0]))} is gravity in {unit}"
+            return Finding(unit, words, False)
+    if not 0.0 < level < np.inf:
+        return Finding("m/s²", "nothing says it", False, supported=False)
+    strays = {
+        unit: (math.log(level * ACCELERATIONS[unit] / USUAL_LEVEL) / SPREAD) ** 2
+        for unit in ("g", "m/s²")
+    }
+    best, other = sorted(strays, key=lambda unit: strays[unit])
+    if 0.5 * (strays[other] - strays[best]) < LIKELY:
+        words = f"a root mean square of {number(level, 2)} is usual in g and in m/s²"
+        return Finding("m/s²", words, False, supported=False)
+    why = f"a root mean square of {number(level, 2)} is more usual in {best} than in {other}"
+    return Finding(best, why, False)
+
+
+def _speed(
+    table: FileColumns, columns: Sequence[Column], named: Sequence[Named]
+) -> Finding[float] | None:
+    for index, column in enumerate(columns):
+        if column.role == SPEED and column.unit is not None:
+            speeds = table.columns[:, index]
+            speeds = speeds[np.isfinite(speeds)]
+            mean = float(speeds.mean()) if speeds.size else 0.0
+            if mean > 0.0 and speeds.min() > -mean:  # a gyroscope swings about zero
+                steady = is_steady(speeds)
+                words = f"the column “{column.name}”" + (
+                    ""
+                    if steady
+                    else f", which goes from {number(speeds.min(), 4)} to {number(speeds.max(), 4)}"
+                )
+                return Finding(mean * SPEEDS[column.unit], words, steady, file_unit=column.unit)
+    return facts.shaft_speed_in([*named, *_constants(table)], table.name)
+
+
+def _speed_of_pulses(
+    table: FileColumns,
+    columns: Sequence[Column],
+    rate: Finding[float] | None,
+    sampling: Sampling | None,
+) -> Finding[float] | None:
+    """A guess at the shaft speed from a tachometer's even pulses, as if each were a turn."""
+    for index, column in enumerate(columns):
+        if rate is None or column.role != OTHER or not words_of(column.name) & PULSES:
+            continue
+        first, last = (None, None) if sampling is None else (sampling.first, sampling.last)
+        values = table.columns[first:last, index]
+        if not np.isfinite(values).all():
+            continue
+        low, high = np.quantile(values, (0.001, 0.999))
+        begins = np.flatnonzero(np.diff((values > 0.5 * (low + high)).astype(int)) == 1)
+        if len(begins) < FEWEST_PULSES or np.ptp(turns := np.diff(begins)) > 0.1 * turns.mean() + 2:
+            continue
+        pulses = rate.value / float(turns.mean())
+        words = f"{number(pulses, 4)} pulses a second in “{column.name}”, if one is a turn"
+        return Finding(pulses * SPEEDS["Hz"], words, False, False, file_unit="Hz")
+    return None
+
+
+def _constants(table: FileColumns) -> list[Named]:
+    """Columns that hold one number: in every row, or in one alone."""
+    made = []
+    for name, column in zip(table.names, table.columns.T, strict=True):
+        values = column[np.isfinite(column)]
+        if is_steady(values):
+            made.append(Named(name, float(values.mean()), column_of(name).unit))
+    return made
+
+
+def _text(one: Named) -> str:
+    return number(one.value, 6) + (f" {one.unit}" if one.unit else "")

@@ -1,0 +1,154 @@
+"""Date, machine and measuring point of a recording, from the remarks and the name of its file."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterable, Mapping
+from datetime import datetime
+
+from bearingcore.measured.files._facts import Finding
+
+_DATE = re.compile(
+    r"(?<!\d)(?:"
+    r"(?P<year>(?:19|20)\d\d)(?:(?P<mark>[-_./ ])(?P<month>\d\d?)(?P=mark)(?P<day>\d\d?)"
+    r"|(?P<joined_month>\d\d)(?P<joined_day>\d\d))"
+    r"|(?P<one>\d\d?)(?P<between>[-./ ])(?P<two>\d\d?|[A-Za-z]{3,9})(?P=between)"
+    r"(?P<last_year>(?:19|20)?\d\d)"
+    r")(?:[-_. T,;\t]+(?P<hour>[012]?\d)[-_.:h ]?(?P<minute>[0-5]\d)"
+    r"(?:[-_.: ]?(?P<second>[0-5]\d))?(?:[.,]\d+)?"
+    r"(?:\s?(?P<half>[AaPp])[Mm])?(?!\d|[A-Za-z]{2}))?(?!\d)"
+)
+"""A date with its time of day, if there is one: "12-Mar-24  09:14", "2004.02.12.10.32.39"."""
+
+_MONTHS = {
+    name: number % 12 + 1
+    for names in (
+        ("jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec"),
+        ("jän", "fév", "mrz", "avr", "mai", "juin", "juil", "aoû", "set", "okt", "nov", "dez"),
+    )
+    for number, name in enumerate(names)
+}
+
+_LABELLED = re.compile(
+    r"(?:^|[;|,\t])[\s\"]*([^\W\d][\w ./()-]{0,30}?)[\s\"]*[:=;,\t][\s\"]*([^;|\t\"]*[^;|\t\"\s,])"
+)
+_OTHER_DATE = re.compile(r"(?i)export|calib|kalib|print|creat|modif|report|\bend|stop|due|version")
+_MACHINES = {
+    "machine", "maschine", "equipment", "asset", "anlage", "assetid", "assetname", "machineid",
+    "machinename", "equipmentname", "equipmentid", "machinetag", "assettag",
+}  # fmt: skip
+_POINTS = {
+    "point", "measpoint", "measurementpoint", "measuringpoint", "messpunkt", "messstelle", "mp",
+    "pointname", "pointid", "location", "position", "sensorposition", "sensorlocation",
+    "measurementlocation", "messort",
+}  # fmt: skip
+_TAG = re.compile(r"(?<![A-Za-z0-9])[A-Z]{1,4}-\d{2,4}[A-Z]?(?![A-Za-z0-9])")
+_POINT_TAG = re.compile(r"(?<![A-Za-z0-9])(?:[MPF]?N?DE|M\d|P\d)-?[HVA]?(?![A-Za-z0-9])")
+"""Usual ways to write a machine's tag and a measuring point in the name of a file."""
+
+
+def time_in(text: str) -> datetime | None:
+    """Return the date in a text, with its time of day if that is there; None of several dates.
+
+    A date such as 03/04/2024, whose month nobody can tell, is none.
+
+    >>> str(time_in("pump_2026-06-01.csv")), str(time_in("12-Mar-24  09:14:55"))
+    ('2026-06-01 00:00:00', '2024-03-12 09:14:55')
+    """
+    dates = {date for match in _DATE.finditer(text) if (date := _date(match)) is not None}
+    return dates.pop() if len(dates) == 1 else None
+
+
+def _date(match: re.Match[str]) -> datetime | None:
+    part = match.groupdict()
+    hour = int(part["hour"] or 0)
+    if half := (part["half"] or "").lower():
+        hour = hour % 12 + 12 * (half == "p")
+    if part["year"]:
+        year, month = int(part["year"]), int(part["month"] or part["joined_month"])
+        day = int(part["day"] or part["joined_day"])
+    else:
+        year = int(part["last_year"])
+        month, day = _month_and_day(part, is_american=bool(half))
+        if part["two"].isdigit() and year < 100 and not (part["between"] == "." and part["minute"]):
+            return None  # the number of a version, or who knows
+        year += 2000 * (year < 100)
+    try:
+        return datetime(year, month, day, hour, int(part["minute"] or 0), int(part["second"] or 0))
+    except ValueError:
+        return None
+
+
+def _month_and_day(part: Mapping[str, str], *, is_american: bool) -> tuple[int, int]:
+    """Month and day before a year; month 0 of what nobody can tell."""
+    day, word = int(part["one"]), part["two"]
+    if not word.isdigit():
+        return _MONTHS.get(word[:3].lower(), 0), day
+    month = int(word)
+    if part["between"] == "/" and (is_american or month > 12):
+        return day, month
+    unclear = part["between"] == "/" and max(day, month) <= 12 and day != month
+    return 0 if unclear else month, day
+
+
+def without_dates(line: str) -> str:
+    """Return a line without its dates, whose numbers are no facts of the recording."""
+    return _DATE.sub(lambda match: "" if _is_date(match) else match[0], line)
+
+
+def _is_date(match: re.Match[str]) -> bool:
+    """Whether numbers are a date; its month may be one that nobody can tell."""
+    return bool(_date(match)) or len(match["year"] or match["last_year"]) == 4
+
+
+def dates_said(lines: Iterable[str]) -> dict[str, str]:
+    """Return dates as lines give them, by what stands before each."""
+    found = {}
+    for line in lines:
+        for match in _DATE.finditer(line):
+            if _is_date(match):
+                labels = re.findall(r"[^\W\d][^;|\t:=,\"]*", line[: match.start()])
+                found[labels[-1].strip() if labels else "date"] = match[0].strip()
+    return found
+
+
+def recorded_in(lines: Iterable[str], file_name: str) -> Finding[datetime] | None:
+    """Find out when a file was recorded, by its remarks, else by its name.
+
+    Where several remarks give dates, they are of one recording only within a day.
+    """
+    lines = list(lines)
+    said = {name: time_in(text) for name, text in dates_said(lines).items()}
+    dates = {date: name for name, date in said.items() if date and not _OTHER_DATE.search(name)}
+    if dates and (max(dates) - min(dates)).days < 1:
+        first = min(dates)
+        clock = [re.match(r"\W*(?:time|zeit)\W+(\d\d?):(\d\d)(?!\d)", ln, re.I) for ln in lines]
+        if not (first.hour or first.minute) and (match := next(filter(None, clock), None)):
+            first = first.replace(hour=int(match[1]) % 24, minute=int(match[2]))
+        return Finding(first, f"“{dates[min(dates)]}” in the file")
+    date = None if dates else time_in(file_name)
+    return None if date is None else Finding(date, "the file's name", stated=False, strong=True)
+
+
+def machine_in(lines: Iterable[str], file_name: str) -> Finding[str] | None:
+    """Return the name of the machine that remarks give; else a tag such as P-101 in the name."""
+    return _labelled(lines, _MACHINES) or _tag(_TAG, file_name)
+
+
+def point_in(lines: Iterable[str], file_name: str) -> Finding[str] | None:
+    """Return the measuring point that remarks give; else one such as MDE-H in the name."""
+    return _labelled(lines, _POINTS) or _tag(_POINT_TAG, file_name)
+
+
+def _labelled(lines: Iterable[str], labels: Collection[str]) -> Finding[str] | None:
+    for line in lines:
+        for part in re.split(r"[;|](?=[^;|]*[:=])", line):
+            match = _LABELLED.match(part)
+            if match and re.sub(r"[\W_]+", "", match[1]).lower() in labels:
+                return Finding(" ".join(match[2].split()), f"“{match[1]}” in the file")
+    return None
+
+
+def _tag(pattern: re.Pattern[str], file_name: str) -> Finding[str] | None:
+    match = pattern.search(re.sub(r"\.\w+$", "", file_name))
+    return match and Finding(match[0], "the file's name", stated=False, strong=True)

@@ -1,0 +1,423 @@
+"""Facts in a file apart from its signals: sample rate, shaft speed, load.
+
+They are in single numbers of MATLAB files, in lines above a table, and in the file's name.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import islice, pairwise, takewhile
+from typing import Generic, TypeVar
+
+import numpy as np
+
+from bearingcore.common import Array
+from bearingcore.measured.files._units import FORCES, SPEEDS, TIMES, VOLTAGES, unit_in, unit_named
+from bearingcore.units import STANDARD_GRAVITY
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True)
+class Finding(Generic[T]):
+    """Something that a file says, or that is guessed.
+
+    Attributes
+    ----------
+    value
+        in SI units: Hz of a sample rate, rad/s of a shaft speed, N of a load; words of a name.
+    reason
+        its place, or why it is likely, in a few words.
+    stated
+        whether the file says so; else it is a guess to be confirmed.
+    supported
+        whether anything speaks for a guess; else the value is a default.
+    file_unit
+        the unit in which the file gives it, where that is known; `value` is in SI all the same.
+    strong
+        whether a guess is good enough to be taken before it is confirmed, as those that follow
+        from a known collection.
+    """
+
+    value: T
+    reason: str
+    stated: bool = True
+    supported: bool = True
+    file_unit: str = ""
+    strong: bool = False
+
+    @property
+    def in_file_unit(self) -> float:
+        """The number of a shaft speed as the file gives it [file_unit]; in SI where no unit is."""
+        return float(self.value) / SPEEDS[self.file_unit or "rad/s"]  # type: ignore[arg-type]
+
+    @property
+    def taken(self) -> bool:
+        """Whether it is taken without a question."""
+        return self.stated or self.strong
+
+
+@dataclass(frozen=True)
+class Named:
+    """A number that a file names, with its unit where that is said.
+
+    `thousands` is whether its point may stand between thousands: "12.000".
+    """
+
+    name: str
+    value: float
+    unit: str | None = None
+    thousands: bool = False
+
+
+_STEADY = 0.02
+
+
+def is_steady(values: Array) -> bool:
+    """Whether numbers, such as those of a speed, vary so little that they count as one."""
+    return values.size > 0 and float(np.ptp(values)) <= _STEADY * float(values.mean())
+
+
+MOST_REMARKS = 100
+
+_NUMBER = r"[-+]?\.?\d(?:[\d.,]| (?=\d{3}\b))*(?:[eE][-+]?\d+)?"
+_REMARK = re.compile(
+    r"\W*([^\W\d][\w .()/\[\]°²µ-]{0,40}?)\s*[:=;,\t]\s*\"?"
+    rf"({_NUMBER})\"?"
+    r"[\s;,]*([^\W\d_][\w./^²-]{0,9}|1/min|°C)?\s*\W*"
+)
+
+_SEVERAL = re.compile(
+    rf"([^\W\d][\w .()/\[\]°²µ-]{{0,40}}?)\s*[:=]\s*({_NUMBER})[ \t]*"
+    r"([^\W\d_][\w/^²]{0,9}(?![\w ]*[:=])|1/min)?"
+)
+_WITH_UNIT = re.compile(
+    rf"([^\W\d]\D{{0,40}}?)?\s*({_NUMBER})\s*([^\W\d_][\w/]{{0,9}}|1/min)?\W*", re.IGNORECASE
+)
+_OF_A_RATE = re.compile(r"k?hz|[km]?s(?:a|amples)?/s(?:ec)?|k?sps|rpm|1/min", re.IGNORECASE)
+"""A number with a unit, with no mark before it or no name; the units of a rate or a speed."""
+
+_RATES = {
+    "fs", "datarate", "acquisitionrate", "samplingrate", "odr", "samplespersec", "samplerate",
+    "scanrate", "sr", "samplefrequency", "samplingfrequency", "samplefreq",
+    "samplingfreq", "sampfreq", "samprate", "abtastrate", "abtastfrequenz", "samplespersecond",
+    "fsample", "fsamp", "outputdatarate", "fsampling", "freqsampling",
+}  # fmt: skip
+_INTERVALS = {
+    "dt", "deltat", "deltax", "sampleinterval", "samplinginterval", "timestep", "sampleperiod",
+    "samplingperiod", "timeincrement", "abtastintervall", "ts", "wfincrement", "xincrement",
+    "increment", "xincr", "sampleintervall", "samplespacing", "abscissainc", "horizontalinterval",
+    "tinterval", "δt", "timeresolution", "sampletime", "samplestep", "xstep", "deltatime",
+}  # fmt: skip
+_FREQUENCIES = {
+    "fr", "fshaft", "shaftfrequency", "shaftrate", "rotationfrequency", "rotationalfrequency",
+    "shaftspeedhz", "speedhz", "rotationfreq", "shaftfreq", "frot", "drehfrequenz",
+}  # fmt: skip
+_SPEEDS = {
+    "speed", "shaftspeed", "rotationspeed", "rotationalspeed", "rotatingspeed", "runningspeed",
+    "motorspeed", "drehzahl",
+}  # fmt: skip
+_KNOWN = _RATES | _INTERVALS | _FREQUENCIES | _SPEEDS | {"rpm"}
+BEARING_FREQUENCIES = ("bpfo", "bpfi", "ftf", "bsf")
+"""Outer and inner race, cage, and one turn of a ball."""
+_LOADS = {"load", "radialload", "last", "radiallast", "force", "radialforce", "loadn", "loadlb"}
+_FACTS = _KNOWN | _LOADS
+
+LEAST_STATED, GREATEST_STATED = 90.0, 5e6
+"""[Hz] of recordings of vibration, from the 100 Hz of phones, which are not exact, on; another
+"sample rate" is asked about."""
+
+LEAST_RATE = 500.0
+"""[Hz] below which a "rate" is the shaft's, not that of the samples."""
+
+FASTEST_IN_HZ = 150.0
+"""A "speed" without a unit is in Hz up to here, in rpm above."""
+
+
+def named_in(lines: Iterable[str]) -> list[Named]:
+    """The numbers that lines above a table name, such as "Sample rate: 25.6 kHz"."""
+    kept = [line.replace('"', "").strip() for line in islice(lines, MOST_REMARKS)]
+    under = [one for pair in pairwise(kept) for one in _under(*pair)]
+    return [*(one for line in kept for one in _in_line(line)), *under]
+
+
+def _under(names: str, values: str) -> Iterator[Named]:
+    """A rate or an interval under its name, in a cell of an oscilloscope's headings."""
+    above, below = ([c.strip(' "') for c in re.split(r"[\t;,]", line)] for line in (names, values))
+    for name, text in zip(above, below, strict=False) if min(len(above), len(below)) > 1 else ():
+        value = _number(text) if re.fullmatch(_NUMBER, text) else None
+        if value is not None and _rate_key(name) in _RATES | _INTERVALS:
+            yield Named(name, value, unit_in(name))
+
+
+_RANGE = re.compile(
+    rf"\s*([:=])\s*({_NUMBER})\s*(?:-|–|\.\.\.?|to|bis)\s*({_NUMBER})\s*([\w/]+)", re.IGNORECASE
+)
+MIDDLE = "middle of"
+"""In the name of a number that a file gives as a range, which is a guess."""
+
+
+def _middle(match: re.Match[str]) -> str:
+    """A narrow range, "speed: 1750-1790 rpm", as its middle."""
+    low, high = _number(match[2]), _number(match[3])
+    if low is None or high is None or not low < high <= 1.5 * low:
+        return match[0]
+    return f" ({MIDDLE} {low:g} to {high:g}){match[1]} {0.5 * (low + high):g} {match[4]}"
+
+
+def _in_line(line: str) -> Iterator[Named]:
+    line = _RANGE.sub(_middle, line)
+    match = _REMARK.fullmatch(line)
+    cells = [cell.strip(' "') for cell in re.split("\t" if "\t" in line else "[;,]", line)]
+    several = len(cells) > 2 and re.match(r"[^\W\d]", cells[0]) and _number(cells[1]) is not None
+    # of each channel the same, or the settings of an instrument beside its numbers
+    if several and (len({cell for cell in cells[1:] if cell}) == 1 or not cells[2]):
+        found: list[tuple[str, str, str | None]] = [(cells[0], cells[1], None)]
+    elif match is not None:
+        found = [(match[1], match[2], match[3])]
+    elif several:
+        found = []
+    else:
+        found = [(one[1], one[2], one[3]) for one in _SEVERAL.finditer(line)]
+    for name, text, unit in found or _without_marks(line):
+        value = _number(text)
+        if value is not None:
+            unit = unit_named(unit) if unit else unit_in(name)
+            grouped = re.fullmatch(r"\d{1,3}[.,]\d{3}", text) is not None
+            yield Named(name.strip(" :;,=\t"), value, unit, grouped)
+
+
+def _without_marks(line: str) -> Iterator[tuple[str, str, str | None]]:
+    """Names, numbers and units of a line without a mark between them, such as "1500 rpm"."""
+    for part in dict.fromkeys((line, *re.split(r"[,;]\s", line))):
+        match = _WITH_UNIT.fullmatch(part.strip())
+        if match is not None and match[3] and _OF_A_RATE.fullmatch(match[3]):
+            turns = unit_named(match[3]) == "rpm"
+            yield match[1] or ("rpm" if turns else "rate"), match[2], match[3]
+        elif match is not None and match[1] and {_key(match[1]), _rate_key(match[1])} & _FACTS:
+            yield match[1], match[2], match[3]
+
+
+def names_a_fact(line: str) -> bool:
+    """Whether a line says a rate, a speed or a load."""
+    keys = {_rate_key(one.name) for one in named_in([line])}
+    return bool(keys & _FACTS) or any("rpm" in key for key in keys) or ":" in line or "=" in line
+
+
+def _number(text: str) -> float | None:
+    """A number as a person writes it, with a point or a comma."""
+    text = re.sub(r"(?<=\d) (?=\d{3}\b)", "", text.rstrip(".,"))
+    if re.fullmatch(r"\d{1,3}(,\d{3})+(\.\d+)?", text):
+        text = text.replace(",", "")
+    try:
+        value = float(text.replace(",", "."))
+    except ValueError:
+        return None
+    return value if math.isfinite(value) else None
+
+
+def _key(name: str) -> str:
+    """The last part of a name, letters and digits only: "bearing.sr" and "Sample rate" as keys."""
+    bare = re.sub(r"[\[(].*?[\])]", "", name).rstrip(" _").rsplit(".", 1)[-1]
+    return re.sub(r"[\W_]+", "", re.sub(r"_\d{1,2}$", "", bare)).lower()  # "Unit_1" of a channel
+
+
+def _rate_key(name: str) -> str:
+    """The same without the unit at its end, "fs_hz", and what it is of, "NI_CM_Dt"."""
+    key = re.sub(r"(?<=\w\w)(in)?[km]?hz$", "", _key(name))
+    bare = _OWNERS.sub("", key)
+    return bare if bare in _RATES | _INTERVALS else key
+
+
+_OWNERS = re.compile(
+    r"^(nicm|ni|daq|adc|accel(eration)?|acc|imu|signal|waveform|sensor|vib|vibration|channel|ch"
+    r"|measured|actual|effective)+"
+)
+
+
+_OTHER_RATE = re.compile(
+    r"(?i)filter|cut.?off|pass|band|resonan|natural|alias|corner|start|stop|bw|span|bpf|bsf|ftf|f_?max|lines|baud|bit"
+)
+
+
+def sample_rate_in(named: Sequence[Named], file_name: str) -> Finding[float] | None:
+    """[Hz]"""
+    found: list[Finding[float]] = []
+    in_hz = False
+    for one in named:
+        key, value = _rate_key(one.name), one.value
+        if not (math.isfinite(value) and value > 0.0):
+            continue
+        if key in _RATES:
+            rate = value * (1e3 if one.unit == "kHz" else 1.0)
+            in_hz |= one.unit == "Hz" and not one.thousands
+            found.append(Finding(rate, f"“{one.name}” in the file"))
+        if key in _INTERVALS and value * TIMES.get(one.unit or "s", 1.0) < 1.0:
+            step = value * TIMES.get(one.unit or "s", 1.0)
+            found.append(Finding(1.0 / step, f"“{one.name}” in the file"))
+    if found:
+        first = found[0]
+        if any(abs(one.value / first.value - 1.0) > 0.005 for one in found):
+            return _doubted(first)
+        if LEAST_STATED <= first.value <= GREATEST_STATED:
+            return first
+        if not in_hz and LEAST_RATE <= 1e3 * first.value <= GREATEST_STATED:
+            return Finding(1e3 * first.value, f"{first.reason}, if it is in kHz", False)
+        return dataclasses.replace(first, stated=False)
+    return _likely_rate(named, file_name)
+
+
+def _likely_rate(named: Sequence[Named], file_name: str) -> Finding[float] | None:
+    """[Hz] of a number in Hz that may be that of the samples, or of the file's name."""
+    for one in named:
+        value = one.value * (1e3 if one.unit == "kHz" else 1.0)
+        likely = _key(one.name).endswith("rate") or one.unit in ("Hz", "kHz")
+        if value >= LEAST_RATE and likely and not _OTHER_RATE.search(one.name):
+            return Finding(value, f"“{one.name}” in the file, if it is that of the samples", False)
+    name = file_name.lower()
+    for match in re.finditer(r"(?<![a-z0-9])(\d+\.?\d*)[ _-]?(k(?:hz|sps)?|hz)(?![a-z0-9])", name):
+        value = float(match[1]) * (1.0 if match[2] == "hz" else 1e3)
+        if value >= LEAST_RATE:
+            words = f"“{match[0]}” in the file's name"
+            return Finding(value, words, match[2] in ("khz", "ksps"), strong=True)
+    return None
+
+
+_OTHER_SPEED = re.compile(r"(?i)max|min|limit|rated|nominal|nenn|range|critical|full")
+
+
+def shaft_speed_in(named: Sequence[Named], file_name: str) -> Finding[float] | None:
+    """[rad/s]"""
+    rated = bool({_key(one.name) for one in named} & (_RATES | _INTERVALS))
+    found = [speed for one in named if (speed := _speed_of(one, rated)) is not None]
+    match = re.search(
+        r"(?:(?<![a-z0-9])|(?<=[a-z])(?=\d{3}))(\d+(?:\.\d+)?)[ _-]?rpm(?![a-z])", file_name.lower()
+    )
+    if match is not None and float(match[1]) > 0.0:
+        words = f"“{match[0]}” in the file's name"
+        turning = float(match[1]) * SPEEDS["rpm"]
+        found.append(Finding(turning, words, stated=False, strong=True, file_unit="rpm"))
+    if not found:
+        return None
+    first = next((one for one in found if one.stated), found[-1])
+    if any(one.taken and abs(one.value / first.value - 1.0) > 0.005 for one in found):
+        return _doubted(first)
+    return first
+
+
+def _speed_of(named: Named, rated: bool) -> Finding[float] | None:
+    """[rad/s] of one number; `rated`: whether another one is the rate of the samples."""
+    key, value, unit = _key(named.name), named.value, named.unit
+    words = f"“{named.name}” in the file"
+    if not (math.isfinite(value) and value > 0.0):
+        return None
+    if "rpm" in key or (unit == "rpm" and not _OTHER_SPEED.search(named.name)):
+        stated = MIDDLE not in named.name
+        return Finding(value * SPEEDS["rpm"], words, stated, strong=True, file_unit="rpm")
+    if key in _FREQUENCIES | _SPEEDS and unit is not None and unit in SPEEDS:
+        return Finding(value * SPEEDS[unit], words, file_unit=unit)
+    if key in _FREQUENCIES:
+        return Finding(value * SPEEDS["Hz"], words, file_unit="Hz")
+    if key in _SPEEDS:
+        unit = "Hz" if value <= FASTEST_IN_HZ else "rpm"
+        taken = f"{words}, taken as {unit}"
+        return Finding(value * SPEEDS[unit], taken, stated=False, file_unit=unit)
+    if key == "rate" and value < LEAST_RATE and unit != "kHz":
+        # of two rates one is that of the samples, the other the shaft's
+        return Finding(value * SPEEDS["Hz"], f"{words}, taken as Hz", stated=rated)
+    return None
+
+
+def _doubted(first: Finding[float]) -> Finding[float]:
+    reason = f"{first.reason}, which names another one too"
+    return dataclasses.replace(first, reason=reason, stated=False)
+
+
+def load_in(named: Sequence[Named]) -> Finding[float] | None:
+    """[N], where its unit is said."""
+    for one in named:
+        key = _key(one.name)
+        unit = one.unit or {"loadn": "N", "loadlb": "lb"}.get(key)
+        if key in _LOADS and unit is not None and unit in FORCES and math.isfinite(one.value):
+            return Finding(one.value * FORCES[unit], f"“{one.name}” in the file")
+    return None
+
+
+def bearing_frequencies_in(named: Sequence[Named]) -> dict[str, float]:
+    """[Hz] by the names of BEARING_FREQUENCIES, those that are there."""
+    return {
+        key: one.value
+        for one in named
+        if (key := _key(one.name).removesuffix("hz")) in BEARING_FREQUENCIES
+        and math.isfinite(one.value)
+        and one.value > 0.0
+    }
+
+
+_SENSITIVITY = re.compile(rf"(?i)({_NUMBER})\s*(mV|V)\s?(?:/|per)\s?(g\b|\(?m/?s\S{{0,3}}[2²])")
+"""In whatever words: the unit is that of nothing else."""
+
+
+def sensitivity_in(lines: Iterable[str]) -> Finding[float] | None:
+    """[V/(m/s²)] where all lines that say one say the same."""
+    found: dict[float, str] = {}
+    for match in filter(None, map(_SENSITIVITY.search, lines)):
+        per = STANDARD_GRAVITY if match[3].lower() == "g" else 1.0
+        if value := _number(match[1]):
+            found[value * VOLTAGES["V" if match[2] in "Vv" else "mV"] / per] = (
+                f"“{match[0]}” in the file"
+            )
+    return Finding(*found.popitem()) if len(found) == 1 else None
+
+
+_DESIGNATION = re.compile(
+    r"\b(?i:bearing|lager|wälzlager|roulement|rodamiento|cuscinetto)"
+    r"(?:\s+(?i:type|typ|number|no|designation|code))?\W{1,6}"
+    r"((?:[A-Z]{1,4}[ -]?)?\d{3,5}(?:[ /-]?[A-Z\d]{1,6})*)\b"
+)
+
+
+def designation_in(lines: Iterable[str]) -> Finding[str] | None:
+    """The number of the bearing that lines such as "Bearing: SKF 6205-2RS C3" give, if it is one.
+
+    It is as the file has it: whether there is such a bearing is not looked at.
+    """
+    found = {match[1]: match[0] for line in lines for match in _DESIGNATION.finditer(line)}
+    (text, words), *others = [*found.items()] or [("", "")]
+    return Finding(text, f"“{words}” in the file") if text and not others else None
+
+
+_UNITS = {
+    "unit", "units", "einheit", "einheiten", "yunit", "yunits", "yunitlabel", "unitstring",
+    "verticalunit", "verticalunits", "yaxisunit", "yaxisunits", "accelerationunit", "accunit",
+    "unity", "unitystring", "engineeringunit", "engineeringunits", "unitofmeasure", "ordinateunit",
+    "unitname", "valueunit", "valueunits", "unitdescription", "niunitdescription", "unitlabel",
+    "ylabel", "yaxis", "yaxislabel", "yaxistitle", "quantity", "measurand", "physicalquantity",
+    "dataunit", "dataunits", "signalunit", "channelunit", "sensorunit", "amplitudeunit",
+    "amplitudeunits", "measurementunit", "engunit", "engunits", "eu", "ordinate",
+    "measuredquantity", "zunit", "valueaxis",
+}  # fmt: skip
+
+
+def unit_of(name: str, text: str) -> str | None:
+    """The unit that words with a name such as "unit" or "quantity" give, or None."""
+    bare = text.strip(" ;,\t\"'[]()")
+    return unit_named(bare) or unit_in(text.strip(' "')) if _key(name) in _UNITS else None
+
+
+def units_said(lines: Iterable[str], texts: Mapping[str, str]) -> list[str | None]:
+    """Units that lines such as "Unit: g" give: one for all columns, or one a channel."""
+    for line in lines:
+        name, _, text = re.sub(r"[:=\t;,]", "\0", line, count=1).partition("\0")
+        cells = re.split(r"[\t;,]", text.strip(" \t;,"))
+        said = [(cell.strip(), unit_of(name, cell)) for cell in takewhile(str.strip, cells)]
+        # words are the quantity of the unit that follows, numbers that of its column
+        units = [unit for cell, unit in said if unit or not re.search(r"\w", cell)]
+        if any(units):
+            return units if len(set(units)) > 1 else units[:1]
+    of_all = {unit_of(name, text) for name, text in texts.items()} - {None}
+    return list(of_all) if len(of_all) == 1 else []

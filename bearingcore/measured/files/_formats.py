@@ -1,0 +1,383 @@
+"""Contents of text, WAV, MATLAB and HDF5 files. Runs in the process of `child` alone.
+
+Each reader gives the fields of `contents.FileColumns`: words and single numbers, and a matrix.
+Fields of structs are named as in MATLAB: "bearing.gs", "runs(2).gs", "parts{3}".
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import io
+import json
+import math
+import re
+import warnings
+import zlib
+from collections.abc import Callable, Iterator, Sequence
+from itertools import islice
+from typing import Any, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore.common import Array
+from bearingcore.common import _checks as checks
+from bearingcore.errors import FieldError
+from bearingcore.measured.files import _libraries as libraries
+from bearingcore.measured.files._text import are_sensors, read_text
+from bearingcore.measured.files._variables import (
+    LONGEST_TEXT,
+    Answer,
+    Variables,
+    check_depth,
+    check_size,
+)
+
+
+def read(
+    name: str, content: bytes, most_numbers: int, most_columns: int, *, text_only: bool = False
+) -> Answer:
+    """The contents of a file, by its first bytes; see `child.read_file`.
+
+    Raises
+    ------
+    FieldError
+        for a damaged, empty or mis-shaped file.
+    """
+    if content and text_only:
+        return read_text(name, content, most_numbers, most_columns)
+    if not content:
+        raise checks.refuse("file", name, "one that is not empty")
+    if content[:4] == b"PK\x03\x04" and not libraries.is_npz(content):
+        if libraries.is_workbook(content):
+            _need("openpyxl", name, "Excel file")
+            sheet, notes = libraries.longest_sheet(name, content)
+            about, columns = read_text(name, sheet, most_numbers, most_columns)
+            return about | {"notes": notes + about.get("notes", [])}, columns
+        names, content = libraries.unzipped(name, content)
+        if len(names) > 1:
+            return {"inside": names}, np.empty((0, 0))
+        about, columns = read(names[0], content, most_numbers, most_columns)
+        return {"name": f"{name.removesuffix('/' + names[0])}/{names[0]}", **about}, columns
+    if content[:2] == b"\x1f\x8b":
+        content = _unzipped_alone(name, content)
+        return read(re.sub(r"(?i)\.gz$", "", name), content, most_numbers, most_columns)
+    if content[:4] in (b"RIFF", b"RIFX", b"RF64"):
+        return _wav(name, content, most_numbers, most_columns)
+    found = Variables()
+    known = _format_of(name, content)
+    if known is None:
+        return read_text(name, content, most_numbers, most_columns)
+    kind, walk = known
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            walk(content, found)
+    except (FieldError, MemoryError):
+        raise
+    except Exception:  # a damaged file raises almost anything in there
+        raise checks.refuse(
+            "file", name, f"a whole {kind}; this has a damaged or unknown part"
+        ) from None
+    return found.table(name, kind, most_numbers, most_columns)
+
+
+Walk = Callable[[bytes, "Variables"], None]
+"""Puts the variables of a content into the second argument."""
+
+
+def _format_of(name: str, content: bytes) -> tuple[str, Walk] | None:
+    """Name and reader of a format, by the first bytes; None of text with numbers.
+
+    Raises
+    ------
+    FieldError
+        where the format's library is not installed.
+    """
+    for mark, kind, walk, package in _FORMATS:
+        if re.match(mark, content, re.DOTALL):
+            _need(package, name, kind)
+            return kind, walk
+    if content[:4] == b"\xd0\xcf\x11\xe0":
+        raise checks.refuse("file", name, "no old office document (.xls): save it as .xlsx or CSV")
+    if re.match(rb'\s*(\{\s*"|\[[\s\[]*(-?\.?\d|\{))', content) and (values := _json(content)):
+        return "JSON file", lambda _, found: _walk_json(values, "", found, 0)
+    if re.search(rb"[\"\t;,] ?\[[-+\d.eE,;\s]{500}", content[:100_000]):
+        return "text with signals in cells", libraries.cells
+    if content[:6] == b"Octave":
+        raise checks.refuse("file", name, "no binary file of Octave: save -v7 in its place")
+    marked = content[:6] == b"MATLAB" or content[126:128] in (b"IM", b"MI")
+    return ("MATLAB file", _walk_matlab) if marked or name.lower().endswith(".mat") else None
+
+
+def _need(package: str, name: str, kind: str) -> None:
+    """Refuse a file whose package is not installed."""
+    if package and importlib.util.find_spec(package.lower()) is None:
+        raise checks.refuse(
+            "file",
+            name,
+            f"{'an' if kind[0] in 'AEIOU' else 'a'} {kind} only where the package {package} is "
+            f"installed (pip install {package}); else export it as CSV from the program that "
+            "wrote it",
+        )
+
+
+def _unzipped_alone(name: str, content: bytes) -> bytes:
+    """Unpack what gzip packed."""
+    try:
+        made = zlib.decompressobj(wbits=31).decompress(content, libraries.MOST_UNPACKED + 1)
+    except zlib.error:
+        raise checks.refuse("file", name, "a whole file of gzip") from None
+    if len(made) > libraries.MOST_UNPACKED:
+        most = f"at most {libraries.MOST_UNPACKED >> 20} MB"
+        raise checks.refuse("file", name, f"one that holds {most} unpacked")
+    return made
+
+
+def _json(content: bytes) -> Any:
+    """The value of a JSON text, or of one record a line; None where it is neither."""
+    try:
+        text = content.decode("utf-8-sig")
+        try:
+            return json.loads(text)
+        except ValueError:
+            return [json.loads(line) for line in text.splitlines() if line.strip()]
+    except (ValueError, RecursionError):
+        return None
+
+
+def _walk_json(value: Any, path: str, found: Variables, depth: int) -> None:
+    """Lists of numbers, and lists of records by the records' names."""
+    check_depth(depth)
+    if isinstance(value, dict) and list(value) == [str(i) for i in range(len(value))]:
+        value = list(value.values())  # rows by their numbers, as pandas writes them
+    if isinstance(value, list) and value and isinstance(value[0], dict):
+        records = [one for one in value if isinstance(one, dict)]
+        if sensor := _name_of_sensor(records):
+            several: dict[str, list[Any]] = {}
+            for one in records:
+                several.setdefault(one.pop(sensor), []).append(one)
+            _walk_json(several, path, found, depth + 1)
+            return
+        value = {name: [one.get(name) for one in records] for name in records[0]}
+    if isinstance(value, dict):
+        for name, inside in value.items():
+            _walk_json(inside, f"{path}.{name}" if path else str(name), found, depth + 1)
+        return
+    try:
+        found.add(path or "array", np.array(value, dtype=float))
+    except (TypeError, ValueError):
+        found.add(path or "array", np.asarray(value, dtype=object))
+
+
+def _name_of_sensor(records: Sequence[dict[str, Any]]) -> str:
+    """The name under which records of several sensors say of which they are; else empty."""
+    for name, first in records[0].items():
+        words = [one.get(name) for one in records] if isinstance(first, str) else [None]
+        if all(isinstance(word, str) for word in words) and are_sensors(np.array(words)):
+            return name
+    return ""
+
+
+def _wav(name: str, content: bytes, most_numbers: int, most_columns: int) -> Answer:
+    """Whole numbers come out as parts of full scale, −1 to 1."""
+    from scipy.io import wavfile
+
+    try:
+        with warnings.catch_warnings(record=True) as warned:
+            warnings.simplefilter("always")  # of chunks with remarks that it does not know, too
+            rate, data = wavfile.read(io.BytesIO(content))
+    except MemoryError:
+        raise
+    except Exception as error:  # a damaged file raises almost anything in there
+        why = f" ({error})" if type(error) is ValueError else ""
+        raise checks.refuse("file", name, f"a whole WAV file{why}") from None
+    data = np.atleast_2d(np.asarray(data).T).T
+    check_size(name, data.shape, most_numbers, most_columns)
+    if rate <= 0 or data.size == 0:
+        raise checks.refuse("file", name, "a WAV file with samples and a sample rate")
+    columns = data.astype(float)
+    if data.dtype.kind == "u":
+        columns = columns / 128.0 - 1.0
+    elif data.dtype.kind == "i":
+        columns /= float(np.iinfo(data.dtype).max) + 1.0
+    names = [f"channel {i + 1}" for i in range(columns.shape[1])]
+    about = {"names": names, "sample_rate": float(rate), "headed": False, "full_scale_known": False}
+    if any("EOF" in str(one.message) for one in warned):
+        about["notes"] = ["The file is cut off: its head says that it was longer."]
+    return about, columns
+
+
+# -- MATLAB, versions 4 to 7 -----------------------------------------------------------------------
+
+
+def _walk_matlab(content: bytes, found: Variables) -> None:
+    from scipy.io import loadmat
+
+    for name, value in loadmat(cast(Any, io.BytesIO(content))).items():
+        if not name.startswith("__"):
+            _matlab(value, name, found, 0)
+
+
+def _matlab(value: Any, path: str, found: Variables, depth: int) -> None:
+    """A matrix, and what is in a struct or cell."""
+    from scipy.io.matlab import MatlabFunction, MatlabOpaque
+
+    check_depth(depth)
+    if isinstance(value, MatlabOpaque):
+        found.objects.append("a variable" if path == "None" else path)  # as SciPy names it
+    if not isinstance(value, np.ndarray) or isinstance(value, MatlabFunction | MatlabOpaque):
+        return
+    if value.dtype.names:
+        for index, element in enumerate(value.ravel(order="F")):
+            of = f"{path}({index + 1})" if value.size > 1 else path
+            if label := _label(element, value.dtype.names):
+                _matlab(element["Data"], f"{path}.{label}", found, depth + 1)
+                continue
+            for name in value.dtype.names:
+                _matlab(element[name], f"{of}.{name}", found, depth + 1)
+    elif value.dtype == object:
+        for index, inside in enumerate(value.ravel(order="F")):
+            _matlab(inside, f"{path}{{{index + 1}}}", found, depth + 1)
+    else:
+        found.add(path, value)
+
+
+def _label(element: Any, fields: Sequence[str]) -> str:
+    """The name of a channel whose struct has it in a field of its own, next to its data."""
+    if not {"Name", "Data"} <= set(fields) or element["Name"].dtype.kind not in "SU":
+        return ""
+    return str(element["Name"].ravel()[0]).strip() if element["Name"].size else ""
+
+
+# -- HDF5, MATLAB's version 7.3 among them ---------------------------------------------------------
+
+
+def _walk_hdf5(content: bytes, found: Variables) -> None:
+    import h5py
+
+    with h5py.File(io.BytesIO(content), "r") as file:
+        _hdf5(file, "", found, 0)
+
+
+def _hdf5(item: Any, path: str, found: Variables, depth: int) -> None:
+    """A group, which is how a struct is kept, or a data set, with the words and numbers at it.
+
+    Only data of the file itself: links to other files, data kept elsewhere and views of other
+    data sets would name files of this machine.
+    """
+    import h5py
+
+    check_depth(depth)
+    if isinstance(item, h5py.Group):
+        for name in item:
+            # MATLAB keeps in #refs# what cells point at
+            own = isinstance(item.get(name, getlink=True), h5py.HardLink)
+            if own and not (depth == 0 and name.startswith("#")):
+                _hdf5(item[name], f"{path}.{name}" if path else name, found, depth + 1)
+    elif not isinstance(item, h5py.Dataset) or item.external or item.is_virtual:
+        return
+    elif "MATLAB_object_decode" in item.attrs:
+        found.objects.append(path)
+        return
+    elif h5py.check_ref_dtype(item.dtype) is not None:
+        references = item[()].ravel()
+        for index, reference in enumerate(references):
+            if reference:
+                inside = f"{path}{{{index + 1}}}" if len(references) > 1 else path
+                _hdf5(item.file[reference], inside, found, depth + 1)
+        return
+    elif item.shape is not None and "MATLAB_empty" not in item.attrs:
+        found.add(path, _as_in_matlab(item))
+    _attributes(item, path, found)
+
+
+def _attributes(item: Any, path: str, found: Variables) -> None:
+    """Words and single numbers that stand at a group or a data set."""
+    for name, value in item.attrs.items():
+        word = np.size(value) == 1 or np.asarray(value).dtype.kind in "OSU"
+        if word and not name.startswith(_OF_THE_FORMAT):
+            found.add(f"{path}.{name}" if path else name, np.asarray(value))
+
+
+_OF_THE_FORMAT = ("MATLAB_", "H5PATH", "CLASS", "DIMENSION")
+"""Attributes that say how a thing is stored."""
+
+
+def _as_in_matlab(data: Any) -> NDArray[Any]:
+    """The values of a data set; MATLAB keeps words as numbers of letters, and truth as numbers."""
+    kind = data.attrs.get("MATLAB_class", b"")
+    values = np.asarray(data[()])
+    if kind == b"char" and values.dtype.kind in "iu":
+        return np.array("".join(map(chr, values.T.ravel()[:LONGEST_TEXT].tolist())))
+    return values.astype(bool) if kind == b"logical" else values
+
+
+# -- Octave's text, which its `save` writes where no other is asked for ----------------------------
+
+
+def _walk_octave(content: bytes, found: Variables) -> None:
+    """Each value has a head of lines such as "# type: matrix"."""
+    lines = iter(content.decode("latin-1").splitlines())
+    for line in lines:
+        if line.startswith("# name:"):
+            _octave(lines, line.partition(":")[2].strip(), found, 0)
+
+
+def _said(lines: Iterator[str], key: str) -> str:
+    """What the next line with a key says."""
+    for line in lines:
+        if line.startswith(f"# {key}"):
+            return line.partition(":")[2].strip()
+    raise ValueError(key)
+
+
+def _numbers(lines: Iterator[str], count: int = 1) -> Array:
+    """The numbers of the next lines in a row."""
+    return np.array(" ".join(islice(lines, count)).split(), dtype=float)
+
+
+def _octave(lines: Iterator[str], path: str, found: Variables, depth: int) -> None:
+    """A value of any type; those that are no numbers or words are passed over."""
+    check_depth(depth)
+    kind = _said(lines, "type")
+    if "complex" in kind or "sparse" in kind:
+        return
+    if kind in ("scalar struct", "cell"):
+        keys = ("length",) if kind == "scalar struct" else ("rows", "columns")
+        for index in range(math.prod(int(_said(lines, key)) for key in keys)):
+            name = _said(lines, "name")
+            part = f"{path}{{{index + 1}}}" if kind == "cell" else f"{path}.{name}"
+            _octave(lines, part, found, depth + 1)
+    elif kind in ("string", "sq_string"):
+        if int(_said(lines, "elements")):
+            _said(lines, "length")
+            found.add(path, np.array([next(lines)]))
+    elif kind.endswith("scalar"):
+        found.add(path, _numbers(lines))
+    elif kind.endswith("range"):
+        _said(lines, "base, limit, increment")
+        base, limit, step = _numbers(lines)
+        found.add(path, base + step * np.arange(round((limit - base) / step) + 1))
+    elif kind.endswith("matrix"):
+        head, _, count = next(lines).partition(":")
+        if head == "# rows":
+            shape = int(count), int(_said(lines, "columns"))
+            found.add(path, _numbers(lines, shape[0]).reshape(shape))
+        elif head == "# ndims":  # of whole numbers, or of more dimensions
+            sizes = _numbers(lines).astype(int).tolist()
+            found.add(path, _numbers(lines, math.prod(sizes)).reshape(sizes, order="F"))
+
+
+_FORMATS: tuple[tuple[bytes, str, Walk, str], ...] = (
+    # MATLAB 7.3 puts text before HDF5
+    (rb"(.{512})?\x89HDF\r\n\x1a\n", "HDF5 file", _walk_hdf5, ""),
+    (rb"\x93NUMPY", "NumPy file", libraries.npy, ""),
+    (rb"PK\x03\x04", "NumPy file", libraries.npz, ""),
+    (rb"PAR1", "Parquet file", libraries.data_frame, "pyarrow"),
+    (rb"ARROW1", "Feather file", libraries.data_frame, "pyarrow"),
+    (rb"TDSm", "TDMS file", libraries.tdms, "npTDMS"),
+    (rb"\s{0,200}-1 *\r?\n +\d{1,4}[ b]*\d*", "UFF file (data set 58)", libraries.uff, "pyuff"),
+    (rb"# Created by Octave", "text of Octave", _walk_octave, ""),
+)
+"""Formats by their first bytes, what reads each, and the package that it needs."""

@@ -1,0 +1,252 @@
+"""Formats that other libraries read: UFF, TDMS, Parquet, Excel, NumPy's own; a zip of one file.
+
+Runs in the process of `child` alone. The libraries come with the extra `files`.
+"""
+
+from __future__ import annotations
+
+import io
+import os
+import re
+import zipfile
+from collections.abc import Mapping
+from contextlib import suppress
+from typing import Any
+from unittest.mock import patch
+
+import numpy as np
+
+from bearingcore.common import _checks as checks
+from bearingcore.errors import FieldError
+from bearingcore.measured.files._other_kinds import BRING
+from bearingcore.measured.files._variables import Variables
+
+MOST_UNPACKED = 2**28
+"""[bytes] of a file in a zip."""
+
+MOST_TOGETHER = 2**30
+"""[bytes] of all files in a zip that are to be read."""
+
+MOST_INSIDE = 1000
+"""Files in a zip that are named."""
+
+DOCUMENT = re.compile(
+    r"(?i)(^|/)(readme|licen[cs]e)(\.(txt|rst))?$"
+    r"|\.(md|rst|pdf|docx?|pptx?|html?|py|ipynb|png|jpe?g|svg)$"
+)
+"""Documents and pictures that come with signals in a zip or a folder."""
+
+MOST_FACTS = 100
+"""Rows of a sheet, or of a data frame with signals in its cells, that say something of a signal."""
+
+_NO_FILE = re.compile(r"^$|/$|(^|/)(\.|__MACOSX/)")
+"""A folder, or what a system hides."""
+
+_TIME_RESPONSE = (0, 1)
+"""Function types of data set 58 that are signals over time: general ones, and time responses."""
+
+_FREQUENCY = 18
+"""Type of the abscissa of its spectra."""
+
+
+def unzipped(name: str, content: bytes) -> tuple[list[str], bytes]:
+    """The names of the files in a zip, and the content of the one that is to be read.
+
+    That is the only one, or the one that the end of `name` says; of several none of which is named
+    the content is empty.
+
+    Raises
+    ------
+    FieldError
+        for a damaged zip, or an empty one.
+    """
+    try:
+        with zipfile.ZipFile(io.BytesIO(content)) as packed:
+            files = [one for one in packed.infolist() if not _NO_FILE.search(one.filename)]
+            if any(one.filename == "[Content_Types].xml" for one in files):
+                raise checks.refuse("file", name, "no office document: save its sheet as CSV")
+            named = [one for one in files if name.endswith(f".zip/{one.filename}")]
+            files = [one for one in files if not DOCUMENT.search(one.filename)] or files
+            if not files:
+                raise checks.refuse("file", name, "a zip with a file in it")
+            if len(named or files) > 1:
+                if sum(one.file_size for one in files) > MOST_TOGETHER:
+                    raise checks.refuse(
+                        "file", name, f"a zip of at most {MOST_TOGETHER >> 20} MB unpacked"
+                    )
+                return [one.filename for one in files[:MOST_INSIDE]], b""
+            one = (named or files)[0]
+            if one.file_size > MOST_UNPACKED:
+                raise checks.refuse(
+                    "file", name, f"a zip of a file of at most {MOST_UNPACKED >> 20} MB"
+                )
+            inside = packed.read(one)
+            if inside[:4] == b"PK\x03\x04" and not is_npz(inside):
+                raise checks.refuse("file", name, "no zip inside a zip: unpack it")
+            return [one.filename], inside
+    except (FieldError, MemoryError):
+        raise
+    except Exception:  # a damaged zip raises almost anything in there
+        raise checks.refuse("file", name, "a whole zip without a password") from None
+
+
+def is_npz(content: bytes) -> bool:
+    """Whether a zip is of NumPy's arrays."""
+    names = _names_in(content)
+    return bool(names) and all(name.endswith(".npy") for name in names)
+
+
+def is_workbook(content: bytes) -> bool:
+    """Whether a zip is a file of Excel."""
+    return "xl/workbook.xml" in _names_in(content)
+
+
+def _names_in(content: bytes) -> list[str]:
+    try:
+        with zipfile.ZipFile(io.BytesIO(content)) as packed:
+            return packed.namelist()
+    except Exception:  # a damaged zip raises almost anything in there
+        return []
+
+
+def longest_sheet(name: str, content: bytes) -> tuple[bytes, list[str]]:
+    """The sheet with the most cells as CSV under the facts of the others, and which one it is."""
+    import pandas as pd
+
+    try:
+        with zipfile.ZipFile(io.BytesIO(content)) as packed:
+            size = sum(one.file_size for one in packed.infolist())
+        if size > MOST_UNPACKED:
+            raise checks.refuse("file", name, f"at most {MOST_UNPACKED >> 20} MB unpacked")
+        sheets = pd.read_excel(io.BytesIO(content), sheet_name=None, header=None, engine="openpyxl")
+    except (FieldError, MemoryError):
+        raise
+    except Exception:  # as above
+        raise checks.refuse("file", name, "a whole Excel file; save its sheet as CSV") from None
+    longest = max(sheets, key=lambda one: int(sheets[one].count().sum()))
+    table = sheets[longest].dropna(how="all").dropna(how="all", axis=1)
+    notes = [f"Read is its longest sheet, “{longest}”."] if len(sheets) > 1 else []
+    facts = [line for one in sheets if one != longest for line in _facts_in(sheets[one])]
+    head = "".join(f"# {line}\n" for line in facts[:MOST_FACTS])
+    return (head + table.to_csv(index=False, header=False)).encode(), notes
+
+
+def _facts_in(sheet: Any) -> list[str]:
+    """Names with their values on a short sheet, side by side or one row above the other."""
+    if len(sheet) > MOST_FACTS:
+        return []
+    sheet = sheet.dropna(how="all")
+    if len(sheet) == 2 and sheet.shape[1] > 2:
+        sheet = sheet.T.dropna()
+    rows = [row.dropna().astype(str).tolist() for _, row in sheet.iterrows()]
+    return [f"{row[0]}: {' '.join(row[1:])}" for row in rows if len(row) > 1]
+
+
+def npy(content: bytes, found: Variables) -> None:
+    """The array of NumPy's `save`."""
+    array = np.load(io.BytesIO(content), allow_pickle=False)
+    found.add("" if array.dtype.names else "array", array)
+
+
+def npz(content: bytes, found: Variables) -> None:
+    """All arrays of NumPy's `savez`."""
+    with np.load(io.BytesIO(content), allow_pickle=False) as arrays:
+        for name in arrays.files:
+            with suppress(ValueError):  # of Python's own objects, which are not unpacked
+                found.add(name, arrays[name])
+
+
+def data_frame(content: bytes, found: Variables) -> None:
+    """Columns of numbers, dates and durations of a data frame, and signals in its cells."""
+    import pandas as pd
+
+    if content[:4] == b"PAR1":
+        frame = pd.read_parquet(io.BytesIO(content), engine="pyarrow", use_threads=False)
+    else:
+        frame = pd.read_feather(io.BytesIO(content), use_threads=False)
+    if not isinstance(frame.index, pd.RangeIndex):
+        frame = frame.reset_index()
+    _columns(frame, found)
+
+
+def cells(content: bytes, found: Variables) -> None:
+    """Columns of a text that has signals in its cells, each between brackets."""
+    import pandas as pd
+
+    text = content.decode("utf-8", "replace")
+    heading = text.partition("\n")[0]
+    frame = pd.read_csv(io.StringIO(text), sep=max(";\t,", key=heading.count))
+    for name in frame.columns[(frame.iloc[0].astype(str).str.strip().str[:1] == "[").to_numpy()]:
+        signals = [np.array(re.findall(r"[^\s,;\[\]]+", cell), float) for cell in frame[name]]
+        frame[name] = pd.Series(signals, dtype=object)
+    _columns(frame, found)
+
+
+def _columns(frame: Any, found: Variables) -> None:
+    for name in frame.columns:
+        values = frame[name]
+        first = values.iloc[0] if len(values) else None
+        if isinstance(first, list | np.ndarray):
+            for index, cell in enumerate(values):
+                of = f"{name}({index + 1})" if len(values) > 1 else str(name)
+                found.add(of, np.asarray(cell, dtype=float))
+        elif isinstance(first, str) and len(values) <= MOST_FACTS:
+            found.add(str(name), np.unique(values.to_numpy(dtype=str)))
+        dated = values.dtype.kind in "Mm"
+        if dated or values.dtype.kind in "iuf":
+            column = values.to_numpy().astype(
+                values.dtype.str.replace("tz", "") if dated else float
+            )
+            found.add(f"{name} [s]" if dated else str(name), column)
+
+
+def tdms(content: bytes, found: Variables) -> None:
+    """Channels of all groups, and what the file says of each."""
+    from nptdms import TdmsFile
+
+    with TdmsFile.read(io.BytesIO(content)) as file:
+        parts = [("", file), *((group.name, group) for group in file.groups())]
+        for group in file.groups():
+            for channel in group.channels():
+                path = f"{group.name}.{channel.name}"
+                found.add(path, np.asarray(channel[:]))
+                parts.append((path, channel))
+        for path, part in parts:
+            for name, value in part.properties.items():
+                found.add(f"{path}.{name}" if path else name, np.asarray(value))
+
+
+def uff(content: bytes, found: Variables) -> None:
+    """Signals over time, data set 58."""
+    import pyuff
+
+    # it takes names of files alone, and this process writes none
+    with patch.object(pyuff.pyuff, "open", lambda *_: io.BytesIO(content), create=True):
+        sets = pyuff.UFF(os.devnull).read_sets()
+    sets = [one for one in (sets if isinstance(sets, list) else [sets]) if one.get("type") == 58]
+    if sets and all(one["abscissa_spec_data_type"] == _FREQUENCY for one in sets):
+        found.instead = f"a signal over time; this is a spectrum: export the waveform, or {BRING}"
+    sets = [one for one in sets if one["func_type"] in _TIME_RESPONSE]
+    points = {one.get("rsp_node") for one in sets}
+    for index, one in enumerate(sets):
+        said = [_word(one, "id1"), _AXES.get(abs(int(one.get("rsp_dir", 0))), "")]
+        said += [f"point {one['rsp_node']}"] if len(points) > 1 else []
+        path = " ".join(filter(None, said))
+        path = path if path and path not in found.numbers else f"{path} signal {index + 1}".strip()
+        found.add(path, np.asarray(one["data"]))
+        if one["abscissa_spacing"]:
+            found.add(f"{path}.dt", np.array(float(one["abscissa_inc"])))
+        else:
+            found.add(f"{path} time [s]", np.asarray(one["x"]))
+        words = [("unit", "ordinate_axis_units_lab"), ("date", "id3"), ("remark", "id2")]
+        for name, key in words:
+            if word := _word(one, key):
+                found.add(f"{path}.{name}", np.array(word))
+
+
+def _word(data_set: Mapping[str, Any], key: str) -> str:
+    word = str(data_set.get(key, "")).strip()
+    return "" if word == "NONE" else word
+
+
+_AXES = {1: "x", 2: "y", 3: "z"}

@@ -1,0 +1,145 @@
+"""Tables that hold something else than a vibration over time, and what to bring instead.
+
+Spectra, envelopes, currents and displacements are laid out as signals are. A diagnosis that took
+one for the acceleration of a housing would be a guess.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+
+from bearingcore.common import Array
+from bearingcore.measured.files._channels import OTHER, PULSES, SIGNAL, Column, words_of
+from bearingcore.recordings import FEWEST_SAMPLES
+
+_ENVELOPE = re.compile(
+    r"(?i:peak ?vue|pk-?vue|envelop|h[üu]llkurve|demod|spike energy)|\bg?SE\b|\bgE\b|\benv\b"
+)
+_SPECTRUM = re.compile(r"(?i)spe[ck]tr[aue]|\bfft\b|\bpsd\b|auto ?power")
+_OFF = re.compile(r"(?i)\b(off|none|no|false|disabled|0|aus)\W*$")
+
+_QUANTITIES: tuple[tuple[str, set[str], set[str]], ...] = (
+    ("an envelope", {"gE"}, set()),
+    ("a current", {"A", "mA", "kA"}, {"current", "currents", "strom", "amps", "courant"}),
+    (
+        "a displacement",
+        {"µm", "mm", "mil"},
+        {"displacement", "displ", "disp", "proximity", "prox", "weg", "verschiebung"},
+    ),
+    ("a sound", {"Pa"}, {"microphone", "mic", "sound"}),
+    ("a pressure", {"bar"}, {"pressure", "druck"}),
+    ("a torque", {"Nm"}, {"torque", "drehmoment"}),
+    ("a temperature", {"°C"}, {"temperature", "temperatur", "temp"}),
+    ("a rotation", {"deg/s", "deg", "rad/s"}, {"gyro", "gyroscope", "gyr"}),
+    ("a level", {"dB"}, {"db"}),
+    ("a speed", {"rpm"}, {"speed", "rpm", "drehzahl"}),
+    ("a tachometer's signal", set(), PULSES),
+)
+"""What a unit, or a word of a heading, measures."""
+
+BRING = "bring the acceleration of the bearing's housing over time"
+ENVELOPE = (
+    f"{{}} an envelope already: {BRING} (the waveform before demodulation), or look in the "
+    "spectrum of this for the lines of the bearing's parts."
+)
+SPECTRUM = f"{{}} a spectrum{{}}, not a signal over time: export the waveform, or {BRING}."
+
+NEAR_ZERO, LOPSIDED = 0.5, 0.3
+"""Of a signal that never changes its sign: least size, in medians, and place of the median between
+least and greatest size, up to which it is no vibration about a mean."""
+
+
+def is_lopsided(values: Array) -> bool:
+    """Return whether numbers never change their sign and crowd at zero.
+
+    Spectra, envelopes and trends do. A vibration, with an offset or not, is about its mean.
+    """
+    finite = values[np.isfinite(values)]
+    if finite.size < FEWEST_SAMPLES or finite.min() < 0.0 < finite.max():
+        return False
+    least, middle, most = np.quantile(np.abs(finite), (0.0, 0.5, 0.999))
+    return bool(least <= NEAR_ZERO * middle and middle - least < LOPSIDED * (most - least))
+
+
+def quantity_of(column: Column) -> str:
+    """Return what a column measures, if that is no acceleration, velocity or voltage."""
+    for words, units, names in _QUANTITIES:
+        if column.unit in units or (column.unit is None and words_of(column.name) & names):
+            return words
+    return ""
+
+
+def without_spectra(columns: Sequence[Column], values: Array, axis: int | None) -> list[Column]:
+    """Return the columns of a table with times, where those of a spectrum are no signals.
+
+    A spectrum beside its waveform is shorter, follows its own `axis`, or never changes its sign.
+    """
+    counts = np.isfinite(values).sum(axis=0)
+    return [
+        Column(column.name, OTHER, column.unit)
+        if column.role == SIGNAL
+        and (
+            is_lopsided(values[:, index])
+            or (axis is not None and index > axis and counts[index] == counts[axis] < len(values))
+        )
+        else column
+        for index, column in enumerate(columns)
+    ]
+
+
+def kind_in_words(
+    columns: Sequence[Column],
+    values: Array,
+    lines: Iterable[str],
+    file_name: str,
+    frequencies: str,
+) -> str:
+    """Return a sentence on a table that holds no vibration over time; empty where it may hold one.
+
+    Parameters
+    ----------
+    columns
+        of the table; lopsided ones are no signals.
+    values : (n, c)
+        their numbers.
+    lines
+        remarks, and words that the file names.
+    file_name
+        which counts only where no column is a signal.
+    frequencies
+        name of a column that rises as the axis of a spectrum does, where there are no times.
+    """
+    signals, others = (
+        [column.name for column in columns if column.role == role] for role in (SIGNAL, OTHER)
+    )
+    said = [line for line in lines if not _OFF.search(line)]
+    if signals:  # what is said of the other columns does not count
+        said = [line for line in said if not any(name in line for name in others)]
+    else:
+        said.append(file_name)
+    named = list(filter(_ENVELOPE.search, signals or others))
+    enveloped = [f"“{name}” is" for name in named if len(named) >= len(signals)]
+    enveloped += [f"“{line[:60]}”: this is" for line in filter(_ENVELOPE.search, said)]
+    if frequencies:
+        axis = f"“{frequencies}” rises as the axis of a spectrum does: this is"
+        return SPECTRUM.format(axis, " of an envelope" if enveloped else "")
+    if enveloped:
+        return ENVELOPE.format(enveloped[0])
+    return "" if signals else _without_signals(columns, values, said)
+
+
+def _without_signals(columns: Sequence[Column], values: Array, said: Iterable[str]) -> str:
+    for line in filter(_SPECTRUM.search, said):
+        return SPECTRUM.format(f"“{line[:60]}”: this is", "")
+    others = [index for index, column in enumerate(columns) if column.role == OTHER]
+    for index in others:
+        if quantity := quantity_of(columns[index]):
+            return f"“{columns[index].name}” is {quantity}, not a vibration: {BRING}."
+    for index in others:
+        if is_lopsided(values[:, index]):
+            words = "never changes its sign, like a spectrum, an envelope or a trend"
+            return f"“{columns[index].name}” {words}: {BRING}."
+    return ""

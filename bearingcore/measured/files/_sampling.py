@@ -1,0 +1,373 @@
+"""Sample rate from a time column, and its faults.
+
+Printed times are rounded, clocks jump, loggers leave rows out. A rate that is still known is
+proposed; rows after a jump are not joined to those before it.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore.common import Array, count, number, runs, thousands, with_prefix
+from bearingcore.measured.files._facts import GREATEST_STATED, LEAST_STATED
+from bearingcore.measured.files._units import TIMES
+from bearingcore.recordings import FEWEST_SAMPLES
+
+MOST_NAMED = 4
+"""Recordings of one file whose lengths are named."""
+
+UNEVEN = 0.5
+"""Greatest deviation of times from even steps, in steps: printed ones are rounded, but do not
+wander."""
+
+SHORTEST_PART = 0.1
+"""Of the longest part without a jump, from which on a part is a recording of its own."""
+
+JUMP = 1.5
+"""Steps longer than this many usual ones leave samples out."""
+
+PARTS, DRIFT = 10, 5e-3
+"""Parts of a recording, and how much their mean rates may differ relatively where a clock drifts
+or is read a little early and late: that is less than bearings slip."""
+
+SHARED = 0.2
+"""Share of rows with the time of the row before, from which on times are rounded to over a step."""
+
+_CUSTOMARY = (
+    *(base * 10.0**power for base in (1.0, 2.0, 2.5, 4.0, 5.0, 8.0) for power in range(1, 6)),
+    *(base * 2.0**power for base in (1e2, 1e3, 1.024e3, 6e2) for power in range(0, 11)),
+    *(11_025.0 * factor for factor in (1, 2, 4, 8)),
+    12e3, 24e3, 48e3, 96e3, 192e3, 384e3, 97_656.25, 48_828.125, 50e3, 65_536.0,
+)  # fmt: skip
+"""[Hz] rates that recorders have."""
+
+
+@dataclass(frozen=True)
+class Sampling:
+    """Sample rate and faults of a column of times.
+
+    Attributes
+    ----------
+    sample_rate
+        [Hz], None where there is none.
+    stated
+        whether the times say so themselves; else it is a proposal.
+    first, last
+        the rows (last excluded) of the longest part without a jump.
+    trouble
+        a sentence on what is wrong with the times; empty where nothing is.
+    reason
+        how the rate was found, in a few words.
+    parts
+        rows (last excluded) of each long part without a jump, where there are several.
+    """
+
+    sample_rate: float | None
+    stated: bool
+    first: int
+    last: int
+    trouble: str = ""
+    reason: str = "the time column"
+    parts: tuple[tuple[int, int], ...] = ()
+
+
+LIKELY_RATES = 100.0, 1e6
+"""[Hz]"""
+
+_SINCE_1970 = 1e9, 2.6e9
+"""[s] from 2001 to 2052, counted as computers do."""
+
+_SINCE_1900 = 3e4
+"""[d] to 1982, as sheets count days."""
+
+
+def times_of(time: Array, unit: str | None = None, *, sure: bool = False) -> Sampling:
+    """Sample rate and faults of a column of times whose unit may not be known.
+
+    Dates that count from 1970 say their unit by their size. A rate that no recorder of vibration
+    has is a proposal, where no unit is given in the one that would make it a likely one; there is
+    none where the unit is `sure`.
+    """
+    finite = time[np.isfinite(time)]
+    first = float(finite[0]) if finite.size else 0.0
+    dated = since_1970(time)
+    found = sampling_of(time, TIMES[unit or dated or "s"])
+    if unit is None and dated is not None:
+        found = dataclasses.replace(found, reason=f"the time column, in {dated} since 1970")
+    rate = found.sample_rate
+    if rate is None or LEAST_STATED <= rate <= GREATEST_STATED:
+        return found
+    if sure:
+        trouble = (
+            f"A row each {with_prefix(1.0 / rate, 's', 2)} is no signal of vibration: a trend?"
+        )
+        return dataclasses.replace(found, sample_rate=None, stated=False, trouble=trouble)
+    per_second = rate * TIMES[unit or dated or "s"]
+    low, high = LIKELY_RATES
+    parts = () if unit or dated else _PARTS if first > _SINCE_1900 else _PARTS[:-1]
+    likely = next((name for name in parts if low <= per_second / TIMES[name] <= high), None)
+    said = f"{unit or dated or 's'} it would be {number(rate, 6)} Hz"
+    if likely is None:
+        reason = f"{found.reason}; no recording of vibration is so: in {said}"
+        return dataclasses.replace(found, stated=False, reason=reason)
+    reason = f"{found.reason}, if it is in {likely}; in {said}"
+    rate = per_second / TIMES[likely]
+    return dataclasses.replace(found, sample_rate=rate, stated=False, reason=reason)
+
+
+_PARTS = ("s", "ms", "µs", "ns", "d")
+
+
+def since_1970(time: Array) -> str | None:
+    """The unit in which numbers count from 1970, None where they do not."""
+    finite = time[np.isfinite(time)]
+    least, most = (finite.min(), finite.max()) if finite.size else (0.0, 0.0)
+    low, high = _SINCE_1970
+    return next(
+        (p for p in _PARTS[:-1] if low <= least * TIMES[p] and most * TIMES[p] <= high), None
+    )
+
+
+def longest_run(good: NDArray[np.bool_]) -> tuple[int, int]:
+    """First and last (excluded) of the longest stretch that is true all along."""
+    starts, ends = runs(good)
+    if not starts.size:
+        return 0, 0
+    longest = int((ends - starts).argmax())
+    return int(starts[longest]), int(ends[longest])
+
+
+MOST_SINGLE = 0.01
+"""Of all rows that may be bridged."""
+
+
+def single_gaps(whole: NDArray[np.bool_]) -> NDArray[np.intp]:
+    """Rows that are missing between two that are there, unless they are many."""
+    single = np.flatnonzero(~whole[1:-1] & whole[:-2] & whole[2:]) + 1
+    return single if single.size <= MOST_SINGLE * whole.size else single[:0]
+
+
+def skipped_rows(time: Array) -> NDArray[np.intp]:
+    """Rows before which exactly one is missing, where times are even but for a few such steps."""
+    steps = np.diff(time)
+    usual = float(np.median(steps)) if steps.size and np.isfinite(steps).all() else 0.0
+    counts = np.round(steps / usual) if usual > 0.0 else steps
+    few = 0 < np.count_nonzero(counts == 2.0) <= MOST_SINGLE * time.size
+    even = few and np.isin(counts, (1.0, 2.0)).all()
+    return np.flatnonzero(counts == 2.0) + 1 if even else np.arange(0)
+
+
+def sampling_of(time: Array, unit: float = 1.0) -> Sampling:
+    """Sample rate and faults of a column of times in `unit` [s]."""
+    n = len(time)
+    if not np.isfinite(time).all():
+        first, last = longest_run(np.isfinite(time))
+        if last - first < FEWEST_SAMPLES:
+            return Sampling(None, False, 0, n, "There are gaps in the time column.")
+        part = sampling_of(time[first:last], unit)
+        trouble = (
+            f"Times are missing in {count(int(np.isnan(time).sum()), 'row')}. Only the longest "
+            f"whole part is used: rows {first + 1} to {last} of {n}. {part.trouble}"
+        )
+        return dataclasses.replace(
+            part, first=first + part.first, last=first + part.last, trouble=trouble.strip()
+        )
+    with np.errstate(over="ignore"):
+        steps = np.diff(time)
+    if not np.isfinite(steps).all():
+        return Sampling(None, False, 0, n, "The time column is out of all bounds.")
+    if n < 3 or not (steps > 0.0).any():
+        return Sampling(None, False, 0, n, "The time column does not rise.")
+    even = _even(time)
+    if even is not None:
+        return Sampling(_customary(*even, unit, n), True, 0, n)
+    rounded = _rounded(time, steps)
+    if rounded is not None:
+        return _rounded_times(rounded, time, unit)
+    return _with_jumps(time, steps, unit)
+
+
+def _even(time: Array) -> tuple[float, float] | None:
+    """Rate and its error, in the column's unit, of times in even steps, or None."""
+    n = len(time)
+    step = float(time[-1] - time[0]) / (n - 1)
+    if n < 3 or step <= 0.0:
+        return None
+    stray = np.abs(time - (time[0] + step * np.arange(n)))
+    if stray.max() > UNEVEN * step:
+        return None
+    # the ends are rounded by no more than what strays in between
+    return 1.0 / step, 2.0 * float(stray.max()) / (step * step * (n - 1))
+
+
+EXACT = 1e-6
+"""Of a rate: less than any recorder's clock is off."""
+
+
+def _customary(rate: float, error: float, unit: float, n: int) -> float:
+    """The customary rate [Hz] inside the error that rounding makes, else the rate itself.
+
+    Times that are printed exactly stay as they are, but for what their last digits may leave of a
+    whole number: clocks may well be off.
+    """
+    rate, error = rate / unit, error / unit
+    if error * n <= 0.02 * rate:  # rounding moves no time by as much as a fiftieth of a step
+        whole = float(round(rate))
+        return whole if abs(whole - rate) <= max(1.2 * error, EXACT * rate) else rate
+    near = min(_CUSTOMARY, key=lambda known: abs(known - rate))
+    return near if abs(near - rate) <= 1.2 * error else rate
+
+
+def _rounded(time: Array, steps: Array) -> float | None:
+    """Grain to which times were rounded where this is more than a step, else None."""
+    if steps.min() < 0.0 or not SHARED <= np.mean(steps == 0.0) < 1.0:
+        return None
+    grain = float(steps[steps > 0.0].min())
+    step = float(time[-1] - time[0]) / (len(time) - 1)
+    stray = np.abs(time - (time[0] + step * np.arange(len(time))))
+    return grain if stray.max() <= 1.01 * grain else None
+
+
+def _rounded_times(grain: float, time: Array, unit: float) -> Sampling:
+    n = len(time)
+    rate = (n - 1) / float(time[-1] - time[0])
+    error = 2.0 * rate * grain / float(time[-1] - time[0])
+    near = min(_CUSTOMARY, key=lambda known: abs(known - rate / unit))
+    if abs(near - rate / unit) <= error / unit:
+        rate = near * unit
+    shared = round(grain * rate)
+    so = f"about {shared} rows share one" if shared > 1 else "some rows share one"
+    trouble = (
+        f"The times are rounded to {with_prefix(grain * unit, 's', 2)}, so that {so}: over all "
+        f"rows it is {number(rate / unit, 6)} Hz, give or take {number(error / unit, 2)} Hz, and "
+        "shorter gaps than that would not show."
+    )
+    return Sampling(rate / unit, False, 0, n, trouble, "the rounded time column")
+
+
+def _with_jumps(time: Array, steps: Array, unit: float) -> Sampling:
+    """Times that jump: the longest part between two jumps."""
+    n = len(time)
+    usual = float(np.median(steps[steps > 0.0]))
+    shared = np.mean(steps == 0.0) >= SHARED
+    jumps = np.flatnonzero((steps > JUMP * usual) | (steps < 0.0 if shared else steps <= 0.0))
+    if jumps.size:
+        edges = np.concatenate([[0], jumps + 1, [n]])
+        longest = int(np.diff(edges).argmax())
+        first, last = int(edges[longest]), int(edges[longest + 1])
+        part = time[first:last]
+        if last - first >= FEWEST_SAMPLES:
+            parts = long_parts(pairwise(edges.tolist()))
+            said, used = _jumps(steps, jumps, usual, shared), f"rows {first + 1} to {last} of {n}"
+            if parts:
+                said = f"{_recordings(time, parts, (first, last), unit)}, {used}, is read. {said}."
+            else:
+                said += f". Only the longest part without a jump is used: {used}."
+            even = _even(part)
+            if even is not None:
+                rate = _customary(*even, unit, last - first)
+                return Sampling(rate, True, first, last, said, parts=parts)
+            grain = _rounded(part, np.diff(part))
+            if grain is not None:
+                rounded = _rounded_times(grain, part, unit)
+                trouble = f"{said} {rounded.trouble}"
+                return dataclasses.replace(
+                    rounded, first=first, last=last, trouble=trouble, parts=parts
+                )
+    low, high = (float(np.quantile(steps, share)) for share in (0.01, 0.99))
+    mean = (n - 1) / float(time[-1] - time[0]) if time[-1] > time[0] else 1.0 / usual
+    ends = np.linspace(0, n - 1, PARTS + 1).astype(int)
+    means = np.diff(time[ends]) / np.maximum(np.diff(ends), 1)
+    if n > FEWEST_SAMPLES and not jumps.size and means.max() <= (1.0 + DRIFT) * means.min():
+        drift = number(100.0 * (means.max() / means.min() - 1.0), 2)
+        trouble = f"The clock drifts: by {drift} % between tenths of the recording."
+        return Sampling(mean / unit, True, 0, n, trouble)
+    trouble = (
+        f"The times do not rise evenly (steps of {with_prefix(low * unit, 's')} to "
+        f"{with_prefix(high * unit, 's')}), so frequencies cannot be known from them; in the mean "
+        f"it would be {number(mean / unit, 6)} Hz."
+    )
+    return Sampling(mean / unit, False, 0, n, trouble, "the mean step of an uneven time column")
+
+
+def long_parts(parts: Iterable[Sequence[int]]) -> tuple[tuple[int, int], ...]:
+    """Those of parts (first row, last excluded) that are recordings; none where it is one alone."""
+    all_parts = [(first, last) for first, last in parts]
+    longest = max((last - first for first, last in all_parts), default=0)
+    least = max(FEWEST_SAMPLES, SHORTEST_PART * longest)
+    found = tuple((first, last) for first, last in all_parts if last - first >= least)
+    return found if len(found) > 1 else ()
+
+
+def _recordings(
+    time: Array, parts: Sequence[tuple[int, int]], read: tuple[int, int], unit: float
+) -> str:
+    """Beginning of a sentence on several recordings in one file, and on the one that is read."""
+    long = [with_prefix(float(time[b - 1] - time[a]) * unit, "s", 3) for a, b in parts]
+    spans = f"{', '.join(long[:-1])} and {long[-1]}" if len(long) <= MOST_NAMED else "many lengths"
+    return (
+        f"The file holds {len(parts)} recordings, or parts of one, of {spans}; unless another is "
+        f"chosen number {parts.index(read) + 1}"
+    )
+
+
+def _jumps(steps: Array, jumps: NDArray[np.intp], usual: float, shared: bool) -> str:
+    """Words on jumps; where rows share times the number of missing samples is not known."""
+    back = int((steps[jumps] <= 0.0).sum())
+    # rounded times have rounded steps: only their mean is as long as a step is
+    even = np.delete(steps, jumps)
+    step = float(even.mean()) if even.size and not shared else usual
+    with np.errstate(over="ignore"):
+        missing = float(np.maximum(np.round(steps[jumps] / step) - 1.0, 0.0).sum())
+    times = "once" if jumps.size == 1 else f"{jumps.size} times"
+    words = f"The times jump {times}, first after row {jumps[0] + 1}"
+    remarks = []
+    if missing > 0.0 and not shared:
+        remarks.append(f"{thousands(missing)} sample{'s are' if missing > 1.0 else ' is'} missing")
+    if back:
+        remarks.append("back" if back == jumps.size else f"{back} times back")
+    return words + (f" ({', '.join(remarks)})" if remarks else "")
+
+
+def clock_columns(columns: Array) -> int:
+    """Number of columns, from the first on, that are hours, minutes, seconds (and parts of them).
+
+    4 with microseconds, or milliseconds, in a column of their own, 3 with seconds in decimals,
+    0 where the first columns are something else.
+    """
+    if columns.shape[1] < 4:
+        return 0
+    hour, minute, second = columns[:, :3].T
+    if not np.isfinite(columns[:, :3]).all():
+        return 0
+    whole = all(np.array_equal(part, np.floor(part)) for part in (hour, minute))
+    inside = min(hour.min(), minute.min(), second.min()) >= 0.0
+    if not whole or not inside or hour.max() > 23 or minute.max() > 59 or second.max() >= 60.0:
+        return 0
+    if np.array_equal(second, np.floor(second)):
+        part = columns[:, 3]
+        if columns.shape[1] < 5 or not np.isfinite(part).all() or part.min() < 0.0:
+            return 0
+        many = 0.0 <= part.max() < 1e6 and part.max() > 60.0
+        return 4 if many and np.mean(np.diff(part) > 0.0) > 0.9 else 0
+    return 3 if np.mean(np.diff(second) > 0.0) > 0.9 else 0
+
+
+def clock_time(columns: Array, count: int) -> Array:
+    """Seconds since the first row of `count` columns that `clock_columns` found."""
+    hour, minute, second = columns[:, :3].T
+    whole = 3600.0 * hour + 60.0 * minute + second
+    whole = whole + 86_400.0 * np.concatenate(
+        [[0.0], np.cumsum(np.diff(whole) < -43_200.0)]
+    )  # midnight
+    time = whole - whole[0]
+    if count == 4:
+        part = columns[:, 3]
+        time = time + (1e-3 if part.max() < 1e3 else 1e-6) * (part - part[0])
+    return np.asarray(time)

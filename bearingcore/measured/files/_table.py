@@ -1,0 +1,477 @@
+"""Columns of numbers out of a file, and the recording that is made of some of them.
+
+A file is read in two steps, as it seldom says all that is needed. `read_table` finds its columns
+of numbers, and `Table.contents` what the file says about them; `Table.recording` makes a
+`Recording` of the columns that are the housing's acceleration, once what is missing is given.
+What is said by hand, with `Table.with_columns` or in `read_recording`, goes before every guess.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from bearingcore.common import Array, cached_property, count, number, runs
+from bearingcore.common import _checks as checks
+from bearingcore.measured.files._channels import OTHER, ROLES, SIGNAL, SPEED, TIME, Column
+from bearingcore.measured.files._child import MOST_NUMBERS, read_file
+from bearingcore.measured.files._contents import FileColumns, FileContents, contents_of
+from bearingcore.measured.files._sampling import long_parts, longest_run, single_gaps, skipped_rows
+from bearingcore.measured.files._units import (
+    SPEEDS,
+    TIMES,
+    UNITS,
+    differentiated,
+    kind_of,
+    level_doubt,
+)
+from bearingcore.measured.signals._dropouts import cut_off
+from bearingcore.recordings import FEWEST_SAMPLES, Recording
+
+MOST_BYTES = 64 * 2**20
+"""Of a file."""
+
+SHOWN_ROWS = 8
+
+MOST_NAMED = 4
+"""Columns that are not used which are named."""
+
+RATE_DOUBT = 0.005
+"""By how much a typed rate may differ from the one that the times say, unsaid."""
+
+
+_UNITS_OF: Mapping[str, Mapping[str, float]] = {
+    SIGNAL: UNITS, TIME: TIMES, SPEED: SPEEDS, OTHER: {}
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Table(FileColumns):
+    """Columns of numbers out of a file, with their meaning, for making a recording.
+
+    `chosen`: of several recordings in the file the one that these are, in words.
+    """
+
+    chosen: str = ""
+
+    @cached_property
+    def contents(self) -> FileContents:
+        """Statements of the file about itself, and guesses at the rest."""
+        return contents_of(self)
+
+    @property
+    def recordings(self) -> tuple[tuple[int, int], ...]:
+        """Rows (last excluded) of each recording, where times jump or numbers are missing between.
+
+        Empty where there is one alone.
+        """
+        sampling, picked = self.contents.sampling, list(self.contents.choice.columns.values())
+        if sampling is not None and sampling.parts:
+            return sampling.parts
+        whole = np.logical_and.reduce(np.isfinite(self.columns[:, picked]), axis=1)
+        whole[single_gaps(whole)] = True
+        parts = np.stack(runs(whole), axis=1)
+        return long_parts(parts.tolist()) if picked else ()
+
+    def one_of_recordings(self, number: int) -> Table:
+        """The table of one of the `recordings` in the file alone, counted from 1.
+
+        Raises
+        ------
+        FieldError
+            for a number that there is not.
+        """
+        parts = self.recordings
+        checks.whole_number("part", number, at_least=1, at_most=max(len(parts), 1))
+        if not parts:
+            return self
+        first, last = parts[number - 1]
+        which = f"recording {number} of {len(parts)}"
+        words = f"{which.capitalize()} in the file is read, from row {first + 1}."
+        columns = self.columns[first:last]
+        return dataclasses.replace(self, columns=columns, notes=(*self.notes, words), chosen=which)
+
+    @property
+    def which(self) -> str:
+        """Of several recordings in the file the one that is read, in words; else empty."""
+        parts = self.recordings
+        if self.chosen or not parts:
+            return self.chosen
+        longest = max(range(len(parts)), key=lambda k: parts[k][1] - parts[k][0])
+        return f"recording {longest + 1} of {len(parts)}"
+
+    @property
+    def first_rows(self) -> list[list[float]]:
+        """The first rows of numbers, to show under the columns' names."""
+        rows: list[list[float]] = self.columns[:SHOWN_ROWS].tolist()
+        return rows
+
+    def with_columns(self, given: Mapping[int | str, Column]) -> Table:
+        """The table with the meaning of some columns as it is given; it goes before all guesses.
+
+        Parameters
+        ----------
+        given
+            by number from 0 or by name: the role, unit, direction and place. A time without a unit
+            is guessed at by its rate, a signal without one by its size. The names are the file's.
+
+        Raises
+        ------
+        FieldError
+            for an unknown column, role, unit or direction, or a second column of times.
+        """
+        said = dict(self.given)
+        for key, column in given.items():
+            index = self.index_of(key)
+            checks.choice("role", column.role, ROLES)
+            units = _UNITS_OF[column.role]
+            if column.unit is not None and units:
+                checks.choice("unit", column.unit, tuple(units))
+            if column.direction:
+                checks.choice("direction", column.direction, ("x", "y", "z"))
+            said[index] = dataclasses.replace(column, name=self.names[index])
+        timed = [self.names[i] for i, column in said.items() if column.role == TIME]
+        if len(timed) > 1:
+            raise checks.refuse("columns", " and ".join(timed), "one column of times")
+        return dataclasses.replace(self, given=said)
+
+    def recording(
+        self,
+        columns: Sequence[int | str],
+        directions: Sequence[str],
+        unit: str | None = None,
+        sample_rate: float | None = None,
+        full_scale: float = 1.0,
+        *,
+        sensitivity: float | None = None,
+        shaft_speed: float | None = None,
+    ) -> Recording:
+        """The acceleration in some of the columns.
+
+        Parameters
+        ----------
+        columns
+            which, by number from 0 or by name.
+        directions
+            of those columns.
+        unit
+            one of `bearingcore.measured.files._units.UNITS`; None takes what the headings say.
+            Velocities are differentiated, voltages divided by `sensitivity`.
+        sample_rate
+            [Hz]; None takes that of the file.
+        full_scale
+            meaning of the number 1 in the file [unit]: the full scale of a WAV file.
+        sensitivity
+            of the sensor [V/(m/s²)], for voltages; None takes that of the file.
+        shaft_speed
+            [rad/s]; None takes that of the file, if it has one.
+
+        Raises
+        ------
+        ValueError
+            for an unknown column, direction or unit, an unknown rate, columns of several
+            bearings, or a voltage without a sensitivity.
+        """
+        picked = [self.index_of(column) for column in columns]
+        if len(set(picked)) != len(picked) or len(picked) != len(directions):
+            raise checks.refuse(
+                "columns", list(columns), f"{len(directions)} different ones, one a direction"
+            )
+        self._check_one_bearing(picked)
+        contents = self.contents
+        units = [self._unit(index, unit) for index in picked]
+        scale = checks.real_number("full_scale", full_scale, above=0.0, unit=unit or "")
+        rate, notes = self._rate(sample_rate)
+        signal, gaps = self._without_gaps(picked)
+        cut = dict.fromkeys(cut_off(column[np.isfinite(column)]) for column in signal.T)
+        only = contents.choice.note if picked == [*contents.choice.columns.values()] else ""
+        notes += [gaps, *cut, self._not_used(picked), only]
+        notes, signal = [*self.notes, *notes], signal * scale
+        if sensitivity is None and contents.sensitivity is not None:
+            sensitivity = contents.sensitivity.value
+        with np.errstate(over="ignore", invalid="ignore"):  # the recording refuses what comes out
+            notes += self._to_acceleration(signal, units, rate, sensitivity)
+        speed = contents.shaft_speed
+        if shaft_speed is None and speed is not None and speed.stated:
+            shaft_speed = speed.value
+        made = Recording(
+            signal, rate, tuple(directions), self.name, shaft_speed, tuple(filter(None, notes))
+        )
+        with np.errstate(over="ignore"):
+            levels = made.acceleration.std(axis=0)
+        doubts = tuple(filter(None, (level_doubt(float(level)) for level in levels)))
+        return dataclasses.replace(made, notes=(*made.notes, *doubts[:1]))
+
+    def _not_used(self, picked: Sequence[int]) -> str:
+        """Sentence on the columns that hold something that is not read, and why."""
+        speed, left = self.contents.shaft_speed, []
+        for index, column in enumerate(self.contents.columns):
+            steps = np.diff(self.columns[:, index])
+            steps = steps[np.isfinite(steps)]
+            counts = not steps.size or np.ptp(steps) == 0.0
+            if counts or index in (*picked, *self.given) or column.role in (TIME, SPEED):
+                continue
+            if speed is not None and f"“{column.name}”" in speed.reason:
+                why = f"a guess at the shaft speed: {speed.reason}"
+            elif column.role == OTHER:
+                why = "no signal of acceleration"
+            else:
+                along = {"z": "along the shaft"}.get(column.direction, "another signal")
+                why = column.place or along
+            left.append(f"“{column.name}” ({why})")
+        more = f" and {len(left) - MOST_NAMED} more" if len(left) > MOST_NAMED else ""
+        return f"Not used: {', '.join(left[:MOST_NAMED])}{more}." if left else ""
+
+    def _to_acceleration(
+        self, signal: Array, units: Sequence[str], rate: float, sensitivity: float | None
+    ) -> list[str]:
+        """Make columns in `units` accelerations [m/s²], in place; sentences on how."""
+        notes = []
+        for index, unit in enumerate(units):
+            signal[:, index] *= UNITS[unit]
+            if kind_of(unit) == "voltage":
+                if sensitivity is None:
+                    wanted = "that of the sensor [V/(m/s²)]: 100 mV/g is 0.1 / 9.80665"
+                    raise checks.missing("sensitivity", wanted)
+                signal[:, index] /= checks.real_number(
+                    "sensitivity", sensitivity, above=0.0, unit="V/(m/s²)"
+                )
+            elif kind_of(unit) == "velocity" and len(signal) >= FEWEST_SAMPLES:
+                if np.isfinite(signal[:, index]).all():
+                    signal[:, [index]] = differentiated(signal[:, [index]], rate)
+                notes = [
+                    "A velocity was differentiated. What its recorder left out (often all above "
+                    "1 kHz) is not in it."
+                ]
+        return notes
+
+    def _check_one_bearing(self, picked: Sequence[int]) -> None:
+        guessed = [index for index in picked if index not in self.given]
+        places = {self.contents.columns[i].place: self.names[i] for i in guessed}
+        places.pop("", None)
+        if len(places) > 1:
+            sensors = " and ".join(f"{name} ({place})" for place, name in places.items())
+            raise checks.refuse(
+                "columns", sensors, "directions of one place; these are sensors at two places"
+            )
+
+    def _unit(self, index: int, unit: str | None) -> str:
+        column = self.contents.columns[index]
+        if unit is None:
+            of_file = self.contents.unit
+            unit = column.unit or (of_file.value if of_file.stated else None)
+            if unit is None:
+                raise checks.missing("unit", f"one of {', '.join(UNITS)}: the file does not say it")
+        return checks.choice("unit", unit, tuple(UNITS))
+
+    def _rate(self, given: float | None) -> tuple[float, list[str]]:
+        """The sample rate [Hz], and what is to be said about it."""
+        sampling, stated = self.contents.sampling, self.contents.sample_rate
+        trouble = sampling.trouble if sampling is not None else ""
+        if given is None:
+            if stated is None or not stated.stated:
+                guess = (
+                    f"; {number(stated.value, 6)} is likely ({stated.reason})"
+                    if stated is not None
+                    else ""
+                )
+                why = f" {trouble}" if trouble else ""
+                raise checks.missing(
+                    "sample_rate", f"a number [Hz]: the file does not say it{guess}.{why}"
+                )
+            return stated.value, [trouble]
+        rate = checks.real_number("sample_rate", given, above=0.0, unit="Hz")
+        notes = [trouble]
+        typed = f"The sample rate was typed as {number(rate, 6)} Hz"
+        if stated is None:
+            notes.append(
+                f"{typed}. Nothing in the file shows whether it was: every frequency, and so the "
+                "part, rests on it."
+            )
+        elif abs(rate / stated.value - 1.0) > RATE_DOUBT:
+            says = "says" if stated.stated else "suggests"
+            notes.append(f"{typed}; {stated.reason} {says} {number(stated.value, 6)} Hz.")
+        return rate, notes
+
+    def _without_gaps(self, picked: Sequence[int]) -> tuple[Array, str]:
+        """The longest part without a jump of the time or a gap; what is bridged and left out."""
+        sampling = self.contents.sampling
+        first, last = (
+            (0, len(self.columns)) if sampling is None else (sampling.first, sampling.last)
+        )
+        signal = self.columns[first:last, picked]
+        whole = np.isfinite(signal).all(axis=1)
+        filled = np.flatnonzero(whole)
+        # gaps at the end are where a column is shorter than the longest
+        signal, whole = np.split(signal, filled[-1:] + 1)[0], np.split(whole, filled[-1:] + 1)[0]
+        said = []
+        single = single_gaps(whole)
+        single = single[~np.isinf(signal[single]).any(axis=1)]  # no gap, but an overflow
+        if single.size:
+            between = 0.5 * (signal[single - 1] + signal[single + 1])
+            signal[single] = np.where(np.isfinite(signal[single]), signal[single], between)
+            whole[single] = True
+            said.append(
+                f"Single numbers are missing in {count(single.size, 'row')}. Each is bridged by "
+                "the mean of its neighbours."
+            )
+        missing = int((~whole).sum())
+        begin, end = longest_run(whole)
+        if missing and end - begin >= FEWEST_SAMPLES:  # else the recording says which is no number
+            said.append(
+                f"Numbers are missing in {count(missing, 'row')}. Only the longest whole part is "
+                f"used: rows {first + begin + 1} to {first + end} of {len(self.columns)}."
+            )
+            signal = signal[begin:end]
+        return signal, " ".join(said)
+
+    def index_of(self, column: int | str) -> int:
+        """The number from 0 of a column by its number or name; `FieldError` where there is none."""
+        if isinstance(column, str) and column in self.names:
+            return self.names.index(column)
+        if isinstance(column, int) and 0 <= column < len(self.names):
+            return column
+        numbers = f", or by numbers from 0 to {len(self.names) - 1}"
+        raise checks.refuse("column", column, "one of " + ", ".join(self.names) + numbers)
+
+
+def files_inside(name: str, content: bytes, give_up: Callable[[], bool] | None = None) -> list[str]:
+    """Names for `read_table` of all files in a zip of several, in their order; else `name` alone.
+
+    `give_up`: see `read_table`.
+
+    Raises
+    ------
+    ValueError
+        for a damaged zip.
+    """
+    if content[:4] != b"PK\x03\x04" or ".zip/" in name:
+        return [name]
+    about, _ = read_file(name, content, give_up=give_up)
+    inside = sorted(about.get("inside", ()), key=_in_order)
+    packed = re.sub(r"(?i)\.zip$", "", name) + ".zip"
+    return [f"{packed}/{one}" for one in inside] or [name]
+
+
+def _in_order(name: str) -> list[tuple[int, str]]:
+    """A key by which run2 is before run10."""
+    return [(int(part or 0), word) for word, part in re.findall(r"(\D*)(\d{0,18})", name)]
+
+
+def path_in(name: str) -> str:
+    """The path of the file to read for a name such as "rig.zip/run1.csv"."""
+    before, mark, _ = name.partition(".zip/")
+    return before + mark.rstrip("/")
+
+
+def read_table(name: str, content: bytes, give_up: Callable[[], bool] | None = None) -> Table:
+    """The columns of numbers in a file: text (CSV), WAV, MATLAB, HDF5, and others.
+
+    JSON, Octave's text and NumPy's files are read too, and with the packages of the extra `files`
+    UFF, TDMS, Parquet, Feather and Excel's .xlsx; also a zip or gzip of one of them. What it is
+    shows in its first bytes. It is read in a process of its own with limits of time and memory: see
+    `bearingcore.measured.files._child`.
+
+    Parameters
+    ----------
+    name
+        of the file; it may hold a hint ("12k", "1797rpm"). "rig.zip/run1.csv" is one of the files
+        in a zip.
+    content
+        the whole file.
+    give_up
+        asked again and again while it is read: True ends the process that reads.
+
+    Raises
+    ------
+    ValueError
+        saying in one sentence what is wrong with a damaged, empty, huge or mis-shaped file.
+    """
+    size = len(content)
+    if size > MOST_BYTES:
+        raise checks.refuse(
+            f"size of {name}",
+            f"{size / 2**20:.0f} MB",
+            f"at most {MOST_BYTES >> 20} MB: split it by rows into files of that size and join "
+            "their tables, or export a shorter part",
+        )
+    about, columns = read_file(name, content, give_up=give_up)
+    if inside := about.get("inside"):
+        raise checks.refuse(
+            "file",
+            name,
+            f"a zip of one file, not of {len(inside)} ({', '.join(inside[:6])}): unpack it, or "
+            f"write which one after the zip's name, as in {name}/{inside[0]}",
+        )
+    for words in ("names", "remarks", "stamps", "notes"):
+        about[words] = tuple(about.get(words, ()))
+    return _with_skipped_rows(Table(columns=columns, **{"name": name, **about}))
+
+
+def _with_skipped_rows(table: Table) -> Table:
+    """The table with a row of gaps wherever the times skip exactly one."""
+    timed = [i for i, column in enumerate(table.contents.columns) if column.role == TIME]
+    rows = skipped_rows(table.columns[:, timed[0]]) if len(timed) == 1 else np.arange(0)
+    if not rows.size:
+        return table
+    columns = np.insert(table.columns, rows, np.nan, axis=0)
+    made = rows + np.arange(rows.size)
+    columns[made, timed[0]] = 0.5 * (columns[made - 1, timed[0]] + columns[made + 1, timed[0]])
+    words = f"The times skip single rows, {rows.size} in all, which count as missing."
+    return dataclasses.replace(table, columns=columns, notes=(*table.notes, words))
+
+
+def join_tables(tables: Sequence[Table]) -> Table:
+    """The table of all rows of several files that hold the parts of one signal, in their order.
+
+    Times that go on from file to file show what is missing between two, as in one file. Where they
+    begin anew in each, or there are none, a note says that nothing is taken to be missing.
+
+    Raises
+    ------
+    FieldError
+        for files whose columns or sample rates differ, that are not in the order of their times, or
+        that are too many numbers together.
+    """
+    if not tables:
+        raise checks.refuse("tables", "none", "one or more")
+    first = tables[0]
+    for one in tables[1:]:
+        _check_alike(first, one)
+    if sum(one.columns.size for one in tables) > MOST_NUMBERS:
+        raise checks.refuse("count of numbers in all files", "more", f"at most {MOST_NUMBERS}")
+    columns = np.concatenate([one.columns for one in tables])
+    ends = np.cumsum([len(one.columns) for one in tables])
+    timed = [i for i, column in enumerate(first.contents.columns) if column.role == TIME]
+    anew = len(timed) != 1
+    for start, end in pairwise(ends) if len(timed) == 1 else ():
+        time = columns[:, timed[0]]
+        step = float(np.nanmedian(np.diff(time[:start])))
+        if abs(time[start] - time[0]) < 0.5 * step or timed[0] in first.stamps:
+            time[start:end] += time[start - 1] + step - time[start]
+            anew = True
+        elif time[start] <= time[start - 1]:
+            raise checks.refuse("tables", "not in their order", "files in the order of their times")
+    notes = [note for one in tables for note in one.notes]
+    if len(tables) > 1:
+        gap = " as if nothing were missing between them" if anew else ""
+        notes.append(f"{len(tables)} files are joined{gap}.")
+    name = first.name if len(tables) == 1 else f"{first.name} to {tables[-1].name}"
+    return dataclasses.replace(first, columns=columns, name=name, notes=tuple(notes))
+
+
+def _check_alike(first: Table, other: Table) -> None:
+    """Refuse a file whose columns or sample rate are not those of the first."""
+    if other.names != first.names:
+        raise checks.refuse(
+            f"columns of {other.name}", ", ".join(other.names), f"those of {first.name}"
+        )
+    rates = [part.contents.sample_rate for part in (first, other)]
+    known = [rate.value for rate in rates if rate is not None]
+    if len(known) == 1 or (len(known) == 2 and abs(known[1] / known[0] - 1.0) > RATE_DOUBT):
+        raise checks.refuse(f"sample rate of {other.name}", known[-1], "that of the first", "Hz")

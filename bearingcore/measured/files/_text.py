@@ -1,0 +1,921 @@
+"""Tables of numbers written as text, in the many habits of those who write them.
+
+Commas, semicolons, tabs or blanks separate columns; numbers have points or commas; there are
+headings, remarks, gaps, quotation marks, dates and times of day. Which of these a text has is seen
+in its first lines; pandas reads the rest. Runs in the process of `child` alone.
+"""
+
+from __future__ import annotations
+
+import csv
+import dataclasses
+import io
+import math
+import re
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+from datetime import date
+from itertools import islice
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore.common import Array, thousands
+from bearingcore.common import _checks as checks
+from bearingcore.measured.files._channels import TIME, column_of
+from bearingcore.measured.files._facts import GREATEST_STATED, named_in, names_a_fact, units_said
+from bearingcore.measured.files._units import UNITS, unit_in, unit_named
+from bearingcore.recordings import FEWEST_SAMPLES
+
+MOST_HEADINGS = 100
+"""Lines with words before the first line of numbers."""
+
+LONGEST_REMARK = 200
+"""[characters] of a line above the numbers that are kept."""
+
+LONGEST_LINE = 2**15
+"""[characters] of such a line in which the names of columns are looked for."""
+
+SAMPLE = 30
+"""Lines of numbers by which the way of writing is judged."""
+
+READABLE = (
+    "text with numbers (CSV, TXT, LVM, JSON), WAV, MATLAB, Octave, HDF5, NumPy, UFF, TDMS, "
+    "Parquet, Excel (.xlsx), or a zip of one of these; export it as CSV where it is none of them"
+)
+"""Formats of files."""
+
+LONG_ROW = 64
+"""Numbers in a row from which on fewer rows than this are signals written in a row each; of rows
+longer than columns may be many, fewer than the numbers in each are."""
+
+MOST_WRONG = 0.01
+"""Share of lines without numbers, from which on a text is no table."""
+
+MOST_MISSING, MOST_MISSING_WORDS = 0.5, 8
+"""Share of lines with words in place of numbers, and how many different ones those may be."""
+
+MOST_CHANGES = 0.1
+"""Share of rows with another word than the row before, from which on these mix several signals."""
+
+MOST_SIGNALS_MIXED = 32
+"""Different words of such a column."""
+
+
+def read_text(
+    name: str, content: bytes, most_numbers: int, most_columns: int
+) -> tuple[dict[str, Any], Array]:
+    """The table in a text of UTF-8, UTF-16 with its mark, or one byte a character.
+
+    Returns
+    -------
+    about
+        the fields of `contents.FileColumns` about names, remarks, times and lines not read.
+    columns : (n, c)
+        the numbers; gaps are NaN, dates and times of day are seconds since the first of them.
+        Columns of words, and empty ones, are left out.
+
+    Raises
+    ------
+    FieldError
+        saying what is wrong, and in which line.
+    """
+    content = _without_labels(_of_one_byte(name, content))
+    style, begin, remarks = _beginning(name, content)
+    if style.width > min(LONG_ROW, most_columns):
+        # few long rows are signals, not columns
+        turned = _signals_in_rows(content[begin:], style, remarks, most_numbers, most_columns)
+        if turned is not None:
+            return turned
+        if style.width > most_columns:
+            raise checks.refuse(
+                f"number of columns in {name}",
+                style.width,
+                f"at most {most_columns}: leave out some, or write each signal in a row",
+            )
+    read, sensors, said, notes = _read_numbers(name, content, begin, style, remarks, most_numbers)
+    headings = _headings(remarks, style, read)
+    if headings and any(column_of(name).role == TIME for name in headings):
+        whole = ~np.isnan(read).all(axis=1)  # what is missing there shows in the times
+        read, sensors = read[whole], None if sensors is None else sensors[whole]
+    kept = [i for i in range(style.width) if i in style.stamps or not np.isnan(read[:, i]).all()]
+    if kept:
+        read, headings = read[:, kept], headings and [headings[i] for i in kept]
+    stamps = [kept.index(i) for i in style.stamps]
+    if headings is None:
+        read, lines, more = _without_start(read)
+        said, notes = said + lines, notes + more
+    elif sensors is None:
+        sensors = _numbers_of_sensors(read, headings)
+    if sensors is not None and not _goes_through(read, headings, stamps, sensors):
+        read, headings, stamps = _side_by_side(name, read, headings, stamps, sensors)
+        which = ", ".join(dict.fromkeys(sensors))
+        notes.append(f"Rows of several sensors ({which}) are put side by side.")
+    return _about(read, headings, remarks + said, stamps, notes)
+
+
+def _read_numbers(
+    name: str, content: bytes, begin: int, style: _Style, remarks: list[str], most_numbers: int
+) -> tuple[Array, NDArray[Any] | None, list[str], list[str]]:
+    """Numbers from a byte on, the sensors of their rows, words among them, and notes on these."""
+    body = content[begin:]
+    said: list[str] = []
+    notes: list[str] = []
+    most_rows = most_numbers // style.width + 1
+    found = _numbers(body, style, most_rows)
+    if found is None:  # some lines hold something else
+        above = content.count(b"\n", 0, begin) + 1
+        body, notes, said = _mended(name, body, style, above, remarks)
+        found = _numbers(body, style, most_rows)
+    if found is None:
+        raise checks.refuse("file", name, READABLE)
+    read, sensors = found
+    if read.size > most_numbers:
+        raise checks.refuse(
+            f"count of numbers in {name}",
+            f"over {most_numbers}",
+            f"at most {most_numbers}; split it by rows and join the parts",
+        )
+    return read, sensors, said, notes
+
+
+_SINCE_1970 = (1e9, 2.2e9)
+"""Seconds since 1970 from 2001 to 2039."""
+
+FAR_ABOVE = 50.0
+"""Times all that follows: a number that is no sample among them."""
+
+
+def _without_start(columns: Array) -> tuple[Array, list[str], list[str]]:
+    """Numbers without lines at the beginning that say start, count and rate; what they say.
+
+    Wristbands of Empatica write the start, in seconds since 1970, and then the rate, in each
+    column; others the count of samples, or what may be the rate.
+    """
+    start = False
+    lines: list[str] = []
+    used: list[str] = []
+    while len(columns) > FEWEST_SAMPLES and len(used) < 3:
+        value = float(columns[0, 0])
+        if not (columns[0] == value).all() or value != round(value):
+            break
+        rest = FAR_ABOVE * float(np.nanmax(np.abs(columns[3:]), initial=0.0))
+        if start and 1.0 <= value <= GREATEST_STATED:
+            lines.append(f"sample rate {value:.10g} Hz")
+        elif value <= rest or value < FEWEST_SAMPLES or not rest:
+            break
+        elif not _SINCE_1970[0] < value < _SINCE_1970[1] and len(columns) - value not in (1, 2):
+            lines.append(f"{value:.10g} Hz")
+        start = not used and _SINCE_1970[0] < value < _SINCE_1970[1]
+        used.append(f"{value:.10g}")
+        columns = columns[1:]
+    words = "They say start, count or rate, and are no samples"
+    return columns, lines, [f"Above the numbers: {', '.join(used)}. {words}."] if used else []
+
+
+_SENSOR = re.compile(r"(?i)(sensor|channel|axis|device|node)([ _.-]?(id|no|nr|num|number|index))?")
+
+
+def _numbers_of_sensors(columns: Array, headings: Sequence[str]) -> NDArray[Any] | None:
+    """Names of the sensors of all rows where a column counts them; None where none does."""
+    for i, heading in enumerate(headings):
+        if _SENSOR.fullmatch(heading.strip()) and len(headings) > 1:
+            names = np.array([f"{heading} {value:g}" for value in columns[:, i].tolist()])
+            if are_sensors(names):
+                return names
+    return None
+
+
+def are_sensors(names: NDArray[Any]) -> bool:
+    """Whether words of all rows name the sensors or records that the rows are of, in turn or as
+    blocks of one length.
+    """
+    found, counts = np.unique(names, return_counts=True)
+    if not 1 < len(found) <= MOST_SIGNALS_MIXED or len(names) < FEWEST_SAMPLES:
+        return False
+    changes = int((names[1:] != names[:-1]).sum())
+    blocks = changes + 1 == len(found) and counts.min() == counts.max() >= FEWEST_SAMPLES
+    return changes > MOST_CHANGES * len(names) or bool(blocks)
+
+
+def _goes_through(
+    columns: Array, headings: Sequence[str] | None, stamps: Sequence[int], names: NDArray[Any]
+) -> bool:
+    """Whether times rise through blocks of words: these are labels along one signal."""
+    timed = {i for i, heading in enumerate(headings or ()) if column_of(heading).role == TIME}
+    blocks = int((names[1:] != names[:-1]).sum()) + 1 == len(np.unique(names))
+    return blocks and any((np.diff(columns[:, i]) > 0.0).all() for i in timed | set(stamps))
+
+
+def _side_by_side(
+    name: str,
+    columns: Array,
+    headings: Sequence[str] | None,
+    stamps: Sequence[int],
+    sensors: NDArray[Any],
+) -> tuple[Array, list[str], list[int]]:
+    """Rows of several sensors as columns of each; times, and what all have alike, once."""
+    names = list(dict.fromkeys(sensors.tolist()))
+    several = [columns[sensors == one] for one in names]
+    size = min(map(len, several))
+    if max(map(len, several)) > size + 1:  # the last row may be of the first
+        raise checks.refuse(
+            f"column of {', '.join(names[:4])} in {name}",
+            "words that change from row to row",
+            "as many rows of each: bring those of each word into columns or files of their own",
+        )
+    several = [part[:size] for part in several]
+    made: list[Array] = []
+    heads: list[str] = []
+    times = []
+    for i, heading in enumerate(headings or [f"column {k + 1}" for k in range(columns.shape[1])]):
+        if _SENSOR.fullmatch(heading.strip()):
+            continue
+        times += [len(made)] * (i in stamps)
+        own = [part[:, i] for part in several]
+        once = i in stamps or column_of(heading).role == TIME
+        once = once or all(np.array_equal(one, own[0], equal_nan=True) for one in own)
+        made += own[:1] if once else own
+        heads += [heading] if once else [f"{one}: {heading}" for one in names]
+    return np.column_stack(made), heads, times
+
+
+def _of_one_byte(name: str, content: bytes) -> bytes:
+    """A text without marks and with ends of lines, in UTF-8 if it had two bytes a character."""
+    start = content[:4096]
+    even, odd = (start[i::2].count(0) for i in (0, 1))
+    if start[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        content = content.decode("utf-16", "replace").encode()
+    elif start and min(even, odd) == 0 and max(even, odd) >= 0.45 * len(start):
+        content = content.decode("utf-16-le" if odd else "utf-16-be", "replace").encode()
+    if b"\x00" in content[:4096]:
+        raise checks.refuse("file", name, READABLE)
+    content = content.removeprefix(b"\xef\xbb\xbf").rstrip(b"\x00")
+    if re.match(rb"\s*\[", content) and b"\n" not in content.strip():
+        content = content.translate(None, b"[]")  # one array as NumPy and MATLAB show it
+    return content if b"\n" in content else content.replace(b"\r", b"\n")
+
+
+_LABELLED = re.compile(
+    r"([^\W\d][\w .()-]{0,30}?) ?[:=]\s*([-+]?\d*\.?\d+(?:[eE][-+]?\d+)?) ?([a-zA-Z/²]{1,5}|%)?"
+    r"[,;\s]*(?=[^\W\d]|$)"
+)
+"""A number with its name before it, as Arduinos write all of a line: "ax: 0.12g, ay: 9.81g"."""
+
+
+def _without_labels(content: bytes) -> bytes:
+    """Lines of such numbers as a table with a heading; any other text as it is."""
+
+    def labels(line: str) -> list[tuple[str, str, str]]:
+        found = [*_LABELLED.finditer(line[:LONGEST_REMARK])] if ":" in line or "=" in line else []
+        whole = "".join(one[0] for one in found) == line
+        return [(one[1].strip(), one[2], one[3] or "") for one in found] if whole else []
+
+    first = [_decoded(line).strip() for line in islice(io.BytesIO(content), SAMPLE)]
+    heads = [[(name, unit) for name, _, unit in labels(line)] for line in first]
+    named = heads[-1]
+    if not named or 2 * heads.count(named) < len(heads) or len(heads) < SAMPLE:
+        return content
+    heading = [",".join(f"{name} [{unit}]" if unit else name for name, unit in named)]
+    made: list[str] = []
+    for line in content.splitlines():
+        said = labels(text := _decoded(line).strip())
+        made += [heading.pop()] if said and heading else []
+        made.append(",".join(value for _, value, _ in said) if said else text)
+    return "\n".join(made).encode()
+
+
+def _about(
+    columns: Array, headings: list[str] | None, remarks: list[str], *more: list[Any]
+) -> tuple[dict[str, Any], Array]:
+    names = headings or [f"column {i + 1}" for i in range(columns.shape[1])]
+    kept = [line[:LONGEST_REMARK] for line in remarks]
+    fields = {"names": names, "remarks": kept, "headed": headings is not None}
+    return {**fields, **dict(zip(("stamps", "notes"), more, strict=False))}, columns
+
+
+# -- how numbers are written -----------------------------------------------------------------------
+
+_MONTHS = ("jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec")
+_DAY = r"\d{4}([-/.])\d\d?\2\d\d?|\d\d?\.\d\d?\.\d{4}|\d\d?/\d\d?/\d{4}|\d\d?-[A-Za-z]{3}-\d{4}"
+_DATE = rf"(?:{_DAY})[T _;,\t]+"
+_SECOND = rf"(?:{_DATE}|\d+ days? \+?)?\d\d?:\d\d?:\d\d?"
+_ZONE = r"(\s?Z|{space}[+-]\d\d:?\d\d|\s?[AaPp]\.?[Mm]\b\.?)?"
+_POINT_STAMP, _COMMA_STAMP = (
+    # minutes and seconds alone are known by the part of a second behind them
+    re.compile(
+        rf"(?<![\w.:-])({_SECOND}|\d\d?:[0-5]\d(?={point}\d))({point}\d+|:\d{{3}}(?!\d))?"
+        + _ZONE.format(space=space)
+    )
+    # between blanks a number may come next
+    for point, space in ((r"\.", r"\s?"), ("[.,]", ""))
+)
+
+
+class _Clock:
+    """Writes dates and times of day as seconds since the first one."""
+
+    def __init__(self) -> None:
+        self._first: int | None = None
+        self._last = 0
+        self._midnights = 0
+
+    def __call__(self, stamp: re.Match[str]) -> str:
+        second, _, part, zone = stamp.groups()
+        try:
+            whole = self._whole(second, (zone or "").strip().lower()[:1])
+        except ValueError:
+            return stamp[0]  # a day that is in no calendar is no number either
+        if part and whole < 0:
+            return repr(whole + float(f"0.{part[1:]}"))
+        return f"{whole}.{part[1:]}" if part else str(whole)
+
+    def _whole(self, text: str, half: str) -> int:
+        """Whole seconds since the first stamp; `half` is "a" or "p" of a clock of 12 hours."""
+        parts = [int(number) for number in re.split(r"[T _;,\t+]", text)[-1].split(":")]
+        if half in ("a", "p"):
+            parts[0] = parts[0] % 12 + 12 * (half == "p")
+        whole = sum(part * size for part, size in zip(reversed(parts), (1, 60, 3600), strict=False))
+        if " day" in text:
+            whole += 86_400 * int(text.split()[0])
+        elif len(text) > 8:
+            whole += 86_400 * _day(re.split(r"[T _;,\t]", text, maxsplit=1)[0])
+        else:
+            self._midnights += whole < self._last - 43_200
+            self._last = whole
+            whole += 86_400 * self._midnights
+        if self._first is None:
+            self._first = whole
+        return whole - self._first
+
+
+def _day(text: str) -> int:
+    """Number of a day; ValueError for one that is in no calendar."""
+    parts = re.split(r"[-/.]", text.lower())
+    if parts[1] in _MONTHS:
+        return date(int(parts[2]), _MONTHS.index(parts[1]) + 1, int(parts[0])).toordinal()
+    one, two, three = (int(number) for number in parts)
+    if one > 31:
+        return date(one, two, three).toordinal()
+    american = "/" in text and two <= 31 and one <= 12
+    month, day = (one, two) if american else (two, one)
+    return date(three, month, day).toordinal()
+
+
+@dataclass(frozen=True)
+class _Style:
+    """Style of lines of numbers, `width` in each; None as delimiter: blanks."""
+
+    delimiter: str | None
+    decimal_comma: bool
+    width: int = 0
+    stamps: tuple[int, ...] = ()
+    words: tuple[int, ...] = ()
+    clock: Callable[[re.Match[str]], str] | None = field(default=None, compare=False)
+
+    @property
+    def stamp(self) -> re.Pattern[str]:
+        """Regular expression of a date or time of day."""
+        return _POINT_STAMP if self.delimiter == "," else _COMMA_STAMP
+
+    def plain(self, text: str) -> str:
+        """Text with points in its numbers, without quotation marks, times as seconds."""
+        if self.delimiter == "," and _QUOTED_DECIMALS.search(text):
+            text = re.sub(r'("[-+]?\d*),(\d+(?:[eE][-+]?\d+)?")', r"\1.\2", text)
+        if '"' in text:
+            if not (self.decimal_comma and _QUOTED_DECIMALS.search(text)):
+                text = _QUOTED.sub(lambda match: match[0].replace(",", ""), text)
+            text = text.replace('"', "")
+        if " sec" in text:
+            text = re.sub(r"(?<=\d) sec\b", "", text)  # MATLAB's durations
+        if self.clock is not None:
+            text = self.stamp.sub(self.clock, text)
+        if "D+" in text or "D-" in text:
+            text = re.sub(r"(?<=[\d.])D(?=[+-]\d)", "E", text)  # Fortran's exponents
+        if self.delimiter and ("'" in text or (self.decimal_comma and " " in text)):
+            text = re.sub(r"(?<=\d)['\xa0 ](?=\d{3}(?!\d))", "", text)
+        if not self.decimal_comma:
+            return text
+        if re.search(r"\.\d{3},\d", text):  # 1.234,5: no such point is a decimal one, anywhere
+            text = re.sub(r"(?<=\d)\.(?=\d{3}(?!\d))", "", text)
+        return text.replace(",", "" if re.search(r",\d{3}\.\d", text) else ".")
+
+
+_QUOTED = re.compile(r'"-?\d{1,3}(?:,\d{3})+(?:\.\d*)?"')
+_QUOTED_DECIMALS = re.compile(r'"[-+]?\d*,(?:\d{1,2}|\d{4,})(?:[eE][-+]?\d+)?"')
+"""A number with commas between thousands, and one with a comma that can only be a decimal one."""
+
+_STYLES = (
+    _Style(";", True),
+    _Style("\t", True),
+    _Style(",", False),
+    _Style("|", False),
+    _Style(None, False),
+    _Style(None, True),
+)
+
+
+def _cells(line: str, delimiter: str | None) -> list[str]:
+    if delimiter and '"' in line:
+        return [cell.strip() for cell in next(csv.reader([line], delimiter=delimiter), [""])]
+    return [cell.strip() for cell in line.split(delimiter)]
+
+
+MISSING = {
+    "", "na", "n/a", "#n/a", "null", "none", "-", "--", "---", "...", "<na>", "nat", "?", "*",
+}  # fmt: skip
+"""Cells that hold no number, in lower case, apart from "nan" itself."""
+
+
+def _number(cell: str) -> float | None:
+    """The number in a cell, NaN in an empty one; None for anything else."""
+    if cell.lower() in MISSING:
+        return math.nan
+    try:
+        return None if "_" in cell else float(cell)  # Python takes 1_000 for a number
+    except ValueError:
+        return None
+
+
+def _row(line: str, delimiter: str | None, words: Sequence[int] = ()) -> list[float] | None:
+    """The numbers of a plain line, or None where there is anything else, or nothing.
+
+    Cells of columns of `words` are NaN.
+    """
+    cells = _cells(line, delimiter)
+    numbers = [math.nan if i in words else _number(cell) for i, cell in enumerate(cells)]
+    found = [number for number in numbers if number is not None]
+    if len(found) < len(numbers) or all(math.isnan(number) for number in found):
+        return None
+    return found
+
+
+def _style(lines: Sequence[str], above: str) -> _Style | None:
+    """Style of the first line; None where it holds anything but numbers.
+
+    The lines that follow, and the headings `above`, decide where more than one way would do.
+    """
+    found: list[tuple[int, _Style]] = []
+    for style in _STYLES:
+        if style.delimiter is not None and style.delimiter not in lines[0]:
+            continue
+        made = _fitted(style, lines)
+        if made is not None:
+            fits, full = made
+            headed = full.width > 1 and len(_cells(above, style.delimiter)) == full.width
+            found.append((fits + headed * len(lines), full))
+    return max(found, key=lambda made: made[0])[1] if found else None
+
+
+def _fitted(style: _Style, lines: Sequence[str]) -> tuple[int, _Style] | None:
+    """Number of lines that a style reads, and the style in full, as wide as the first."""
+    clocked = style.stamp.search(lines[0]) is not None
+    trial = dataclasses.replace(style, clock=_Clock() if clocked else None)
+    plain = trial.plain("\n".join(lines)).split("\n")
+    if style.delimiter is None and not style.decimal_comma and any("," in p for p in plain):
+        return None
+    words = _columns_of_words(plain, style.delimiter)
+    first = _row(plain[0], style.delimiter, words) or _row_of_labview(plain, style.delimiter)
+    if first is None:
+        return None
+    rows = [_row(line, style.delimiter, words) for line in plain]
+    closed = style.delimiter is not None and plain[0].rstrip(" ").endswith(style.delimiter)
+    closed &= not any(row and len(row) == len(first) and row[-1] == row[-1] for row in rows)
+    width = len(first) - (closed and len(first) > 1)
+    fits = sum(len(row or ()) in (width, width + 1) for row in rows)
+    if style.delimiter == "," and _looks_decimal(plain):
+        fits = 0
+    marked = style.stamp.sub("?", lines[0]).replace('"', "")
+    cells = np.array(_cells(marked, style.delimiter)[:width])
+    stamps = tuple(np.flatnonzero(cells == "?").tolist())
+    clock = _Clock() if clocked else None
+    return fits, _Style(style.delimiter, style.decimal_comma, width, stamps, words, clock)
+
+
+def _row_of_labview(lines: Sequence[str], delimiter: str | None) -> list[float] | None:
+    """The numbers of the first line, if a comment ends it alone."""
+    if len(lines) < SAMPLE or delimiter is None:
+        return None
+    second = _row(lines[1].rstrip(f"{delimiter} "), delimiter) or []
+    line = delimiter.join(_cells(lines[0], delimiter)[: len(second)])
+    return _row(line, delimiter) if len(second) > 1 else None
+
+
+def _columns_of_words(lines: Sequence[str], delimiter: str | None) -> tuple[int, ...]:
+    """Columns in which every one of many lines, or of long ones, has a word beside numbers."""
+    rows = [_cells(line, delimiter) for line in lines]
+    if (len(rows) < SAMPLE and len(rows[0]) <= FEWEST_SAMPLES) or len(
+        {len(row) for row in rows}
+    ) > 1:
+        return ()
+    kinds = {tuple(_number(cell) is None for cell in row) for row in rows}
+    words = next(iter(kinds)) if len(kinds) == 1 else ()
+    if any(
+        word and " " in cell and not re.search(r"[^\W\d]", cell)
+        for word, cell in zip(words, rows[0], strict=False)
+    ):
+        return ()  # "000125 −0" between two commas of decimals
+    return tuple(i for i, word in enumerate(words) if word) if not all(words) else ()
+
+
+_TWO_WHOLE = re.compile(r"\s*(-?\d+),(\d+)\s*")
+
+
+def _looks_decimal(lines: Sequence[str]) -> bool:
+    """Whether "0,051" is one number with a comma rather than two: no one writes 051 or −0."""
+    pairs = [_TWO_WHOLE.fullmatch(line) for line in lines]
+    parts = [pair.groups() for pair in pairs if pair is not None]
+    return len(parts) == len(lines) and any(
+        whole == "-0" or (len(part) > 1 and part[0] == "0") for whole, part in parts
+    )
+
+
+# -- lines above the numbers -----------------------------------------------------------------------
+
+
+def _decoded(line: bytes) -> str:
+    """A line; an old encoding of one byte a character where it is not UTF-8."""
+    try:
+        return line.decode().rstrip("\r\n")
+    except UnicodeDecodeError:
+        return line.decode("cp1252", "replace").rstrip("\r\n")
+
+
+def _beginning(name: str, content: bytes) -> tuple[_Style, int, list[str]]:
+    """Style of numbers, the first byte of them, and the lines above."""
+    remarks: list[str] = []
+    words, begin, place = 0, "", 0
+    for line in io.BytesIO(content):
+        bare = _decoded(line).strip()
+        if bare[:1] in ("#", "%"):
+            if len(remarks) < MOST_HEADINGS:
+                remarks.append(bare.lstrip("#% ")[:LONGEST_LINE])
+        elif bare:
+            begin = begin or bare
+            rest = io.BytesIO(content)
+            rest.seek(place)
+            sample = list(islice(_lines_of_numbers(rest), SAMPLE))
+            numbered = _is_numbered(sample)
+            found = None if numbered else _style(sample, remarks[-1] if remarks else "")
+            follows = _style(sample[1:], "") if found and found.width == 1 < len(sample) else None
+            if follows is not None and follows.width > 2:
+                found = None  # how many lines follow
+            if found is not None:
+                return _one_column(found, sample, remarks), place, remarks
+            words += 1
+            remarks.append(_decoded(line) if numbered else bare[:LONGEST_LINE])
+            if words > MOST_HEADINGS:
+                break
+        place += len(line)
+    if not begin:
+        raise checks.refuse("file", name, "one that holds lines of numbers")
+    raise checks.refuse(f"start of {name}", begin[:40], "a table of numbers, headings above it")
+
+
+def _is_numbered(lines: Sequence[str]) -> bool:
+    """Whether the first line is the headings of a data frame with numbers for names: 0, 1, 2."""
+    match = re.fullmatch(r'(?:"")?([,;\t]?)"?0"?(?:[,;\t]"?\d+"?)*', lines[0])
+    names = re.findall(r"\d+", lines[0])
+    counted = names == [str(index) for index in range(len(names))]
+    named = match is not None and (match[1] or ("." in "".join(lines[1:2]) and len(names) > 1))
+    return bool(named and counted)
+
+
+def _lines_of_numbers(lines: Iterable[bytes]) -> Iterator[str]:
+    """Lines that are neither empty nor remarks."""
+    for line in lines:
+        text = _decoded(line)
+        if text.strip() and text[0] not in "#%":
+            yield text
+
+
+def _one_column(style: _Style, lines: Sequence[str], remarks: Sequence[str]) -> _Style:
+    """One column of numbers with commas, where a heading of one word is above pairs."""
+    pairs = style.delimiter == "," and style.width == 2
+    if pairs and remarks and not re.search(r"[,;\t]", remarks[-1]):
+        whole = all(_TWO_WHOLE.fullmatch(line.replace('"', "")) for line in lines)
+        if whole and len({_cells(line, ",")[0] for line in lines}) < len(lines):
+            return _Style(None, True, 1)
+    return style
+
+
+def _headings(remarks: Sequence[str], style: _Style, columns: Array) -> list[str] | None:
+    """The names of the columns, out of the last line above them that fits; each with its unit.
+
+    A line of units alone may be between the names and the numbers. Columns without a name are
+    called by their number.
+    """
+    width = columns.shape[1]
+    remarks = [re.sub(r"Unnamed: \d+", "", line) for line in remarks]  # as pandas calls an index
+    # a rate or a speed is no name; the place of a line that names two columns is the last
+    lines = [
+        line
+        for line in remarks
+        if re.search(r"[^\W_]", line)
+        and not _TYPES.fullmatch(line)
+        and not _is_remark(line, style, width)
+    ][-3:]
+    names = _names(lines[-1], style, columns) if lines else None
+    if names is None:
+        return None
+    above = _names(lines[-2], style, columns) if len(lines) > 1 else None
+    names = _with_units(names, above)
+    given = [name for name in names if name]
+    if any(re.fullmatch(r"-?\d*[.,]\d+", name) for name in given):
+        return None  # numbers beside the settings of an instrument
+    if not given or all(_row(cell, None) for cell in given):
+        return None
+    return [
+        name if name and names.count(name) == 1 else f"{name}, column {index + 1}".strip(", ")
+        for index, name in enumerate(names)
+    ]
+
+
+def _with_units(names: list[str], above: list[str] | None) -> list[str]:
+    """The names of a line, or those of the line above with the units, or ends, of this one."""
+    if above is not None and _are_units(names):
+        units = [unit.strip("[]() ") for unit in names]
+        pairs = zip(above, units, strict=True)
+        return [f"{name} [{unit}]" if unit.strip("- ") else name for name, unit in pairs]
+    if above is not None and len(set(names)) < len(names) and len(set(above)) > 1:
+        return [f"{a} {b}".strip() for a, b in zip(above, names, strict=True)]  # pandas' two levels
+    alone = [_unit_alone(cell) for cell in names]
+    if len(names) > 1 and all(alone):
+        return [f"column {i + 1} [{unit}]" for i, unit in enumerate(alone)]
+    return names
+
+
+def _is_remark(line: str, style: _Style, width: int) -> bool:
+    """Whether a line says something else than the names of columns."""
+    said = ":" in line or "=" in line
+    if width == 1:
+        return not (unit_in(line) in UNITS and re.search(r"[\[(]", line)) and (
+            bool(units_said([line], {}))
+            # a name and what it is
+            or bool(re.search(r"[;\t]\s*[^;\t\s]|(^|\s)-?\d[\d.,]*\d", line))
+            or said
+            or len(line.split()) > LONGEST_HEADING
+            or bool(named_in([line]))
+        )
+    return _is_remark_above_several(line, [c for c in _cells(line, style.delimiter) if c], width)
+
+
+def _is_remark_above_several(line: str, single: Sequence[str], width: int) -> bool:
+    said = ":" in line or "=" in line
+    if said and len(single) == width and all(re.search(r"[:=]", cell) for cell in single):
+        return False  # "Ch 1: acc [g], Ch 2: acc [g]"
+    if units_said([line], {}) or (len(single) > 1 and _is_a_value(single)):
+        return True
+    return (said or any(re.match(_VALUE, cell) for cell in single)) and names_a_fact(line)
+
+
+_TYPES = re.compile(r"(?i)\W*((float|double|single|u?int)\d*\W*)+")
+"""A line of the columns' types of numbers."""
+
+_VALUE = r"[-+]?\d[\d.,]*([eE][-+]?\d+)?(\s*[^\W\d]\S{0,9})?$"
+"""A number with or without a unit."""
+
+LONGEST_HEADING = 4
+"""[words] of the name of the only column; more are a remark."""
+
+_WORDS_OF_A_ROW = {
+    "comment", "comments", "kommentar", "bemerkung", "remark", "remarks", "note", "notes",
+    "flag", "flags", "marker", "event", "events", "annotation", "status", "untitled", "start",
+    "increment",
+}  # fmt: skip
+_UNIT_LIKE = re.compile(r"[\[(]?(?:[a-zA-Zµμ°%]{0,5}(?:[/·*]s(?:\^?2|²|\*\*2)?)?|-)[\])]?")
+
+
+def _are_units(cells: Sequence[str]) -> bool:
+    """Whether a line is of units: known ones, and others that look like one."""
+    like = [bool(_UNIT_LIKE.fullmatch(cell)) for cell in cells]
+    known = [_unit_alone(cell) is not None for cell in cells]
+    return any(known) and all(a or b for a, b in zip(like, known, strict=True))
+
+
+def _unit_alone(cell: str) -> str | None:
+    """The unit that a cell is; a letter without brackets is one as it is written alone."""
+    bare = cell.strip("[]() ")
+    unit = unit_named(bare)
+    return unit if len(bare) > 1 or bare in ("g", "s", unit) or bare != cell else None
+
+
+_BLANKS = (r"\s{2,}", r"\s+(?![\[(])")
+
+
+def _names(line: str, style: _Style, columns: Array) -> list[str] | None:
+    """The cells of a heading, by any delimiter, if there are as many as columns.
+
+    Names of columns of words, and of rows, need not be there.
+    """
+    width = columns.shape[1]
+    if width == 1:
+        return [line.strip(' "\t,;')]
+    for cells in (
+        _cells(line, style.delimiter),
+        *(_cells(line, delimiter) for delimiter in (";", "\t", ",")),
+        *(() if re.search(r"[,;\t]", line) else _BLANKS),
+    ):
+        cells = re.split(cells, line) if isinstance(cells, str) else cells
+        names = [cell.strip().strip('"').strip() for cell in cells]
+        if _is_a_value(names):
+            continue
+        names = _with_width(names, style, columns)
+        if len(names) == width:
+            return names
+    names = [cell.strip(' "') for cell in line.split(style.delimiter or "\n")]
+    said = [column_of(name) for name in names]
+    known = [bool(one.unit or one.direction or one.place or one.role == TIME) for one in said]
+    if len(names) > width and any(known[:width]) and not any(known[width:]):
+        return names[:width]  # columns of words at the end, empty and not delimited
+    return None
+
+
+def _with_width(names: list[str], style: _Style, columns: Array) -> list[str]:
+    """The names of a heading without those of no column, and with those that need not be there."""
+    width = columns.shape[1]
+    while len(names) > width and (
+        _number(names[-1]) is not None or names[-1].lower() in _WORDS_OF_A_ROW
+    ):
+        names.pop()  # LabVIEW names a column of words, which is empty; scopes have settings
+    if len(names) == width + 1 and re.fullmatch(r"\W*(headers|columns|fields)", names[0].lower()):
+        names.pop(0)
+    if 1 < len(names) < width and np.isnan(columns[:, len(names) :]).all():
+        names += [""] * (width - len(names))  # rows with empty cells at their ends
+    if len(names) == width - 1 and _counts_rows(columns[:, 0]):
+        names.insert(0, "")  # R names no column of the rows' names
+    if len(names) == width + 1 and style.stamps and re.search("date|dat", names[0].lower()):
+        names[:2] = [f"{names[0]} {names[1]}"]  # date and time in a column each
+    return names
+
+
+def _is_a_value(cells: Sequence[str]) -> bool:
+    """Whether cells are a name and its number, such as "block 3", and no names of columns."""
+    values = set(cells[1:])
+    same = len(values) == 1 and "" not in values and _number(*values) is not None
+    return same and _number(cells[0]) is None and column_of(cells[0]).role != TIME
+
+
+def _counts_rows(column: Array) -> bool:
+    return len(column) > 1 and column[0] in (0.0, 1.0) and bool(np.all(np.diff(column) == 1.0))
+
+
+# -- numbers ---------------------------------------------------------------------------------------
+
+
+def _numbers(
+    body: bytes, style: _Style, most_rows: int
+) -> tuple[Array, NDArray[Any] | None] | None:
+    """The numbers (n, width) of lines; None where one of them is not `width` numbers and gaps.
+
+    With the names (n,) of the sensors that rows are of, where columns of words hold those.
+    """
+    import pandas as pd
+
+    width = style.width
+    plain = style.plain(body.decode("latin-1"))
+    if "%" in plain or "\n " in plain:
+        plain = re.sub(r"(?m)^(?: +\r?|%.*)$\n?", "", plain)
+    text = io.BytesIO(plain.encode("latin-1"))
+    del plain
+    try:
+        frame = pd.read_csv(
+            text,
+            sep=style.delimiter or r"\s+",
+            header=None,
+            names=range(width + 1),
+            index_col=False,
+            comment="#",
+            skipinitialspace=True,
+            dtype={i: (str if i in style.words else float) for i in range(width + 1)},
+            na_values=sorted(MISSING),
+            encoding="latin-1",
+            nrows=most_rows,
+        )
+    except ValueError:  # of what is no number; pandas' own errors of lines that are too long too
+        return None
+    sensors = None
+    for index in style.words:
+        words = frame[index].fillna("").to_numpy(dtype=str)
+        if are_sensors(words):
+            sensors = words if sensors is None else np.char.add(np.char.add(sensors, " "), words)
+        frame[index] = np.nan
+    columns = frame.to_numpy(dtype=float)
+    unsure = not np.isnan(columns[:, width]).all() or np.isnan(columns[:, width - 1]).any()
+    lines = io.BytesIO(body)
+    if unsure and next(_wrong_lines(lines, style), None) is not None:
+        return None  # pandas fills short lines
+    return columns[:, :width], sensors
+
+
+def _wrong_lines(
+    lines: Iterable[bytes], style: _Style
+) -> Iterator[tuple[int, str, list[str], str]]:
+    """Lines that are not `width` numbers and gaps: number from 0, text, cells, what they lack."""
+    width = style.width
+    for index, line in enumerate(lines):
+        text = _decoded(line)
+        if not text.strip() or text[0] in "#%":
+            continue
+        cells = _cells(style.plain(text).partition("#")[0], style.delimiter)
+        if len(cells) == width + 1 and not cells[-1]:
+            cells.pop()
+        words = [_number(cell) is None for cell in cells]
+        short = re.sub(r"[^ -\uffff]", "", text.strip())[:40]
+        if any(word for i, word in enumerate(words[:width]) if i not in style.words):
+            yield index, short, cells, "numbers"
+        elif len(cells) != width:
+            comment = len(cells) > width and all(words[width:])
+            yield index, short, cells, "" if comment else f"{width} columns as in the first"
+
+
+def _mended(
+    name: str, body: bytes, style: _Style, above: int, remarks: Sequence[str]
+) -> tuple[bytes, list[str], list[str]]:
+    """Lines with gaps in place of a few that hold no numbers, sentences on them, and their words.
+
+    The first line has the number `above`. An oscilloscope's settings are beside its first numbers.
+    The last of many lines may be cut off.
+    """
+    lines, width = body.rstrip().splitlines(keepends=True), style.width
+    many_lines = len(lines) > FEWEST_SAMPLES
+    few, many = (
+        int(share * len(lines)) + 1 if many_lines else 0 for share in (MOST_WRONG, MOST_MISSING)
+    )
+    wrong: list[tuple[int, str, str]] = []
+    words: set[str] = set()  # in place of numbers in lines that are whole
+    torn = 0
+    notes: list[str] = []
+    for index, text, cells, allowed in _wrong_lines(lines, style):
+        if allowed and index == len(lines) - 1 and many_lines:
+            lines[index] = b""
+            notes = [f"The last line, “{text}”, is cut off: it is not used."]
+            break
+        if allowed:
+            wrong.append((index, text, allowed))
+            cells, missing = _with_gaps(cells, style)
+            words |= missing
+            torn += not missing
+            most = many if len(words) <= MOST_MISSING_WORDS else few
+            if torn > few or len(wrong) > most:
+                raise checks.refuse(f"line {above + wrong[0][0]} of {name}", *wrong[0][1:])
+        text = (style.delimiter or " ").join(cells[:width])
+        text = text.replace(".", ",") if style.decimal_comma else text
+        lines[index] = text.encode("latin-1", "replace") + b"\n"
+    again = {line[:40] for line in remarks}  # headings of a second recording are no news
+    lacking = [(above + index, text) for index, text, _ in wrong if text not in again]
+    return b"".join(lines), notes + _lacking(lacking), [text for _, text in lacking[:SAMPLE]]
+
+
+def _with_gaps(cells: list[str], style: _Style) -> tuple[list[str], set[str]]:
+    """Cells with gaps in place of words, and these; gaps alone where the line is torn."""
+    bad = [i for i, c in enumerate(cells) if i not in style.words and _number(c) is None]
+    if len(cells) != style.width or not bad:
+        return ["nan"] * style.width, set()
+    return ["nan" if i in bad else cell for i, cell in enumerate(cells)], {cells[i] for i in bad}
+
+
+def _lacking(lines: Sequence[tuple[int, str]]) -> list[str]:
+    """A sentence on numbered lines that lack numbers; none of no line."""
+    if not lines:
+        return []
+    many = "One line lacks" if len(lines) == 1 else f"{thousands(len(lines))} lines lack"
+    number, text = lines[0]
+    return [f"{many} numbers (line {number}, “{text}”), which count as missing."]
+
+
+def _signals_in_rows(
+    body: bytes, style: _Style, remarks: list[str], most_numbers: int, most_columns: int
+) -> tuple[dict[str, Any], Array] | None:
+    """Signals that are written in a row each, behind facts of each; None for any other table."""
+    width = style.width
+    most_rows = min(most_columns if width > most_columns else LONG_ROW, width)
+    lines = list(islice(_lines_of_numbers(io.BytesIO(body)), most_rows + 1))
+    plain = [style.plain(line).rstrip(" ") for line in lines]
+    rows = [_row(line, style.delimiter, style.words) for line in plain]
+    whole = [row[:width] for row in rows if row is not None and len(row) in (width, width + 1)]
+    if width < FEWEST_SAMPLES or not len(whole) == len(rows) <= most_rows:
+        return None
+    heads = _cells(remarks[-1], style.delimiter) if remarks else []
+    count = _count_of_facts(heads, width)
+    columns = np.delete(np.array(whole).T, [*range(count), *style.words], axis=0)
+    if columns.size > most_numbers:
+        return None
+    cells = [_cells(line, style.delimiter) for line in lines]
+    named = count > 0 or style.words == (0,)
+    names = [row[0] for row in cells] if named else _headings(remarks, style, columns)
+    # what all rows say alike is said of the file
+    facts = [(heads[i], {row[i] for row in cells}) for i in range(count)]
+    said = [f"{head}: {values.pop()}" for head, values in facts if len(values) == 1]
+    return _about(columns, names, (remarks[:-1] if count else remarks) + said)
+
+
+def _count_of_facts(headings: Sequence[str], width: int) -> int:
+    """Count the first columns that are no samples, by headings such as "time, fs, s0, s1, ..."."""
+    ends = [re.search(r"(\d+)\W*$", heading) for heading in headings]
+    numbers = [int(end[1]) if end else None for end in ends]
+    if len(numbers) != width or numbers[-1] is None:
+        return 0
+    first = numbers[-1] - width + 1
+    return max((i + 1 for i, number in enumerate(numbers) if number != first + i), default=0)

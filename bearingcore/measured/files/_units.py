@@ -1,0 +1,218 @@
+"""Units of measured signals: how they are written in headings, and what they are in SI.
+
+Kind         | SI unit | What is made of it
+------------ | ------- | ------------------
+acceleration | m/s²    | taken as it is
+velocity     | m/s     | differentiated
+voltage      | V       | divided by the sensor's sensitivity
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from types import MappingProxyType
+
+import numpy as np
+
+from bearingcore.common import Array, number
+from bearingcore.units import INCH, STANDARD_GRAVITY
+
+ACCELERATIONS: Mapping[str, float] = MappingProxyType(
+    {
+        "m/s²": 1.0,
+        "g": STANDARD_GRAVITY,
+        "mg": 1e-3 * STANDARD_GRAVITY,
+        "mm/s²": 1e-3,
+        "cm/s²": 1e-2,
+        "in/s²": INCH,
+        "ft/s²": 0.3048,
+    }
+)
+"""[m/s²]"""
+
+VELOCITIES: Mapping[str, float] = MappingProxyType(
+    {"m/s": 1.0, "mm/s": 1e-3, "µm/s": 1e-6, "in/s": INCH}
+)
+"""[m/s]"""
+
+VOLTAGES: Mapping[str, float] = MappingProxyType({"V": 1.0, "mV": 1e-3})
+"""[V]"""
+
+UNITS: Mapping[str, float] = MappingProxyType({**ACCELERATIONS, **VELOCITIES, **VOLTAGES})
+"""All that can be made an acceleration, in the SI unit of their kind."""
+
+_TIMES = {"s": 1.0, "ms": 1e-3, "µs": 1e-6, "ns": 1e-9, "min": 60.0, "h": 3600.0, "d": 86_400.0}
+TIMES: Mapping[str, float] = MappingProxyType(_TIMES)
+"""[s]"""
+
+FORCES: Mapping[str, float] = MappingProxyType(
+    {"N": 1.0, "kN": 1e3, "lb": 4.4482216, "kg": STANDARD_GRAVITY}
+)
+"""[N]"""
+
+SPEEDS: Mapping[str, float] = MappingProxyType(
+    {"rpm": 2.0 * np.pi / 60.0, "Hz": 2.0 * np.pi, "rad/s": 1.0}
+)
+"""[rad/s]"""
+
+_OTHERS = (
+    "µm", "mm", "mil", "°C", "A", "%", "Pa", "bar", "Nm", "deg", "deg/s", "µT", "kHz", "dB", "km/h",
+    "W", "kW", "l/min", "mA", "kA", "gE",
+)  # fmt: skip
+
+_WRITTEN = {
+    "m/s²": "m/s2 m/s/s m/s^2 m/s**2 ms-2 ms^-2 ms⁻² m·s-2 m·s⁻² m*s-2 m*s^-2 mps2 m_s2 ms2 "
+    "m_per_s2 m/sec2 m/sec^2 m/sec²",
+    "g": "gs gn g_n g's g's g-s g-force gforce gee gees grav gravity gravities",
+    "mg": "millig milli-g mgs",
+    "mm/s²": "mm/s2 mm/s^2 mm/s**2 mms-2 mm_s2 mm_per_s2 mm/sec2 mm/sec²",
+    "cm/s²": "cm/s2 cm/s^2 gal",
+    "in/s²": "in/s2 in/s^2 in/sec2 in/sec^2 in/sec² ips2 in_per_s2 inch/s2 inch/s²",
+    "ft/s²": "ft/s2 ft/s^2 ft/sec2",
+    "m/s": "m/sec ms-1 mps m_per_s",
+    "mm/s": "mm/sec mms-1 mm_s mm_per_s mmps",
+    "µm/s": "um/s um/sec",
+    "in/s": "ips in/sec inch/s in_per_s inch/sec",
+    "V": "volt volts",
+    "mV": "millivolt millivolts",
+    "s": "sec secs second seconds sekunden sekunde",
+    "ms": "msec msecs millis millisecond milliseconds millisekunden",
+    "µs": "us usec usecs micros microsecond microseconds mikrosekunden",
+    "ns": "nsec nsecs nanos nanosecond nanoseconds",
+    "min": "minute minutes",
+    "h": "hour hours",
+    "d": "days",
+    "N": "newton",
+    "kN": "kilonewton",
+    "lb": "lbs lbf",
+    "kg": "kgf",
+    "rpm": "1/min u/min r/min tr/min rev/min min-1 min^-1 cpm",
+    "Hz": "1/s hertz sps s/s sa/s samples/s",
+    "kHz": "ksps ks/s ksa/s",
+    "rad/s": "rad_per_s",
+    "µm": "um micron microns",
+    "mil": "mils",
+    "°C": "degc celsius",
+    "deg": "°",
+    "deg/s": "dps °/s",
+    "µT": "ut",
+    "A": "amp amps ampere amperes",
+    "gE": "gse env-g g-env genv",
+}
+_ALIASES = {unit.lower(): unit for unit in (*UNITS, *_TIMES, *FORCES, *SPEEDS, *_OTHERS)}
+_ALIASES |= {word: unit for unit, words in _WRITTEN.items() for word in words.split()}
+
+_IN_BRACKETS = re.compile(r"[\[(]\s*([^\[\]()]{1,12}?(?:\(s\S{0,3}\))?)\s*[\])]")
+_LOOSE = {
+    "g", "gs", "mg", "v", "mv", "s", "ms", "us", "ns", "volt", "volts", "rpm", "g's", "hz", "n",
+    "kn", "ips", "um", "µm", "mm", "mil", "mils", "db", "ge", "cpm",
+}  # fmt: skip
+"""Short words that are units at the end of a name, as in "sensor_g"."""
+
+_DETECTOR = re.compile(r"[-_(]*(?:pk-?pk|p-p|0-?pk?|rms|peak|pk|eff)\)?$")
+"""A way to take the size of a signal, at the end of its unit: "g-pk", "mm/s RMS"."""
+
+LEAST_LEVEL, GREATEST_LEVEL = 3e-3, 2e3
+"""[m/s²] root mean squares that housings of running bearings have: from a shaft that turns a few
+times a second (0.3 mg) to a machine that comes apart (200 g)."""
+
+
+def unit_named(text: str) -> str | None:
+    """The unit that a text is, in this module's way of writing; None where it is none.
+
+    >>> unit_named("m/s^2"), unit_named("in/sec²"), unit_named("furlongs")
+    ('m/s²', 'in/s²', None)
+    """
+    bare = re.sub(r"\s+", "", text).replace("μ", "µ").rstrip(".").lower()
+    bare = re.sub(r"\((s\S{0,3}?)\)", r"\1", bare)  # m/(s²)
+    return _ALIASES.get(bare) or _ALIASES.get(_DETECTOR.sub("", bare))
+
+
+def unit_in(heading: str) -> str | None:
+    """The unit that a heading gives to its column, or None.
+
+    >>> unit_in("acc x [mm/s^2]"), unit_in("sensor_g"), unit_in("acceleration_y_m_per_s2")
+    ('mm/s²', 'g', 'm/s²')
+    >>> unit_in("1/min")
+    'rpm'
+    """
+    heading = re.sub(r"(?i)[\[(](pk-?pk|peak|pk|rms)[\])]", "", heading)
+    for name in _IN_BRACKETS.findall(heading):
+        unit = unit_named(name)
+        if unit is not None:
+            return unit
+    bare = heading.strip().lower()
+    if "/" in bare and (unit := unit_named(bare)) is not None:
+        return unit
+    last = bare.split()[-1:]
+    if last and len(bare) > len(last[0]) and re.search(r"/|²|s\^?-?2$", last[0]):
+        unit = unit_named(last[0].lstrip("/"))
+        if unit is not None:
+            return unit
+    for mark in ("/", " in ", ","):
+        before, found, after = bare.partition(mark)
+        if found and before.strip() and (unit := unit_named(after)) is not None:
+            return unit
+    return _unit_at_end(re.split(r"[\s_.,;]+", bare))
+
+
+def _unit_at_end(words: list[str]) -> str | None:
+    """The unit that the last words of a name are."""
+    for count in (3, 2, 1):  # "m_per_s2" is three words at the end of a name
+        if len(words) > count or (len(words) == count == 1):
+            end = "_".join(words[-count:])
+            if count == 1 and end not in _LOOSE and not re.search(r"[/²]|2$", end):
+                continue
+            if count == len(words) == 1 and len(end) < 2:
+                continue  # "g" or "s" alone may be a name
+            unit = unit_named(end)
+            if unit is not None:
+                return unit
+    return None
+
+
+def kind_of(unit: str) -> str:
+    """Quantity that a unit measures: "acceleration", "velocity", "voltage", "time" or "other"."""
+    for kind, units in (
+        ("acceleration", ACCELERATIONS),
+        ("velocity", VELOCITIES),
+        ("voltage", VOLTAGES),
+        ("time", TIMES),
+    ):
+        if unit in units:
+            return kind
+    return "other"
+
+
+def differentiated(signal: Array, sample_rate: float) -> Array:
+    """The rate of change of columns (n, d) at `sample_rate` [Hz], exact for what is sampled well.
+
+    Multiplies the spectrum by i·2πf; the signal is continued by turning it about its ends, so that
+    no step appears there.
+    """
+    n = len(signal)
+    first, last = signal[:1], signal[-1:]
+    turned = np.concatenate([signal, 2.0 * last - signal[-2:0:-1]])
+    # what remains between the ends of one period is a straight line
+    slope = 2.0 * (last - first) / len(turned)
+    line = slope * np.arange(len(turned))[:, None]
+    frequency = np.fft.rfftfreq(len(turned), 1.0 / sample_rate)
+    lines = np.fft.rfft(turned - line, axis=0) * (2j * np.pi * frequency)[:, None]
+    if len(turned) % 2 == 0:
+        lines[-1] = 0.0  # at half the rate a slope has no sign
+    return np.fft.irfft(lines, len(turned), axis=0)[:n] + slope * sample_rate
+
+
+def level_doubt(level: float) -> str:
+    """A sentence where a root mean square [m/s²] is not what a running bearing gives, else "".
+
+    >>> level_doubt(3.0)
+    ''
+    """
+    words = f"{number(level, 2)} m/s² ({number(level / STANDARD_GRAVITY, 2)} g)"
+    if level > GREATEST_LEVEL:
+        return f"A root mean square of {words} is more than bearings give: the unit may be another."
+    if level < LEAST_LEVEL:
+        return f"A root mean square of {words} is less than bearings give: the unit may be another."
+    return ""

@@ -1,0 +1,126 @@
+"""Variables of a file: matrices of numbers and words by their names, and the table they make."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore.common import Array
+from bearingcore.common import _checks as checks
+from bearingcore.measured.files._facts import is_steady
+from bearingcore.recordings import FEWEST_SAMPLES
+
+DEEPEST = 8
+"""Structs, cells and groups inside one another."""
+
+MOST_SCALARS = 200
+"""Single numbers and words of a file that are kept."""
+
+LONGEST_TEXT = 1000
+"""[characters] of words that are kept."""
+
+Answer = tuple[dict[str, Any], Array]
+
+
+@dataclass
+class Variables:
+    """Variables of a file: matrices in the kind of number they are stored in, and words.
+
+    `instead` says what is wanted in place of a file that holds no signal.
+    """
+
+    numbers: dict[str, NDArray[Any]] = field(default_factory=dict)
+    texts: dict[str, str] = field(default_factory=dict)
+    objects: list[str] = field(default_factory=list)
+    instead: str = ""
+
+    def add(self, path: str, value: NDArray[Any]) -> None:
+        """Keep real numbers as a matrix, or a word; anything else is passed over."""
+        for part in value.dtype.names or ():
+            self.add(f"{path}.{part}" if path else part, value[part].ravel())
+        if value.dtype.kind in "Mm":
+            value = _in_seconds(value)
+        if value.ndim > 2:  # the longest direction is that of the samples
+            longest = int(np.argmax(value.shape))
+            value = np.moveaxis(value, longest, 0).reshape(value.shape[longest], -1)
+        if value.dtype.kind in "iuf" and value.ndim <= 2:
+            self.numbers[path] = np.atleast_2d(value)
+        elif value.dtype.kind in "OSU":
+            words = value.ravel()[: MOST_SCALARS - len(self.texts)].tolist()
+            for index, word in enumerate(words):
+                text = word.decode("utf-8", "replace") if isinstance(word, bytes) else str(word)
+                of = f"{path}{{{index + 1}}}" if len(words) > 1 else path
+                self.texts[of] = text[:LONGEST_TEXT].strip()
+
+    def table(self, name: str, kind: str, most_numbers: int, most_columns: int) -> Answer:
+        """Vectors and matrices about as long as the longest as columns, and the rest."""
+        scalars: dict[str, float] = {}
+        parts: dict[str, NDArray[Any]] = {}
+        for variable, matrix in self.numbers.items():
+            if matrix.size > 1:
+                parts[variable] = matrix.T if matrix.shape[0] < matrix.shape[1] else matrix
+            elif matrix.size and len(scalars) < MOST_SCALARS:
+                with np.errstate(invalid="ignore"):  # signalling NaNs in damaged files
+                    scalars[variable] = float(matrix[0, 0])
+        if self.objects and max((len(part) for part in parts.values()), default=0) < FEWEST_SAMPLES:
+            wanted = (
+                f"one whose signals are arrays; {self.objects[0]} is a table or an object: save "
+            )
+            raise checks.refuse("file", name, f"{wanted}its columns, as in acc = T.acc, or as CSV")
+        if not parts:
+            wanted = self.instead or f"a {kind} with a vector or matrix of real numbers"
+            raise checks.refuse("file", name, wanted)
+        rows = max(len(part) for part in parts.values())
+        parts, scalars = self._long(parts, scalars, rows)
+        width = sum(part.shape[1] for part in parts.values())
+        check_size(name, (rows, width), most_numbers, most_columns)
+        columns = np.full((rows, width), np.nan, order="F")
+        names: list[str] = []
+        with np.errstate(invalid="ignore"):
+            for variable, part in parts.items():
+                columns[: len(part), len(names) : len(names) + part.shape[1]] = part
+                several = part.shape[1] > 1
+                names += [f"{variable}(:,{i + 1})" if several else variable
+                          for i in range(part.shape[1])]  # fmt: skip
+        return {"names": names, "scalars": scalars, "texts": self.texts}, columns
+
+    def _long(
+        self, parts: dict[str, NDArray[Any]], scalars: dict[str, float], rows: int
+    ) -> tuple[dict[str, NDArray[Any]], dict[str, float]]:
+        """The parts that are about as long as the longest, and single numbers with the others."""
+        # what is much shorter was measured otherwise, or is no signal
+        least = max(FEWEST_SAMPLES, rows // 2) if rows >= FEWEST_SAMPLES else rows
+        for variable in [variable for variable, part in parts.items() if len(part) < least]:
+            part = parts.pop(variable)
+            # what is said of it, such as its rate, is not of the signals
+            of = f"{variable}."
+            scalars = {name: value for name, value in scalars.items() if not name.startswith(of)}
+            if is_steady(part) and len(scalars) < MOST_SCALARS:
+                scalars[variable] = float(part.mean())
+            elif len(self.texts) < MOST_SCALARS:
+                self.texts[variable] = f"not used: {len(part)} × {part.shape[1]} numbers"
+        return parts, scalars
+
+
+def check_size(name: str, shape: tuple[int, ...], most_numbers: int, most_columns: int) -> None:
+    rows, width = shape
+    if width > most_columns:
+        most = f"at most {most_columns}: save those of one bearing alone"
+        raise checks.refuse(f"number of columns in {name}", width, most)
+    if rows * width > most_numbers:
+        raise checks.refuse(f"count of numbers in {name}", rows * width, f"at most {most_numbers}")
+
+
+def check_depth(depth: int) -> None:
+    if depth > DEEPEST:
+        raise checks.refuse("structs inside one another", "deeper", f"at most {DEEPEST}")
+
+
+def _in_seconds(values: NDArray[Any]) -> NDArray[Any]:
+    """Dates as seconds since the first, and durations."""
+    if values.dtype.kind == "M" and values.size:
+        values = values - values.ravel()[0]
+    return values / np.timedelta64(1, "s")

@@ -1,0 +1,283 @@
+"""Averages over ball passes: the mean signal while one ball follows another.
+
+An outer-race defect meets ball after ball, N_b f_c times a second. What repeats with the balls adds
+up over the passes and everything else, noise above all, averages out.
+
+Quantity                                         | Symbol  | Name      | Unit
+------------------------------------------------ | ------- | --------- | -------------
+ball-pass frequency as it is, slip and all       | f       | frequency | Hz
+mean Fourier coefficients of a pass, at n f      | D_n     | harmonics | of the signal
+mean of their squared sizes, pass by pass        | ⟨|·|²⟩  | power     | its square
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore.common import Array
+from bearingcore.common import _checks as checks
+from bearingcore.measured.signals._order_tracking import followed, smooth_lag
+from bearingcore.measured.signals._resampling import oversampled
+from bearingcore.measured.signals._shaft_tones import without_shaft_tones
+
+FEWEST_PASSES = 6
+"""Below this an average says nothing about its own scatter."""
+
+CUT = 0.3
+"""Share of the lowest frequency below which a signal is filtered out."""
+
+MOST_PASSES = 400
+"""Later passes are left out: cages do not keep their speed so long."""
+
+SAMPLES_A_CYCLE = 6.0
+"""Samples in a cycle of the highest frequency, before a signal is cut into passes."""
+
+
+@dataclass(frozen=True)
+class BallPasses:
+    """Fourier coefficients of a signal at the harmonics 1 … N of its ball-pass frequency.
+
+    Attributes
+    ----------
+    frequency
+        f [Hz], ball passes a second.
+    n_passes
+        how many were averaged.
+    harmonics : (N, d)
+        mean coefficient of each harmonic and direction; twice its size is the amplitude.
+    power : (N, d)
+        mean squared size of the coefficients of single passes.
+    prominence
+        how far the ball-pass lines are above those of other frequencies close by, in standard
+        deviations of the latter.
+    begins : (passes + 1,) [s] or None
+        when the passes begin, and the last one ends, where the cage was followed; None where it
+        turns steadily.
+    """
+
+    frequency: float
+    n_passes: int
+    harmonics: NDArray[np.complex128]
+    power: Array
+    prominence: float
+    begins: Array | None = None
+
+    @property
+    def scatter(self) -> Array:
+        """Variance (N, d) of `harmonics`, from the differences between passes."""
+        around = self.power - np.abs(self.harmonics) ** 2
+        return np.asarray(np.maximum(around, 0.0) / max(self.n_passes - 1, 1))
+
+    @property
+    def noise_power(self) -> Array:
+        """Noise (N, d) in `power`: the quiet fifth of what differs from pass to pass, half an
+        octave around each harmonic, as what moves irregularly differs too.
+        """
+        around = np.maximum(self.power - np.abs(self.harmonics) ** 2, 0.0)
+        order = np.arange(1, len(around) + 1)
+        noise = np.empty_like(around)
+        for index, number in enumerate(order.tolist()):
+            near = (order >= number / 1.42 - 1.0) & (order <= number * 1.42 + 1.0)
+            noise[index] = np.quantile(around[near], 0.2, axis=0)
+        return noise
+
+    def waveform(self, n: int) -> Array:
+        """The mean pass as n samples (n, d)."""
+        full = np.zeros((n // 2 + 1, self.harmonics.shape[1]), dtype=complex)
+        count = min(len(self.harmonics), n // 2)
+        full[1 : count + 1] = self.harmonics[:count]
+        return np.asarray(np.fft.irfft(full, n, axis=0) * n)
+
+    @property
+    def harmonic_frequency(self) -> Array:
+        """(N,) [Hz]"""
+        return np.asarray(self.frequency * np.arange(1, len(self.harmonics) + 1), dtype=float)
+
+
+def coefficients(passes: Array, count: int) -> NDArray[np.complex128]:
+    """Coefficients (passes, count, d) at the harmonics 1 … count of signals (passes, n, d)."""
+    return np.fft.rfft(passes, axis=1)[:, 1 : count + 1] / passes.shape[1]
+
+
+def least_passes(nominal: float, lowest: float) -> int:
+    """Ball passes that a signal must hold for `average_passes`, with what its filter spoils.
+
+    Parameters
+    ----------
+    nominal, lowest
+        [Hz] as of `average_passes`.
+    """
+    return FEWEST_PASSES + 2 * _margin(nominal, lowest) + 1
+
+
+def _margin(nominal: float, lowest: float) -> int:
+    """Ball passes at either end of a signal in which the filter rings."""
+    return math.ceil(1.5 * nominal / (CUT * lowest))
+
+
+def average_passes(
+    signal: Array,
+    sample_rate: float,
+    nominal: float,
+    slip: float,
+    lowest: float,
+    highest: float,
+    widest: float,
+    *,
+    follow: bool = False,
+    shaft: float | None = None,
+    turns: float = 0.0,
+) -> BallPasses:
+    """Find the ball-pass frequency near `nominal` and average the signal over its passes.
+
+    Parameters
+    ----------
+    signal : (n, d)
+    sample_rate, nominal
+        [Hz]
+    lowest, highest, widest
+        [Hz]: the frequency is searched by its harmonics from `lowest` to `highest`; harmonics up
+        to `widest` are kept; all well below `lowest` is filtered out.
+    slip
+        how far off nominal the frequency may be, as a fraction of it.
+    follow
+        whether a cage that wanders is followed, see `order_tracking`.
+    shaft
+        turns a second [Hz] whose tones are taken out first; None to leave them.
+    turns
+        of the damage through the load zone in a ball pass, but for slip; 0 where it stays in its
+        place. Passes of damage that turns are weighted by how loud its angle makes them.
+
+    Raises
+    ------
+    ValueError
+        where the signal holds fewer than FEWEST_PASSES ball passes.
+    """
+    from scipy.interpolate import make_interp_spline  # imported late: see `spectrum`
+    from scipy.signal import butter, sosfiltfilt
+
+    cut, margin = CUT * lowest, _margin(nominal, lowest)
+    least = least_passes(nominal, lowest) / (nominal * (1.0 - slip))
+    if len(signal) / sample_rate < least:
+        raise checks.refuse(
+            "signal",
+            f"of {len(signal) / sample_rate:.3g} s",
+            f"at least {least:.3g} s, {least_passes(nominal, lowest)} ball passes",
+        )
+    if sample_rate < 2.5 * widest * (1.0 - 1e-9):  # 2.5 · 0.4 may be more than 1 in its last digit
+        raise checks.refuse("sample_rate", sample_rate, f"at least {2.5 * widest:.0f} Hz")
+    kept = min(len(signal), math.ceil((MOST_PASSES + 2 * margin + 1) * sample_rate / nominal))
+    signal = signal[:kept] - signal[:kept].mean(axis=0)
+    pass_up = butter(4, cut, "highpass", fs=sample_rate, output="sos")
+    signal = sosfiltfilt(pass_up, signal, axis=0)
+    frequency, prominence = _ball_pass_frequency(
+        signal, sample_rate, nominal, slip, lowest, highest
+    )
+    if shaft is not None:
+        signal = without_shaft_tones(signal, sample_rate, shaft, frequency)
+    # with so many samples a cycle that a spline follows the signal
+    factor = max(math.ceil(SAMPLES_A_CYCLE * widest / sample_rate), 1)
+    signal, sample_rate = oversampled(signal, factor), factor * sample_rate
+    # the filter rings at both ends of the signal: the passes there are left out
+    n_passes = math.floor((len(signal) - 1) / sample_rate * frequency) - 2 * margin
+    n = math.ceil(max(sample_rate, 4.0 * widest) / frequency)
+    curve = make_interp_spline(np.arange(len(signal)) / sample_rate, signal, k=5)
+    count = math.floor(widest / frequency)
+    place = np.arange(n_passes * n) / n
+
+    def passes(lags: Array | None) -> NDArray[np.complex128]:
+        late = 0.0 if lags is None else smooth_lag(lags)(place) / (2.0 * math.pi)
+        time = np.clip((margin + place + late) / frequency, 0.0, (len(signal) - 1) / sample_rate)
+        return coefficients(curve(time).reshape(n_passes, n, signal.shape[1]), count)
+
+    lags = followed(passes, n_passes, slip) if follow else None
+    each, begins = passes(lags), None
+    if lags is not None:
+        ends = np.arange(n_passes + 1.0)
+        begins = (margin + ends + smooth_lag(lags)(ends) / (2.0 * math.pi)) / frequency
+        frequency = n_passes / float(begins[-1] - begins[0])
+    mean, power = each.mean(axis=0), (np.abs(each) ** 2).mean(axis=0)
+    if turns:
+        mean, power = _weighted(each, load_zone_weights(each, turns, slip))
+    return BallPasses(frequency, n_passes, mean, power, prominence, begins)
+
+
+def load_zone_weights(passes: NDArray[np.complex128], turns: float, slip: float) -> Array:
+    """Loudness (n,) of ball passes whose damage turns through the load zone, over its mean.
+
+    How much of the mean pass each holds, every coefficient by its own scatter, is fitted by a mean
+    with two harmonics of the turn: what differs otherwise from pass to pass is chance.
+
+    Parameters
+    ----------
+    passes : (n, N, d)
+        coefficients of each.
+    turns, slip
+        of the damage in a ball pass, and by how much it may differ, as a fraction.
+    """
+    mean = passes.mean(axis=0)
+    scatter = (np.abs(passes - mean) ** 2).mean(axis=0) + 1e-300
+    held = np.real(np.tensordot(passes, np.conj(mean) / scatter, 2))
+    best, least = np.ones(len(passes)), np.inf
+    # so near each other that the angle at the last pass changes by a sixteenth of a turn
+    count = max(1, math.ceil(16.0 * turns * slip * len(passes)))
+    for trial in turns * (1.0 + slip * np.linspace(-1.0, 1.0, 2 * count + 1)):
+        angle = 2.0 * math.pi * trial * np.arange(len(passes))
+        waves = np.stack(
+            [np.ones_like(angle), *(f(k * angle) for k in (1.0, 2.0) for f in (np.cos, np.sin))], 1
+        )
+        fit = waves @ np.linalg.lstsq(waves, held)[0]
+        left = float(((held - fit) ** 2).sum())
+        if left < least:
+            best, least = np.maximum(fit, 0.0), left
+    return np.asarray(best / best.mean())
+
+
+def _weighted(each: NDArray[np.complex128], weights: Array) -> tuple[NDArray[np.complex128], Array]:
+    """The pass m that fits passes x as w m with least squares, and as `power` what its scatter
+    among n equal passes would be.
+    """
+    squares = float((weights**2).sum())
+    mean = np.tensordot(weights, each, 1) / squares
+    away = np.abs(each - weights[:, None, None] * mean) ** 2
+    variance = np.tensordot(weights**2, away, 1) / squares**2
+    return mean, np.abs(mean) ** 2 + len(each) * variance
+
+
+def _ball_pass_frequency(
+    signal: Array, sample_rate: float, nominal: float, slip: float, lowest: float, highest: float
+) -> tuple[float, float]:
+    """The frequency whose harmonics are highest, and their height over the others."""
+    from scipy.fft import next_fast_len
+
+    n = len(signal)
+    size = next_fast_len(4 * n)
+    transform = np.fft.rfft(signal * np.hanning(n)[:, None], size, axis=0)
+    # each direction and frequency counts by its line's height, not by its power: the strongest
+    # resonance would else speak alone
+    height = np.abs(transform).sum(axis=1)
+    step = sample_rate / size
+    order = np.arange(
+        max(1, math.ceil(lowest / nominal)), math.floor(highest / (nominal * (1.0 + slip))) + 1
+    )
+
+    def comb(frequencies: Array) -> Array:
+        return height[np.rint(frequencies[:, None] * (order / step)).astype(int)].sum(axis=1)
+
+    # a tenth of a line's width at the highest harmonic
+    spacing = 0.2 * sample_rate / n / order[-1]
+    trials = nominal + spacing * np.arange(
+        -math.ceil(slip * nominal / spacing), math.ceil(slip * nominal / spacing) + 1
+    )
+    heights = comb(trials)
+    best = int(heights.argmax())
+    fine = trials[best] + spacing * np.linspace(-1.0, 1.0, 41)
+    finely = comb(fine)
+    near = finely >= finely.max() - 1e-3 * abs(finely.max())
+    spread = 1.4826 * float(np.median(np.abs(heights - np.median(heights))))
+    prominence = float(heights[best] - np.median(heights)) / max(spread, 1e-300)
+    return float(fine[near].mean()), prominence

@@ -1,0 +1,139 @@
+"""Kurtogram: how impulsive a signal is in bands of many widths, and the band for its envelope.
+
+Knocks that repeat make something ring, and there the envelope rises and falls by more than noise or
+a steady tone lets it. The bands are those of the fast kurtogram (Antoni, Mechanical Systems and
+Signal Processing 21, 2007), each filtered without delay.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from bearingcore.common import Array, ResultTable, shown_as_table, table_of
+from bearingcore.common import _checks as checks
+from bearingcore.measured.signals._filter_bank import BAND_COUNTS, Band, split, squared_envelopes
+
+MOST_JUDGED = 2**18
+"""Of a signal that are looked at: the first ones."""
+
+PIECES = 8
+"""In which the signal is judged, so that a single mishap does not decide."""
+
+FEWEST = 24.0
+"""Independent values of the envelope that a piece has at least, or the band is too narrow."""
+
+DYNAMIC_RANGE = 1e-4
+"""Bands whose density is this far below the strongest one's are not chosen (40 dB)."""
+
+CHANCE = 7.0
+"""Standard deviations of the kurtosis of noise by which a band must surpass it for the choice: of
+many bands one is that lucky now and then, and a narrow one more than a Gaussian would be."""
+
+SCATTER = 3.6
+"""Variance of that kurtosis times duration and width: 4 ∫ sinc⁴ = 8/3 of a band of noise, and a
+third more of the median of eight pieces."""
+
+
+@shown_as_table
+class Kurtogram(NamedTuple):
+    """Spectral kurtosis of a signal in bands of many widths.
+
+    Attributes
+    ----------
+    bands
+        (from, to) [Hz], the whole range first, then its halves, thirds and so on.
+    parts : (n,)
+        into how many equal parts the range is split for each band.
+    kurtosis : (n,)
+        0 for noise, -1 for a steady tone, more for knocks; the median over pieces of the signal.
+    density : (n,) [(unit of the signal)²/Hz]
+        mean power spectral density in each band.
+    deviation : (n,)
+        standard deviation of the kurtosis of noise in so wide a band.
+    """
+
+    bands: tuple[Band, ...]
+    parts: NDArray[np.int_]
+    kurtosis: Array
+    density: Array
+    deviation: Array
+
+    def best(self, lowest: float = 0.0) -> Band:
+        """The band for the envelope: the most impulsive one that is not too faint.
+
+        Narrow bands have little to go by; what chance may add to each is taken off. `lowest` [Hz]:
+        bands that begin below are left out, unless there is no other.
+        """
+        loud = self.density >= DYNAMIC_RANGE * self.density.max()
+        high = np.array([band.low >= lowest for band in self.bands])
+        known = loud & high if (loud & high).any() else loud
+        certain = np.where(known, self.kurtosis - CHANCE * self.deviation, -math.inf)
+        return self.bands[int(certain.argmax())]
+
+    def table(self) -> ResultTable:
+        """A row a band."""
+        low, high = np.array(self.bands).T
+        return table_of(
+            ("band_low", "Hz", low),
+            ("band_high", "Hz", high),
+            ("kurtosis", "1", self.kurtosis, "0 for noise"),
+        )
+
+
+def kurtogram(signal: ArrayLike, sample_rate: float, narrowest: float = 0.0) -> Kurtogram:
+    """The kurtogram of a signal; its `best` is the band in which knocks are clearest.
+
+    Parameters
+    ----------
+    signal : (n,)
+        of which the first 2^18 samples are looked at.
+    sample_rate
+        [Hz]
+    narrowest
+        [Hz] that a band is wide at least; a short signal has wider ones.
+
+    Raises
+    ------
+    ValueError
+        for a sample rate that is not positive, or a signal that is not a row of finite numbers,
+        is too short, or is the same number throughout.
+    """
+    from scipy.signal import periodogram  # imported late: see `spectrum`
+
+    rate = checks.real_number("sample_rate", sample_rate, above=0.0, unit="Hz")
+    least = checks.real_number("narrowest", narrowest, at_least=0.0, unit="Hz")
+    samples = np.atleast_1d(np.asarray(signal, dtype=float))[:MOST_JUDGED]
+    if samples.ndim != 1 or len(samples) < 32 * PIECES or not np.isfinite(samples).all():
+        raise checks.refuse(
+            "signal", f"of shape {samples.shape}", f"a row of {32 * PIECES} finite numbers at least"
+        )
+    if not np.ptp(samples):
+        raise checks.refuse("signal", "the same number throughout", "a signal")
+    duration = len(samples) / rate
+    least = max(least, FEWEST * PIECES / duration)
+    split_into = {parts: split(rate, least, (parts,)) for parts in BAND_COUNTS}
+    bands = [band for own in split_into.values() for band in own]
+    found = squared_envelopes(samples, rate, bands, math.inf, loudest=math.inf)
+    whole, density = periodogram(samples, rate, detrend="constant")
+    kept = tuple(one.band for one in found)
+    widths = np.array([band.high - band.low for band in kept])
+    numbers = {band: parts for parts, own in split_into.items() for band in own}
+    return Kurtogram(
+        kept,
+        np.array([numbers[band] for band in kept]),
+        np.array([_kurtosis(one.values) for one in found]),
+        np.array([density[(whole >= b.low) & (whole < b.high)].mean() for b in kept]),
+        np.sqrt(SCATTER / (duration * widths)),
+    )
+
+
+def _kurtosis(squared: Array) -> float:
+    """Unevenness of a squared envelope, its ends left out: 0 for noise, -1 for a tone."""
+    cut = len(squared) // 20
+    pieces = np.array_split(squared[cut : len(squared) - cut], PIECES)
+    values = [float((piece**2).mean()) / max(float(piece.mean()), 1e-300) ** 2 for piece in pieces]
+    return float(np.median(values)) - 2.0

@@ -1,0 +1,140 @@
+"""Spectra over time, and over the turns of a shaft whose speed changes."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from bearingcore.common import Array
+from bearingcore.common import _checks as checks
+from bearingcore.measured.signals._resampling import oversampled
+
+OVERLAP = 0.75
+"""Of neighbouring segments."""
+
+FEWEST_SEGMENTS = 4
+"""That fit into a signal one after the other, at least."""
+
+
+MOST_IN_ANGLE = 20_000_000
+"""Samples equally far apart in angle that are made at most: some gigabytes."""
+
+OVERSAMPLED = 4
+"""Times as many samples through which a spline is laid: then it is right within 0.1 % of power."""
+
+
+class Spectrogram(NamedTuple):
+    """Power spectral density over time, or over the turns of the shaft.
+
+    Attributes
+    ----------
+    time : (k,) [s] or [turns]
+        middles of the segments.
+    frequency : (m,) [Hz] or [orders]
+    density : (k, m) [(unit of the signal)²/Hz] or [(unit)²/order]
+    """
+
+    time: Array
+    frequency: Array
+    density: Array
+
+
+def spectrogram(signal: ArrayLike, sample_rate: float, resolution: float) -> Spectrogram:
+    """Spectra of segments of 1/resolution in Hann's window, three quarters overlapping.
+
+    Parameters
+    ----------
+    signal : (n,)
+    sample_rate
+        [Hz], or samples a turn: then the result is over turns and orders.
+    resolution
+        [Hz] or [orders]
+
+    Raises
+    ------
+    ValueError
+        for a signal shorter than four segments, or with samples that are not finite.
+    """
+    from scipy.signal import ShortTimeFFT  # imported late: see `spectrum`
+    from scipy.signal.windows import hann
+
+    rate = checks.real_number("sample_rate", sample_rate, above=0.0, unit="Hz")
+    step = checks.real_number("resolution", resolution, above=0.0, at_most=rate / 16.0, unit="Hz")
+    length = round(rate / step)
+    samples = _row(signal, FEWEST_SEGMENTS * length)
+    hop = max(1, round((1.0 - OVERLAP) * length))
+    transform = ShortTimeFFT(
+        hann(length, sym=False), hop, rate, fft_mode="onesided2X", scale_to="psd"
+    )
+    first, last = transform.lower_border_end[1], transform.upper_border_begin(len(samples))[1]
+    power = np.abs(transform.stft(samples - samples.mean(), p0=first, p1=last)) ** 2
+    time = transform.t(len(samples), p0=first, p1=last)
+    return Spectrogram(time, transform.f, power.T)
+
+
+def order_map(
+    signal: ArrayLike,
+    sample_rate: float,
+    time: ArrayLike,
+    speed: ArrayLike,
+    resolution: float = 0.1,
+) -> Spectrogram:
+    """Spectra over the turns of a shaft whose speed changes: the signal resampled by its angle.
+
+    Parameters
+    ----------
+    signal : (n,)
+    sample_rate
+        [Hz]
+    time, speed : (k,) [s], [Hz]
+        the speed of the shaft at rising times; constant before the first and after the last one.
+    resolution
+        [orders]
+
+    Raises
+    ------
+    ValueError
+        for speeds that are not positive, a speed so slow that a turn of it has more samples than
+        may be taken of each, times that do not rise, fewer turns than four segments have, or
+        samples that are not finite.
+    """
+    from scipy.fft import next_fast_len  # imported late: see `spectrum`
+    from scipy.interpolate import CubicSpline
+
+    rate = checks.real_number("sample_rate", sample_rate, above=0.0, unit="Hz")
+    speeds, times = checks.finite("speed", speed, "Hz"), checks.finite("time", time, "s")
+    if not (speeds.size and speeds.min() > 0.0):
+        raise checks.refuse("speed", "not above 0 everywhere", "speeds above 0 Hz")
+    if len(times) != len(speeds) or (np.diff(times) <= 0.0).any():
+        raise checks.refuse("time", "not rising with the speeds", "a later time for each speed")
+    samples = _row(signal, 1)
+    at = np.arange(len(samples)) / rate
+    each = np.interp(at, times, speeds)
+    turns = np.concatenate([[0.0], np.cumsum(0.5 * (each[1:] + each[:-1]))]) / rate
+    # as fine as the slowest turn was sampled, so that nothing folds back
+    slowest, least = float(each.min()), float(turns[-1]) * rate / MOST_IN_ANGLE
+    if slowest < least:
+        allowed = f"at least {least:.2g} Hz in so long a signal: leave out where it turns slower"
+        raise checks.refuse("speed", f"{slowest:.2g} Hz", allowed)
+    per_turn = next_fast_len(math.ceil(rate / slowest), real=True)
+    places = np.arange(0.0, turns[-1], 1.0 / per_turn)
+    # a spline through the samples themselves would damp what has few of them a period
+    fine = oversampled(samples, OVERSAMPLED)
+    between = CubicSpline(np.arange(len(fine)) / (OVERSAMPLED * rate), fine)
+    resampled = between(np.interp(places, turns, at))
+    return spectrogram(resampled, per_turn, resolution)
+
+
+def _row(signal: ArrayLike, least: int) -> Array:
+    """The signal as floats (n,), or ValueError where it is no row of so many finite numbers."""
+    samples = np.asarray(signal, dtype=float)
+    if samples.ndim != 1 or len(samples) < least:
+        raise checks.refuse(
+            "signal", f"of shape {samples.shape}", f"a row of {least} samples at least"
+        )
+    if not np.isfinite(samples).all():
+        raise checks.refuse("signal", "not finite everywhere", "finite numbers")
+    return samples

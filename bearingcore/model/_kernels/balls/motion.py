@@ -1,0 +1,208 @@
+"""Motion of balls that have mass: each has its place in the plane through it, and two contacts.
+
+Quantity                                          | Symbol            | Unit
+------------------------------------------------- | ----------------- | --------
+place of a ball, radial and axial, against that of the unloaded ball on the outer race | b | m
+displacement of the inner, outer ring             | q_i, q_o          | m
+compression of the contact with the inner, outer race | δ_i, δ_e      | m
+unloaded distances of ball and groove centres     | A_i, A_e          | m
+damping of the contacts                           | c_i, c_e          | N·s/m
+mass, centrifugal load and weight of a ball       | m, F_c, G         | kg, N, N
+
+With g_i and g_e the displacements of the groove centres at a ball (Eqs. 11 and 12, one of them for
+each ring) and u the unloaded line of contact
+
+    inner contact: between b and g_i, δ_i = |A_i u + g_i − b − d_i u| − A_i,
+    outer contact: between g_e and b, δ_e = |A_e u + b − g_e − d_e u| − A_e,
+    m b̈ = Q_i e_i − Q_e e_e + (F_c − G sin φ) (1, 0),
+
+and the rings feel Q_i and Q_e. Drops d into defects of the inner race act on the inner contact,
+those into the outer race on the outer one. Both contacts have the guard of `contact`.
+
+What is marched is as in `motion`: variables that do not jump as a contact closes. For a ball that
+is w = v − (c_i δ_i e_i − c_e δ_e e_e)/m. Where a damper may not pull, a contact whose damper would
+is *released*: it pushes no more, and its part leaves w, so that v does not jump. Releases are
+looked for at the end of each step: the force is zero there, and a late look errs by the square of a
+step.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from bearingcore.model._kernels.balls.contacts import (
+    find_contacts,
+    planar_contacts,
+    push_contacts,
+    ring_state,
+)
+from bearingcore.model._kernels.balls.release import smooth_start, true_forces, update_released
+from bearingcore.model._kernels.balls.structs import INNER, OUTER, BallForces, BallSteps
+from bearingcore.model._kernels.compiling import called, compiled, inlined
+from bearingcore.model._kernels.motion.rings import record, ring_accelerations
+from bearingcore.model._kernels.path import (
+    BLOCK,
+    lay_out_balls,
+    lay_out_drops_and_rates,
+    lay_out_turning_force,
+    new_passage,
+)
+from bearingcore.model._kernels.runge_kutta import stepper, try_state
+from bearingcore.model._kernels.structs import PLANAR, VELOCITIES, Recorded
+
+
+@inlined
+def ring_velocities(y, k, rotor, work, sign):
+    """ẋ of both rings into k from w (sign 1), Σ c δ e being in work.S; into work.v too."""
+    active = rotor.active
+    n = active.size
+    for a in range(n):
+        k[a] = y[n + a] - sign * rotor.inverse_inner[a] * work.S[INNER, active[a]]
+        k[2 * n + a] = y[3 * n + a] + sign * rotor.inverse_outer[a] * work.S[OUTER, active[a]]
+        work.v[INNER, active[a]] = k[a]
+        work.v[OUTER, active[a]] = k[2 * n + a]
+
+
+@inlined
+def ball_rates(y, k, passage, inner, at, system, work):
+    """dy/dt into k: rings as in `motion`, then the balls' places and their w.
+
+    Both are radial places of all balls, then axial ones, these only where the motion is not planar.
+    """
+    rotor = system.rotor
+    contacts = system.contacts
+    races = system.races
+    n = rotor.active.size
+    n_balls = contacts.angle.size
+    first = 4 * n
+    planar = rotor.variables == PLANAR
+    smooth = rotor.variables != VELOCITIES
+    ring_state(y, rotor, work.x)
+    if planar:
+        planar_contacts(y, first, passage, inner, at, system, work)
+        speeds = first + n_balls
+        for j in range(n_balls):
+            damped = (
+                races.damping[INNER, j] * work.contact[INNER, j, 0]
+                - races.damping[OUTER, j] * work.contact[OUTER, j, 0]
+            )
+            k[first + j] = y[speeds + j] + damped * races.inverse_mass[j]
+            k[speeds + j] = work.ball[0, j] * races.inverse_mass[j]
+        ring_velocities(y, k, rotor, work, 1.0)
+    else:
+        find_contacts(y, first, passage, inner, at, system, work)
+        speeds = first + 2 * n_balls
+        for j in range(n_balls):
+            for part in range(2):
+                damped = 0.0
+                if smooth:
+                    damped = (
+                        races.damping[INNER, j]
+                        * work.contact[INNER, j, 0]
+                        * work.contact[INNER, j, 1 + part]
+                        - races.damping[OUTER, j]
+                        * work.contact[OUTER, j, 0]
+                        * work.contact[OUTER, j, 1 + part]
+                    )
+                i = part * n_balls + j
+                k[first + i] = y[speeds + i] + damped * races.inverse_mass[j]
+        ring_velocities(y, k, rotor, work, 1.0 if smooth else 0.0)
+        push_contacts(k, first, passage, inner, at, system, work, smooth)
+        for j in range(n_balls):
+            for part in range(2):
+                k[speeds + part * n_balls + j] = work.ball[part, j] * races.inverse_mass[j]
+    for a in range(n):
+        k[n + a], k[3 * n + a] = ring_accelerations(
+            y, k, rotor, a, work.f[INNER], work.f[OUTER], passage.push[at]
+        )
+
+
+@called
+def lay_out(angle, turn, count, system, work):
+    """Balls, drops into both races and unbalance at `count` cage angles [rad], into work."""
+    speed = system.rotor.cage_speed
+    contacts = system.contacts
+    lay_out_balls(angle, turn, count, speed, contacts, system.outer_path, work.passage)
+    lay_out_turning_force(angle, turn, count, system.rotor, work.passage)
+    if system.inner_path.defects.shape[0] > 0:
+        lay_out_drops_and_rates(angle, turn, count, speed, contacts, system.inner_path, work.inner)
+
+
+@inlined
+def rates(y, part, before, k, at, system, work):
+    """Rate of the state y + part·before into k."""
+    try_state(y, part, before, work.trial)
+    ball_rates(work.trial, k, work.passage, work.inner, at, system, work.forces)
+
+
+@inlined
+def changed(y, at, system, work):
+    """Whether contacts have been released or taken up, and y with them, as a step begins."""
+    rotor = system.rotor
+    if rotor.tension or rotor.variables == VELOCITIES:
+        return False
+    return update_released(y, work.k[0], work.passage, work.inner, at, system, work.forces)
+
+
+@inlined
+def keep(sample, y, at, system, out, work):
+    """Record the state y, with the forces as published and the places of the balls."""
+    forces = work.forces
+    places = out.places
+    rotor = system.rotor
+    k = work.k[0]
+    true_forces(k, work.passage, work.inner, at, system, forces)
+    push = work.passage.push[at]
+    record(out.history, sample, y, k, rotor, forces.f[INNER], forces.f[OUTER], push)
+    if sample % out.every != 0:
+        return
+    first = 4 * rotor.active.size
+    n_balls = places.shape[2]
+    for b in range(places.shape[1] * n_balls):
+        places[sample // out.every, b // n_balls, b % n_balls] = y[first + b]
+
+
+runge_kutta = stepper(lay_out, rates, changed, keep)
+
+
+def new_ball_steps(size, instants, angle):
+    """Empty work space of steps of states of `size` numbers; angle (n,): see `new_passage`."""
+    n_balls = angle.size
+    return BallSteps(
+        new_passage(instants, angle),
+        new_passage(instants, angle),
+        BallForces(
+            np.zeros((2, 5)),
+            np.zeros((2, 5)),
+            np.zeros((2, 5)),
+            np.zeros((2, 5)),
+            np.zeros((2, n_balls, 4)),
+            np.zeros((2, n_balls)),
+            np.zeros((2, n_balls), dtype=np.bool_),
+            np.zeros((2, n_balls), dtype=np.bool_),
+        ),
+        np.zeros((4, size)),
+        np.zeros(size),
+    )
+
+
+def march_balls(y, h, start_angle, stride, system, history, places):
+    """Steps of h [s] from y, velocities in it, which is moved to the end.
+
+    Every `stride` steps history (samples, 6, n) takes displacement, velocity and acceleration of
+    the inner ring, then of the outer one, and places (samples, k, n_balls) those of the balls:
+    radial, and axial unless the motion is planar. Fewer rows of places, the samples over a whole
+    number and rounded up, take those of every so many samples. Returns the number of steps after
+    which all was still finite, which is looked at once in half a BLOCK.
+    """
+    work = new_ball_steps(y.size, BLOCK + 1, system.contacts.angle)
+    out = Recorded(history, places, -(-len(history) // max(len(places), 1)))
+    return march_with_balls(y, h, start_angle, stride, system, out, work)
+
+
+@compiled
+def march_with_balls(y, h, start_angle, stride, system, out, work):
+    """Body of `march_balls`."""
+    lay_out(start_angle, 0.0, 1, system, work)
+    smooth_start(y, work.passage, work.inner, system, work.forces)
+    return runge_kutta(y, h, start_angle, stride, system, out, work)

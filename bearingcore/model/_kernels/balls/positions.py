@@ -1,0 +1,509 @@
+"""Static ball positions under centrifugal load: still the minimum of a convex energy.
+
+With a ball's place b free in the plane through it, and F its radial load (centrifugal, weight),
+
+    V(q, b) = Σ_j [ E_i(δ_i,j) + E_e(δ_e,j) − F_j b_r,j ] − F·q,   E(δ) = K/(n + 1) δ^(n+1),
+
+lengths of affine vectors are convex and the rest is increasing and convex or linear. So V is convex
+in q and all b together, and what is left of it when each b has found its minimum,
+
+    V(q) = Σ_j W_j(q) − F·q,
+
+is convex too, with the gradient Q_i e_i of the inner contact and the Hessian
+(M_i⁻¹ + M_e⁻¹)⁻¹, M = k₁ e e' + (Q/A) t t' the stiffness of a contact. Newton's method with a line
+search finds each minimum: a 2×2 problem a ball, inside of one in q. Without F both contacts are on
+one line, and this is the energy of `statics`.
+
+Symbols as in `ball_mass`; the outer ring stands still.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore.model._kernels.balls.structs import INNER, OUTER, Races
+from bearingcore.model._kernels.compiling import called, compiled, inlined
+from bearingcore.model._kernels.contact import (
+    components,
+    compression_under,
+    contact_load,
+    race_touch,
+    ring_at_ball,
+    tilting,
+)
+from bearingcore.model._kernels.path import lay_out_drops, place_balls
+from bearingcore.model._kernels.statics import (
+    CONVERGED,
+    FREE_DIRECTION,
+    NO_PIVOT,
+    NOT_CARRIED,
+    NOT_CONVERGED,
+    NOTHING_TOUCHES,
+    RESIDUAL_AIM,
+    RESIDUAL_LIMIT,
+    ROUNDING,
+    least_pivot,
+    new_map_work,
+    newton_direction,
+)
+from bearingcore.model._kernels.structs import Array, Contacts, Integers, Path
+
+MOST_BALL_STEPS, MOST_RING_STEPS = 200, 200
+BALL_AIM, BALL_LIMIT = 1e-15, 1e-10
+"""A ball's unbalanced load over its loads: what is sought, and what is still taken."""
+
+
+class StaticBalls(NamedTuple):
+    """A bearing whose balls find their own places; the way over defects of each race."""
+
+    contacts: Contacts
+    races: Races
+    inner_path: Path
+    outer_path: Path
+
+
+class BallPlaces(NamedTuple):
+    """Where balls are and what they carry, each array (n,), or (2, n) by race.
+
+    Attributes
+    ----------
+    c, s
+        cosine and sine of their angles.
+    drop : (2, n) [m]
+    place : (2, n) [m]
+        radial and axial.
+    known : (n,)
+        1 where `place` is a fair first guess.
+    load : (2, n) [N], er : (2, n), ez : (2, n)
+        at the inner and outer contact; direction of each.
+    """
+
+    c: Array
+    s: Array
+    drop: Array
+    place: Array
+    known: Array
+    load: Array
+    er: Array
+    ez: Array
+
+
+@inlined
+def contact_terms(r, z, drop, race, j, balls):
+    """Energy, load, e and the stiffness (rr, rz, zz) of one contact that (r, z) closes."""
+    races = balls.races
+    delta, er, ez, bend = race_touch(r, z, drop, races.distance[race, j], j, balls.contacts)
+    if delta <= 0.0:
+        return 0.0, 0.0, er, ez, 0.0, 0.0, 0.0
+    energy, Q, k1 = contact_load(delta, races.factor[race, j], balls.contacts.exponent[j])
+    k2 = Q * bend
+    return (
+        energy,
+        Q,
+        er,
+        ez,
+        k1 * er * er + k2 * ez * ez,
+        (k1 - k2) * er * ez,
+        k1 * ez * ez + k2 * er * er,
+    )
+
+
+@inlined
+def first_place(r, z, force, j, balls, places):
+    """A place (radial, axial) of ball j to set out from, and whether it touches there.
+
+    (r, z) is the displacement of the inner groove's centre, clearance taken off.
+    """
+    contacts = balls.contacts
+    races = balls.races
+    ca = contacts.line_r[j]
+    sa = contacts.line_z[j]
+    exponent = contacts.exponent[j]
+    Ai = races.distance[INNER, j]
+    Ae = races.distance[OUTER, j]
+    di = places.drop[INNER, j]
+    de = places.drop[OUTER, j]
+    delta, er, ez, _ = race_touch(r, z, di + de, Ai + Ae, j, contacts)
+    if delta > 0.0:
+        # both contacts on one line, the compression shared as their softness is
+        soft_i = races.factor[INNER, j] ** (-1.0 / exponent)
+        soft_e = races.factor[OUTER, j] ** (-1.0 / exponent)
+        reach = Ae + delta * soft_e / (soft_i + soft_e)
+        return reach * er - (Ae - de) * ca, reach * ez - (Ae - de) * sa, True
+    # in the gap: at the bottom of the race that its load presses it to
+    if force >= 0.0:
+        reach = Ae + compression_under(force, races.factor[OUTER, j], exponent)
+        return reach - (Ae - de) * ca, -(Ae - de) * sa, force > 0.0
+    reach = Ai + compression_under(-force, races.factor[INNER, j], exponent)
+    return r + (Ai - di) * ca - reach, z + (Ai - di) * sa, True
+
+
+@called
+def settle_ball(r, z, j, balls, places):
+    """Move ball j to its minimum; (r, z) is the displacement of the inner groove's centre.
+
+    Returns its energy [N·m], whether it settled, and the stiffness (rr, rz, zz) [N/m] that the
+    inner ring feels. Loads and directions go into `places`.
+    """
+    races = balls.races
+    force = races.centrifugal[j] - races.weight[j] * places.s[j]
+    if places.known[j] > 0.0:
+        br = places.place[0, j]
+        bz = places.place[1, j]
+    else:
+        br, bz, touches = first_place(r, z, force, j, balls, places)
+        if not touches:
+            places.place[0, j] = br
+            places.place[1, j] = bz
+            places.load[INNER, j] = 0.0
+            places.load[OUTER, j] = 0.0
+            return 0.0, True, 0.0, 0.0, 0.0
+    di = places.drop[INNER, j]
+    de = places.drop[OUTER, j]
+    energy = 0.0
+    slope = 0.0
+    pr = 0.0
+    pz = 0.0
+    shift = 1e-6
+    settled = False
+    step = 0.0
+    scale = 0.0
+    before = math.inf
+    residual = math.inf
+    Qi = 0.0
+    Qe = 0.0
+    i_r = 1.0
+    i_z = 0.0
+    e_r = 1.0
+    e_z = 0.0
+    i_rr = 0.0
+    i_rz = 0.0
+    i_zz = 0.0
+    e_rr = 0.0
+    e_rz = 0.0
+    e_zz = 0.0
+    x = br
+    y = bz
+    tries = 0
+    for _ in range(MOST_BALL_STEPS):
+        # the first time round only evaluates where the ball is
+        Ei, ti, a_r, a_z, a_rr, a_rz, a_zz = contact_terms(r - x, z - y, di, INNER, j, balls)
+        Ee, te, o_r, o_z, o_rr, o_rz, o_zz = contact_terms(x, y, de, OUTER, j, balls)
+        V = Ei + Ee - force * x
+        gr = te * o_r - ti * a_r - force
+        gz = te * o_z - ti * a_z
+        slope1 = gr * pr + gz * pz
+        better = (
+            step == 0.0
+            or slope1 <= 0.0
+            or energy + 1e-4 * step * slope >= V
+            or (slope1 <= 0.9 * abs(slope) and 1e-14 * (scale + abs(V)) >= V - energy)
+        )
+        if not better:
+            tries += 1
+            rise = slope1 - slope  # 0 where rounding has left no descent in the direction
+            step *= min(max(-slope / rise, 0.05), 0.6) if rise > 0.0 else 0.3
+            if tries > 60:
+                break
+            x = br + step * pr
+            y = bz + step * pz
+            continue
+        br = x
+        bz = y
+        energy = V
+        scale = Ei + Ee + abs(force * x)
+        Qi, i_r, i_z, i_rr, i_rz, i_zz = ti, a_r, a_z, a_rr, a_rz, a_zz
+        Qe, e_r, e_z, e_rr, e_rz, e_zz = te, o_r, o_z, o_rr, o_rz, o_zz
+        size = Qi + Qe + abs(force)
+        norm = math.sqrt(gr * gr + gz * gz)
+        if norm == 0.0:
+            settled = True
+            break
+        residual = norm / size
+        stiff = max(i_rr + e_rr, i_zz + e_zz)
+        lost = ROUNDING * (abs(r) + abs(z) + abs(br) + abs(bz)) * stiff / size
+        if residual <= BALL_AIM or (residual <= max(BALL_LIMIT, lost) and residual >= 0.5 * before):
+            settled = True
+            break
+        before = residual
+        h_rr = i_rr + e_rr
+        h_rz = i_rz + e_rz
+        h_zz = i_zz + e_zz
+        det = h_rr * h_zz - h_rz * h_rz
+        trace = h_rr + h_zz
+        if not det > 1e-13 * trace * trace:
+            # a small spring replaces stiffness that is missing
+            _, _, k_typical = contact_load(
+                compression_under(size, races.factor[OUTER, j], balls.contacts.exponent[j]),
+                races.factor[OUTER, j],
+                balls.contacts.exponent[j],
+            )
+            spring = shift * max(k_typical, trace)
+            shift = max(0.1 * shift, 1e-12)
+            h_rr += spring
+            h_zz += spring
+            det = h_rr * h_zz - h_rz * h_rz
+        pr = -(h_zz * gr - h_rz * gz) / det
+        pz = -(h_rr * gz - h_rz * gr) / det
+        slope = gr * pr + gz * pz
+        step = 1.0
+        tries = 0
+        x = br + pr
+        y = bz + pz
+    settled = settled or residual <= BALL_LIMIT
+    places.place[0, j] = br
+    places.place[1, j] = bz
+    places.known[j] = 1.0 if settled and Qi + Qe > 0.0 else 0.0
+    places.load[INNER, j] = Qi
+    places.load[OUTER, j] = Qe
+    places.er[INNER, j] = i_r
+    places.ez[INNER, j] = i_z
+    places.er[OUTER, j] = e_r
+    places.ez[OUTER, j] = e_z
+    if Qi == 0.0 or Qe == 0.0:
+        return energy, settled, 0.0, 0.0, 0.0
+    # M_i − M_i (M_i + M_e)⁻¹ M_i; a direction that nothing stiffens keeps nothing
+    h_rr = i_rr + e_rr
+    h_rz = i_rz + e_rz
+    h_zz = i_zz + e_zz
+    det = h_rr * h_zz - h_rz * h_rz
+    trace = h_rr + h_zz
+    if det < 1e-300 + 1e-15 * trace * trace:
+        # across the line of contact, where any spring keeps the answer along it
+        h_rr += trace * i_z * i_z
+        h_rz -= trace * i_r * i_z
+        h_zz += trace * i_r * i_r
+        det = h_rr * h_zz - h_rz * h_rz
+    v_rr = (h_zz * i_rr - h_rz * i_rz) / det
+    v_rz = (h_zz * i_rz - h_rz * i_zz) / det
+    v_zr = (h_rr * i_rz - h_rz * i_rr) / det
+    v_zz = (h_rr * i_zz - h_rz * i_rz) / det
+    w_rr = e_rr * v_rr + e_rz * v_zr  # M_e (M_i + M_e)⁻¹ M_i: no difference of near numbers
+    w_rz = e_rr * v_rz + e_rz * v_zz
+    w_zz = e_rz * v_rz + e_zz * v_zz
+    return energy, settled, w_rr, w_rz, w_zz
+
+
+@called
+def ring_energy(q, force, balls, places, g, H):
+    """V(q) [N·m] with all balls at their minima, its gradient g (5,) and Hessian H (5, 5).
+
+    Returns V, the size of its terms and whether all balls settled.
+    """
+    contacts = balls.contacts
+    x = components(q)
+    energy = 0.0
+    size = 0.0
+    settled = True
+    for a in range(5):
+        g[a] = -force[a]
+        size += abs(force[a] * q[a])
+        energy -= force[a] * q[a]
+        for b in range(5):
+            H[a, b] = 0.0
+    for j in range(contacts.angle.size):
+        cj = places.c[j]
+        sj = places.s[j]
+        r, z = ring_at_ball(x, cj, sj, j, contacts)
+        r -= contacts.clearance[j]
+        z += contacts.offset[j]
+        W, done, rr, rz, zz = settle_ball(r, z, j, balls, places)
+        settled = settled and done
+        energy += W
+        size += abs(W)
+        Q = places.load[INNER, j]
+        if Q == 0.0:
+            continue
+        er = places.er[INNER, j]
+        ez = places.ez[INNER, j]
+        et = tilting(er, ez, j, contacts)
+        g[0] += Q * er * cj  # Equation (15)
+        g[1] += Q * er * sj
+        g[2] += Q * ez
+        g[3] += Q * et * sj
+        g[4] -= Q * et * cj
+        # the place (r, z) of the groove's centre depends on q as these two rows say
+        arm = contacts.arm[j]
+        reach = contacts.reach[j]
+        R = (cj, sj, 0.0, -arm * sj, arm * cj)
+        Z = (0.0, 0.0, 1.0, reach * sj, -reach * cj)
+        for a in range(5):
+            for b in range(a + 1):
+                H[a, b] += rr * R[a] * R[b] + rz * (R[a] * Z[b] + Z[a] * R[b]) + zz * Z[a] * Z[b]
+    return energy, size, settled
+
+
+@called
+def settle_ring(q, load, balls, places, work):
+    """Move q to the minimum of V. Returns (which, status, residual, iterations).
+
+    The balls are left where they settled at q.
+    """
+    F = load.force
+    active = load.active
+    now = 0
+    V, scale, settled = ring_energy(q, F, balls, places, work.g[0], work.H[0])
+    residual = math.inf
+    shift = 1e-6
+    for iteration in range(MOST_RING_STEPS):
+        g = work.g[now]
+        H = work.H[now]
+        norm = 0.0
+        whole = 0.0
+        reach = 0.0
+        stiffest = 0.0
+        for a in range(5):
+            # what the held directions take counts to the load
+            whole += (g[a] + F[a]) ** 2
+            reach = max(reach, abs(q[a]))
+        for a in active:
+            whole += F[a] * F[a] - (g[a] + F[a]) ** 2
+            norm += g[a] * g[a]
+            stiffest = max(stiffest, H[a, a])
+        whole = math.sqrt(max(whole, 0.0))
+        if norm == 0.0 and whole == 0.0:
+            return now, NOTHING_TOUCHES, math.nan, iteration
+        for j in range(places.c.size):
+            whole = max(whole, places.load[INNER, j])
+        before = residual
+        residual = math.sqrt(norm) / whole
+        limit = max(RESIDUAL_LIMIT, ROUNDING * reach * stiffest / whole)
+        stays = residual <= limit and residual >= 0.5 * before
+        if settled and (residual <= RESIDUAL_AIM or stays):
+            least = least_pivot(H, active, work.L)
+            return now, CONVERGED if least > NO_PIVOT else FREE_DIRECTION, residual, iteration
+        if not newton_direction(H, g, active, 0.0, work.L, work.p) > 1e-12:
+            newton_direction(H, g, active, shift * max(stiffest, 1.0), work.L, work.p)
+            shift = max(0.1 * shift, 1e-12)
+        slope = 0.0
+        for a in active:
+            slope += g[a] * work.p[a]
+        step = 1.0
+        found = False
+        for _ in range(50):
+            for a in range(5):
+                work.trial[a] = q[a]
+            for a in active:
+                work.trial[a] = q[a] + step * work.p[a]
+            V1, scale1, settled = ring_energy(
+                work.trial, F, balls, places, work.g[1 - now], work.H[1 - now]
+            )
+            slope1 = 0.0
+            for a in active:
+                slope1 += work.g[1 - now, a] * work.p[a]
+            if (
+                slope1 <= 0.0
+                or V + 1e-4 * step * slope >= V1
+                or (slope1 <= 0.9 * abs(slope) and 1e-13 * max(scale, scale1) >= V1 - V)
+            ):
+                found = True
+                break
+            rise = slope1 - slope  # 0 where rounding has left no descent in the direction
+            step *= min(max(-slope / rise, 0.05), 0.6) if rise > 0.0 else 0.3
+        if not found:
+            _, _, settled = ring_energy(q, F, balls, places, work.g[now], work.H[now])
+            status = CONVERGED if settled and residual <= limit else NOT_CONVERGED
+            return now, status, residual, iteration
+        for a in active:
+            q[a] = work.trial[a]
+        V = V1
+        scale = scale1
+        now = 1 - now
+    return now, NOT_CONVERGED, residual, MOST_RING_STEPS
+
+
+def new_places(n_balls):
+    """Empty `BallPlaces`."""
+    by_race = (2, n_balls)
+    return BallPlaces(
+        np.empty(n_balls),
+        np.empty(n_balls),
+        np.zeros(by_race),
+        np.zeros(by_race),
+        np.zeros(n_balls),
+        np.zeros(by_race),
+        np.ones(by_race),
+        np.zeros(by_race),
+    )
+
+
+def ball_positions(cage_angles, leads, start, balls, load):
+    """Static equilibrium with free balls at each cage angle, from the rings' places `start` (n, 5).
+
+    leads (n,) [rad]: how far defects that turn are ahead of where the cage angle has them.
+
+    Returns q (n, 5), loads (2, n, n_balls), contact angles (2, n, n_balls) [rad], places
+    (n, 2, n_balls) [m], stiffness (n, 5, 5), status, residual and iterations (n,); tilts and
+    moments scaled as in `structs`, race by race the inner one first.
+    """
+    n = cage_angles.size
+    n_balls = balls.contacts.angle.size
+    found = PositionAnswers(
+        start.copy(),
+        np.zeros((2, n, n_balls)),
+        np.full((2, n, n_balls), math.nan),
+        np.zeros((n, 2, n_balls)),
+        np.zeros((n, 5, 5)),
+        np.zeros(n, dtype=np.int8),
+        np.empty(n),
+        np.zeros(n, dtype=np.int64),
+    )
+    work = new_map_work(balls.contacts.angle), new_places(n_balls)
+    find_positions(cage_angles, leads, start, balls, load, found, work)
+    return found
+
+
+class PositionAnswers(NamedTuple):
+    """Output of `ball_positions`."""
+
+    q: Array
+    loads: Array
+    angles: Array
+    where: Array
+    stiffness: Array
+    status: NDArray[np.int8]
+    residual: Array
+    iterations: Integers
+
+
+@compiled
+def find_positions(cage_angles, leads, start, balls, load, found, work):
+    """Body of `ball_positions`, with work space."""
+    turning, places = work
+    descent = turning.descent
+    q = found.q
+    status = found.status
+    n_balls = places.c.size
+    for k in range(cage_angles.size):
+        cage = cage_angles[k]
+        circle_c = turning.circle_c
+        place_balls(cage, balls.contacts, circle_c, turning.circle_s, places.c, places.s)
+        for race in range(2):
+            path = balls.inner_path if race == INNER else balls.outer_path
+            drop = places.drop[race]
+            lay_out_drops(cage, leads[k], balls.contacts, path, drop, turning.slope)
+        if k > 0 and status[k - 1] == CONVERGED:
+            # what the balls' loads moved the ring by, and the balls, at the angle before
+            for a in range(5):
+                q[k, a] += q[k - 1, a] - start[k - 1, a]
+        else:
+            for j in range(n_balls):
+                places.known[j] = 0.0
+        now, status[k], found.residual[k], found.iterations[k] = settle_ring(
+            q[k], load, balls, places, descent
+        )
+        for a in range(5):
+            for b in range(a + 1):
+                found.stiffness[k, a, b] = descent.H[now, a, b]
+                found.stiffness[k, b, a] = descent.H[now, a, b]
+        for j in range(n_balls):
+            for race in range(2):
+                found.where[k, race, j] = places.place[race, j]
+                found.loads[race, k, j] = places.load[race, j]
+                if status[k] < NOT_CARRIED and places.load[race, j] > 0.0:
+                    angle = math.atan2(places.ez[race, j], places.er[race, j])
+                    found.angles[race, k, j] = angle

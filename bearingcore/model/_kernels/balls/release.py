@@ -1,0 +1,121 @@
+"""Contacts whose damper would pull: they push no more until they would push again. See `motion`."""
+
+from __future__ import annotations
+
+from bearingcore.model._kernels.balls.contacts import (
+    find_contacts,
+    planar_contacts,
+    planar_push,
+    push_contacts,
+    ring_state,
+)
+from bearingcore.model._kernels.balls.structs import INNER
+from bearingcore.model._kernels.compiling import called
+from bearingcore.model._kernels.contact import tilting
+from bearingcore.model._kernels.structs import PLANAR, VELOCITIES
+
+
+@called
+def change_variable(y, race, j, sign, passage, at, system, work):
+    """Take what a contact adds to w out of the state y (sign 1), or put it in (−1)."""
+    rotor = system.rotor
+    contacts = system.contacts
+    races = system.races
+    active = rotor.active
+    n = active.size
+    n_balls = contacts.angle.size
+    planar = rotor.variables == PLANAR
+    cj = passage.c[at, j]
+    sj = passage.s[at, j]
+    er = 1.0 if planar else work.contact[race, j, 1]
+    ez = 0.0 if planar else work.contact[race, j, 2]
+    damped = sign * races.damping[race, j] * abs(work.contact[race, j, 0])
+    et = tilting(er, ez, j, contacts)
+    along = (er * cj, er * sj, ez, et * sj, -et * cj)
+    side = 1.0 if race == INNER else -1.0
+    for a in range(n):
+        part = damped * along[active[a]]
+        if race == INNER:
+            y[n + a] -= rotor.inverse_inner[a] * part
+        else:
+            y[3 * n + a] += rotor.inverse_outer[a] * part
+    speeds = 4 * n + (n_balls if planar else 2 * n_balls)
+    y[speeds + j] += side * damped * er * races.inverse_mass[j]
+    if not planar:
+        y[speeds + n_balls + j] += side * damped * ez * races.inverse_mass[j]
+
+
+@called
+def locate_contacts(y, passage, inner, at, system, work):
+    """Contacts at the state y into work, the rings' displacements being there already."""
+    first = 4 * system.rotor.active.size
+    if system.rotor.variables == PLANAR:
+        planar_contacts(y, first, passage, inner, at, system, work)
+    else:
+        find_contacts(y, first, passage, inner, at, system, work)
+
+
+@called
+def true_forces(k, passage, inner, at, system, work):
+    """Σ (Q + c δ̇) e of both rings into work.f, at the positions that `ball_rates` left in work."""
+    first = 4 * system.rotor.active.size
+    if system.rotor.variables == PLANAR:
+        planar_push(k, first, passage, inner, at, system, work)
+    else:
+        push_contacts(k, first, passage, inner, at, system, work, False)
+
+
+@called
+def update_released(y, k, passage, inner, at, system, work):
+    """Release contacts whose damper would pull, and take up those that push again.
+
+    work holds the contacts at y as `ball_rates` left them and is spoilt. Returns whether any
+    changed: then the rates have, too.
+    """
+    released = work.released
+    before = work.before
+    changed = False
+    some = False
+    n_balls = released.shape[1]
+    true_forces(k, passage, inner, at, system, work)
+    for race in range(2):
+        for j in range(n_balls):
+            before[race, j] = released[race, j]
+            some = some or released[race, j]
+            if not released[race, j] and work.contact[race, j, 0] < 0.0:
+                change_variable(y, race, j, 1.0, passage, at, system, work)
+                released[race, j] = True
+                changed = True
+    if not some:
+        return changed
+    # those that were released before: are they still compressed, and would they still pull?
+    for race in range(2):
+        for j in range(n_balls):
+            if before[race, j]:
+                released[race, j] = False
+    locate_contacts(y, passage, inner, at, system, work)
+    true_forces(k, passage, inner, at, system, work)
+    for race in range(2):
+        for j in range(n_balls):
+            if not before[race, j]:
+                continue
+            if work.contact[race, j, 0] < 0.0:
+                released[race, j] = True
+            elif work.contact[race, j, 0] > 0.0:
+                change_variable(y, race, j, -1.0, passage, at, system, work)
+                changed = True
+    return changed
+
+
+@called
+def smooth_start(y, passage, inner, system, work):
+    """Turn the velocities in y into w: everything that is compressed counts as pushing."""
+    rotor = system.rotor
+    if rotor.variables == VELOCITIES:
+        return
+    ring_state(y, rotor, work.x)
+    locate_contacts(y, passage, inner, 0, system, work)
+    for race in range(2):
+        for j in range(system.contacts.angle.size):
+            if work.contact[race, j, 0] > 0.0:
+                change_variable(y, race, j, -1.0, passage, 0, system, work)

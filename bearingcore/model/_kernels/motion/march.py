@@ -1,0 +1,405 @@
+"""Motion of both rings (Eqs. 18-23): the equations of motion, and steps of order 4.
+
+The published damper's force c δ̇ e jumps as a ball touches, and a step across the jump errs by as
+much as the step is long. But c δ̇ e = d/dt(c δ e) − c δ ė while δ > 0, so with
+
+    S = Σ δ_j e_j,    w_i = v_i + (c/m_i) S,    w_o = v_o − (c/m_o) S
+
+the equations of motion (Eq. 18) have no jump left:
+
+    ẋ_i = w_i − (c/m_i) S,    m_i ẇ_i = F − p,    p = Σ (Q_j e_j − c δ_j ė_j)
+
+and likewise, with opposite signs and its support, for the outer ring. It is the same law: only the
+variable that is marched has changed. Against velocities the error of a motion at the same steps is
+smaller by a factor of 10 to 100. A law without tension has no such S: there w = v, and p is the
+force itself.
+
+A contact's direction e turns with the ball and swivels as the contact angle changes. Where α0, z
+and tilts are zero it is e = (c, s) whatever the rings do, and δ = δx c + δy s − r_L − d (Eq. 19):
+then ė = ω_c (−s, c), and neither δ̇ nor the slope of d is needed. That case has its own sums over
+the contacts, in `planar`, which says what they buy; its steps are those of every motion.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from bearingcore.model._kernels.compiling import called, compiled, inlined
+from bearingcore.model._kernels.contact import (
+    approach,
+    carried,
+    components,
+    contact_load,
+    seen_from_the_cage,
+    tilting,
+    touch,
+)
+from bearingcore.model._kernels.motion.planar import planar_equations_of_motion, planar_forces
+from bearingcore.model._kernels.motion.rings import record, ring_accelerations
+from bearingcore.model._kernels.motion.tangent import march_tangent, new_slopes
+from bearingcore.model._kernels.path import BLOCK, lay_out_balls, lay_out_turning_force, new_passage
+from bearingcore.model._kernels.runge_kutta import stepper, try_state
+from bearingcore.model._kernels.structs import (
+    PLANAR,
+    SMOOTH,
+    VELOCITIES,
+    Forces,
+    Place,
+    Recorded,
+    Steps,
+)
+
+
+def new_forces(n_contacts):
+    """Empty work space of the equations of motion."""
+    return Forces(
+        np.zeros(5),
+        np.zeros(5),
+        np.zeros(5),
+        np.zeros(5),
+        np.empty(n_contacts, dtype=np.int64),
+        np.empty((n_contacts, 5)),
+        np.zeros(1, dtype=np.int64),
+    )
+
+
+@inlined
+def find_touching(passage, at, contacts, work):
+    """List the contacts compressed at work.x in work, and put Σ δ e into work.S."""
+    x = components(work.x)
+    touching = work.touching
+    contact = work.contact
+    S0 = 0.0
+    S1 = 0.0
+    S2 = 0.0
+    S3 = 0.0
+    S4 = 0.0
+    count = 0
+    for j in range(contacts.angle.size):
+        cj = passage.c[at, j]
+        sj = passage.s[at, j]
+        delta, er, ez, bend = touch(x, cj, sj, passage.d[at, j], j, contacts)
+        if delta <= 0.0:
+            continue
+        touching[count] = j
+        contact[count, 0] = delta
+        contact[count, 1] = er
+        contact[count, 2] = ez
+        contact[count, 3] = bend
+        contact[count, 4] = 1.0
+        count += 1
+        et = delta * tilting(er, ez, j, contacts)
+        er *= delta
+        ez *= delta
+        S0 += er * cj
+        S1 += er * sj
+        S2 += ez
+        S3 += et * sj
+        S4 -= et * cj
+    S = work.S
+    S[0], S[1], S[2], S[3], S[4] = S0, S1, S2, S3, S4
+    work.touched[0] = count
+
+
+@inlined
+def push_of_contacts(passage, at, rotor, contacts, work, smooth):
+    """Force of all contacts on the outer ring [N], moments over r_d, into work.f.
+
+    Every loaded ball pushes with K δ^n + c δ̇ (Eq. 18) along its contact, δ̇ the full time
+    derivative: velocities of the rings, turning of the ball, slope of the path. Where `smooth` it
+    is p = Σ (Q e − c δ ė): e turns with the ball and with the contact angle, whose rate is (t·ṗ)/A,
+    t across the contact and ṗ the rate of the ball's displacement.
+    """
+    damping = rotor.contact_damping
+    tension = rotor.tension
+    relative_speed = 1.0
+    w = rotor.cage_speed
+    u = seen_from_the_cage(work.x, work.v, w)
+    contact = work.contact
+    f0 = 0.0
+    f1 = 0.0
+    f2 = 0.0
+    f3 = 0.0
+    f4 = 0.0
+    for i in range(work.touched[0]):
+        j = work.touching[i]
+        delta = contact[i, 0]
+        er = contact[i, 1]
+        ez = contact[i, 2]
+        cj = passage.c[at, j]
+        sj = passage.s[at, j]
+        if contacts.relative_speed[j] != relative_speed:  # another row
+            relative_speed = contacts.relative_speed[j]
+            w = relative_speed * rotor.cage_speed
+            u = seen_from_the_cage(work.x, work.v, w)
+        r_rate, z_rate = approach(u, cj, sj, passage.d_rate[at, j], j, contacts)
+        _, Q, _ = contact_load(delta, contacts.factor[j], contacts.exponent[j])
+        if smooth:
+            damped = damping * delta
+            swivel = damped * (er * z_rate - ez * r_rate) * contact[i, 3]
+            turn_r = damped * w * er
+            turn_t = damped * w * tilting(er, ez, j, contacts)
+            along_r = Q * er + swivel * ez
+            along_z = Q * ez - swivel * er
+            along_t = tilting(along_r, along_z, j, contacts)
+            f0 += along_r * cj + turn_r * sj
+            f1 += along_r * sj - turn_r * cj
+            f2 += along_z
+            f3 += along_t * sj - turn_t * cj
+            f4 -= along_t * cj + turn_t * sj
+        else:
+            push = Q + damping * (er * r_rate + ez * z_rate)
+            if push <= 0.0 and not tension:
+                contact[i, 4] = 0.0
+                continue
+            push_t = push * tilting(er, ez, j, contacts)
+            f0 += push * er * cj
+            f1 += push * er * sj
+            f2 += push * ez
+            f3 += push_t * sj
+            f4 -= push_t * cj
+    f = work.f
+    f[0], f[1], f[2], f[3], f[4] = f0, f1, f2, f3, f4
+
+
+@inlined
+def equations_of_motion(y, k, passage, at, rotor, contacts, work):
+    """dy/dt into k (4 n,); y is x, w of the inner, x, w of the outer ring, n directions each.
+
+    `work` is left as it is at y.
+    """
+    active = rotor.active
+    n = active.size
+    damping = rotor.contact_damping
+    x = work.x
+    v = work.v
+    f = work.f
+    S = work.S
+    smooth = rotor.variables != VELOCITIES
+    for a in range(n):
+        x[active[a]] = y[a] - y[2 * n + a]
+    find_touching(passage, at, contacts, work)
+    for a in range(n):
+        jump = damping * S[active[a]] if smooth else 0.0
+        k[a] = y[n + a] - rotor.inverse_inner[a] * jump
+        k[2 * n + a] = y[3 * n + a] + rotor.inverse_outer[a] * jump
+        v[active[a]] = k[a] - k[2 * n + a]
+    push_of_contacts(passage, at, rotor, contacts, work, smooth)
+    for a in range(n):
+        k[n + a], k[3 * n + a] = ring_accelerations(y, k, rotor, a, f, f, passage.push[at])
+
+
+@called
+def lay_out(angle, turn, count, system, work):
+    """Balls and unbalance at `count` cage angles angle + i·turn [rad], into work."""
+    rotor = system.rotor
+    passage = work.passage
+    lay_out_balls(angle, turn, count, rotor.cage_speed, system.contacts, system.path, passage)
+    lay_out_turning_force(angle, turn, count, rotor, passage)
+
+
+@inlined
+def rates(y, part, before, k, at, system, work):
+    """Rate of y + part·before into k: of the motion (4 n,), and of its tangent behind it."""
+    rotor = system.rotor
+    contacts = system.contacts
+    passage = work.passage
+    with_tangent = y.size > 4 * rotor.active.size
+    if with_tangent or rotor.variables != PLANAR:
+        try_state(y, part, before, work.trial)
+    if rotor.variables == PLANAR:
+        planar_equations_of_motion(y, part, before, k, passage, at, rotor, contacts)
+    else:
+        equations_of_motion(work.trial, k, passage, at, rotor, contacts, work.forces)
+    if with_tangent:
+        march_tangent(y, part, k, at, system, work)
+
+
+@inlined
+def changed(y, at, system, work):
+    """A state of massless balls is never changed between steps."""
+    return False
+
+
+@inlined
+def keep(sample, y, at, system, out, work):
+    """Record the state y with the forces as published."""
+    rotor = system.rotor
+    forces = work.forces
+    if rotor.variables == PLANAR:
+        planar_forces(y, work.k[0], work.passage, at, rotor, system.contacts, forces.f)
+    elif rotor.variables == SMOOTH:
+        push_of_contacts(work.passage, at, rotor, system.contacts, forces, False)
+    push = work.passage.push[at]
+    record(out.history, sample, y, work.k[0], rotor, forces.f, forces.f, push)
+
+
+runge_kutta = stepper(lay_out, rates, changed, keep)
+
+
+def new_steps(size, instants, system):
+    """Empty work space of steps from states of `size` numbers."""
+    angle = system.contacts.angle
+    return Steps(
+        new_passage(instants, angle),
+        new_forces(angle.size),
+        new_slopes(4 * system.rotor.active.size, size, angle.size),
+        np.zeros((4, size)),
+        np.zeros(size),
+    )
+
+
+def march(y, h, start_angle, system, history):
+    """Steps of h [s] from y, which is moved to the end; the cage begins at start_angle.
+
+    Behind the 4 n numbers of a state y may hold the tangent (4 n, columns), row by row: how the end
+    changes with the beginning. In smooth variables nothing jumps as balls touch: its steps are the
+    derivative of those of the motion, without corrections.
+
+    history (steps + 1, 6, n) takes displacement, velocity and acceleration of the inner ring, then
+    of the outer ring, at every step. Returns the number of steps after which all was still finite,
+    which is looked at once in half a BLOCK.
+    """
+    work = new_steps(y.size, min(2 * (history.shape[0] - 1), BLOCK) + 1, system)
+    return march_each(y[None], h, np.array([start_angle]), system, history[None], work)
+
+
+@compiled
+def march_each(states, h, start_angles, system, histories, work):
+    """`march` of each row of states, from each start angle; returns what the last one does."""
+    done = 0
+    for i in range(start_angles.size):
+        out = Recorded(histories[i], histories[i, :0], 1)
+        done = runge_kutta(states[i], h, start_angles[i], 1, system, out, work)
+    return done
+
+
+def turn_smooth(y, sign, angle, system):
+    """Turn velocities in the state y (4 n,) into w (sign 1), or back (sign −1), in place.
+
+    Where velocities are what the rotor marches they stay as they are. With w = 0 the velocities
+    are what the smooth variables take off them.
+    """
+    if system.rotor.variables == VELOCITIES:
+        return
+    n = system.rotor.active.size
+    still = y.reshape(4, n) * np.array([[1.0], [0.0], [1.0], [0.0]])
+    history = np.empty((1, 6, n))
+    march(still.ravel(), 0.0, angle, system, history)
+    y[n : 2 * n] -= sign * history[0, 1]
+    y[3 * n :] -= sign * history[0, 4]
+
+
+def motion_rates(times, states, start_angle, system):
+    """dy/dt (m, 4 n) at times (m,) [s] and states (m, 4 n) of a system in VELOCITIES."""
+    angles = start_angle + system.rotor.cage_speed * times
+    histories = np.empty((times.size, 1, 6, system.rotor.active.size))
+    work = new_steps(states.shape[1], 1, system)
+    march_each(states.copy(), 0.0, angles, system, histories, work)
+    return histories[:, 0, [1, 2, 4, 5]].reshape(states.shape)
+
+
+def elastic_loads(x, active, start_angle, turn, contacts, path):
+    """K δ^n (m, contacts) [N] (Eq. 13) at displacements x (m, len(active)) [m], tilts times r_d.
+
+    The cage is at start_angle + k·turn at row k.
+    """
+    loads = np.zeros((x.shape[0], contacts.angle.size))
+    work = np.ascontiguousarray(x), np.zeros(5), new_passage(BLOCK, contacts.angle)
+    fill_loads(active, start_angle, turn, contacts, path, loads, work)
+    return loads
+
+
+@compiled
+def fill_loads(active, start_angle, turn, contacts, path, loads, work):
+    """Body of `elastic_loads`; work holds x, a place for a displacement, and a passage."""
+    x, q, passage = work
+    for first in range(0, x.shape[0], BLOCK):
+        instants = min(BLOCK, x.shape[0] - first)
+        lay_out_balls(start_angle + first * turn, turn, instants, 1.0, contacts, path, passage)
+        loads_of_block(x, active, first, contacts, passage, q, loads)
+
+
+@called
+def loads_of_block(x, active, first, contacts, passage, q, loads):
+    """Loads of the instants from `first` on that a passage holds; q (5,) is work space, 0."""
+    for i in range(min(BLOCK, x.shape[0] - first)):
+        for a in range(active.size):
+            q[active[a]] = x[first + i, a]
+        place = Place(passage.c[i], passage.s[i], passage.d[i])
+        for j in range(loads.shape[1]):
+            loads[first + i, j], _, _ = carried(components(q), place, j, contacts)
+
+
+@compiled
+def between_steps(history, body, weights, first, out):
+    """Fill out (n_out, n) with a quantity of one body, samples from `first` on, between steps.
+
+    weights (ratio, 6) multiply x, v, acceleration at a step and at the next one; body is 0 for the
+    inner and 3 for the outer ring. Sample k is (k mod ratio)/ratio of a step after step k//ratio.
+    """
+    ratio = weights.shape[0]
+    last = history.shape[0] - 2
+    for row in range(out.shape[0]):
+        k = first + row
+        step = min(k // ratio, last)
+        w = k - step * ratio
+        if w == ratio:  # the very end, one whole step after the last but one
+            step += 1
+            w = 0
+        following = min(step + 1, last + 1)
+        for a in range(out.shape[1]):
+            # the difference of displacements first: on its own each is many times larger
+            out[row, a] = (
+                (weights[w, 0] + weights[w, 3]) * history[step, body, a]
+                + weights[w, 3] * (history[following, body, a] - history[step, body, a])
+                + weights[w, 1] * history[step, body + 1, a]
+                + weights[w, 4] * history[following, body + 1, a]
+                + weights[w, 2] * history[step, body + 2, a]
+                + weights[w, 5] * history[following, body + 2, a]
+            )
+
+
+@compiled
+def side_by_side(history, body, before, rows):
+    """Displacement since the first row, v and a of a body into rows (n, 3 stride, m), which is 0.
+
+    Row i of the history is column (before + i)//stride, of each quantity the (before + i) mod
+    stride-th row: what is `stride` rows apart in time then lies side by side.
+    """
+    stride = rows.shape[1] // 3
+    n = min(history.shape[0], rows.shape[2] * stride - before)
+    for i in range(n):
+        column = (before + i) // stride
+        part = (before + i) % stride
+        for a in range(rows.shape[0]):
+            rows[a, part, column] = history[i, body, a] - history[0, body, a]
+            rows[a, stride + part, column] = history[i, body + 1, a]
+            rows[a, 2 * stride + part, column] = history[i, body + 2, a]
+
+
+@compiled
+def sliding_sums(rows, weights, out):
+    """Add Σ weights[c, t]·rows[c, k + t] to each out[k] (n,); rows (c, at least n + t)."""
+    piece = 1024  # stays in the cache while all weights pass over it
+    taps = weights.shape[1]
+    for first in range(0, out.size, piece):
+        part = out[first : first + piece]
+        for c in range(rows.shape[0]):
+            row = rows[c, first:]
+            t = 0
+            while t + 4 <= taps:
+                w0 = weights[c, t]
+                w1 = weights[c, t + 1]
+                w2 = weights[c, t + 2]
+                w3 = weights[c, t + 3]
+                near = row[t:]
+                for k in range(part.size):
+                    part[k] += w0 * near[k] + w1 * near[k + 1] + w2 * near[k + 2] + w3 * near[k + 3]
+                t += 4
+            while t < taps:
+                w0 = weights[c, t]
+                near = row[t:]
+                for k in range(part.size):
+                    part[k] += w0 * near[k]
+                t += 1

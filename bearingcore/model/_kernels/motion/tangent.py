@@ -1,0 +1,226 @@
+"""Derivative of a motion by its beginning: the tangent, marched with it as columns."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from bearingcore.model._kernels.compiling import called, inlined
+from bearingcore.model._kernels.contact import approach, contact_load, seen_from_the_cage, tilting
+from bearingcore.model._kernels.motion.planar import planar_slopes
+from bearingcore.model._kernels.structs import PLANAR, SMOOTH, VELOCITIES, Slopes
+
+
+def new_slopes(size, whole, n_contacts):
+    """Empty work space of the tangent behind states of `size` numbers, `whole` with it."""
+    columns = whole // size - 1
+    return Slopes(
+        np.zeros((5, 5)),
+        np.zeros((5, 5)),
+        np.zeros((5, 5)),
+        np.zeros(5),
+        np.zeros(5),
+        np.zeros(5),
+        np.zeros(5),
+        np.zeros((size // 2, columns)),
+        np.ones(n_contacts, dtype=np.bool_),
+        np.ones(n_contacts, dtype=np.bool_),
+    )
+
+
+@called
+def march_tangent(y, part, k, at, system, work):
+    """Rate of the tangent into k, behind that of the state work.trial; part is 0 as a step begins.
+
+    y, k and work.trial hold the tangent (4 n, columns) behind 4 n numbers of the state.
+    """
+    rotor = system.rotor
+    slopes = work.slopes
+    size = 4 * rotor.active.size
+    shape = (size, y.size // size - 1)
+    tried = work.trial[size:].reshape(shape)
+    if part == 0.0 and rotor.variables == VELOCITIES:
+        saltation(tried, work.passage, at, rotor, system.contacts, work.forces, slopes)
+        for r in range(size, y.size):
+            y[r] = work.trial[r]
+    contact_slopes(work.trial, work.passage, at, system, work.forces, slopes)
+    tangent_rates(tried, k[size:].reshape(shape), rotor, slopes)
+
+
+@inlined
+def contact_slopes(y, passage, at, system, work, slopes):
+    """Derivatives of Σ δ e and the force by x and v at the state y, into slopes.Sx, Px and Pv."""
+    rotor = system.rotor
+    contacts = system.contacts
+    if rotor.variables == PLANAR:
+        planar_slopes(y, passage, at, rotor, contacts, slopes)
+    else:
+        swivelling_slopes(passage, at, rotor, contacts, work, slopes)
+
+
+@called
+def swivelling_slopes(passage, at, rotor, contacts, work, slopes):
+    """`contact_slopes` where contacts swivel.
+
+    With e along a contact and t across it, in q, and their derivatives with the cage's turning:
+    de = t (t·dx)/A, dt = −e (t·dx)/A, dδ = dA = e·dx, and σ = (t·ṗ)/A. So the force itself,
+    (Q + c δ̇) e, changes by k1 ee' + (push/A) tt' + c σ et' + c ω e e_turn' with x, c ee' with v.
+    """
+    damping = rotor.contact_damping
+    smooth = rotor.variables == SMOOTH
+    Sx = slopes.Sx
+    Px = slopes.Px
+    Pv = slopes.Pv
+    e = slopes.e
+    t = slopes.t
+    e_turn = slopes.e_turn
+    t_turn = slopes.t_turn
+    for a in range(5):
+        for b in range(5):
+            Sx[a, b] = 0.0
+            Px[a, b] = 0.0
+            Pv[a, b] = 0.0
+    relative_speed = 1.0
+    w = rotor.cage_speed
+    u = seen_from_the_cage(work.x, work.v, w)
+    for i in range(work.touched[0]):
+        if work.contact[i, 4] == 0.0:
+            continue
+        j = work.touching[i]
+        delta = work.contact[i, 0]
+        er = work.contact[i, 1]
+        ez = work.contact[i, 2]
+        bend = work.contact[i, 3]
+        cj = passage.c[at, j]
+        sj = passage.s[at, j]
+        if contacts.relative_speed[j] != relative_speed:  # another row
+            relative_speed = contacts.relative_speed[j]
+            w = relative_speed * rotor.cage_speed
+            u = seen_from_the_cage(work.x, work.v, w)
+        r_rate, z_rate = approach(u, cj, sj, passage.d_rate[at, j], j, contacts)
+        directions_in_q(er, ez, cj, sj, tilting(er, ez, j, contacts), e, e_turn)
+        directions_in_q(-ez, er, cj, sj, tilting(-ez, er, j, contacts), t, t_turn)
+        _, Q, k1 = contact_load(delta, contacts.factor[j], contacts.exponent[j])
+        sigma = bend * (er * z_rate - ez * r_rate)
+        along = er * r_rate + ez * z_rate
+        if smooth:
+            k2 = Q * bend
+            damped = damping * delta * bend
+            for b in range(5):
+                # of swivel = c δ σ, which pushes along −t
+                swivel = damping * sigma * (1.0 - delta * bend) * e[b] + damped * (
+                    w * t_turn[b] - along * bend * t[b]
+                )
+                for a in range(5):
+                    Sx[a, b] += e[a] * e[b] + delta * bend * t[a] * t[b]
+                    Px[a, b] += (
+                        k1 * e[a] * e[b]
+                        + (k2 * t[a] + damped * sigma * e[a]) * t[b]
+                        - t[a] * swivel
+                        - w * (damping * e_turn[a] * e[b] + damped * t_turn[a] * t[b])
+                    )
+                    Pv[a, b] -= damped * t[a] * t[b]
+        else:
+            k2 = (Q + damping * along) * bend
+            for b in range(5):
+                for a in range(5):
+                    Px[a, b] += (
+                        e[a] * (k1 * e[b] + damping * (sigma * t[b] + w * e_turn[b]))
+                        + k2 * t[a] * t[b]
+                    )
+                    Pv[a, b] += damping * e[a] * e[b]
+
+
+@inlined
+def directions_in_q(er, ez, cj, sj, et, e, e_turn):
+    """Components of (er, ez) at a ball along q, into e, and their derivatives by the cage angle."""
+    e[0] = er * cj
+    e[1] = er * sj
+    e[2] = ez
+    e[3] = et * sj
+    e[4] = -et * cj
+    e_turn[0] = -er * sj
+    e_turn[1] = er * cj
+    e_turn[2] = 0.0
+    e_turn[3] = et * cj
+    e_turn[4] = et * sj
+
+
+@called
+def tangent_rates(Y, kY, rotor, slopes):
+    """Rate of the tangent Y (4 n, columns) into kY: the equations of motion, differentiated."""
+    active = rotor.active
+    n = active.size
+    columns = Y.shape[1]
+    damping = rotor.contact_damping
+    rows = slopes.rows
+    smooth = rotor.variables != VELOCITIES
+    for a in range(n):
+        for column in range(columns):
+            rows[a, column] = 0.0
+        if smooth:
+            for b in range(n):
+                stiff = damping * slopes.Sx[active[a], active[b]]
+                for column in range(columns):
+                    rows[a, column] += stiff * (Y[b, column] - Y[2 * n + b, column])
+    for a in range(n):
+        for column in range(columns):
+            kY[a, column] = Y[n + a, column] - rotor.inverse_inner[a] * rows[a, column]
+            kY[2 * n + a, column] = Y[3 * n + a, column] + rotor.inverse_outer[a] * rows[a, column]
+            rows[n + a, column] = 0.0
+    for a in range(n):
+        for b in range(n):
+            kx = slopes.Px[active[a], active[b]]
+            kv = slopes.Pv[active[a], active[b]]
+            for column in range(columns):
+                rows[n + a, column] += kx * (Y[b, column] - Y[2 * n + b, column]) + kv * (
+                    kY[b, column] - kY[2 * n + b, column]
+                )
+    for a in range(n):
+        for column in range(columns):
+            force = rows[n + a, column]
+            kY[n + a, column] = -force * rotor.inverse_inner[a]
+            kY[3 * n + a, column] = rotor.inverse_outer[a] * (
+                force
+                - rotor.stiffness[a] * Y[2 * n + a, column]
+                - rotor.damping[a] * kY[2 * n + a, column]
+            )
+
+
+@called
+def saltation(Y, passage, at, rotor, contacts, work, slopes):
+    """Apply to the tangent Y what contacts that touched during a step do to it.
+
+    The damper's force jumps by c δ̇ at δ = 0. A neighbouring motion touches a little earlier or
+    later; what that does to velocities is c (e·Δx) e over the mass, the rate δ̇ cancelling
+    (the saltation matrix). Without tension balls leave without a jump.
+    """
+    active = rotor.active
+    n = active.size
+    damping = rotor.contact_damping
+    e = slopes.e
+    pushed = slopes.pushed
+    pushing = slopes.pushing
+    for j in range(pushed.size):
+        pushed[j] = pushing[j]
+        pushing[j] = False
+    for i in range(work.touched[0]):
+        if work.contact[i, 4] == 0.0:
+            continue
+        j = work.touching[i]
+        pushing[j] = True
+        if pushed[j]:
+            continue
+        cj = passage.c[at, j]
+        sj = passage.s[at, j]
+        er = work.contact[i, 1]
+        ez = work.contact[i, 2]
+        et = tilting(er, ez, j, contacts)
+        directions_in_q(er, ez, cj, sj, et, e, slopes.e_turn)
+        for column in range(Y.shape[1]):
+            nearer = 0.0
+            for a in range(n):
+                nearer += e[active[a]] * (Y[a, column] - Y[2 * n + a, column])
+            for a in range(n):
+                jump = damping * e[active[a]] * nearer
+                Y[n + a, column] -= rotor.inverse_inner[a] * jump
+                Y[3 * n + a, column] += rotor.inverse_outer[a] * jump

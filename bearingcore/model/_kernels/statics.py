@@ -1,0 +1,740 @@
+"""Static equilibrium (Eq. 15): the minimum of V(q), by Newton's method with a line search."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from bearingcore.model._kernels.compiling import called, compiled, inlined
+from bearingcore.model._kernels.contact import (
+    carried,
+    components,
+    compression_under,
+    contact_load,
+    has_left,
+    tilting,
+    touch,
+)
+from bearingcore.model._kernels.path import lay_out_drops, place_balls
+from bearingcore.model._kernels.structs import (
+    Contacts,
+    Descent,
+    MapAnswers,
+    MapMemory,
+    MapPaths,
+    MapWork,
+    Path,
+    Place,
+)
+
+CONVERGED, NOTHING_TOUCHES, FREE_DIRECTION, NOT_CARRIED, NOT_CONVERGED = 0, 1, 2, 3, 4
+"""Statuses of a cage angle; their sentences are in `equilibrium`."""
+
+OPEN, REFUSED = -1, 5
+"""Further statuses of a map's point: not solved yet; no such defects."""
+
+TOO_MANY = 6
+"""Status of all cage angles where there are more of them than were to be solved."""
+
+BEYOND = 7
+"""Status of a balance of loads that only linear formulas have: see `Contacts.room`."""
+
+# A residual |∂V/∂q| below this part of the load ends the iteration; one that rounding keeps above
+# it is still taken below the second. The third is the least pivot, relative to the greatest
+# stiffness, with which a Newton step is taken as it is.
+RESIDUAL_AIM, RESIDUAL_LIMIT, LEAST_PIVOT = 1e-12, 1e-9, 1e-12
+# So many Newton steps before another way is taken, and at each softness of that way. (Plain
+# integers would be types of their own, and what takes them compiled for each.)
+MOST_ITERATIONS, MOST_PATIENT_ITERATIONS = np.int64(60), np.int64(600)
+
+# A stiffness below this part of the greatest is none: rounding leaves more than it. Where a pivot
+# is below the second, taking them in the order of the directions decides nothing.
+NO_PIVOT, DOUBTFUL_PIVOT = 1e-14, 1e-5
+
+# Digits that q loses times the stiffness are a residual too: where a light load meets stiff balls
+# far from q = 0, none smaller can be had.
+ROUNDING = 4e-16
+
+# A ball that carries less than this many residuals may as well carry nothing; where even the
+# greatest stiffness is below this part of that of one ball under all of the load, rounding made it.
+FAINT, FAINT_STIFFNESS = 10.0, 1e-12
+
+
+@inlined
+def energy_gradient_hessian(q, force, place, contacts, g, H):
+    """V(q) [N·m], its gradient g (5,) [N] and its Hessian H (5, 5) [N/m], of which half is filled.
+
+    Returns V, a scale and the least load [N] that a touching ball carries. The scale is the sum of
+    the sizes of V's terms: rounding of V is a small part of it.
+    """
+    energy = 0.0
+    faintest = math.inf
+    f0 = 0.0
+    f1 = 0.0
+    f2 = 0.0
+    f3 = 0.0
+    f4 = 0.0
+    rr_cc = 0.0
+    rr_cs = 0.0
+    rr_ss = 0.0
+    rz_c = 0.0
+    rz_s = 0.0
+    zz = 0.0
+    rt_cc = 0.0
+    rt_cs = 0.0
+    rt_ss = 0.0
+    zt_c = 0.0
+    zt_s = 0.0
+    tt_cc = 0.0
+    tt_cs = 0.0
+    tt_ss = 0.0
+    x = components(q)
+    c = place.c
+    s = place.s
+    d = place.d
+    for j in range(c.size):
+        cj = c[j]
+        sj = s[j]
+        delta, er, ez, bend = touch(x, cj, sj, d[j], j, contacts)
+        if delta <= 0.0:
+            continue
+        stored, Q, k1 = contact_load(delta, contacts.factor[j], contacts.exponent[j])
+        k2 = Q * bend
+        et = tilting(er, ez, j, contacts)
+        # across the contact, (−ez, er):
+        at = tilting(-ez, er, j, contacts)
+        energy += stored
+        faintest = min(faintest, Q)
+        Qr = Q * er
+        Qt = Q * et
+        f0 += Qr * cj  # Equation (15)
+        f1 += Qr * sj
+        f2 += Q * ez
+        f3 += Qt * sj
+        f4 -= Qt * cj
+        rr = k1 * er * er + k2 * ez * ez  # Appendix A: rr for (A.1), rz for (A.3), zz for (A.10)
+        rz = (k1 - k2) * er * ez
+        rt = k1 * er * et - k2 * ez * at
+        zt = k1 * ez * et + k2 * er * at
+        tt = k1 * et * et + k2 * at * at
+        cc = cj * cj
+        cs = cj * sj
+        ss = sj * sj
+        rr_cc += rr * cc
+        rr_cs += rr * cs
+        rr_ss += rr * ss
+        rz_c += rz * cj
+        rz_s += rz * sj
+        zz += k1 * ez * ez + k2 * er * er
+        rt_cc += rt * cc
+        rt_cs += rt * cs
+        rt_ss += rt * ss
+        zt_c += zt * cj
+        zt_s += zt * sj
+        tt_cc += tt * cc
+        tt_cs += tt * cs
+        tt_ss += tt * ss
+    work = 0.0
+    for i in range(5):
+        work += force[i] * q[i]
+    g[0] = f0 - force[0]
+    g[1] = f1 - force[1]
+    g[2] = f2 - force[2]
+    g[3] = f3 - force[3]
+    g[4] = f4 - force[4]
+    H[0, 0] = rr_cc  # (A.1)
+    H[1, 0] = rr_cs  # (A.2)
+    H[1, 1] = rr_ss  # (A.6)
+    H[2, 0] = rz_c  # (A.3)
+    H[2, 1] = rz_s  # (A.7)
+    H[2, 2] = zz  # (A.10)
+    H[3, 0] = rt_cs  # (A.4)
+    H[3, 1] = rt_ss  # (A.8)
+    H[3, 2] = zt_s  # (A.11)
+    H[3, 3] = tt_ss  # (A.13)
+    H[4, 0] = -rt_cc  # (A.5)
+    H[4, 1] = -rt_cs  # (A.9)
+    H[4, 2] = -zt_c  # (A.12)
+    H[4, 3] = -tt_cs  # (A.14)
+    H[4, 4] = tt_cc  # (A.15)
+    return energy - work, energy + abs(work), faintest
+
+
+@called
+def newton_direction(H, g, active, shift, L, p):
+    """P = −(H + shift·1)⁻¹ g over the active directions, by Cholesky's method.
+
+    Returns the least pivot over the greatest diagonal element; where that is not above
+    LEAST_PIVOT the direction is not computed.
+    """
+    n = active.size
+    greatest = 0.0
+    for i in range(n):
+        greatest = max(greatest, H[active[i], active[i]] + shift)
+    if greatest <= 0.0:
+        return 0.0
+    least = 1.0
+    for i in range(n):
+        for j in range(i + 1):
+            x = H[active[i], active[j]]
+            if i == j:
+                x += shift
+            for k in range(j):
+                x -= L[i, k] * L[j, k]
+            if i == j:
+                least = min(least, x / greatest)
+                if not least > LEAST_PIVOT:
+                    return least
+                L[i, i] = 1.0 / math.sqrt(x)
+            else:
+                L[i, j] = x * L[j, j]
+    for i in range(n):
+        x = -g[active[i]]
+        for k in range(i):
+            x -= L[i, k] * p[active[k]]
+        p[active[i]] = x * L[i, i]
+    for i in range(n - 1, -1, -1):
+        x = p[active[i]]
+        for k in range(i + 1, n):
+            x -= L[k, i] * p[active[k]]
+        p[active[i]] = x * L[i, i]
+    return least
+
+
+@called
+def least_pivot(H, active, A):
+    """Least pivot of H over the active directions, relative to the greatest, the greatest first.
+
+    A (5, 5) is work space.
+
+    In any other order a pivot that should be zero keeps the rounding of those before it, divided by
+    the least of them.
+    """
+    n = active.size
+    for i in range(n):
+        for j in range(n):
+            A[i, j] = H[max(active[i], active[j]), min(active[i], active[j])]
+    greatest = 0.0
+    least = 0.0
+    for k in range(n):
+        best = k
+        for i in range(k + 1, n):
+            if A[i, i] > A[best, best]:
+                best = i
+        for i in range(n):
+            A[k, i], A[best, i] = A[best, i], A[k, i]
+        for i in range(n):
+            A[i, k], A[i, best] = A[i, best], A[i, k]
+        least = A[k, k]
+        if k == 0:
+            greatest = least
+        if least <= NO_PIVOT * greatest:
+            return 0.0
+        for i in range(k + 1, n):
+            for j in range(k + 1, n):
+                A[i, j] -= A[i, k] * A[k, j] / least
+    return least / greatest
+
+
+@inlined
+def with_factors(contacts, factor):
+    """The same contacts with other load-deflection factors (n,)."""
+    return Contacts(
+        contacts.angle,
+        contacts.relative_speed,
+        contacts.arm,
+        contacts.reach,
+        contacts.line_r,
+        contacts.line_z,
+        contacts.fixed,
+        contacts.distance,
+        contacts.clearance,
+        contacts.offset,
+        contacts.room,
+        factor,
+        contacts.exponent,
+        contacts.rows,
+        contacts.most_tilt,
+    )
+
+
+@called
+def drop_negligible_contacts(q, noise, place, contacts, load, work, other):
+    """Whether the balls that carry more than `noise` [N] hold the ring on their own.
+
+    The minimum may be an edge of a flat stretch, on which balls that only just touch look as if
+    they held the ring there. Returns the least pivot without them, whose gradient and Hessian are
+    put into work.g[other] and work.H[other].
+    """
+    factor = work.firm
+    x = components(q)
+    for j in range(factor.size):
+        Q, _, _ = carried(x, place, j, contacts)
+        factor[j] = contacts.factor[j] if noise < Q else 0.0
+    firm = with_factors(contacts, factor)
+    H = work.H[other]
+    energy_gradient_hessian(q, load.force, place, firm, work.g[other], H)
+    return least_pivot(H, load.active, work.L)
+
+
+@called
+def pressed_load(q, place, contacts):
+    """Sum [N] of what all contacts carry."""
+    x = components(q)
+    total = 0.0
+    for j in range(contacts.factor.size):
+        Q, _, _ = carried(x, place, j, contacts)
+        total += Q
+    return total
+
+
+@inlined
+def stiffest_contact(contacts):
+    """Number of the contact with the greatest load-deflection factor."""
+    found = 0
+    for j in range(contacts.factor.size):
+        if contacts.factor[j] > contacts.factor[found]:
+            found = j
+    return found
+
+
+@inlined
+def curved_length(contacts, j):
+    """A0 [m] of a contact whose line turns, along which the energy's valley is curved; else 0."""
+    return 0.0 if contacts.fixed[j] else contacts.distance[j]
+
+
+@inlined
+def load_size(load):
+    """Size [N] of the load along the free directions."""
+    size = 0.0
+    for i in load.active:
+        size += load.force[i] * load.force[i]
+    return math.sqrt(size)
+
+
+@called
+def descend(q, place, contacts, load, work, most):
+    """Move q downhill to the minimum of V by Newton's method with a line search, in `most` steps.
+
+    What is returned is that of `minimise_energy`.
+    """
+    F = load.force
+    active = load.active
+    G = work.g
+    H = work.H
+    L = work.L
+    p = work.p
+    trial = work.trial
+    hard = stiffest_contact(contacts)
+    K = contacts.factor[hard]
+    exponent = contacts.exponent[hard]
+    tight = abs(contacts.offset[hard]) + max(-contacts.clearance[hard], 0.0)
+    axial = False
+    carried_load = 0.0
+    for i in active:
+        carried_load += F[i] * F[i]
+        axial = axial or i == 2
+    size = math.sqrt(carried_load)
+    nothing = 0.0
+    k_typical = 0.0
+    shift_part = 1e-3
+    residual = math.inf
+    limit = RESIDUAL_LIMIT
+    stuck = False
+    preloaded = False
+    slope = 0.0
+    V = 0.0
+    scale = 0.0
+    faintest = 0.0
+    now = 1
+    evaluations = 0
+    # The first time round only evaluates the energy at q: written so, its code is
+    # here once, which halves the time to compile it.
+    for iteration in range(-1, most):
+        g = G[now]
+        if iteration >= 0:
+            norm = 0.0
+            taken = 0.0  # by what holds the directions that are not active
+            reach = tight
+            for i in range(5):
+                taken += (g[i] + F[i]) ** 2
+                reach = max(reach, abs(q[i]))
+            stiffest = 0.0
+            for i in active:
+                taken -= (g[i] + F[i]) ** 2
+                norm += g[i] * g[i]
+                stiffest = max(stiffest, H[now, i, i])
+            whole = math.sqrt(carried_load + max(taken, 0.0))
+            if preloaded:
+                whole = pressed_load(q, place, contacts)
+            if whole <= nothing:
+                return now, NOTHING_TOUCHES, math.nan, iteration, evaluations
+            before = residual
+            residual = math.sqrt(norm) / whole
+            limit = max(RESIDUAL_LIMIT, ROUNDING * reach * stiffest / whole)
+            least = newton_direction(H[now], g, active, 0.0, L, p)
+            settled = residual <= limit and residual >= 0.5 * before
+            if residual <= RESIDUAL_AIM or settled or stuck:
+                noise = FAINT * max(residual, RESIDUAL_AIM) * whole
+                if faintest < noise:
+                    least = drop_negligible_contacts(q, noise, place, contacts, load, work, 1 - now)
+                    if not least > NO_PIVOT:
+                        now = 1 - now
+                if least < DOUBTFUL_PIVOT:
+                    least = least_pivot(H[now], active, L)
+                status = CONVERGED if least > NO_PIVOT else FREE_DIRECTION
+                return now, status, residual, iteration, evaluations
+            if not least > LEAST_PIVOT or stiffest < FAINT_STIFFNESS * k_typical:
+                # too few balls touch: a small spring to ground replaces the missing stiffness
+                newton_direction(H[now], g, active, shift_part * max(k_typical, stiffest), L, p)
+                shift_part = max(0.1 * shift_part, 1e-10)
+            slope = 0.0
+            for i in active:
+                slope += g[i] * p[i]
+        step = 1.0
+        short = 0.0
+        long = math.inf
+        found = False
+        for _ in range(60):
+            for i in active:
+                trial[i] = q[i] + step * p[i] if iteration >= 0 else q[i]
+            V1, scale1, faintest1 = energy_gradient_hessian(
+                trial, F, place, contacts, G[1 - now], H[1 - now]
+            )
+            evaluations += 1
+            if iteration < 0:
+                found = True
+                break
+            slope1 = 0.0
+            for i in active:
+                slope1 += G[1 - now, i] * p[i]
+            # V is convex: while it slopes down it has fallen, whatever rounding says. Beyond, it
+            # must have fallen; where its fall drowns in rounding its slope must.
+            if (
+                slope1 <= 0.0
+                or V + 1e-4 * step * slope >= V1
+                or (slope1 <= 0.9 * abs(slope) and 1e-14 * max(scale, scale1) >= V1 - V)
+            ):
+                if slope1 >= 0.9 * slope or long == math.inf or long < 1.5 * short:
+                    found = True
+                    break
+                # V still falls as steeply as at the start: between here and the step that was
+                # too long there is a better one
+                short = step
+                step = math.sqrt(short * long)
+            else:
+                long = step
+                secant = slope / (slope - slope1) if slope1 > 0.0 else 0.5
+                step *= min(max(secant, 0.05), 0.6)
+                if step <= short:
+                    step = math.sqrt(short * long)
+        if not found:
+            if residual > limit:
+                return now, NOT_CONVERGED, residual, iteration, evaluations
+            stuck = True
+            continue
+        for i in active:
+            q[i] = trial[i]
+        V = V1
+        scale = scale1
+        faintest = faintest1
+        now = 1 - now
+        if iteration < 0:
+            if size == 0.0:
+                # without a load an interference presses balls, rows that press each other, or a
+                # clearance so large that the ring, held axially, is wedged: else it slips out
+                preloaded = True
+                size = pressed_load(q, place, contacts)
+                slips = axial and contacts.rows.shape[0] == 1 and contacts.clearance[hard] > 0.0
+                if size == 0.0 or slips:
+                    return now, NOTHING_TOUCHES, math.nan, 0, 1
+                lost = ROUNDING * (curved_length(contacts, hard) + abs(contacts.clearance[hard]))
+                _, least_load, _ = contact_load(max(lost, 0.0), K, exponent)
+                nothing = max(RESIDUAL_AIM * size, least_load)
+            # of one ball under all of the load
+            _, _, k_typical = contact_load(compression_under(size, K, exponent), K, exponent)
+    return now, NOT_CONVERGED, residual, most, evaluations
+
+
+@inlined
+def minimise_energy(q, place, contacts, load, work):
+    """Move q to the minimum of V over the active directions.
+
+    Returns (which, status, residual, iterations, evaluations): work.g[which] and work.H[which]
+    belong to the final q.
+
+    A light load on stiff balls has its minimum far along a narrow curved valley, up to A0 long and
+    as wide as a compression; Newton's straight steps in it are short. Where they do not come to
+    their end it is reached with soft balls first, whose valley is wide, and from there with harder
+    ones: the difference of their answers is about what the softer balls are compressed.
+    """
+    now, status, residual, iterations, evaluations = descend(
+        q, place, contacts, load, work, MOST_ITERATIONS
+    )
+    if status != NOT_CONVERGED:
+        return now, status, residual, iterations, evaluations
+    F = load.force
+    active = load.active
+    size = load_size(load)
+    one = stiffest_contact(contacts)
+    K = contacts.factor[one]
+    exponent = contacts.exponent[one]
+    hard = compression_under(size, K, exponent)
+    # compression of one ball under all of the load, at this softness; a straight valley needs none
+    soft = max(curved_length(contacts, one), hard)
+    start = work.start
+    soft_factor = work.soft
+    for i in active:
+        # of a wedged ring without a load nothing says how soft to begin
+        away = max(contacts.clearance[one], 0.0) / contacts.line_r[one] + soft
+        start[i] = away * F[i] / size if size > 0.0 else q[i]
+    ratio = 1.0
+    for _ in range(40):
+        target = max(soft * ratio, hard)
+        softer = 1.0
+        if target != hard and size != 0.0:
+            _, stiff_load, _ = contact_load(target, K, exponent)
+            softer = size / stiff_load
+        for i in active:
+            q[i] = start[i]
+        for j in range(soft_factor.size):
+            soft_factor[j] = softer * contacts.factor[j]
+        softened = with_factors(contacts, soft_factor)
+        now, status, residual, more, calls = descend(
+            q, place, softened, load, work, MOST_PATIENT_ITERATIONS
+        )
+        iterations += more
+        evaluations += calls
+        if size == 0.0:
+            break
+        if status != NOT_CONVERGED:
+            if softer == 1.0:
+                break
+            for i in active:
+                start[i] = q[i]
+            soft = target
+            ratio = 0.1 if ratio == 1.0 else max(ratio * ratio, 1e-4)
+        elif ratio == 1.0 or ratio > 0.7:
+            break
+        else:
+            ratio = math.sqrt(ratio)
+    else:
+        status = NOT_CONVERGED
+    return now, status, residual, iterations, evaluations
+
+
+@inlined
+def extrapolate(cage_angles, k, q, active, state):
+    """Guess the state at cage angle k: the parabola through the last three answers q.
+
+    Where they are not near and in order, the state stays as it is.
+    """
+    x1 = cage_angles[k] - cage_angles[k - 1]
+    x2 = cage_angles[k] - cage_angles[k - 2]
+    x3 = cage_angles[k] - cage_angles[k - 3]
+    if abs(x1) < abs(x2) < abs(x3) < 8.0 * abs(x1) and x1 * x2 > 0.0 and x2 * x3 > 0.0:
+        u1 = x2 * x3 / ((x2 - x1) * (x3 - x1))
+        u2 = x1 * x3 / ((x1 - x2) * (x3 - x2))
+        u3 = x1 * x2 / ((x1 - x3) * (x2 - x3))
+        if abs(u1) + abs(u2) + abs(u3) < 20.0:
+            for i in active:
+                state[i] = u1 * q[k - 1, i] + u2 * q[k - 2, i] + u3 * q[k - 3, i]
+
+
+@inlined
+def first_guess(contacts, load, state):
+    """Put into state (5,): the clearance and one ball's compression, along the load."""
+    size = load_size(load)
+    one = stiffest_contact(contacts)
+    reach = max(contacts.clearance[one], 0.0) / contacts.line_r[one] + compression_under(
+        size, contacts.factor[one], contacts.exponent[one]
+    )
+    for i in load.active:
+        state[i] = reach * load.force[i] / max(size, 1e-300)
+
+
+def new_descent(n_contacts):
+    """Empty work space of Newton's descent."""
+    soft, firm = np.zeros((2, n_contacts))
+    p, trial, start = np.zeros((3, 5))
+    return Descent(
+        np.zeros((2, 5)), np.zeros((2, 5, 5)), np.zeros((5, 5)), p, trial, start, soft, firm
+    )
+
+
+def new_map_work(angle):
+    """Empty work space of a map of contacts at angles (n,) [rad] from the first ball."""
+    c, s, d, slope = np.zeros((4, angle.size))
+    state, guess = np.zeros((2, 5))
+    circle_c, circle_s = np.cos(angle), np.sin(angle)
+    descent = new_descent(angle.size)
+    return MapWork(descent, state, guess, Place(c, s, d), slope, circle_c, circle_s)
+
+
+def static_maps(cage_angles, contacts, paths, load, rows, memory, answers):
+    """Static states of the rows (first, last) of a map: see `solve_maps`."""
+    work = new_map_work(contacts.angle)
+    return solve_maps(cage_angles, contacts, paths, load, rows, memory, answers, work)
+
+
+@compiled
+def solve_maps(cage_angles, contacts, paths, load, rows, memory, answers, work):
+    """Static states of rows (first, last) of a map: the defects differ, cage angles do not.
+
+    Points that are not OPEN are left alone; each is started from those before it in its row.
+    `memory` carries states and drops over from row to row, NaN before the first, and holds those of
+    the last row then. Returns how many points were solved, and how often the energy was evaluated.
+
+    Where all balls have sunk as deep as in the row before, the answer is that of the row before:
+    most of a map of square defects is, as a ball is on the race or on the floor and seldom between.
+    """
+    n = cage_angles.size
+    n_contacts = contacts.angle.size
+    active = load.active
+    q = memory.q
+    drops = memory.drops
+    loads = memory.loads
+    stiffness = answers.stiffness
+    loaded = answers.loaded
+    greatest = answers.greatest
+    status = answers.status
+    residual = answers.residual
+    descent = work.descent
+    place = work.place
+    d = place.d
+    state = work.state
+    guess = work.guess
+    first, last = rows
+    first_guess(contacts, load, guess)
+    solved = 0
+    evaluations = 0
+    for e in range(first, last):
+        path = Path(paths.defects[e, : paths.counts[e]], paths.tables)
+        for k in range(n):
+            if status[e, k] != OPEN:
+                drops[k, 0] = math.nan
+                continue
+            lay_out_drops(cage_angles[k], paths.leads[e, k], contacts, path, d, work.slope)
+            same = True
+            for j in range(n_contacts):
+                same = same and drops[k, j] == d[j]
+                drops[k, j] = d[j]
+            if same:
+                status[e, k] = status[e - 1, k]
+                residual[e, k] = residual[e - 1, k]
+                loaded[e, k] = loaded[e - 1, k]
+                greatest[e, k] = greatest[e - 1, k]
+                for term in range(15):
+                    stiffness[term, e, k] = stiffness[term, e - 1, k]
+                continue
+            known = 0  # answers in a row just before this one
+            while known < min(k, 3) and CONVERGED <= status[e, k - 1 - known] < NOT_CARRIED:
+                known += 1
+            for i in active:
+                state[i] = q[k - 1, i] if known > 0 else guess[i]
+            if known == 3:
+                extrapolate(cage_angles, k, q, active, state)
+            circle_c = work.circle_c
+            place_balls(cage_angles[k], contacts, circle_c, work.circle_s, place.c, place.s)
+            now, status[e, k], residual[e, k], memory.iterations[k], calls = minimise_energy(
+                state, place, contacts, load, descent
+            )
+            solved += 1
+            evaluations += calls
+            memory.evaluations[k] = calls
+            for i in range(5):
+                q[k, i] = state[i]
+            count = 0
+            most = 0.0
+            settled = status[e, k] == CONVERGED
+            x = components(state)
+            beyond = settled and max(abs(x[3]), abs(x[4])) > contacts.most_tilt
+            for j in range(n_contacts):
+                delta, _, _, bend = touch(x, place.c[j], place.s[j], d[j], j, contacts)
+                loads[k, j] = 0.0
+                if delta > 0.0:
+                    _, loads[k, j], _ = contact_load(
+                        delta, contacts.factor[j], contacts.exponent[j]
+                    )
+                    count += 1
+                    most = max(most, loads[k, j])
+                    beyond = beyond or delta > contacts.room[j]
+                    if settled and bend == 0.0:
+                        beyond = beyond or has_left(x, place.c[j], place.s[j], j, contacts)
+            if beyond and (settled or status[e, k] == FREE_DIRECTION):
+                status[e, k] = BEYOND
+            gone = status[e, k] >= NOT_CARRIED
+            loose = status[e, k] == NOTHING_TOUCHES
+            nowhere = gone or loose
+            loaded[e, k] = 0 if nowhere else count
+            greatest[e, k] = math.nan if gone else 0.0 if loose else most
+            term = 0
+            for a in range(5):
+                for b in range(a, 5):
+                    stiffness[term, e, k] = math.nan if nowhere else descent.H[now, b, a]
+                    term += 1
+    return solved, evaluations
+
+
+_TERMS = np.zeros((5, 5), dtype=np.int64)
+_TERMS[np.triu_indices(5)] = _TERMS.T[np.triu_indices(5)] = np.arange(15)
+
+
+def static_states(cage_angles, leads, contacts, path, load):
+    """Static equilibrium at each cage angle (n,) [rad], each started from those before it.
+
+    leads (n,) [rad]: how far defects that turn are ahead of where the cage angle has them.
+
+    A map of one row. Returns q (n, 5), contact loads (n, contacts), stiffness (n, 5, 5), loaded
+    contacts, status, residual, iterations and evaluations (n,), tilts and moments scaled as at the
+    head of `structs`; NaN for the stiffness where there is no equilibrium.
+    """
+    n = cage_angles.size
+    count = np.array([path.defects.shape[0]])
+    memory = new_memory(n, contacts)
+    answers = new_answers(1, n)
+    static_maps(
+        cage_angles,
+        contacts,
+        MapPaths(path.defects[None], count, path.tables, leads[None]),
+        load,
+        (0, 1),
+        memory,
+        answers,
+    )
+    return (
+        memory.q,
+        memory.loads,
+        answers.stiffness[:, 0].take(_TERMS, axis=0).transpose(2, 0, 1),
+        answers.loaded[0],
+        answers.status[0],
+        answers.residual[0],
+        memory.iterations,
+        memory.evaluations,
+    )
+
+
+def new_memory(n, contacts):
+    """An empty `MapMemory` of n cage angles."""
+    n_contacts = contacts.angle.size
+    return MapMemory(
+        np.zeros((n, 5)),
+        np.full((n, n_contacts), math.nan),
+        np.zeros((n, n_contacts)),
+        np.zeros(n, dtype=np.int64),
+        np.zeros(n, dtype=np.int64),
+    )
+
+
+def new_answers(rows, n):
+    """Empty `MapAnswers` of so many rows and n cage angles: everything is OPEN."""
+    shape = (rows, n)
+    return MapAnswers(
+        np.full((15, *shape), math.nan),
+        np.zeros(shape, dtype=np.int64),
+        np.full(shape, math.nan),
+        np.full(shape, OPEN, dtype=np.int8),
+        np.full(shape, math.nan),
+    )

@@ -1,0 +1,69 @@
+"""Compile kernels before they are waited for; the machine code is kept on disk."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterable
+
+import numpy as np
+
+from bearingcore.model import _kernels as kernels
+from bearingcore.model.dynamics import modes, orbit, simulate
+from bearingcore.model.scene import WITH_MASS, presets
+from bearingcore.recordings import spectrum
+
+Report = Callable[[str], object]
+
+
+def warm(report: Report = print, parts: Iterable[str] | None = None) -> None:
+    """Call what statics, motions and orbits are computed by, with arguments of all types.
+
+    Parameters
+    ----------
+    report
+        called with a line for each part.
+    parts
+        names in `PARTS`; None: all of them, in order.
+    """
+    for name in PARTS if parts is None else parts:
+        start = time.perf_counter()
+        PARTS[name]()
+        report(f"compiled: {name} ({time.perf_counter() - start:.1f} s)")
+
+
+def _statics() -> None:
+    fan_rig = presets["fan-rig"]
+    fan_rig.defects[0].path([0.0], fan_rig.bearing)
+    modes(fan_rig, [0.0])
+
+
+def _motion() -> None:
+    for step_rate in (65536.0, 32768.0):
+        motion = simulate(presets["fan-rig"], 1e-3, 65536.0, ball_loads=True, step_rate=step_rate)
+        _ = motion.outer_acceleration
+    spectrum(np.zeros(4096), 65536.0)  # what the first one imports takes half a second
+
+
+def _balls_with_mass() -> None:
+    motion = simulate(presets["fan-rig"].replace(balls=WITH_MASS), 1e-3, ball_loads=True)
+    _ = motion.outer_acceleration
+
+
+def _orbits() -> None:
+    orbit(presets["fan-rig"])
+    # of measured floors, and of bands of many scenes
+    kernels.roll_over(np.zeros(3), np.zeros(2))
+    one = np.ones((1, 1))
+    kernels.modes_like(
+        one, one, one, one.copy(), np.zeros((1, 1), dtype=np.int64), one[None].copy()
+    )
+
+
+STATICS, MOTION, BALLS_WITH_MASS, ORBITS = "statics", "motion", "balls with mass", "orbits"
+PARTS: dict[str, Callable[[], None]] = {
+    STATICS: _statics,
+    MOTION: _motion,
+    BALLS_WITH_MASS: _balls_with_mass,
+    ORBITS: _orbits,
+}
+"""Parts that are compiled on their own: the first tab needs the first two, in this order."""

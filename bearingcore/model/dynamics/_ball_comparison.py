@@ -1,0 +1,156 @@
+"""Balls with or without mass: below which frequency massless ones will do."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from bearingcore.common import (
+    Array,
+    ResultTable,
+    level_difference,
+    number,
+    shown_as_table,
+    table_of,
+    with_prefix,
+)
+from bearingcore.common import _checks as checks
+from bearingcore.model.dynamics._motion import SETTLING, Motion, simulate
+from bearingcore.model.dynamics._step_rate import fine_step_rate
+from bearingcore.model.scene import MASSLESS, WITH_MASS, Scene
+from bearingcore.recordings import spectrum
+
+BUDGET = 0.1
+"""[dB]"""
+
+LOWEST_COMPARED = 300.0
+"""[Hz] of the lowest third octave that is compared, the lower end of the paper's band."""
+
+QUIETEST_COMPARED = 1e-4
+"""Power over the greatest of all bands and directions below which a band does not count."""
+
+
+@shown_as_table
+@dataclass(frozen=True)
+class BallComparison:
+    """One scene with massless balls and with balls that have mass.
+
+    Attributes
+    ----------
+    scene, budget [dB]
+        what was compared, and how much may be off.
+    edges : (m + 1,) [Hz]
+        of the third octaves that are compared.
+    added : (m, d) [dB]
+        what mass adds to the power of the housing's acceleration in each, along x and y.
+    massless_up_to
+        [Hz] frequency up to which massless balls are within the budget wherever there is more power
+        than QUIETEST_COMPARED of the greatest; NaN where they are not even in the lowest third
+        octave.
+    """
+
+    scene: Scene
+    budget: float
+    edges: Array
+    added: Array
+    massless_up_to: float
+
+    @property
+    def sentence(self) -> str:
+        """In a line: up to where massless balls will do."""
+        if math.isnan(self.massless_up_to):
+            lowest = with_prefix(LOWEST_COMPARED, "Hz")
+            return f"massless: more than {number(self.budget)} dB off from {lowest} on"
+        up_to = with_prefix(self.massless_up_to, "Hz", 2)
+        return f"massless: within {number(self.budget)} dB up to {up_to}"
+
+    def table(self) -> ResultTable:
+        """A row a third octave: its ends, and what mass adds along each direction."""
+        return table_of(
+            ("lowest_frequency", "Hz", self.edges[:-1]),
+            ("highest_frequency", "Hz", self.edges[1:]),
+            *(
+                (f"added_{dof}", "dB", values, f"what the balls' mass adds along {dof}")
+                for dof, values in zip(self.directions, self.added.T, strict=True)
+            ),
+        )
+
+    @property
+    def directions(self) -> tuple[str, ...]:
+        """Those of x and y in which the housing moves."""
+        return compared_directions(self.scene.active_dofs)
+
+
+def compare_motions(
+    massless: Motion,
+    with_mass: Motion,
+    budget: float = BUDGET,
+) -> BallComparison:
+    """Compare two motions of one scene over the same time.
+
+    Powers are those of third octaves, means over lines and ball passes: balls in free flight make
+    single lines sensitive to anything.
+
+    Parameters
+    ----------
+    massless, with_mass
+        the motions.
+    budget
+        [dB]
+
+    Raises
+    ------
+    ValueError
+        where a motion did not reach its end.
+    """
+    edges = third_octave_edges(min(massless.bandwidth, with_mass.bandwidth))
+    powers = []
+    for motion in (massless, with_mass):
+        if not motion.completed:
+            balls = motion.scene.balls
+            raise checks.refuse("scene", motion.reason, f"one that moves with balls {balls}")
+        powers.append(band_powers(motion, edges))
+    added = level_difference(powers[1], powers[0])
+    loudest = max(float(power.max(initial=0.0)) for power in powers)
+    counts = np.maximum(*powers) > QUIETEST_COMPARED * loudest
+    within = np.asarray((~counts | (np.abs(added) <= budget)).all(axis=1))
+    good = len(within) if within.all() else int(np.argmin(within))
+    up_to = float(edges[good]) if good else math.nan
+    scene = with_mass.scene
+    return BallComparison(scene, budget, edges, added, up_to)
+
+
+def third_octave_edges(highest: float) -> Array:
+    """[Hz] from LOWEST_COMPARED to at most `highest`."""
+    count = math.floor(3.0 * math.log2(highest / LOWEST_COMPARED) + 1e-9)
+    return LOWEST_COMPARED * 2.0 ** (np.arange(max(count, 1) + 1) / 3.0)
+
+
+def compared_directions(dofs: tuple[str, ...]) -> tuple[str, ...]:
+    """Directions of the housing that are compared: those of sensors."""
+    return tuple(name for name in ("x", "y") if name in dofs)
+
+
+def band_powers(motion: Motion, edges: Array) -> Array:
+    """Power (m, d) [(m/s²)²] of the housing's settled acceleration along x and y between edges."""
+    columns = [motion.dofs.index(name) for name in compared_directions(motion.dofs)]
+    first = min(round(SETTLING * motion.sample_rate), len(motion.time) // 2)
+    signal = motion.outer_acceleration[first:, columns]
+    return spectrum(signal, motion.sample_rate, 0.1 * LOWEST_COMPARED).powers(edges)
+
+
+def mass_share(scene: Scene, low: float, high: float, duration: float, sample_rate: float) -> float:
+    """Share of the housing's power between two frequencies [Hz] that the balls' mass adds.
+
+    1 − P(massless)/P(with mass), all of x and y: 0 where mass changes nothing, near 1 where next to
+    all comes from it, below 0 where it takes power away.
+    """
+    edges, powers = np.array([low, high]), []
+    for at in (scene.replace(balls=balls) for balls in (MASSLESS, WITH_MASS)):
+        rate = fine_step_rate(at, sample_rate)
+        motion = simulate(at, duration, sample_rate, step_rate=rate)
+        powers.append(float(band_powers(motion, edges).sum()))
+    massless, heavy = powers
+    return 1.0 - massless / heavy if heavy > 0.0 else math.nan

@@ -1,0 +1,271 @@
+"""Balls with mass in a motion: start, resonances, steps, loads, free flight, strikes."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from bearingcore.bearings import Bearing
+from bearingcore.common import Array, runs
+from bearingcore.common._byte_cache import lru_cache_by_bytes
+from bearingcore.model import _kernels as kernels
+from bearingcore.model.scene import DOF_NAMES, PackedMotion, PackedScene, Scene
+from bearingcore.model.scene._defect import floor_bytes
+from bearingcore.model.scene._packing import pack
+from bearingcore.model.statics import Equilibrium
+from bearingcore.model.statics._positions import equilibrium_over_all
+from bearingcore.model.statics._status import StaticStatus
+
+STEPS_A_CONTACT_CYCLE, LEAST_STEPS_A_CYCLE = 5.0, 2.2
+"""Steps in a period of the contact resonance, by default, and those that Runge-Kutta steps of order
+4 need at least."""
+
+STABLE_DECAY, GREATEST_DECAY = 2.6, 2.785
+"""Decay of a ball's motion in its contacts, times the step: that is taken, and the limit of such
+steps."""
+
+RACES_OF_LOADS = ("inner", "outer")
+"""In the order of the loads."""
+
+LIGHTLY = 0.1
+"""Part of the heaviest load from which on a ball counts for the band of contact resonances."""
+
+
+def place_parts(scene: Scene, dofs: tuple[str, ...]) -> int:
+    """1 where balls move in their plane alone (radially), else 2 (radially and axially)."""
+    flat = scene.bearing.is_flat and set(dofs) <= set(DOF_NAMES[:2])
+    return 1 if flat else 2
+
+
+def _balls(packed: PackedScene) -> kernels.StaticBalls:
+    """The balls of a scene that was packed with their mass."""
+    assert packed.balls is not None
+    return packed.balls
+
+
+def ball_system(packed: PackedMotion, *, velocities: bool = False) -> kernels.BallSystem:
+    """System of a scene with heavy balls for the kernels.
+
+    `velocities` takes these as variables, which general-purpose integrators take; places are
+    then radial and axial always.
+    """
+    flat = place_parts(packed.scene, packed.dofs) == 1
+    variables = kernels.VELOCITIES if velocities else kernels.PLANAR if flat else kernels.SMOOTH
+    return kernels.BallSystem(packed.rotor._replace(variables=variables), *_balls(packed))
+
+
+def ball_start(
+    packed: PackedMotion, massless: Equilibrium, parts: int | None = None
+) -> Array | None:
+    """State of rings and balls at rest at cage angle 0, at the scene's speed.
+
+    Displacements and velocities of both rings, places of the balls, their velocities. None where
+    there is no static state. `massless` is that of massless balls at
+    cage angle 0.
+    """
+    dofs = packed.dofs
+    if massless.status[0] >= StaticStatus.NOT_CARRIED:
+        return None
+    system = _balls(packed)
+    q, _, _, place, _, status, _, _ = kernels.ball_positions(
+        massless.cage_angles,
+        massless.leads,
+        massless.state,
+        system,
+        packed.load,
+    )
+    if status[0] not in (StaticStatus.CONVERGED, StaticStatus.FREE_DIRECTION):
+        return None
+    bodies, number = packed.bodies, packed.load.active
+    angle = system.contacts.angle
+    c, s = np.cos(angle), np.sin(angle)
+    radial = system.races.centrifugal - system.races.weight * s
+    arm = system.contacts.arm
+    carried = np.array([radial @ c, radial @ s, 0.0, -(radial * arm) @ s, (radial * arm) @ c])
+    outer = np.zeros(5)  # the housing sinks into its support, under the balls too
+    outer[number] = (bodies.force + carried[number]) / bodies.stiffness
+    rings = np.zeros((4, len(dofs)))
+    rings[0], rings[2] = outer[number] + q[0, number], outer[number]
+    reach = system.contacts.reach
+    balls = place[0]
+    balls[0] += (outer[0] + arm * outer[4]) * c + (outer[1] - arm * outer[3]) * s
+    balls[1] += outer[2] + reach * (outer[3] * s - outer[4] * c)
+    moved = balls[: place_parts(packed.scene, dofs) if parts is None else parts]
+    return np.concatenate([rings.ravel(), moved.ravel(), np.zeros(moved.size)])
+
+
+def march_balls(
+    packed: PackedMotion, massless: Equilibrium, h: float, every: int, history: Array, place: Array
+) -> int | None:
+    """Fill `history` and `place` by steps of h [s], a row after `every` of them.
+
+    Returns the number of steps after which all was finite; None where there is no static state to
+    start from: `massless` is that of massless balls at cage angle 0.
+    """
+    y = ball_start(packed, massless)
+    if y is None:
+        return None
+    return int(kernels.march_balls(y, h, 0.0, every, ball_system(packed), history, place))
+
+
+def contact_stiffness(bearing: Bearing, load: float) -> tuple[float, float]:
+    """Stiffness k_i, k_e [N/m] of a ball's contacts with inner and outer race at a load [N]."""
+    n = bearing.kind.exponent
+    inner, outer = (
+        n * factor ** (1.0 / n) * load ** (1.0 - 1.0 / n) for factor in bearing.race_factors
+    )
+    return inner, outer
+
+
+def resonances(scene: Scene, load: float) -> list[float]:
+    """sqrt((k_i + k_e)/m_b)/2π [Hz] of a ball that carries a load [N], of each unlike row."""
+    return [
+        math.sqrt(sum(contact_stiffness(own, load)) / own.ball_mass) / (2.0 * math.pi)
+        for own, _ in scene.bearing.unlike_rows
+    ]
+
+
+@lru_cache_by_bytes(
+    32_000_000,
+    lambda _, packed: floor_bytes(packed.scene.defects),
+    lambda packed: (packed.scene, packed.dofs),
+)
+def heaviest_load(packed: PackedScene) -> float:
+    """Greatest static load [N] of a ball over all positions; 0 where none is known."""
+    load = equilibrium_over_all(packed, 31).ball_load
+    known = load[np.isfinite(load)]
+    return float(known.max()) if known.size else 0.0
+
+
+@lru_cache(maxsize=512)
+def contact_resonance_band(scene: Scene) -> tuple[float, float]:
+    """Contact resonances [Hz] of balls that carry between LIGHTLY of the heaviest load and all.
+
+    A ball's resonance goes with the sixth root of its load (Hertz), so the band is narrow although
+    loads are not. 0 for both where no ball is known to carry load.
+    """
+    heaviest = heaviest_load(pack(scene))
+    return min(resonances(scene, LIGHTLY * heaviest)), max(resonances(scene, heaviest))
+
+
+def ball_step_rate(packed: PackedMotion, sample_rate: float) -> float:
+    """Steps a second [Hz] for balls with mass, a multiple of the sample rate.
+
+    As many as the contact resonance of the heaviest loaded ball and its decay need.
+    """
+    needed = _steps_needed(packed, STEPS_A_CONTACT_CYCLE, STABLE_DECAY)
+    return sample_rate * max(math.ceil(needed / sample_rate - 1e-9), 1)
+
+
+def least_step_rate(packed: PackedMotion) -> float:
+    """Steps a second [Hz] below which a ball jumps about between its contacts, ever faster.
+
+    Contacts that let go keep that finite, so that a motion of fewer steps may end and look like
+    one, with ten or ten thousand times its vibration.
+    """
+    return _steps_needed(packed, LEAST_STEPS_A_CYCLE, GREATEST_DECAY)
+
+
+def _steps_needed(packed: PackedMotion, a_cycle: float, decay: float) -> float:
+    """Steps a second [Hz]: `a_cycle` of the resonance, and `decay` of the fastest decay each."""
+    races = _balls(packed).races
+    fastest = float((races.damping.sum(axis=0) / races.mass).max())  # [1/s]
+    resonance = max(resonances(packed.scene, heaviest_load(packed)))
+    return max(a_cycle * resonance, fastest / decay)
+
+
+def loads_of_races(
+    packed: PackedScene, history: Array, place: Array, turning: tuple[float, float]
+) -> Array:
+    """Elastic loads (2, n, N_b) [N] at inner and outer race of a motion's rows; NaN as they are.
+
+    turning: cage angle [rad] of the first row, and from row to row.
+    """
+    contacts, races, *paths = _balls(packed)
+    start, turn = turning
+    cage: Array = start + turn * np.arange(len(history), dtype=np.float64)
+    angle = contacts.angles_at(cage)
+    c, s = np.cos(angle), np.sin(angle)
+    axial = place[:, 1] if place.shape[1] > 1 else 0.0
+    loads = np.zeros((2, *angle.shape))
+    for race, name in enumerate(("inner", "outer")):
+        x = np.zeros((5, len(history), 1))
+        x[packed.load.active, :, 0] = history[:, 3 * race].T
+        # Equations (8) to (12), of the contact between a ball and this race
+        r = (x[0] + contacts.arm * x[4]) * c + (x[1] - contacts.arm * x[3]) * s - place[:, 0]
+        z = x[2] + contacts.reach * (x[3] * s - x[4] * c) - axial
+        if name == "inner":
+            r, z = r - contacts.clearance, z + contacts.offset
+        else:
+            r, z = -r, -z
+        drop = kernels.drops_of(contacts, paths[race], cage, cage)
+        m = r * contacts.line_r + z * contacts.line_z - drop
+        w = z * contacts.line_r - r * contacts.line_z
+        A = races.distance[race]
+        rise = m * (2.0 * A + m) + w * w
+        length = np.maximum(np.hypot(A + m, w) + A, 1e-300)
+        reached = np.where(A + m > 0.0, rise / length, np.abs(w) - A)
+        reached = np.where(contacts.fixed, m, reached)
+        loads[race] = races.factor[race] * np.maximum(reached, 0.0) ** contacts.exponent
+    loads[:, ~np.isfinite(history[:, 0, 0])] = math.nan
+    return loads
+
+
+@dataclass(frozen=True)
+class Flight:
+    """A ball that touches neither race from `begin` to `end` [s], counted from 0."""
+
+    ball: int
+    begin: float
+    end: float
+
+
+@dataclass(frozen=True)
+class Strike:
+    """A ball that comes down onto a race it did not touch.
+
+    `time` [s] is that of the first touch, `load` [N] the first peak of the contact's load, reached
+    at `peak` [s]: what comes later is no longer the strike.
+    """
+
+    ball: int
+    race: str
+    time: float
+    load: float
+    peak: float
+
+
+def flights(time: Array, loads: Array) -> tuple[Flight, ...]:
+    """Free flights of balls with loads (2, n, N_b) [N] at inner and outer race, times (n,) [s].
+
+    As `Motion.race_loads` gives them. A flight that is under way at an end is cut there.
+    """
+    free = np.asarray((loads <= 0.0).all(axis=0))
+    return tuple(
+        Flight(ball, float(time[first]), float(time[end - 1]))
+        for ball in range(free.shape[1])
+        for first, end in zip(*runs(free[:, ball]), strict=True)
+    )
+
+
+def ball_strikes(time: Array, loads: Array) -> tuple[Strike, ...]:
+    """All strikes of balls with such loads, in the order of time.
+
+    A contact that is closed at the first time has not been seen to strike.
+    """
+    found = []
+    for index, race in enumerate(RACES_OF_LOADS):
+        for ball in range(loads.shape[2]):
+            load = loads[index, :, ball]
+            for first, end in zip(*runs(load > 0.0), strict=True):
+                if first == 0:
+                    continue
+                falls = np.flatnonzero(np.diff(load[first:end]) <= 0.0)
+                peak = first + int(falls[0]) if falls.size else end - 1
+                found.append(
+                    Strike(ball, race, float(time[first]), float(load[peak]), float(time[peak]))
+                )
+    return tuple(sorted(found, key=lambda strike: (strike.time, strike.ball)))

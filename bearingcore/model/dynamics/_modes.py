@@ -1,0 +1,497 @@
+"""Modes of the rotor on its support, linearised at the static state (Eqs. 24-29)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from bearingcore.common import Array, ResultTable, shown_as_table, table_of
+from bearingcore.common import _checks as checks
+from bearingcore.common._arrays import least_and_greatest
+from bearingcore.common._byte_cache import lru_cache_by_bytes
+from bearingcore.model import _kernels as kernels
+from bearingcore.model.dynamics._damping import contact_damping
+from bearingcore.model.scene import DOF_NAMES, PackedScene, Scene
+from bearingcore.model.scene._defect import floor_bytes
+from bearingcore.model.scene._packing import contacts, pack
+from bearingcore.model.statics import (
+    ANGLES_A_PERIOD,
+    ROUNDS,
+    STIFFNESS_TERMS,
+    Equilibrium,
+    equilibrium,
+)
+from bearingcore.model.statics._equilibrium import MOST_CONTACTS, equilibrium_of
+from bearingcore.model.statics._positions import equilibrium_over_all, extremes, positions_of
+
+MIXED = 0.25
+"""Share of another mode that dampers add to a mode, at most, where damped frequencies are computed
+nearly: right to 1e-4 then."""
+
+
+@shown_as_table
+@dataclass(frozen=True)
+class Modes:
+    """Natural frequencies and damping at n cage angles, m modes, each followed by its shape.
+
+    A mode keeps its column: it is the one most like that mode of the mean stiffness over the cage
+    angles (modal assurance criterion).
+
+    Attributes
+    ----------
+    scene, dofs, cage_angles
+        what was linearised, in which directions, at which cage angles (n,) [rad].
+    frequency : (n, m) [Hz]
+        |λ|/2π with the damping matrix (Eq. 29).
+    damping_ratio : (n, m)
+        −Re λ/|λ|; negative would mean that the motion grows.
+    undamped_frequency : (n, m) [Hz]
+        of the mass and stiffness matrices alone.
+    shape : (n, m, 2 len(dofs))
+        undamped mode shapes, inner ring first, of unit modal mass; the sign is kept from angle to
+        angle.
+    label : (m,)
+        direction that moves most, numbered by rising frequency: "x1", "y1", "x2", "y2".
+    body : (m,)
+        "inner" or "outer": the body that moves most in that direction.
+    mean_shape : (m, 2 len(dofs))
+        undamped shapes at the mean stiffness, which the modes are followed by.
+    cost
+        what the static states would have taken, where that was too much to begin; else empty.
+    state
+        the static states that were linearised.
+
+    Rows are NaN where the static state has no answer.
+    """
+
+    scene: Scene
+    dofs: tuple[str, ...]
+    cage_angles: Array
+    frequency: Array
+    damping_ratio: Array
+    undamped_frequency: Array
+    shape: Array
+    label: tuple[str, ...]
+    body: tuple[str, ...]
+    mean_shape: Array
+    cost: str = ""
+    state: Equilibrium | None = field(default=None, repr=False, compare=False)
+
+    def reason(self, i: int) -> str:
+        """In words, what became of the static state at cage angle i."""
+        return self.cost or (self.state.reason(i) if self.state else "")
+
+    def table(self) -> ResultTable:
+        """A row a cage angle: frequency and damping ratio of each mode, status of the statics."""
+        labels = list(enumerate(self.label))
+        return table_of(
+            ("cage_angle", "rad", self.cage_angles, "angle of the cage"),
+            *(
+                (label, "Hz", self.frequency[:, i], f"natural frequency of mode {label}")
+                for i, label in labels
+            ),
+            *((f"{label}_damping_ratio", "1", self.damping_ratio[:, i]) for i, label in labels),
+            ("status", "", [self.reason(i) for i in range(len(self.cage_angles))]),
+        )
+
+    def bands(self) -> dict[str, tuple[float, float]]:
+        """Least and greatest frequency [Hz] of each mode at the cage angles, by label.
+
+        NaN for both where no angle has an answer. Nothing between the angles counts, nor other
+        turns of the shaft: see `frequency_bands`.
+        """
+        ends = zip(*(end.tolist() for end in least_and_greatest(self.frequency, 0)), strict=True)
+        return dict(zip(self.label, ends, strict=True))
+
+
+def modes(
+    scene: Scene, cage_angles: ArrayLike | None = None, *, most_contacts: int = MOST_CONTACTS
+) -> Modes:
+    """Natural frequencies, damping and shapes of `scene` at each cage angle (Eqs. 24-29).
+
+    Parameters
+    ----------
+    scene
+        its active directions are those of the statics; support and inertia must be known there.
+    cage_angles : (n,)
+        [rad]; None takes one period, as `equilibrium` does.
+    most_contacts
+        as of `equilibrium`. Where there are more nothing is begun, and `cost` says how many.
+
+    Raises
+    ------
+    ValueError
+        where the support lacks a number, by its name.
+    """
+    return modes_at(equilibrium(scene, cage_angles, most_contacts=most_contacts))
+
+
+def frequency_bands(
+    scene: Scene, *, coarse: bool = False, most_contacts: int = MOST_CONTACTS
+) -> dict[str, tuple[float, float]]:
+    """Least and greatest natural frequency [Hz] of each mode over all positions of the bearing.
+
+    Over all cage angles, and where a defect turns with the shaft over all shaft angles at each of
+    them: see `statics._positions`. Around each least and greatest sample it is looked
+    for ever closer: with damping nearly, coarsely and where a defect turns with the shaft without.
+    The frequency there is the damped one, as in `Modes`.
+
+    Parameters
+    ----------
+    scene
+        as of `modes`.
+    coarse
+        a third of the cage angles, and half as often closer.
+    most_contacts
+        as of `equilibrium`, of the first samples. Where there are more nothing is begun.
+
+    Returns
+    -------
+    {label: (least, greatest)} [Hz]
+        NaN for both where no angle has an answer, or nothing was begun.
+
+    Raises
+    ------
+    ValueError
+        where the support lacks a number, by its name.
+    """
+    checks.instance("scene", scene, Scene)
+    n = ANGLES_A_PERIOD if scene.defect_turns else 3 * ANGLES_A_PERIOD - 2
+    n, rounds = ((n - 1) // 3 + 1, 2) if coarse else (n, ROUNDS)
+    packed = pack(scene)
+    found = positions_of(packed, n)
+    state = equilibrium_over_all(packed, n, most_contacts)
+    if not state.converged.any():
+        return modes_at(state).bands()
+    search = BandSearch(scene, stiffness_terms(state), state.shares)
+    undamped = scene.defect_turns or coarse  # many samples, or few that have to be quick
+
+    def frequencies(known: Equilibrium) -> Array:
+        """(m, k) [Hz] at the angles of a static state."""
+        if undamped:
+            return search.frequencies(stiffness_terms(known))
+        # dampers that come in with a ball make frequencies jump, which undamped ones do not show
+        return modes_at(known, search.template, nearly=True).frequency.T
+
+    def closer(cage_angles: Array, shaft_angles: Array) -> Array:
+        return frequencies(equilibrium_of(packed, cage_angles, shaft_angles))
+
+    ends = extremes(found, frequencies(state), closer, rounds=rounds)
+    there = equilibrium_of(packed, ends.cage_angles.ravel(), ends.shaft_angles.ravel())
+    least, greatest = map(np.diagonal, np.split(modes_at(there, search.template).frequency, 2))
+    pairs = zip(least.tolist(), greatest.tolist(), strict=True)
+    return dict(zip(search.labels, pairs, strict=True))
+
+
+class BandSearch:
+    """Undamped frequencies of modes, followed by those of the mean stiffness at some positions.
+
+    Parameters
+    ----------
+    scene
+        its active directions, support and inertia; its defect does not count.
+    terms : (15, n)
+        stiffness terms [N/m, N/rad, N·m/rad] in the order of `STIFFNESS_TERMS`; NaN where the
+        static state has no answer.
+    weights : (n,)
+        of the positions in the mean.
+    """
+
+    def __init__(self, scene: Scene, terms: Array, weights: Array) -> None:
+        dofs = scene.active_dofs
+        names = [f"k_{a}{b}" for i, a in enumerate(dofs) for b in dofs[i:]]
+        self._rows = [STIFFNESS_TERMS.index(name) for name in names]
+        self._support, mass = scene.support.stiffness(dofs), scene.support.inertias(dofs)
+        chosen = terms[self._rows]
+        known = np.isfinite(chosen).all(axis=0) * weights
+        mean = np.zeros((len(dofs), len(dofs)))
+        row, column = np.triu_indices(len(dofs))
+        share = max(float(known.sum()), 1e-300)
+        mean[row, column] = mean[column, row] = np.nan_to_num(chosen) @ known / share
+        self.template = _undamped(two_body_matrix(mean, self._support), mass)[1]
+        self.labels = _labels(self.template, mass, dofs)[0]
+
+    def frequencies(self, terms: Array) -> Array:
+        """(m, n) [Hz] for stiffness terms (15, n); NaN where one that counts is not known."""
+        chosen = terms[self._rows]
+        known = np.asarray(np.isfinite(chosen).all(axis=0))
+        found = np.full((len(self.template), known.size), math.nan)
+        found[:, known] = _frequencies_like(self.template, chosen[:, known], self._support)
+        return found
+
+
+def stiffness_terms(state: Equilibrium) -> Array:
+    """(15, n) the terms of a state's stiffness, in the order of `STIFFNESS_TERMS`."""
+    return np.stack([state.term(name) for name in STIFFNESS_TERMS])
+
+
+def modes_at(state: Equilibrium, template: Array | None = None, *, nearly: bool = False) -> Modes:
+    """The modes at static states that are already known.
+
+    They are followed by the shapes of a template (m, m), else by those of their mean stiffness.
+    `nearly`: damping by `_nearly_damped`, which is quicker.
+    """
+    scene, dofs = state.scene, state.dofs
+    nd = len(dofs)
+    index = [DOF_NAMES.index(name) for name in dofs]
+    mass = scene.support.inertias(dofs)
+    if state.cost:
+        support = two_body_matrix(np.zeros((nd, nd)), scene.support.stiffness(dofs))
+        _, template = _undamped(support, mass)
+        names = _labels(template, mass, dofs)
+        rows = np.broadcast_to(np.float64(math.nan), (len(state.cage_angles), 2 * nd))
+        shapes = np.broadcast_to(np.float64(math.nan), (*rows.shape, 2 * nd))
+        return Modes(
+            scene, dofs, state.cage_angles, rows, rows, rows, shapes, *names, template, state.cost
+        )
+    K_b = state.stiffness[:, index][:, :, index]
+    C_b = contact_damping(scene) * loaded_directions(state)[:, index][:, :, index]
+    K = two_body_matrix(K_b, scene.support.stiffness(dofs))
+    C = two_body_matrix(C_b, scene.support.damping(dofs))
+    # where a direction is free to move the stiffness is known, but not where the ring comes to rest
+    known = state.converged & np.isfinite(K).all(axis=(1, 2))
+    n, m = len(K), 2 * nd
+    undamped, frequency, ratio = (np.full((n, m), np.nan) for _ in range(3))
+    shape = np.full((n, m, m), np.nan)
+    mean = (
+        K[known].mean(axis=0)
+        if known.any()
+        else two_body_matrix(np.zeros((nd, nd)), scene.support.stiffness(dofs))
+    )
+    if template is None:
+        template = _undamped(mean, mass)[1]
+    if known.any():
+        undamped[known], shape[known] = _follow(*_undamped(K[known], mass), template, mass)
+        damped = _nearly_damped if nearly else _damped
+        frequency[known], ratio[known] = damped(K[known], C[known], mass, shape[known])
+    label, body = _labels(template, mass, dofs)
+    return Modes(
+        scene, dofs, state.cage_angles, frequency, ratio, undamped, shape, label, body, template,
+        state=state,
+    )  # fmt: skip
+
+
+def undamped_bands(scene: Scene, terms: Array) -> tuple[Array, Array, list[tuple[str, ...]]]:
+    """Least and greatest undamped frequency of each mode over n cage angles, for r scenes.
+
+    They are those of `modes_at(...).undamped_frequency`, found many matrices at a time without the
+    general eigenvalue problem that damping makes of them. Damping of a ratio ζ changes a frequency
+    |λ|/2π by about ζ² of it.
+
+    Parameters
+    ----------
+    scene
+        its active directions, support and inertia; its defect does not count.
+    terms : (15, r, n)
+        stiffness terms [N/m, N/rad, N·m/rad] in the order of `STIFFNESS_TERMS`; NaN where the
+        static state has no answer.
+
+    Returns
+    -------
+    least, greatest : (r, m) [Hz]
+        NaN where no angle has an answer.
+    labels : r tuples of m
+        as in `Modes.label`; where no angle has an answer, those of the support alone.
+
+    Raises
+    ------
+    ValueError
+        where the support lacks a number, by its name.
+    """
+    searches = [BandSearch(scene, row, np.ones(row.shape[1])) for row in np.moveaxis(terms, 1, 0)]
+    found = [one.frequencies(terms[:, i]) for i, one in enumerate(searches)]
+    least, greatest = least_and_greatest(np.stack(found), 2)
+    return least, greatest, [one.labels for one in searches]
+
+
+def _frequencies_like(template: Array, terms: Array, support: Array) -> Array:
+    """Undamped frequencies (m, n) [Hz] of the modes like the template's (m, m).
+
+    `terms` (nd (nd + 1)/2, n) are the upper triangles of the bearing's stiffness, all known.
+    """
+    nd, n = len(support), terms.shape[1]
+    inner, outer = template[:, :nd], template[:, nd:]
+    squared, order = np.empty((n, 2 * nd)), np.empty((n, 2 * nd), dtype=np.int64)
+    likeness = np.empty((n, 2 * nd, 2 * nd))
+    kernels.modes_like(
+        np.ascontiguousarray(terms),
+        np.ascontiguousarray(inner - outer),
+        (outer * support) @ outer.T,
+        squared,
+        order,
+        likeness,
+    )
+    for k in np.flatnonzero(order[:, 0] == kernels.DOUBTFUL):
+        order[k] = _assignment(likeness[k])
+    frequency = np.sqrt(np.maximum(squared, 0.0)) / (2.0 * math.pi)
+    return np.asarray(np.take_along_axis(frequency, order, axis=1).T)
+
+
+def highest_natural_frequency(scene: Scene) -> float:
+    """The greatest undamped natural frequency [Hz] of a scene over all its positions.
+
+    NaN where no angle has a static state. It decides how finely a motion must be stepped.
+    """
+    return highest_frequency_of(pack(scene))
+
+
+@lru_cache_by_bytes(
+    32_000_000,
+    lambda _, packed: floor_bytes(packed.scene.defects),
+    lambda packed: (packed.scene, packed.dofs),
+)
+def highest_frequency_of(packed: PackedScene) -> float:
+    """`highest_natural_frequency` of a scene that is packed."""
+    scene, dofs = packed.scene, packed.dofs
+    index = [DOF_NAMES.index(name) for name in dofs]
+    K_b = equilibrium_over_all(packed, 31).stiffness[:, index][:, :, index]
+    known = np.isfinite(K_b).all(axis=(1, 2))
+    if not known.any():
+        return math.nan
+    mass = scene.support.inertias(dofs)
+    frequency, _ = _undamped(two_body_matrix(K_b[known], scene.support.stiffness(dofs)), mass)
+    return float(frequency.max())
+
+
+def two_body_matrix(bearing: Array, support: Array) -> Array:
+    """[B, −B; −B, B + diag(support)] (Eq. 25) of bearing matrices (..., nd, nd)."""
+    return np.block([[bearing, -bearing], [-bearing, bearing + np.diag(support)]])
+
+
+def loaded_directions(state: Equilibrium) -> Array:
+    """Σ e e' over the loaded balls, (n, 5, 5), e the direction of a contact in q (Eq. 27)."""
+    alpha, phi = np.nan_to_num(state.contact_angle), state.ball_angle
+    radial, axial = np.cos(alpha), np.sin(alpha)
+    every = contacts(state.scene.bearing)
+    lever = state.scene.bearing.groove_center_radius
+    tilting = lever * (every.reach * axial - every.arm * radial)
+    e = np.stack(
+        [
+            radial * np.cos(phi),
+            radial * np.sin(phi),
+            axial,
+            tilting * np.sin(phi),
+            -tilting * np.cos(phi),
+        ],
+        axis=-1,
+    )
+    e *= state.carries[..., None]
+    return np.swapaxes(e, 1, 2) @ e
+
+
+def _assignment(likeness: Array) -> NDArray[np.int64]:
+    """The column of each row (m,) that makes the sum of likeness (m, columns) greatest."""
+    from scipy.optimize import (
+        linear_sum_assignment,
+    )  # imported late: it would double the time to import this package
+
+    return np.asarray(linear_sum_assignment(-likeness)[1])
+
+
+def _matched(likeness: Array) -> NDArray[np.int64]:
+    """(n, m) which column belongs to each row of likeness (n, m, columns), none taken twice.
+
+    Mostly the greatest of each row will do; where two rows want the same one, the assignment of
+    the greatest sum decides.
+    """
+    best = likeness.argmax(axis=2)
+    clash = (np.diff(np.sort(best, axis=1), axis=1) == 0).any(axis=1)
+    for k in np.flatnonzero(clash):
+        best[k] = _assignment(likeness[k])
+    return best
+
+
+def _follow(frequency: Array, shape: Array, template: Array, mass: Array) -> tuple[Array, Array]:
+    """Modes reordered so that each column is one mode: the one most like its template.
+
+    frequency (n, m), shape (n, m, m) and template (m, m), all of unit modal mass, so that the
+    modal assurance criterion is a squared product. Following from one angle to the next instead
+    would depend on the spacing of the angles: where two frequencies meet and part again, small
+    steps stay on a branch while its shape turns into the other's.
+    """
+    product = np.einsum("im,m,njm->nij", template, mass, shape)
+    order = _matched(product**2)
+    sign = np.where(np.take_along_axis(product, order[:, :, None], axis=2) < 0.0, -1.0, 1.0)
+    return (
+        np.take_along_axis(frequency, order, axis=1),
+        np.take_along_axis(shape, order[:, :, None], axis=1) * sign,
+    )
+
+
+def _undamped(K: Array, mass: Array) -> tuple[Array, Array]:
+    """Natural frequencies (..., m) [Hz], rising, and shapes (..., m, m) of unit modal mass."""
+    root = np.sqrt(mass)
+    values, vectors = np.linalg.eigh(K / (root[:, None] * root))
+    frequency = np.sqrt(np.maximum(values, 0.0)) / (2.0 * math.pi)
+    return frequency, np.swapaxes(vectors, -1, -2) / root
+
+
+def _damped(K: Array, C: Array, mass: Array, shape: Array) -> tuple[Array, Array]:
+    """|λ|/2π [Hz] and −Re λ/|λ| of each mode with damping, each in the place of its undamped mode.
+
+    State matrix [0, 1; −M⁻¹K, −M⁻¹C]: the signs of Eq. 28 mended.
+    """
+    n, m = shape.shape[:2]
+    A = np.zeros((n, 2 * m, 2 * m))
+    A[:, :m, m:] = np.eye(m)
+    A[:, m:, :m] = -K / mass[:, None]
+    A[:, m:, m:] = -C / mass[:, None]
+    values, vectors = np.linalg.eig(A)
+    motion = vectors[:, :m, :] * np.sqrt(mass)[:, None]
+    motion = motion / np.maximum(np.linalg.norm(motion, axis=1, keepdims=True), 1e-300)
+    likeness = np.abs((shape * np.sqrt(mass)) @ motion) ** 2
+    # of a conjugate pair, alike in shape, the one that turns forwards
+    picked = _matched(likeness - 2.0 * (values.imag < 0.0)[:, None, :])
+    chosen = np.take_along_axis(values, picked, axis=1)
+    size = np.abs(chosen)
+    return size / (2.0 * math.pi), -chosen.real / np.maximum(size, 1e-300)
+
+
+def _nearly_damped(K: Array, C: Array, mass: Array, shape: Array) -> tuple[Array, Array]:
+    """`_damped` to the third order in what dampers couple, without an eigenvalue problem.
+
+    In modal coordinates, with D_j = λ² + c_jj λ + ω_j² of the other modes j, k ≠ i:
+    λ² + c_ii λ + ω_i² = λ² Σ_j c_ij²/D_j − λ³ Σ_jk c_ij c_jk c_ki/(D_j D_k), k ≠ j. Where modes mix
+    by more than MIXED, or one hardly swings, as `_damped` has it.
+    """
+    c = shape @ C @ np.swapaxes(shape, 1, 2)
+    own = np.diagonal(c, axis1=1, axis2=2)
+    squared = np.einsum("nij,nij->ni", shape @ K, shape)
+    between = np.where(np.eye(len(mass), dtype=bool), 0.0, c)
+    rest = squared
+    for _ in range(3):
+        rate = -0.5 * own + 1j * np.sqrt(rest - 0.25 * own**2 + 0j)
+        there = rate[:, :, None]
+        D = there**2 + own[:, None] * there + squared[:, None]
+        part = between / np.where(between == 0.0, 1.0, D)
+        pull = (part * between).sum(axis=2) - rate * ((part @ between) * part).sum(axis=2)
+        rest = squared - rate**2 * pull
+    size = np.abs(rate)
+    frequency, ratio = size / (2.0 * math.pi), -rate.real / np.maximum(size, 1e-300)
+    near = (np.abs(there * part) < MIXED).all(axis=(1, 2)) & (own**2 < squared).all(axis=1)
+    if not near.all():
+        frequency[~near], ratio[~near] = _damped(K[~near], C[~near], mass, shape[~near])
+    return frequency, ratio
+
+
+def _labels(
+    template: Array, mass: Array, dofs: tuple[str, ...]
+) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Direction and number of each mode, two modes a direction, and the body that moves most.
+
+    `template` (m, m) are shapes in the order of rising frequency.
+    """
+    nd, m = len(dofs), 2 * len(dofs)
+    energy = template**2 * mass  # shares of the kinetic energy
+    by_direction = energy[:, :nd] + energy[:, nd:]
+    direction = _assignment(np.repeat(by_direction, 2, axis=1)) // 2
+    label = [""] * m
+    for d in range(nd):
+        for number, i in enumerate(np.flatnonzero(direction == d), start=1):
+            label[i] = f"{dofs[d]}{number}"
+    own = np.arange(m)
+    outer = np.abs(template[own, nd + direction]) > np.abs(template[own, direction])
+    return tuple(label), tuple("outer" if flag else "inner" for flag in outer)

@@ -1,0 +1,595 @@
+"""Simulated motion of the rotor in its bearing and of the housing (Eqs. 18-23)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from bearingcore.common import (
+    Array,
+    ResultTable,
+    cached_property,
+    decibels,
+    number,
+    shown_as_table,
+    table_of,
+    thousands,
+    with_prefix,
+)
+from bearingcore.common import _checks as checks
+from bearingcore.model import _kernels as kernels
+from bearingcore.model.dynamics._ball_motion import (
+    least_step_rate,
+    loads_of_races,
+    march_balls,
+    place_parts,
+)
+from bearingcore.model.dynamics._damping import damped
+from bearingcore.model.dynamics._low_pass import bandwidth, hermite_weights, low_passed, rows_needed
+from bearingcore.model.dynamics._modes import highest_frequency_of
+from bearingcore.model.dynamics._status import MotionStatus
+from bearingcore.model.dynamics._step_rate import step_rate_of
+from bearingcore.model.scene import (
+    CONTACT_LAWS,
+    MASSLESS,
+    WITH_MASS,
+    PackedMotion,
+    PackedScene,
+    Scene,
+)
+from bearingcore.model.scene import _packing as packing
+from bearingcore.model.statics import Equilibrium
+from bearingcore.model.statics._equilibrium import equilibrium_of
+from bearingcore.model.statics._status import StaticStatus
+from bearingcore.recordings import Spectrum, spectrum
+
+SETTLING = 0.12
+"""[s] of motion before what counts as steady: several times the slowest mode's decay."""
+
+MOST_STEPS = 1_000_000
+"""Steps that a motion, or the periods of one orbit, take at most by default: up to
+15 s of marching in five directions, 40 s with the tangent."""
+
+MOST_STEPS_IN_ALL = 1_000_000_000
+"""Steps that all points of a map or speeds of a run take at most by default: some
+minutes of marching in two directions, hours in five."""
+
+MOST_SAMPLES = 10_000_000
+"""Samples of a motion."""
+
+SAME_BANDS = 1.0
+"""[dB] up to which two motions have the same spectrum in bands of a third of an octave."""
+
+MOST_DOUBLINGS, SAME_LEVEL, QUIET = 4, 0.1, 1e-7
+"""Doublings of the steps a second where contacts let go, at most; the part of a level up to which
+two motions are alike; and the level [m/s] below which nothing counts."""
+
+KEPT = 4
+"""Rows a sample, at most, that a motion of balls with mass is filtered from."""
+
+
+@shown_as_table
+@dataclass(frozen=True)
+class Motion:
+    """Motion of inner and outer ring, n samples along the directions `dofs`.
+
+    Attributes
+    ----------
+    scene, dofs, sample_rate [Hz], step_rate [Hz]
+        what was simulated and how.
+    status
+        how it ended. A motion that is not completed is NaN from where it broke off.
+    detail
+        numbers of a status that has some, in words that follow it. Of a completed motion whose
+        contacts let go, how well bands of its spectrum are known where that is not within 1 dB.
+    right_hand_side_calls
+        how often the accelerations were evaluated.
+    time : (n,) [s]
+    cage_angle : (n,) [rad]
+    inner_displacement, outer_displacement : (n, len(dofs)) [m, rad]
+    inner_velocity, outer_velocity : (n, len(dofs)) [m/s, rad/s]
+    inner_acceleration, outer_acceleration : (n, len(dofs)) [m/s², rad/s²]
+        the outer one is what a sensor on the housing measures. Both are filtered as a recorder
+        does before it samples (`low_pass`): right within 0.1 dB up to `bandwidth`, and nothing from
+        half the sample rate on. So a peak is that of what lies below: strikes of balls with mass
+        are shorter than a sample, and greater the more of them is recorded.
+    bandwidth [Hz]
+        up to where accelerations hold what the motion has: 0.4 of the sample rate, or of the step
+        rate where that is less.
+    ball_load : (n, N_b) [N] or None
+        elastic contact loads Q_j = K δ_j^1.5 (Eq. 13), if `ball_loads` was True; of balls with mass
+        those of the outer race.
+    ball_place : (n, 1 or 2, N_b) [m] or None
+        radial, and where they move along the shaft axial, place of balls that have mass.
+    """
+
+    scene: Scene
+    dofs: tuple[str, ...]
+    sample_rate: float
+    step_rate: float
+    status: MotionStatus
+    right_hand_side_calls: int
+    time: Array
+    ball_load: Array | None
+    history: Array = field(repr=False)
+    ball_place: Array | None = field(default=None, repr=False)
+    detail: str = ""
+    filtered: Array | None = field(default=None, repr=False)
+
+    @property
+    def completed(self) -> bool:
+        """True where the motion stayed finite to its end."""
+        return self.status is MotionStatus.COMPLETED
+
+    @property
+    def reason(self) -> str:
+        """Status and detail in words: "diverged after 0.2 s: 4096 steps a second are too few"."""
+        return f"{self.status}{self.detail}"
+
+    @cached_property
+    def cage_angle(self) -> Array:
+        """(n,) [rad], 0 at the start."""
+        return self.scene.cage_speed * self.time
+
+    @cached_property
+    def inner_displacement(self) -> Array:
+        """(n, len(dofs)) [m, rad]"""
+        return self._sampled("inner", 0)
+
+    @cached_property
+    def outer_displacement(self) -> Array:
+        """(n, len(dofs)) [m, rad]"""
+        return self._sampled("outer", 0)
+
+    @cached_property
+    def inner_velocity(self) -> Array:
+        """(n, len(dofs)) [m/s, rad/s]"""
+        return self._sampled("inner", 1)
+
+    @cached_property
+    def outer_velocity(self) -> Array:
+        """(n, len(dofs)) [m/s, rad/s]"""
+        return self._sampled("outer", 1)
+
+    @cached_property
+    def inner_acceleration(self) -> Array:
+        """(n, len(dofs)) [m/s², rad/s²], filtered to half the sample rate."""
+        return self._accelerations("inner")
+
+    @cached_property
+    def outer_acceleration(self) -> Array:
+        """(n, len(dofs)) [m/s², rad/s²], filtered to half the sample rate."""
+        return self._accelerations("outer")
+
+    def instant_acceleration(self, body: str) -> Array:
+        """(n, len(dofs)) [m/s², rad/s²] of "inner" or "outer" ring at the sample times alone.
+
+        As the forces of the instant give it, unfiltered: for balances, not for spectra.
+        """
+        return self._sampled(body, 2)
+
+    @property
+    def bandwidth(self) -> float:
+        """[Hz] up to where sampled accelerations hold what the motion has."""
+        return bandwidth(self.sample_rate, self.step_rate)
+
+    def spectrum(self, resolution: float = 32.0, since: float = 0.0) -> Spectrum:
+        """`bearingcore.spectrum` of the housing's acceleration up to `bandwidth`.
+
+        Density (m, len(dofs)) [(m/s²)²/Hz, (rad/s²)²/Hz] from `since` [s] on. Raises ValueError
+        where the motion did not stay finite, or what is left is shorter than 1/resolution.
+        """
+        first = max(math.ceil(since * self.sample_rate - 1e-6), 0)
+        signal = self.outer_acceleration[first:]
+        return spectrum(signal, self.sample_rate, resolution).up_to(self.bandwidth)
+
+    @cached_property
+    def ball_position(self) -> Array:
+        """(n, 2, N_b) [m] radial and axial place of each ball.
+
+        Against that of the unloaded ball that touches the outer race, the rings concentric.
+
+        Raises
+        ------
+        ValueError
+            for balls without mass, which have no place of their own.
+        """
+        place = self.ball_place
+        if place is None:
+            raise checks.refuse("balls", self.scene.balls, "with mass, for balls with a place")
+        full = np.zeros((len(place), 2, place.shape[2]))
+        full[:, : place.shape[1]] = place
+        return full
+
+    def race_loads(self, start: int = 0, stop: int | None = None) -> Array:
+        """Elastic loads (2, stop − start, N_b) [N] at inner and outer race, of some samples.
+
+        Of balls without mass both are the same.
+        """
+        return np.stack(self._loads(None, start, stop))
+
+    def ball_loads(self, start: int = 0, stop: int | None = None) -> Array:
+        """Elastic contact loads (stop − start, N_b) [N] of the samples from start to stop.
+
+        Of balls with mass those at the outer race. Fewer samples cost less: a short part is all
+        that a figure of contact forces needs.
+        """
+        return self._loads(None, start, stop)[1]
+
+    def with_ball_loads(self, packed: PackedScene) -> Motion:
+        """The same motion with the loads of its balls; NaN of one without a step."""
+        if not self.right_hand_side_calls:
+            nothing = np.full((len(self.time), packed.contacts.angle.size), math.nan)
+            return replace(self, ball_load=nothing)
+        return replace(self, ball_load=self._loads(packed, 0, None)[1])
+
+    def _loads(
+        self, packed: PackedScene | None, start: int, stop: int | None
+    ) -> tuple[Array, Array]:
+        """Loads at both races; `packed` is the scene, where it is packed already."""
+        place, speed, rate = self.ball_place, self.scene.cage_speed, self.sample_rate
+        packed = packed or packing.pack(self.scene, self.dofs, balls=place is not None)
+        first, last = slice(start, stop).indices(len(self.time))[:2]
+        begin, turned = float(first * speed / rate), speed / rate
+        if place is not None:
+            rows = self.history[first:last], place[first:last]
+            at_inner, at_outer = loads_of_races(packed, *rows, (begin, turned))
+            return at_inner, at_outer
+        inner, outer = (self._scaled(body, 0, first, last) for body in ("inner", "outer"))
+        loads = np.asarray(
+            kernels.elastic_loads(
+                inner - outer, packed.load.active, begin, turned, packed.contacts, packed.path
+            )
+        )
+        loads[~np.isfinite(inner[:, 0])] = math.nan
+        return loads, loads
+
+    def table(self) -> ResultTable:
+        """A row a sample: displacement, velocity, acceleration of both rings, loads if known."""
+        units = {"displacement": ("m", "rad"), "velocity": ("m/s", "rad/s")}
+        units["acceleration"] = ("m/s²", "rad/s²")
+        loads = [] if self.ball_load is None else list(enumerate(self.ball_load.T))
+        return table_of(
+            ("time", "s", self.time),
+            *(
+                (f"{body}_{what}_{dof}", unit[dof.startswith("r")], values)
+                for body in ("inner", "outer")
+                for what, unit in units.items()
+                for dof, values in zip(self.dofs, getattr(self, f"{body}_{what}").T, strict=True)
+            ),
+            *((f"ball_{j + 1}_load", "N", load, f"load of ball {j + 1}") for j, load in loads),
+        )
+
+    @property
+    def _history_rate(self) -> float:
+        """Rows of the history a second [Hz]: one a step, with balls' mass one a sample."""
+        return self.step_rate if self.ball_place is None else self.sample_rate
+
+    def _accelerations(self, body: str) -> Array:
+        n, first = len(self.time), 0 if body == "inner" else 3
+        if self.filtered is not None:  # of balls with mass not every step is kept
+            scaled = self.filtered[first // 3]
+        elif not self.right_hand_side_calls:
+            scaled = np.full((n, len(self.dofs)), math.nan)
+        else:
+            scaled = low_passed(self.history, first, n, self.sample_rate, self.step_rate)
+        return scaled / packing.length_units(self.scene, self.dofs)
+
+    def _sampled(self, body: str, derivative: int) -> Array:
+        """A quantity of one body at the sample times."""
+        scaled = self._scaled(body, derivative, 0, len(self.time))
+        return scaled / packing.length_units(self.scene, self.dofs)
+
+    def _scaled(self, body: str, derivative: int, start: int, stop: int) -> Array:
+        """Displacement (0), velocity (1) or acceleration (2), samples start to stop, scaled.
+
+        Between steps by quintic interpolation.
+        """
+        history, rate = self.history, self._history_rate
+        a_step, a_sample = _ratio(self.sample_rate, rate)
+        first = 0 if body == "inner" else 3
+        n = max(stop - start, 0)
+        if a_step == 1:
+            rows = slice(start * a_sample, start * a_sample + max(n * a_sample - a_sample + 1, 0))
+            return np.ascontiguousarray(history[rows, first + derivative][::a_sample])
+        out = np.empty((n, history.shape[2]))
+        weights = hermite_weights(np.arange(a_step) / a_step, derivative, 1.0 / rate)
+        kernels.between_steps(history, first, weights, start, out)
+        return out
+
+
+def simulate(
+    scene: Scene,
+    duration: float = 1.4,
+    sample_rate: float = 65536.0,
+    *,
+    ball_loads: bool = False,
+    step_rate: float | None = None,
+    most_steps: int = MOST_STEPS,
+) -> Motion:
+    """Motion of `scene` from its static state at cage angle 0, by Runge-Kutta steps of order 4.
+
+    Parameters
+    ----------
+    scene
+        its active directions move; support and inertia must be known along them.
+    duration
+        [s]
+    sample_rate
+        [Hz] of what is returned.
+    ball_loads
+        whether to return the balls' loads too.
+    step_rate
+        [Hz] steps a second: a multiple or a whole fraction of the sample rate, with mass of the
+        balls a multiple: fewer than keep a ball from jumping about between its contacts are not
+        taken, and the status says how many are needed. None takes that of `default_step_rate`, and
+        under the law without tension doubles it until half as many steps make no difference, or
+        says that none of them is enough.
+        Samples between steps come from quintic interpolation.
+    most_steps
+        steps that may be taken. They are counted before the first: where there are more, none is
+        taken, and the status says how many there would be. A light body on a stiff support needs
+        hundreds of millions a second. Those of REACH more samples (`low_pass`), which the filter of
+        the last accelerations needs, are not counted.
+
+    Returns
+    -------
+    Motion
+        with a status: a motion that diverges, one of too many steps, or a scene without a static
+        state to start from, is said there.
+
+    Raises
+    ------
+    ValueError
+        for a sample rate below twice the highest natural frequency, a step rate that does not fit
+        it, a shaft that stands still, or a support that lacks a number.
+    """
+    checks.instance("scene", scene, Scene)
+    duration = checks.real_number("duration", duration, above=0.0, unit="s")
+    sample_rate = checks.real_number("sample_rate", sample_rate, above=0.0, unit="Hz")
+    checks.real_number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")
+    dofs = scene.active_dofs
+    packed = packing.pack_motion(scene, dofs)  # refuses a support that lacks a number
+    packed = damped(packed)
+    highest = highest_frequency_of(packed)
+    if sample_rate < 2.0 * highest:
+        raise checks.refuse(
+            "sample_rate",
+            sample_rate,
+            f"at least {2.0 * highest:.0f} Hz, twice the highest natural frequency "
+            f"of {highest:.0f} Hz",
+        )
+    most_steps = checks.whole_number("most_steps", most_steps, at_least=1, at_most=10**12)
+    if duration * sample_rate > MOST_SAMPLES:
+        raise checks.refuse(
+            "duration",
+            duration,
+            f"at most {MOST_SAMPLES / sample_rate:.3g} s at a sample_rate of {sample_rate:g} Hz",
+        )
+    rest = equilibrium_of(packed, [0.0])
+
+    def at(rate: float) -> Motion:
+        return _marched(packed, rest, duration, sample_rate, rate, most_steps)
+
+    if step_rate is not None:
+        motion = at(step_rate)
+    else:
+        rate = step_rate_of(packed, sample_rate)
+        lets_go = scene.balls != WITH_MASS and scene.contact_law != CONTACT_LAWS[0]
+        motion = _with_enough_steps(at, rate, sample_rate) if lets_go else at(rate)
+    return motion.with_ball_loads(packed) if ball_loads else motion
+
+
+def _marched(
+    packed: PackedMotion,
+    rest: Equilibrium,
+    duration: float,
+    sample_rate: float,
+    step_rate: float,
+    most_steps: int,
+) -> Motion:
+    """Motion at one step rate [Hz], without loads of its balls; `rest`: state at cage angle 0."""
+    scene, dofs = packed.scene, packed.dofs
+    with_mass = scene.balls == WITH_MASS
+    a_step, a_sample = _ratio(sample_rate, step_rate)  # refuses a step rate that does not fit
+    if with_mass and a_step > 1:
+        raise checks.refuse(
+            "step_rate",
+            step_rate,
+            f"a multiple of the sample_rate of {sample_rate:g} Hz for balls with mass",
+        )
+    n = max(round(duration * sample_rate), 1)
+    # balls with mass take many steps a sample, of which accelerations do not need every one
+    kept = max(k for k in range(1, KEPT + 1) if a_sample % k == 0) if with_mass else a_sample
+    every = a_sample // kept
+    rows = rows_needed(n, sample_rate, step_rate / every)  # the last samples need what follows
+    n_steps = (rows - 1) * every
+    shown = math.ceil((n - 1) * step_rate / sample_rate - 1e-9)  # without what follows
+    time = np.arange(n) / sample_rate
+    n_balls = packed.contacts.angle.size
+    parts = place_parts(scene, dofs)
+    least = least_step_rate(packed) if with_mass else 0.0
+    if shown > most_steps or step_rate < least:
+        # NaN everywhere, without the memory of it
+        nothing = np.broadcast_to(
+            np.float64(math.nan), (n if with_mass else shown + 1, 6, len(dofs))
+        )
+        status = MotionStatus.TOO_MANY_STEPS
+        detail = (
+            f": {thousands(shown)} of {with_prefix(1.0 / step_rate, 's')} each, "
+            f"allowed are most_steps = {thousands(most_steps)}"
+        )
+        if step_rate < least:
+            status = MotionStatus.DIVERGED
+            detail = (
+                f": {thousands(step_rate)} steps a second are too few, balls with mass need "
+                f"{thousands(math.ceil(least))}"
+            )
+        nowhere = np.broadcast_to(np.float64(math.nan), (n, parts, n_balls))
+        return Motion(
+            scene, dofs, sample_rate, step_rate, status, 0, time, None, nothing,
+            nowhere if with_mass else None, detail,
+        )  # fmt: skip
+    h = 1.0 / step_rate
+    place = filtered = None
+    history = np.empty((rows, 6, len(dofs)))
+    if with_mass:
+        place = np.empty((-(-rows // kept), parts, n_balls))
+        marched = march_balls(packed, rest, h, every, history, place)
+    else:
+        marched = march_from(packed, rest, h, history)
+    done, status, detail = marched or 0, MotionStatus.COMPLETED, ""
+    if marched is None:
+        status, detail = MotionStatus.NO_START, f": {rest.reason(0)}"
+    elif done < n_steps:
+        rate = thousands(step_rate)
+        status = MotionStatus.DIVERGED
+        detail = f" after {number(done * h)} s: {rate} steps a second are too few"
+    if status is not MotionStatus.COMPLETED:
+        first = 0 if marched is None else 1
+        history[done // every + first :] = math.nan
+        if place is not None:
+            place[done // a_sample + first :] = math.nan
+    if place is not None:
+        both = [low_passed(history, body, n, sample_rate, kept * sample_rate) for body in (0, 3)]
+        filtered, place = np.stack(both), place[:n]
+        history = history[::kept][:n].copy()
+    return Motion(
+        scene=scene,
+        dofs=dofs,
+        sample_rate=sample_rate,
+        step_rate=step_rate,
+        status=status,
+        right_hand_side_calls=4 * done,
+        time=time,
+        ball_load=None,
+        history=history,
+        ball_place=place,
+        detail=detail,
+        filtered=filtered,
+    )
+
+
+def _with_enough_steps(at: Callable[[float], Motion], rate: float, sample_rate: float) -> Motion:
+    """Motion of contacts that let go: steps are doubled until half as many make no difference.
+
+    Where they touch and leave their load jumps, so that errors fall with the step itself.
+    """
+    a_sample = rate / sample_rate
+    before = _level(at(sample_rate * (a_sample // 2) if a_sample >= 2.0 else 0.5 * rate))
+    for _ in range(MOST_DOUBLINGS + 1):
+        motion = at(rate)
+        level = _level(motion)
+        alike = abs(level - before) <= SAME_LEVEL * max(level, QUIET)
+        if alike and motion.completed and level > QUIET:
+            return replace(motion, detail=_bands_apart(motion, at(2.0 * rate)))
+        if alike or not motion.completed:
+            return motion
+        before, rate = level, 2.0 * rate
+    return replace(
+        motion,
+        status=MotionStatus.DIVERGED,
+        detail=f": {thousands(motion.step_rate)} steps a second are too few, half of them change "
+        "the vibration by more than a tenth",
+        history=np.full_like(motion.history, math.nan),
+    )
+
+
+def _bands_apart(motion: Motion, finer: Motion) -> str:
+    """Changes of a spectrum by twice the steps, in words; "" where that is little.
+
+    Compared are bands of a third of an octave that hold a part in 10,000 of the power or more, once
+    the motion has settled. Where contacts let go it may be chaotic: then no steps are enough.
+    """
+    if not finer.completed:
+        return "; its spectrum is not checked with twice the steps, which are too many"
+    since = 0.5 * float(motion.time[-1])
+    edges = motion.bandwidth * 2.0 ** np.arange(-8.0, 0.1, 1.0 / 3.0)
+    power = []
+    for one in (motion, finer):
+        found = one.spectrum(max(0.25 * edges[0], 4.0 / since), since)
+        power.append(np.add.reduceat(found.density, np.searchsorted(found.frequency, edges)[:-1]))
+    loud = (power[1] > 1e-4 * power[1].sum(axis=0)) & (power[0] > 0.0)
+    apart = np.abs(10.0 * np.log10(power[0][loud] / power[1][loud])).max(initial=0.0)
+    if apart <= SAME_BANDS:
+        return ""
+    return f"; its contacts let go, and bands of its spectrum are known to {decibels(apart)} only"
+
+
+def _level(motion: Motion) -> float:
+    """Root mean square [m/s] of the housing's velocity in the second half of a motion."""
+    last = motion.time[-1] * motion.step_rate  # what follows is for the filter alone
+    late = motion.history[int(0.5 * last) : int(last) + 1, 4]
+    return math.sqrt(float(np.mean(late * late)))
+
+
+def march_from(packed: PackedMotion, rest: Equilibrium, h: float, history: Array) -> int | None:
+    """Fill `history` (steps + 1, 6, nd) by steps of h [s] from the static state at cage angle 0.
+
+    Returns the number of steps after which all was finite; None where there is no static state.
+    """
+    y = static_start(packed, rest)
+    if y is None:
+        return None
+    system = moving_system(packed)
+    kernels.turn_smooth(y, 1.0, 0.0, system)
+    return int(kernels.march(y, h, 0.0, system, history))
+
+
+def moving_system(packed: PackedMotion, *, velocities: bool = False) -> kernels.System:
+    """System of a scene with massless balls for the kernels; see `packing.rotor`.
+
+    Raises
+    ------
+    ValueError
+        for balls with mass: only `simulate` knows them.
+    """
+    balls = packed.scene.balls
+    if balls != MASSLESS:
+        raise checks.refuse(
+            "balls", balls, f"{MASSLESS} here: only a simulated motion knows their mass"
+        )
+    rotor = packed.rotor._replace(variables=kernels.VELOCITIES) if velocities else packed.rotor
+    return kernels.System(rotor, packed.contacts, packed.path)
+
+
+def static_start(packed: PackedMotion, rest: Equilibrium) -> Array | None:
+    """State (4 len(dofs),) at rest at cage angle 0; None where there is no static state there.
+
+    `rest` is the static state at cage angle 0.
+    """
+    if rest.status[0] not in (StaticStatus.CONVERGED, StaticStatus.FREE_DIRECTION):
+        return None
+    bodies = packed.bodies
+    y = np.zeros((4, len(packed.dofs)))
+    y[2] = bodies.force / bodies.stiffness  # the housing sinks into its support
+    y[0] = y[2] + rest.state[0, packed.load.active]
+    return y.ravel()
+
+
+def too_many_in_all(steps: float, where: str, most: int) -> str:
+    """Cost of so many steps in words, where they are too many; else empty."""
+    most = checks.whole_number("most_steps_in_all", most, at_least=1, at_most=10**15)
+    if steps <= most:
+        return ""
+    return (
+        f"{MotionStatus.TOO_MANY_STEPS}: about {thousands(steps)} {where}, allowed are "
+        f"most_steps_in_all = {thousands(most)}"
+    )
+
+
+def _ratio(sample_rate: float, step_rate: float) -> tuple[int, int]:
+    """(samples a step, steps a sample), one of them 1; ValueError where neither is whole."""
+    step_rate = checks.real_number("step_rate", step_rate, above=0.0, unit="Hz")
+    ratio = max(sample_rate, step_rate) / min(sample_rate, step_rate)
+    whole = round(ratio)
+    if abs(ratio - whole) > 1e-9 * ratio:
+        raise checks.refuse(
+            "step_rate",
+            step_rate,
+            f"a multiple or a whole fraction of the sample_rate of {sample_rate:g} Hz",
+        )
+    return (whole, 1) if sample_rate > step_rate else (1, whole)

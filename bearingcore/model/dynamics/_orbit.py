@@ -1,0 +1,463 @@
+"""The periodic steady state, found by shooting, and its stability by Floquet multipliers.
+
+Quantity                                              | Symbol | Name            | Unit
+----------------------------------------------------- | ------ | --------------- | ----
+state: displacements and velocities of both rings     | y      |                 | m, m/s
+what a period does to it                              | P(y)   |                 |
+its derivative at the orbit                           | Φ      | monodromy       |
+eigenvalues of Φ                                      | μ      | multipliers     |
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from bearingcore.common import Array, ResultTable, shown_as_table, table_of, thousands
+from bearingcore.common import _checks as checks
+from bearingcore.model import _kernels as kernels
+from bearingcore.model.dynamics._damping import packed_motion
+from bearingcore.model.dynamics._low_pass import (
+    PASSED,
+    PASSED_OF_ORBITS,
+    acceleration_lines,
+    hermite_weights,
+)
+from bearingcore.model.dynamics._modes import highest_frequency_of
+from bearingcore.model.dynamics._motion import MOST_SAMPLES, MOST_STEPS, moving_system, static_start
+from bearingcore.model.dynamics._status import OrbitStatus
+from bearingcore.model.dynamics._step_rate import step_rate_of
+from bearingcore.model.scene import PackedMotion, Scene
+from bearingcore.model.scene import _packing as packing
+from bearingcore.model.statics._equilibrium import equilibrium_of
+from bearingcore.recordings import Spectrum
+
+MOST_BALL_PASSES = 400
+"""The longest common period, in ball passes, that is looked for."""
+
+WINDOW_REACH = 6
+"""Bins over which the Hann window lets a line be seen: beyond, its side lobes are 60 dB down."""
+
+MARCHED_BEFORE = (2, 20, 60)
+"""Periods marched before Newton's method begins, and before it begins again."""
+
+CLOSED = 1e-7
+"""An orbit is closed when it misses its beginning by this part of its own size."""
+
+STILL = 1e-12
+"""[m] Below this, a hundredth of an atom, rings stand still: all balls of a row that is pressed
+together carry, and their passing moves the rings by no more than digits."""
+
+
+LOSSES = {"-1": "period doubling", "pair": "Neimark-Sacker", "+1": "fold"}
+"""Losses of stability by the place at which the largest multiplier leaves the unit circle."""
+
+
+@shown_as_table
+@dataclass(frozen=True)
+class Orbit:
+    """A periodic motion of a scene and what becomes of small disturbances of it.
+
+    Attributes
+    ----------
+    scene, dofs
+        what moves, in which directions.
+    status
+        how the search ended; nothing is tried where there is no common period.
+    through
+        for an unstable orbit, how its largest multiplier leaves the unit circle: "+1" (the motion
+        drifts off to another orbit), "-1" (every second period alike: period-doubling) or "pair"
+        (a slow beat is added). Empty otherwise.
+    period
+        [s]; ball_passes of them make it.
+    multipliers : (4 len(dofs),)
+        Floquet multipliers, the largest first: what a period multiplies disturbances by.
+    residual
+        how far the orbit misses its beginning, over its own size.
+    iterations, right_hand_side_calls
+        Newton steps, and evaluations of the accelerations; one with the tangent counts once.
+    history : (steps + 1, 6, len(dofs))
+        displacement, velocity, acceleration of the inner, then of the outer ring over the period,
+        tilts times r_d.
+    cost
+        for "too many steps", how many it would have taken, in words; without a static state to
+        start from, why there is none. Empty otherwise.
+    """
+
+    scene: Scene
+    dofs: tuple[str, ...]
+    status: OrbitStatus
+    through: str
+    period: float
+    ball_passes: int
+    multipliers: NDArray[np.complex128]
+    residual: float
+    iterations: int
+    right_hand_side_calls: int
+    history: Array = field(repr=False)
+    cost: str = ""
+
+    @property
+    def stable(self) -> bool:
+        """True where the orbit was found and disturbances of it die out."""
+        return self.status == OrbitStatus.STABLE
+
+    @property
+    def largest_multiplier(self) -> float:
+        """|μ| of the largest multiplier; NaN where there is no orbit."""
+        return float(np.abs(self.multipliers[0])) if self.multipliers.size else math.nan
+
+    def table(self) -> ResultTable:
+        """Floquet multipliers: real and imaginary part, and size; a row each."""
+        return table_of(
+            ("multiplier_real", "1", self.multipliers.real),
+            ("multiplier_imaginary", "1", self.multipliers.imag),
+            ("multiplier_size", "1", np.abs(self.multipliers), "above 1 a disturbance grows"),
+        )
+
+    def outer_acceleration(self, time: ArrayLike) -> Array:
+        """(n, len(dofs)) [m/s², rad/s²] of the housing at times [s], the period repeated.
+
+        That of the instant, as the equations of motion give it: it jumps as balls touch, and
+        samples of it fold back what is above half their rate. `spectrum` has no such samples.
+        """
+        time = np.asarray(time, dtype=float).ravel() % self.period
+        return self._states(time)[:, 5] / packing.length_units(self.scene, self.dofs)
+
+    def _states(self, time: Array) -> Array:
+        """(n, 6, len(dofs)) rows as those of `history` at times [s] within the period."""
+        parts = [self._sampled(time, body, derivative) for body in (0, 3) for derivative in (0, 1)]
+        # from the equations of motion: it jumps as balls touch, and no interpolation follows that
+        moving = moving_system(packed_motion(self.scene, self.dofs), velocities=True)
+        rates = np.asarray(kernels.motion_rates(time, np.hstack(parts), 0.0, moving))
+        inner, outer = (rates[:, k * len(self.dofs) :][:, : len(self.dofs)] for k in (1, 3))
+        return np.stack([parts[0], parts[1], inner, parts[2], parts[3], outer], axis=1)
+
+    def inner_displacement(self, time: ArrayLike) -> Array:
+        """(n, len(dofs)) [m, rad] of the inner ring at times [s], the period repeated."""
+        return self._sampled(time, 0, 0) / packing.length_units(self.scene, self.dofs)
+
+    def _sampled(self, time: ArrayLike, body: int, derivative: int) -> Array:
+        """Quintic interpolation in the periodic history, tilts times r_d."""
+        steps = len(self.history) - 1
+        at = np.asarray(time, dtype=float) / self.period * steps % steps
+        step = np.minimum(at.astype(int), steps - 1)
+        weights = hermite_weights(at - step, derivative, self.period / steps)
+        ends = np.concatenate(
+            [self.history[step, body : body + 3], self.history[step + 1, body : body + 3]], axis=1
+        )
+        return np.einsum("nw,nwd->nd", weights, ends)
+
+    def spectrum(
+        self,
+        sample_rate: float = 65536.0,
+        resolution: float = 32.0,
+        duration: float = 1.4,
+        since: float = 0.0,
+    ) -> Spectrum:
+        """`bearingcore.spectrum` of the housing's acceleration while the period repeats.
+
+        It ends where it is no longer right within 0.1 dB: at 0.4 of the sample rate, or at 0.15 of
+        the steps that the orbit has in a second where that is less.
+
+        Density (m, len(dofs)) [(m/s²)²/Hz, (rad/s²)²/Hz] of a record of `duration` [s] that
+        begins `since` [s] after the period, without making the record: each Fourier line of the
+        orbit is seen through the Hann window, and lines beat with each other from segment to
+        segment.
+
+        ValueError for a record, or a segment of 1/resolution, of more than MOST_SAMPLES samples.
+        """
+        sample_rate = checks.real_number("sample_rate", sample_rate, above=0.0, unit="Hz")
+        least, most = sample_rate / MOST_SAMPLES, MOST_SAMPLES / sample_rate
+        resolution = checks.real_number(
+            "resolution", resolution, at_least=least, at_most=0.5 * sample_rate, unit="Hz"
+        )
+        duration = checks.real_number("duration", duration, above=0.0, at_most=most, unit="s")
+        segment = round(sample_rate / resolution)
+        hop = segment - segment // 2
+        segments = max((round(duration * sample_rate) - segment // 2) // hop, 1)
+        frequency = np.asarray(np.fft.rfftfreq(segment, 1.0 / sample_rate), dtype=float)
+        steps = len(self.history) - 1
+        top = min(PASSED * sample_rate, PASSED_OF_ORBITS * steps / self.period)
+        frequency = frequency[frequency <= top]
+        count = math.ceil((top + WINDOW_REACH * resolution) * self.period) + 1
+        lines = acceleration_lines(self.history, 3, self.period / steps, count)
+        lines /= packing.length_units(self.scene, self.dofs)
+        lines *= np.exp(2j * math.pi * since / self.period * np.arange(len(lines)))[:, None]
+        # a segment's own beginning turns line k by exp(iπk/(period·resolution)); what is left of
+        # the Hann window's transform, half sinc(x)/(1 − x²) a sample, x bins away, is real
+        spacing = 1.0 / (self.period * resolution)
+        lines *= np.exp(1j * math.pi * spacing * np.arange(len(lines)))[:, None]
+        # lines within WINDOW_REACH bins of a frequency are what a segment sees there
+        reach = max(math.ceil(WINDOW_REACH / spacing), 2)
+        k = np.rint(frequency * self.period).astype(int)[:, None] + np.arange(-reach, reach + 1)
+        known = (k > 0) & (k < count)
+        x = k * spacing - frequency[:, None] / resolution
+        edge = np.abs(np.abs(x) - 1.0) < 1e-9
+        seen = np.where(edge, 0.25, 0.5 * np.sinc(x) / np.where(edge, 1.0, 1.0 - x * x)) * known
+        density = np.zeros((len(frequency), lines.shape[1]))
+        turn = 2.0 * math.pi * hop / (sample_rate * self.period)  # of a line from the next, a hop
+        beats = np.exp(1j * turn * np.outer(np.arange(2 * reach + 1), np.arange(segments)))
+        beats = beats.mean(axis=1)
+        for axis in range(lines.shape[1]):
+            part = lines[np.where(known, k, 0), axis] * seen
+            density[:, axis] = np.einsum("fk,fk->f", part, part.conj()).real
+            for apart in range(1, 2 * reach + 1):
+                cross = np.einsum("fk,fk->f", part[:, apart:], part[:, :-apart].conj())
+                density[:, axis] += 2.0 * (beats[apart] * cross).real
+        scale = 2.0 * segment / (0.375 * sample_rate)  # Σ w² = 0.375 segment
+        return Spectrum(frequency, np.maximum(scale * density, 0.0))
+
+
+def orbit(
+    scene: Scene,
+    *,
+    start: Orbit | None = None,
+    ball_passes: int | None = None,
+    step_rate: float | None = None,
+    most_iterations: int = 25,
+    most_steps: int = MOST_STEPS,
+    give_up: Callable[[], bool] | None = None,
+) -> Orbit:
+    """The periodic motion of `scene`, by Newton's method on P(y) = y (shooting).
+
+    The variational equations are integrated with the motion. Newton finds unstable orbits as
+    well as stable ones, so the multipliers are part of the answer: only a stable orbit is what a
+    machine settles to.
+
+    Parameters
+    ----------
+    scene
+        its active directions move.
+    start
+        an orbit of a scene nearby to begin from; None begins at the static state.
+    ball_passes
+        how many of them make a period: 1 for healthy bearings and outer-race defects, as every
+        ball pass is then alike. None takes the shortest period there is; an inner-race defect
+        has one only where shaft and cage return together.
+    step_rate
+        least number of steps [Hz]; the period takes a whole number of them. None as in `simulate`.
+    most_iterations
+        Newton steps before giving up.
+    most_steps
+        steps of integration that may be taken in all. They are counted before each period: where
+        there would be more, the search ends and the status says so.
+    give_up
+        called after every period that was integrated; True ends the search, which has then not
+        converged unless the orbit was just found.
+
+    Raises
+    ------
+    ValueError
+        for a shaft that stands still or a support that lacks a number.
+    """
+    checks.instance("scene", scene, Scene)
+    checks.real_number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")
+    dofs = scene.active_dofs
+    shortest = common_ball_passes(scene)
+    if ball_passes is None:
+        ball_passes = shortest or 0
+    else:
+        ball_passes = checks.whole_number(
+            "ball_passes", ball_passes, at_least=1, at_most=MOST_BALL_PASSES
+        )
+        if shortest is None or ball_passes % shortest:
+            ball_passes = 0
+    nothing = Orbit(
+        scene, dofs, OrbitStatus.NO_PERIOD, "", math.nan, ball_passes, np.zeros(0, complex),
+        math.nan, 0, 0, np.full((2, 6, len(dofs)), math.nan),
+    )  # fmt: skip
+    if ball_passes == 0:
+        return nothing
+    period = ball_passes * scene.bearing.ball_spacing / scene.cage_speed
+    most_steps = checks.whole_number("most_steps", most_steps, at_least=1, at_most=10**12)
+    packed = packed_motion(scene)
+    rate = step_rate or step_rate_of(packed, 65536.0)
+    steps = max(math.ceil(period * rate), 8)
+    # there is no orbit without two periods: one to see that it closes, one after a step of Newton's
+    if 2 * steps > most_steps:
+        most = thousands(most_steps)
+        cost = f"{thousands(steps)} steps a period, allowed are most_steps = {most} in all"
+        return replace(nothing, status=OrbitStatus.TOO_MANY_STEPS, period=period, cost=cost)
+    shooting = _Shooting(packed, period, steps, give_up, most_steps)
+    rest = equilibrium_of(packed, [0.0])
+    y = static_start(packed, rest) if start is None else _state_at_start(start, dofs)
+    if y is None:
+        why = rest.reason(0)
+        return replace(nothing, status=OrbitStatus.NO_START, period=period, cost=why)
+    y = shooting.own(y)
+    if start is not None:
+        found = _newton(nothing, shooting, y, period, most_iterations)
+        if found.status != OrbitStatus.NOT_CONVERGED or shooting.given_up:
+            return shooting.reported(found)
+    # where Newton loses its way it begins again, nearer to where the motion itself goes
+    for periods in MARCHED_BEFORE:
+        y = shooting.marched(y, periods)
+        found = _newton(nothing, shooting, y, period, most_iterations)
+        if found.status != OrbitStatus.NOT_CONVERGED or shooting.given_up:
+            break
+    return shooting.reported(found)
+
+
+def common_ball_passes(scene: Scene) -> int | None:
+    """Ball passes after which everything that acts on the rings repeats; None where it never does.
+
+    The balls of a row are alike after one of its own passes: for each pass of the bearing's balls
+    those of a row with a number or a cage of its own have made another part of one, and must have
+    come round by whole ones. So must what turns with the shaft, a defect of
+    the inner race or a force, by whole turns: the shaft has turned (2π/N_b)·ω_s/ω_c for each.
+    """
+    bearing = scene.bearing
+    rounds = {
+        bearing.pace(k) * bearing.of_row(k).n_balls / bearing.n_balls
+        for k in range(len(bearing.all_rows))
+    }
+    if scene.turning_force > 0.0 or scene.defect_turns:
+        rounds.add(1.0 / (bearing.cage_ratio * bearing.n_balls))
+    passes = 1
+    for turned in rounds:
+        fraction = Fraction(turned).limit_denominator(MOST_BALL_PASSES)
+        # what is left over in the longest period must be below any step: 1e-9 of a turn
+        if abs(float(fraction) - turned) * fraction.denominator > 1e-9:
+            return None
+        passes = math.lcm(passes, fraction.denominator)
+    return passes if passes <= MOST_BALL_PASSES else None
+
+
+class _Shooting:
+    """Map of a state over one period, with and without the tangent.
+
+    States are those that `kernels.march` moves.
+    """
+
+    def __init__(
+        self,
+        packed: PackedMotion,
+        period: float,
+        steps: int,
+        give_up: Callable[[], bool] | None = None,
+        most_steps: int = MOST_STEPS,
+    ) -> None:
+        self.steps = steps
+        self._most_steps = most_steps
+        self._too_many = False
+        self.calls = 0
+        self.given_up = False
+        self._give_up = give_up
+        self._system = moving_system(packed)
+        self._step = period / steps
+        self.history = np.empty((steps + 1, 6, len(packed.dofs)))
+        # velocities count over the highest natural frequency, so that all of y are lengths
+        omega = 2.0 * math.pi * highest_frequency_of(packed)
+        self.scale = np.repeat([1.0, 1.0 / omega, 1.0, 1.0 / omega], len(packed.dofs))
+
+    def own(self, y: Array) -> Array:
+        """A state of displacements and velocities in the variables that are marched."""
+        own = y.copy()
+        kernels.turn_smooth(own, 1.0, 0.0, self._system)
+        return own
+
+    def marched(self, y: Array, periods: int = 1) -> Array:
+        """P(y), or P of P, or more."""
+        end = y.copy()
+        for _ in range(periods):
+            if self.given_up:
+                break
+            kernels.march(end, self._step, 0.0, self._system, self.history)
+            self._count()
+        return end
+
+    def with_tangent(self, y: Array) -> tuple[Array, Array]:
+        """P(y) and its derivative."""
+        both = np.concatenate([y, np.eye(y.size).ravel()])
+        kernels.march(both, self._step, 0.0, self._system, self.history)
+        self._count()
+        return both[: y.size], both[y.size :].reshape(y.size, y.size)
+
+    def _count(self) -> None:
+        self.calls += 4 * self.steps
+        self.given_up = self.given_up or (self._give_up is not None and self._give_up())
+        if self.calls // 4 + self.steps > self._most_steps:
+            self.given_up = self._too_many = True
+
+    def reported(self, found: Orbit) -> Orbit:
+        """Result of the search, or its status where it was ended for its cost."""
+        if found.status != OrbitStatus.NOT_CONVERGED or not self._too_many:
+            return found
+        cost = (
+            f"no orbit after {self.calls // 4} steps, {self.steps} a period; allowed are "
+            f"most_steps = {self._most_steps}"
+        )
+        return replace(found, status=OrbitStatus.TOO_MANY_STEPS, cost=cost)
+
+    def miss(self, y: Array, end: Array) -> float:
+        """|P(y) − y| over the size of the motion between, of rings that stand still over STILL."""
+        size = np.ptp(self.history[:, 0], axis=0).max() + np.ptp(self.history[:, 3], axis=0).max()
+        if not (np.all(np.isfinite(end)) and math.isfinite(size)):
+            return math.inf
+        return float(np.linalg.norm((end - y) * self.scale) / max(size, STILL))
+
+
+def _newton(nothing: Orbit, shooting: _Shooting, y: Array, period: float, most: int) -> Orbit:
+    end, tangent = shooting.with_tangent(y)
+    miss = shooting.miss(y, end)
+    iterations = 0
+    while miss > CLOSED and iterations < most and math.isfinite(miss) and not shooting.given_up:
+        iterations += 1
+        try:
+            step = np.linalg.solve(tangent - np.eye(y.size), y - end)
+        except np.linalg.LinAlgError:
+            break
+        part = 1.0
+        while part > 0.02:
+            trial = y + part * step
+            trial_end, trial_tangent = shooting.with_tangent(trial)
+            trial_miss = shooting.miss(trial, trial_end)
+            if trial_miss < miss or shooting.given_up:
+                break
+            part *= 0.4
+        else:
+            # no part of the step helps: let the motion itself move on
+            trial = end
+            trial_end, trial_tangent = shooting.with_tangent(trial)
+            trial_miss = shooting.miss(trial, trial_end)
+        y, end, tangent, miss = trial, trial_end, trial_tangent, trial_miss
+    found = replace(
+        nothing,
+        status=OrbitStatus.NOT_CONVERGED,
+        period=period,
+        residual=miss,
+        iterations=iterations,
+        right_hand_side_calls=shooting.calls,
+    )
+    if not miss <= CLOSED:
+        return found
+    multipliers = np.linalg.eigvals(tangent)
+    multipliers = multipliers[np.argsort(-np.abs(multipliers))]
+    largest = multipliers[0]
+    through = ""
+    if abs(largest) >= 1.0:
+        through = "pair" if abs(largest.imag) > 1e-9 else ("+1" if largest.real > 0.0 else "-1")
+    return replace(
+        found,
+        status=OrbitStatus.STABLE if abs(largest) < 1.0 else OrbitStatus.UNSTABLE,
+        through=through,
+        multipliers=multipliers.astype(complex),
+        history=shooting.history,
+    )
+
+
+def _state_at_start(start: Orbit, dofs: tuple[str, ...]) -> Array | None:
+    """The first state of another orbit; None where it moves along other directions or is none."""
+    first = start.history[0]
+    if start.dofs != dofs:
+        return None
+    if not np.all(np.isfinite(first)):
+        packed = packed_motion(start.scene, dofs)
+        return static_start(packed, equilibrium_of(packed, [0.0]))
+    return np.concatenate([first[0], first[1], first[3], first[4]])

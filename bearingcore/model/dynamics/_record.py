@@ -1,0 +1,259 @@
+"""Simulated records: a motion behind wandering cages, paths, knocks, tones and noise.
+
+A simulated motion has a cage that turns steadily and a sensor that feels the housing itself. Real
+ones have neither. Each effect can be switched off by itself, to find which of them a method bears.
+The effects are drawn, not derived: what is learned from such records has to be tried on real ones.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import zlib
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore.common import Array
+from bearingcore.common import _checks as checks
+from bearingcore.model.dynamics._motion import SETTLING, simulate
+from bearingcore.model.scene import Scene
+from bearingcore.model.statics import crossings, equilibrium
+from bearingcore.recordings import Recording
+from bearingcore.recordings._recording import DIRECTIONS
+
+SLOWEST_WANDER = 0.3
+"""[Hz] The cage's speed wanders no slower than this, and no faster than the cage turns."""
+
+WANDERS = 6
+"""Sines of which a wandering speed consists."""
+
+_BACKGROUND = (math.log(1.0), math.log(10.0))
+"""Logarithms of the least and greatest background [m/s²] that are drawn."""
+
+TONES = 6
+"""Harmonics of the shaft, each fainter than the one before: the first, half, a third of it …"""
+
+
+@dataclass(frozen=True)
+class Resonance:
+    """A resonance of the path from the housing to the sensor."""
+
+    frequency: float
+    """[Hz]"""
+    damping: float
+    """ratio to the critical one"""
+    gain: tuple[float, ...]
+    """amount added at its peak, along each direction, to the 1 of the direct path"""
+
+    def transfer(self, frequency: Array) -> NDArray[np.complex128]:
+        """Amount added (n,) at frequencies [Hz], for a gain of 1: 2iζr/(1 − r² + 2iζr)."""
+        r = frequency / self.frequency
+        return np.asarray(2j * self.damping * r / (1.0 - r**2 + 2j * self.damping * r))
+
+
+TWO_RESONANCES = (Resonance(950.0, 0.04, (2.0, -1.5)), Resonance(2100.0, 0.03, (-1.0, 2.0)))
+
+
+def drawn_resonances(rng: np.random.Generator) -> tuple[Resonance, ...]:
+    """A low and a high resonance, each felt along x and y with gains of their own."""
+    return tuple(
+        Resonance(
+            math.exp(rng.uniform(math.log(low), math.log(high))),
+            rng.uniform(0.02, 0.06),
+            tuple((rng.uniform(0.5, 3.0, 2) * rng.choice([-1.0, 1.0], 2)).tolist()),
+        )
+        for low, high in ((500.0, 1400.0), (1400.0, 3500.0))
+    )
+
+
+@dataclass(frozen=True)
+class PathEffects:
+    """Effects added to a simulated motion, each switched off by its 0, () or None.
+
+    Attributes
+    ----------
+    cage_wander
+        standard deviation of the cage's speed, as a share of it.
+    resonances
+        between housing and sensor.
+    knock, knock_frequency, knock_damping
+        peak of what a ball makes ring as it strikes the far edge, over the peak of the motion, on
+        an inner race as strong as the load there; its frequency [Hz] and damping ratio.
+    shaft_tones
+        root mean square of the shaft's first harmonic, over that of the signal.
+    noise
+        [dB] by which the power of pink noise lies below the signal's; None for none.
+    background
+        [m/s²] root mean square of pink noise that the machine makes whatever the bearing does. A
+        healthy bearing of this model is far quieter than any machine.
+    """
+
+    cage_wander: float = 0.004
+    resonances: tuple[Resonance, ...] = TWO_RESONANCES
+    knock: float = 3.0
+    knock_frequency: float = 4700.0
+    knock_damping: float = 0.04
+    shaft_tones: float = 0.3
+    noise: float | None = 20.0
+    background: float = 0.0
+
+    def without(self, *names: str) -> PathEffects:
+        """The same with some effects switched off, by the names of their fields."""
+        off: dict[str, Any] = {"cage_wander": 0.0, "resonances": (), "knock": 0.0}
+        off |= {"shaft_tones": 0.0, "noise": None, "background": 0.0}
+        return dataclasses.replace(self, **{name: off[name] for name in names})
+
+
+def simulated_record(
+    scene: Scene,
+    effects: PathEffects | None = None,
+    duration: float = 1.4,
+    sample_rate: float = 20_480.0,
+    *,
+    seed: int | None = None,
+) -> Recording:
+    """Record of a sensor in a scene, beyond the motion of its housing, for learning and trials.
+
+    A cage that wanders is the steady motion on a clock that wanders: passes and events move in
+    time as they do, modes by the same few thousandths, which nothing shows.
+
+    Parameters
+    ----------
+    scene
+        with its defect, or healthy.
+    effects
+        see `PathEffects`; None draws the resonances of the path, and a background between 1 and
+        10 m/s².
+    duration, sample_rate
+        [s], [Hz].
+    seed
+        of all that is drawn; None: that of the scene, so that equal scenes give equal records.
+
+    Raises
+    ------
+    ValueError
+        where the motion cannot be computed, in a sentence.
+    """
+    checks.instance("scene", scene, Scene)
+    duration = checks.real_number("duration", duration, above=0.0, unit="s")
+    seed = zlib.crc32(scene.to_toml().encode()) if seed is None else seed
+    rng = np.random.default_rng(seed)
+    if effects is None:
+        resonances, background = drawn_resonances(rng), math.exp(rng.uniform(*_BACKGROUND))
+        effects = PathEffects(resonances=resonances, background=background)
+    start = SETTLING + float(rng.uniform(0.05, 0.25))
+    motion = simulate(scene, start + 1.02 * duration + 0.05, sample_rate)
+    if not motion.completed:
+        raise checks.refuse("scene", motion.reason, "one whose motion is computed")
+    directions = tuple(name for name in DIRECTIONS if name in motion.dofs)
+    columns = [motion.dofs.index(name) for name in directions]
+    count = round(duration * sample_rate)
+    time = np.arange(count) / sample_rate
+    clock = start + wandering_clock(time, effects.cage_wander, scene, rng)
+    signal = _at(motion.outer_acceleration[:, columns], sample_rate, clock)
+    if effects.knock > 0.0 and scene.defects:
+        peak = float(np.abs(signal).max())
+        signal = signal + effects.knock * peak * _knocks(scene, effects, clock, time, directions)
+    if effects.resonances:
+        signal = _through(signal, sample_rate, effects.resonances)
+    if effects.background > 0.0:
+        signal = signal + effects.background * pink_noise(count, len(directions), rng)
+    level = math.sqrt(float(np.mean(signal**2)))
+    if effects.shaft_tones > 0.0:
+        turn = scene.shaft_speed * time
+        for order in range(1, TONES + 1):
+            phase = rng.uniform(0.0, 2.0 * math.pi, len(directions))
+            size = math.sqrt(2.0) * effects.shaft_tones * level / order
+            signal = signal + size * np.cos(order * turn[:, None] + phase)
+    if effects.noise is not None:
+        noise = pink_noise(count, len(directions), rng)
+        signal = signal + level * 10.0 ** (-effects.noise / 20.0) * noise
+    return Recording(signal, sample_rate, directions, "simulated, along a path", scene.shaft_speed)
+
+
+def wandering_clock(time: Array, wander: float, scene: Scene, rng: np.random.Generator) -> Array:
+    """Times [s] (n,) of a steady cage at which one whose speed wanders stands as at `time`.
+
+    The speed is a sum of slow sines of a standard deviation `wander` over the record.
+    """
+    fastest = max(scene.cage_speed / (2.0 * math.pi), 1.5 * SLOWEST_WANDER)
+    speed = np.zeros(len(time))
+    for frequency in rng.uniform(SLOWEST_WANDER, fastest, WANDERS):
+        speed += np.cos(2.0 * math.pi * frequency * time + rng.uniform(0.0, 2.0 * math.pi))
+    speed -= speed.mean()
+    speed *= wander / max(float(speed.std()), 1e-300)
+    return np.asarray(time + np.concatenate(([0.0], np.cumsum(speed[:-1]) * (time[1] - time[0]))))
+
+
+def pink_noise(count: int, columns: int, rng: np.random.Generator) -> Array:
+    """Noise (count, columns) of deviation 1 whose power falls with frequency."""
+    transform = np.fft.rfft(rng.standard_normal((count, columns)), axis=0)
+    number = np.arange(len(transform), dtype=float)
+    number[0] = math.inf
+    noise = np.fft.irfft(transform / np.sqrt(number)[:, None], count, axis=0)
+    return np.asarray(noise / noise.std(axis=0))
+
+
+def _at(signal: Array, rate: float, clock: Array) -> Array:
+    """The signal (n, d) at other times [s] than those of its samples."""
+    from scipy.interpolate import make_interp_spline  # imported late: see `spectrum`
+    from scipy.signal import resample_poly
+
+    fine = resample_poly(signal, 4, 1, axis=0)
+    return np.asarray(make_interp_spline(np.arange(len(fine)) / (4.0 * rate), fine, k=3)(clock))
+
+
+def _knocks(
+    scene: Scene, effects: PathEffects, clock: Array, time: Array, directions: tuple[str, ...]
+) -> Array:
+    """Ringing (n, d), with a peak of about 1, each time that a ball reaches the far edge."""
+    cage, ratio = scene.cage_speed, scene.bearing.cage_ratio
+    left = [
+        (crossing.cage_angle, scene.defects[crossing.defect])
+        for crossing in crossings(scene, float(clock[0]) * cage, float(clock[-1]) * cage)
+        if not crossing.enters
+    ]
+    begins = np.interp([angle / cage for angle, _ in left], clock, time)
+    turns = [angle / ratio if defect.race == "inner" else 0.0 for angle, defect in left]
+    places = np.array([defect.center for _, defect in left]) + turns
+    inner = np.array([defect.race == "inner" for _, defect in left], dtype=bool)
+    strength = np.where(inner, _load_at(scene, places) if inner.any() else 1.0, 1.0)
+    # a blow along the defect's radius is felt a little across it too
+    along = np.stack([np.cos(places) if name == "x" else np.sin(places) for name in directions], 1)
+    felt = np.where(np.abs(along) < 0.3, 0.3, along) * strength[:, None]
+    omega = 2.0 * math.pi * effects.knock_frequency
+    signal = np.zeros((len(time), len(directions)))
+    for begin, by in zip(begins.tolist(), felt, strict=True):
+        first = int(np.searchsorted(time, begin))
+        last = min(len(time), first + int(12.0 / (effects.knock_damping * omega * time[1])))
+        since = time[first:last] - begin
+        ring = np.exp(-effects.knock_damping * omega * since) * np.sin(omega * since)
+        signal[first:last] += ring[:, None] * by
+    return signal
+
+
+def _load_at(scene: Scene, places: Array) -> Array:
+    """Load of a ball of the healthy bearing at angles [rad], over the greatest."""
+    state = equilibrium(scene.healthy())
+    angle, load = state.ball_angle.ravel(), np.nan_to_num(state.ball_load.ravel())
+    order = np.argsort(angle)
+    share = load[order] / max(float(load.max()), 1e-300)
+    return np.interp(places % (2.0 * math.pi), angle[order], share, period=2.0 * math.pi)
+
+
+def _through(signal: Array, rate: float, resonances: tuple[Resonance, ...]) -> Array:
+    """The signal (n, d) behind a path, each direction by its own gains."""
+    from scipy.fft import next_fast_len  # imported late: see `spectrum`
+
+    count = len(signal)
+    size = next_fast_len(count + round(0.2 * rate), real=True)
+    frequency = np.asarray(np.fft.rfftfreq(size, 1.0 / rate), dtype=float)
+    transform = np.fft.rfft(signal, size, axis=0)
+    factor = np.ones(transform.shape, dtype=complex)
+    for resonance in resonances:
+        gains = [resonance.gain[k % len(resonance.gain)] for k in range(signal.shape[1])]
+        factor += resonance.transfer(frequency)[:, None] * np.array(gains)
+    return np.asarray(np.fft.irfft(transform * factor, size, axis=0)[:count])

@@ -1,0 +1,84 @@
+"""A scene's bearing for rotors in ROSS (Rotordynamic Open Source Software), an optional package."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from bearingcore.common import Array
+from bearingcore.common import _checks as checks
+from bearingcore.model.dynamics._damping import contact_damping
+from bearingcore.model.dynamics._modes import loaded_directions
+from bearingcore.model.scene import WITH_MASS, Scene
+from bearingcore.model.statics import static_state
+from bearingcore.model.statics._positions import over_all_positions
+
+ALONG = {
+    "xx": (0, 0), "xy": (0, 1), "yx": (1, 0), "yy": (1, 1), "zz": (2, 2),
+}  # fmt: skip
+"""Row and column of what a bearing has in ROSS, whose axes are those of a scene."""
+
+MISSING = 'to_ross needs ROSS, which is not installed: pip install "bearing-explorer[ross]"'
+
+
+def to_ross(scene: Scene, speeds: ArrayLike, *, node: int = 0, **more: Any) -> Any:
+    """The bearing of `scene` as a `ross.BearingElement`: stiffness and damping over shaft speed.
+
+    At each speed the balls carry their centrifugal load and find their places, whichever model of
+    balls the scene has (`ball_positions`); of rollers without known mass the stiffness is the same
+    at all speeds. Means over the cage angles, as a rotor that turns slower than balls pass has
+    them: K_b (Eq. 17) and c Σ e e' of the loaded balls (Eq. 27), along x, y and z. ROSS has no
+    place for tilts, which are taken to be held by the shaft, nor for k_xz and k_yz. The support is
+    not in it: link the element to a node of the housing.
+
+    Parameters
+    ----------
+    scene
+        its bearing, defect, load and directions.
+    speeds : (n,)
+        shaft speeds [rad/s], increasing. Between them ROSS interpolates, beyond them it
+        extrapolates.
+    node
+        of the rotor where the bearing is.
+    more
+        other arguments of `ross.BearingElement`, such as `n_link` and `tag`.
+
+    Raises
+    ------
+    ImportError
+        where ROSS is not installed: the extra "ross".
+    ValueError
+        for speeds that are negative or do not increase, or where a cage angle has no static state.
+    """
+    checks.instance("scene", scene, Scene)
+    try:
+        import ross  # imported late: optional, and slow
+    except ImportError as error:
+        raise ImportError(MISSING) from error
+    speeds = np.atleast_1d(checks.finite("speeds", speeds, "rad/s"))
+    if speeds.size == 0 or speeds[0] < 0.0 or (np.diff(speeds) <= 0.0).any():
+        raise checks.refuse("speeds", speeds.tolist(), "at least 0 rad/s and increasing")
+    found = [_mean_matrices(scene.replace(shaft_speed=float(speed))) for speed in speeds]
+    coefficients = {
+        f"{letter}{name}": np.array([matrices[k][at] for matrices in found])
+        for k, letter in enumerate("kc")
+        for name, at in ALONG.items()
+    }
+    return ross.BearingElement(n=node, frequency=speeds, **coefficients, **more)
+
+
+def _mean_matrices(scene: Scene) -> tuple[Array, Array]:
+    """Means over all positions of K_b and C_b, (5, 5), balls with mass where it is known."""
+    if not scene.bearing.kind.mass_unknown:
+        scene = scene.replace(balls=WITH_MASS)
+    state = over_all_positions(scene, solve=static_state)
+    if not state.converged.all():
+        k = int(np.argmin(state.converged))
+        raise checks.refuse(
+            "scene", f"at {scene.shaft_speed:g} rad/s {state.reason(k)}", "one static state"
+        )
+    damping = contact_damping(scene) * loaded_directions(state)
+    stiffness = np.tensordot(state.shares, state.stiffness, 1)
+    return stiffness, np.tensordot(state.shares, damping, 1)

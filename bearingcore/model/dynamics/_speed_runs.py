@@ -1,0 +1,237 @@
+"""Spectra of the housing over shaft speed: a run-up, one steady speed after another."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from bearingcore.common import Array, Progress, ResultTable, shown_as_table, table_of, thousands
+from bearingcore.common import _checks as checks
+from bearingcore.common._progress import Cancelled
+from bearingcore.model.dynamics._low_pass import PASSED
+from bearingcore.model.dynamics._modes import frequency_bands
+from bearingcore.model.dynamics._motion import (
+    MOST_SAMPLES,
+    MOST_STEPS,
+    MOST_STEPS_IN_ALL,
+    simulate,
+    too_many_in_all,
+)
+from bearingcore.model.dynamics._orbit import Orbit, orbit
+from bearingcore.model.dynamics._status import MotionStatus
+from bearingcore.model.dynamics._step_rate import default_step_rate, fine_step_rate
+from bearingcore.model.scene import MASSLESS, Scene
+
+SETTLING_SHARE = 0.5
+"""Part of a marched motion that is left out of its spectrum as transient."""
+
+
+@shown_as_table
+@dataclass(frozen=True)
+class SpeedRun:
+    """Spectra of the housing's acceleration at n shaft speeds.
+
+    Attributes
+    ----------
+    scene, dofs
+        what runs up, and the directions of `density`'s last axis.
+    shaft_speed : (n,) [rad/s]
+    frequency : (m,) [Hz]
+        to where the spectrum of any speed is known.
+    density : (n, m, len(dofs)) [(m/s²)²/Hz, (rad/s²)²/Hz]
+        NaN where a speed was not computed, and above the frequency up to which its motion is known.
+    ball_pass_frequency : (n,) [Hz]
+        of the race the first defect is in; its multiples are the lines.
+    from_orbit : (n,)
+        True where the spectrum is that of a proven stable orbit, False where it was marched.
+    bands
+        least and greatest natural frequency [Hz] of each mode, which speed does not move.
+    completed
+        False where it was cancelled.
+    refusals
+        why there is no such motion, by the index of the speeds that are refused.
+    cost
+        what the run would have taken, where that was too much to begin; else empty.
+    """
+
+    scene: Scene
+    dofs: tuple[str, ...]
+    shaft_speed: Array
+    frequency: Array
+    density: Array
+    ball_pass_frequency: Array
+    from_orbit: NDArray[np.bool_]
+    bands: dict[str, tuple[float, float]]
+    completed: bool
+    refusals: dict[int, ValueError] = field(default_factory=dict)
+    cost: str = ""
+
+    def table(self) -> ResultTable:
+        """A row a speed and frequency: the density of each direction."""
+        speed, frequency = np.meshgrid(self.shaft_speed, self.frequency, indexing="ij")
+        return table_of(
+            ("shaft_speed", "rad/s", speed),
+            ("frequency", "Hz", frequency),
+            *(
+                (
+                    f"density_{dof}",
+                    "(rad/s²)²/Hz" if dof.startswith("r") else "(m/s²)²/Hz",
+                    self.density[..., i],
+                )
+                for i, dof in enumerate(self.dofs)
+            ),
+        )
+
+
+def speed_run(
+    scene: Scene,
+    shaft_speeds: ArrayLike,
+    *,
+    sample_rate: float = 65536.0,
+    resolution: float = 32.0,
+    duration: float = 1.4,
+    most_steps: int = MOST_STEPS,
+    most_steps_in_all: int = MOST_STEPS_IN_ALL,
+    progress: Progress | None = None,
+    cancelled: Cancelled | None = None,
+) -> SpeedRun:
+    """Steady spectra at each shaft speed [rad/s]: of the orbit where it is stable, else marched.
+
+    Balls with mass are marched always: only massless ones have orbits that can be looked for.
+
+    Parameters
+    ----------
+    scene
+        all but the speed.
+    shaft_speeds : (n,)
+        [rad/s], above 0.
+    sample_rate, resolution [Hz], duration [s]
+        of the spectra, as in `simulate` and `spectrum`; a marched motion runs twice as long, and
+        its first half is left out.
+    most_steps
+        steps that may be taken for the orbit of a speed, and for its marched motion. Where there
+        would be more, `refusals` says how many.
+    most_steps_in_all
+        steps of all speeds. What marching them would take is counted before the first: where that
+        is more nothing is begun, and `cost` says how many. Where orbits take what is left, the
+        speeds that are left are refused.
+    progress, cancelled
+        called before each speed.
+
+    Raises
+    ------
+    ValueError
+        for speeds that are not above zero, or where `simulate` refuses every speed. One that is
+        refused among others is in `refusals`.
+    """
+    speeds = np.asarray(shaft_speeds, dtype=float).ravel()
+    if not 1 <= speeds.size <= 1000:
+        raise checks.refuse("number of shaft_speeds", int(speeds.size), "1 to 1000")
+    for speed in speeds:
+        checks.real_number("shaft_speeds", speed, above=0.0, unit="rad/s")
+    sample_rate = checks.real_number("sample_rate", sample_rate, above=0.0, unit="Hz")
+    most = MOST_SAMPLES / sample_rate * (1.0 - SETTLING_SHARE)
+    duration = checks.real_number("duration", duration, above=0.0, at_most=most, unit="s")
+    resolution = checks.real_number(
+        "resolution", resolution, at_least=1.0 / duration, at_most=0.5 * sample_rate, unit="Hz"
+    )
+    dofs = scene.active_dofs
+    segment = round(sample_rate / resolution)
+    frequency = np.asarray(np.fft.rfftfreq(segment, 1.0 / sample_rate), dtype=float)
+    frequency = frequency[frequency <= PASSED * sample_rate]
+    inner = scene.defect_turns
+    passing = scene.bearing.bpfi if inner else scene.bearing.bpfo
+
+    def run_of(density: Array, **more: Any) -> SpeedRun:
+        return SpeedRun(
+            scene=scene,
+            dofs=dofs,
+            shaft_speed=speeds,
+            frequency=frequency[: density.shape[1]],
+            density=density,
+            ball_pass_frequency=np.array([passing(float(speed)) for speed in speeds]),
+            **more,
+        )
+
+    shape = (speeds.size, frequency.size, len(dofs))
+    lasting = duration / (1.0 - SETTLING_SHARE)
+    steps = _steps_of_marching(scene, speeds, lasting, sample_rate, most_steps)
+    if cost := too_many_in_all(steps, f"at {speeds.size} speeds", most_steps_in_all):
+        return run_of(
+            np.broadcast_to(np.float64(math.nan), shape),
+            from_orbit=np.zeros(speeds.size, dtype=bool),
+            bands=frequency_bands(scene),
+            completed=False,
+            cost=cost,
+        )
+    density = np.full(shape, math.nan)
+    proven = np.zeros(speeds.size, dtype=bool)
+    nearby: Orbit | None = None
+    refusals: dict[int, ValueError] = {}
+    done, left = 0, most_steps_in_all
+    for i, speed in enumerate(speeds.tolist()):
+        if cancelled is not None and cancelled():
+            break
+        if progress is not None:
+            progress(i / speeds.size, f"{speed / (2 * math.pi):.1f} Hz")
+        done += 1
+        try:
+            at = scene.replace(shaft_speed=speed)
+            if left < 1:
+                raise ValueError(_NONE_LEFT.format(thousands(most_steps_in_all)))
+            found = None
+            if at.balls == MASSLESS:
+                may_take, rate = min(most_steps, left), fine_step_rate(at, sample_rate)
+                found = orbit(at, start=nearby, step_rate=rate, most_steps=may_take)
+                left -= found.right_hand_side_calls // 4
+            if found is not None and found.stable:
+                lines = found.spectrum(sample_rate, resolution, duration).density
+                density[i, : len(lines)] = lines
+                proven[i] = True
+                nearby = found
+                continue
+            may_take = max(min(most_steps, left), 1)
+            motion = simulate(at, lasting, sample_rate, most_steps=may_take)
+            left -= motion.right_hand_side_calls // 4
+            if motion.status is MotionStatus.TOO_MANY_STEPS:
+                raise ValueError(motion.reason)
+        except ValueError as error:
+            refusals[i] = error
+            continue
+        if motion.completed:
+            lines = motion.spectrum(resolution, SETTLING_SHARE * lasting).density
+            density[i, : len(lines)] = lines
+    if len(refusals) == speeds.size:
+        raise refusals[0]
+    known = np.flatnonzero(np.isfinite(density).any(axis=(0, 2)))
+    return run_of(
+        density[:, : known[-1] + 1] if known.size else density,
+        from_orbit=proven,
+        bands=frequency_bands(scene),
+        completed=done == speeds.size,
+        refusals=refusals,
+    )
+
+
+_NONE_LEFT = MotionStatus.TOO_MANY_STEPS + ": none is left of most_steps_in_all = {}"
+
+
+def _steps_of_marching(
+    scene: Scene, speeds: Array, duration: float, sample_rate: float, most_steps: int
+) -> float:
+    """Steps that all speeds take if each is marched for so long [s]; 0 where none can be.
+
+    A speed that takes more than `most_steps` takes none: it is refused by itself.
+    """
+    steps = []
+    try:
+        for speed in speeds.tolist():
+            rate = default_step_rate(scene.replace(shaft_speed=speed), sample_rate)
+            steps.append(duration * rate)
+    except ValueError:  # said where the motion is tried
+        return 0.0
+    return sum(one for one in steps if one <= most_steps)

@@ -1,0 +1,240 @@
+"""Ways to march a motion, each behind one small interface, so that they can be compared.
+
+A setting is one number: steps a second [Hz] for fixed steps, the tolerance relative to
+`MotionProblem.scale` for steps that choose themselves.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+
+from bearingcore.common import Array, thousands
+from bearingcore.model import _kernels as kernels
+from bearingcore.model.dynamics import MotionStatus
+from bearingcore.model.dynamics._damping import packed_motion
+from bearingcore.model.dynamics._motion import moving_system
+from bearingcore.model.dynamics._problem import MotionProblem
+
+
+@dataclass(frozen=True)
+class March:
+    """Result of a time integration.
+
+    Attributes
+    ----------
+    history : (steps + 1, 6, n) [m, m/s, m/s²]
+        displacement, velocity, acceleration of the inner, then of the outer ring.
+    step_rate
+        [Hz] of the history.
+    calls
+        right-hand sides evaluated.
+    failure
+        empty, or the reason why the motion is not complete, in the words of the method.
+    """
+
+    history: Array
+    step_rate: float
+    calls: int
+    failure: str = ""
+
+
+@dataclass(frozen=True)
+class Method:
+    """A way to march.
+
+    Attributes
+    ----------
+    name
+        as charts show it.
+    march
+        (problem, setting, duration [s], sample rate [Hz]) -> March.
+    tolerances
+        settings at which it is measured; none where the setting is a step rate [Hz].
+    order
+        of convergence where all forces are smooth; 0 for steps that choose themselves.
+    slow
+        True where it takes longer than the others together.
+    """
+
+    name: str
+    march: Callable[[MotionProblem, float, float, float], March]
+    tolerances: tuple[float, ...] = ()
+    order: int = 0
+    slow: bool = False
+
+    @property
+    def fixed_step(self) -> bool:
+        """True where the setting is a step rate [Hz], False where it is a tolerance."""
+        return not self.tolerances
+
+
+def instants(rate: float, duration: float) -> Array:
+    """Times [s] from 0, at `rate` [Hz], that cover `duration` [s] in at least one interval."""
+    return np.arange(max(math.ceil(duration * rate - 1e-9), 1) + 1) / rate
+
+
+class TooManyRatesError(RuntimeError):
+    """A method was given up for the number of its right-hand sides."""
+
+
+class Rates:
+    """The compiled right-hand side of a problem in variables scaled to 1; it counts its calls.
+
+    `report` is called with each time [s]. After `most` calls it raises TooManyRatesError.
+    """
+
+    def __init__(
+        self,
+        problem: MotionProblem,
+        report: Callable[[float], object] = lambda t: None,
+        most: float = math.inf,
+    ) -> None:
+        self.problem, self.calls = problem, 0
+        self._report, self._most = report, most
+
+    @property
+    def start(self) -> Array:
+        """The scaled state at rest."""
+        return self.problem.start / self.problem.scale
+
+    def __call__(self, t: float, y: Array) -> Array:
+        self.calls += 1
+        if self.calls > self._most:
+            raise TooManyRatesError(f"more than {thousands(int(self._most))} right-hand sides")
+        self._report(t)
+        return self.problem.rate(t, y * self.problem.scale) / self.problem.scale
+
+    def history(self, time: Array, states: Array) -> Array:
+        """History (n, 6, directions) of scaled states (≤ n, 4 directions) at times (n,) [s].
+
+        NaN from where there are no states.
+        """
+        problem, n = self.problem, len(self.problem.dofs)
+        whole = np.full((len(time), 4 * n), math.nan)
+        whole[: len(states)] = states * problem.scale
+        rates = kernels.motion_rates(time, whole, 0.0, problem.system)
+        history = np.empty((len(time), 6, n))
+        for body in range(2):
+            columns = slice(2 * body * n, (2 * body + 1) * n)
+            following = slice((2 * body + 1) * n, (2 * body + 2) * n)
+            history[:, 3 * body] = whole[:, columns]
+            history[:, 3 * body + 1] = whole[:, following]
+            history[:, 3 * body + 2] = rates[:, following]
+        return history
+
+
+def _runge_kutta(
+    problem: MotionProblem,
+    step_rate: float,
+    duration: float,
+    sample_rate: float,
+    *,
+    velocities: bool = False,
+) -> March:
+    """Steps of one length: in variables that do not jump where the law allows it, or velocities."""
+    system = problem.system
+    if not velocities:
+        system = moving_system(packed_motion(problem.scene, problem.dofs))
+    n_steps = len(instants(step_rate, duration)) - 1
+    history = np.empty((n_steps + 1, 6, len(problem.dofs)))
+    y = problem.start.copy()
+    kernels.turn_smooth(y, 1.0, 0.0, system)
+    done = kernels.march(y, 1.0 / step_rate, 0.0, system, history)
+    why = "" if done >= n_steps else f"diverged after {done / step_rate:.2g} s"
+    return March(history, step_rate, 4 * n_steps, why)
+
+
+MOST_RATES = 500_000
+"""Right-hand sides after which a general-purpose method is given up."""
+
+
+States = Callable[[Rates, Array, float], Array]
+"""(rates, times (n,) [s], tolerance) -> scaled states (≤ n, 4 directions), as far as it came."""
+
+
+def _own_steps(
+    problem: MotionProblem, tolerance: float, duration: float, sample_rate: float, *, states: States
+) -> March:
+    """Steps that a general-purpose method chooses itself."""
+    time = instants(sample_rate, duration)
+    rates = Rates(problem, most=MOST_RATES)
+    found, why = np.empty((0, rates.start.size)), ""
+    try:
+        found = states(rates, time, tolerance)
+        if len(found) < len(time):
+            why = f"{MotionStatus.STEP_VANISHED} after {time[max(len(found) - 1, 0)]:.2g} s"
+    except (TooManyRatesError, ValueError, np.linalg.LinAlgError) as error:
+        why = str(error) or type(error).__name__
+    return March(rates.history(time, found), sample_rate, rates.calls, why)
+
+
+def _scipy(name: str, *tolerances: float, slow: bool = False) -> Method:
+    """`scipy.integrate.solve_ivp` by the name of its method."""
+
+    def states(rates: Rates, time: Array, tolerance: float) -> Array:
+        from scipy.integrate import solve_ivp  # imported late: slow to import
+
+        relative = max(tolerance, 2.3e-14)
+        answer = solve_ivp(  # type: ignore[call-overload]
+            rates, (0.0, time[-1]), rates.start, name, time, rtol=relative, atol=tolerance
+        )
+        return np.asarray(answer.y).T
+
+    return Method(f"scipy {name}", partial(_own_steps, states=states), tolerances, slow=slow)
+
+
+HAS_CVODE = importlib.util.find_spec("sksundae") is not None
+"""Whether scikit-sundae is installed: the extra "cvode"."""
+
+
+def cvode_states(rates: Rates, time: Array, tolerance: float, name: str = "Adams") -> Array:
+    """Scaled states at times [s], as far as CVODE of SUNDIALS came; also `name` "BDF"."""
+    from sksundae.cvode import CVODE  # imported late: optional
+
+    def fill(t: float, y: Array, out: Array) -> None:
+        out[:] = rates(t, y)
+
+    solver = CVODE(fill, method=name, rtol=tolerance, atol=tolerance, max_num_steps=MOST_RATES)
+    return np.array(solver.solve(time, rates.start).y)
+
+
+def _cvode(name: str, *tolerances: float) -> Method:
+    march = partial(_own_steps, states=partial(cvode_states, name=name))
+    return Method(f"CVODE {name}", march, tolerances)
+
+
+FINE, COARSE = (1e-2, 1e-4, 1e-6, 1e-9, 1e-11), (1e-3, 1e-6)
+"""Tolerances at which methods are measured; the second of those that take long below."""
+
+METHODS: dict[str, Method] = {
+    method.name: method
+    for method in (
+        # as the program uses it: in variables that do not jump where the scene allows them
+        Method("RK4", _runge_kutta, order=4),
+        # with velocities as variables, whose rates jump as a ball touches
+        Method("RK4 in velocities", partial(_runge_kutta, velocities=True), order=4),
+        _scipy("RK45", *FINE[:-1]),
+        _scipy("DOP853", *FINE, slow=True),
+        _scipy("LSODA", *FINE),
+        _scipy("Radau", *COARSE, slow=True),
+        _scipy("BDF", *COARSE, slow=True),
+        _cvode("Adams", *FINE),
+        _cvode("BDF", *COARSE, 1e-9),
+    )
+}
+"""Ways to march by name."""
+
+
+def usable_methods(*, slow: bool = True) -> tuple[str, ...]:
+    """Names of the methods whose packages are installed; without `slow` only quick ones."""
+    return tuple(
+        name
+        for name, method in METHODS.items()
+        if (slow or not method.slow) and (HAS_CVODE or not name.startswith("CVODE"))
+    )

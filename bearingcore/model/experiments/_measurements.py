@@ -1,0 +1,223 @@
+"""All experiments on a scene, with the machine they were measured on, as a value and as a file."""
+
+from __future__ import annotations
+
+import datetime
+import json
+import math
+import os
+import platform
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from importlib import metadata
+from pathlib import Path
+from typing import cast
+
+import msgspec
+
+from bearingcore.common import ResultTable, shown_as_table, table_of, with_prefix
+from bearingcore.common._progress import CancelledError
+from bearingcore.model.experiments._integrators import usable_methods
+from bearingcore.model.experiments._motions import motion_experiment
+from bearingcore.model.experiments._orbits import OrbitAtSpeed, orbits_over_speed
+from bearingcore.model.experiments._points import Experiment, Point, Watch
+from bearingcore.model.experiments._stability import StabilityChart, stability_chart
+from bearingcore.model.experiments._statics import statics_experiment
+from bearingcore.model.scene import MASSLESS, Scene
+
+PACKAGES = ("bearing-explorer", "numpy", "scipy", "numba", "scikit-sundae")
+
+STABILITY, ORBITS = "stability", "orbits"
+EXPERIMENTS: dict[str, Callable[[Scene, Watch, bool], Experiment]] = {
+    "motion": lambda scene, watch, slow: motion_experiment(
+        scene, duration=0.1, methods=usable_methods(slow=slow), watch=watch
+    ),
+    "statics": lambda scene, watch, _: statics_experiment(scene, n_angles=31, watch=watch),
+}
+"""Experiments by name, as the page and the shipped files have them: (scene, watch, slow ones)."""
+MEASURED = (*EXPERIMENTS, STABILITY, ORBITS)
+"""Everything that can be measured."""
+
+
+@dataclass(frozen=True)
+class Machine:
+    """Machine on which times were measured.
+
+    Attributes
+    ----------
+    processor, cores
+        its name, and how many are there.
+    versions
+        of Python and the packages, by name.
+    date
+        day of the measurement, as ISO 8601 has it.
+    c_loop
+        [s] that a plain C loop took in the same minute for 1.4 s of the fan rig's motion in two
+        directions, 65536 steps a second; NaN where it did not run.
+    """
+
+    processor: str
+    cores: int
+    versions: Mapping[str, str]
+    date: str
+    c_loop: float = math.nan
+
+    @property
+    def sentence(self) -> str:
+        """For the foot of a chart."""
+        versions = ", ".join(f"{name} {version}" for name, version in self.versions.items())
+        loop = ""
+        if math.isfinite(self.c_loop):
+            per = with_prefix(self.c_loop / 14.0, "s")
+            loop = f"; a plain C loop took {per} for 0.1 s of the fan rig at 65536 steps/s then"
+        return f"{self.processor}, {self.cores} cores, {self.date}; {versions}{loop}."
+
+
+def this_machine(c_loop: float = math.nan) -> Machine:
+    """The machine and the versions that this process has."""
+    versions = {"Python": platform.python_version()}
+    for package in PACKAGES:
+        try:
+            versions[package] = metadata.version(package)
+        except metadata.PackageNotFoundError:
+            continue
+    today = datetime.datetime.now(datetime.UTC).date().isoformat()
+    return Machine(_processor(), os.cpu_count() or 1, versions, today, c_loop)
+
+
+def _processor() -> str:
+    try:
+        lines = Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
+    except OSError:
+        lines = []
+    names = [line.partition(":")[2].strip() for line in lines if line.startswith("model name")]
+    return names[0] if names else platform.processor() or platform.machine()
+
+
+@shown_as_table
+@dataclass(frozen=True)
+class Measurements:
+    """Measurements on one scene.
+
+    Attributes
+    ----------
+    machine
+        what it was measured on.
+    experiments
+        by their names in EXPERIMENTS.
+    stability
+        verdicts over steps, if measured.
+    orbits
+        the periodic motion over the shaft speed, if measured.
+    refused
+        why an experiment cannot be done with this scene, by its name.
+    """
+
+    machine: Machine
+    experiments: dict[str, Experiment] = field(default_factory=dict)
+    stability: StabilityChart | None = None
+    orbits: tuple[OrbitAtSpeed, ...] = ()
+    refused: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def count(self) -> int:
+        """Number of points in all."""
+        trials = self.stability.trials if self.stability is not None else ()
+        points = sum(len(one.points) for one in self.experiments.values())
+        return points + len(trials) + len(self.orbits)
+
+    def table(self) -> ResultTable:
+        """A row for each point of the experiments: errors under their names, NaN for the others.
+
+        An error that is infinite, as that of a signal of nothing in decibels, is NaN.
+        """
+
+        def known(point: Point, name: str) -> float:
+            error = point.errors.get(name, math.nan)
+            return error if math.isfinite(error) else math.nan
+
+        points = [(name, p) for name, one in self.experiments.items() for p in one.points]
+        units = {e: one.unit(e) for one in self.experiments.values() for e in one.errors}
+        return table_of(
+            ("experiment", "", [name for name, _ in points]),
+            ("reference", "", [p.against for _, p in points]),
+            ("method", "", [p.method for _, p in points]),
+            ("setting", "", [p.setting for _, p in points]),
+            *(
+                (f"{name.replace(' ', '_')}_error", unit, [known(p, name) for _, p in points])
+                for name, unit in units.items()
+            ),
+            ("time", "s", [p.seconds for _, p in points]),
+            ("evaluations", "", [p.evaluations for _, p in points]),
+            ("status", "", [p.status for _, p in points]),
+        )
+
+
+def measurements_from(text: str) -> Measurements:
+    """The measurements in the text of a file; ValueError where it holds anything else."""
+    # JSON as Python writes it: with NaN, which msgspec itself refuses
+    return cast(Measurements, msgspec.convert(json.loads(text), Measurements))
+
+
+def measure(
+    scene: Scene,
+    names: Sequence[str] = MEASURED,
+    *,
+    c_loop: float = math.nan,
+    slow: bool = True,
+    progress: Callable[[float, str], object] = lambda part, words: None,
+    cancelled: Callable[[], bool] = lambda: False,
+    shown: Callable[[Measurements], object] = lambda found: None,
+    words: Callable[[ValueError], str] = str,
+) -> Measurements:
+    """Measure a scene by experiments, one after the other.
+
+    Balls are taken without mass.
+
+    Parameters
+    ----------
+    scene
+        at hand.
+    names
+        out of MEASURED.
+    c_loop
+        for `Machine`.
+    slow
+        whether integrators that take longer than all others together are among them.
+    progress
+        called with the part done, 0 to 1, and what is being done.
+    cancelled
+        called before each point, and within references; True ends with what there is.
+    shown
+        called with what there is, after each point.
+    words
+        of a refusal, for `Measurements.refused`.
+    """
+    scene = scene.replace(balls=MASSLESS)
+    found = Measurements(this_machine(c_loop))
+    for k, name in enumerate(names):
+        if cancelled():
+            break
+
+        def report(part: float, words: str, begin: int = k) -> None:
+            progress((begin + part) / len(names), words)
+
+        def show(one: Experiment, name: str = name, before: Measurements = found) -> None:
+            shown(replace(before, experiments={**before.experiments, name: one}))
+
+        watch = Watch(report, cancelled, show)
+        try:
+            if name == STABILITY:
+                chart = stability_chart(scene, duration=0.1, watch=watch)
+                found = replace(found, stability=chart)
+            elif name == ORBITS:
+                found = replace(found, orbits=orbits_over_speed(scene, watch))
+            else:
+                one = EXPERIMENTS[name](scene, watch, slow)
+                found = replace(found, experiments={**found.experiments, name: one})
+        except CancelledError:
+            break
+        except ValueError as refused:
+            found = replace(found, refused={**found.refused, name: words(refused)})
+        shown(found)
+    return found

@@ -1,0 +1,274 @@
+"""Results of a work-precision experiment: points of error against cost, failures among them."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import TypeVar
+
+import numpy as np
+
+from bearingcore.common import Progress, scientific
+from bearingcore.common._progress import Cancelled, CancelledError, in_turn
+
+T = TypeVar("T")
+
+ShowExperiment = Callable[["Experiment"], object]
+"""Called with what there is of an experiment, after each point."""
+
+RIGHT = "right"
+
+
+@dataclass(frozen=True)
+class Point:
+    """One method at one setting.
+
+    Attributes
+    ----------
+    method, setting
+        its name, and how it was set, in words.
+    value
+        the setting as a number: steps a second [Hz], tolerance, number of cage angles.
+    errors
+        against the reference, by the names in `Experiment.errors`; NaN where there is none.
+    seconds
+        [s] the least of several runs, after one that is not counted; of statics for one
+        equilibrium.
+    evaluations
+        right-hand sides, or evaluations of all contacts at one displacement: the cost that does
+        not depend on the machine. A mean where the time is one.
+    status
+        "right", or "failed: " and why.
+    against
+        which reference the errors are taken from, where an experiment has several.
+    in_use
+        True for what the program does with the scene unless it is set otherwise.
+    """
+
+    method: str
+    setting: str
+    value: float
+    errors: Mapping[str, float]
+    seconds: float
+    evaluations: float
+    status: str = RIGHT
+    against: str = ""
+    in_use: bool = False
+
+    @property
+    def failed(self) -> bool:
+        """True where the method gave no answer."""
+        return self.status != RIGHT
+
+    @property
+    def label(self) -> str:
+        """The setting in a few letters: "10⁻⁶" for a tolerance, "65.5k" for 65,536 steps."""
+        if self.value < 1.0:
+            return scientific(self.value).removeprefix("1·")
+        if self.value < 1e4:
+            return f"{self.value:.0f}"
+        return f"{self.value / 1e3:.3g}k" if self.value < 1e6 else f"{self.value / 1e6:.3g}M"
+
+
+@dataclass(frozen=True)
+class Reference:
+    """Reference of the errors, and the reason to trust it.
+
+    Attributes
+    ----------
+    families
+        the different families of methods that computed it.
+    agreement
+        how far the first two are apart, by the names in `Experiment.errors`.
+    trusted
+        True where they agree well enough to judge the points. Errors below the agreement say
+        nothing.
+    note
+        what else is to be known.
+    """
+
+    families: tuple[str, ...]
+    agreement: Mapping[str, float]
+    trusted: bool
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class Experiment:
+    """Points of several methods on one problem.
+
+    Attributes
+    ----------
+    name
+        what is compared: "motion" or "statics".
+    errors
+        what each error is, with its unit, by name; the first is the one to draw.
+    evaluations
+        measure of cost other than time.
+    references
+        by name; "" is that of every point that names none.
+    points
+        in the order measured.
+    left_out
+        which methods are not among them, and why.
+    completed
+        False where it was cancelled.
+    """
+
+    name: str
+    errors: Mapping[str, str]
+    evaluations: str
+    references: Mapping[str, Reference]
+    points: tuple[Point, ...]
+    left_out: str = ""
+    completed: bool = True
+
+    @property
+    def methods(self) -> tuple[str, ...]:
+        """Names of the methods, in the order measured."""
+        return tuple(dict.fromkeys(point.method for point in self.points))
+
+    def of(self, method: str) -> tuple[Point, ...]:
+        """The points of one method."""
+        return tuple(point for point in self.points if point.method == method)
+
+    def per_reference(self) -> dict[str, Experiment]:
+        """An experiment for each reference, with the points that are compared with it."""
+        return {
+            name: replace(
+                self,
+                references={name: reference},
+                points=tuple(point for point in self.points if point.against == name),
+            )
+            for name, reference in self.references.items()
+        }
+
+    def order(self, method: str, error: str) -> float:
+        """Order of convergence: slope of an error over the evaluations, both logarithmic.
+
+        Points that failed, and errors within five times the agreement of the references, say
+        nothing of it. NaN with fewer than three others.
+        """
+        known = [
+            (point.evaluations, point.errors[error])
+            for point in self.of(method)
+            if not point.failed
+            and 5.0 * self.references[point.against].agreement.get(error, 0.0)
+            < point.errors.get(error, nan)
+            < math.inf
+        ]
+        if len(known) < 3:
+            return nan
+        evaluations, errors = np.log(np.array(known)).T
+        return -float(np.polyfit(evaluations, errors, 1)[0])
+
+    def frontier(self, error: str | None = None, cost: str = "seconds") -> tuple[Point, ...]:
+        """The points that no other point beats in both error and cost, from cheap to exact."""
+        name = error or next(iter(self.errors))
+        known = [p for p in self.points if not p.failed and math.isfinite(p.errors.get(name, nan))]
+        best: list[Point] = []
+        for point in sorted(known, key=lambda p: (getattr(p, cost), p.errors[name])):
+            if not best or point.errors[name] < best[-1].errors[name]:
+                best.append(point)
+        return tuple(best)
+
+    def unit(self, error: str) -> str:
+        """Unit of an error: "dB", or "1" for a ratio."""
+        return "dB" if "[dB]" in self.errors[error] else "1"
+
+
+nan = math.nan
+
+
+@dataclass(frozen=True)
+class Watch:
+    """Callables by which an experiment reports, and by which it can be ended.
+
+    Attributes
+    ----------
+    progress
+        called with the part done, 0 to 1, and what is being done.
+    cancelled
+        called before each point; True ends with the points that are there. Called within
+        references too, where True raises CancelledError.
+    shown
+        called with the experiment as far as it is, after each point.
+    """
+
+    progress: Progress | None = None
+    cancelled: Cancelled | None = None
+    shown: ShowExperiment | None = None
+
+    def show(self, experiment: Experiment) -> None:
+        """Show what there is."""
+        if self.shown is not None:
+            self.shown(experiment)
+
+    def within(self, begin: float, end: float) -> Callable[[float], object]:
+        """Progress of references, which are the part from `begin` to `end` of the work.
+
+        What it returns raises CancelledError where the work is cancelled: an experiment without
+        its references has no points.
+        """
+
+        def report(part: float) -> None:
+            if self.cancelled is not None and self.cancelled():
+                raise CancelledError
+            if self.progress is not None:
+                self.progress(begin + (end - begin) * part, "references")
+
+        return report
+
+
+NOT_WATCHED = Watch()
+"""Neither reports nor ends early."""
+
+
+def failed(
+    method: str, setting: str, value: float, why: str, seconds: float = nan, evaluations: int = 0
+) -> Point:
+    """A point that says that a method did not get there."""
+    return Point(method, setting, value, {}, seconds, evaluations, f"failed: {why}")
+
+
+def measured_in_turn(
+    experiment: Experiment,
+    tasks: Sequence[T],
+    name: Callable[[T], str],
+    measure: Callable[[T], Point],
+    watch: Watch,
+    *,
+    begin: float,
+) -> Experiment:
+    """The experiment with a point for each task, shown after each; ends early when cancelled.
+
+    `begin` is the part of the work that its references were.
+    """
+    for task in in_turn(tasks, name, watch.progress, watch.cancelled, begin=begin):
+        experiment = replace(
+            experiment, points=(*experiment.points, measure(task)), completed=False
+        )
+        watch.show(experiment)
+    return replace(experiment, completed=len(experiment.points) == len(tasks))
+
+
+def least_time(work: Callable[[], T], *, runs: int = 5, budget: float = 0.5) -> tuple[T, float]:
+    """Result of `work`, and the least time [s] of several runs after a warm-up.
+
+    The warm-up counts as the one run where it alone takes longer than `budget` [s] and the work is
+    compiled already; runs end when the budget is spent.
+    """
+    start = time.perf_counter()
+    answer = work()
+    first = time.perf_counter() - start
+    if first > budget:
+        return answer, first
+    least, spent, done = math.inf, 0.0, 0
+    while done < runs and spent < budget:
+        start = time.perf_counter()
+        answer = work()
+        taken = time.perf_counter() - start
+        least, spent, done = min(least, taken), spent + taken, done + 1
+    return answer, least

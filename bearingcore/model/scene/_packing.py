@@ -1,0 +1,283 @@
+"""A scene as the structs that kernels take: the one place that fills them.
+
+`pack` and `pack_motion` make all of them at once; solvers take what these return and need not come
+back. Tilts are carried times r_d and moments over r_d, r_d being `Bearing.groove_center_radius`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore.bearings import Bearing
+from bearingcore.common import Array
+from bearingcore.model import _kernels as kernels
+from bearingcore.model.scene._defect import path_tables
+from bearingcore.model.scene._scene import DOF_NAMES, WITH_MASS, Scene
+from bearingcore.units import STANDARD_GRAVITY
+
+SMALL_TILT = 0.2
+"""[rad] up to which a rotation of a ring counts as small: its sine is 0.7 % less, and what is left
+out of the place of its groove's centres, r_d θ²/2, is 2 % of their radius."""
+
+HEALTHY_PATH = kernels.Path(np.zeros((0, len(kernels.PATH_COLUMNS))), np.zeros(0))
+"""The way of a ball's centre where there is no defect."""
+
+
+class BodyNumbers(NamedTuple):
+    """Both bodies along n directions, each (n,), tilts scaled to lengths.
+
+    Load [N], inertia of the inner and of the outer body [kg], stiffness [N/m] and damping [N·s/m]
+    of the support.
+    """
+
+    force: Array
+    inner_mass: Array
+    outer_mass: Array
+    stiffness: Array
+    damping: Array
+
+
+@dataclass(frozen=True, eq=False)
+class PackedScene:
+    """A scene whose inner ring is free along `dofs`, as numbers.
+
+    Attributes
+    ----------
+    scene, dofs
+        what was packed, and the free directions.
+    contacts, path, load
+        all contacts, the way of the balls over all defects, load and free directions.
+    inner_path
+        the way over the defects of the inner race alone.
+    units : (5,)
+        divisors of scaled displacements, see `length_units`.
+    rows
+        the bearing with the numbers of each row, see `Bearing.of_row`.
+    balls
+        both contacts of each ball, its mass and weight, and its way into each race; where asked.
+    """
+
+    scene: Scene
+    dofs: tuple[str, ...]
+    contacts: kernels.Contacts
+    path: kernels.Path
+    inner_path: kernels.Path
+    load: kernels.StaticLoad
+    units: Array
+    rows: tuple[Bearing, ...]
+    balls: kernels.StaticBalls | None
+
+
+@dataclass(frozen=True, eq=False)
+class PackedMotion(PackedScene):
+    """A scene that moves along `dofs`: `PackedScene`, and both bodies."""
+
+    bodies: BodyNumbers
+    rotor: kernels.Rotor
+
+
+def pack(scene: Scene, dofs: tuple[str, ...] | None = None, *, balls: bool = False) -> PackedScene:
+    """A scene whose ring is free along `dofs`, as numbers; None takes its active directions.
+
+    balls: whether their masses are asked for. Their contacts have the damping 1 N·s/m, see `races`.
+    """
+    free = scene.active_dofs if dofs is None else dofs
+    units = length_units(scene)
+    load = kernels.StaticLoad(scene.load.vector / units, direction_numbers(free))
+    both = races(scene, 1.0, weight=True) if balls else None
+    defects, bearing = scene.defects, scene.bearing
+    rows, every = own_rows(bearing), contacts(bearing)
+    whole = path_tables(defects, bearing)
+    ways = []
+    for race in ("inner", "outer"):
+        own = tuple(defect for defect in defects if defect.race == race)
+        alone = len(own) == len(defects)
+        ways.append(whole if alone else path_tables(own, bearing) if own else HEALTHY_PATH)
+    of_balls = None if both is None else kernels.StaticBalls(every, both, *ways)
+    return PackedScene(scene, free, every, whole, ways[0], load, units, rows, of_balls)
+
+
+def pack_motion(scene: Scene, dofs: tuple[str, ...]) -> PackedMotion:
+    """A scene that moves along `dofs`, as numbers; its contacts have no damping yet.
+
+    Balls have the damping of `pack`, if they have mass. `dynamics.damping.damped` adds what the
+    scene has.
+
+    Raises
+    ------
+    ValueError
+        for a support that lacks a number.
+    """
+    bodies, undamped = body_numbers(scene, dofs), rotor(scene, dofs, 0.0)
+    packed = pack(scene, dofs, balls=scene.balls == WITH_MASS)
+    return PackedMotion(**vars(packed), bodies=bodies, rotor=undamped)
+
+
+@lru_cache(maxsize=256)
+def own_rows(bearing: Bearing) -> tuple[Bearing, ...]:
+    """The bearing with the numbers of each row."""
+    return tuple(bearing.of_row(k) for k in range(len(bearing.all_rows)))
+
+
+@lru_cache(maxsize=256)
+def contacts(bearing: Bearing) -> kernels.Contacts:
+    """All contacts of a bearing."""
+    rows = bearing.all_rows
+    owns = [bearing.of_row(k) for k in range(len(rows))]
+    counts = [own.n_balls for own in owns]
+    made = [bearing.kind.contact(own) for own in owns]
+    lever = bearing.groove_center_radius
+
+    def each(*values: float) -> Array:
+        """The values of the rows, once for each of their contacts."""
+        return np.repeat(np.array(values, dtype=float), counts)
+
+    return kernels.Contacts(
+        angle=np.concatenate(
+            [
+                row.turn + own.ball_spacing * np.arange(own.n_balls)
+                for row, own in zip(rows, owns, strict=True)
+            ]
+        ),
+        relative_speed=each(*(bearing.pace(k) for k in range(len(rows)))),
+        arm=each(
+            *(
+                (row.place + row.facing * one.beyond) / lever
+                for row, one in zip(rows, made, strict=True)
+            )
+        ),
+        reach=each(*(one.lever / lever for one in made)),
+        line_r=each(*(math.cos(one.angle) for one in made)),
+        line_z=each(
+            *(row.facing * math.sin(one.angle) for row, one in zip(rows, made, strict=True))
+        ),
+        fixed=each(*(one.center_distance is None for one in made)).astype(bool),
+        distance=each(*(one.center_distance or 0.0 for one in made)),
+        clearance=each(*(bearing.radial_clearance + row.clearance for row in rows)),
+        offset=each(*(row.offset for row in rows)),
+        room=each(*(one.room for one in made)),
+        factor=each(*(one.factor for one in made)),
+        exponent=each(*(one.exponent for one in made)),
+        rows=np.array([[own.start, own.stop - own.start] for own in bearing.balls_of_rows]),
+        most_tilt=SMALL_TILT * lever,
+    )
+
+
+def ball_angles(bearing: Bearing, cage_angles: Array) -> Array:
+    """Angles (n, balls) [rad] of all balls at cage angles (n,), row after row."""
+    return contacts(bearing).angles_at(cage_angles)
+
+
+def path(scene: Scene, race: str | None = None) -> kernels.Path:
+    """The way of a ball's centre over all defects of a scene, or over those of one race."""
+    defects = tuple(defect for defect in scene.defects if race in (None, defect.race))
+    return path_tables(defects, scene.bearing)
+
+
+def races(scene: Scene, contact_damping: float, *, weight: bool) -> kernels.Races:
+    """Both contacts of each ball, its mass and the loads on it.
+
+    contact_damping: c [N·s/m] of both contacts in series. It is shared so that balls without mass
+    would move as the published law has them: damping over stiffness alike on both sides. Alike
+    contacts have 2 c each. `weight`: whether the balls' weight acts.
+    """
+    owns = own_rows(scene.bearing)
+    softer = [(own.race_factors[0] / own.race_factors[1]) ** (1.0 / own.kind.exponent)
+              for own in owns]  # fmt: skip
+
+    def each(values: Iterable[float]) -> Array:
+        """The values of the rows, once for each of their balls."""
+        return np.repeat(np.array(list(values), dtype=float), [own.n_balls for own in owns])
+
+    def both(values: Iterable[tuple[float, float]]) -> Array:
+        """The same of pairs of values, for the inner and the outer race."""
+        inner, outer = zip(*values, strict=True)
+        return np.stack([each(inner), each(outer)])
+
+    return kernels.Races(
+        factor=both(own.race_factors for own in owns),
+        distance=both(own.kind.race_distances(own) for own in owns),
+        damping=both(
+            (contact_damping * (1.0 + one), contact_damping * (1.0 + 1.0 / one)) for one in softer
+        ),
+        mass=each(own.ball_mass for own in owns),
+        inverse_mass=each(1.0 / own.ball_mass for own in owns),
+        centrifugal=each(own.centrifugal_load(scene.shaft_speed) for own in owns),
+        weight=each(own.ball_mass * STANDARD_GRAVITY if weight else 0.0 for own in owns),
+    )
+
+
+def direction_numbers(dofs: Sequence[str]) -> NDArray[np.int64]:
+    """Indices of directions in x, y, z, rx, ry."""
+    return np.array([DOF_NAMES.index(name) for name in dofs], dtype=np.int64)
+
+
+def length_units(scene: Scene, dofs: Sequence[str] = DOF_NAMES) -> Array:
+    """Divisors of scaled displacements: 1 [m], or r_d for tilts [m/rad]."""
+    lever = scene.bearing.groove_center_radius
+    return np.array([lever if name in ("rx", "ry") else 1.0 for name in dofs])
+
+
+def body_numbers(scene: Scene, dofs: tuple[str, ...]) -> BodyNumbers:
+    """Load, inertia and support along `dofs`.
+
+    Raises
+    ------
+    ValueError
+        for a support that lacks a number.
+    """
+    units = length_units(scene, dofs)
+    return BodyNumbers(
+        scene.load.vector[direction_numbers(dofs)] / units,
+        scene.support.inertia("inner", dofs) / units**2,
+        scene.support.inertia("outer", dofs) / units**2,
+        scene.support.stiffness(dofs) / units**2,
+        scene.support.damping(dofs) / units**2,
+    )
+
+
+def rotor(
+    scene: Scene, dofs: tuple[str, ...], contact_damping: float, *, velocities: bool = False
+) -> kernels.Rotor:
+    """Both bodies of a scene that moves along `dofs`, and what its motion is marched in.
+
+    That is variables without jumps where the contact law has them, with the shorter sums of
+    contacts that stay in the plane where they do; `velocities` takes these as they are, which
+    adaptive steps and general-purpose integrators take. contact_damping: c [N·s/m] of Eq. 18.
+    """
+    published = scene.contact_law == "published"
+    variables = kernels.VELOCITIES
+    if published and not velocities:
+        flat = is_planar(scene) and dofs == DOF_NAMES[:2]
+        variables = kernels.PLANAR if flat else kernels.SMOOTH
+    bodies = body_numbers(scene, dofs)
+    return kernels.Rotor(
+        force=bodies.force,
+        inverse_inner=1.0 / bodies.inner_mass,
+        inverse_outer=1.0 / bodies.outer_mass,
+        stiffness=bodies.stiffness,
+        damping=bodies.damping,
+        active=direction_numbers(dofs),
+        cage_speed=float(scene.cage_speed),
+        contact_damping=float(contact_damping),
+        variables=variables,
+        tension=published,
+        turning_force=float(scene.turning_force),
+        shaft_ratio=1.0 / scene.bearing.cage_ratio,
+    )
+
+
+def is_planar(scene: Scene) -> bool:
+    """True where only x and y move, α0 = 0 and the law is the published one.
+
+    Such a motion is cheaper: its contacts never swivel.
+    """
+    flat = scene.active_dofs == DOF_NAMES[:2] and scene.bearing.is_flat
+    return flat and scene.contact_law == "published"

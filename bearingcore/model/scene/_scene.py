@@ -1,0 +1,378 @@
+"""Scene: everything that decides an answer, as one value. Equal scenes give equal results."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any, ClassVar, Self
+
+from bearingcore.bearings import Bearing, bearing_of
+from bearingcore.bearings._kind import DIRECTIONS
+from bearingcore.bearings._kinds import recognized
+from bearingcore.bearings._line_contact import mended_factor
+from bearingcore.common import _checks as checks
+from bearingcore.common import _scene_file as scene_file
+from bearingcore.model.scene._defect import Defect, path_tables
+from bearingcore.model.scene._load import Load
+from bearingcore.model.scene._support import Support
+
+DOF_NAMES = DIRECTIONS
+DOF_SYMBOLS = {"x": "x", "y": "y", "z": "z", "rx": "θx", "ry": "θy"}
+"""Displacements of the inner ring against the outer one: along x, y, z, rotations about x, y."""
+
+TILTS = ("rx", "ry")
+TILT_HELD, TILT_FREE = "tilt held", "tilt free"
+"""Choices of directions: those that the scene needs but for the tilts, as on a shaft on two
+bearings, and all that it needs, as if this bearing alone held the shaft."""
+
+FREE_TILT_WORDS = (
+    "The shaft may tilt, as if this bearing alone held it; a second bearing would hold the tilt."
+)
+HELD_TILT_WORDS = "Tilt is held, as by a second bearing on the shaft."
+
+LOAD_ALONG = {"x": "fx", "y": "fy", "z": "fz", "rx": "mx", "ry": "my"}
+"""The field of `Load` along each direction."""
+
+CONTACT_LAWS = ("published", "no tension")
+"""`published`: viscous damping in every loaded contact (Eq. 18), which can pull as a ball leaves.
+`no tension`: the same, never below zero."""
+
+
+MASSLESS, WITH_MASS = "massless", "with mass"
+BALLS = (MASSLESS, WITH_MASS)
+"""Models of balls in a simulated motion. `massless`: each is a spring between the rings (Eq. 13).
+`with mass`: each has its place, its inertia, centrifugal load and weight, and two contacts."""
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A bearing, its defect or defects, load, speed and support: all that decides an answer.
+
+    Parameters
+    ----------
+    bearing
+        a `Bearing`, or a designation such as "6205": see `bearingcore.bearings._named.bearing_of`.
+    load, support
+        see `Load`, `Support`.
+    defect
+        a `Defect`, or a tuple of them.
+    shaft_speed
+        ω_s [rad/s], at least 0.
+    contact_damping
+        viscous damping c [N·s/m] of a loaded contact (Eq. 18). None: from the stiffness of the
+        healthy bearing, see `bearingcore.contact_damping`.
+    contact_law
+        "published" or "no tension".
+    dofs
+        free directions out of ("x", "y", "z", "rx", "ry"). "tilt free": what the scene needs, tilts
+        among them where the load causes any, as if this bearing alone held the shaft. "tilt held":
+        these without the tilts, as on a shaft on two bearings. None: the same, but free where the
+        load has a moment, which this bearing then carries.
+    balls
+        "massless" or "with mass": of simulated motions, and of `static_state`, which then counts
+        the centrifugal load of each ball at the scene's speed.
+    unbalance
+        U = m·e [kg·m] of the rotor, at least 0: of simulated motions, on whose inner ring the force
+        U ω_s² turns with the shaft, along x at cage angle 0. Static answers leave it out.
+
+    Raises
+    ------
+    ValueError
+        naming the field, its value and what is allowed.
+    """
+
+    WANTED: ClassVar[str] = 'a Scene, such as scene_of("6205") or presets["fan-rig"]'
+    """Words for one where a scene is wanted, for `checks.instance`."""
+
+    bearing: Bearing
+    defect: Defect | tuple[Defect, ...]
+    load: Load
+    shaft_speed: float
+    support: Support
+    contact_damping: float | None = None
+    contact_law: str = "published"
+    dofs: tuple[str, ...] | str | None = None
+    balls: str = dataclasses.field(default=MASSLESS, metadata=scene_file.LEFT_OUT)
+    unbalance: float = dataclasses.field(default=0.0, metadata=scene_file.LEFT_OUT)
+
+    def __post_init__(self) -> None:
+        checks.keep_number(self, "shaft_speed", at_least=0.0)
+        checks.keep_number(self, "unbalance", at_least=0.0, unit="kg·m")
+        checks.keep_number(self, "contact_damping", optional=True, at_least=0.0)
+        checks.choice("contact_law", self.contact_law, CONTACT_LAWS)
+        checks.choice("balls", self.balls, BALLS)
+        said = self.dofs if isinstance(self.dofs, str) else ""
+        if self.dofs is not None and said not in (TILT_HELD, TILT_FREE):
+            checks.keep(self, dofs=check_dofs(self.dofs))
+        if not isinstance(self.defect, Defect):
+            several = (
+                tuple(self.defect) if isinstance(self.defect, tuple | list) else (self.defect,)
+            )
+            for defect in several:
+                checks.instance("defect", defect, Defect, "a Defect or a tuple of them")
+            checks.keep(self, defect=tuple(several))
+        checks.keep(self, bearing=bearing_of(self.bearing))
+        checks.instance("load", self.load, Load)
+        checks.instance("support", self.support, Support)
+        if said == TILT_HELD:
+            checks.keep(self, dofs=self._held_dofs)
+        self._check_directions()
+        for defect in self.defects:
+            defect.check_row(self.bearing)
+            defect.check_depth(self.bearing)
+            defect.check_floor(self.bearing)
+        if len(self.defects) > 1:
+            path_tables(self.defects, self.bearing)  # refuses defects that exclude each other
+
+    def __repr__(self) -> str:
+        """Bearing, defects, loads and speed, in a line."""
+        loads = {name: getattr(self.load, name) for name in LOAD_ALONG.values()}
+        parts = [
+            repr(self.bearing).removeprefix("<Bearing: ").removesuffix(">"),
+            ", ".join(f"{name} = {value:.4g}" for name, value in loads.items() if value),
+            f"{30.0 / math.pi * self.shaft_speed:.5g} rpm",
+            *(
+                f"{one.race} race damaged over {math.degrees(one.extent):.4g}°, "
+                f"{1e6 * one.depth:.4g} µm deep"
+                for one in self.defects
+            ),
+        ]
+        return f"<Scene: {'; '.join(filter(None, parts))}>"
+
+    def _check_directions(self) -> None:
+        """Refuse loads and directions that the kind of bearing cannot have."""
+        kind = self.bearing.kind
+        for direction, name in LOAD_ALONG.items():
+            if direction not in kind.directions and (value := getattr(self.load, name)) != 0.0:
+                raise checks.refuse(name, value, f"0: {kind.carries}")
+        if isinstance(self.dofs, tuple):
+            kind.check_directions(self.dofs)
+        if self.balls == WITH_MASS:
+            kind.check_mass()
+
+    @property
+    def defects(self) -> tuple[Defect, ...]:
+        """The defects as a tuple, without those that are none."""
+        several = (self.defect,) if isinstance(self.defect, Defect) else self.defect
+        return tuple(defect for defect in several if not defect.is_none)
+
+    @property
+    def needed_dofs(self) -> tuple[str, ...]:
+        """The directions that the load moves where nothing but this bearing holds the shaft.
+
+        All five, unless a smaller set is exact.
+
+        A radial load on a bearing with zero contact angle leaves the plane of the balls a plane of
+        symmetry: z, rx and ry stay zero and only x and y are needed. Of some kinds of bearing
+        fewer than five are all there is, see `Kind.needed_directions`.
+        """
+        flat = self.bearing.is_flat
+        radial = self.load.fz == self.load.mx == self.load.my == 0.0
+        return DOF_NAMES[:2] if flat and radial else self.bearing.kind.needed_directions
+
+    @property
+    def _held_dofs(self) -> tuple[str, ...]:
+        return tuple(name for name in self.needed_dofs if name not in TILTS)
+
+    def tilt_words(self, dofs: Iterable[str] | None = None) -> str:
+        """Sentences on tilts, free or held, and on loads that this bearing does not carry.
+
+        Empty where the load causes no tilt and is carried.
+        """
+        free = self.free_dofs(dofs)
+        if set(TILTS) & set(free):
+            words = FREE_TILT_WORDS
+        else:
+            words = HELD_TILT_WORDS if set(TILTS) & set(self.needed_dofs) else ""
+        loads = {name: getattr(self.load, LOAD_ALONG[name]) for name in DOF_NAMES}
+        held = [LOAD_ALONG[name] for name in DOF_NAMES if loads[name] and name not in free]
+        if held:
+            words += f" What holds the shaft carries {' and '.join(held)}, not this bearing."
+        return words.lstrip()
+
+    @property
+    def active_dofs(self) -> tuple[str, ...]:
+        """The directions that are computed: see `dofs`."""
+        if isinstance(self.dofs, tuple):
+            return self.dofs
+        free = self.dofs == TILT_FREE or self.load.has_moment
+        return self.needed_dofs if free else self._held_dofs
+
+    def free_dofs(self, dofs: Iterable[str] | None = None) -> tuple[str, ...]:
+        """The directions that a computation leaves free: `dofs` if given, else `active_dofs`.
+
+        "tilt held" are those that the scene needs but for the tilts, "tilt free" all of these.
+
+        ValueError for names that are none, or that the kind of bearing cannot move along.
+        """
+        if dofs is None:
+            return self.active_dofs
+        if isinstance(dofs, str) and dofs in (TILT_HELD, TILT_FREE):
+            return self._held_dofs if dofs == TILT_HELD else self.needed_dofs
+        names = check_dofs(dofs)
+        self.bearing.kind.check_directions(names)
+        return names
+
+    @property
+    def cage_speed(self) -> float:
+        """Cage speed ω_c [rad/s] of the bearing's own numbers (Eq. 3)."""
+        return self.bearing.cage_speed(self.shaft_speed)
+
+    @property
+    def defect_turns(self) -> bool:
+        """True where a defect turns with the shaft."""
+        return any(defect.race == "inner" for defect in self.defects)
+
+    @property
+    def turning_force(self) -> float:
+        """Force [N] that turns with the shaft, along x at cage angle 0: U ω_s² of the unbalance."""
+        return self.unbalance * self.shaft_speed**2
+
+    @property
+    def holds_tilt_unasked(self) -> bool:
+        """True where tilts are held, as `dofs` says nothing of them, that the load would cause."""
+        return self.dofs is None and self.active_dofs != self.needed_dofs
+
+    def with_tilts_as(self, said: object) -> Self:
+        """The scene of a file or link in which `dofs` is `said`, read with None for "tilt held".
+
+        Where they say nothing tilts are free, as they were before there was a choice; held ones
+        are the default but where the load has a moment.
+        """
+        if said is None and self.holds_tilt_unasked:
+            return dataclasses.replace(self, dofs=TILT_FREE)
+        if said == TILT_HELD and self.load.has_moment:
+            return dataclasses.replace(self, dofs=TILT_HELD)
+        return self
+
+    def healthy(self) -> Scene:
+        """The same scene without its defects."""
+        return dataclasses.replace(self, defect=Defect.none())
+
+    def to_data(self) -> dict[str, Any]:
+        """The scene as dictionaries, lists, numbers and strings; what is None is left out."""
+        defects = [scene_file.to_data(defect) for defect in self.defects]
+        data = {"version": scene_file.VERSION, **scene_file.to_data(self), "defect": defects}
+        # what says nothing had free tilts before there was a choice: see `with_tilts_as`
+        if self.holds_tilt_unasked:
+            data["dofs"] = TILT_HELD
+        elif self.dofs == TILT_FREE and self.replace(dofs=None).holds_tilt_unasked:
+            del data["dofs"]
+        kind = data["bearing"].pop("kind")
+        if kind is not recognized(self.bearing):
+            data["bearing"]["kind"] = kind.name
+        return data
+
+    @classmethod
+    def from_data(cls, data: object) -> Scene:
+        """The scene of `to_data`.
+
+        Raises
+        ------
+        ValueError
+            that names the table and field, its value and what is allowed.
+        """
+        table = scene_file.table("scene", data)
+        version = table.pop("version", scene_file.VERSION)
+        if version != scene_file.VERSION or isinstance(version, bool):
+            raise checks.refuse("version", version, str(scene_file.VERSION))
+        if table.get("defect", []) == []:
+            table["defect"] = Defect.none()
+        elif isinstance(table["defect"], list) and len(table["defect"]) == 1:
+            only = table["defect"][0]
+            table["defect"] = scene_file.from_data(Defect, "defect 1", only)
+        table.setdefault("load", {})
+        if isinstance(table.get("bearing"), dict):
+            bearing = {
+                "groove_center_distance": None,
+                **table["bearing"],
+            }  # of rollers there is none
+            if "load_deflection_factor" in bearing:
+                bearing["load_deflection_factor"] = mended_factor(
+                    bearing["load_deflection_factor"], bearing.get("roller_length")
+                )
+            table["bearing"] = bearing
+        said = table.get("dofs")
+        if said == TILT_HELD:
+            table["dofs"] = None
+        return scene_file.from_data(cls, "scene", table, top=True).with_tilts_as(said)
+
+    def to_toml(self) -> str:
+        """The scene as text that `from_toml` reads; SI units and radians."""
+        return scene_file.to_toml(self.to_data())
+
+    @classmethod
+    def from_toml(cls, text: str) -> Scene:
+        """The scene of a TOML text.
+
+        Raises
+        ------
+        ValueError
+            that names the table and field, its value and what is allowed.
+        """
+        return cls.from_data(scene_file.from_toml(text))
+
+    def replace(self, **changes: Any) -> Self:
+        """A scene with fields changed, its own or those of its parts, by name.
+
+        >>> from bearingcore import presets
+        >>> scene = presets["fan-rig"].replace(extent=0.2, fy=-50.0)
+        >>> scene.defect.extent, scene.load.fy
+        (0.2, -50.0)
+
+        Fields of a defect change the first one where there are several.
+
+        Raises
+        ------
+        ValueError
+            for an unknown name, or a value that the part refuses.
+        """
+        own: dict[str, Any] = {}
+        inside: dict[str, dict[str, Any]] = {}
+        for name, value in changes.items():
+            if name in _OWN_FIELDS:
+                own[name] = value
+            elif name in _PART_OF_FIELD:
+                inside.setdefault(_PART_OF_FIELD[name], {})[name] = value
+            else:
+                known = ", ".join(sorted({*_OWN_FIELDS, *_PART_OF_FIELD}))
+                raise checks.refuse("name of a field", name, known)
+        if "bearing" in own:
+            own["bearing"] = bearing_of(own["bearing"])
+        for part, values in inside.items():
+            old = own.get(part, getattr(self, part))
+            if part == "defect" and not isinstance(old, Defect):
+                first = dataclasses.replace(old[0] if old else Defect.none(), **values)
+                own[part] = (first, *old[1:])
+            elif isinstance(old, Bearing):
+                own[part] = old.replace(**values)
+            else:
+                own[part] = dataclasses.replace(old, **values)
+        return dataclasses.replace(self, **own)
+
+
+_OWN_FIELDS = {field.name for field in dataclasses.fields(Scene)}
+_PART_OF_FIELD = {
+    field.name: part
+    for part, kind in (
+        ("bearing", Bearing),
+        ("defect", Defect),
+        ("load", Load),
+        ("support", Support),
+    )
+    for field in dataclasses.fields(kind)
+}
+
+
+def check_dofs(dofs: Iterable[str]) -> tuple[str, ...]:
+    """`dofs` in the order of `DOF_NAMES`; ValueError for unknown, repeated or no names."""
+    allowed = "different names out of " + ", ".join(DOF_NAMES)
+    if not isinstance(dofs, Iterable):
+        raise checks.refuse("dofs", dofs, allowed)
+    names = (dofs,) if isinstance(dofs, str) else tuple(dofs)
+    known = all(name in DOF_NAMES for name in names)
+    if not names or not known or len(set(names)) != len(names):
+        raise checks.refuse("dofs", names, allowed)
+    return tuple(name for name in DOF_NAMES if name in names)

@@ -1,0 +1,92 @@
+"""Masses, springs and dampers of the rotor and of its housing (Eqs. 22, 23)."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from bearingcore.common import Array
+from bearingcore.common import _checks as checks
+
+BODIES = ("inner", "outer")
+
+
+@dataclass(frozen=True)
+class Support:
+    """Two rigid bodies: the inner ring with the shaft, and the outer ring with the housing, which
+    rests on springs and dampers to ground (Eqs. 22, 23).
+
+    Masses [kg], stiffness [N/m] and damping [N·s/m] along x, y, z; about x and y (rx, ry)
+    stiffness [N·m/rad], damping [N·m·s/rad] and moments of inertia [kg·m²]. What is None is not
+    known: a motion that needs it is refused by name.
+    """
+
+    inner_mass: float
+    outer_mass: float
+    stiffness_x: float
+    stiffness_y: float
+    damping_x: float
+    damping_y: float
+    stiffness_z: float | None = None
+    damping_z: float | None = None
+    stiffness_rx: float | None = None
+    stiffness_ry: float | None = None
+    damping_rx: float | None = None
+    damping_ry: float | None = None
+    inner_inertia: float | None = None
+    outer_inertia: float | None = None
+
+    def __post_init__(self) -> None:
+        for field in dataclasses.fields(self):
+            least: dict[str, Any] = {
+                "at_least" if field.name.startswith("damping") else "above": 0.0
+            }
+            checks.keep_number(self, field.name, optional=field.default is None, **least)
+
+    def _numbers(self, names: Mapping[str, str]) -> Array:
+        """Numbers by direction; where one is not known all that are not are named."""
+        for dof, name in names.items():
+            if getattr(self, name) is None:
+                raise checks.refuse(
+                    name, None, f"a number, as {dof} is among the free directions{self._way(names)}"
+                )
+        return np.array([getattr(self, name) for name in names.values()])
+
+    def _way(self, dofs: Iterable[str]) -> str:
+        """All numbers that motion along `dofs` lacks, and how to do without them."""
+        needed = {
+            dof: [f"stiffness_{dof}", f"damping_{dof}", *(f"{b}_{_inertia(dof)}" for b in BODIES)]
+            for dof in dofs
+        }
+        missing = {
+            dof: [n for n in names if getattr(self, n) is None] for dof, names in needed.items()
+        }
+        every = dict.fromkeys(name for names in missing.values() for name in names)
+        known = tuple(dof for dof, names in missing.items() if not names)
+        held = f", or scene.replace(dofs={known}) to hold the others" if known else ""
+        return f". Give {', '.join(every)} of the support{held}"
+
+    def stiffness(self, dofs: Iterable[str]) -> Array:
+        """Stiffness to ground along `dofs` [N/m, N·m/rad]. ValueError where it is not known."""
+        return self._numbers({dof: f"stiffness_{dof}" for dof in dofs})
+
+    def damping(self, dofs: Iterable[str]) -> Array:
+        """Damping to ground along `dofs` [N·s/m, N·m·s/rad]. ValueError where it is not known."""
+        return self._numbers({dof: f"damping_{dof}" for dof in dofs})
+
+    def inertias(self, dofs: Iterable[str]) -> Array:
+        """`inertia` of both bodies, the inner one first: (2 len(dofs),)."""
+        names = tuple(dofs)
+        return np.concatenate([self.inertia(body, names) for body in BODIES])
+
+    def inertia(self, body: str, dofs: Iterable[str]) -> Array:
+        """Mass [kg] or moment of inertia [kg·m²] of `body` ("inner", "outer") along `dofs`."""
+        return self._numbers({dof: f"{body}_{_inertia(dof)}" for dof in dofs})
+
+
+def _inertia(dof: str) -> str:
+    return "inertia" if dof in ("rx", "ry") else "mass"

@@ -1,0 +1,415 @@
+"""Static equilibrium of fast bearings: centrifugal load gives each race its own contact angle."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from bearingcore.common import (
+    Array,
+    ResultTable,
+    cached_property,
+    number,
+    percent,
+    shown_as_table,
+    table_of,
+    with_prefix,
+)
+from bearingcore.common import _checks as checks
+from bearingcore.model import _kernels as kernels
+from bearingcore.model.scene import DOF_NAMES, WITH_MASS, Scene
+from bearingcore.model.scene import _packing as packing
+from bearingcore.model.statics._equilibrium import (
+    MOST_CONTACTS,
+    TERM_INDICES,
+    Equilibrium,
+    default_cage_angles,
+    equilibrium,
+    equilibrium_of,
+)
+from bearingcore.model.statics._shortage import explanation
+from bearingcore.model.statics._status import StaticStatus
+
+BALANCED = 1e-8
+"""Force left on a ball, over the greatest load, up to which its place counts as found."""
+
+CARRYING = 0.05
+"""Part of the heaviest load above which a ball counts as carrying."""
+
+UNSETTLED = StaticStatus.NOT_CONVERGED
+
+
+@shown_as_table
+@dataclass(frozen=True)
+class BallPositions:
+    """Static equilibrium of a scene whose balls find their own places, at n cage angles.
+
+    NaN where there is no answer. Of what has a row a race, the inner race comes first.
+
+    Attributes
+    ----------
+    scene, dofs, cage_angles : (n,) [rad]
+        what was solved, along which free directions.
+    centrifugal_load
+        F_c [N] of each ball of the first row.
+    displacement : (n, 5) [m, rad]
+        of the inner ring.
+    load : (2, n, N_b) [N]
+        of the contacts with the inner and outer race.
+    contact_angle : (2, n, N_b) [rad]
+        of each; NaN where a contact carries nothing.
+    position : (n, 2, N_b) [m]
+        of each ball, radial and axial, against the ball that touches the outer race at the unloaded
+        contact angle. A ball that carries nothing has its position inside the clearance.
+    stiffness : (n, 5, 5) [N/m, N/rad, N·m/rad]
+    status, residual, iterations : (n,)
+        as of `Equilibrium`; a load that no contact can carry is not solved again.
+    leads, cost
+        as of `Equilibrium`.
+    """
+
+    scene: Scene
+    dofs: tuple[str, ...]
+    cage_angles: Array
+    centrifugal_load: float
+    displacement: Array
+    load: Array
+    contact_angle: Array
+    position: Array
+    stiffness: Array
+    status: NDArray[np.int8]
+    residual: Array
+    iterations: NDArray[np.int64]
+    leads: Array
+    cost: str = ""
+
+    @cached_property
+    def converged(self) -> NDArray[np.bool_]:
+        """(n,) True where there is one equilibrium and it was found."""
+        return self.status == StaticStatus.CONVERGED
+
+    def term(self, name: str) -> Array:
+        """(n,) one stiffness term by name, e.g. "k_yy" [N/m, N/rad, N·m/rad]."""
+        i, j = TERM_INDICES[name]
+        return self.stiffness[:, i, j]
+
+    def reason(self, i: int) -> str:
+        """In words, what became of cage angle i."""
+        status = StaticStatus(int(self.status[i]))
+        words = status.sentence(" or ".join(self.dofs), float(self.residual[i]))
+        at = float(self.cage_angles[i])
+        return self.cost or words + explanation(status, self.scene, at, self.dofs)
+
+    def table(self) -> ResultTable:
+        """A row a cage angle: displacements, stiffness, and of each ball both loads and angles."""
+        balls = range(self.load.shape[2])
+        return table_of(
+            ("cage_angle", "rad", self.cage_angles),
+            *(
+                (f"displacement_{dof}", "rad" if dof.startswith("r") else "m", values)
+                for dof, values in zip(DOF_NAMES, self.displacement.T, strict=True)
+            ),
+            *(
+                (f"ball_{j + 1}_{race}_load", "N", self.load[i, :, j])
+                for i, race in enumerate(("inner", "outer"))
+                for j in balls
+            ),
+            *(
+                (f"ball_{j + 1}_{race}_contact_angle", "rad", self.contact_angle[i, :, j])
+                for i, race in enumerate(("inner", "outer"))
+                for j in balls
+            ),
+        )
+
+
+def ball_positions(
+    scene: Scene,
+    cage_angles: ArrayLike | None = None,
+    dofs: Iterable[str] | None = None,
+    *,
+    shaft_angles: ArrayLike | None = None,
+    centrifugal_load: float | None = None,
+    weight: bool = False,
+    most_contacts: int = MOST_CONTACTS,
+) -> BallPositions:
+    """Static equilibrium of `scene` under the centrifugal load of its balls.
+
+    Each ball finds its place between its two contacts; contact angles, loads and stiffness follow.
+    Without centrifugal load and weight this is `equilibrium` to rounding. The gyroscopic moment of
+    a ball, which has no potential, is left out: `limits` says from what speed it matters.
+
+    Parameters
+    ----------
+    scene, cage_angles, dofs, shaft_angles
+        as of `equilibrium`.
+    centrifugal_load
+        F_c [N] of each ball; None: at the scene's speed.
+    weight
+        whether the balls' weight acts, along −y.
+    most_contacts
+        as of `equilibrium`.
+
+    Returns
+    -------
+    BallPositions
+        with a status for each cage angle.
+
+    Raises
+    ------
+    ValueError
+        for angles that are not finite or not as many, unknown names in `dofs`, or contacts so soft
+        or stiff that a computer has no numbers for them.
+    """
+    checks.instance("scene", scene, Scene)
+    scene.bearing.kind.check_mass()
+    active = scene.free_dofs(dofs)
+    with _within_range(scene):
+        packed = packing.pack(scene, active, balls=True)
+    if cage_angles is None:
+        cage_angles = default_cage_angles(scene)
+    massless = equilibrium_of(packed, cage_angles, shaft_angles, most_contacts)
+    assert packed.balls is not None
+    races = packed.balls.races
+    if not weight:
+        races = races._replace(weight=np.zeros_like(races.weight))
+    if centrifugal_load is not None:
+        races = races._replace(centrifugal=np.full_like(races.mass, centrifugal_load))
+    if massless.cost:
+        loads = np.broadcast_to(massless.ball_load, (2, *massless.ball_load.shape))
+        return BallPositions(
+            scene, active, massless.cage_angles, float(races.centrifugal[0]),
+            massless.displacement, loads, loads, np.swapaxes(loads, 0, 1), massless.stiffness,
+            massless.status, massless.residual, massless.iterations, massless.leads, massless.cost,
+        )  # fmt: skip
+    start = np.where(np.isfinite(massless.state), massless.state, 0.0)
+    with _within_range(scene):
+        q, load, angle, place, stiffness, status, residual, iterations = kernels.ball_positions(
+            massless.cage_angles,
+            massless.leads,
+            start,
+            packed.balls._replace(races=races),
+            packed.load,
+        )
+    status[_beyond_geometry(packed.balls, q, load, status)] = StaticStatus.BEYOND_GEOMETRY
+    for none in (StaticStatus.NOT_CARRIED, StaticStatus.BEYOND_GEOMETRY):
+        status[massless.status == none] = none
+    left = _unbalanced(packed.contacts, races, massless.cage_angles, load, angle)
+    status[(status < StaticStatus.NOT_CARRIED) & (left > BALANCED)] = UNSETTLED
+    residual = np.maximum(residual, left)
+    units = packed.units
+    gone = status >= StaticStatus.NOT_CARRIED
+    displacement = q / units
+    stiffness *= units[:, None] * units
+    for values in (displacement, place, stiffness):
+        values[gone] = math.nan
+    load[:, gone] = angle[:, gone] = math.nan
+    loose = np.isin(status, (StaticStatus.NOTHING_TOUCHES, StaticStatus.FREE_DIRECTION))
+    displacement[np.ix_(loose, packed.load.active)] = math.nan
+    return BallPositions(
+        scene,
+        active,
+        massless.cage_angles,
+        float(races.centrifugal[0]),
+        displacement,
+        load,
+        angle,
+        place,
+        stiffness,
+        status.astype(np.int8),
+        residual,
+        iterations,
+        massless.leads,
+    )
+
+
+@dataclass(frozen=True)
+class EquilibriumWithMass(Equilibrium):
+    """Static equilibrium whose balls carry their centrifugal load.
+
+    As `Equilibrium`; `ball_load` and `contact_angle` are those at the outer race, which carries the
+    ball's load and its centrifugal load.
+
+    Attributes
+    ----------
+    positions
+        what it was made of: places of the balls, loads and contact angles of both races.
+    """
+
+    positions: BallPositions = field(kw_only=True)
+
+    @property
+    def carries(self) -> NDArray[np.bool_]:
+        """(n, N_b) True for balls that carry load from ring to ring, at both races."""
+        return np.asarray((self.positions.load > 0.0).all(axis=0))
+
+    @cached_property
+    def contact_angle(self) -> Array:
+        """(n, N_b) [rad] contact angle at the outer race; NaN for balls that carry nothing."""
+        return self.positions.contact_angle[1]
+
+    @property
+    def inner_load(self) -> Array:
+        """(n, N_b) [N] load of each ball at the inner race."""
+        return self.positions.load[0]
+
+    @property
+    def inner_contact_angle(self) -> Array:
+        """(n, N_b) [rad] contact angle at the inner race; NaN where that carries nothing."""
+        return self.positions.contact_angle[0]
+
+
+def static_state(
+    scene: Scene,
+    cage_angles: ArrayLike | None = None,
+    dofs: Iterable[str] | None = None,
+    *,
+    shaft_angles: ArrayLike | None = None,
+    most_contacts: int = MOST_CONTACTS,
+) -> Equilibrium:
+    """Static equilibrium by the model of the scene.
+
+    `equilibrium` of massless balls. Balls with mass (`Scene.balls`) carry their centrifugal load at
+    the scene's speed: an `EquilibriumWithMass`, from `ball_positions`. Arguments and what is raised
+    are those of `equilibrium`.
+    """
+    checks.instance("scene", scene, Scene)
+    if scene.balls != WITH_MASS:
+        return equilibrium(
+            scene, cage_angles, dofs, shaft_angles=shaft_angles, most_contacts=most_contacts
+        )
+    found = ball_positions(
+        scene, cage_angles, dofs, shaft_angles=shaft_angles, most_contacts=most_contacts
+    )
+    known = found.status < StaticStatus.NOT_CARRIED
+    carries = (found.load[0] > 0.0) & (found.load[1] > 0.0)
+    return EquilibriumWithMass(
+        scene=scene,
+        dofs=found.dofs,
+        cage_angles=found.cage_angles,
+        displacement=found.displacement,
+        ball_load=found.load[1],
+        stiffness=found.stiffness,
+        loaded_balls=np.where(known, carries.sum(axis=1), 0),
+        status=found.status,
+        residual=found.residual,
+        iterations=found.iterations,
+        evaluations=found.iterations,
+        state=found.displacement * packing.length_units(scene),
+        leads=found.leads,
+        cost=found.cost,
+        positions=found,
+    )
+
+
+@dataclass(frozen=True)
+class CentrifugalEffect:
+    """Changes of a scene's static state by centrifugal load, the greatest over its cage angles.
+
+    Attributes
+    ----------
+    force [N]
+        F_c of a ball of the first row.
+    load
+        change of a load at the outer race over the heaviest load.
+    contact_angle [rad]
+        between the two contacts of a ball that carries more than CARRYING of the heaviest load.
+    stiffness
+        change of k_xx, k_yy or k_zz over the greatest of its term: root mean square over the cage
+        angles, as terms jump where a ball comes to carry.
+    converged
+        True where both states have an answer at all cage angles.
+    """
+
+    force: float
+    load: float
+    contact_angle: float
+    stiffness: float
+    converged: bool
+
+    @property
+    def sentence(self) -> str:
+        """In a line, with the numbers."""
+        if not self.converged:
+            return "Centrifugal load: not known, as a cage angle has no static state."
+        return (
+            f"Centrifugal load of {with_prefix(self.force, 'N')} a ball changes loads by up to "
+            f"{percent(self.load, 2)} of the heaviest, stiffness by up to "
+            f"{percent(self.stiffness, 2)}, and separates the contact angles of the races by up to "
+            f"{number(math.degrees(self.contact_angle), 2)}°."
+        )
+
+
+@contextmanager
+def _within_range(scene: Scene) -> Iterator[None]:
+    """Say by name what leads to numbers that a computer does not have."""
+    try:
+        yield
+    except ArithmeticError:
+        raise checks.refuse(
+            "load_deflection_factor",
+            scene.bearing.load_deflection_factor,
+            "one of which a computer has numbers for the contacts of both races",
+        ) from None
+
+
+def centrifugal_effect(
+    scene: Scene, cage_angles: ArrayLike | None = None, shaft_angles: ArrayLike | None = None
+) -> CentrifugalEffect:
+    """Static states with and without centrifugal load, compared; see `ball_positions`."""
+    without = ball_positions(scene, cage_angles, shaft_angles=shaft_angles, centrifugal_load=0.0)
+    with_load = ball_positions(scene, without.cage_angles, shaft_angles=shaft_angles)
+    both = without.converged & with_load.converged
+    if not both.all():
+        nan = math.nan
+        return CentrifugalEffect(with_load.centrifugal_load, nan, nan, nan, False)
+    heaviest = max(float(without.load.max()), 1e-300)
+    load = np.abs(with_load.load[1] - without.load[1]).max() / heaviest
+    parted = np.abs(with_load.contact_angle[0] - with_load.contact_angle[1])
+    parted = parted[(with_load.load > CARRYING * heaviest).all(axis=0)]
+    # over the cage angles: where a ball comes to carry the terms jump, at another angle each
+    changes = [
+        np.sqrt(np.mean((with_load.term(name) - without.term(name)) ** 2))
+        / max(without.term(name).max(), 1.0)
+        for name in ("k_xx", "k_yy", "k_zz")
+    ]
+    apart = float(np.nanmax(parted)) if np.isfinite(parted).any() else 0.0
+    return CentrifugalEffect(
+        with_load.centrifugal_load, float(load), apart, float(max(changes)), True
+    )
+
+
+def _unbalanced(
+    contacts: kernels.Contacts, races: kernels.Races, cage_angles: Array, load: Array, angle: Array
+) -> Array:
+    """(n,) greatest force left on a ball over the greatest load at that cage angle.
+
+    Looked at once more with the answer at hand: a ball that did not settle must not pass for one.
+    """
+    phi = contacts.angles_at(cage_angles)
+    known = np.nan_to_num(angle)
+    radial, axial = load * np.cos(known), load * np.sin(known)
+    outwards = radial[0] - radial[1] + races.centrifugal - races.weight * np.sin(phi)
+    left = np.hypot(outwards, axial[0] - axial[1]).max(axis=1)
+    # a ball with next to no load in the gap has none left on it
+    size = np.maximum(load.max(axis=(0, 2)), np.abs(races.centrifugal).max())
+    return np.asarray(left / np.maximum(size, 1e-300) * (left > 0.0))
+
+
+def _beyond_geometry(
+    balls: kernels.StaticBalls, q: Array, load: Array, status: NDArray[np.int8]
+) -> NDArray[np.bool_]:
+    """(n,) True where the formulas have a balance that the contacts' geometry does not allow.
+
+    See `kernels.Contacts.room`: each contact of a ball has all of it.
+    """
+    one = balls.contacts
+    most = balls.races.factor * one.room**one.exponent
+    outside = (load > most[:, None]).any(axis=(0, 2))
+    tilted = (np.abs(q[:, 3:]) > one.most_tilt).any(axis=1)
+    converged, free = (status == code for code in (kernels.CONVERGED, kernels.FREE_DIRECTION))
+    return np.asarray(converged & (outside | tilted) | free & outside)

@@ -1,0 +1,447 @@
+"""Static equilibrium over cage angles: load distribution and the 5×5 stiffness (Eqs. 7-17)."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from bearingcore.common import (
+    Array,
+    ResultTable,
+    cached_property,
+    shown_as_table,
+    table_of,
+    thousands,
+)
+from bearingcore.common import _checks as checks
+from bearingcore.common._arrays import least_and_greatest
+from bearingcore.model import _kernels as kernels
+from bearingcore.model.scene import DOF_NAMES, DOF_SYMBOLS, LOAD_ALONG, PackedScene, Scene
+from bearingcore.model.scene import _packing as packing
+from bearingcore.model.statics._shortage import explanation, is_unbounded, moved
+from bearingcore.model.statics._status import StaticStatus
+
+STIFFNESS_TERMS = tuple(f"k_{a}{b}" for i, a in enumerate(DOF_NAMES) for b in DOF_NAMES[i:])
+"""Names of the 15 independent terms of the symmetric 5×5 stiffness matrix, row by row."""
+
+TERM_INDICES = {
+    f"k_{a}{b}": (i, i + k) for i, a in enumerate(DOF_NAMES) for k, b in enumerate(DOF_NAMES[i:])
+}
+"""Row and column of each stiffness term."""
+
+TERM_UNITS = {
+    term: ("N/m", "N/rad", "N·m/rad")[sum(DOF_NAMES[i].startswith("r") for i in indices)]
+    for term, indices in TERM_INDICES.items()
+}
+"""Unit of each stiffness term."""
+
+TERM_SYMBOLS = {
+    term: "k " + "".join(DOF_SYMBOLS[DOF_NAMES[i]] for i in indices)
+    for term, indices in TERM_INDICES.items()
+}
+"""Symbol of each stiffness term: "k xθy" for "k_xry"."""
+
+ANGLES_A_PERIOD = 121
+
+UNEXPLAINED = (StaticStatus.NOT_CONVERGED, StaticStatus.BEYOND_GEOMETRY)
+"""Ends of the descent that it may have come to as no contact can carry the load."""
+
+MOST_CONTACTS = 20_000_000
+"""Contacts, those of all balls at all cage angles, that are solved at most by default:
+some seconds of one core and a gigabyte of answers."""
+
+
+@shown_as_table
+@dataclass(frozen=True)
+class Equilibrium:
+    """Static equilibrium of a scene at n cage angles. NaN where there is no answer.
+
+    Attributes
+    ----------
+    scene, dofs
+        what was solved, and the free directions.
+    cage_angles : (n,) [rad]
+    displacement : (n, 5) [m, rad]
+        of the inner ring along x, y, z and about x, y (Eq. 16); 0 in directions that are held,
+        NaN in those that nothing resists.
+    ball_load : (n, N_b) [N]
+        Q_j (Eq. 13).
+    stiffness : (n, 5, 5) [N/m, N/rad, N·m/rad]
+        K_b (Eq. 17), all five directions, also those that are held.
+    loaded_balls : (n,)
+        how many balls carry load.
+    status : (n,)
+        each a `StaticStatus`; `reason(i)` puts it into words.
+    residual : (n,)
+        size of the unbalanced load over the size of the load, moments over r_d; to the load counts
+        what the held directions take. Converged is 1e-9 or less, or what the digits of a
+        displacement allow where a very light load meets very stiff balls.
+    iterations, evaluations : (n,)
+        Newton steps, and how often the energy was evaluated.
+    state : (n, 5) [m]
+        the last displacement reached, tilts times r_d, whatever became of it.
+    leads : (n,) [rad]
+        how far the shaft is ahead of where the cage angle has it: see `shaft_angles`.
+    cost
+        what solving them would have taken, where that was too much to begin; else empty.
+    weights : (n,)
+        share of the time, where the angles stand for all positions that balls and shaft take:
+        `bearingcore.model.statics._positions`. None elsewhere.
+    """
+
+    scene: Scene
+    dofs: tuple[str, ...]
+    cage_angles: Array
+    displacement: Array
+    ball_load: Array
+    stiffness: Array
+    loaded_balls: NDArray[np.int64]
+    status: NDArray[np.int8]
+    residual: Array
+    iterations: NDArray[np.int64]
+    evaluations: NDArray[np.int64]
+    state: Array = field(repr=False)
+    leads: Array = field(repr=False)
+    cost: str = ""
+    weights: Array | None = field(default=None, repr=False)
+
+    @cached_property
+    def converged(self) -> NDArray[np.bool_]:
+        """(n,) True where there is one equilibrium and it was found."""
+        return self.status == StaticStatus.CONVERGED
+
+    @property
+    def sentence(self) -> str:
+        """Free directions, and whether the shaft may tilt."""
+        free = f"Free are {', '.join(DOF_SYMBOLS[dof] for dof in self.dofs)}."
+        return f"{free} {self.scene.tilt_words(self.dofs)}".rstrip()
+
+    @property
+    def shaft_angles(self) -> Array:
+        """(n,) [rad] how far the shaft has turned, and with it defects of the inner race."""
+        return self.cage_angles / self.scene.bearing.cage_ratio + self.leads
+
+    @property
+    def shares(self) -> Array:
+        """(n,) share of the time of each angle: `weights`, else `time_shares`."""
+        if self.weights is not None:
+            return self.weights
+        return time_shares(self.cage_angles, self.scene.bearing.period)
+
+    @property
+    def carries(self) -> NDArray[np.bool_]:
+        """(n, N_b) True for balls that carry load from ring to ring."""
+        return self.ball_load > 0.0
+
+    @property
+    def inner_load(self) -> Array:
+        """(n, N_b) [N] load of each ball at the inner race: Q_j, where balls have no mass."""
+        return self.ball_load
+
+    @cached_property
+    def ball_angle(self) -> Array:
+        """(n, N_b) [rad] angle φ_j of each ball, 0 to 2π (Eq. 4), row after row."""
+        return packing.ball_angles(self.scene.bearing, self.cage_angles) % (2.0 * math.pi)
+
+    @cached_property
+    def contact_angle(self) -> Array:
+        """(n, N_b) [rad] loaded contact angle α_j (Eq. 14); NaN for balls that carry nothing."""
+        contacts = packing.contacts(self.scene.bearing)
+        along, across = moved(self.scene, self.cage_angles, self.state, self.leads)
+        # Equation (8): the part along the unloaded line of contact only while positive
+        along += contacts.distance
+        turned = np.arctan2(across, np.maximum(along, 0.0))
+        angle = np.arctan2(contacts.line_z, contacts.line_r)
+        angle = angle + np.where(contacts.fixed, 0.0, turned)
+        return np.where(self.ball_load > 0.0, angle, math.nan)
+
+    @property
+    def inner_contact_angle(self) -> Array:
+        """(n, N_b) [rad] contact angle at the inner race: α_j, where balls have no mass."""
+        return self.contact_angle
+
+    def term(self, name: str) -> Array:
+        """(n,) one stiffness term by name, e.g. "k_yy" [N/m, N/rad, N·m/rad]."""
+        if name not in TERM_INDICES:
+            raise checks.refuse("stiffness term", name, ", ".join(STIFFNESS_TERMS))
+        i, j = TERM_INDICES[name]
+        return self.stiffness[:, i, j]
+
+    def table(self) -> ResultTable:
+        """A row a cage angle: displacements, stiffness terms, loaded balls, loads, in words how."""
+        state = zip(DOF_NAMES, self.displacement.T, strict=True)
+        return table_of(
+            ("cage_angle", "rad", self.cage_angles, "angle of the cage"),
+            *(
+                (f"displacement_{dof}", "rad" if dof.startswith("r") else "m", q)
+                for dof, q in state
+            ),
+            *((term, TERM_UNITS[term], self.term(term)) for term in STIFFNESS_TERMS),
+            ("loaded_balls", "", self.loaded_balls, "balls that carry load"),
+            *(
+                (f"ball_{j + 1}_load", "N", load, f"load of ball {j + 1}")
+                for j, load in enumerate(self.ball_load.T)
+            ),
+            ("status", "", [self.reason(i) for i in range(len(self.cage_angles))]),
+        )
+
+    def stiffness_table(self, i: int | None = None) -> ResultTable:
+        """K_b as 5 × 5 numbers to copy: a row a load, a column a displacement, in SI units.
+
+        Of cage angle i; None: the mean in time over all angles that have an equilibrium.
+        """
+        if i is None:
+            stiffness = self._mean(self.stiffness)
+        else:
+            at_most = len(self.cage_angles) - 1
+            stiffness = self.stiffness[checks.whole_number("i", i, at_least=0, at_most=at_most)]
+        loads = zip(DOF_NAMES, LOAD_ALONG.values(), strict=True)
+        return table_of(
+            (
+                "load",
+                "",
+                [f"{load} [{'N·m' if dof.startswith('r') else 'N'}]" for dof, load in loads],
+            ),
+            *(
+                (f"per_{'rad' if dof.startswith('r') else 'm'}_{dof}", "", column)
+                for dof, column in zip(DOF_NAMES, stiffness.T, strict=True)
+            ),
+        )
+
+    def displacement_table(self) -> ResultTable:
+        """Displacement of the inner ring over all angles: a row a direction, in m and rad.
+
+        Least, mean in time and greatest, of the angles that have an equilibrium.
+        """
+        least, greatest = least_and_greatest(self.displacement, 0)
+        return table_of(
+            ("direction", "", list(DOF_NAMES)),
+            ("unit", "", ["rad" if dof.startswith("r") else "m" for dof in DOF_NAMES]),
+            ("least", "", least),
+            ("mean", "", self._mean(self.displacement)),
+            ("greatest", "", greatest),
+        )
+
+    def _mean(self, values: Array) -> Array:
+        """Mean in time (...) of numbers (n, ...) over the angles at which all are known."""
+        known = np.isfinite(values).all(axis=tuple(range(1, values.ndim)))
+        share = np.where(known, self.shares, 0.0)
+        return np.tensordot(share, np.nan_to_num(values), 1) / (share.sum() or np.nan)
+
+    def reason(self, i: int) -> str:
+        """In words, what became of cage angle i."""
+        free = [
+            name for name in self.dofs if math.isnan(self.displacement[i, DOF_NAMES.index(name)])
+        ]
+        status = StaticStatus(int(self.status[i]))
+        words = status.sentence(", ".join(free), float(self.residual[i]))
+        at = float(self.cage_angles[i])
+        return self.cost or words + explanation(status, self.scene, at, self.dofs, self.state[i])
+
+
+def default_cage_angles(scene: Scene, n: int = ANGLES_A_PERIOD) -> Array:
+    """N equally spaced cage angles [rad] over one period of the scene's curves, ends included.
+
+    The period is a ball spacing, as the balls are alike; where rows are not, `Bearing.period`, with
+    eight times as many angles. A defect of the inner race turns with the shaft and breaks it: its
+    curves are given over the cage angle in which the shaft turns once. That is one turn of many:
+    what holds for all is in `bearingcore.model.statics._positions`.
+    """
+    period = scene.bearing.period
+    if scene.defect_turns:
+        period = 2.0 * math.pi * scene.bearing.cage_ratio
+    return np.linspace(0.0, period, 8 * (n - 1) + 1 if has_long_period(scene) else n)
+
+
+def time_shares(cage_angles: Array, period: float) -> Array:
+    """Share of the time (n,) that each cage angle (n,) [rad] stands for, by the trapezium rule.
+
+    Both ends of a period are one position, each of which counts half. All angles are alike where
+    they do not rise, or where one more even step would end a period [rad].
+    """
+    steps = np.diff(cage_angles)
+    shares = np.ones(cage_angles.size)
+    if steps.size and steps.min() > 0.0:
+        periods = (steps.sum() + steps[-1]) / period
+        is_even = np.ptp(steps) <= 1e-9
+        if not (is_even and periods > 0.5 and abs(periods - round(periods)) <= 1e-9):
+            shares = np.append(steps, 0.0) + np.insert(steps, 0, 0.0)
+    return shares / shares.sum() if shares.size else shares
+
+
+def has_long_period(scene: Scene) -> bool:
+    """True where a ball spacing is not the period of the scene's curves."""
+    turning = scene.defect_turns
+    return turning or scene.bearing.period != scene.bearing.ball_spacing
+
+
+def equilibrium(
+    scene: Scene,
+    cage_angles: ArrayLike | None = None,
+    dofs: Iterable[str] | None = None,
+    *,
+    shaft_angles: ArrayLike | None = None,
+    most_contacts: int = MOST_CONTACTS,
+) -> Equilibrium:
+    """Static equilibrium (Eq. 15) and stiffness (Eq. 17) of `scene` at each cage angle.
+
+    Parameters
+    ----------
+    scene
+        what to solve.
+    cage_angles : (n,)
+        [rad]; None takes `default_cage_angles`. Each is solved from those before it, so angles in
+        order are cheapest; the answer does not depend on the order.
+    dofs
+        free directions, names out of x, y, z, rx, ry, or "tilt held"; None takes the scene's.
+        Loads along directions that are held are carried by what holds them.
+    shaft_angles : (n,)
+        [rad] how far the shaft, and with it an inner-race defect, has turned at each cage angle.
+        None: ω_s/ω_c times as far as the cage, which is one run of many: see
+        `bearingcore.model.statics._positions`.
+    most_contacts
+        contacts that may be solved: cage angles times balls. Where there are more nothing is
+        begun, and `reason` says how many there would be.
+
+    Returns
+    -------
+    Equilibrium
+        with a status for each cage angle. That there is no unique answer is a status too, not an
+        error: see `Equilibrium.reason`.
+
+    Raises
+    ------
+    ValueError
+        for angles that are not finite or not as many, or unknown names in `dofs`.
+    """
+    checks.instance("scene", scene, Scene)
+    packed = packing.pack(scene, scene.free_dofs(dofs))
+    if cage_angles is None:
+        cage_angles = default_cage_angles(scene)
+    return equilibrium_of(packed, cage_angles, shaft_angles, most_contacts)
+
+
+def without_defects(packed: PackedScene) -> PackedScene:
+    """The same scene without its defects, packed."""
+    return dataclasses.replace(packed, scene=packed.scene.healthy(), path=packing.HEALTHY_PATH)
+
+
+def equilibrium_of(
+    packed: PackedScene,
+    cage_angles: ArrayLike,
+    shaft_angles: ArrayLike | None = None,
+    most_contacts: int = MOST_CONTACTS,
+) -> Equilibrium:
+    """`equilibrium` of a scene that is packed."""
+    scene = packed.scene
+    angles = checks.finite("cage_angles", cage_angles, "rad")
+    leads = np.zeros_like(angles)
+    if shaft_angles is not None:
+        leads = checks.finite("shaft_angles", shaft_angles, "rad")
+        if leads.shape != angles.shape:
+            raise checks.refuse("shaft_angles", leads.size, f"{angles.size}, one a cage angle")
+        leads = leads - angles / scene.bearing.cage_ratio
+    balls = packed.contacts.angle.size
+    if cost := too_many_contacts(balls * angles.size, most_contacts):
+        return _not_begun(packed, angles, leads, cost)
+    units = packed.units
+    q, loads, stiffness, loaded, status, residual, iterations, evaluations = kernels.static_states(
+        angles, leads, packed.contacts, packed.path, packed.load
+    )
+    displacement = q / units
+    failed = np.flatnonzero(status)
+    if failed.size:
+        _explain(packed, angles, status, stiffness, displacement, failed)
+        gone = status >= StaticStatus.NOT_CARRIED
+        loads[gone] = math.nan
+        loaded[gone] = 0
+        loose = status == StaticStatus.NOTHING_TOUCHES
+        loads[loose] = 0.0
+        loaded[loose] = 0
+        nowhere = gone | loose
+        displacement[nowhere] = math.nan
+        stiffness[nowhere] = math.nan
+    stiffness *= units[:, None] * units
+    return Equilibrium(
+        scene=scene,
+        dofs=packed.dofs,
+        cage_angles=angles,
+        displacement=displacement,
+        ball_load=loads,
+        stiffness=stiffness,
+        loaded_balls=loaded,
+        status=status,
+        residual=residual,
+        iterations=iterations,
+        evaluations=evaluations,
+        state=q,
+        leads=leads,
+    )
+
+
+def too_many_contacts(contacts: int, most: int) -> str:
+    """Cost of solving so many contacts in words, where it is too much; else empty."""
+    most = checks.whole_number("most_contacts", most, at_least=1, at_most=10**12)
+    if contacts <= most:
+        return ""
+    return (
+        f"too many contacts: {thousands(contacts)}, allowed are most_contacts = {thousands(most)}"
+    )
+
+
+def _not_begun(packed: PackedScene, angles: Array, leads: Array, cost: str) -> Equilibrium:
+    """NaN everywhere, without the memory of it."""
+    n = angles.size
+
+    def all_of(value: float, *shape: int, kind: type = np.float64) -> NDArray[Any]:
+        return np.broadcast_to(np.array(value, dtype=kind), (n, *shape))
+
+    none = all_of(0, kind=np.int64)
+    balls = packed.contacts.angle.size
+    return Equilibrium(
+        scene=packed.scene,
+        dofs=packed.dofs,
+        cage_angles=angles,
+        displacement=all_of(math.nan, 5),
+        ball_load=all_of(math.nan, balls),
+        stiffness=all_of(math.nan, 5, 5),
+        loaded_balls=none,
+        status=all_of(StaticStatus.TOO_MANY_CONTACTS, kind=np.int8),
+        residual=all_of(math.nan),
+        iterations=none,
+        evaluations=none,
+        state=all_of(math.nan, 5),
+        leads=leads,
+        cost=cost,
+    )
+
+
+def _explain(
+    packed: PackedScene,
+    angles: Array,
+    status: NDArray[np.int8],
+    stiffness: Array,
+    displacement: Array,
+    failed: NDArray[np.int64],
+) -> None:
+    """Find the true reason of each failure: the free directions, or a load nothing can carry."""
+    force, active = packed.load
+    for k in failed:
+        if status[k] == StaticStatus.FREE_DIRECTION:
+            K = stiffness[k][np.ix_(active, active)]
+            if not np.isfinite(K).all():  # numbers beyond those of a computer: nothing is free
+                status[k] = StaticStatus.NOT_CONVERGED
+                continue
+            values, vectors = np.linalg.eigh(K)
+            soft = vectors[:, values <= 10 * kernels.NO_PIVOT * values[-1]]
+            displacement[k, active[np.abs(soft).max(axis=1, initial=0.0) > 1e-6]] = math.nan
+        elif status[k] in UNEXPLAINED and is_unbounded(
+            packed.contacts, angles[k], active, force[active]
+        ):
+            status[k] = StaticStatus.NOT_CARRIED

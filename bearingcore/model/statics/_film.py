@@ -1,0 +1,319 @@
+"""Thickness of the lubricant film between the heaviest loaded ball or roller and each race.
+
+Quantity                                        | Symbol | Name               | Unit
+----------------------------------------------- | ------ | ------------------ | -----
+dynamic viscosity at the contact's temperature  | η0     | viscosity          | Pa·s
+growth of its logarithm with pressure           | ξ      | pressure_viscosity | 1/Pa
+mean speed of ball and race through the contact | u      | rolling_speed      | m/s
+radius of curvature along the rolling, ball and race together | R_x | | m
+modulus of both, E/(1 − ν²) for one material    | E'     |                    | Pa
+ellipse ratio a/b                               | k      | ellipse_ratio      |
+load of the ball or roller                      | Q      | load               | N
+length of a roller                              | l      | roller_length      | m
+least film thickness                            | h_min  | thickness          | m
+roughness of ball and race, root mean square    | σ      | roughness          | m
+film parameter, h_min over the roughness of both | Λ     | film_parameter     |
+
+Of balls
+
+    h_min/R_x = 3.63 U^0.68 G^0.49 W^(−0.073) (1 − e^(−0.68 k)),
+    U = η0 u/(E' R_x), G = ξ E', W = Q/(E' R_x²),
+
+for hard elliptical contacts that roll without sliding, at one temperature, with as much oil as they
+take in (Hamrock and Dowson, 1977, Part III; fully flooded). It was fitted to ellipses of k = 1 to
+8, across the rolling; closer grooves have longer ones, and the last factor is 1 there anyway. Of
+rollers
+
+    h_min/R_x = 1.714 U^0.694 G^0.568 W'^(−0.128), W' = Q/(l E' R_x),
+
+for lines (Pan and Hamrock, 1989), with the same U and G; near its ends, where the pressure of an
+uncrowned roller rises, the film is thinner.
+Left out: heat of shear at the inlet, which thins the film at high speed, too little oil or grease
+(starvation), and the edges of a defect, which tear the film wherever it is.
+
+Source: Hamrock and Dowson, J. Lubrication Technology 99 (1977) 264-276; Hamrock and Anderson,
+Rolling-Element Bearings, NASA RP-1126, for the speeds and for what Λ means; Pan and Hamrock,
+J. Tribology 111 (1989) 246-252, for lines.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from bearingcore.bearings import Bearing
+from bearingcore.bearings._line_contact import RollerContact
+from bearingcore.common import ResultTable, number, shown_as_table, table_of, with_prefix
+from bearingcore.common import _checks as checks
+from bearingcore.model.scene import Scene
+from bearingcore.model.statics._ball_positions import static_state
+from bearingcore.model.statics._equilibrium import Equilibrium
+from bearingcore.model.statics._limit import Limit
+from bearingcore.model.statics._positions import state_of
+from bearingcore.model.statics._pressure import RACES, HeaviestBall, heaviest_balls
+
+TOUCHING, PARTED = 1.0, 3.0
+"""Film parameter below which peaks of the surfaces touch all the time, and above which they hardly
+ever do."""
+
+LUBRICATION = ("boundary", "mixed", "full film")
+"""Lubrication below the first, between, and above the second."""
+
+MINERAL_OIL = 2.0e-8
+"""Pressure-viscosity coefficient ξ [1/Pa] of a usual mineral oil: 1.5 to 2.5e-8."""
+
+
+@dataclass(frozen=True)
+class RaceFilm:
+    """Film between the heaviest loaded ball or roller and one race. NaN where it is not known.
+
+    Attributes
+    ----------
+    race
+        "inner" or "outer".
+    load [N], ellipse_ratio
+        of the contact; a line is an ellipse of infinite ratio.
+    thickness [m]
+        h_min; 0 where the shaft stands still.
+    roughness [m]
+        of both surfaces together.
+    film_parameter
+        Λ.
+    lubrication
+        one of LUBRICATION; empty where the film is not known.
+    sentence
+        the same in words.
+    """
+
+    race: str
+    load: float
+    ellipse_ratio: float
+    thickness: float
+    roughness: float
+    film_parameter: float
+    lubrication: str
+    sentence: str
+
+
+@shown_as_table
+@dataclass(frozen=True)
+class Film:
+    """Lubricant film of a scene's heaviest loaded ball or roller.
+
+    Attributes
+    ----------
+    scene
+        what it is of.
+    rolling_speed [m/s]
+        u, the same at both races.
+    inner, outer
+        the film at each race.
+    """
+
+    scene: Scene
+    rolling_speed: float
+    inner: RaceFilm
+    outer: RaceFilm
+
+    @property
+    def thinner(self) -> RaceFilm:
+        """The film at the race where it is thinner against the roughness."""
+        return self.outer if self.outer.film_parameter < self.inner.film_parameter else self.inner
+
+    @property
+    def sentence(self) -> str:
+        """The thinner film in words, and what was left out."""
+        left_out = ROLLER_LEFT_OUT if self.scene.bearing.kind.line_contact else FILM_LEFT_OUT
+        return f"{self.thinner.sentence} {left_out}"
+
+    @property
+    def limit(self) -> Limit:
+        """The film parameter of the thinner film against the one below which surfaces touch."""
+        value = self.thinner.film_parameter
+        return Limit("film parameter", value, TOUCHING, "", value < TOUCHING, self.thinner.sentence)
+
+    def table(self) -> ResultTable:
+        """A row a race: speed, film thickness, roughness, film parameter, in words what it says."""
+        return table_of(
+            ("race", "", "race"),
+            (
+                "rolling_speed",
+                "m/s",
+                [self.rolling_speed] * 2,
+                "mean speed of both surfaces through the contact",
+            ),
+            ("ball_load", "N", "load", "of the heaviest loaded ball"),
+            ("film_thickness", "m", "thickness", "where it is least"),
+            ("roughness", "m", "roughness", "of both surfaces together"),
+            ("film_parameter", "1", "film_parameter", "film thickness over roughness"),
+            ("sentence", "", "sentence"),
+            of=(self.inner, self.outer),
+        )
+
+
+FILM_LEFT_OUT = (
+    "For smooth races with enough oil at one temperature: the edges of a defect, heat and "
+    "starvation are left out, and all of them make the film thinner."
+)
+
+ROLLER_LEFT_OUT = FILM_LEFT_OUT.replace(
+    "the edges of a defect", "the edges of a defect and of the roller"
+)
+
+
+def rolling_speed(bearing: Bearing, shaft_speed: float) -> float:
+    """Mean speed u [m/s] of ball and race through the contact, at a shaft speed [rad/s].
+
+    u = ω_s D_p (1 − γ²)/4 with γ = D_b cos α0/D_p, at both races, as the ball rolls on both.
+    """
+    gamma = bearing.ball_diameter * math.cos(bearing.contact_angle) / bearing.pitch_diameter
+    return 0.25 * shaft_speed * bearing.pitch_diameter * (1.0 - gamma**2)
+
+
+def rolling_radius(bearing: Bearing, race: str) -> float:
+    """Radius R_x [m] of curvature along the rolling, ball and race together.
+
+    1/R_x = 2/D_b ± 2 γ/(D_b (1 ∓ γ)), upper signs inside: R_x = D_b (1 ∓ γ)/2.
+    """
+    checks.choice("race", race, RACES)
+    gamma = bearing.ball_diameter * math.cos(bearing.contact_angle) / bearing.pitch_diameter
+    return bearing.ball_radius * (1.0 - gamma if race == "inner" else 1.0 + gamma)
+
+
+def least_thickness(
+    speed: float,
+    load: float,
+    radius: float,
+    ellipse_ratio: float,
+    modulus: float,
+    viscosity: float,
+    pressure_viscosity: float,
+) -> float:
+    """h_min [m] of Hamrock and Dowson; see the head of the module for u, Q, R_x, k, E', η0, ξ."""
+    U = viscosity * speed / (modulus * radius)
+    G = pressure_viscosity * modulus
+    W = load / (modulus * radius**2)
+    side_flow = -math.expm1(-0.68 * ellipse_ratio)
+    return 3.63 * U**0.68 * G**0.49 * W**-0.073 * side_flow * radius
+
+
+def least_thickness_of_line(
+    speed: float,
+    load_per_length: float,
+    radius: float,
+    modulus: float,
+    viscosity: float,
+    pressure_viscosity: float,
+) -> float:
+    """h_min [m] of Pan and Hamrock; see the head of the module for u, Q/l, R_x, E', η0, ξ."""
+    U = viscosity * speed / (modulus * radius)
+    G = pressure_viscosity * modulus
+    W = load_per_length / (modulus * radius)
+    return 1.714 * U**0.694 * G**0.568 * W**-0.128 * radius
+
+
+def film(
+    scene: Scene,
+    *,
+    viscosity: float,
+    pressure_viscosity: float = MINERAL_OIL,
+    roughness_inner: float = 0.1e-6,
+    roughness_outer: float = 0.1e-6,
+    roughness_ball: float = 0.05e-6,
+    state: Equilibrium | None = None,
+) -> Film:
+    """Least film thickness and film parameter at each race, where a ball or roller carries most.
+
+    Of rows that are unlike, that of the row where the film is thinnest against the roughness.
+
+    Parameters
+    ----------
+    scene
+        bearing, load and speed; a ball bearing needs its groove radii.
+    viscosity
+        η0 [Pa·s] of the oil (a grease's base oil) at the temperature of the contact.
+    pressure_viscosity
+        ξ [1/Pa]; a usual mineral oil by default.
+    roughness_inner, roughness_outer, roughness_ball
+        σ [m], root mean square, of each surface, rollers too; usual ones of honed races by default.
+        The root of the sum of squares counts, and must be above 0.
+    state
+        the scene's static equilibrium, if it is there already; None computes it at all positions.
+
+    Raises
+    ------
+    ValueError
+        naming the field, its value and what is allowed.
+    """
+    checks.instance("scene", scene, Scene)
+    eta = checks.real_number("viscosity", viscosity, above=0.0, unit="Pa·s")
+    xi = checks.real_number("pressure_viscosity", pressure_viscosity, above=0.0, unit="1/Pa")
+    ball = checks.real_number("roughness_ball", roughness_ball, at_least=0.0, unit="m")
+    sigma = {
+        race: math.hypot(
+            checks.real_number(
+                f"roughness_{race}",
+                value,
+                at_least=0.0,
+                above=-math.inf if ball > 0.0 else 0.0,
+                unit="m",
+            ),
+            ball,
+        )
+        for race, value in (("inner", roughness_inner), ("outer", roughness_outer))
+    }
+    state = state_of(scene, state, static_state)
+    films = [_film_of(scene, ball, (eta, xi), sigma) for ball in heaviest_balls(state)]
+    # one that is not known is not the thinnest, unless none is known
+    return min(films, key=lambda one: np.nan_to_num(one.thinner.film_parameter, nan=math.inf))
+
+
+def _film_of(
+    scene: Scene, ball: HeaviestBall, oil: tuple[float, float], sigma: dict[str, float]
+) -> Film:
+    """Film of one ball; oil: viscosity and pressure-viscosity coefficient."""
+    eta, xi = oil
+    own = scene.bearing.of_row(ball.row)
+    contacts = {race: own.race_contact(race) for race in RACES}
+    u = rolling_speed(own, scene.shaft_speed)
+    films = {}
+    for race, contact in contacts.items():
+        h, load = math.nan, ball.load_on(race)
+        if load > 0.0:
+            modulus = contact.modulus
+            radius = rolling_radius(own, race)
+            if isinstance(contact, RollerContact):
+                h = least_thickness_of_line(u, load / contact.length, radius, modulus, eta, xi)
+            else:
+                h = least_thickness(u, load, radius, contact.ellipse_ratio, modulus, eta, xi)
+        element = scene.bearing.kind.element
+        films[race] = _race_film(race, load, contact.ellipse_ratio, h, sigma[race], element=element)
+    return Film(scene, u, films["inner"], films["outer"])
+
+
+def _race_film(
+    race: str, load: float, k: float, h: float, sigma: float, *, element: str
+) -> RaceFilm:
+    ratio = h / sigma
+    if ratio < TOUCHING:
+        kind, so = LUBRICATION[0], "their peaks carry the load and wear"
+    elif ratio < PARTED:
+        kind, so = LUBRICATION[1], "their peaks touch now and then"
+    else:
+        kind, so = LUBRICATION[2], f"{element} and race hardly ever touch"
+    if math.isnan(h):
+        why = f"no {element} is loaded"
+        if math.isnan(load):
+            why = "no cage angle has a static equilibrium"
+        kind, sentence = "", f"Film, {race} race: not known, as {why}."
+    elif h == 0.0:
+        sentence = f"The shaft is at rest and draws no oil between {element} and {race} race."
+    else:
+        sentence = (
+            f"The film on the {race} race is {with_prefix(h, 'm')} thick where a {element} carries "
+            f"most ({with_prefix(load, 'N')}), {number(ratio)} times the roughness of the surfaces "
+            f"({with_prefix(sigma, 'm')}): {kind} lubrication, {so}."
+        )
+    return RaceFilm(race, load, k, h, sigma, ratio, kind, sentence)

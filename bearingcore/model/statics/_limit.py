@@ -1,0 +1,73 @@
+"""A number of a scene against its limit, and what it means in words."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from bearingcore.common import count
+
+NO_DRAWING = "the groove radii of this bearing are not known"
+NO_OIL = "the viscosity of the oil and the roughness of the surfaces are not given"
+NO_MOTION = "no motion of this scene has been simulated yet"
+_SHORTLY = {
+    NO_DRAWING: "groove radii unknown",
+    NO_OIL: "oil unknown",
+    NO_MOTION: "no motion yet",
+}
+"""Reasons for which a value is not known, and the same in short."""
+
+
+@dataclass(frozen=True)
+class Limit:
+    """One number of a scene against its limit.
+
+    Attributes
+    ----------
+    name
+        what is looked at.
+    value, limit [unit]
+        value is NaN where it is not known.
+    unit
+        SI; empty for a ratio or a count.
+    crossed
+        True where the model no longer holds. False where the value is not known.
+    sentence
+        the same in words, with the number.
+    """
+
+    name: str
+    value: float
+    limit: float
+    unit: str
+    crossed: bool
+    sentence: str
+
+
+def upper_limit(
+    name: str, value: float, limit: float, unit: str, fact: str, beyond: str, within: str
+) -> Limit:
+    """A limit from above, whose sentence is `fact` and then `beyond` the limit or `within` it."""
+    crossed = value > limit
+    return Limit(name, value, limit, unit, crossed, f"{fact}{beyond if crossed else within}")
+
+
+def unknown(name: str, limit: float, unit: str, why: str) -> Limit:
+    """A limit whose value is not known; `why` goes on after "as"."""
+    return Limit(name, math.nan, limit, unit, False, f"{name.capitalize()}: not known, as {why}.")
+
+
+def summary(found: Sequence[Limit]) -> str:
+    """The limits in a line: "No limit exceeded (4 unchecked: groove radii unknown)"."""
+    crossed = sum(one.crossed for one in found)
+    words = f"{count(crossed, 'limit') if crossed else 'No limit'} exceeded"
+    open_ones = [one.sentence for one in found if math.isnan(one.value)]
+    if not open_ones:
+        return words
+    if len(open_ones) == len(found):
+        words = "No limit judged"
+    causes = {why: short for why, short in _SHORTLY.items() if any(why in one for one in open_ones)}
+    known = all(any(why in one for why in causes) for one in open_ones)
+    because = f": {', '.join(causes.values())}" if known else ""
+    return f"{words} ({len(open_ones)} unchecked{because})"

@@ -1,0 +1,300 @@
+"""Stiffness and loaded balls over the extent of a defect and the cage angle (Figs. 5 and 6)."""
+
+from __future__ import annotations
+
+import dataclasses
+import inspect
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from bearingcore.bearings import Bearing
+from bearingcore.common import Array, ResultTable, cached_property, shown_as_table, table_of
+from bearingcore.common import _checks as checks
+from bearingcore.common._byte_cache import lru_cache_by_bytes
+from bearingcore.model import _kernels as kernels
+from bearingcore.model.scene import Defect, Scene
+from bearingcore.model.scene import _packing as packing
+from bearingcore.model.scene._defect import TWO_PI, floor_bytes, path_tables
+from bearingcore.model.statics._equilibrium import (
+    MOST_CONTACTS,
+    STIFFNESS_TERMS,
+    TERM_UNITS,
+    UNEXPLAINED,
+    default_cage_angles,
+    time_shares,
+    too_many_contacts,
+)
+from bearingcore.model.statics._shortage import explanation, is_unbounded
+from bearingcore.model.statics._status import StaticStatus
+
+GREATEST_EXTENT = math.radians(90.0)
+"""Greatest extent of maps by default, as in the paper's Figs. 5 and 6."""
+
+
+@shown_as_table
+@dataclass(frozen=True)
+class Maps:
+    """Static answers over m extents of a scene's first defect and n cage angles.
+
+    NaN where there is no answer.
+
+    Attributes
+    ----------
+    scene, dofs
+        what was solved, and the free directions. The extent of its first defect does not count.
+    extents : (m,) [rad]
+    cage_angles : (n,) [rad]
+    stiffness : (15, m, n) [N/m, N/rad, N·m/rad]
+        the terms of K_b (Eq. 17) in the order of `STIFFNESS_TERMS`; see `term`.
+    loaded_balls : (m, n)
+        how many balls carry load.
+    greatest_load : (m, n) [N]
+        load of the ball that carries most.
+    status : (m, n)
+        each a `StaticStatus`; `reason(i, k)` puts it into words.
+    residual : (m, n)
+        size of the unbalanced load over the size of the load, moments over r_d.
+    solved, evaluations
+        how many points were solved rather than known from the extent before, where all balls had
+        sunk as deep, and how often the energy was evaluated.
+    refusals : (m,)
+        why a scene with this extent cannot be; empty where it can.
+    cost
+        what the map would have taken, where that was too much to begin; else empty.
+    """
+
+    scene: Scene
+    dofs: tuple[str, ...]
+    extents: Array
+    cage_angles: Array
+    stiffness: Array
+    loaded_balls: NDArray[np.int64]
+    greatest_load: Array
+    status: NDArray[np.int8]
+    residual: Array
+    solved: int
+    evaluations: int
+    refusals: tuple[str, ...]
+    cost: str = ""
+
+    @cached_property
+    def converged(self) -> NDArray[np.bool_]:
+        """(m, n) True where there is one equilibrium and it was found."""
+        return self.status == StaticStatus.CONVERGED
+
+    def term(self, name: str) -> Array:
+        """(m, n) one stiffness term by name, e.g. "k_yy" [N/m, N/rad, N·m/rad]."""
+        if name not in STIFFNESS_TERMS:
+            raise checks.refuse("stiffness term", name, ", ".join(STIFFNESS_TERMS))
+        return self.stiffness[STIFFNESS_TERMS.index(name)]
+
+    @cached_property
+    def mean_loaded_balls(self) -> Array:
+        """(m,) loaded balls, averaged in time over the angles that have an answer; NaN without."""
+        shares = time_shares(self.cage_angles, self.scene.bearing.period)
+        known = self.converged @ shares
+        balls = np.where(self.converged, self.loaded_balls, 0) @ shares
+        return np.where(known > 0.0, balls / np.maximum(known, 1e-300), math.nan)
+
+    def table(self) -> ResultTable:
+        """A row a point: extent, cage angle, loaded balls, greatest load, stiffness terms."""
+        extents, angles = np.meshgrid(self.extents, self.cage_angles, indexing="ij")
+        return table_of(
+            ("extent", "rad", extents, "extent of the first defect"),
+            ("cage_angle", "rad", angles, "angle of the cage"),
+            ("loaded_balls", "", self.loaded_balls, "balls that carry load"),
+            ("greatest_ball_load", "N", self.greatest_load),
+            *((term, TERM_UNITS[term], self.term(term)) for term in STIFFNESS_TERMS),
+        )
+
+    def reason(self, i: int, k: int) -> str:
+        """In words, what became of extent i and cage angle k."""
+        if self.cost:
+            return self.cost
+        if self.status[i, k] == StaticStatus.REFUSED:
+            return self.refusals[i]
+        status = StaticStatus(int(self.status[i, k]))
+        words = status.sentence(residual=float(self.residual[i, k]))
+        return words + explanation(status, self.scene, float(self.cage_angles[k]), self.dofs)
+
+
+def stiffness_maps(
+    scene: Scene,
+    extents: ArrayLike | None = None,
+    cage_angles: ArrayLike | None = None,
+    dofs: Iterable[str] | None = None,
+    *,
+    most_contacts: int = MOST_CONTACTS,
+) -> Maps:
+    """Stiffness (Eq. 17) and loaded balls of `scene` for each extent of its first defect.
+
+    The answers are those of `equilibrium` for `scene.replace(extent=...)`, several times faster:
+    points at which all balls have sunk as deep as at the extent before are known already.
+
+    Parameters
+    ----------
+    scene
+        what to solve; its other defects stay as they are.
+    extents : (m,)
+        [rad], 0 to 2π; None takes 91 from 0 to 90 degrees.
+    cage_angles : (n,)
+        [rad]; None takes `default_cage_angles`, which for a defect of the inner race are many.
+    dofs
+        free directions, names out of x, y, z, rx, ry; None takes the scene's.
+    most_contacts
+        contacts that may be solved: extents times cage angles times balls. Where there are more
+        nothing is begun, and `cost` says how many there would be.
+
+    Returns
+    -------
+    Maps
+        with a status for each point. That there is no answer, or that defects of this extent
+        exclude each other, is a status and not an error.
+
+    Raises
+    ------
+    ValueError
+        for extents or cage angles that are not finite or not allowed, or unknown names in `dofs`.
+    """
+    checks.instance("scene", scene, Scene)
+    if extents is None:
+        sizes = np.linspace(0.0, GREATEST_EXTENT, 91)
+    else:
+        sizes = checks.finite("extents", extents, "rad")
+        if not np.all((sizes >= 0.0) & (sizes <= TWO_PI)):
+            raise checks.refuse("extents", extents, "0 to 2π [rad]")
+    if cage_angles is None:
+        angles = default_cage_angles(scene)
+    else:
+        angles = checks.finite("cage_angles", cage_angles, "rad")
+    free = scene.free_dofs(dofs)
+    bearing = scene.bearing
+    shape = sizes.size, angles.size
+    packed = packing.pack(scene, free)
+    contacts, load = packed.contacts, packed.load
+    points = sizes.size * angles.size
+    if cost := too_many_contacts(points * contacts.angle.size, most_contacts):
+        nothing = np.broadcast_to(np.float64(math.nan), (15, *shape))
+        return Maps(
+            scene, free, sizes, angles, nothing, np.broadcast_to(np.int64(0), shape), nothing[0],
+            np.broadcast_to(np.int8(StaticStatus.TOO_MANY_CONTACTS), shape), nothing[0], 0, 0,
+            ("",) * sizes.size, cost,
+        )  # fmt: skip
+
+    first, *others = scene.defect if isinstance(scene.defect, tuple) else (scene.defect,)
+    paths = _paths(first, tuple(others), bearing, tuple(sizes.tolist()))
+    answers = kernels.new_answers(*shape)
+    ways = paths.packed._replace(leads=np.zeros(shape))
+    status = answers.status
+    refused = np.array([bool(words) for words in paths.refusals], dtype=bool)
+    status[refused] = StaticStatus.REFUSED
+    memory = kernels.new_memory(angles.size, contacts)
+
+    def solve(begin: int, end: int) -> tuple[int, int]:
+        return kernels.static_maps(angles, contacts, ways, load, (begin, end), memory, answers)
+
+    # Whether a load can be carried depends on the cage angle alone, and to find out that it cannot
+    # takes long: the first row shows which cage angles the others need not try.
+    start = int(np.argmin(refused)) if not refused.all() else sizes.size
+    begun = min(start + 1, sizes.size)
+    solved, evaluations = solve(start, begun)
+    gone = _unbounded_angles(contacts, angles, load, status[start:begun])
+    status[:, gone] = np.where(refused[:, None], StaticStatus.REFUSED, StaticStatus.NOT_CARRIED)
+    more, calls = solve(begun, sizes.size)
+    units = packed.units
+    stiffness = answers.stiffness
+    stiffness *= np.outer(units, units)[np.triu_indices(5)][:, None, None]
+    return Maps(
+        scene=scene,
+        dofs=free,
+        extents=sizes,
+        cage_angles=angles,
+        stiffness=stiffness,
+        loaded_balls=answers.loaded,
+        greatest_load=answers.greatest,
+        status=status,
+        residual=answers.residual,
+        solved=solved + more,
+        evaluations=evaluations + calls,
+        refusals=paths.refusals,
+    )
+
+
+def _unbounded_angles(
+    contacts: kernels.Contacts,
+    angles: Array,
+    load: kernels.StaticLoad,
+    status: NDArray[np.int8],
+) -> NDArray[np.int64]:
+    """Indices of the cage angles without an answer at which nothing can carry the load."""
+    failed = np.flatnonzero(np.isin(status, UNEXPLAINED).any(axis=0))
+    active, force = load.active, load.force[load.active]
+    gone = [k for k in failed if is_unbounded(contacts, float(angles[k]), active, force)]
+    return np.array(gone, dtype=np.int64)
+
+
+@dataclass(frozen=True)
+class _Paths:
+    """The defects of every row of a map, and why a row's defects cannot be."""
+
+    packed: kernels.MapPaths
+    refusals: tuple[str, ...]
+
+
+def _bytes_of_paths(found: _Paths, first: Defect, *others: object) -> int:
+    packed = found.packed
+    return packed.defects.nbytes + packed.tables.nbytes + floor_bytes((first,))
+
+
+# of rough floors the tables of a map may take a gigabyte
+@lru_cache_by_bytes(128_000_000, _bytes_of_paths)
+def _paths(
+    first: Defect, others: tuple[Defect, ...], bearing: Bearing, extents: tuple[float, ...]
+) -> _Paths:
+    """Paths of the ball over the defects, the first of them with each of the extents.
+
+    A few are kept, as with several defects or floors that are not flat they cost more than the
+    maps, and do not change while only the load does.
+    """
+    sizes = np.array(extents)
+    columns = len(kernels.PATH_COLUMNS)
+    if not others and first.floor is None and bearing.rows_are_alike:
+        # one row of numbers fits all: only the extent differs
+        row = dataclasses.replace(first, extent=math.pi).edge_row(bearing)
+        rows = np.tile(row, (sizes.size, 1, 1))
+        rows[:, 0, _HALF_EXTENT] = 0.5 * sizes
+        rows[sizes >= TWO_PI, 0, _FLOOR_ANGLE] = 0.0
+        counts = np.where((sizes > 0.0) & (first.depth > 0.0), 1, 0)
+        return _Paths(kernels.MapPaths(rows, counts, np.zeros(0), _NO_LEADS), ("",) * sizes.size)
+    found: list[tuple[Array, Array]] = []
+    refusals = []
+    for extent in extents:
+        defects = (dataclasses.replace(first, extent=extent), *others)
+        try:
+            # past its cache, which this would fill with what is not needed again
+            found.append(inspect.unwrap(path_tables)(defects, bearing))
+            refusals.append("")
+        except ValueError as error:
+            found.append((np.zeros((0, columns)), np.zeros(0)))
+            refusals.append(str(error))
+    counts = np.array([len(rows) for rows, _ in found], dtype=np.int64)
+    all_rows = np.zeros((sizes.size, max(counts, default=0), columns))
+    size = 0
+    for i, (rows, table) in enumerate(found):
+        all_rows[i, : len(rows)] = rows
+        all_rows[i, : len(rows), _TABLE_START] += size
+        size += table.size
+    tables = np.concatenate([*(table for _, table in found), np.zeros(0)])
+    return _Paths(kernels.MapPaths(all_rows, counts, tables, _NO_LEADS), tuple(refusals))
+
+
+_NO_LEADS = np.zeros((0, 0))
+
+_HALF_EXTENT, _FLOOR_ANGLE, _TABLE_START = (
+    kernels.PATH_COLUMNS.index(name)
+    for name in ("half_extent", "angle_from_edge_to_floor", "table_start")
+)

@@ -1,0 +1,184 @@
+"""Contact ellipse and pressure of the heaviest loaded ball on each race (Hertz).
+
+Quantity                                    | Symbol | Name              | Unit
+------------------------------------------- | ------ | ----------------- | ----
+load of the ball                            | Q      | load              | N
+semi-axes, across and along the rolling     | a, b   | semi_axis_across, semi_axis_along | m
+greatest pressure, in the middle            | p      | greatest_pressure | Pa
+
+The contact itself is that of `bearings._hertz`. On the edge of a defect the ball presses
+harder than this says: a corner has no ellipse.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from bearingcore.bearings import Bearing
+from bearingcore.common import ResultTable, shown_as_table, table_of
+from bearingcore.common import _checks as checks
+from bearingcore.model.scene import Scene
+from bearingcore.model.statics._ball_positions import static_state
+from bearingcore.model.statics._equilibrium import Equilibrium
+from bearingcore.model.statics._positions import state_of
+
+RACES = ("inner", "outer")
+
+
+@dataclass(frozen=True)
+class HeaviestBall:
+    """Where a ball carries most, over the positions looked at. NaN where nothing is known.
+
+    Attributes
+    ----------
+    load, inner_load [N]
+        Q, and that at the inner race, where balls with mass press less than on the outer one.
+    cage_angle, ball_angle [rad]
+        φ_c and the ball's own φ_j at that moment.
+    row
+        of the ball, counted from 0.
+    """
+
+    load: float
+    cage_angle: float
+    ball_angle: float
+    row: int = 0
+    inner_load: float = math.nan
+
+    def load_on(self, race: str) -> float:
+        """Load [N] on a race; the greatest on the inner one may be that of another ball."""
+        return self.inner_load if race == "inner" else self.load
+
+
+def heaviest_balls(state: Equilibrium) -> tuple[HeaviestBall, ...]:
+    """The heaviest loaded ball of each row that is unlike the others; one where all are alike.
+
+    Over all positions whose loads are known.
+    """
+    return tuple(_heaviest(state, balls) for _, balls in state.scene.bearing.unlike_rows)
+
+
+def _heaviest(state: Equilibrium, balls: slice) -> HeaviestBall:
+    loads = np.where(np.isfinite(state.ball_load), state.ball_load, -math.inf)[:, balls]
+    if not loads.size or np.isneginf(loads).all():
+        return HeaviestBall(math.nan, math.nan, math.nan)
+    i, j = np.unravel_index(int(np.argmax(loads)), loads.shape)
+    ball = balls.start + int(j)
+    return HeaviestBall(
+        float(loads[i, j]),
+        float(state.cage_angles[i]),
+        float(state.ball_angle[i, ball]),
+        state.scene.bearing.row_of_ball(ball)[0],
+        float(np.nanmax(state.inner_load[:, balls])),
+    )
+
+
+@dataclass(frozen=True)
+class RacePressure:
+    """Contact of the heaviest loaded ball with one race. NaN where the load is not known.
+
+    Attributes
+    ----------
+    race
+        "inner" or "outer".
+    load [N]
+        Q.
+    semi_axis_across, semi_axis_along [m]
+        a and b of the ellipse, across the rolling and along it; 0 where nothing is carried.
+    greatest_pressure [Pa]
+        p, in the middle.
+    """
+
+    race: str
+    load: float
+    semi_axis_across: float
+    semi_axis_along: float
+    greatest_pressure: float
+
+
+@shown_as_table
+@dataclass(frozen=True)
+class ContactPressures:
+    """Contact ellipses and pressures of a scene's heaviest loaded ball.
+
+    Attributes
+    ----------
+    ball
+        which ball it is, where and when.
+    inner, outer
+        its contact with each race.
+    reason
+        why no load is known, where none is; else empty.
+    """
+
+    ball: HeaviestBall
+    inner: RacePressure
+    outer: RacePressure
+    reason: str = ""
+
+    def table(self) -> ResultTable:
+        """A row a race: load and place of the ball, semi-axes, pressure."""
+        return table_of(
+            ("race", "", "race"),
+            ("ball_load", "N", "load", "of the heaviest loaded ball"),
+            ("ball_angle", "rad", [self.ball.ball_angle] * 2, "angle of that ball"),
+            (
+                "semi_axis_across",
+                "m",
+                "semi_axis_across",
+                "of the contact ellipse, across the rolling",
+            ),
+            (
+                "semi_axis_along",
+                "m",
+                "semi_axis_along",
+                "of the contact ellipse, along the rolling",
+            ),
+            ("greatest_pressure", "Pa", "greatest_pressure", "in the middle of the ellipse"),
+            ("status", "", [self.reason or "known"] * 2),
+            of=(self.inner, self.outer),
+        )
+
+
+def contact_pressures(scene: Scene, state: Equilibrium | None = None) -> ContactPressures:
+    """Ellipse and pressure at each race, where a ball carries most over all positions.
+
+    That is over all cage angles, and over all shaft angles where a defect turns with the shaft.
+
+    Of rows that are unlike, that of the row whose heaviest ball presses hardest.
+
+    Parameters
+    ----------
+    scene
+        what to look at; its bearing needs its groove radii.
+    state
+        its static equilibrium, if it is there already; None computes it at all positions, of balls
+        with mass under their centrifugal load (`static_state`).
+
+    Raises
+    ------
+    ValueError
+        for a bearing without groove radii, or the equilibrium of another scene.
+    """
+    checks.instance("scene", scene, Scene)
+    state = state_of(scene, state, static_state)
+    found = [_pressures(scene.bearing.of_row(ball.row), ball) for ball in heaviest_balls(state)]
+    worst = max(
+        found, key=lambda one: max(one.inner.greatest_pressure, one.outer.greatest_pressure)
+    )
+    unknown = math.isnan(worst.ball.load) and state.cage_angles.size
+    return dataclasses.replace(worst, reason=state.reason(0)) if unknown else worst
+
+
+def _pressures(bearing: Bearing, ball: HeaviestBall) -> ContactPressures:
+    found = {}
+    for race in RACES:
+        contact, load = bearing.race_contact(race), ball.load_on(race)
+        a, b = contact.semi_axes(load)
+        p = contact.greatest_pressure(load)
+        found[race] = RacePressure(race, load, float(a), float(b), float(p))
+    return ContactPressures(ball, found["inner"], found["outer"])

@@ -1,0 +1,89 @@
+"""Least, greatest and mean of static answers over all positions of balls and shaft."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from bearingcore.common import Array
+from bearingcore.common._arrays import least_and_greatest
+from bearingcore.model.scene import Scene
+from bearingcore.model.statics._ball_positions import static_state
+from bearingcore.model.statics._equilibrium import ANGLES_A_PERIOD, STIFFNESS_TERMS, Equilibrium
+from bearingcore.model.statics._positions import ROUNDS, extremes, over_all_positions, positions
+
+BALL_LOAD = "ball_load"
+"""Name of the load [N] of the ball that carries most, besides those of `STIFFNESS_TERMS`."""
+
+
+@dataclass(frozen=True)
+class StaticRanges:
+    """Static answers at all positions of a scene, see `bearingcore.model.statics._positions`.
+
+    Attributes
+    ----------
+    state
+        at n pairs of cage and shaft angle, with their share of the time.
+    least, greatest
+        of stiffness terms and of `BALL_LOAD`, by name; between the pairs too. Pairs without an
+        answer do not count; NaN where none has one.
+    """
+
+    state: Equilibrium
+    least: Mapping[str, float]
+    greatest: Mapping[str, float]
+
+    def mean(self, values: Array) -> float:
+        """Mean over time of numbers (n,); those that are not known do not count."""
+        known = np.isfinite(values)
+        share = self.state.shares[known].sum()
+        return float(values[known] @ self.state.shares[known] / share) if share > 0.0 else math.nan
+
+
+def static_ranges(
+    scene: Scene,
+    names: Iterable[str] = (*STIFFNESS_TERMS, BALL_LOAD),
+    n: int = ANGLES_A_PERIOD,
+    *,
+    rounds: int = ROUNDS,
+) -> StaticRanges:
+    """Solve a scene at all its positions, and find the ends of what is named; see `static_state`.
+
+    Parameters
+    ----------
+    scene
+        what to solve.
+    names
+        of `STIFFNESS_TERMS`, or `BALL_LOAD`.
+    n, rounds
+        as of `positions` and `extremes`.
+    """
+    found = positions(scene, n)
+    state = over_all_positions(scene, n, static_state)
+    names = list(names)
+
+    def at(cage_angles: Array, shaft_angles: Array) -> Array:
+        return _numbers(static_state(scene, cage_angles, shaft_angles=shaft_angles), names)
+
+    ends = extremes(found, _numbers(state, names), at, rounds=rounds)
+    least, greatest = (dict(zip(names, end.tolist(), strict=True)) for end in ends[:2])
+    return StaticRanges(state, least, greatest)
+
+
+def ranges_of(state: Equilibrium) -> StaticRanges:
+    """The ends of a state at equally spaced angles over a period, its ends included."""
+    names = [*STIFFNESS_TERMS, BALL_LOAD]
+    ends = least_and_greatest(_numbers(state, names), 1)
+    least, greatest = (dict(zip(names, end.tolist(), strict=True)) for end in ends)
+    return StaticRanges(state, least, greatest)
+
+
+def _numbers(state: Equilibrium, names: list[str]) -> Array:
+    """The named numbers (q, n) of a state."""
+    rows = [
+        state.ball_load.max(axis=1) if name == BALL_LOAD else state.term(name) for name in names
+    ]
+    return np.stack(rows) if rows else np.zeros((0, state.cage_angles.size))

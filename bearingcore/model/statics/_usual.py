@@ -1,0 +1,86 @@
+"""A sound bearing with a speed and a load as bearings of its size and kind have them."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+
+from bearingcore.bearings import BearingLike, bearing_of
+from bearingcore.model.scene import Defect, Load, Scene, Support, presets
+from bearingcore.model.statics._life import dynamic_load_rating
+from bearingcore.model.statics._thrust import facing, induced_thrust
+from bearingcore.units import STANDARD_GRAVITY
+
+SPEED_FACTOR = 150_000.0
+"""n d_m [mm/min], a third of what ball bearings in grease reach, half of what tapered ones do."""
+
+LOAD_SHARE = 1.0 / 15.0
+"""Radial load over the rating: machines are laid out for C/P of 10 to 20."""
+
+THRUST_SHARE = 1.3
+"""Thrust over the one that the radial load induces: with less of it half of a row is idle."""
+
+
+def scene_of(bearing: BearingLike) -> Scene:
+    """A scene of a sound bearing under a load and at a speed that are usual for it.
+
+    The load is a fifteenth of the dynamic rating, downwards; a bearing that carries thrust one way
+    only has 1.3 times the thrust that this induces. The shaft turns at n d_m = 150,000 mm/min, on
+    two bearings: its tilts are held. Loads [N] and speed [Hz] have three digits.
+
+    Rotor and support are assumed, as no number of a bearing says them: a rotor that weighs the
+    radial load in a housing as heavy, on the springs of the fan rig made as much larger as the
+    bearing is: stiffness grows as lengths do, and damping keeps its ratio. Natural frequencies and
+    vibration are those of such a machine; give the machine's own for those of another.
+
+    Parameters
+    ----------
+    bearing
+        a bearing, or its designation: "6205".
+
+    Raises
+    ------
+    ValueError
+        for a text that is no designation, and a bearing without a rating that ISO 281 does not
+        rate: give it its `dynamic_load_rating`.
+
+    Examples
+    --------
+    >>> scene = scene_of("6205")
+    >>> round(scene.load.fy), round(scene.shaft_speed * 30.0 / math.pi)
+    (-933, 3894)
+    """
+    own = bearing_of(bearing)
+    rated = own.replace(ball_youngs_modulus=None, ball_poisson=None) if own.is_hybrid else own
+    rating = own.dynamic_load_rating or dynamic_load_rating(rated)
+    load = _rounded(LOAD_SHARE * rating)
+    scene = Scene(
+        bearing=own,
+        defect=Defect.none(),
+        load=Load(fy=-load),
+        shaft_speed=2.0 * math.pi * _rounded(SPEED_FACTOR / (60e3 * own.pitch_diameter)),
+        support=_carrying(load, own.pitch_diameter),
+    )
+    way = facing(own)
+    if not way:
+        return scene
+    return scene.replace(fz=way * _rounded(THRUST_SHARE * induced_thrust(scene)))
+
+
+def _rounded(value: float) -> float:
+    return float(f"{value:.3g}")
+
+
+def _carrying(load: float, pitch_diameter: float) -> Support:
+    """The fan rig's support with rings that weigh a load [N], for a bearing of this size [m]."""
+    rig = presets["fan-rig"]
+    length = pitch_diameter / rig.bearing.pitch_diameter
+    heavier = _rounded(load / STANDARD_GRAVITY) / rig.support.inner_mass
+    damping = math.sqrt(heavier * length)
+    factors = {"mass": heavier, "inertia": heavier, "stiffness": length, "damping": damping}
+    made = {}
+    for name, value in dataclasses.asdict(rig.support).items():
+        tilts = "inertia" in name or name.endswith(("_rx", "_ry"))
+        factor = next(factor for part, factor in factors.items() if part in name)
+        made[name] = value * factor * (length**2 if tilts else 1.0)
+    return Support(**made)

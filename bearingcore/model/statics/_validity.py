@@ -1,0 +1,445 @@
+"""Where a scene leaves what the model holds for: numbers, limits, and a sentence each.
+
+Quantity                                    | Symbol | Unit
+------------------------------------------- | ------ | -----
+contact pressure in the middle              | p      | Pa
+half width of the contact across the groove | a      | m
+angle of the groove's shoulder              | θ_s    | rad
+density of the balls                        | ρ      | kg/m³
+centrifugal force of a ball                 | F_c    | N
+compression of a ball, distance of the groove centres | δ, A0 | m
+
+What the model leaves out and what is looked at here:
+
+- plastic flow: contact pressure against 4.2 GPa, the static limit of ISO 76 for ball bearings
+  (a dent of 1/10,000 of the ball diameter), at rest and, where a motion was simulated, in motion.
+  Corners of a defect press harder than this says;
+- the end of the groove: contact angle and half the contact ellipse against the shoulder;
+- the balls' inertia: what centrifugal force changes of loads, stiffness and contact angles, found
+  by solving with it (`ball_positions`), and its size against the contact load. The shock of a ball
+  that meets the far edge of a defect is left out too;
+- gyroscopic moments of the balls, against their loads (`gyroscopic`);
+- the size of the contact: Hertz takes it for small against the ball;
+- thrust: a row that carries it one way alone and is pressed the other way, or with less than its
+  radial load induces (`thrust`);
+- tilts: the moment that the shaft's other bearing is taken to carry where the scene holds them, and
+  how far the shaft tilts where they are free (`tilts`);
+- stale stiffness: a load-deflection factor that does not go with the drawing;
+- the lubricant film: its thickness over the roughness of the surfaces, where an oil is given;
+- coarse time steps: steps while a ball passes a defect;
+- an estimated inside, of a bearing that is known by its designation alone.
+
+Not looked at: friction, temperature, fits, rings that bend, a cage that slips.
+Balls sunk deep into a defect, which the printed Eq. 8 mistakes for loaded ones, need no warning:
+the kernels distinguish them exactly.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore.bearings import Bearing, center_distance
+from bearingcore.bearings._hertz import in_series
+from bearingcore.bearings._inside import accuracy
+from bearingcore.common import Array, number, percent, weighted_quantile, with_prefix
+from bearingcore.common import _checks as checks
+from bearingcore.model.scene import WITH_MASS, Scene
+from bearingcore.model.scene._packing import contacts
+from bearingcore.model.statics._ball_positions import centrifugal_effect
+from bearingcore.model.statics._equilibrium import Equilibrium
+from bearingcore.model.statics._film import TOUCHING, Film
+from bearingcore.model.statics._gyroscopic import gyroscopic_limit
+from bearingcore.model.statics._limit import (
+    NO_DRAWING,
+    NO_MOTION,
+    NO_OIL,
+    Limit,
+    unknown,
+    upper_limit,
+)
+from bearingcore.model.statics._passes import STEPS_A_PASSAGE, shortest_passage
+from bearingcore.model.statics._positions import over_all_positions, positions, state_of
+from bearingcore.model.statics._pressure import RACES, heaviest_balls
+from bearingcore.model.statics._thrust import thrust_limits
+from bearingcore.model.statics._tilts import free_tilts, held_tilts
+
+ANGLES = 361
+"""Cage angles in a ball spacing at which a scene is looked at; a third of them go into the
+positions of a defect that turns."""
+
+CENTRIFUGAL_SHARE = 1.0
+"""Centrifugal force over contact load up to which it may be left out: the least loaded ball it may
+lift off the inner race."""
+
+CENTRIFUGAL_CHANGE = 0.1
+"""Part by which centrifugal force may change loads, over the heaviest, and stiffness: neither is
+usually known better than to a tenth."""
+
+_CHANGE_ANGLES, _MOST_CHANGES = 31, 240
+
+GREATEST_COMPRESSION = 0.2
+"""Compression over distance of the groove centres. The contact's half width is 1.24 r_b √(δ/A0)
+within 4 % for all usual grooves, here 0.55 ball radii: 34° to either side."""
+
+STIFFNESS_MISMATCH = 0.01
+"""Part by which the load-deflection factor may differ from what the drawing gives."""
+
+
+def usual_shoulder_height(contact_angle: float) -> float:
+    """Height of a groove's shoulders over its bottom, in ball diameters, at α0 [rad]: assumed.
+
+    0.2 for deep grooves, rising evenly to 0.3 at 40°: of the shoulder that carries, as shoulder
+    diameters in catalogues say.
+    """
+    return min(0.2 + 0.1 * contact_angle / math.radians(40.0), 0.5)
+
+
+def state_of_limits(scene: Scene) -> Equilibrium:
+    """The static equilibrium at all positions of `limits`: fine, and always the same.
+
+    A verdict must not depend on the resolution of a figure, nor on where a defect that turns with
+    the shaft began: see `bearingcore.model.statics._positions`.
+    """
+    return over_all_positions(scene, (ANGLES - 1) // 3 + 1 if scene.defect_turns else ANGLES)
+
+
+def limits(
+    scene: Scene,
+    state: Equilibrium | None = None,
+    *,
+    dynamic_load: float | None = None,
+    step_rate: float | None = None,
+    shoulder_height: float | None = None,
+    film: Film | None = None,
+) -> tuple[Limit, ...]:
+    """Limits of the model for `scene`, each with its number, its limit and a sentence.
+
+    Parameters
+    ----------
+    scene
+        what to look at.
+    state
+        its static equilibrium at cage angles of your own; None takes `state_of_limits`, so that
+        one scene has one verdict. Loads and angles are the greatest over its angles.
+    dynamic_load
+        greatest load of a ball [N] in a simulated motion, e.g. of `Motion.ball_loads`; None where
+        none was simulated: what depends on it is then not known.
+    step_rate
+        steps a second [Hz] of a simulated motion, e.g. `Motion.step_rate`; None leaves them out.
+    shoulder_height
+        of the grooves, over their bottom, in ball diameters, above 0 and at most 0.5; None:
+        `usual_shoulder_height`.
+    film
+        of the scene's lubricant, from `film` with a viscosity and roughnesses; None where the oil
+        is not given: whether the surfaces touch is then not known.
+
+    Returns
+    -------
+    tuple of Limit
+        in the order of the list at the head of the module. Loads in motion and the film appear only
+        where the shaft turns; steps only with a step rate, a defect and a turning shaft.
+
+    Raises
+    ------
+    ValueError
+        for a shoulder height, step rate or load that is not possible, or a `state` or `film` of
+        another scene.
+    """
+    checks.instance("scene", scene, Scene)
+    if shoulder_height is not None:
+        checks.real_number("shoulder_height", shoulder_height, above=0.0, at_most=0.5)
+    state = state_of(scene, state_of_limits(scene) if state is None else state)
+    if film is not None and film.scene != scene:
+        raise checks.refuse("film", "the film of another scene", "that of this scene")
+    bearing, turns = scene.bearing, scene.shaft_speed > 0.0
+    heaviest = [(bearing.of_row(ball.row), ball) for ball in heaviest_balls(state)]
+    at_rest = [(own, ball.load) for own, ball in heaviest]
+    in_motion = []
+    if dynamic_load is not None:
+        load = checks.real_number("dynamic_load", dynamic_load, at_least=0.0, unit="N")
+        # which row it was is not known: the one on which it matters most counts
+        in_motion = [(own, load) for own, _ in bearing.unlike_rows]
+    found: list[Limit | None] = [
+        _pressure(
+            bearing,
+            f"contact pressure, {race} race",
+            [(own, ball.load_on(race)) for own, ball in heaviest],
+            (race,),
+            NO_STATE,
+        )
+        for race in RACES
+    ]
+    if turns:
+        name = "contact pressure in motion"
+        found.append(_pressure(bearing, name, in_motion, RACES, NO_MOTION))
+    found.append(_shoulder(scene, state, shoulder_height))
+    found.append(_centrifugal_change(scene))
+    found.append(_worst(_centrifugal_share(*row, scene, state) for row in bearing.unlike_rows))
+    found.append(gyroscopic_limit(scene))
+    if not bearing.kind.line_contact:
+        found.append(_compression("compression against groove centre distance", at_rest, NO_STATE))
+        if turns:
+            found.append(_compression("compression in motion", in_motion, NO_MOTION))
+        found.append(_stiffness(scene))
+    found += thrust_limits(scene, state)
+    found += [held_tilts(state), free_tilts(state)]
+    if turns:
+        no_film = unknown(
+            "film parameter", TOUCHING, "", NO_OIL if bearing.knows_contacts else NO_DRAWING
+        )
+        found.append(no_film if film is None else film.limit)
+    if step_rate is not None:
+        rate = checks.real_number("step_rate", step_rate, above=0.0, unit="Hz")
+        found.append(_steps(scene, rate))
+    found.append(_estimate(scene))
+    return tuple(limit for limit in found if limit is not None)
+
+
+def _estimate(scene: Scene) -> Limit | None:
+    """The note on an estimated inside, from which everything is computed; None of a given one."""
+    bearing = scene.bearing
+    if not bearing.estimated:
+        return None
+    spread = bearing.frequency_spread("bpfo")
+    counted = bearing.kind.estimate_spread is not None
+    right = ", the number one more or less" if counted else " if the number is right"
+    good = f" BPFO is good to ±{percent(spread, 2)}{right}." if spread else ""
+    return unknown(
+        "inside dimensions",
+        0.0,
+        "",
+        "they are estimated from the designation, and everything shown follows from that."
+        f"{good} {accuracy(bearing)} Give the real numbers where they are known",
+    )
+
+
+def _known(state: Equilibrium) -> NDArray[np.bool_]:
+    """Cage angles at which the balls' loads are known, also where the ring is free to move."""
+    return np.isfinite(state.ball_load.sum(axis=1))
+
+
+NOT_IN_STATICS = "the static model leaves it out"
+NOT_IN_STATICS_WITH_MASS = (
+    "the loads, stiffness and life of balls with mass hold it, these limits, maps and natural "
+    "frequencies leave it out"
+)
+
+NO_STATE = "no cage angle has a static equilibrium"
+
+
+Loaded = Sequence[tuple[Bearing, float]]
+"""Rows that are unlike, and the greatest load [N] of an element of each; none without a motion."""
+
+
+def _are_known(loaded: Loaded) -> bool:
+    return bool(loaded) and not any(math.isnan(load) for _, load in loaded)
+
+
+def _pressure(
+    bearing: Bearing, name: str, loaded: Loaded, races: Sequence[str], no_load: str
+) -> Limit:
+    """Greatest pressure of most loaded elements on some races against that of ISO 76.
+
+    `no_load` is NO_MOTION of loads in motion, else NO_STATE.
+    """
+    allowed = bearing.kind.static_pressure
+    if not bearing.knows_contacts:
+        return unknown(name, allowed, "Pa", NO_DRAWING)
+    if not _are_known(loaded):
+        return unknown(name, allowed, "Pa", no_load)
+    p, load, race = max(
+        (float(own.race_contact(race).greatest_pressure(load)), load, race)
+        for own, load in loaded
+        for race in races
+    )
+    element, carried = bearing.kind.element, with_prefix(load, "N")
+    fact = f"presses on the {race} race with {number(p / 1e9)} GPa"
+    if no_load == NO_MOTION:
+        fact = f"In the simulated motion a {element} carries up to {carried} and {fact}"
+    else:
+        fact = f"The most loaded {element} {fact} (load {carried})"
+    most = f"the {allowed / 1e9:.1f} GPa that ISO 76 allows"
+    beyond = f", above {most}: it dents the race, and elastic contact no longer holds."
+    return upper_limit(name, p, allowed, "Pa", fact, beyond, f", below {most}.")
+
+
+def _shoulder(scene: Scene, state: Equilibrium, height: float | None) -> Limit:
+    """`_shoulder_of` all rows, or of the one that is nearest to its shoulder where they differ."""
+    bearing, kept = scene.bearing, _known(state)
+    if words := bearing.kind.tilt_unknown:
+        name = f"tilt of the {bearing.kind.elements}"
+        return Limit(name, math.nan, math.nan, "rad", False, words)
+    loads = {"inner": state.inner_load[kept], "outer": state.ball_load[kept]}
+    angles = {"inner": state.inner_contact_angle[kept], "outer": state.contact_angle[kept]}
+    return _worst(
+        _shoulder_of(own, race, loads[race][:, balls], angles[race][:, balls], height)
+        for own, balls in bearing.unlike_rows
+        for race in bearing.kind.shoulders
+    )
+
+
+def _worst(found: Iterable[Limit]) -> Limit:
+    """The one that is nearest to its limit, or farthest beyond it."""
+    return max(found, key=lambda one: float(np.nan_to_num(one.value / one.limit, nan=-1.0)))
+
+
+def _shoulder_of(
+    bearing: Bearing, race: str, loads: Array, angles: Array, height: float | None
+) -> Limit:
+    """Contact angle of loaded balls at a race, with half the contact ellipse where it is known.
+
+    The shoulder's edge, a height h over the bottom, is seen from the groove's centre at
+    arccos(1 − h/r_b) (Harris, truncated contact ellipse).
+    """
+    name = "contact angle at the shoulder"
+    if height is None:
+        height = usual_shoulder_height(bearing.contact_angle)
+    limit = math.acos(1.0 - 2.0 * height)
+    carries = loads > 0.0
+    if not carries.any():
+        return unknown(name, limit, "rad", "no ball carries load" if loads.size else NO_STATE)
+    reach = angles = np.abs(angles[carries])
+    known = bearing.knows_contacts
+    if known:
+        half = bearing.race_contact(race).semi_axes(loads[carries])[0]
+        spread = np.arcsin(np.minimum(half / bearing.ball_radius, 1.0))
+        reach = angles + spread
+    worst = int(np.argmax(reach))
+    value = float(reach[worst])
+    at = math.degrees(angles[worst])
+    load = with_prefix(float(loads[carries][worst]), "N")
+    made_of = f"with a contact angle of {at:.1f}°"
+    if known:
+        made_of += f" and half a contact ellipse of {math.degrees(value) - at:.1f}°"
+    else:
+        made_of += " (half the contact ellipse comes on top, not known without groove radii)"
+    fact = (
+        f"A {bearing.kind.element} that carries {load} touches up to {math.degrees(value):.1f}° "
+        "from the bottom of the groove, "
+        f"{made_of}; a shoulder {number(height, 2)} ball diameters high is at "
+        f"{math.degrees(limit):.1f}°"
+    )
+    return upper_limit(name, value, limit, "rad", fact, ": the ball rides over its edge.", ".")
+
+
+def _centrifugal_share(bearing: Bearing, balls: slice, scene: Scene, state: Equilibrium) -> Limit:
+    """Centrifugal force against the load of the least loaded of some balls.
+
+    Balls at the rim of the load zone come down to no load at some cage angles, at any speed, so
+    it is the least loaded of those that carry, at the median cage angle.
+    """
+    which = f"least loaded {bearing.kind.element}"
+    name, limit = f"centrifugal force, {which}", CENTRIFUGAL_SHARE
+    loads = state.ball_load[:, balls]
+    lightest = np.where(loads > 0.0, loads, math.inf).min(axis=1, initial=math.inf)
+    carried = _known(state) & np.isfinite(lightest)
+    load = weighted_quantile(lightest[carried], state.shares[carried], 0.5)
+    if not load > 0.0:
+        return unknown(name, limit, "", "no ball is known to carry load")
+    force = bearing.centrifugal_load(scene.shaft_speed)
+    share = force / load
+    fact = (
+        f"The centrifugal force of a {bearing.kind.element}, {with_prefix(force, 'N')}, is "
+        f"{percent(share)} of the {with_prefix(load, 'N')} on the {which}"
+    )
+    beyond = (
+        f": it lifts that {bearing.kind.element} off the inner race, and the "
+        f"{bearing.kind.element} may skid."
+    )
+    within = f", less than the {percent(limit)} that matter."
+    return upper_limit(name, share, limit, "", fact, beyond, within)
+
+
+def _centrifugal_change(scene: Scene) -> Limit:
+    """Change of loads and stiffness by centrifugal load, found by solving with it."""
+    force = scene.bearing.centrifugal_load(scene.shaft_speed)
+    name, limit = "change by centrifugal force", CENTRIFUGAL_CHANGE
+    if words := scene.bearing.kind.mass_unknown:
+        return unknown(name, limit, "", f"there is no model with the mass of {words}")
+    try:
+        found = positions(scene, _CHANGE_ANGLES)
+        some = slice(None, None, max(found.weights.size // _MOST_CHANGES, 1))
+        effect = centrifugal_effect(scene, found.cage_angles[some], found.shaft_angles[some])
+    except ValueError as error:
+        return unknown(name, limit, "", str(error))
+    if not effect.converged:
+        return unknown(name, limit, "", "a cage angle has no static state with it, or without")
+    value = max(effect.load, effect.stiffness)
+    fact = (
+        f"The centrifugal force of a {scene.bearing.kind.element}, {with_prefix(force, 'N')}, "
+        f"changes loads by {_up_to(effect.load)} of the heaviest and stiffness by "
+        f"{_up_to(effect.stiffness)}"
+    )
+    if effect.contact_angle > 1e-6:
+        parted = number(math.degrees(effect.contact_angle), 2)
+        fact += f", and separates the contact angles of the two races by up to {parted}°"
+    left_out = NOT_IN_STATICS_WITH_MASS if scene.balls == WITH_MASS else NOT_IN_STATICS
+    within = f"; up to {percent(limit)} it may be left out."
+    return upper_limit(name, value, limit, "", fact, f": {left_out}, and here it counts.", within)
+
+
+def _up_to(share: float) -> str:
+    return f"up to {percent(share)}" if share >= 1e-4 else "less than 0.01 %"
+
+
+def _compression(name: str, loaded: Loaded, no_load: str) -> Limit:
+    """Compression of most loaded balls against the distance of the groove centres."""
+    if not _are_known(loaded):
+        return unknown(name, GREATEST_COMPRESSION, "", no_load)
+    moving = no_load == NO_MOTION
+    who = "In the simulated motion a ball is" if moving else "The most loaded ball is"
+    return _worst(_compressed(own, name, load, who) for own, load in loaded)
+
+
+def _compressed(bearing: Bearing, name: str, load: float, who: str) -> Limit:
+    compression = contacts(bearing).compression(load)
+    apart = center_distance(bearing.groove_center_distance)
+    share = compression / apart
+    most = percent(GREATEST_COMPRESSION)
+    fact = (
+        f"{who} compressed by {with_prefix(compression, 'm')}, {percent(share)} of the "
+        f"{with_prefix(apart, 'm')} between the groove centres"
+    )
+    beyond = (
+        f": above {most} grooves so close around the ball touch it far up their sides, and "
+        "Hertz's small contact no longer holds."
+    )
+    within = f"; up to {most} the contact is small against the ball, as Hertz assumes."
+    return upper_limit(name, share, GREATEST_COMPRESSION, "", fact, beyond, within)
+
+
+def _stiffness(scene: Scene) -> Limit | None:
+    """Load-deflection factor against that of the drawing; None without a drawing."""
+    bearing = scene.bearing
+    if not bearing.is_drawn:
+        return None
+    drawn = in_series(
+        *(bearing.race_contact(race).load_deflection_factor for race in ("inner", "outer"))
+    )
+    off = abs(bearing.load_deflection_factor / drawn - 1.0)
+    fact = (
+        f"The load-deflection factor of {number(bearing.load_deflection_factor / 1e6)} MN/m^1.5 "
+        f"is {percent(off)} off the {number(drawn / 1e6)} MN/m^1.5 that the drawing gives"
+    )
+    beyond = ": pressures and contact ellipses belong to the drawing, displacements to the factor."
+    name = "load-deflection factor against the drawing"
+    return upper_limit(name, off, STIFFNESS_MISMATCH, "", fact, beyond, ".")
+
+
+def _steps(scene: Scene, step_rate: float) -> Limit | None:
+    """Time steps while a ball passes the shortest defect; None where none is passed."""
+    if not scene.defects or scene.cage_speed == 0.0:
+        return None
+    passing = shortest_passage(scene) / scene.cage_speed
+    steps = passing * step_rate
+    crossed = steps < STEPS_A_PASSAGE * (1.0 - 1e-9)
+    sentence = (
+        f"A ball passes the defect in {with_prefix(passing, 's')}, which are {number(steps)} time "
+        f"steps at {number(step_rate, 6)} Hz; {STEPS_A_PASSAGE:.0f} or more keep its edges in the "
+        "motion" + (": here steps can jump over them." if crossed else ".")
+    )
+    return Limit("time steps in a defect", steps, STEPS_A_PASSAGE, "", crossed, sentence)

@@ -1,0 +1,417 @@
+"""Grid: the scenes of a sweep and what is asked of each; and its regions, which are its tasks."""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+import json
+import math
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+from importlib import metadata
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore.common import _checks as checks
+from bearingcore.common import cached_property
+from bearingcore.errors import FieldError
+from bearingcore.fields import FIELD_OF, FIELDS, SCENE_PARTS
+from bearingcore.model.scene import DOF_NAMES, MASSLESS, Defect, Scene
+from bearingcore.model.statics._life import race_ratings
+from bearingcore.model.sweeps._outputs import (
+    IN_ROWS,
+    LIFE,
+    MODE,
+    MODES,
+    MOVING,
+    OUTPUTS,
+    PRESSURE,
+    SAMPLE,
+    SECONDS,
+    SECONDS_IN_A_ROW,
+    Numbers,
+    Settings,
+    chosen_outputs,
+    mode_labels,
+    of_row,
+    of_scene,
+)
+from bearingcore.model.sweeps._status import SweepStatus
+
+MOST_AXES = 8
+MOST_VALUES = 1_000_000
+"""Values of one axis at the most."""
+MOST_SCENES = 10_000_000_000
+
+TASK_SECONDS = 4.0
+"""[s] that a task should take about: long compared with handing it out and writing it, short
+enough to lose when a worker is killed."""
+TASKS_AT_LEAST = 16
+"""So many tasks even where scenes are few, so that all workers have something to do."""
+TRIED = 64
+"""Scenes that are looked at before a sweep is begun."""
+LONGEST_ROW = 128
+"""Extents that are solved together at the most."""
+
+WORDS = ("race", "edge", "contact_law", "balls")
+"""Fields of words that a sweep can go over."""
+
+UNITS = {field.name: field.unit for field in FIELDS if field.part in SCENE_PARTS} | dict.fromkeys(
+    WORDS, ""
+)
+"""Fields that a sweep can vary, and the unit of each; words have none."""
+
+_OF_DEFECTS = {field.name for field in dataclasses.fields(Defect)}
+
+Slices = tuple[slice, ...]
+
+
+class StillDirectionError(FieldError):
+    """An output along a direction in which no scene of the grid moves."""
+
+
+@dataclass(frozen=True, eq=False)
+class Axis:
+    """One field of the scenes and the values that it takes, in SI units."""
+
+    name: str
+    values: NDArray[Any]
+
+    @property
+    def unit(self) -> str:
+        """Empty for words."""
+        return UNITS[self.name]
+
+
+@dataclass(frozen=True, eq=False)
+class Grid:
+    """All combinations of some values of some fields of a scene, and the outputs asked for."""
+
+    scene: Scene
+    axes: tuple[Axis, ...]
+    outputs: tuple[str, ...]
+    settings: Settings
+    dofs: tuple[str, ...]
+    """directions in which some scene of the grid moves"""
+
+    @classmethod
+    def of(
+        cls,
+        scene: Scene,
+        over: Mapping[str, Any],
+        outputs: Iterable[str],
+        settings: Settings | None = None,
+    ) -> Grid:
+        """A grid of what was asked for, checked.
+
+        Raises
+        ------
+        ValueError
+            naming the field or output, what stands there and what is allowed.
+        """
+        checks.instance("scene", scene, Scene)
+        if not isinstance(over, Mapping) or not 1 <= len(over) <= MOST_AXES:
+            raise checks.refuse("over", _short(over), f"1 to {MOST_AXES} fields with their values")
+        axes = tuple(_axis(name, values) for name, values in over.items())
+        grid = cls(
+            scene, axes, chosen_outputs(outputs), settings or Settings(), _all_dofs(scene, axes)
+        )
+        if grid.size > MOST_SCENES:
+            raise checks.refuse("number of scenes", grid.size, f"at most {MOST_SCENES:,}")
+        grid._check()
+        return grid
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Number of values of each axis."""
+        return tuple(len(axis.values) for axis in self.axes)
+
+    @property
+    def size(self) -> int:
+        """Number of scenes."""
+        return math.prod(self.shape)
+
+    @property
+    def dims(self) -> tuple[str, ...]:
+        """Names of the axes."""
+        return tuple(axis.name for axis in self.axes)
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """Modes of the band edges."""
+        return mode_labels(self.dofs)
+
+    @cached_property
+    def needs(self) -> tuple[str, ...]:
+        """Computations that the outputs need."""
+        return tuple(dict.fromkeys(OUTPUTS[name].needs for name in self.outputs))
+
+    @property
+    def in_rows(self) -> bool:
+        """True where scenes that differ in extent alone are solved together.
+
+        No defect turns then, and no ball has a mass.
+        """
+        several = self.scene.defect if isinstance(self.scene.defect, tuple) else [self.scene.defect]
+        standing = all(defect.race == "outer" for defect in several)
+        light = self.scene.balls == MASSLESS and "balls" not in self.dims
+        return set(self.needs) <= IN_ROWS and "extent" in self.dims and standing and light
+
+    def dims_of(self, output: str) -> tuple[str, ...]:
+        """Dimensions of an output."""
+        if OUTPUTS[output].per_sample:
+            return (*self.dims, SAMPLE)
+        return (*self.dims, MODE) if OUTPUTS[output].per_mode else self.dims
+
+    def shape_of(self, output: str, shape: Sequence[int] | None = None) -> tuple[int, ...]:
+        """Shape of an output over the grid, or over a region of this shape."""
+        part = tuple(self.shape if shape is None else shape)
+        if OUTPUTS[output].per_sample:
+            return (*part, len(self.settings.record_time))
+        return (*part, len(self.labels)) if OUTPUTS[output].per_mode else part
+
+    def scene_at(self, index: Sequence[int]) -> Scene:
+        """The scene at an index; ValueError where there can be none."""
+        pairs = zip(self.axes, index, strict=True)
+        return self.scene.replace(**{axis.name: axis.values[i].item() for axis, i in pairs})
+
+    # ---------------------------------------------------------------------------- regions
+
+    def region_shape(self, scenes: int | None = None) -> tuple[int, ...]:
+        """Shape of the regions that make a task each: about `scenes` scenes.
+
+        None takes what should be TASK_SECONDS of work, and not fewer than TASKS_AT_LEAST regions.
+        """
+        if scenes is None:
+            table = SECONDS_IN_A_ROW if self.in_rows else SECONDS
+            seconds = sum(table[need] for need in self.needs)
+            if len(self.dofs) > 2 and set(self.needs) & MOVING:
+                seconds *= 10.0
+            scenes = min(round(TASK_SECONDS / seconds), self.size // TASKS_AT_LEAST)
+        left = max(scenes, 1)
+        shape = [1] * len(self.shape)
+        order = list(reversed(range(len(self.shape))))
+        if self.in_rows:
+            # the row first, or there would be nothing to solve together
+            row = self.dims.index("extent")
+            shape[row] = _even(self.shape[row], min(left, LONGEST_ROW))
+            left //= shape[row]
+            order.remove(row)
+        for axis in order:
+            shape[axis] = _even(self.shape[axis], max(left, 1))
+            left //= shape[axis]
+        return tuple(shape)
+
+    def region_counts(self, shape: Sequence[int]) -> tuple[int, ...]:
+        """Number of regions of this shape along each axis; those at the ends may be smaller."""
+        return tuple(-(-n // part) for n, part in zip(self.shape, shape, strict=True))
+
+    def region(self, shape: Sequence[int], index: Sequence[int]) -> Slices:
+        """The slices of one region."""
+        return tuple(
+            slice(i * part, min((i + 1) * part, n))
+            for i, part, n in zip(index, shape, self.shape, strict=True)
+        )
+
+    def part(self, region: Slices) -> Grid:
+        """The grid of one region, which knows as much of the whole as it takes to compute it."""
+        axes = tuple(
+            Axis(axis.name, axis.values[piece])
+            for axis, piece in zip(self.axes, region, strict=True)
+        )
+        return dataclasses.replace(self, axes=axes)
+
+    def compute(self) -> tuple[NDArray[np.int8], Numbers]:
+        """Codes of STATUSES and the outputs of all scenes, in this thread."""
+        status = np.zeros(self.shape, dtype=np.int8)
+        numbers = {name: np.full(self.shape_of(name), math.nan) for name in self.outputs}
+        each = ((at, *self._scene(at)) for at in np.ndindex(*self.shape))
+        for at, codes, found in self._rows() if self.in_rows else each:
+            status[at] = codes
+            for name in self.outputs:
+                if name in found:
+                    numbers[name][at] = found[name]
+        for values in numbers.values():
+            values[np.isnan(values)] = math.nan  # one kind of NaN: equal results, equal bytes
+        return status, numbers
+
+    def _scene(self, index: Sequence[int]) -> tuple[Any, Numbers]:
+        try:
+            scene = self.scene_at(index)
+        except ValueError:
+            return SweepStatus.SCENE_REFUSED.code, {}
+        return of_scene(scene, self.needs, self.labels, self.settings, self.outputs)
+
+    def _rows(self) -> Iterator[tuple[Any, Any, Numbers]]:
+        row = self.dims.index("extent")
+        extents = self.axes[row].values
+        # a scene without its defect may have another period: it is not of the row
+        together = np.flatnonzero(extents > 0.0)
+        others = [1 if axis == row else n for axis, n in enumerate(self.shape)]
+        for at in np.ndindex(*others):
+
+            def place(i: Any, at: tuple[int, ...] = at) -> tuple[Any, ...]:
+                return (*at[:row], i, *at[row + 1 :])
+
+            alone = set(range(len(extents)))
+            if together.size:
+                try:
+                    scene = self.scene_at(place(together[0]))
+                    yield (
+                        place(together),
+                        *of_row(scene, extents[together], self.needs, self.labels, self.settings),
+                    )
+                    alone -= set(together.tolist())
+                except ValueError:
+                    pass  # what cannot be with one extent may be with another
+            for i in alone:
+                yield place(i), *self._scene(place(i))
+
+    # ---------------------------------------------------------------------------- checks
+
+    def _check(self) -> None:
+        """Refuse what can be seen to be a mistake before hours are spent on it."""
+        for name in self.outputs:
+            dof = OUTPUTS[name].dof
+            if dof and dof not in self.dofs:
+                moving = f"directions in which the scenes move: {', '.join(self.dofs)}"
+                raise StillDirectionError("name in outputs", name, moving)
+        of_defect = [name for name in self.dims if name in _OF_DEFECTS]
+        if of_defect:
+            largest = {
+                axis.name: float(axis.values.max())
+                for axis in self.axes
+                if axis.name in ("extent", "depth")
+            }
+            try:
+                damaged = bool(self.scene.replace(**largest).defects)
+            except ValueError:
+                damaged = True  # there can be none, which is refused below
+            if not damaged:
+                raise checks.refuse(
+                    "over",
+                    of_defect[0],
+                    "fields of the scenes, which have no defect here: its extent or depth is zero",
+                )
+        # where none of many scenes, spread over the grid, can be, it is not the scenes' doing
+        spread = np.random.default_rng(0).integers(self.size, size=TRIED)
+        refusal: ValueError | None = None
+        for place in {0, self.size - 1, *spread.tolist()}:
+            try:
+                self._try([int(i) for i in np.unravel_index(place, self.shape)])
+            except ValueError as error:
+                refusal = refusal or error
+            else:
+                return
+        if refusal is not None:
+            raise refusal
+
+    def _try(self, index: Sequence[int]) -> None:
+        """ValueError where the scene at an index, or the numbers its outputs need, cannot be."""
+        scene = self.scene_at(index)
+        if set(self.needs) & {MODES, *MOVING}:
+            dofs = scene.active_dofs
+            scene.support.stiffness(dofs)
+            if self.needs != (MODES,):
+                scene.support.damping(dofs)
+            for body in ("inner", "outer"):
+                scene.support.inertia(body, dofs)
+        if PRESSURE in self.needs:
+            scene.bearing.race_contact("inner")
+        if LIFE in self.needs:
+            race_ratings(scene.bearing, 1.0)
+        if set(self.needs) & MOVING and scene.shaft_speed == 0.0:
+            raise checks.refuse("shaft_speed", 0.0, "above 0 for a motion or an orbit", "rad/s")
+
+    # ---------------------------------------------------------------------------- in words
+
+    @cached_property
+    def scene_text(self) -> str:
+        """The scene as TOML."""
+        return self.scene.to_toml()
+
+    @cached_property
+    def request(self) -> str:
+        """The request as JSON: axes by name, outputs, settings."""
+        return json.dumps(
+            {
+                "over": self.dims,
+                "outputs": self.outputs,
+                "settings": dataclasses.asdict(self.settings),
+            }
+        )
+
+
+@cache
+def program_version() -> str:
+    """Version of this program, and a digest of the sources of its core.
+
+    Code changes more often than its version: results of other sources are results of another
+    program.
+    """
+    try:
+        version = metadata.version("bearing-explorer")
+    except metadata.PackageNotFoundError:
+        version = "unknown"
+    folder = Path(__file__).resolve().parents[2]
+    digest = hashlib.blake2b(digest_size=5)
+    for file in sorted(folder.rglob("*")):
+        if file.suffix in (".py", ".csv"):
+            digest.update(file.relative_to(folder).as_posix().encode() + b"\0" + file.read_bytes())
+    return f"{version}+{digest.hexdigest()}"
+
+
+def _axis(name: object, given: Any) -> Axis:
+    """A field's values, of the right kind, all different."""
+    if name not in UNITS:
+        raise checks.refuse("field in over", _short(name), ", ".join(UNITS))
+    assert isinstance(name, str)
+    kind = "words" if name in WORDS else "numbers"
+    allowed = f"1 to {MOST_VALUES:,} different {kind}"
+    values = list(given) if isinstance(given, Iterable) and not isinstance(given, str) else [given]
+    if not 1 <= len(values) <= MOST_VALUES:
+        raise checks.refuse(f"number of values of {name}", len(values), allowed)
+    if name in WORDS:
+        if not all(isinstance(value, str) for value in values):
+            raise checks.refuse(f"values of {name}", _short(given), allowed)
+        array = np.array([str(value) for value in values])
+    else:
+        if any(isinstance(value, bool | np.bool_ | str | bytes) for value in values):
+            raise checks.refuse(f"values of {name}", _short(given), allowed)
+        array = np.array([checks.real_number(f"value of {name}", value) for value in values])
+        if FIELD_OF[name].whole:
+            array = np.array(
+                [checks.whole_number(name, value, at_least=1, at_most=500) for value in values]
+            )
+    if len(np.unique(array)) != len(array):
+        raise checks.refuse(f"values of {name}", _short(given), allowed)
+    return Axis(name, array)
+
+
+def _all_dofs(scene: Scene, axes: Iterable[Axis]) -> tuple[str, ...]:
+    """Directions in which some scene of a grid moves."""
+    # what makes a scene need more directions is a number that is not zero
+    richest = {
+        axis.name: max(axis.values.tolist(), key=abs)
+        for axis in axes
+        if axis.name in ("contact_angle", "fz", "mx", "my")
+    }
+    try:
+        return scene.replace(**richest).active_dofs
+    except ValueError:
+        return DOF_NAMES
+
+
+def _even(n: int, most: int) -> int:
+    """The least part size that cuts n into as few parts as parts of size `most` do."""
+    parts = -(-n // min(most, n))
+    return -(-n // parts)
+
+
+def _short(value: object) -> str:
+    text = repr(value)
+    return text if len(text) <= 60 else text[:57] + "..."

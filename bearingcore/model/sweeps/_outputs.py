@@ -1,0 +1,526 @@
+"""Outputs of a sweep: names, units, and the computation of each.
+
+Every output is one number a scene, but for the band edges, which have one for each mode, and for
+records, which have one for each sample.
+"""
+
+from __future__ import annotations
+
+import fnmatch
+import math
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bearingcore.common import Array
+from bearingcore.common import _checks as checks
+from bearingcore.model.dynamics import BandSearch, orbit, simulate, simulated_record
+from bearingcore.model.dynamics._ball_comparison import mass_share
+from bearingcore.model.dynamics._low_pass import PASSED
+from bearingcore.model.dynamics._modes import stiffness_terms, undamped_bands
+from bearingcore.model.dynamics._speed_runs import SETTLING_SHARE
+from bearingcore.model.scene import DOF_NAMES, DOF_SYMBOLS, MASSLESS, Scene
+from bearingcore.model.statics import (
+    BALL_LOAD,
+    ROUNDS,
+    STIFFNESS_TERMS,
+    TERM_SYMBOLS,
+    TERM_UNITS,
+    StaticRanges,
+    contact_pressures,
+    dynamic_load_rating,
+    equilibrium,
+    life,
+    static_ranges,
+    static_state,
+    stiffness_maps,
+)
+from bearingcore.model.statics._positions import extremes, over_all_positions, positions
+from bearingcore.model.statics._status import StaticStatus
+from bearingcore.model.sweeps._status import OF_MOTION, OF_ORBIT, OF_STATICS, STATUSES, SweepStatus
+from bearingcore.recordings._recording import DIRECTIONS
+
+STATICS, PRESSURE, LIFE, MODES = "statics", "pressure", "life", "modes"
+MOTION, ORBIT, MASS, RECORD = "motion", "orbit", "mass", "record"
+MOVING = frozenset({MOTION, ORBIT, MASS, RECORD})
+"""Computations of motions."""
+
+SECONDS = {STATICS: 4e-4, PRESSURE: 4e-4, LIFE: 1e-3, MODES: 5e-4}
+SECONDS |= {MOTION: 2e-2, ORBIT: 1e-2, MASS: 0.2, RECORD: 0.1}
+"""Rough cost of each computation of one scene in two directions [s]; decides how many scenes make
+a task. Five directions cost about ten times as much, but for statics, modes and life; with a
+defect of the inner race statics and modes take thirty times as long, life fifteen times."""
+
+SECONDS_IN_A_ROW = {STATICS: 1e-4, MODES: 4e-4}
+"""[s] where the extent varies: a row of extents is solved together."""
+
+_STATIC_CODES = np.array([OF_STATICS[code].code for code in sorted(OF_STATICS)], np.int8)
+"""Code of a sweep for each status of a static state."""
+
+MODE = "mode"
+"""Name of the dimension of the band edges."""
+
+SAMPLE = "sample"
+"""Name of the dimension of records; its coordinate is the time [s]."""
+
+
+@dataclass(frozen=True)
+class Output:
+    """One quantity that a sweep gives.
+
+    Attributes
+    ----------
+    unit, meaning
+        for people; the unit is "1" where there is none.
+    group, label
+        for lists and axes: the heading that it stands under, and a few words. With a number for
+        each mode, "{}" stands for the mode in the label.
+    needs
+        which computation: "statics", "pressure", "life", "modes", "motion", "orbit", "mass" or
+        "record".
+    dof
+        the direction that must be free for it; empty where none.
+    per_mode, per_sample
+        True where there is one number for each mode, or each sample of a record.
+    """
+
+    unit: str
+    meaning: str
+    group: str
+    label: str
+    needs: str
+    dof: str = ""
+    per_mode: bool = False
+    per_sample: bool = False
+
+
+def mode_symbol(label: str) -> str:
+    """Symbol of a mode by its label: "x₁" for "x1"."""
+    return DOF_SYMBOLS[label[:-1]] + label[-1].translate(_LOWERED)
+
+
+_LOWERED = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
+
+
+def _table() -> dict[str, Output]:
+    table: dict[str, Output] = {}
+    over = "over all positions of the balls and of a defect that turns"
+    for term in STIFFNESS_TERMS:
+        for which in ("mean", "least", "greatest"):
+            table[f"{term}_{which}"] = Output(
+                TERM_UNITS[term],
+                f"{which} stiffness {term} {over}",
+                f"Stiffness, {which}",
+                f"{TERM_SYMBOLS[term]}, {which}",
+                STATICS,
+            )
+    for which in ("mean", "least", "greatest"):
+        table[f"loaded_balls_{which}"] = Output(
+            "1",
+            f"{which} number of balls that carry load {over}",
+            "Balls",
+            f"loaded balls, {which}",
+            STATICS,
+        )
+    table["ball_load_greatest"] = Output(
+        "N", f"greatest load of a ball {over}", "Balls", "greatest ball load", STATICS
+    )
+    table["converged_share"] = Output(
+        "1",
+        "share of the positions that have one static state, and it was found",
+        "Balls",
+        "positions with a static state, share",
+        STATICS,
+    )
+    for race in ("inner", "outer"):
+        table[f"contact_pressure_{race}"] = Output(
+            "Pa",
+            f"greatest contact pressure of a ball on the {race} race {over}",
+            "Balls",
+            f"contact pressure, {race} race",
+            PRESSURE,
+        )
+    not_in_it = "; pressure and blows on the edges of a defect are left out: an upper bound"
+    for unit, name in (("1", "turns"), ("h", "hours")):
+        reached = f"{name} that 9 of 10 bearings reach"
+        table[f"life_{name}"] = Output(
+            unit, f"{reached}, by ISO 16281{not_in_it}", "Life", reached, LIFE
+        )
+    share = "life over that of the healthy bearing"
+    table["life_share_of_healthy"] = Output("1", share + not_in_it, "Life", share, LIFE)
+    for which in ("least", "greatest"):
+        table[f"band_{which}"] = Output(
+            "Hz",
+            f"{which} natural frequency of each mode, damping left out, {over}",
+            "Natural frequencies",
+            f"mode {{}}, {which}",
+            MODES,
+            per_mode=True,
+        )
+    for dof in DOF_NAMES:
+        unit, way = ("rad/s²", "about") if dof.startswith("r") else ("m/s²", "along")
+        along = f"of the housing {way} {dof[-1]} in the settled part of a simulated motion"
+        for which, words, short in (
+            ("rms", "root mean square acceleration", "RMS"),
+            ("greatest", "greatest acceleration, either way,", "greatest"),
+        ):
+            table[f"acceleration_{which}_{dof}"] = Output(
+                unit,
+                f"{words} {along}",
+                "Vibration of the housing",
+                f"acceleration {way} {dof[-1]}, {short}",
+                MOTION,
+                dof,
+            )
+    for dof in DIRECTIONS:
+        table[f"record_{dof}"] = Output(
+            "m/s²",
+            f"record of a sensor along {dof}: the settled motion of the housing behind a path, with"
+            " a cage that wanders, tones of the shaft and noise, all drawn by the scene itself",
+            "Records",
+            f"record along {dof}",
+            RECORD,
+            dof,
+            per_sample=True,
+        )
+    table["mass_share"] = Output(
+        "1",
+        "share of the housing's power along x and y in the settings' band that the balls' mass "
+        "adds, in simulated motions with and without it",
+        "Vibration of the housing",
+        "share of the power that the balls' mass adds",
+        MASS,
+    )
+    table["floquet_multiplier_greatest"] = Output(
+        "1",
+        "size of the largest Floquet multiplier of the periodic motion; "
+        "above 1 a disturbance of it grows",
+        "Motion that repeats",
+        "largest Floquet multiplier |μ|",
+        ORBIT,
+    )
+    return table
+
+
+OUTPUTS: Mapping[str, Output] = _table()
+"""Every output by name."""
+
+
+_SHOWN = 6
+_EXAMPLES = (
+    ", ".join([*dict.fromkeys(("k_yy_mean", *OUTPUTS))][:_SHOWN])
+    + f" and {len(OUTPUTS) - _SHOWN} more that bearingcore.model.sweeps.OUTPUTS lists"
+)
+
+
+def chosen_outputs(names: Iterable[str]) -> tuple[str, ...]:
+    """Names of outputs, `*` and `?` standing for any letters, in the order of OUTPUTS.
+
+    Records, which are long, are only those of a pattern that begins with "record".
+
+    Raises
+    ------
+    ValueError
+        for a name or pattern that fits none, or where nothing is asked for.
+    """
+    patterns = [names] if isinstance(names, str) else list(names)
+    found: set[str] = set()
+    for pattern in patterns:
+        fitting = [
+            name
+            for name in (fnmatch.filter(OUTPUTS, pattern) if isinstance(pattern, str) else [])
+            if not OUTPUTS[name].per_sample or pattern.startswith(RECORD)
+        ]
+        if not fitting:
+            raise checks.refuse("name in outputs", pattern, _EXAMPLES)
+        found.update(fitting)
+    if not found:
+        raise checks.refuse("outputs", patterns, "at least one of " + _EXAMPLES)
+    return tuple(name for name in OUTPUTS if name in found)
+
+
+def mode_labels(dofs: Iterable[str]) -> tuple[str, ...]:
+    """Labels of the modes of `bearingcore.modes`, two a direction, in the order of directions."""
+    return tuple(f"{dof}{number}" for dof in dofs for number in (1, 2))
+
+
+@dataclass(frozen=True)
+class Settings:
+    """Resolution of the computations.
+
+    Parameters
+    ----------
+    cage_angles
+        how many in a period, ends included. With an inner-race defect a quarter as many to a ball
+        spacing all around, at each place where a ball meets an edge; then least and greatest are
+        looked for between them too. Else they are those at these angles: where few balls carry,
+        as of a light or tilting load, stiffness may dip or rise by some per cent more in between.
+    duration
+        [s] of simulated motions, whose first half is left out as transient, and of records.
+    sample_rate
+        [Hz] of simulated motions and records.
+    dynamic_load_rating
+        C_r [N] that lives are computed with; None: that of each bearing, of the catalogue where its
+        number is known, else by ISO 281.
+    band_low, band_high
+        [Hz] of the band whose share of the power that mass adds is asked for.
+    """
+
+    cage_angles: int = 121
+    duration: float = 1.4
+    sample_rate: float = 65536.0
+    dynamic_load_rating: float | None = None
+    band_low: float = 2100.0
+    band_high: float = 10_000.0
+
+    def __post_init__(self) -> None:
+        angles = checks.whole_number("cage_angles", self.cage_angles, at_least=3, at_most=10_000)
+        checks.keep(self, cage_angles=angles)
+        checks.keep_number(self, "duration", above=0.0, at_most=60.0, unit="s")
+        checks.keep_number(self, "sample_rate", above=0.0, at_most=1e7, unit="Hz")
+        checks.keep_number(self, "band_low", above=0.0, unit="Hz")
+        checks.keep_number(self, "band_high", above=self.band_low, unit="Hz")
+        checks.keep_number(self, "dynamic_load_rating", optional=True, above=0.0, unit="N")
+
+    @property
+    def record_time(self) -> Array:
+        """(n,) [s] times of the samples of a record."""
+        return np.arange(round(self.duration * self.sample_rate)) / self.sample_rate
+
+
+Numbers = dict[str, Array]
+
+
+def of_scene(
+    scene: Scene,
+    needs: Iterable[str],
+    labels: tuple[str, ...],
+    settings: Settings,
+    outputs: Iterable[str] = OUTPUTS,
+) -> tuple[int, Numbers]:
+    """Code of what became of one scene, and its outputs: those of the computations in `needs`.
+
+    `labels` are the modes that the band edges are given for. With a defect that turns the ends of
+    no other stiffness than in `outputs` are looked for.
+    """
+    ended: list[SweepStatus] = []
+    numbers: Numbers = {}
+    if STATICS in needs or MODES in needs:
+        found = static_ranges(
+            scene,
+            [
+                name
+                for name in (*STIFFNESS_TERMS, BALL_LOAD)
+                if {f"{name}_least", f"{name}_greatest"} & set(outputs)
+            ],
+            settings.cage_angles,
+            rounds=ROUNDS if scene.defect_turns else 0,
+        )
+        code, numbers = _of_ranges(found)
+        ended.append(STATUSES[int(code)])
+    computations: dict[str, Callable[[], SweepStatus]] = {
+        PRESSURE: lambda: _pressure(scene, settings, numbers),
+        LIFE: lambda: _life(scene, settings, numbers),
+        MODES: lambda: _bands_over_all_positions(
+            found if scene.balls == MASSLESS else _massless_states(scene, settings.cage_angles),
+            labels,
+            settings.cage_angles,
+            numbers,
+        ),
+        MOTION: lambda: _motion(scene, settings, numbers),
+        RECORD: lambda: _record(scene, settings, numbers),
+        MASS: lambda: _mass(scene, settings, numbers),
+        ORBIT: lambda: _orbit(scene, numbers),
+    }
+    for name, compute in computations.items():
+        if name not in needs:
+            continue
+        try:  # each by itself: what one of them refuses leaves the others as they are
+            ended.append(compute())
+        except ValueError:
+            ended.append(SweepStatus.COMPUTATION_REFUSED)
+        except (ArithmeticError, np.linalg.LinAlgError):
+            ended.append(SweepStatus.ARITHMETIC_FAILED)
+    known = SweepStatus.COMPLETE
+    return next((status for status in ended if status is not known), known).code, numbers
+
+
+def _of_ranges(found: StaticRanges) -> tuple[NDArray[np.int8], Numbers]:
+    """`_statics` of one scene, with the ends that were looked for between the positions."""
+    state = found.state
+    terms = stiffness_terms(state)
+    greatest_load = state.ball_load.max(axis=1)
+    code, numbers = _statics(state.status, terms, state.loaded_balls, greatest_load, state.shares)
+    for which, ends in (("least", found.least), ("greatest", found.greatest)):
+        for name, value in ends.items():
+            key = f"{name}_{which}"
+            if key in numbers and np.isfinite(numbers[key]):
+                numbers[key] = np.array(value)
+    return code, numbers
+
+
+def _massless_states(scene: Scene, n: int) -> StaticRanges:
+    """States of the scene without its balls' mass, which natural frequencies leave out."""
+    return static_ranges(scene.replace(balls=MASSLESS), (), n, rounds=0)
+
+
+def _bands_over_all_positions(
+    found: StaticRanges, labels: tuple[str, ...], n: int, numbers: Numbers
+) -> SweepStatus:
+    """Put the edges (len(labels),) of the bands of one scene into `numbers`."""
+    scene, terms = found.state.scene, stiffness_terms(found.state)
+    if not scene.defect_turns:
+        of_one = _bands(scene, terms[:, None], labels)
+        numbers |= {name: values[0] for name, values in of_one.items()}
+        return SweepStatus.COMPLETE
+    search = BandSearch(scene, terms, found.state.shares)
+
+    def at(cage_angles: Array, shaft_angles: Array) -> Array:
+        state = equilibrium(scene, cage_angles, shaft_angles=shaft_angles)
+        return search.frequencies(stiffness_terms(state))
+
+    ends = extremes(positions(scene, n), search.frequencies(terms), at)
+    edges = [dict(zip(search.labels, end.tolist(), strict=True)) for end in ends[:2]]
+    for which, own in zip(("least", "greatest"), edges, strict=True):
+        numbers[f"band_{which}"] = np.array([own.get(label, math.nan) for label in labels])
+    return SweepStatus.COMPLETE
+
+
+IN_ROWS = frozenset({STATICS, MODES})
+"""Computations that `of_row` does."""
+
+
+def of_row(
+    scene: Scene, extents: Array, needs: Iterable[str], labels: tuple[str, ...], settings: Settings
+) -> tuple[NDArray[np.int8], Numbers]:
+    """Codes (m,) and outputs (m, ...) of `scene` with each of the extents, solved together.
+
+    `needs` are of IN_ROWS, `labels` the modes that the band edges are given for. No defect turns.
+    """
+    found = positions(scene, settings.cage_angles)
+    maps = stiffness_maps(scene, extents, found.cage_angles)
+    codes, numbers = _statics(
+        maps.status, maps.stiffness, maps.loaded_balls, maps.greatest_load, found.weights
+    )
+    if MODES in needs:
+        try:
+            numbers |= _bands(scene, maps.stiffness, labels)
+        except ValueError:
+            complete = codes == SweepStatus.COMPLETE.code
+            codes = np.where(complete, SweepStatus.COMPUTATION_REFUSED.code, codes)
+    return codes, numbers
+
+
+def _bands(scene: Scene, terms: Array, labels: tuple[str, ...]) -> Numbers:
+    """Edges (m, len(labels)) of bands, from stiffness terms (15, m, n) of m scenes."""
+    *found, own = undamped_bands(scene, terms)
+    edges = np.full((2, terms.shape[1], len(labels)), math.nan)
+    for i, names in enumerate(own):
+        place = [labels.index(name) for name in names if name in labels]
+        mine = [k for k, name in enumerate(names) if name in labels]
+        edges[:, i, place] = [each[i, mine] for each in found]
+    return {"band_least": edges[0], "band_greatest": edges[1]}
+
+
+def _statics(
+    status: NDArray[np.int8],
+    stiffness: Array,
+    loaded_balls: NDArray[np.int64],
+    greatest_load: Array,
+    weights: Array,
+) -> tuple[NDArray[np.int8], Numbers]:
+    """Codes and numbers (...) from positions (..., n) with weights (n,), stiffness (15, ..., n).
+
+    NaN at any of the positions makes NaN of the statistic: a mean over what happens to be known
+    would look like that of all.
+    """
+    gone = status >= StaticStatus.NOT_CARRIED
+    balls = np.where(gone, math.nan, loaded_balls)
+    known = status == StaticStatus.CONVERGED
+    numbers: Numbers = {
+        "ball_load_greatest": np.where(gone, math.nan, greatest_load).max(axis=-1),
+        "converged_share": np.where(known.all(axis=-1), 1.0, known @ weights),
+        "loaded_balls_mean": np.asarray(balls @ weights),
+        "loaded_balls_least": balls.min(axis=-1),
+        "loaded_balls_greatest": balls.max(axis=-1),
+    }
+    statistics = (
+        ("mean", stiffness @ weights),
+        ("least", stiffness.min(axis=-1)),
+        ("greatest", stiffness.max(axis=-1)),
+    )
+    for which, values in statistics:
+        numbers |= {
+            f"{term}_{which}": value for term, value in zip(STIFFNESS_TERMS, values, strict=True)
+        }
+    # codes of the solver rise with what is missing
+    return _STATIC_CODES[status.max(axis=-1)], numbers
+
+
+def _life(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus:
+    """Put the life into `numbers`; say what became of it.
+
+    Averaged over all cage angles, so that healthy and damaged bearings can be compared. Infinite
+    lives, where nothing is carried, are not known to a map.
+    """
+    own = scene.bearing.dynamic_load_rating
+    rating = settings.dynamic_load_rating or own or dynamic_load_rating(scene.bearing)
+    found = life(scene, rating)
+    turns = 1e6 * found.million_revolutions
+    known = math.isfinite(turns)
+    numbers["life_turns"] = np.array(turns if known else math.nan)
+    numbers["life_hours"] = np.array(found.hours if known else math.nan)
+    numbers["life_share_of_healthy"] = np.array(found.share_of_healthy if known else math.nan)
+    if math.isinf(turns):
+        return SweepStatus.NOTHING_TOUCHES
+    if known and math.isnan(found.hours):
+        return SweepStatus.COMPUTATION_REFUSED
+    return OF_STATICS[StaticStatus(found.status)]
+
+
+def _pressure(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus:
+    """Put the pressures on both races into `numbers`; say what became of them."""
+    state = over_all_positions(scene, settings.cage_angles, static_state)
+    pressures = contact_pressures(scene, state)
+    for contact in (pressures.inner, pressures.outer):
+        numbers[f"contact_pressure_{contact.race}"] = np.array(contact.greatest_pressure)
+    return OF_STATICS[StaticStatus(int(state.status.max()))]
+
+
+def _mass(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus:
+    """Put the share that the balls' mass adds into `numbers`."""
+    if settings.band_high > PASSED * settings.sample_rate:
+        raise checks.refuse(
+            "band_high", settings.band_high, f"at most {PASSED:g} of the sample_rate"
+        )
+    band = settings.band_low, settings.band_high
+    share = mass_share(scene, *band, settings.duration, settings.sample_rate)
+    numbers["mass_share"] = np.array(share)
+    return SweepStatus.COMPLETE
+
+
+def _orbit(scene: Scene, numbers: Numbers) -> SweepStatus:
+    """Put the largest multiplier of the orbit into `numbers`; say what became of it."""
+    motion = orbit(scene)
+    numbers["floquet_multiplier_greatest"] = np.array(motion.largest_multiplier)
+    return OF_ORBIT[motion.status]
+
+
+def _record(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus:
+    """Put records (n,) along each direction into `numbers`."""
+    made = simulated_record(scene, None, settings.duration, settings.sample_rate)
+    pairs = zip(made.directions, made.acceleration.T, strict=True)
+    numbers |= {f"record_{name}": signal for name, signal in pairs}
+    return SweepStatus.COMPLETE
+
+
+def _motion(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus:
+    """Put what the motion gives into `numbers`; say what became of it."""
+    motion = simulate(scene, settings.duration, settings.sample_rate)
+    late = motion.outer_acceleration[round(SETTLING_SHARE * len(motion.time)) :]
+    for i, dof in enumerate(motion.dofs):
+        numbers[f"acceleration_rms_{dof}"] = np.sqrt(np.mean(late[:, i] ** 2))
+        numbers[f"acceleration_greatest_{dof}"] = np.abs(late[:, i]).max()
+    return OF_MOTION[motion.status]

@@ -1,0 +1,338 @@
+"""Sweeps: every scene of a grid, on Dask, to an xarray.Dataset."""
+
+from __future__ import annotations
+
+import errno
+import importlib
+import logging
+import os
+import time
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import AbstractContextManager, ExitStack, contextmanager
+from itertools import islice
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from bearingcore.common import Progress
+from bearingcore.common import _checks as checks
+from bearingcore.model.scene import Scene
+from bearingcore.model.sweeps import _store as stores
+from bearingcore.model.sweeps._grid import Grid, program_version
+from bearingcore.model.sweeps._outputs import Settings
+
+if TYPE_CHECKING:
+    import xarray
+    from distributed import Client
+
+MOST_BYTES = 2_000_000_000
+"""Of results that are kept in memory; larger ones need a store."""
+
+AHEAD = 4
+"""Tasks that are handed out for each thread of the cluster: enough that none waits, few enough for
+the scheduler to carry, however many there are in all."""
+
+LOOK_AGAIN = 5.0
+"""[s] after which the size of the cluster is asked for again."""
+
+_NOT_WRITABLE = {
+    *(errno.EACCES, errno.EPERM, errno.EROFS, errno.ENOENT, errno.ENOTDIR, errno.EEXIST),
+    *(errno.ENAMETOOLONG, errno.ELOOP),
+}
+FULL = "the disk is full. What is finished is kept: the same sweep resumes once there is room"
+
+LOST = "the scheduler or the connection to it is lost; what is finished is kept in the store"
+
+
+def needs_extra() -> None:
+    """ImportError with what to do about it, where what sweeps need is not installed."""
+    try:
+        for name in ("xarray", "dask", "distributed", "zarr"):
+            importlib.import_module(name)
+    except ImportError as error:
+        raise ImportError(
+            f"sweeps need xarray, dask, distributed and zarr ({error}): "
+            'pip install "bearing-explorer[scale]"'
+        ) from error
+
+
+def sweep(
+    scene: Scene,
+    over: Mapping[str, Any],
+    outputs: Iterable[str],
+    client: Client | str | None = None,
+    store: str | os.PathLike[str] | None = None,
+    *,
+    settings: Settings | None = None,
+    workers: int | None = None,
+    processes: bool = False,
+    scenes_per_task: int | None = None,
+    progress: Progress | None = None,
+) -> xarray.Dataset:
+    """Outputs of all combinations of values of some fields of `scene`.
+
+    Parameters
+    ----------
+    scene
+        what stays the same.
+    over
+        fields as `Scene.replace` takes them, each with its values, in SI units; the dimensions of
+        the result, in their order.
+    outputs
+        names out of `bearingcore.model.sweeps.OUTPUTS`; `*` and `?` stand for any letters.
+    client
+        a `distributed.Client`, or the address of a scheduler. None computes on this machine.
+    store
+        folder for the results, written as Zarr region by region, by the workers: all must see it.
+        Where it holds a part of the same sweep, that is kept and the rest computed. None keeps
+        results in memory.
+    settings
+        how finely; see `Settings`.
+    workers, processes
+        on this machine: how many (None: one a core), and whether they are processes of their own
+        rather than threads. Processes share nothing and are faster, but take a second or two to
+        start; a script that asks for them must do so under ``if __name__ == "__main__":``.
+    scenes_per_task
+        None takes about four seconds of work. A store that is taken up keeps its own.
+    progress
+        called with the part done, 0 to 1, and a sentence.
+
+    Returns
+    -------
+    xarray.Dataset
+        a variable for each output with its unit in `attrs`, and `status`, codes of
+        `sweeps.STATUSES`; NaN where there is no answer. Its `attrs` hold the scene as
+        TOML, what was asked for and the version of the program. From a store it is lazy.
+
+    Raises
+    ------
+    ImportError
+        where xarray, dask, distributed or zarr are missing.
+    ValueError
+        for what cannot be, in a sentence; also where `store` holds anything but this sweep.
+    ConnectionError
+        where the scheduler cannot be reached or is lost. What is finished is in the store.
+    """
+    needs_extra()
+    grid = Grid.of(scene, over, outputs, settings)
+    if scenes_per_task is not None:
+        scenes_per_task = checks.whole_number(
+            "scenes_per_task", scenes_per_task, at_least=1, at_most=10_000_000
+        )
+    if workers is not None:
+        workers = checks.whole_number("workers", workers, at_least=1, at_most=1000)
+    region_shape = grid.region_shape(scenes_per_task)
+    cluster = _cluster(client, workers, processes)
+    if store is None:
+        return _in_memory(grid, region_shape, cluster, progress)
+    path = stores.local_path(store)
+    try:
+        return _in_store(path, grid, region_shape, cluster, progress)
+    except OSError as error:
+        if error.errno in (errno.ENOSPC, errno.EDQUOT):
+            raise OSError(error.errno, FULL, str(path)) from None
+        if error.errno not in _NOT_WRITABLE:
+            raise
+        allowed = f"a folder that can be written ({error.strerror})"
+        raise checks.refuse("store", str(path), allowed) from None
+
+
+Cluster = AbstractContextManager["Client"]
+
+
+def _in_store(
+    path: Path,
+    grid: Grid,
+    region_shape: tuple[int, ...],
+    cluster: Cluster,
+    progress: Progress | None,
+) -> xarray.Dataset:
+    region_shape = stores.prepare(path, grid, region_shape)
+    regions = (
+        stores.region(path, grid, region_shape, index)
+        for index in np.ndindex(*grid.region_counts(region_shape))
+    )
+    done = _Progress(grid.size, progress)
+    with cluster as client:
+        seen = False
+        for region, computed in _finished(client, stores.finish, regions):
+            if not (seen or stores.is_finished(region)):
+                raise checks.refuse(
+                    "store",
+                    str(path),
+                    "a folder that all workers share: one wrote to it and nothing is there",
+                )
+            seen = True
+            done.add(region.part.size, kept=not computed)
+    return open_results(path)
+
+
+def open_results(store: str | os.PathLike[str]) -> xarray.Dataset:
+    """The Dataset of a store, finished or not: status 0 (`not_computed`) marks what is missing."""
+    needs_extra()
+    import xarray
+
+    return xarray.open_zarr(stores.local_path(store))
+
+
+def _in_memory(
+    grid: Grid, region_shape: tuple[int, ...], cluster: Cluster, progress: Progress | None
+) -> xarray.Dataset:
+    import xarray
+
+    per_scene = 1 + 8 * sum(np.prod(grid.shape_of(name, (1,))) for name in grid.outputs)
+    if grid.size * per_scene > MOST_BYTES:
+        raise checks.refuse(
+            "size of the results",
+            f"{grid.size * per_scene / 1e9:.1f} GB",
+            f"at most {MOST_BYTES / 1e9:g} GB in memory; give a store for more",
+        )
+    status = np.zeros(grid.shape, dtype=np.int8)
+    numbers = {name: np.full(grid.shape_of(name), np.nan) for name in grid.outputs}
+    places = (
+        grid.region(region_shape, index) for index in np.ndindex(*grid.region_counts(region_shape))
+    )
+    parts = ((place, grid.part(place)) for place in places)
+    done = _Progress(grid.size, progress)
+    with cluster as client:
+        for (place, part), (codes, found) in _finished(client, _compute, parts):
+            status[place] = codes
+            for name, values in found.items():
+                numbers[name][place] = values
+            done.add(part.size)
+    units = stores.coordinate_attributes(grid)
+    variables = {
+        name: (grid.dims_of(name), values, stores.variable_attributes(name))
+        for name, values in numbers.items()
+    }
+    name = stores.STATUS
+    return xarray.Dataset(
+        {**variables, name: (grid.dims, status, stores.variable_attributes(name))},
+        coords={
+            name: (name, values, units.get(name, {}))
+            for name, values in stores.coordinates(grid).items()
+        },
+        attrs=stores.attributes(grid),
+    )
+
+
+def _compute(task: tuple[Any, Grid]) -> Any:
+    return task[1].compute()
+
+
+class _Progress:
+    """Counts finished scenes and reports them."""
+
+    def __init__(self, size: int, progress: Progress | None) -> None:
+        self._size = size
+        self._progress = progress
+        self._done = self._kept = 0
+
+    def add(self, scenes: int, kept: bool = False) -> None:
+        self._done += scenes
+        self._kept += scenes if kept else 0
+        if self._progress is not None:
+            words = f"{self._done:,} of {self._size:,} scenes"
+            if self._kept:
+                words += f", {self._kept:,} of them from before"
+            self._progress(self._done / self._size, words)
+
+
+@contextmanager
+def _cluster(client: Client | str | None, workers: int | None, processes: bool) -> Iterator[Client]:
+    """The client to compute with; what is started here is stopped here."""
+    from distributed import Client, LocalCluster
+
+    if client is not None and not isinstance(client, str):
+        yield client
+        return
+    if isinstance(client, str):
+        try:
+            connected = Client(client, set_as_default=False)
+        except (OSError, ValueError) as error:
+            raise ConnectionError(f"no scheduler answers at {client}: {error}") from None
+        with connected:
+            yield connected
+        return
+    count = workers or os.cpu_count() or 1
+    shape = (
+        {"n_workers": count, "threads_per_worker": 1}
+        if processes
+        # threads share the memory of their host, whose use says nothing of theirs: no limit
+        else {"n_workers": 1, "threads_per_worker": count, "memory_limit": 0}
+    )
+    here = "localhost:0"  # Dask's pages are for this machine alone, on any free port
+    with ExitStack() as open_:
+        try:
+            cluster = open_.enter_context(
+                LocalCluster(
+                    processes=processes,
+                    dashboard_address=here,
+                    worker_dashboard_address=here,
+                    # what a task raises is raised here too, and said once
+                    silence_logs=logging.CRITICAL,
+                    **shape,
+                )
+            )
+        except RuntimeError as error:
+            raise RuntimeError(
+                f"a worker ended while it was starting ({count} of them were to start): is there "
+                "enough memory, and may this program start others? Any message of the "
+                f"worker is above. ({error})"
+            ) from error
+        yield open_.enter_context(Client(cluster, set_as_default=False))
+
+
+def _finished(
+    client: Client, work: Callable[[Any], Any], tasks: Iterable[Any]
+) -> Iterator[tuple[Any, Any]]:
+    """Each task with what `work` makes of it on the cluster, in the order of their ends."""
+    from distributed import KilledWorker, as_completed
+    from distributed.client import FutureCancelledError
+
+    waiting = iter(tasks)
+    going: dict[Any, Any] = {}
+    done = as_completed([], loop=client.loop)
+    version = program_version()
+    threads, looked = 0, -LOOK_AGAIN
+    try:
+        while True:
+            try:
+                if time.monotonic() - looked > LOOK_AGAIN:
+                    threads = max(sum(client.nthreads().values()), 1)
+                    looked = time.monotonic()
+                for task in islice(waiting, max(AHEAD * threads - len(going), 0)):
+                    future = client.submit(_same_version, version, work, task, pure=False)
+                    going[future] = task
+                    done.add(future)
+            except OSError as error:
+                raise ConnectionError(LOST) from error
+            if not going:
+                return
+            future = next(done)
+            try:
+                result = future.result()
+            except FutureCancelledError as error:
+                raise ConnectionError(LOST) from error
+            except OSError as error:
+                if future.status == "error":  # the task's own: a full disk, a folder not allowed
+                    raise
+                raise ConnectionError(LOST) from error
+            except KilledWorker as error:
+                raise RuntimeError(
+                    "workers died again and again at the same task; is there enough memory? "
+                    f"What is finished is kept in the store. ({error})"
+                ) from error
+            yield going.pop(future), result
+    finally:
+        if going and client.status == "running":
+            client.cancel(list(going), force=True)
+
+
+def _same_version(version: str, work: Callable[[Any], Any], task: Any) -> Any:
+    """On a worker: do the work, if both ends are the same program."""
+    here = program_version()
+    if here != version:
+        raise checks.refuse("version of a worker", here, f"{version}, which started the sweep")
+    return work(task)

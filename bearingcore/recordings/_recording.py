@@ -1,0 +1,100 @@
+"""A measured signal: acceleration in SI units, and further facts."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from bearingcore.common import Array, count
+from bearingcore.common import _checks as checks
+
+DIRECTIONS = ("x", "y")
+
+SWINGS = (1e-12, 1e12)
+"""Least and greatest swing, in any unit: squares of squares outside are no numbers any more."""
+
+FEWEST_SAMPLES = 256
+
+
+@dataclass(frozen=True)
+class Recording:
+    """Acceleration of the housing as it was measured, in SI units.
+
+    Attributes
+    ----------
+    acceleration : (n, d) [m/s²]
+        one column a direction.
+    sample_rate
+        [Hz]
+    directions
+        of the columns: "x" (horizontal), "y" (vertical, up).
+    name
+        where it comes from.
+    shaft_speed
+        [rad/s] at the measurement, None where it is not known.
+    notes
+        sentences on what was done to the signal, or left out of it.
+
+    Raises
+    ------
+    ValueError
+        naming the field, its value and what is allowed.
+    """
+
+    acceleration: Array = field(repr=False)
+    sample_rate: float
+    directions: tuple[str, ...] = ("x", "y")
+    name: str = ""
+    shaft_speed: float | None = None
+    notes: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        checks.keep_number(self, "sample_rate", above=0.0, unit="Hz")
+        checks.keep_number(self, "shaft_speed", optional=True, above=0.0, unit="rad/s")
+        checks.keep(self, directions=check_directions(self.directions), notes=tuple(self.notes))
+        signal = np.array(self.acceleration, dtype=float)
+        if signal.ndim == 1:
+            signal = signal[:, None]
+        if signal.ndim != 2 or signal.shape[1] != len(self.directions):
+            raise checks.refuse(
+                "acceleration",
+                f"of shape {np.shape(self.acceleration)}",
+                f"a column for each direction: {', '.join(self.directions)}",
+            )
+        if len(signal) < FEWEST_SAMPLES:
+            raise checks.refuse(
+                "acceleration", f"{len(signal)} samples long", f"at least {FEWEST_SAMPLES} samples"
+            )
+        bad = np.flatnonzero(~np.isfinite(signal).all(axis=1))
+        if bad.size:
+            raise checks.refuse(
+                "acceleration",
+                f"not a finite number in {count(bad.size, 'sample')}, first in number {bad[0] + 1}",
+                "finite numbers",
+            )
+        with np.errstate(over="ignore"):
+            swings = np.ptp(signal, axis=0)
+        for direction, swing in zip(self.directions, swings, strict=True):
+            if not swing:
+                what = f"the same number throughout along {direction}"
+                raise checks.refuse("acceleration", what, "a signal")
+            if not SWINGS[0] <= swing <= SWINGS[1]:
+                what = f"swinging by {swing:.1g} along {direction}"
+                raise checks.refuse("acceleration", what, "from {:g} to {:g}".format(*SWINGS))
+        signal.setflags(write=False)
+        checks.keep(self, acceleration=signal)
+
+    @property
+    def duration(self) -> float:
+        """[s]"""
+        return len(self.acceleration) / self.sample_rate
+
+
+def check_directions(directions: Sequence[str]) -> tuple[str, ...]:
+    """`directions` as a tuple; ValueError unless they are different ones of x and y."""
+    names = (directions,) if isinstance(directions, str) else tuple(directions)
+    if not names or len(set(names)) != len(names) or not set(names) <= set(DIRECTIONS):
+        raise checks.refuse("directions", directions, "x, y or both")
+    return names

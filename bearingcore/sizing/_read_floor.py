@@ -1,0 +1,53 @@
+"""The floor of a defect from a file of two columns."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping
+
+from bearingcore.common import _checks as checks
+from bearingcore.measured.files import read_file
+from bearingcore.model.scene import MOST_ROWS, MeasuredFloor, measured_floor
+from bearingcore.units import INCH
+
+_ANGLES = {"rad": 1.0, "radians": 1.0}
+_LENGTHS = {"m": 1.0, "mm": 1e-3, "nm": 1e-9, "in": INCH}
+"""Units [rad, m] that a heading may give; others are degrees and micrometres."""
+
+
+def read_floor(text: str) -> tuple[MeasuredFloor, float, float, float]:
+    """`measured_floor` from text: two columns, angle [degrees] and depth [µm].
+
+    As lenient as the reading of measured signals: columns between commas, semicolons, tabs or
+    blanks, numbers with points or commas, lines that begin with # passed over. Headings may give
+    other units: "angle [rad]", "depth_mm".
+
+    Raises
+    ------
+    ValueError
+        that says which line cannot be read, or what `measured_floor` refuses.
+    """
+    lines = "2 or more lines of two numbers, angle [degrees] and depth [µm]"
+    if not text.strip() or "\x00" in text:
+        raise checks.refuse("floor", "no text" if text.strip() else "empty", lines)
+    about, columns = read_file(
+        "the floor", text.encode("utf-8", "replace"), text_only=True, most_numbers=2 * MOST_ROWS
+    )
+    if about.get("notes"):
+        raise checks.refuse("the floor", about["notes"][0], "numbers in every line")
+    if columns.shape[1] != 2:
+        raise checks.refuse(
+            "number of columns in the floor", columns.shape[1], "2: angle [degrees] and depth [µm]"
+        )
+    angle, depth = about["names"] if about["headed"] else ("", "")
+    return measured_floor(
+        columns[:, 0] * _unit_in(angle, _ANGLES, math.radians(1.0)),
+        columns[:, 1] * _unit_in(depth, _LENGTHS, 1e-6),
+    )
+
+
+def _unit_in(heading: str, units: Mapping[str, float], usual: float) -> float:
+    """The unit [rad or m] at the end of a heading."""
+    last = re.search(r"([^\s_,;:/\[\](){}]+)[\s\])}]*$", heading.strip().lower())
+    return units.get(last[1].replace("μ", "µ"), usual) if last else usual

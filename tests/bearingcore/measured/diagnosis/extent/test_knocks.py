@@ -1,0 +1,89 @@
+"""What mean passes of several bands say together: made of bumps, without a signal."""
+
+import math
+
+import numpy as np
+import pytest
+
+from bearingcore.measured.diagnosis import MeanPass, Seen
+from bearingcore.measured.diagnosis._extent.knocks import PLACES, judged, two_peaks
+from bearingcore.measured.signals._filter_bank import Band
+
+FREQUENCY = 50.0
+BANDS = (Band(200.0, 4000.0), Band(4000.0, 8000.0), Band(8000.0, 16_000.0), Band(200.0, 16_000.0))
+
+
+def mean_pass(band: Band, *bumps: tuple[float, float], error: float = 0.002) -> MeanPass:
+    """Bumps as (place, height), on a ball pass of length 1."""
+    place = np.arange(PLACES) / PLACES
+    envelope = np.zeros(PLACES)
+    for at, height in bumps:
+        envelope += height * np.exp(-0.5 * (((place - at + 0.5) % 1.0 - 0.5) / 0.008) ** 2)
+    return MeanPass(band, "y", envelope, error)
+
+
+def seen(*passes: MeanPass):
+    return judged(passes, FREQUENCY, 200)
+
+
+def test_two_knocks_are_where_bands_show_them_at_the_same_places():
+    found = seen(*(mean_pass(band, (0.3, 1.0), (0.4, 1.0)) for band in BANDS))
+    assert found.seen == Seen.TWO
+    assert found.separation == pytest.approx(0.1, abs=0.002)
+    # as far apart, but elsewhere in half of the bands: three lumps of which each shows two
+    train = [mean_pass(band, (0.3, 1.0), (0.4, 1.0)) for band in BANDS[:2]]
+    train += [mean_pass(band, (0.4, 1.0), (0.5, 1.0)) for band in BANDS[2:]]
+    assert seen(*train).seen == Seen.UNCLEAR
+
+
+def test_bands_of_one_frequency_do_not_count():
+    nested = [mean_pass(Band(200.0, high), (0.3, 1.0), (0.4, 0.5)) for high in (4e3, 8e3, 16e3)]
+    assert seen(*nested).seen == Seen.UNCLEAR
+
+
+def test_a_train_of_peaks_speaks_against_two_knocks():
+    pairs = [
+        mean_pass(band, (0.3, 1.0), (0.4, high))
+        for band, high in zip(BANDS[:2], (0.6, 1.0), strict=True)
+    ]
+    trains = [mean_pass(band, (0.3, 1.0), (0.4, 0.9), (0.5, 0.8)) for band in BANDS[:2]]
+    assert two_peaks(trains[0], FREQUENCY).third > 0.6
+    assert seen(*pairs).seen == Seen.TWO
+    assert seen(*pairs, *trains).seen == Seen.UNCLEAR
+
+
+def test_a_release_may_fade_above_the_bands_that_show_it():
+    """Silent high bands are not asked; silent bands among those that show it are."""
+    low = [mean_pass(BANDS[0], (0.3, 0.8), (0.4, 1.0)), mean_pass(BANDS[1], (0.3, 0.4), (0.4, 1.0))]
+    silent = [mean_pass(Band(low, low + 2000.0), (0.4, 1.0)) for low in (9e3, 11e3, 13e3, 15e3)]
+    assert seen(*low, *silent).seen == Seen.TWO
+    # backwards it is the later one that fades, as an echo does and no exit
+    echo = [MeanPass(one.band, "y", one.envelope[::-1], one.error) for one in (*low, *silent)]
+    assert seen(*echo).seen == Seen.ALIKE
+    among = [mean_pass(Band(200.0, high), (0.4, 1.0)) for high in (2e3, 3e3, 5e3, 6e3)]
+    assert seen(*low, *among).seen != Seen.TWO
+
+
+def test_which_peak_is_the_entry_is_open_but_of_a_spall_that_nearly_reaches_the_next_ball():
+    """No matter which grows with frequency: with mass it is the exit, without the entry."""
+
+    def growing(apart: float, power: float):
+        heights = ((BANDS[0], 0.3**power), (BANDS[1], 1.0), (BANDS[2], 3.0**power))
+        return seen(*(mean_pass(band, (0.3, h), (0.3 + apart, 1.0)) for band, h in heights))
+
+    for power in (-1.0, 0.5, 1.0):
+        found = growing(0.3, power)
+        assert found.seen == Seen.EITHER
+        assert found.separation == pytest.approx(0.3, abs=0.01)
+    assert growing(0.1, -1.0).seen == Seen.TWO
+    assert growing(0.1, 1.0).seen == Seen.ALIKE  # an echo
+
+
+def test_one_knock_hides_another_only_where_it_rings():
+    found = seen(*(mean_pass(band, (0.3, 1.0)) for band in BANDS))
+    assert found.seen == Seen.ONE
+    assert 0.01 < found.hidden < 0.05
+    # a lowest band in noise shows nothing, and where a release shows best it would not
+    noisy = [mean_pass(BANDS[0], (0.3, 1.0), error=0.05)]
+    noisy += [mean_pass(band, (0.3, 1.0)) for band in BANDS[1:3]]
+    assert math.isnan(seen(*noisy).hidden)

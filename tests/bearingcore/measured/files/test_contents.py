@@ -1,0 +1,245 @@
+"""What files say about themselves, in the shapes in which real machines are recorded."""
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from bearingcore import read_table
+from bearingcore.measured.files import _facts as facts
+from tests.helpers.saved import matlab
+
+pytestmark = pytest.mark.usefixtures("files_read_here")
+
+NOISE = np.random.default_rng(3).standard_normal((20_480, 8))
+
+
+def lines(rows: np.ndarray, delimiter: str = ",", heading: str = "") -> bytes:
+    told = [delimiter.join(f"{value:.9g}" for value in row) for row in rows]
+    return "\n".join([heading, *told] if heading else told).encode()
+
+
+def rpm(speed: float) -> float:
+    return speed * 30.0 / math.pi
+
+
+def test_case_western_variables_are_of_several_places() -> None:
+    sides = {f"X130_{side}_time": NOISE[:5000, :1] for side in ("DE", "FE", "BA")}
+    table = read_table("130.mat", matlab(**sides, X130RPM=np.array([[1796]], dtype="u2")))
+    found: Any = table.contents
+    assert [column.place for column in found.columns] == ["drive end", "fan end", "base"]
+    assert found.choice.columns == {"y": 0}  # the faults of this number are at the drive end
+    assert not found.choice.question
+    assert found.bearing.value == "6205-2RS, CWRU drive end"
+    assert (found.unit.value, found.unit.stated, found.unit.taken) == ("g", False, True)
+    assert (found.sample_rate.value, found.sample_rate.stated) == (12_000.0, False)
+    assert rpm(found.shaft_speed.value) == pytest.approx(1796.0)
+    with pytest.raises(ValueError, match="sensors at two places"):
+        table.recording(["X130_DE_time", "X130_FE_time"], ["x", "y"], "g", 12e3)
+    with pytest.raises(ValueError, match="12000 is likely"):
+        table.recording(["X130_DE_time"], ["y"], "g")
+    got = table.recording(["X130_DE_time"], ["y"], "g", 12e3)
+    assert got.shaft_speed == found.shaft_speed.value
+
+
+def test_mfpt_structs_tell_rate_speed_and_load() -> None:
+    run = {"gs": NOISE[:, :1], "sr": 48_828, "rate": 25, "load": "150"}
+    table = read_table("run.mat", matlab(bearing=run, BPFO=81.125))
+    found: Any = table.contents
+    assert found.unit.stated
+    assert found.unit.value == "g"
+    assert found.load.value == pytest.approx(667.23, abs=0.01)
+    assert not found.load.stated  # pounds are what the collection says, not the file
+    assert found.said["BPFO"] == "81.125"
+    got = table.recording([0], ["y"])
+    assert got.sample_rate == 48_828.0
+    assert got.shaft_speed == pytest.approx(2.0 * math.pi * 25.0)
+    np.testing.assert_allclose(got.acceleration[:, 0], NOISE[:, 0] * 9.80665)
+
+
+@pytest.mark.parametrize(
+    ("delimiter", "rounding", "begin"), [(",", 0, 65_664.0), (";", -1, 954_410.0)]
+)
+def test_femto_columns_of_clock_and_signals(delimiter: str, rounding: int, begin: float) -> None:
+    """Hours, minutes, seconds, microseconds; some printed as 9.5441e+05. One passes midnight."""
+    micro = np.round(begin + np.arange(2560) / 25_600.0 * 1e6, rounding)
+    second = np.where(micro >= 1e6, 0.0, 59.0)
+    clock = [np.where(second > 0.0, 23.0, 0.0), second, second, micro % 1e6]
+    rows = np.column_stack([*clock, NOISE[:2560, :2]])
+    told = [
+        delimiter.join(
+            [*(f"{v:.0f}" for v in row[:3]), f"{row[3]:.5g}", *(f"{v:.4g}" for v in row[4:])]
+        )
+        for row in rows
+    ]
+    table = read_table("acc_00001.csv", "\n".join(told).encode())
+    found: Any = table.contents
+    assert [column.role for column in found.columns] == ["time"] * 4 + ["signal"] * 2
+    assert found.choice.columns == {"x": 4, "y": 5}
+    assert "FEMTO" in found.choice.reason
+    assert found.unit.value == "g"
+    got = table.recording([4, 5], ["x", "y"], "g")
+    assert got.sample_rate == 25_600.0
+    assert got.duration == pytest.approx(0.1)
+
+
+@pytest.mark.parametrize(("columns", "places"), [(4, [1, 2, 3, 4]), (8, [1, 1, 2, 2, 3, 3, 4, 4])])
+def test_ims_tables_without_headings_or_extension(columns: int, places: list[int]) -> None:
+    table = read_table("2003.10.22.12.06.24", lines(NOISE[:, :columns], "\t"))
+    found: Any = table.contents
+    assert [column.place for column in found.columns] == [f"bearing {n}" for n in places]
+    assert "several places" in found.choice.question
+    assert (found.sample_rate.value, found.sample_rate.stated) == (20_480.0, False)
+
+
+def paderborn() -> dict[str, object]:
+    """Channels in an array of structs, each with its name."""
+    channels = np.zeros((1, 3), dtype=[("Name", "O"), ("Type", "O"), ("Data", "O")])
+    channels[0, 0] = ("force", "f", NOISE[None, :30, 0])
+    channels[0, 1] = ("phase_current_1", "c", NOISE[None, :, 0])
+    channels[0, 2] = ("vibration_1", "v", NOISE[None, :, 1])
+    return {"N09_M07_F10_KA01_1": {"Info": "rig", "Y": channels}}
+
+
+def columns(name: str, count: int, rows: int = 20_480) -> dict[str, object]:
+    return {name: np.resize(NOISE, (rows, count))}
+
+
+XJTU = "Horizontal_vibration_signals,Vertical_vibration_signals"
+HUST_TEXT = lines(
+    np.column_stack([np.arange(600) / 25_600, NOISE[:600, :3]]), "\t", "Time\tX\tY\tZ"
+)
+
+LOOKS = [
+    # file, content, collection, y and its column, rate, rpm, bearing
+    ("N09_M07_F10_KA01_1.mat", paderborn(), "Paderborn",
+     "N09_M07_F10_KA01_1.Y.vibration_1", 64e3, 900, "6203, Paderborn"),
+    ("I-A-1.mat", {"Channel_1": NOISE[:, :1], "Channel_2": NOISE[:, 1:2]},
+     "Ottawa (speeds that change)", "Channel_1", 2e5, None, "ER-16K, Ottawa"),
+    ("O_6_1.mat", columns("O_6_1", 5, 420_000), "Ottawa (UORED-VAFCLS)",
+     "O_6_1(:,1)", 42e3, 1750, None),
+    ("1.csv", lines(NOISE[:600, :2], ",", XJTU), "XJTU-SY",
+     "Vertical_vibration_signals", 25.6e3, None, "UER204, XJTU-SY"),
+    ("C4A_200_502_1.mat", columns("C4A_200_502_1", 6), "DIRG",
+     "C4A_200_502_1(:,3)", 51.2e3, 12_000, None),
+    ("IB604.mat", {"data": NOISE[:, :1], "fs": 51_200}, "HUST (Hanoi)",
+     "data", 51.2e3, None, "6206"),
+    ("0.5X_B_20Hz.xls", HUST_TEXT, "HUST (Huazhong)", "Y", 25.6e3, 1200, "ER-16K, Ottawa"),
+    ("ib600_2.csv", lines(NOISE[:600, :1]), "JNU", "column 1", 50e3, 600, "NU205"),
+    ("N_1000_3.mat", {"Data": NOISE[:, :1], "Datacount": 20_480, "SampleFrequency": 20_000},
+     "UESTC", "Data", 20e3, 1000, None),
+    ("OR5_900.mat", columns("z15_1", 1, 262_144), "HIT-SM", "z15_1", 51.2e3, 900, "6205"),
+    ("Bearing2_1_acc_00911.csv", None, "FEMTO-ST", "column 6", 25.6e3, 1650, "6804RS, FEMTO-ST"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("file", "held", "collection", "column", "rate", "turns", "bearing"), LOOKS
+)
+def test_files_of_public_collections_are_recognised(
+    file: str, held: object, collection: str, column: str, rate: float, turns: float | None,
+    bearing: str | None,
+) -> None:  # fmt: skip
+    """Made files in the layouts that the collections' documents describe."""
+    if held is None:
+        micro = np.arange(2560) / 25_600.0 * 1e6
+        clock = [np.full(2560, 9.0), np.full(2560, 39.0), np.full(2560, 39.0), micro]
+        held = lines(np.column_stack([*clock, NOISE[:2560, :2]]))
+    table = read_table(file, matlab(**held) if isinstance(held, dict) else held)
+    found: Any = table.contents
+    assert found.collection == collection
+    assert table.names[found.choice.columns["y"]] == column
+    assert not found.choice.question
+    assert found.sample_rate.taken
+    assert found.sample_rate.value == pytest.approx(rate)
+    speed = found.shaft_speed
+    assert (None if speed is None else round(rpm(speed.value))) == turns
+    assert (None if found.bearing is None else found.bearing.value) == bearing
+
+
+def test_lines_above_the_numbers_are_listened_to() -> None:
+    heading = (
+        "Logger 7\nSample rate: 25.6 kHz\nShaft speed = 1500 rpm\nLoad; 2,5 kN\nUnit: m/s^2\n"
+        "vertical"
+    )
+    table = read_table("a.txt", lines(NOISE[:600, :1], heading=heading))
+    found: Any = table.contents
+    assert table.names == ("vertical",)
+    assert found.sample_rate.value == 25_600.0
+    assert found.load.value == 2500.0
+    got = table.recording([0], ["y"])
+    assert got.shaft_speed == pytest.approx(50.0 * math.pi)
+    np.testing.assert_allclose(got.acceleration[:, 0], NOISE[:600, 0], rtol=1e-8)
+
+
+@pytest.mark.parametrize(
+    ("heading", "factor"),
+    [("acc (mg)", 9.80665e-3), ("Beschleunigung in m/s^2", 1.0), ("a [in/s2]", 0.0254)],
+)
+def test_the_heading_of_a_single_column_is_kept_and_its_unit_used(
+    heading: str, factor: float
+) -> None:
+    table = read_table("a.csv", lines(NOISE[:600, :1], heading=heading))
+    assert table.names == (heading,)
+    assert table.contents.unit.stated
+    got = table.recording([0], ["y"], sample_rate=1e3)
+    np.testing.assert_allclose(got.acceleration[:, 0], NOISE[:600, 0] * factor, rtol=1e-7)
+
+
+def test_a_velocity_is_differentiated_with_a_note() -> None:
+    time = np.arange(4000) / 4000.0
+    velocity = 1e3 * np.sin(2.0 * np.pi * 80.0 * time)  # [mm/s]
+    content = lines(np.column_stack([time, velocity]), heading="time [s],v [mm/s]")
+    got = read_table("v.csv", content).recording([1], ["y"])
+    exact = 2.0 * np.pi * 80.0 * np.cos(2.0 * np.pi * 80.0 * time)
+    inside = slice(20, -20)
+    np.testing.assert_allclose(got.acceleration[inside, 0], exact[inside], atol=0.5)
+    assert "differentiated" in got.notes[0]
+
+
+def test_a_column_of_speed_is_the_shafts() -> None:
+    speed = np.full(600, 1480.0)
+    content = lines(np.column_stack([NOISE[:600, 0], speed]), heading="acc [g],speed [rpm]")
+    found: Any = read_table("a.csv", content).contents
+    assert found.shaft_speed.stated
+    assert rpm(found.shaft_speed.value) == pytest.approx(1480.0)
+    content = lines(
+        np.column_stack([NOISE[:600, 0], speed + np.arange(600)]), heading="acc [g],speed [rpm]"
+    )
+    varying: Any = read_table("a.csv", content).contents.shaft_speed
+    assert not varying.stated
+    assert "goes from 1480 to 2079" in varying.reason
+
+
+def test_gravity_in_the_mean_tells_the_unit() -> None:
+    shaken = 0.05 * NOISE[:600, :1]
+    assert read_table("a.csv", lines(shaken + 1.0)).contents.unit.value == "g"
+    assert read_table("a.csv", lines(shaken + 9.81)).contents.unit.value == "m/s²"
+
+
+def test_a_rate_that_the_times_contradict_is_taken_but_said() -> None:
+    content = lines(np.column_stack([np.arange(600) / 1e4, NOISE[:600, 0]]), heading="time,acc [g]")
+    got = read_table("a.csv", content).recording([1], ["y"], sample_rate=12e3)
+    assert got.sample_rate == 12e3
+    assert "typed as 12000 Hz; the time column says 10000 Hz" in got.notes[0]
+
+
+@pytest.mark.parametrize(
+    ("name", "line", "number", "unit"),
+    [
+        ("a.csv", "speed: 1797 rpm", 1797.0, "rpm"),
+        ("a.csv", "shaft speed = 29.95 Hz", 29.95, "Hz"),
+        ("a.csv", "speed: 188 rad/s", 188.0, "rad/s"),
+        ("a_1797rpm.csv", "no speed", 1797.0, "rpm"),
+        ("a.csv", "shaft frequency: 29.95", 29.95, "Hz"),
+    ],
+)
+def test_a_speed_is_in_si_and_names_the_unit_of_the_file(
+    name: str, line: str, number: float, unit: str
+) -> None:
+    speed = facts.shaft_speed_in(facts.named_in([line]), name)
+    assert speed is not None
+    in_si = {"rpm": math.pi / 30.0, "Hz": 2.0 * math.pi, "rad/s": 1.0}[unit]
+    assert (speed.file_unit, speed.value) == (unit, pytest.approx(number * in_si, rel=1e-12))
+    assert speed.in_file_unit == pytest.approx(number, rel=1e-12)

@@ -1,0 +1,948 @@
+"""Files as programs, loggers and instruments lay them out, and what must come out of them."""
+
+import csv
+import gzip
+import io
+import json
+import math
+from collections.abc import Callable
+from typing import Any
+
+import h5py
+import numpy as np
+import pandas as pd
+import pytest
+
+from bearingcore import join_tables, read_recording, read_table
+from bearingcore.measured.files import Column
+from bearingcore.measured.files import _table as table
+from tests.helpers.saved import matlab, saved, zipped
+
+pytestmark = pytest.mark.usefixtures("files_read_here")
+
+N, RATE = 2000, 8000.0
+SIGNAL = np.random.default_rng(11).standard_normal((N, 2)).round(4)
+TIME = np.arange(N) / RATE
+DATES = pd.date_range("2024-01-01", periods=N, freq="125us")
+FRAME = pd.DataFrame({"time": TIME, "acc": SIGNAL[:, 0]})
+XY = {"x": 0, "y": 1}
+REMARKS = ("Sample Rate\t8000", '"Sample rate","8000 Hz"', "fs 8000", "fs = 8000", "Fs,8000,8000",
+           "Sample interval 1.25E-4 s", "# fs = 8000\n# block 0", "fs,8000\nunit,g")  # fmt: skip
+
+
+def rows(*columns: Any, heading: str = "", delimiter: str = ",", digits: int = 6) -> bytes:
+    lines = [
+        delimiter.join(f"{value:.{digits}f}" for value in row) for row in np.column_stack(columns)
+    ]
+    return "\n".join([heading, *lines] if heading else lines).encode()
+
+
+def read(content: bytes | str, name: str = "a.csv") -> Any:
+    return read_table(name, content.encode() if isinstance(content, str) else content)
+
+
+def check_one_signal(read_one: Any, rate: float | None = RATE) -> None:
+    """One signal of the whole length is chosen, and the rate is said."""
+    contents = read_one.contents
+    (index,) = contents.choice.columns.values()
+    np.testing.assert_allclose(read_one.columns[:, index], SIGNAL[:, 0], atol=1e-6)
+    found = contents.sample_rate
+    assert (found is None) if rate is None else found.stated
+    assert rate is None or found.value == pytest.approx(rate, rel=1e-5)
+
+
+@pytest.mark.parametrize(("unit", "a_second"), [("ms", 1e3), ("µs", 1e6), ("ns", 1e9)])
+def test_a_rate_that_no_recorder_has_is_a_question(unit: str, a_second: float) -> None:
+    made = read(rows(TIME * a_second, SIGNAL[:, 0], heading="time,acc"))
+    rate = made.contents.sample_rate
+    assert (rate.value, rate.stated) == (pytest.approx(RATE), False)
+    assert f"if it is in {unit};" in rate.reason
+    with pytest.raises(ValueError, match=r"sample_rate is missing: pass sample_rate=..., a number"):
+        made.recording([1], ["y"], "g")
+    by_hand = read_recording(
+        "a.csv", rows(TIME * a_second, SIGNAL[:, 0], heading="time,acc"), time_unit=unit, unit="g"
+    )
+    assert by_hand.sample_rate == pytest.approx(RATE)
+
+
+@pytest.mark.parametrize("count", [100, 1023])
+def test_of_many_columns_all_are_read_under_their_names(count: int) -> None:
+    channels = np.tile(SIGNAL[:300, :1], count)
+    names = [f"channel {i}" for i in range(count)]
+    made = read(rows(TIME[:300], channels, heading=",".join(["time", *names]), digits=6))
+    assert made.names == ("time", *names)
+    assert "Which is at this bearing?" in made.contents.choice.question
+    got = made.with_columns({count: Column("", "signal", "g", "y")}).recording([count], ["y"])
+    assert got.sample_rate == pytest.approx(RATE)
+    np.testing.assert_allclose(got.acceleration[:, 0], SIGNAL[:300, 0] * 9.80665)
+
+
+@pytest.mark.parametrize("gap", ["nan", "NaN", "", "-", "NULL", "n/a", "?", "overrun"])
+def test_the_longest_part_without_a_missing_number_is_used(gap: str) -> None:
+    lines = rows(TIME, SIGNAL[:, 0], heading="time,acc [g]").decode().splitlines()
+    for index in range(1201, 1205):
+        lines[index] = lines[index].partition(",")[0] + f",{gap}"
+    got = read("\n".join(lines)).recording([1], ["y"])
+    np.testing.assert_allclose(got.acceleration[:, 0], SIGNAL[:1200, 0] * 9.80665)
+    assert "rows 1 to 1200 of 2000" in " ".join(got.notes)
+
+
+@pytest.mark.parametrize("kept", [-3, -9, -12, -16])
+def test_a_last_line_that_is_cut_off_is_left_out(kept: int) -> None:
+    content = rows(TIME, SIGNAL[:, 0], heading="time;acc [g]", delimiter=";")[:kept]
+    got = read(content).recording([1], ["y"])
+    assert len(got.acceleration) in (N - 1, N)
+    assert got.sample_rate == pytest.approx(RATE)
+    assert (kept in (-3, -9)) or "is cut off" in got.notes[0]  # these are whole rows, or a gap
+
+
+def test_words_in_many_lines_are_still_refused_with_the_first() -> None:
+    lines = rows(TIME, SIGNAL[:, 0]).decode().splitlines()
+    lines[500:600] = ["some words"] * 100
+    with pytest.raises(ValueError, match=r"line 501 of a\.csv is 'some words'"):
+        read("\n".join(lines))
+
+
+def lines(row: Any, heading: str = "") -> str:
+    return "\n".join([*([heading] if heading else []), *(row(i, *SIGNAL[i]) for i in range(N))])
+
+
+SETTINGS = ("Record Length,2.0e+03", "Sample Interval,1.25e-4", ",", "Source,CH1",
+            "Vertical Units,V", "Vertical Scale,2.0e+00", "Yzero,0.0", "Model,TDS")  # fmt: skip
+SLOW = 0.5 + np.arange(N) / 99.7
+
+
+@pytest.mark.parametrize(
+    ("text", "rate", "stated", "unit", "signals"),
+    [
+        (
+            lines(lambda i, x, y: f"{SETTINGS[i] if i < 8 else ','},,  {i * 1.25e-4:.12f},  {x},"),
+            RATE, True, "V", ["column 3"],
+        ),
+        (
+            lines(lambda i, x, y: f"{x},{y},", "CH1,CH2,Start,Increment,\nVolt,Volt,-0.1,1.25e-4"),
+            RATE, True, "V", ["CH1 [Volt]", "CH2 [Volt]"],
+        ),
+        (
+            lines(lambda i, x, y: f"{i},{x},", "X,CH1,Start,Increment\nSequence,Volt,0.1,1.25e-4,"),
+            RATE, True, "V", ["Volt"],
+        ),
+        (
+            lines(
+                lambda i, x, y: f"{17 * 10**17 + int(1e9 * SLOW[i])},{SLOW[i]:.9f},{y},{x}",
+                "time,seconds_elapsed,y,x",
+            ),
+            99.7, True, None, ["y", "x"],
+        ),
+        (
+            lines(
+                lambda i, x, y: f"2024-01-01 10:00:{i // 100:02d},{1 + 10 * i},{x},{y}",
+                "Timestamp,Milliseconds,X,Y",
+            ),
+            100.0, True, None, ["X", "Y"],
+        ),
+        (
+            lines(
+                lambda i, x, y: f"{TIME[i]:.6f},{x},{y},{9 * y},{x},{x}",
+                "time,accX,GyroX,gyro_z,MagX,X (rad/s)",
+            ),
+            RATE, True, None, ["accX"],
+        ),
+        (
+            lines(lambda i, x, y: f"{i / 51.63:.6f},{x}", "Time (s),X (m/s^2)"),
+            51.63, False, "m/s²", ["X (m/s^2)"],
+        ),
+        (
+            lines(lambda i, x, y: f"{1e-9 * i:.3e},{x}", "x-axis,1\nsecond,Volt"),
+            1e9, False, "V", ["column 2 [V]"],
+        ),
+        (lines(lambda i, x, y: f"{5035400 * i},{x}"), 198.594, False, None, ["column 2"]),
+        (
+            "log of today\n" + lines(lambda i, x, y: f"t: {TIME[i] * 1e3:.3f}ms, ax={x}g, T: 21.5"),
+            RATE, True, "g", ["ax [g]"],
+        ),
+        (
+            ";Headers, time,acc\n"
+            + lines(lambda i, x, y: f"{1.7e9 + (i + 3 * math.sin(0.11 * i)) / 1690:.6f},{x}"),
+            1690, False, None, ["acc"],
+        ),
+        (f"{N}\n" + lines(lambda i, x, y: f"{TIME[i]:.6f} {x} {y}"), RATE, True, None,
+         ["column 2", "column 3"]),
+        (
+            lines(
+                lambda i, x, y: f"2024-1-01 10:0:{TIME[i]:.6f} -0700,my phone,192.168.1.1,{x}",
+                "time,device,address,acc",
+            ),
+            RATE, True, None, ["acc"],
+        ),
+        (
+            lines(lambda i, x, y: f"00:08,{TIME[i]:.6f},{x},,,", "Duration,time,acc,watch"),
+            RATE, True, None, ["acc"],
+        ),
+    ],
+)  # fmt: skip
+def test_files_of_scopes_phones_and_loggers(text, rate, stated, unit, signals) -> None:
+    made = read(text, "run 1 1600Hz.csv" if rate == 1690 else "a.csv").contents
+    assert (made.sample_rate.value, made.sample_rate.stated) == (
+        pytest.approx(rate, rel=1e-3), stated,
+    )  # fmt: skip
+    assert (made.unit.value if made.unit.supported else None) == unit  # 1 is usual in g and m/s²
+    chosen = made.choice.columns.values() or made.choice.options
+    assert {made.columns[index].name for index in chosen} == set(signals)
+    assert made.shaft_speed is None
+
+
+def cells(*each: Any) -> Any:
+    made = np.empty(len(each), dtype=object)
+    made[:] = each
+    return made
+
+
+@pytest.mark.parametrize(
+    "variables",
+    [
+        {"data": cells({"name": "DE", "y": SIGNAL[:, 0]}, {"name": "NDE", "y": SIGNAL[:, 1]})},
+        {"s": {"DE": {"acc": SIGNAL[:, 0]}, "FE": {"acc": SIGNAL[:, 1]}}},
+        {"data": SIGNAL, "names": cells("DE", "FE")},
+        {"a": {"x": SIGNAL[:, 0], "unit": "g"}, "b": {"x": SIGNAL[:, 1], "unit": "g"}},
+    ],
+)
+def test_signals_that_have_names_of_places_are_asked_about(variables: dict) -> None:
+    choice = read(matlab(**variables), "a.mat").contents.choice
+    assert not choice.columns
+    assert choice.options == (0, 1)
+    assert ("several places" in choice.question) == ("a" not in variables)
+
+
+def octave(*parts: tuple[str, str, str]) -> str:
+    """As Octave's `save` writes it: name, the rest of the head, and the lines of values."""
+    made = [f"# name: {name}\n# type: {head}\n{values}\n\n\n" for name, head, values in parts]
+    return "# Created by Octave 8.4.0\n" + "".join(made)
+
+
+@pytest.mark.parametrize("name", ["a.mat", "a.txt"])
+def test_the_text_of_octave_is_read(name: str) -> None:
+    column = f"matrix\n# rows: {N}\n# columns: 1"
+    values = "\n".join(f" {value}" for value in SIGNAL[:, 0])
+    flat = octave(("fs", "scalar", "8000"), ("rpm", "scalar", "1797"), ("acc", column, values))
+    made = read(flat, name)
+    check_one_signal(made)
+    assert made.contents.shaft_speed.value == pytest.approx(1797.0 * math.pi / 30.0)
+    parts = octave(("acc", column, values), ("unit", "string\n# elements: 1\n# length: 1", "g"),
+                   ("t", "double_range\n# base, limit, increment", "0 0.249875 0.000125"),
+                   )  # fmt: skip
+    struct = (
+        octave(("s", "scalar struct\n# ndims: 2\n 1 1\n# length: 3", "")) + parts.partition("\n")[2]
+    )
+    made = read(struct, name)
+    assert made.names == ("s.acc", "s.t")
+    check_one_signal(made)
+    assert (made.contents.unit.value, made.contents.unit.stated) == ("g", True)
+    with pytest.raises(ValueError, match="damaged"):
+        read(flat[: len(flat) // 2], name)
+
+
+def hdf5(**sets: tuple[Any, dict[str, Any]]) -> bytes:
+    """Data sets, each with what stands beside it."""
+    buffer = io.BytesIO()
+    with h5py.File(buffer, "w") as file:
+        for name, (data, beside) in sets.items():
+            made = file.create_dataset(name.replace("__", "/"), data=data)
+            made.attrs.update(beside)
+    return buffer.getvalue()
+
+
+def tdms() -> bytes:
+    nptdms = pytest.importorskip("nptdms")
+    buffer = io.BytesIO()
+    said = {"wf_increment": 1.0 / RATE, "unit_string": "g"}
+    slow = nptdms.ChannelObject("Slow", "t", np.arange(20.0), {"wf_increment": 0.1})
+    with nptdms.TdmsWriter(buffer) as writer:
+        writer.write_segment([slow, nptdms.ChannelObject("Vib", "DE", SIGNAL[:, 0], said)])
+    return buffer.getvalue()
+
+
+def uff(tmp_path: Any, binary: int = 0) -> bytes:
+    pyuff = pytest.importorskip("pyuff")
+    path = tmp_path / "a.uff"
+    one = {
+        "type": 58, "func_type": 1, "binary": binary, "id1": "Bearing DE", "rsp_node": 1,
+        "rsp_dir": 2, "ref_node": 1, "ref_dir": 0, "data": SIGNAL[:, 0], "x": TIME,
+        "abscissa_inc": 1.0 / RATE, "abscissa_min": 0.0, "abscissa_spacing": 1, "num_pts": N,
+        "ordinate_axis_units_lab": "g", "orddenom_spec_data_type": 0,
+        "ordinate_spec_data_type": 12, "abscissa_spec_data_type": 17, "z_axis_axis_lab": "NONE",
+    }  # fmt: skip
+    path.unlink(missing_ok=True)
+    pyuff.UFF(str(path)).write_sets([one], "add")
+    return bytes(path.read_bytes())
+
+
+def test_formats_of_other_libraries_are_read(tmp_path) -> None:
+    check_one_signal(read(tdms(), "a.tdms"))
+    for binary in (0, 1):
+        made = read(uff(tmp_path, binary), "a.uff")
+        check_one_signal(made)
+        assert (made.contents.unit.value, made.contents.columns[0].direction) == ("g", "y")
+    pytest.importorskip("pyarrow")
+    frame = pd.DataFrame({"acc": SIGNAL[:, 0], "word": "x"}, index=DATES)
+    check_one_signal(read(saved(frame.to_parquet), "a.parquet"))
+
+
+def test_a_file_in_a_zip_is_read_and_one_of_several_by_its_name() -> None:
+    text = FRAME.to_csv().encode()
+    made = read(zipped(run_csv=text), "rig.zip")
+    check_one_signal(made)
+    assert made.name == "rig.zip/run.csv"
+    two = zipped(a_csv=text, b_npy=saved(np.save, SIGNAL[:, 0]))
+    with pytest.raises(ValueError, match=r"not of 2 \(a\.csv, b\.npy\).*rig\.zip/a\.csv"):
+        read(two, "rig.zip")
+    assert table.files_inside("RIG.ZIP", two)[0] == "RIG.zip/a.csv"
+    assert table.files_inside("rig.zip", two) == ["rig.zip/a.csv", "rig.zip/b.npy"]
+    assert table.files_inside("a.csv", text) == ["a.csv"]
+    check_one_signal(read(two, "rig.zip/a.csv"))
+    check_one_signal(read(zipped(a_csv=text, README=b"of the rig"), "rig.zip"))
+    check_one_signal(read(two, "rig.zip/b.npy"), None)
+    with pytest.raises(ValueError, match="unpack it"):
+        read(zipped(a_zip=two), "rig.zip")
+    with pytest.raises(ValueError, match="a whole zip"):
+        read(two[:2000], "rig.zip")
+
+
+def matlab_table() -> bytes:
+    """As version 7.3 keeps one: numbers that point into a part of its own."""
+    points = np.array([[3707764736, 2, 1, 1, 1, 1]], dtype="u4")
+    return hdf5(T=(points, {"MATLAB_object_decode": 3}))
+
+
+@pytest.mark.parametrize(
+    ("content", "told"),
+    [
+        (zipped(**{"[Content-Types]_xml": b"", "a_xml": b""}), "save its sheet as CSV"),
+        (b"Octave-1-L\x00", "save -v7"),
+        (matlab_table(), r"T is a table or an object: save .* acc = T\.acc"),
+        (b"\xd0\xcf\x11\xe0" + bytes(100), "save it as .xlsx or CSV"),
+        (b"\x89PNG\r\n\x1a\n\x00", "UFF, TDMS, Parquet.*export it as CSV"),
+        (json.dumps({"a": "b"}).encode(), "a JSON file with a vector"),
+        (saved(np.save, cells({}, {})), "damaged or unknown part"),
+    ],
+)
+def test_a_refusal_says_what_to_do(content: bytes, told: str) -> None:
+    with pytest.raises(ValueError, match=told):
+        read(content)
+
+
+def test_a_format_whose_library_is_not_there_names_it(monkeypatch) -> None:
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
+    for mark, package in (
+        (b"TDSm", "npTDMS"),
+        (b"PAR1", "pyarrow"),
+        (b"    -1\n    58\n", "pyuff"),
+        (zipped(**{"xl/workbook.xml": b""}), "openpyxl"),
+    ):
+        with pytest.raises(ValueError, match=f"pip install {package}.*export it as CSV"):
+            read(mark if package == "openpyxl" else mark + bytes(100))
+
+
+def test_the_longest_sheet_of_excel_is_read() -> None:
+    pytest.importorskip("openpyxl")
+    made = io.BytesIO()
+    with pd.ExcelWriter(made, engine="openpyxl") as book:
+        pd.DataFrame({"Machine": ["pump"], "rpm": [1490]}).to_excel(book, sheet_name="Info")
+        FRAME[:500].to_excel(book, sheet_name="Data", index=False, startrow=2)
+    table = read(made.getvalue(), "a.xlsx")
+    np.testing.assert_allclose(table.columns, FRAME[:500], atol=1e-9)
+    assert table.contents.sample_rate.value == pytest.approx(RATE)
+    assert table.notes == ("Read is its longest sheet, “Data”.",)
+    assert (FACTS["rpm"](table), FACTS["machine"](table)) == (1490.0, "pump")
+
+
+# -- habits that were read wrongly ----------------------------------------------------------------
+
+
+@pytest.mark.parametrize("heading", ["Time,Acc", "Time [s],Acc [g]"])
+def test_headings_that_come_again_leave_no_gap_where_times_go_on(heading: str) -> None:
+    pages = [rows(TIME[i : i + 500], SIGNAL[i : i + 500, 0], heading=heading) for i in (0, 500)]
+    contents = read(b"\n".join(pages)).contents
+    assert (contents.sampling.first, contents.sampling.last) == (0, 1000)
+    anew = [rows(TIME[:500], SIGNAL[i : i + 500, 0], heading=heading) for i in (0, 500)]
+    assert "jump once" in read(b"\n".join(anew)).contents.sampling.trouble
+
+
+@pytest.mark.parametrize("share", [0.002, 0.2])
+def test_words_in_place_of_numbers_are_missing_numbers(share: float) -> None:
+    there = rows(TIME, SIGNAL[:, 0], heading="time,acc [g]").decode().splitlines()
+    for index in range(1501, 1501 + round(share * N)):
+        there[index] = there[index].partition(",")[0] + ",OVER"
+    made = read("\n".join(there))
+    assert made.contents.sampling.last == N  # its time is there
+    assert len(made.recording([1], ["y"]).acceleration) == 1500
+    coded = [f"{i:.6f},{int(4096 * abs(a)):04X}" for i, a in enumerate(SIGNAL[:, 0])]
+    with pytest.raises(ValueError, match="allowed: numbers"):
+        read("\n".join(coded))
+
+
+BOTH = FRAME.assign(other=SIGNAL[:, 1])
+LONG = BOTH.melt("time", var_name="place", value_name="v [g]")
+LONG["place"] = LONG.place.replace({"acc": "DE", "other": "NDE"})
+OF_SENSORS = {
+    "blocks": LONG.to_csv(index=False),
+    "in turn": LONG.sort_values("time", kind="stable").to_csv(index=False),
+    "times apart": LONG.sort_values("time", kind="stable")
+    .assign(time=np.arange(2 * N) / (2.0 * RATE)).to_csv(index=False),
+    "no times": LONG.drop(columns="time").to_csv(index=False),
+    "numbers": LONG.sort_values("time", kind="stable")
+    .assign(place=[1, 2] * N).rename(columns={"place": "sensor_id"}).to_csv(index=False),
+    "records": LONG.to_json(orient="records", lines=True),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("content", OF_SENSORS.values(), ids=list(OF_SENSORS))
+def test_rows_of_several_sensors_are_columns_of_each(content: str) -> None:
+    made = read(content)
+    signals = [i for i, one in enumerate(made.contents.columns) if one.role == "signal"]
+    np.testing.assert_allclose(made.columns[:, signals], SIGNAL, atol=1e-9)
+    assert made.contents.choice.question, "which place is at the bearing?"
+    rate = made.contents.sample_rate
+    assert rate is None or rate.value == pytest.approx(RATE)
+
+
+@pytest.mark.parametrize("block", [N // 2, N // 20])
+def test_words_along_one_signal_are_no_sensors(block: int) -> None:
+    words = np.where((np.arange(N) // block) % 2, "faulty", "sound")
+    check_one_signal(read(FRAME.assign(label=words).to_csv(index=False)))
+
+
+def test_rows_of_sensors_that_do_not_fit_together_are_refused() -> None:
+    with pytest.raises(ValueError, match=r"DE.*as many rows of each"):
+        read(LONG.iloc[: 3 * N // 2].sort_values("v [g]").to_csv(index=False))
+
+
+@pytest.mark.parametrize(
+    ("begin", "rate"),
+    [("1712345678\n64\n", 64.0), ("12000\n", 12e3), (f"{N}\n12000\n", 12e3), (f"{N}\n", None)],
+)
+def test_numbers_above_a_column_are_no_samples(begin: str, rate: float | None) -> None:
+    made = read(begin + rows(SIGNAL[:, 0]).decode())
+    np.testing.assert_array_equal(made.columns[:, 0], SIGNAL[:, 0])
+    found = made.contents.sample_rate
+    assert (found and (found.value, found.stated)) == (rate and (rate, False))
+    assert "are no samples" in made.notes[0]
+
+
+def test_a_column_with_one_number_is_a_fact() -> None:
+    once = "\n".join(f"{a:.4f},{1772 if i == 0 else ''},8000" for i, a in enumerate(SIGNAL[:, 0]))
+    made = read("acc,RPM,fs\n" + once)
+    check_one_signal(made)
+    assert made.contents.shaft_speed.value == pytest.approx(1772.0 * math.pi / 30.0)
+    short = read(matlab(acc=SIGNAL[:, 0], fs=RATE, rpm=np.full(30, 1772.0)), "a.mat").contents
+    assert short.shaft_speed.value == pytest.approx(1772.0 * math.pi / 30.0)
+    ramp = read(matlab(acc=SIGNAL[:, 0], fs=RATE, rpm=np.arange(30.0)), "a.mat").contents
+    assert ramp.shaft_speed is None  # thirty is how many, not how fast
+
+
+@pytest.mark.parametrize("words", ["Sensitivity: 100 mV/g", "Sensor: 100 mV/g, S/N 1234"])
+def test_the_sensitivity_that_a_file_names_is_used(words: str) -> None:
+    volts = f"# {words}\n".encode() + rows(TIME, SIGNAL[:, 0], heading="t [s],ch 1 [mV]")
+    got = read_recording("a.csv", volts).acceleration[:, 0]
+    np.testing.assert_allclose(got, SIGNAL[:, 0] * 0.0980665, atol=1e-9)
+    two = volts.replace(b"mV/g", b"mV/g\n# sensitivity 2: 10 mV/g")
+    with pytest.raises(ValueError, match="sensitivity"):
+        read_recording("a.csv", two)
+
+
+def test_numbers_beside_each_other_in_one_array_are_columns() -> None:
+    table = np.zeros(N, dtype=[("t", "f8"), ("acc", "f8")])
+    table["t"], table["acc"] = TIME, SIGNAL[:, 0]
+    for content in (hdf5(rig=(table, {})), saved(np.save, table)):
+        check_one_signal(read(content))
+    made = read(matlab(acc=SIGNAL.T[:, None, :], fs=RATE), "a.mat")
+    np.testing.assert_array_equal(made.columns, SIGNAL)
+
+
+# -- said by hand ----------------------------------------------------------------------------------
+
+THREE = rows(TIME * 1e3, SIGNAL, heading="a,b,c")
+
+
+def test_everything_can_be_said_by_hand_in_one_call() -> None:
+    got = read_recording(
+        "x.csv", THREE, columns={"time": "a", "signal": [1, 2]}, directions="xy", time_unit="ms",
+        unit="g", shaft_speed=188.0,
+    )  # fmt: skip
+    np.testing.assert_allclose(got.acceleration, SIGNAL * 9.80665, atol=1e-5)
+    assert (got.sample_rate, got.directions, got.shaft_speed) == (
+        pytest.approx(RATE),
+        ("x", "y"),
+        188.0,
+    )
+    rate = read_recording("x.csv", THREE, columns={"time": None, "signal": 2}, unit="mV",
+                          sensitivity=0.01, sample_rate=9000.0)  # fmt: skip
+    assert rate.sample_rate == 9000.0
+    np.testing.assert_allclose(rate.acceleration[:, 0], SIGNAL[:, 1] * 0.1, atol=1e-5)
+    speed = rows(SIGNAL[:, 0], np.full(N, 25.0), heading="p,q")
+    got = read_recording("x.csv", speed, columns={"signal": 0, "speed": 1}, unit="g",
+                         speed_unit="Hz", sample_rate=RATE)  # fmt: skip
+    assert got.shaft_speed == pytest.approx(50.0 * math.pi)
+
+
+def test_the_hand_wins_over_what_headings_say() -> None:
+    content = rows(TIME, SIGNAL, heading="DE [Hz],NDE [°C],time [s]")
+    got = read_recording("x.csv", content, columns={"time": 0, "signal": [1, 2]}, time_unit="s",
+                         unit="m/s²", directions=("y", "x"))  # fmt: skip
+    np.testing.assert_allclose(got.acceleration, SIGNAL)
+    assert got.sample_rate == pytest.approx(RATE)
+    slow = read_recording(
+        "x.csv", content, columns={"time": 0, "signal": 1}, time_unit="h", unit="g"
+    )
+    assert slow.sample_rate == pytest.approx(RATE / 3600.0)  # whatever is likely
+
+
+def test_a_file_in_a_zip_is_read_by_its_path(tmp_path) -> None:
+    (tmp_path / "rig.zip").write_bytes(zipped(run_csv=FRAME.to_csv().encode(), b_csv=b"1"))
+    got = read_recording(tmp_path / "rig.zip" / "run.csv", unit="g")
+    assert got.sample_rate == pytest.approx(RATE)
+
+
+def test_a_typed_rate_that_nothing_shows_is_said() -> None:
+    alone = rows(SIGNAL[:, 0])
+    got = read_recording("x.csv", alone, unit="g", sample_rate=RATE)
+    assert "Nothing in the file shows whether it was" in got.notes[0]
+    likely = read_recording("12k.csv", alone, unit="g", sample_rate=RATE)
+    assert "“12k” in the file's name suggests 12000 Hz" in likely.notes[0]
+    timed = rows(TIME, SIGNAL[:, 0], heading="t [s],a")
+    assert read_recording("x.csv", timed, unit="g", sample_rate=RATE).notes == ()
+
+
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        ({}, '"signal" with one or two of a, b, c.*Which is at this bearing'),
+        ({"columns": {"signal": 1}}, r"unit is missing: pass unit="),
+        ({"columns": {"tim": 1}}, "signal, time, speed, nothing"),
+        ({"columns": {"signal": "d"}}, "one of a, b, c"),
+        ({"columns": {"speed": 1}}, "speed_unit is missing"),
+        ({"columns": {"time": 0}, "time_unit": "Hz"}, "unit is 'Hz'; allowed: s, ms"),
+        ({"columns": {"time": [0, 1]}}, "one column of times"),
+    ],
+)
+def test_what_is_still_to_be_said_is_asked_for(given: dict, told: str) -> None:
+    with pytest.raises(ValueError, match=told):
+        read_recording("x.csv", THREE, **given)
+
+
+def test_roles_over_the_columns_are_data_for_a_form() -> None:
+    made = read(THREE)
+    assert made.first_rows[1] == pytest.approx([0.125, *SIGNAL[1]])
+    said = made.with_columns({0: Column("", "time", "ms"), 1: Column("", "other"),
+                              "c": Column("", "signal", "g", "x")})  # fmt: skip
+    contents = said.contents
+    assert [column.role for column in contents.columns] == ["time", "other", "signal"]
+    assert [column.name for column in contents.columns] == ["a", "b", "c"]
+    assert contents.choice.columns == {"x": 2}
+    assert contents.sample_rate.stated
+    assert contents.unit.value == "g"
+    assert not made.given
+
+
+def test_a_file_is_read_by_its_path_too(tmp_path) -> None:
+    path = tmp_path / "run_1797rpm.csv"
+    path.write_text(FRAME.to_csv())
+    got = read_recording(path, unit="g")
+    assert got.shaft_speed is None  # a name suggests it; it does not give it
+    suggested = read_table(path.name, path.read_bytes()).contents.shaft_speed
+    assert suggested.value == pytest.approx(1797.0 * math.pi / 30.0)
+    assert (suggested.stated, suggested.taken) == (False, True)
+    with pytest.raises(ValueError, match="No such file"):
+        read_recording(tmp_path / "none.csv")
+
+
+# -- one signal in several files -------------------------------------------------------------------
+
+
+def parts(times: Any, heading: str = "time,acc [g]") -> list[Any]:
+    return [
+        read(rows(time, SIGNAL[i * 500 : i * 500 + 500, 0], heading=heading), f"{i}.csv")
+        for i, time in enumerate(times)
+    ]
+
+
+def test_files_of_one_signal_are_joined() -> None:
+    on = parts(TIME.reshape(4, 500))
+    got = join_tables(on).recording([1], ["y"])
+    np.testing.assert_allclose(got.acceleration[:, 0], SIGNAL[:, 0] * 9.80665)
+    assert got.notes == ("4 files are joined.",)
+    anew = join_tables(parts([TIME[:500]] * 4)).recording([1], ["y"])
+    np.testing.assert_array_equal(anew.acceleration, got.acceleration)
+    assert anew.notes == ("4 files are joined as if nothing were missing between them.",)
+    assert on[3].columns[0, 0] == TIME[1500]  # the parts are as they were
+    assert "1\u202f000 samples are missing" in join_tables([on[0], on[3]]).contents.sampling.trouble
+
+
+def test_files_that_do_not_belong_together_are_not_joined(monkeypatch) -> None:
+    on = parts(TIME.reshape(4, 500))
+    for other, told in (
+        (on[::-1], "order of their times"),
+        ([on[0], parts([TIME[:500]], "time,b")[0]], "columns of 0.csv"),
+        ([on[0], parts([TIME[:500] * 0.5])[0]], "sample rate of 0.csv"),
+        ([], "one or more"),
+    ):
+        with pytest.raises(ValueError, match=told):
+            join_tables(other)
+
+
+# -- one signal ------------------------------------------------------------------------------------
+
+
+def written(write: Callable[[float, float], str], heading: str = "Time,acc [g]") -> str:
+    """A row for each time and acceleration, as `write` writes it."""
+    rows = [write(t, a) for t, a in zip(TIME, SIGNAL[:, 0], strict=True)]
+    return "\n".join([*([heading] if heading else []), *rows])
+
+
+def of_a_clock(begin: float) -> Callable[[float, float], str]:
+    def write(t: float, a: float) -> str:
+        minute, second = divmod(begin * 60.0 + t, 60.0)
+        hour, half = int(minute // 60), "AP"[int(minute >= 720.0)]
+        return f"{(hour - 1) % 12 + 1}:{int(minute % 60):02d}:{second:09.6f} {half}M,{a:.4f}"
+
+    return write
+
+
+def since_1970(size: int) -> str:
+    """Rows whose times count seconds of so many parts, to the microsecond."""
+
+    def write(t: float, a: float) -> str:
+        micro = 1_700_000_000_000_000 + round(1e6 * t)
+        whole, rest = divmod(micro * size, 10**6)
+        return f"{whole}.{rest:06d},{a:.4f}" if size < 10**6 else f"{whole},{a:.4f}"
+
+    return written(write, "timestamp,acc")
+
+
+def in_row(values: Any, delimiter: str) -> str:
+    return delimiter.join(f"{value:.6f}" for value in values)
+
+
+ALONE = SIGNAL[:, 0]
+LIST = ALONE.tolist()
+#: files with one signal, each with its rate and, where it matters, its name
+ONE_SIGNAL: list[tuple[Any, ...]] = [
+    # the index of a data frame is no signal; an uptime is no time since 1970
+    (FRAME.to_csv(), RATE),
+    (FRAME.to_csv(sep=";", decimal=","), RATE),
+    (FRAME.acc.to_csv(), None),
+    (pd.Series(ALONE).to_csv(), None),
+    (pd.Series(ALONE, index=TIME).to_csv(), RATE),
+    (pd.Series(ALONE, index=DATES).to_csv(), RATE),
+    (pd.DataFrame({"acc": ALONE}, index=DATES - DATES[0]).to_csv(), RATE),
+    (pd.DataFrame(np.column_stack([TIME, ALONE])).to_csv(index=False), RATE),
+    (FRAME.reset_index().to_csv(), RATE),
+    (pd.DataFrame({"when": DATES, "acc": ALONE}).to_csv(), RATE),
+    (FRAME.assign(time=TIME + 12_345.6).to_csv(), RATE),
+    ("Unnamed: 0" + FRAME.to_csv(), RATE),
+    (FRAME.to_csv(sep=";", decimal=",", quoting=csv.QUOTE_ALL), RATE),
+    *((FRAME.to_json(orient=way), RATE) for way in ("index", "columns")),
+    (written(lambda t, a: f'"{round(t * RATE) + 1}" {t:.6f} {a}', '"time" "acc"'), RATE),
+    # times are known by name and unit in any column
+    *((rows(ALONE, TIME * a_second, heading=f"acc [g],{heading}"), RATE) for heading, a_second in (
+        ("X_Value", 1.0), ("sec", 1.0), ("milliseconds", 1e3), ("micros", 1e6), ("millis()", 1e3),
+        ("Zeitstempel", 1.0), ("elapsed [s]", 1.0), ("X [s]", 1.0), ("Timestamp (ns)", 1e9),
+        ("host_time_ns", 1e9), ("Elapsed Time (ms)", 1e3), ("time/s", 1.0), ("TimeStamp", 1.0),
+        ("us", 1e6), ("Zeit in ms", 1e3))),
+    *((since_1970(size), RATE) for size in (1, 10**3, 10**6, 10**9)),
+    # dates and durations as programs write them, a clock over noon and before it
+    (written(lambda t, a: f"1/1/2024 10:00:00.{1e6 * t:06.0f} AM,{a}"), RATE),
+    (written(lambda t, a: f"01-Jan-2024 10:00:00.{1e6 * t:06.0f},{a}"), RATE),
+    (written(lambda t, a: f"{t:.6g} sec,{a}"), RATE),
+    (written(lambda t, a: f"0 days 00:00:00.{1e6 * t:06.0f},{a}"), RATE),
+    (written(lambda t, a: f"01.01.2024 10:00:00.{1e6 * t:06.0f}+01:00,{a}"), RATE),
+    (written(of_a_clock(12 * 60 + 59.999)), RATE),
+    (written(of_a_clock(11 * 60 + 59.999)), RATE),
+    (written(lambda t, a: f"{int(t * 8e3) // 480_000:02d}:{t % 60.0:09.6f},{a:.4f}"), RATE),
+    # a column of words is left out, whichever rows have one
+    *((written(lambda t, a, where=where: f"{t:.6f}\t{a}" + "\tok" * bool(t in where),
+               "time\tacc\tComment"), RATE) for where in ([0.0], [TIME[700]], TIME)),
+    # numbers in one row are a column
+    *((in_row(ALONE, delimiter), None) for delimiter in ",; "),
+    *((f"time{d}{in_row(TIME, d)}\nacc{d}{in_row(ALONE, d)}", RATE) for d in ",; "),
+    # a rate above columns that count
+    *((written(lambda t, a: f"{round(t * RATE)},{a}", heading), RATE) for heading in (
+        "X,CH1,Start,Increment\nSequence,Volt,-3.0e-3,1.25e-04", "# fs = 8000", "fs,8000")),
+    # numbers as spreadsheets and programs write them
+    (written(lambda t, a: f'"{t + 1.0:.6f}","{a:.4f}"', '"Time (s)","Acceleration, vertical (g)"'),
+     RATE),
+    (written(lambda t, a: f'"{t:.6f}","{a:.4f}"'.replace(".", ","), '"Time (s)","Acc (g)"'), RATE),
+    (written(lambda t, a: f'"{1e3 * t + 2e3:,.3f}","{a:,.4f}"', "Time (ms),Acc (g)"), RATE),
+    (written(lambda t, a: f"{1e3 * t + 2e3:,.3f};{a:,.4f}", "Time (ms);Acc (g)"), RATE),
+    (written(lambda t, a: f"{1e3 * t + 2e3:,.3f};{a:.4f}".translate({44: 46, 46: 44}),
+             "Zeit (ms);Acc (g)"), RATE),
+    (written(lambda t, a: f"{1e3 * t + 2e3:,.3f};{a:.4f}".replace(",", "'"), "Time (ms);Acc (g)"),
+     RATE),
+    (written(lambda t, a: f"{t:.6f} {a:.4f}".replace(".", ","), ""), RATE),
+    (written(lambda t, a: f"{t:.6E}  {a:.6E}".replace("E", "D"), ""), RATE),
+    (written(lambda t, a: f"| {t:.6f} | {a:.4f} |", "| time | acc |\n|---|---|"), RATE),
+    (written(lambda t, a: f"{t:.6f},{a:.4f}", "Time,Acc\nfloat64,float64\ns,g"), RATE),
+    (written(lambda t, a: f"{t:.6f},{a:.4f}", "s,g"), RATE),
+    (written(lambda t, a: f"{t:.6f},{a:.4f},{5 * (t % 0.03 < 0.01)}", "t,acc [g],Tacho [V]"), RATE),
+    *((written(lambda t, a: f"{t:.6f}\t{a:.4f}", "Time [s]\tAcc [g]").encode(code), RATE)
+      for code in ("utf-16-le", "utf-16-be")),
+    (gzip.compress(FRAME.to_csv().encode()), RATE),
+    # lists and records of JSON, arrays of NumPy
+    (json.dumps(LIST), None, "a.json"),
+    (f"[{' '.join(map(str, LIST))}]", None),
+    (json.dumps(FRAME.to_numpy().tolist()), RATE, "a.json"),
+    *((FRAME.to_json(orient="records", lines=lines, double_precision=9), RATE)
+      for lines in (False, True)),
+    (json.dumps({"fs": RATE, "acc": LIST}), RATE, "a.json"),
+    (saved(np.save, ALONE), None, "a.npy"),
+    (saved(np.save, np.column_stack([TIME, ALONE]).T), RATE, "a.npy"),
+    (saved(np.savez, acc=ALONE, fs=RATE, about=cells({})), RATE, "a.npz"),
+    (saved(np.savez, acc=ALONE, fs=RATE, unit="g"), RATE, "a.npz"),
+    (saved(np.savez, acc=ALONE, fs=RATE, unit="g"), RATE, "upload"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("file", ONE_SIGNAL)
+def test_one_signal_is_found_with_its_rate(file: tuple[Any, ...]) -> None:
+    content, rate, *name = file
+    check_one_signal(read(content, *name), rate)
+
+
+@pytest.mark.parametrize(("unit", "size"), [("s", 1), ("ms", 10**3), ("µs", 10**6), ("ns", 10**9)])
+def test_dates_that_count_from_1970_say_their_unit(unit: str, size: int) -> None:
+    assert f"in {unit} since 1970" in read(since_1970(size)).contents.sample_rate.reason
+
+
+# -- what is said, a file a line -------------------------------------------------------------------
+
+#: a fact of a table by its name here; words are looked for in what is said
+FACTS: dict[str, Callable[[Any], Any]] = {
+    "names": lambda made: made.names,
+    "roles": lambda made: [column.role for column in made.contents.columns],
+    "units": lambda made: [column.unit for column in made.contents.columns],
+    "places": lambda made: [column.place for column in made.contents.columns],
+    "columns": lambda made: made.contents.choice.columns,
+    "choice": lambda made: made.contents.choice.reason,
+    "options": lambda made: made.contents.choice.options,
+    "question": lambda made: made.contents.choice.question,
+    "rate": lambda made: stated(made.contents.sample_rate),
+    "likely": lambda made: stated(made.contents.sample_rate, False),
+    "no rate": lambda made: made.contents.sample_rate,
+    "reason": lambda made: made.contents.sample_rate.reason,
+    "trouble": lambda made: made.contents.sampling.trouble,
+    "unit": lambda made: stated(made.contents.unit),
+    "rpm": lambda made: in_rpm(made.contents.shaft_speed),
+    "guessed": lambda made: in_rpm(made.contents.shaft_speed, False),
+    "why": lambda made: made.contents.shaft_speed.reason,
+    "bearing": lambda made: stated(made.contents.designation),
+    "machine": lambda made: stated(made.contents.machine),
+    "point": lambda made: stated(made.contents.point),
+    "recorded": lambda made: str(made.contents.recorded and made.contents.recorded.value),
+    "load": lambda made: stated(made.contents.load),
+    "note": lambda made: made.contents.choice.note,
+}
+
+
+def stated(fact: Any, sure: bool = True) -> Any:
+    """The value of a fact that the file states, or of one that is only likely."""
+    return fact.value if fact is not None and fact.stated == sure else None
+
+
+def in_rpm(fact: Any, sure: bool = True) -> float | None:
+    speed = stated(fact, sure)
+    return speed if speed is None else round(speed * 30.0 / math.pi, 1)
+
+
+def one(remark: str) -> bytes:
+    """A remark above one signal."""
+    return remark.encode() + b"\n" + rows(SIGNAL[:, 0])
+
+
+def timed(remark: str) -> bytes:
+    """A remark above times and a signal."""
+    return f"{remark}\n".encode() + rows(TIME, SIGNAL[:, 0], heading="t [s],a [g]")
+
+
+def two(heading: str) -> bytes:
+    """Times and two signals under a heading."""
+    return rows(TIME, SIGNAL, heading=heading)
+
+
+LABVIEW = "LabVIEW Measurement\t\n{}Channels\t2\t\nSamples\t2000\t2000\t\nDelta_X\t{}\t{}\t\n"
+LABVIEW += "Y_Unit_Label\tg\t{}\t\n***End_of_Header***\t\t\t\n"
+VOLTS = LABVIEW.format("", "1.25E-4", "1.25E-4", "V").encode()
+COMMAS = LABVIEW.format("Time\t10:00:00,45\n***End_of_Header***\t\n\n", "1,25E-4", "1,25E-4", "g")
+COMMAS += "X_Value\tDE\tNDE\tComment\n"
+BESIDE = ["Sample Interval,1.25e-04,", "Source,CH1,", "Vertical Units,V,", *[",,"] * (N - 3)]
+DAYS = [f"{45292 + t / 86_400:.12f},{a}" for t, a in zip(TIME, SIGNAL[:, 0], strict=True)]
+QUARTERS = [f"{d:%Y-%m-%d %H:%M:%S},{a}" for d, a in zip(
+    pd.date_range("2024-01-01", periods=N, freq="6h"), SIGNAL[:, 0], strict=True)]  # fmt: skip
+LINES, FIFTY = np.arange(N) * 4.0, np.full(N, 50.0)
+STEP = {"wf_increment": 1.0 / RATE}
+ENVELOPE = np.abs(SIGNAL[:, 1]) + 0.01
+SPECTRUM = ["" if i > 800 else f"{i},{v:.4f}" for i, v in enumerate(ENVELOPE)]
+CSI = "Equipment: P-101\nMeas. Point: M1H\nDate/Time: 12-Mar-24  09:14:55\nRPM= 1797.  (30 Hz)\n"
+CWRU = {f"X097_{side}_time": SIGNAL[:, :1] for side in ("DE", "FE")}
+
+FILES: list[tuple[bytes | str, dict[str, Any]]] = [
+    # remarks above one column are no names of it
+    (one("# fs = 12000 Hz"), {"rate": 12e3, "rpm": None, "unit": None, "columns": {"y": 0}}),
+    (one("# fs=12000,rpm=1797"), {"rate": 12e3, "rpm": 1797.0}),
+    (one("# sampling rate 25.6 kHz, speed 1500 rpm"), {"rate": 25.6e3, "rpm": 1500.0}),
+    (one("% bearing 6205 outer race, 1797 rpm, fs 12 000 Hz"), {"rate": 12e3, "rpm": 1797.0}),
+    (one("rpm = 1797"), {"no rate": None, "rpm": 1797.0}),
+    (one("data_rate = 4000.0 Hz"), {"rate": 4e3}),
+    (one("# unit: g\n# fs [kHz] = 12"), {"rate": 12e3, "unit": "g"}),
+    (one("# acc [g]\n# fs = 12000 Hz"), {"rate": 12e3, "unit": "g"}),
+    (one("# load = 500 N"), {"no rate": None, "rpm": None, "unit": None, "columns": {"y": 0}}),
+    (one("# duration = 0.5 s"), {"no rate": None, "columns": {"y": 0}}),
+    (one("# time resolution 1.25e-4 s"), {"rate": RATE}),
+    (one("# Δt = 125 µs"), {"rate": RATE}),
+    (one("# sample_rate_Hz 12000"), {"rate": 12e3}),
+    (one("Fs [Hz];12000"), {"rate": 12e3}),
+    (one("# level 1797 today"), {"no rate": None, "rpm": None, "columns": {"y": 0}}),
+    (one("# temperature: 45 °C"), {"no rate": None, "columns": {"y": 0}}),
+    (one("# samples = 2000"), {"no rate": None, "columns": {"y": 0}}),
+    (one("On Monday beside the temperature sensor"), {"no rate": None, "columns": {"y": 0}}),
+    # rates that are not sure, or disagree
+    (one("# fs = 12.000 Hz"), {"likely": 12e3}),
+    (one("# fs: 64.0 Hz"), {"likely": 64.0}),
+    (one("# 12 kHz"), {"likely": 12e3}),
+    (one("# recorded at 12 kHz"), {"likely": 12e3}),
+    (timed("# fs = 12000 Hz"), {"likely": RATE, "reason": "“fs” in the file is 12000 Hz"}),
+    (rows(TIME, SIGNAL[:, 0], 2.0 * TIME, SIGNAL[:, 1], heading="t1 [s],a,t2 [s],b"),
+     {"rate": None, "reason": "“t2 [s]” says 4000 Hz"}),
+    ("Time,acc\n" + "\n".join(DAYS), {"likely": RATE}),
+    ("Date,RMS [mm/s]\n" + "\n".join(QUARTERS), {"no rate": None, "trouble": "a trend"}),
+    # speeds, of the shaft and of nothing
+    (one("rotational speed 185.6 rad/s"), {"no rate": None, "rpm": 1772.3}),
+    (one("Running speed: 1772 CPM"), {"no rate": None, "rpm": 1772.0}),
+    (one("Nominal speed 1800 rpm"), {"rpm": None, "guessed": None}),
+    (one("# Fmax: 20000 Hz"), {"no rate": None, "rpm": None}),
+    *((timed(f"# speed: {words}"), {"guessed": 1770.0, "why": "middle of 1750 to 1790"})
+      for words in ("1750-1790 rpm", "1750 - 1790 rpm", "1750 to 1790 1/min")),
+    (rows(TIME, SIGNAL[:, 0], np.full(N, 1480.0), heading="Zeit,Beschl,Drehzahl\ns,g,1/min"),
+     {"names": ("Zeit [s]", "Beschl [g]", "Drehzahl [1/min]"), "rpm": 1480.0}),
+    # bearings
+    *((timed(line), {"bearing": name}) for line, name in (
+        ("# Bearing: 6205", "6205"), ("Bearing:;SKF 6205-2RS C3;", "SKF 6205-2RS C3"),
+        ("# speed: 1770 rpm, bearing 7208 BECBP", "7208 BECBP"), ("# Lager NJ 2210", "NJ 2210"),
+        ("# bearing load 1200 N", None), ("# Bearing: 6205, bearing: 6203", None),
+        ("# bearing temperature: 620 K", None))),
+    # a remark above two columns names none of them
+    *((remark.encode() + b"\n" + rows(SIGNAL, heading="x,y"), {"rate": RATE, "columns": XY})
+      for remark in REMARKS),
+    *((remark.encode() + b"\n" + rows(SIGNAL),
+       {"names": ("column 1", "column 2"), "question": "Which is at this bearing?"})
+      for remark in REMARKS),
+    # directions and places in headings; V is no volt there
+    *((two(heading), {"columns": found, "unit": None}) for heading, found in (
+        ("t,DE H,DE V", {"x": 1, "y": 2}), ("t,H,V", {"x": 1, "y": 2}),
+        ("t,accelX,accelY", {"x": 1, "y": 2}), ("t,DE x,NDE y", {}), ("t,Lager A,Lager B", {}),
+        ("t,axial DE,axial NDE", {}), ("t,DE,NDE\n,x,x", {}), ("t,DE,DE\n,x,y", {"x": 1, "y": 2}))),
+    # rows of units, and more headings than columns
+    *((rows(TIME, SIGNAL, heading=heading, delimiter=";"),
+       {"names": names, "rate": RATE, "question": "?"})
+      for heading, names in (
+          ("Time;Acc DE;Acc NDE\ns;g;g", ("Time [s]", "Acc DE [g]", "Acc NDE [g]")),
+          ("Time;A;B\n(s);(g);(mg)\n", ("Time [s]", "A [g]", "B [mg]")),
+          ("time;acc de;acc nde;Bemerkung;Flag", ("time", "acc de", "acc nde")),
+          ("time;acc de;acc nde;Inspector;Shift", ("time", "acc de", "acc nde")),
+          ("time;acc;acc", ("time", "acc, column 2", "acc, column 3")),
+          ("time;acc de;acc nde;x", ("column 1", "column 2", "column 3")))),  # which is missing?
+    # spectra are no signals over time, and the speed of a converter is not the shaft's
+    (rows(LINES, SIGNAL[:, 0], heading="Frequency [Hz],Amplitude [g]"),
+     {"question": "spectrum", "columns": {}, "rpm": None, "guessed": None}),
+    (rows(LINES, SIGNAL[:, 0], heading="f,Amplitude [g]"), {"question": "spectrum", "columns": {}}),
+    (rows(FIFTY, TIME, SIGNAL[:, 0], heading="Frequency [Hz],t1 [s],acc [g]"),
+     {"columns": {"y": 2}, "rpm": None, "guessed": None}),
+    # a column of words that few rows have
+    (written(lambda t, a: f"{t:.6f}\t{a}" + "\tok" * bool(t == TIME[9]), "time\tacc\tComment"),
+     {"names": ("time", "acc")}),
+    # an oscilloscope writes its settings beside the numbers
+    ("\n".join(f"{a},{t - 0.1:.6f},{v:.4f}," for a, t, v in zip(
+        BESIDE, TIME, SIGNAL[:, 0], strict=True)),
+     {"roles": ["time", "signal"], "rate": RATE, "unit": "V"}),
+    # LabVIEW says step and units in its head; a first column may be empty, with decimal commas
+    (VOLTS + rows(SIGNAL, heading="DE\tNDE\tComment", delimiter="\t"),
+     {"units": ["g", "V"], "rate": RATE, "question": "several places"}),
+    (VOLTS.replace(b"g\tV", b"g\tg") + rows(SIGNAL, delimiter="\t"), {"unit": "g"}),
+    (COMMAS + "\n".join(f"\t{x:.4f}\t{y:.4f}".replace(".", ",") for x, y in SIGNAL),
+     {"names": ("DE", "NDE"), "rate": RATE, "unit": "g"}),
+    # collections: how the number of a Case Western file says it was sampled, and a file's name;
+    # tables of the IMS without headings or extension
+    (matlab(**CWRU), {"file": "a.mat", "likely": 48e3}),
+    (matlab(**CWRU), {"file": "12k_Drive_End_1.mat", "likely": 12e3, "reason": "12k",
+                      "columns": {"y": 0}, "choice": "name says drive end"}),
+    # what is no vibration over time is named, with what to bring; beside a signal it is left
+    *((rows(LINES, SIGNAL[:, 0], heading=heading), {"question": "this is a spectrum"})
+      for heading in ("Order,Amplitude [mm/s]", "Frequency [CPM],v [mm/s]", "X [Hz],Y [dB]")),
+    *((rows(TIME, SIGNAL[:, 0], heading=f"t [s],{heading}"), {"question": f"is {kind}"})
+      for heading, kind in (
+          ("PeakVue (G-s)", "an envelope"), ("a [gE]", "an envelope"), ("I (A)", "a current"),
+          ("disp [µm pk-pk]", "a displacement"), ("mic [Pa]", "a sound"), ("L [dB]", "a level"))),
+    (one("# Signal type: envelope"), {"question": "“Signal type: envelope”: this is an envelope"}),
+    (one("# Unit: A"), {"question": "“column 1” is a current"}),
+    (one("# Envelope: off\n# FFT lines: 3200"), {"columns": {"y": 0}}),
+    (rows(SIGNAL[:, 0] * 0.0 + ENVELOPE, SIGNAL[:, 0]), {"columns": {"y": 1}}),
+    ("\n".join(f"{t:.6f},{a},{more or ','}" for t, a, more in zip(
+        TIME, SIGNAL[:, 0], SPECTRUM, strict=True)),
+     {"roles": ["time", "signal", "other", "other"], "rate": RATE, "columns": {"y": 1}}),
+    # the one signal of a file is that signal, whatever its name
+    *((rows(TIME, SIGNAL[:, 0], heading=f"time,{name}"), {"columns": {"y": 1}, "note": f"“{name}”"})
+      for name in ("z", "acc_z", "axial", "load", "sample")),
+    # units, rates and facts as tools name them
+    (timed(CSI), {"rpm": 1797.0, "machine": "P-101", "point": "M1H",
+                  "recorded": "2024-03-12 09:14:55"}),
+    (timed("# Machine: P-1; Point: MDE-H; Date: 2026-06-01"),
+     {"machine": "P-1", "point": "MDE-H", "recorded": "2026-06-01 00:00:00"}),
+    (timed("x"), {"file": "P-1_2026-06-01.csv", "recorded": "2026-06-01 00:00:00"}),
+    (timed("# Date: 03/04/2024"), {"recorded": "None"}),
+    (one("# speed 1500 rpm\n# load 2 kN"), {"rpm": 1500.0, "load": 2e3, "columns": {"y": 0}}),
+    (one("SampleRate=8000\nUnitName_1=mm/s²\nDataStart=0"), {"rate": RATE, "unit": "mm/s²"}),
+    *((one(f"{words}\nQuantity: Acceleration, g"), {"rate": RATE, "unit": "g"})
+      for words in ("SampleTime[ms];0.125", "NI_CM_Dt,1.25e-4", "accel_odr_hz: 8000")),
+    (rows(TIME, SIGNAL[:, 0], heading="t [s],Accel (G-s)"), {"unit": "g"}),
+    # signals in cells, and in rows behind their facts
+    (f'date,fs,unit,a\n2024-03-12,8000,g,"{SIGNAL[:, 0].tolist()}"\n',
+     {"rate": RATE, "unit": "g", "columns": {"y": 0}}),
+    ("\n".join(",".join(map(str, row)) for row in (
+        ["time", "fs", *(f"s{i}" for i in range(N))], *(["10:00", 8000, *s] for s in SIGNAL.T))),
+     {"rate": RATE, "options": (0, 1)}),
+    # a displacement or a temperature is no signal
+    (rows(TIME, TIME, SIGNAL[:, 0], heading="gap [µm],temp [°C],acc [g]"),
+     {"roles": ["other", "other", "signal"], "columns": {"y": 2}}),
+    # two signals are two directions only where something says so
+    *((two(f"time,{names}"), {"file": file, "columns": {}, "options": (1, 2)})
+      for file in ("a.csv", "pump_de_nde_fe.csv")
+      for names in ("Accel DE,Accel NDE", "DE,FE", "Acc 1,Acc 2", "inboard,outboard",
+                    "drive end,opposite drive end", "ch DE,ch 2")),
+    *((two(f"time,{names}"), {"columns": {"x": 1, "y": 2}})
+      for names in ("acc x,acc y", "horizontal,vertical")),
+    *((rows(*[SIGNAL] * (count // 2), *[SIGNAL[:, 0]] * (count % 2)),
+       {"columns": {}, "options": tuple(range(count)), "question": f"holds {count} signals"})
+      for count in (2, 3)),
+    # HDF5, beside each data set
+    (hdf5(rig__DE=(SIGNAL[:, 0], STEP | {"unit_string": "g"}),
+          rig__NDE=(SIGNAL[:, 1], STEP | {"unit_string": "V"})),
+     {"units": ["g", "V"], "rate": RATE, "options": (0, 1)}),
+    (hdf5(time=(1e3 * TIME, {"units": "ms"}), ch1=(SIGNAL[:, 0], {"location": "DE"}),
+          ch2=(SIGNAL[:, 1], {"location": "FE"})), {"rate": RATE, "options": (0, 1), "unit": None}),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("content", "said"), FILES)
+def test_what_a_file_says(content: bytes | str, said: dict[str, Any]) -> None:
+    said = {"file": "a.csv", **said}
+    made = read(content, said.pop("file"))
+    missing = N - len(made.columns)  # the rows in which an oscilloscope has its settings
+    assert missing in (0, 3)
+    assert any(np.allclose(one, SIGNAL[missing:, 0], atol=1e-6) for one in made.columns.T)
+    for name, expected in said.items():
+        found = FACTS[name](made)
+        if name in ("question", "choice", "reason", "trouble", "why", "note"):
+            assert expected in found, name
+        elif isinstance(expected, float):
+            assert found == pytest.approx(expected, rel=1e-4), name
+        else:
+            assert found == expected, name

@@ -1,0 +1,73 @@
+"""Ball passes of a cage whose speed wanders are followed; of a steady one they are left alone."""
+
+import math
+
+import numpy as np
+import pytest
+
+from bearingcore.measured.signals import BallPasses, average_passes
+
+RATE, FREQUENCY, COUNT = 20_480.0, 57.3, 40
+
+
+def passing(wander: float, decibels: float, seed: int = 3) -> tuple[np.ndarray, np.ndarray]:
+    """Known passes on a clock that wanders, with noise: the signal, and how many have passed."""
+    rng = np.random.default_rng(seed)
+    time = np.arange(round(1.6 * RATE)) / RATE
+    passed = FREQUENCY * (
+        time
+        + wander * math.sqrt(2.0) * (1.0 - np.cos(2.0 * math.pi * 0.9 * time)) / (2 * math.pi * 0.9)
+    )
+    order = np.arange(1, COUNT + 1)
+    size = rng.standard_normal((COUNT, 2)) + 1j * rng.standard_normal((COUNT, 2))
+    clean = 2.0 * (np.exp(2j * math.pi * passed[:, None] * order) @ size).real
+    level = math.sqrt(np.mean(clean**2)) * 10.0 ** (-decibels / 20.0)
+    return clean + level * rng.standard_normal(clean.shape), passed
+
+
+def averaged(signal: np.ndarray, follow: bool) -> BallPasses:
+    return average_passes(signal, RATE, 57.0, 0.02, 60.0, 2250.0, 2250.0, follow=follow)
+
+
+def repeating(passes: BallPasses) -> float:
+    power = passes.power[3:COUNT].sum()
+    return float((np.abs(passes.harmonics[3:COUNT]) ** 2).sum() / power)
+
+
+@pytest.mark.parametrize("wander", [0.002, 0.004, 0.008])
+def test_a_wandering_cage_is_followed(wander: float) -> None:
+    signal, passed = passing(wander, 20.0)
+    lost, found = averaged(signal, False), averaged(signal, True)
+    assert repeating(lost) < 0.7
+    assert repeating(found) > 0.97
+    # the passes begin when the balls pass, but for a constant
+    assert found.begins is not None
+    at = np.interp(found.begins, np.arange(len(passed)) / RATE, passed)
+    away = (at - at.round() + 0.5) % 1.0
+    assert np.ptp(at - np.arange(len(at))) < 0.012, away
+    mean = (at[-1] - at[0]) / (found.begins[-1] - found.begins[0])
+    assert found.frequency == pytest.approx(mean, rel=2e-4)
+
+
+@pytest.mark.parametrize("decibels", [40.0, 20.0, 5.0])
+def test_a_steady_cage_is_left_alone(decibels: float) -> None:
+    signal, _ = passing(0.0, decibels)
+    with_it, without = averaged(signal, True), averaged(signal, False)
+    assert with_it.begins is None
+    assert np.array_equal(with_it.harmonics, without.harmonics)
+
+
+def test_coloured_noise_is_known_by_frequency() -> None:
+    """Noise whose density falls with frequency, over passes that repeat: known within 3 dB."""
+    signal, _ = passing(0.0, 60.0)
+    rng = np.random.default_rng(2)
+    transform = np.fft.rfft(rng.standard_normal(signal.shape), axis=0)
+    frequency = np.fft.rfftfreq(len(signal), 1.0 / RATE)
+    noise = np.fft.irfft(transform / np.sqrt(1.0 + frequency / 100.0)[:, None], len(signal), axis=0)
+    passes = average_passes(signal + noise, RATE, 57.0, 0.02, 60.0, 2250.0, 2250.0)
+    assert passes.noise_power.shape == passes.power.shape
+    # power of a coefficient: two-sided density 1/rate, over a pass
+    expected = FREQUENCY / RATE / (1.0 + passes.harmonic_frequency / 100.0)
+    off = 10.0 * np.log10(passes.noise_power[2:38] / expected[2:38, None])
+    assert np.abs(off.mean()) < 1.5
+    assert np.abs(off).max() < 4.0

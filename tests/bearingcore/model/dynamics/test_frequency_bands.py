@@ -1,0 +1,85 @@
+"""Bands of natural frequencies, wherever samples lie; without damping whatever the matrices."""
+
+import math
+
+import numpy as np
+import pytest
+
+from bearingcore import Scene, equilibrium, frequency_bands, modes, presets
+from bearingcore.model.dynamics._modes import modes_at, undamped_bands
+from bearingcore.model.statics import STIFFNESS_TERMS, default_cage_angles
+
+RIG, ANGULAR = presets["fan-rig"], presets["liew-lim"]
+SCENES = {
+    "healthy": RIG.healthy(),
+    "two directions": RIG,
+    "a large defect": RIG.replace(extent=math.radians(38.6)),
+    "five directions": ANGULAR,
+    "five, a large defect": ANGULAR.replace(extent=math.radians(64.0)),
+    "inner race": RIG.replace(race="inner", extent=0.5),
+    "three directions": ANGULAR.replace(dofs=("x", "y", "z")),
+    "one direction": RIG.replace(dofs=("y",)),
+    "sideways": RIG.replace(fx=-70.0, fy=-70.0, extent=0.9),
+}
+
+
+def terms_of(scene: Scene, n: int = 121) -> np.ndarray:
+    """(15, 1, n)"""
+    state = equilibrium(scene, default_cage_angles(scene, n))
+    return np.stack([state.term(name) for name in STIFFNESS_TERMS])[:, None]
+
+
+@pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
+def test_they_are_those_of_the_modes_one_matrix_after_the_other(scene: Scene) -> None:
+    found = modes_at(equilibrium(scene, default_cage_angles(scene, 121)))
+    least, greatest, [labels] = undamped_bands(scene, terms_of(scene))
+    assert labels == found.label
+    np.testing.assert_allclose(least[0], np.nanmin(found.undamped_frequency, axis=0), rtol=1e-10)
+    np.testing.assert_allclose(greatest[0], np.nanmax(found.undamped_frequency, axis=0), rtol=1e-10)
+
+
+@pytest.mark.parametrize("extent", [0.0, 0.35, 1.1])
+def test_damping_nearly_is_damping_where_modes_meet_and_balls_come_in(extent: float) -> None:
+    scene = ANGULAR.replace(extent=extent)
+    state = equilibrium(scene, np.linspace(0.0, scene.bearing.period, 1001))
+    exact, nearly = modes_at(state), modes_at(state, nearly=True)
+    assert np.abs(exact.frequency / exact.undamped_frequency - 1.0).max() > 1e-3
+    np.testing.assert_allclose(nearly.frequency, exact.frequency, rtol=1e-4)
+    np.testing.assert_allclose(nearly.damping_ratio, exact.damping_ratio, atol=2e-3)
+
+
+def test_what_is_not_known_is_left_out_and_nothing_known_is_not_a_number() -> None:
+    terms = terms_of(RIG)
+    gone = terms.copy()
+    gone[:, 0, 30:60] = math.nan
+    least, greatest, _ = undamped_bands(RIG, np.concatenate([terms, gone, gone * math.nan], axis=1))
+    few = np.delete(terms, slice(30, 60), axis=2)
+    low, high, _ = undamped_bands(RIG, few)
+    np.testing.assert_allclose(least[1], low[0], rtol=1e-12)
+    np.testing.assert_allclose(greatest[1], high[0], rtol=1e-12)
+    assert np.isnan(least[2]).all()
+    assert np.isnan(greatest[2]).all()
+    assert np.isfinite(least[0]).all()
+
+
+def test_bands_do_not_depend_on_the_samples() -> None:
+    samples = modes(RIG, np.linspace(0.0, RIG.bearing.ball_spacing, 61)).bands()["y1"]
+    coarse, fine = (frequency_bands(RIG, coarse=coarse)["y1"] for coarse in (True, False))
+    assert coarse == pytest.approx(fine, rel=1e-4)
+    assert abs(samples[1] - fine[1]) > 5.0 * abs(coarse[1] - fine[1])
+
+
+@pytest.mark.parametrize("name", ["fan-rig", "liew-lim", "6205", "nu208"])
+def test_coarse_bands_of_a_turning_defect_are_within_a_hundredth(name: str) -> None:
+    scene = presets[name].replace(race="inner")
+    coarse, fine = (frequency_bands(scene, coarse=coarse) for coarse in (True, False))
+    for label, ends in fine.items():
+        assert coarse[label] == pytest.approx(ends, rel=0.01), label
+
+
+def test_without_an_answer_there_is_no_band() -> None:
+    found = frequency_bands(RIG.replace(fy=0.0))
+    assert list(found) == list(frequency_bands(RIG))
+    assert np.isnan(list(found.values())).all()
+    refused = frequency_bands(RIG, most_contacts=10)
+    assert np.isnan(list(refused.values())).all()

@@ -1,0 +1,140 @@
+"""Orbits against marching, and the statements of others about where they are stable."""
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from bearingcore import Scene, orbit, presets, simulate, spectrum
+from bearingcore.model.dynamics import OrbitStatus, common_ball_passes
+from bearingcore.model.dynamics._damping import packed_motion
+from bearingcore.model.dynamics._orbit import _Shooting, _state_at_start
+
+RIG = presets["fan-rig"].replace(contact_damping=130.0)
+
+
+def at(shaft_hz: float, extent_deg: float) -> Scene:
+    return RIG.replace(shaft_speed=2.0 * math.pi * shaft_hz, extent=math.radians(extent_deg))
+
+
+def marched_period(scene: Scene, passes: int = 600, longest: int = 12) -> int | None:
+    """Ball passes after which a long march repeats itself to 0.2 %, None if more than `longest`."""
+    one = scene.bearing.ball_spacing / scene.cage_speed
+    rate = 65536.0 * math.ceil(scene.shaft_speed / (2.0 * math.pi * 30.0))
+    motion = simulate(scene, (passes + 2) * one, rate)
+    x, t = motion.inner_displacement, motion.time
+    size = np.ptp(x[-len(x) // 20 :], axis=0).max()
+    times = np.arange(passes - 40, passes) * one
+    phase = np.stack([np.interp(times, t, x[:, i]) for i in range(x.shape[1])], axis=1)
+    for period in range(1, longest + 1):
+        if np.abs(phase[period:] - phase[:-period]).max() < 2e-3 * size:
+            return period
+    return None
+
+
+def test_at_30_hz_the_orbit_doubles_its_period() -> None:
+    found = orbit(at(30.0, 12.9))
+    assert (found.status, found.through) == (OrbitStatus.UNSTABLE, "-1")
+    assert found.largest_multiplier == pytest.approx(1.33, abs=0.01)
+    assert marched_period(at(30.0, 12.9)) == 2
+    doubled = orbit(at(30.0, 12.9), ball_passes=2, start=None)
+    assert doubled.status in (OrbitStatus.STABLE, OrbitStatus.UNSTABLE)
+
+
+@pytest.mark.parametrize(
+    ("shaft_hz", "extent_deg"),
+    [
+        (25.0, 12.9),
+        (28.0, 12.9),
+        (32.0, 12.9),
+        (35.0, 12.9),
+        (60.0, 38.6),
+        (120.0, 8.0),
+    ],
+)
+def test_marching_settles_where_multipliers_say_it_does(shaft_hz: float, extent_deg: float) -> None:
+    """600 ball passes of marching repeat after one pass just where the orbit is stable."""
+    scene = at(shaft_hz, extent_deg)
+    found = orbit(scene)
+    assert found.status in (OrbitStatus.STABLE, OrbitStatus.UNSTABLE)
+    assert (marched_period(scene) == 1) == found.stable
+
+
+@pytest.mark.parametrize(
+    ("name", "changes", "apart", "off"),
+    [
+        ("fan-rig", {}, 1e-11, 1e-6),
+        ("7208-25deg", {}, 1e-11, 1e-6),
+        # all balls stay loaded: no damper jumps
+        ("7208-25deg", {"contact_law": "no tension", "depth": 0.0, "fz": 6e3}, 1e-11, 1e-6),
+        # motions so far apart touch steps apart: their dampers jump at their own times
+        ("7208-25deg", {"contact_law": "no tension"}, 1e-8, 2e-3),
+    ],
+)
+def test_multipliers_are_of_the_derivative_of_a_period(
+    name: str, changes: dict[str, Any], apart: float, off: float
+) -> None:
+    """By differences of the motion over the orbit's period, from states beside it."""
+    scene = presets[name].replace(contact_damping=130.0, **changes)
+    found = orbit(scene, step_rate=2.0**20 if apart > 1e-9 else None)
+    shooting = _Shooting(packed_motion(scene), found.period, len(found.history) - 1)
+    y = shooting.own(_state_at_start(found, found.dofs))
+    slopes = np.empty((y.size, y.size))
+    for column, h in zip(slopes.T, np.diag(apart / shooting.scale), strict=True):
+        column[:] = (shooting.marched(y + h) - shooting.marched(y - h)) / (2.0 * h.max())
+    wrong = (slopes - shooting.with_tangent(y)[1]) * np.divide.outer(shooting.scale, shooting.scale)
+    assert np.abs(wrong).max() < off
+    assert found.largest_multiplier == pytest.approx(
+        np.abs(np.linalg.eigvals(slopes)).max(), rel=1e-3
+    )
+
+
+def test_where_no_orbit_is_found_none_is_claimed() -> None:
+    """At 100 Hz shooting over one pass has nothing to find: marching returns every second pass."""
+    scene = at(100.0, 12.9)
+    assert marched_period(scene) == 2
+    assert orbit(scene).status in (OrbitStatus.NOT_CONVERGED, OrbitStatus.UNSTABLE)
+
+
+@pytest.mark.parametrize("scene", [at(7.0, 12.9), at(60.0, 12.9), at(7.0, 38.6)])
+def test_the_spectrum_of_lines_is_that_of_the_tiled_record(scene: Scene) -> None:
+    found = orbit(scene)
+    n = round(1.4 * 65536.0)
+    signal = found.outer_acceleration(np.arange(n) / 65536.0)
+    assert len(found.spectrum().frequency) > 150, "to 0.15 of 32,768 steps a second"
+    # at 60 Hz lines stand eleven bins apart: between them there is only the window's side lobes,
+    # and what samples of the jumps as balls touch fold back, which lines do not
+    for resolution, highest, least, off in ((32.0, 2100.0, 30, 0.02), (256.0, math.inf, 20, 0.1)):
+        lines = found.spectrum(resolution=resolution)
+        tiled = spectrum(signal, 65536.0, resolution).up_to(lines.frequency[-1])
+        np.testing.assert_array_equal(lines.frequency, tiled.frequency)
+        band = (tiled.frequency >= 300.0) & (tiled.frequency <= highest)
+        ours, theirs = lines.density[band], tiled.density[band]
+        heard = theirs > 1e-4 * theirs.max(axis=0)
+        assert heard.sum() > least
+        assert np.abs(10.0 * np.log10(ours[heard] / theirs[heard])).max() < off
+
+
+def test_an_orbit_jumps_where_the_march_does() -> None:
+    """Accelerations between steps come from the equations of motion, not from interpolation."""
+    scene = at(60.0, 12.9)
+    fine = simulate(scene, 1.2, step_rate=4.0 * 65536.0)
+    late = slice(len(fine.time) // 2, None)
+    marched = fine.instant_acceleration("outer")[late]
+    for rate in (32768.0, 65536.0):
+        apart = orbit(scene, step_rate=rate).outer_acceleration(fine.time[late]) - marched
+        assert np.abs(apart).max() < 2e-2 * np.abs(marched).max()
+        assert np.sqrt(np.mean(apart**2)) < 2e-3 * np.sqrt(np.mean(marched**2))
+
+
+def test_an_inner_race_defect_repeats_when_shaft_and_cage_do() -> None:
+    """Fan rig: ω_c/ω_s = 37/90, so 45 turns of the shaft are 18.5 of the cage, 259 ball passes."""
+    inner = at(7.0, 12.9).replace(race="inner")
+    assert common_ball_passes(inner) == 259
+    assert common_ball_passes(at(7.0, 12.9)) == 1
+    assert common_ball_passes(at(7.0, 12.9).replace(unbalance=1e-4)) != 1
+    unlike = inner.replace(contact_angle=math.radians(15.0))
+    assert common_ball_passes(unlike) is None
+    assert orbit(unlike).status == OrbitStatus.NO_PERIOD
+    assert math.isnan(orbit(unlike).largest_multiplier)

@@ -1,0 +1,84 @@
+"""Simulated records: what is drawn is the scene's, each effect does what it says."""
+
+import dataclasses
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from bearingcore import diagnose, scene_of, simulated_record, spectrum
+from bearingcore.model.dynamics import PathEffects
+from bearingcore.model.sweeps import OUTPUTS, Settings, sweep
+from bearingcore.model.sweeps._outputs import chosen_outputs
+
+SCENE = scene_of("6205").replace(extent=0.03, depth=5e-5, center=math.radians(270.0))
+BARE = PathEffects().without("cage_wander", "resonances", "knock", "shaft_tones", "noise")
+
+
+def rms(record) -> float:
+    return float(np.sqrt(np.mean(record.acceleration**2)))
+
+
+def test_equal_scenes_give_equal_records_and_a_seed_another_one() -> None:
+    one = simulated_record(SCENE, duration=0.3)
+    np.testing.assert_array_equal(
+        one.acceleration, simulated_record(SCENE.replace(), duration=0.3).acceleration
+    )
+    assert one.shaft_speed == SCENE.shaft_speed
+    for other in (
+        simulated_record(SCENE, duration=0.3, seed=1),
+        simulated_record(SCENE.replace(fy=-900.0), duration=0.3),
+    ):
+        assert not np.allclose(other.acceleration, one.acceleration, rtol=0.1)
+
+
+def test_effects_add_what_they_say() -> None:
+    bare = simulated_record(SCENE, BARE, 0.5, seed=3)
+    for below, share in ((20.0, 0.1), (6.0, 0.5)):
+        noisy = simulated_record(SCENE, dataclasses.replace(BARE, noise=below), 0.5, seed=3)
+        added = np.sqrt(np.mean((noisy.acceleration - bare.acceleration) ** 2))
+        assert added / rms(bare) == pytest.approx(share, rel=0.01)
+    behind = dataclasses.replace(BARE, background=2.0)
+    added = simulated_record(SCENE, behind, 0.5, seed=3).acceleration - bare.acceleration
+    np.testing.assert_allclose(np.sqrt(np.mean(added**2, axis=0)), 2.0, rtol=0.01)
+    ringing = simulated_record(SCENE, dataclasses.replace(BARE, knock=5.0), 0.5, seed=3)
+    shown = spectrum(ringing.acceleration[:, 1] - bare.acceleration[:, 1], ringing.sample_rate)
+    assert shown.frequency[shown.density.argmax()] == pytest.approx(4700.0, rel=0.04)
+
+
+def test_blows_of_an_inner_race_come_and_go_with_its_load() -> None:
+    """A defect of the inner race strikes where balls carry load: below, once a turn."""
+    knocking = dataclasses.replace(BARE, knock=50.0)
+    record = simulated_record(SCENE.replace(race="inner"), knocking, 0.5, seed=3)
+    turn = SCENE.shaft_speed * np.arange(len(record.acceleration)) / record.sample_rate
+    energy = record.acceleration[:, 1] ** 2
+    once_a_turn = abs(np.mean(energy * np.exp(-1j * turn))) / np.mean(energy)
+    standing = simulated_record(SCENE, knocking, 0.5, seed=3).acceleration[:, 1] ** 2
+    assert once_a_turn > 0.3
+    assert abs(np.mean(standing * np.exp(-1j * turn))) / np.mean(standing) < 0.1
+
+
+@pytest.mark.parametrize("race", ["outer", "inner"])
+def test_such_a_record_is_diagnosed_as_what_it_is(race: str) -> None:
+    assert diagnose(simulated_record(SCENE.replace(race=race)), "6205").fault == f"{race} race"
+
+
+def test_a_sweep_keeps_records_with_their_times(tmp_path: Path) -> None:
+    settings = Settings(duration=0.1, sample_rate=8192.0)
+    over = {"race": ["outer", "inner"], "extent": [0.0, 0.03]}
+    found = sweep(SCENE, over, ["record_*"], settings=settings)
+    assert found["record_y"].dims == ("race", "extent", "sample")
+    np.testing.assert_array_equal(found["sample"], np.arange(819) / 8192.0)
+    assert found["sample"].attrs["units"] == "s"
+    alone = simulated_record(
+        SCENE.replace(race="inner", extent=0.03), duration=0.1, sample_rate=8192.0
+    )
+    np.testing.assert_array_equal(found["record_x"][1, 1], alone.acceleration[:, 0])
+    kept = sweep(SCENE, over, ["record_*"], settings=settings, store=tmp_path / "r.zarr")
+    np.testing.assert_array_equal(kept["record_y"].values, found["record_y"].values)
+
+
+def test_records_are_no_part_of_all_outputs_unless_they_are_asked_for() -> None:
+    assert not any(OUTPUTS[name].per_sample for name in chosen_outputs("*"))
+    assert chosen_outputs("record_*") == ("record_x", "record_y")

@@ -1,0 +1,202 @@
+"""Life against a commercial code's results, other sums, and what must not change it."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+
+from bearingcore import DOF_NAMES, Defect, Load, Scene, equilibrium, presets, scene_of
+from bearingcore.model.scene import FREE_TILT_WORDS
+from bearingcore.model.scene._scene import HELD_TILT_WORDS
+from bearingcore.model.statics import dynamic_load_rating, life
+from bearingcore.model.statics._race_loads import race_loads
+from tests.outside.witness import witness
+
+P, E = 3.0, 10.0 / 9.0
+RATING = 23_400.0
+
+
+def seven_balls(clearance: float, **load: float) -> Scene:
+    """The bearing that the commercial code's results belong to; its diametral clearance in m."""
+    scene = presets["seven-ball"].healthy().replace(radial_clearance=0.5 * clearance)
+    return scene.replace(load=Load(**load), dofs="tilt free")
+
+
+COMMERCIAL = [
+    pytest.param(0.0, {"fx": 1000.0}, 13163.019, 7e-5, id="radial"),
+    pytest.param(0.0, {"fz": 1000.0}, 2222.7318, 7e-5, id="axial"),
+    pytest.param(10e-6, {"fx": 1000.0}, 10795.7948, 7e-5, id="radial, clearance"),
+    pytest.param(10e-6, {"fz": 1000.0}, 3115.8781, 7e-5, id="axial, clearance"),
+    pytest.param(10e-6, {"fx": 1000.0, "fz": 1000.0}, 1630.5367, 7e-5, id="combined"),
+    pytest.param(
+        10e-6, {"fx": 1000.0, "fz": 1000.0, "mx": 1.0}, 1627.7479, 7e-5, id="combined, moment"
+    ),
+    # a moment alone presses along no line, and 0.022 % is left
+    pytest.param(0.0, {"mx": 1.0}, 785144.7521, 3e-4, id="moment"),
+]
+
+
+@witness(
+    "ball bearing: life",
+    "function: life",
+    by="a commercial code's results (GitHub, minzhun/ISO16281, Test_BallBearing.py)",
+    compared="L_10r under seven loads",
+    within=0.0003,
+)
+@pytest.mark.parametrize(("clearance", "load", "printed", "tolerance"), COMMERCIAL)
+def test_commercial_code(
+    clearance: float, load: dict[str, float], printed: float, tolerance: float
+) -> None:
+    """Printed in GitHub, minzhun/ISO16281, `Test_BallBearing.py`: C_r 23,400 N."""
+    found = life(seven_balls(clearance, **load), RATING, positions="load line")
+    assert found.million_revolutions == pytest.approx(printed, rel=tolerance)
+    assert found.known
+
+
+def damaged(race: str, **changes: float) -> Scene:
+    """A deep-groove bearing with a spall that balls fall into."""
+    return presets["6206"].replace(race=race, **changes)
+
+
+def by_counting(scene: Scene, places: int, every: int) -> tuple[float, float]:
+    """Q_ei, Q_ee by equal bins of both races: every ball at every place at every shaft angle.
+
+    places in a ball spacing; shaft angles `every` so many places.
+    """
+    bearing = scene.bearing
+    N_b = bearing.n_balls
+    total = N_b * places
+    used_inner, used_outer, hits = np.zeros(total), np.zeros(total), np.zeros(total)
+    cage = (np.arange(places) + 0.5) * bearing.ball_spacing / places
+    for k in range(0, total, every):
+        psi = k * 2.0 * math.pi / total
+        for i, c in enumerate(cage):
+            turned = tuple(
+                dataclasses.replace(d, center=d.center + psi - c / bearing.cage_ratio)
+                if d.race == "inner"
+                else d
+                for d in scene.defects
+            )
+            Q = equilibrium(dataclasses.replace(scene, defect=turned), [c]).ball_load[0]
+            at = i + places * np.arange(N_b)
+            used_outer[at] += Q**P
+            used_inner[(at - k) % total] += Q**P
+            hits[at] += 1
+    root = 1.0 / (P * E)
+    passes = hits[0]
+    assert np.all(hits == passes)
+    return (
+        float(np.mean((used_inner / passes) ** E) ** root),
+        float(np.mean((used_outer / passes) ** E) ** root),
+    )
+
+
+def test_defects_of_both_races_by_counting() -> None:
+    scene = damaged("inner", extent=math.radians(20.0))
+    assert isinstance(scene.defect, Defect)
+    other = dataclasses.replace(scene.defect, race="outer", center=math.radians(260.0))
+    scene = dataclasses.replace(scene, defect=(scene.defect, other))
+    found = race_loads(scene, P, E)
+    inner, outer = by_counting(scene, places=48, every=4)
+    assert found.inner[0] == pytest.approx(inner, rel=2e-3)
+    assert found.outer[0] == pytest.approx(outer, rel=2e-3)
+
+
+def test_both_means_of_the_standard_change_places_with_the_turning_race() -> None:
+    scene = presets["6205"].healthy()
+    inner, outer = (
+        life(scene, 14e3, positions="load line", turning_race=race) for race in ("inner", "outer")
+    )
+    Q = equilibrium(scene, [1.5 * math.pi % scene.bearing.ball_spacing]).ball_load
+    cubic, tenthirds = float(np.mean(Q**3) ** (1 / 3)), float(np.mean(Q ** (10 / 3)) ** 0.3)
+    assert (inner.inner_load, inner.outer_load) == pytest.approx((cubic, tenthirds), rel=1e-12)
+    assert (outer.inner_load, outer.outer_load) == pytest.approx((tenthirds, cubic), rel=1e-12)
+
+
+def test_hours() -> None:
+    found = life(presets["6206"], 19_500.0)
+    assert found.hours == pytest.approx(found.million_revolutions * 1e6 / (1470.0 * 60.0))
+    sound = life(presets["6206"].healthy(), 19_500.0)
+    assert sound.million_revolutions == found.healthy_million_revolutions, "the same cage angles"
+    standing = life(presets["6206"].replace(shaft_speed=0.0), 19_500.0)
+    assert math.isnan(standing.hours)
+    assert standing.million_revolutions == found.million_revolutions
+    assert "the shaft is at rest" in standing.sentence
+
+
+def test_a_heavy_load_is_beyond_the_standard() -> None:
+    hard = life(presets["6205"].replace(fy=-9000.0), 14e3).sentence
+    assert "above 50 % the standard does not vouch" in hard  # ISO 281
+    assert "does not vouch" not in life(presets["6205"], 14e3).sentence
+
+
+@pytest.mark.parametrize("race", ["inner", "outer"])
+def test_no_equilibrium_no_life(race: str) -> None:
+    """Two balls let a ring go sideways: no cage angle but those under the load carries it."""
+    scene = presets["6205"].replace(n_balls=2, race=race)
+    for looked_at in (scene, scene.healthy()):
+        found = life(looked_at, 14e3)
+        assert not found.known
+        assert math.isnan(found.hours)
+        assert math.isnan(found.equivalent_load)
+        assert math.isnan(found.share_of_healthy)
+        assert "not known" in found.sentence
+
+
+def test_no_load_no_fatigue() -> None:
+    found = life(presets["6205"].replace(fy=0.0), 14e3)
+    assert math.isinf(found.million_revolutions)
+    assert found.equivalent_load == 0.0
+    assert found.share_of_healthy == 1.0
+    assert "there is no fatigue" in found.sentence
+
+
+def test_wider_grooves_carry_less_and_closer_ones_count_as_usual() -> None:
+    usual = presets["6205"].bearing
+    D = usual.ball_diameter
+    rating = dynamic_load_rating(usual)
+    assert dynamic_load_rating(usual.replace(inner_groove_radius=0.54 * D)) < 0.9 * rating
+    assert dynamic_load_rating(usual.replace(inner_groove_radius=0.51 * D)) == rating
+
+
+def test_a_self_aligning_bearing_has_no_rating_but_a_life() -> None:
+    with pytest.raises(ValueError, match="that of the catalogue"):
+        dynamic_load_rating(presets["1208"].bearing)
+    assert life(presets["1208"], 20e3).known
+
+
+def test_a_bearing_by_its_number_brings_its_rating() -> None:
+    """C_r of a 6205 in JTEKT's catalogue is 14.0 kN; a changed bearing has none."""
+    scene = presets["6205"].healthy().replace(bearing="6205")
+    known = life(scene)
+    assert known.dynamic_load_rating == 14_000.0
+    assert known.million_revolutions == life(scene, 14_000.0).million_revolutions
+    assert known.rating_source == "of a catalogue, by the bearing's number"
+    assert known.sentence.endswith("14\u202f000 N, of a catalogue, by the bearing's number.")
+    assert life(scene, 14_000.0).rating_source == "given"
+    assert life(scene.replace(radial_clearance=2e-6)).dynamic_load_rating == 14_000.0
+    for changed in (scene.replace(n_balls=8), presets["fan-rig"]):
+        with pytest.raises(ValueError, match="dynamic_load_rating is None; allowed: a number"):
+            life(changed)
+    assert scene.bearing.replace(n_balls=9).dynamic_load_rating == 14_000.0
+
+
+def test_a_life_says_whether_the_shaft_may_tilt_and_a_second_bearing_can_hold_it() -> None:
+    scene = scene_of("6208").replace(fy=-2000.0, fz=1000.0)
+    free = scene.replace(dofs="tilt free")
+    assert scene.active_dofs == scene.replace(dofs="tilt held").active_dofs == ("x", "y", "z")
+    assert free.active_dofs == scene.replace(mx=1.0).active_dofs == DOF_NAMES
+    alone, on_two = life(free), life(scene)
+    assert on_two.million_revolutions > 1.5 * alone.million_revolutions
+    assert FREE_TILT_WORDS in alone.sentence
+    assert HELD_TILT_WORDS in on_two.sentence
+    state = equilibrium(free, [0.0], "tilt held")
+    assert state.dofs == scene.active_dofs
+    assert state.sentence == f"Free are x, y, z. {HELD_TILT_WORDS}"
+    assert str(state).startswith("Equilibrium: Free are x, y, z.")
+    assert equilibrium(scene, [0.0]).displacement[0, 3:].tolist() == [0.0, 0.0]
+    radial = scene_of("6208")
+    assert radial.tilt_words() == "", "the load causes no tilt"
+    assert radial.replace(dofs="tilt held").active_dofs == ("x", "y")
+    assert scene_of("NU 208").replace(dofs="tilt held").active_dofs == ("x", "y")

@@ -1,0 +1,47 @@
+"""The halves of the core serve without each other, and are imported when they are used."""
+
+import subprocess
+import sys
+from importlib import metadata
+
+import pytest
+
+import bearingcore
+
+LIST_MODULES = "import sys, bearingcore; bearingcore.{name}; print(*sorted(sys.modules))"
+
+
+def modules_after(name: str) -> set[str]:
+    """The modules that an empty process holds once it has asked for a public name."""
+    command = [sys.executable, "-c", LIST_MODULES.format(name=name)]
+    return set(subprocess.run(command, check=True, capture_output=True, text=True).stdout.split())
+
+
+def test_the_root_alone_imports_nothing_that_takes_time() -> None:
+    modules = modules_after("__version__")
+    assert not modules & {"numpy", "scipy", "numba", "pandas"}
+    assert {name for name in modules if name.startswith("bearingcore")} == {"bearingcore"}
+
+
+def test_diagnosing_loads_neither_the_model_nor_a_compiler() -> None:
+    modules = modules_after("diagnose")
+    assert "bearingcore.measured.diagnosis" in modules
+    assert not modules & {"numba", "bearingcore.model", "bearingcore.sizing"}
+
+
+def test_statics_load_no_reader_of_files() -> None:
+    modules = modules_after("equilibrium")
+    assert "bearingcore.model.statics" in modules
+    assert not modules & {"bearingcore.measured", "bearingcore.sizing", "pandas", "h5py"}
+
+
+@pytest.mark.parametrize("name", bearingcore.__all__)
+def test_every_public_name_is_there(name: str) -> None:
+    thing = getattr(bearingcore, name)
+    assert name in dir(bearingcore)
+    module = getattr(thing, "__module__", "bearingcore")
+    assert module.startswith(("bearingcore", "builtins", "types", "numpy")), module
+
+
+def test_the_version_is_that_of_the_distribution() -> None:
+    assert bearingcore.__version__ == metadata.version("bearing-explorer")

@@ -1,4 +1,6 @@
-"""For the API reference: attributes that are computed once are shown as properties.
+"""For the API reference: what the root imports when it is used, and properties computed once.
+
+The root's names stand in its stub, as imports under their own names, which is how a stub exports.
 
 griffe knows `functools.cached_property` only, and takes `bearingcore.common._lazy.cached_property`
 for a call.
@@ -6,7 +8,7 @@ for a call.
 
 from typing import Any
 
-from griffe import Attribute, Class, Extension, Function
+from griffe import Attribute, Class, Extension, Function, Module
 
 COMPUTED_ONCE = "bearingcore.common._lazy.cached_property"
 
@@ -31,3 +33,12 @@ class ComputedOnce(Extension):
                     ),
                 )
                 made.labels |= {"cached", "property"}
+
+
+class NamesOfStubs(Extension):
+    """Makes names that the stub of a package imports its public names."""
+
+    def on_package(self, *, pkg: Module, **_: Any) -> None:
+        """Export them, unless the package says what it exports."""
+        if not isinstance(pkg.exports, list) or not pkg.exports:
+            pkg.exports = [name for name, member in pkg.members.items() if member.is_alias]

@@ -17,7 +17,8 @@ log has it; the others are looked for as they are used.
 With the environment variable ``BEARING_EXPLORER_PLAIN=1`` none of them is used, nor what
 `panel_internals`, `tornado_internals`, `assets/scripts/fast_figures.js` and
 `bearingcore/model/_kernels/compiling.py` use: all goes the public ways, slower and as right.
-Figures get their data by Bokeh's own messages then, in 82 ms of a drag instead of 52 (`PackedSource`).
+Figures get their data by Bokeh's own messages then, in 82 ms of a drag instead of 52
+(`PackedSource`).
 """
 
 from __future__ import annotations

@@ -108,7 +108,7 @@ class Alternatives:
     right_hand_side_calls: int
 
     def table(self) -> ResultTable:
-        """A row for each model: its error in the spectrum or in the curves, and the time of both."""
+        """A row for each model: error in the spectrum or the curves, and the time of both."""
         spectral = [row.quantity == SPECTRUM for row in self.rows]
         errors = [row.error for row in self.rows]
         decibels = [error if of else math.nan for error, of in zip(errors, spectral, strict=True)]

@@ -106,7 +106,7 @@ class BallPositions:
         return self.cost or words + explanation(status, self.scene, at, self.dofs)
 
     def table(self) -> ResultTable:
-        """A row for each cage angle: displacement, stiffness, both loads and angles of each ball."""
+        """A row for each cage angle: displacement, stiffness, loads and angles of each ball."""
         balls = range(self.load.shape[2])
         return table_of(
             ("cage_angle", "rad", self.cage_angles),

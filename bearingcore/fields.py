@@ -218,7 +218,8 @@ _SCENE = (
           "Depth of the defect's floor. A ball reaches it only if the defect is long enough."),
     Field("center", "defect", "Centre", "φ_f", "°", "Defect", Range(0.0, 360.0, 0.5),
           "Angle of the defect's middle: 0° is right, 90° up, 270° down, the direction of a "
-          "weight. A defect of the inner race has this angle at cage angle 0 and turns with the shaft."),
+          "weight. A defect of the inner race has this angle at cage angle 0 and turns with the "
+          "shaft."),
     Field("rms_height", "floor", "Roughness, RMS", "R_q", "µm", "Defect",
           Range(0.0, 20.0, 0.1, 0.0, 500.0),
           "Root mean square height of the rough floor about its mean depth."),
@@ -315,8 +316,8 @@ _BEARING = (
     Field("radial_clearance", "bearing", "Radial clearance", "r_L", "µm", "Contact",
           Range(-50.0, 50.0, 0.1, -100.0, 1000.0),
           "Distance that the inner ring can move from the middle before a ball touches, in "
-          "addition to the play by the contact angle: half the diametral clearance of a drawing. A negative "
-          "value is an interference, which compresses all balls without a load.",
+          "addition to the play by the contact angle: half the diametral clearance of a drawing. A "
+          "negative value is an interference, which compresses all balls without a load.",
           sweep_range=(0.0, 50.0)),
     Field("load_deflection_factor", "bearing", "Load-deflection factor", "K", "MN/m¹·⁵", "Contact",
           _near,

@@ -9,7 +9,8 @@ def as_markdown() -> str:
         "# Fields",
         "",
         "All numbers of a scene, printed from `bearingcore.fields.FIELDS`. `Scene.replace` and "
-        "sweeps use the name, with a value in SI units; links use the name with the unit of the page.",
+        "sweeps use the name, with a value in SI units; links use the name with the unit of the "
+        "page.",
         "",
         "| name | of | symbol | SI unit | in links | unit there | meaning |",
         "| --- | --- | --- | --- | --- | --- | --- |",

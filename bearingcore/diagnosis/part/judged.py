@@ -85,7 +85,8 @@ GAPS = 0.25
 
 ALIKE = 7.0
 """[dB] by which the lines of a second race may be below those of a first that is damaged. Of 48
-measured records with one damaged race the other's are 8.6 dB or more below."""
+measured records with one damaged race the other's are 8.6 dB or more below; in one they are 5.3 dB
+below, and swing the envelope by less than a tenth."""
 
 FOREIGN = (0.2, 0.95)
 """Turns of the shaft between which sidebands of another shaft are looked for: lines of an outer
@@ -93,9 +94,9 @@ race that are an inner race's or a ball's of a slower shaft have theirs there. A
 races have sidebands of the load zone that mix shaft and cage."""
 
 FOREIGN_LEAD = 2.0
-"""[dB] above sidebands of another shaft at which lines are an outer race's as probably as not. Of
-29 measured outer races all are 7.8 dB or more above the strongest; lines of inner races of a slower
-shaft are at most as strong as their sidebands."""
+"""[dB] above sidebands of another shaft at which lines are an outer race's as probably as not. All
+29 measured outer races are 7.8 dB or more above the strongest; lines of inner races of a slower
+shaft are about as strong as their sidebands."""
 
 SELDOM, SLIPS = 0.26, 0.25
 """Damaged balls for each damaged race (15 and 57 of the records measured), and the share of the

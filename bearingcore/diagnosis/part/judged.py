@@ -84,9 +84,8 @@ GAPS = 0.25
 """Of the lines of a multiple's comb, that those in between reach where they are of one comb."""
 
 ALIKE = 7.0
-"""[dB] by which the lines of a second race may be below those of a first that is damaged. Of 48
-measured records with one damaged race the other's are 8.6 dB or more below; in one they are 5.3 dB
-below, and swing the envelope by less than a tenth."""
+"""[dB] by which the lines of a second race may be below those of a first that is damaged. Of 51
+measured records whose race was named rightly the other race comes to at most 15 %."""
 
 FOREIGN = (0.2, 0.95)
 """Turns of the shaft between which sidebands of another shaft are looked for: lines of an outer

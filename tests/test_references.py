@@ -88,10 +88,13 @@ def define(body: list[ast.stmt]) -> Definitions:
 @cache
 def modules() -> dict[str, Definitions]:
     """All modules by their names."""
-    return {
-        module_of(file): define(ast.parse(file.read_text(encoding="utf-8")).body)
-        for file in SOURCES
-    }
+    return {module_of(file): define(ast.parse(_listed(file)).body) for file in SOURCES}
+
+
+def _listed(file: Path) -> str:
+    """The text of a module, or of the stub that lists what it imports when it is used."""
+    stub = file.with_suffix(".pyi")
+    return (stub if stub.exists() else file).read_text(encoding="utf-8")
 
 
 def module_of(file: Path) -> str:
@@ -104,7 +107,12 @@ def module_of(file: Path) -> str:
 @cache
 def called(path: str) -> list[Definitions]:
     """Modules whose names are or end with a path."""
-    return [own for name, own in modules().items() if f".{name}".endswith(f".{path}")]
+    return [own for name, own in modules().items() if _bare(name).endswith(_bare(path))]
+
+
+def _bare(name: str) -> str:
+    """A dotted name without the underscores of private modules, which sentences leave out."""
+    return f".{name}".replace("._", ".")
 
 
 @cache

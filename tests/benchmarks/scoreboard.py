@@ -116,6 +116,8 @@ def fitted(rows: Iterable[Row]) -> Calibration:
         if row["truth"] != UNKNOWN
         for part, one in row["evidence"].items()
         if part != BALL and one["lead"] >= LEAD
+        # a race beside one that is named has a lead of another kind
+        if part == row["answer"] or row["answer"] not in (OUTER, INNER)
     ]
     swing = np.array([pair[0] for pair in pairs])
     own = np.array([pair[1] for pair in pairs], dtype=float)

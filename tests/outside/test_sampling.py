@@ -124,6 +124,7 @@ def test_spectra_end_where_they_are_known() -> None:
 
 @witness(
     "function: orbit",
+    "function: speed_run",
     "chart: orbits",
     by="SciPy's DOP853, settled",
     compared="levels below 5 kHz [dB]",

@@ -510,7 +510,7 @@ SCRIPT = f"""
 import sys
 import numpy as np
 from bearingcore import presets
-from bearingcore.sweep import Settings, sweep
+from bearingcore.model.sweeps import Settings, sweep
 if __name__ == "__main__":
     sweep(
         presets["fan-rig"],
@@ -574,7 +574,7 @@ def test_a_worker_of_another_version_is_refused(monkeypatch: pytest.MonkeyPatch)
 _WITHOUT = """
 import sys
 from bearingcore import presets, equilibrium
-from bearingcore.sweep import sweep
+from bearingcore.model.sweeps import sweep
 for name in ("xarray", "dask", "distributed", "zarr", "pandas"):
     assert name not in sys.modules, name
     sys.modules[name] = None

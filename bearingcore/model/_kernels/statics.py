@@ -6,6 +6,15 @@ import math
 
 import numpy as np
 
+from bearingcore.model._kernels.codes import (
+    BEYOND,
+    CONVERGED,
+    FREE_DIRECTION,
+    NOT_CARRIED,
+    NOT_CONVERGED,
+    NOTHING_TOUCHES,
+    OPEN,
+)
 from bearingcore.model._kernels.compiling import called, compiled, inlined
 from bearingcore.model._kernels.contact import (
     carried,
@@ -27,18 +36,6 @@ from bearingcore.model._kernels.structs import (
     Path,
     Place,
 )
-
-CONVERGED, NOTHING_TOUCHES, FREE_DIRECTION, NOT_CARRIED, NOT_CONVERGED = 0, 1, 2, 3, 4
-"""Statuses of a cage angle; their sentences are in `equilibrium`."""
-
-OPEN, REFUSED = -1, 5
-"""Further statuses of a map's point: not solved yet; no such defects."""
-
-TOO_MANY = 6
-"""Status of all cage angles where there are more of them than were to be solved."""
-
-BEYOND = 7
-"""Status of a balance of loads that only linear formulas have: see `Contacts.room`."""
 
 # A residual |∂V/∂q| below this part of the load ends the iteration; one that rounding keeps above
 # it is still taken below the second. The third is the least pivot, relative to the greatest

@@ -246,14 +246,6 @@ def test_the_status_says_what_is_under_way_until_it_is_done() -> None:
     assert words() == "Reading the signal"
 
 
-def test_a_report_that_is_out_of_date_is_refused_in_a_sentence() -> None:
-    halves = Halves()
-    halves.session.draw = lambda: None  # type: ignore[method-assign]
-    halves.diagnosis.measurement.measured = simulated(MOTOR, 20.0, 1)
-    halves.explorer.change_links({"report": "http://localhost", "measured": True})
-    assert halves.explorer.bookmarks.state()["said"]["words"] == f"No report: {NOT_YET}"
-
-
 def test_frequencies_in_hertz_need_a_speed_and_a_wrong_name_says_so() -> None:
     made = brought("silent.csv", silent())
     answer(made, bearing="frequencies", bpfo="107.3")

@@ -28,9 +28,8 @@ from bearing_explorer.explorer.state.address import (
 from bearing_explorer.explorer.state.difference import distinct_name
 from bearing_explorer.explorer.state.field_values import CAGE_ANGLE
 from bearing_explorer.explorer.state.history import History
-from bearing_explorer.explorer.state.references import Reference, scene_line
+from bearing_explorer.explorer.state.references import MOST_COMPARED, Reference, scene_line
 from bearing_explorer.explorer.state.scene_editor import LONGEST_NAME, SceneEditor, Snapshot
-from bearing_explorer.kit.plots.compared_curves import MOST_COMPARED
 from bearing_explorer.kit.sentences import one_line, sentence_of
 from bearingcore import Scene
 from bearingcore.common import LARGEST_TEXT

@@ -237,7 +237,7 @@ class JobView(View[C], Generic[C, Found, E]):
         self.job.show(state)
 
     def scene_drawn(self, results: C) -> Scene:
-        return results.scene if self._found_for is None else self._found_for[1]
+        return super().scene_drawn(results) if self._found_for is None else self._found_for[1]
 
     def choices(self) -> dict[str, Any]:
         return {} if self._found_for is None else dict(self._found_for[0])

@@ -26,6 +26,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.model._kernels.balls.structs import INNER, OUTER, Races
+from bearingcore.model._kernels.codes import (
+    CONVERGED,
+    FREE_DIRECTION,
+    NOT_CARRIED,
+    NOT_CONVERGED,
+    NOTHING_TOUCHES,
+)
 from bearingcore.model._kernels.compiling import called, compiled, inlined
 from bearingcore.model._kernels.contact import (
     components,
@@ -37,12 +44,7 @@ from bearingcore.model._kernels.contact import (
 )
 from bearingcore.model._kernels.path import lay_out_drops, place_balls
 from bearingcore.model._kernels.statics import (
-    CONVERGED,
-    FREE_DIRECTION,
     NO_PIVOT,
-    NOT_CARRIED,
-    NOT_CONVERGED,
-    NOTHING_TOUCHES,
     RESIDUAL_AIM,
     RESIDUAL_LIMIT,
     ROUNDING,

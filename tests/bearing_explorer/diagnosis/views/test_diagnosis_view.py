@@ -22,10 +22,8 @@ from bearing_explorer.diagnosis.views.part_lines import (
     window,
 )
 from bearing_explorer.diagnosis.widgets.part_panel import evidence_html
-from bearing_explorer.explorer.messages import LessonChange
-from bearing_explorer.kit.messages import take
 from bearing_explorer.kit.serve.packed_source import PackedSource
-from bearing_explorer.page import SECTIONS, Halves
+from bearing_explorer.page import SECTIONS
 
 from bearingcore import Diagnosis, Recording, presets
 from tests.helpers.measuring import at, measuring
@@ -283,19 +281,3 @@ def test_the_part_does_not_depend_on_the_unit_and_it_is_said_where_it_is_not_kno
 
 
 # -- the tab ---------------------------------------------------------------------------------------
-
-
-def test_a_button_of_a_lesson_simulates_the_scene_that_it_sets():
-    halves = Halves()
-    explorer = halves.explorer
-    halves.session.draw = lambda: None  # type: ignore[method-assign]
-    wishes = []
-    halves.diagnosis.measurement.simulate = lambda *wish: wishes.append(  # type: ignore[method-assign]
-        (wish, explorer.scene.defects[0].race)
-    )
-    wish = {"noise": "20"}
-    change = explorer.change_lesson
-    for junk in ("now", None, 3):
-        take(change, LessonChange, {"mark": 1, "simulate": junk})
-    take(change, LessonChange, {"mark": 2, "choose": {"race": "inner"}, "simulate": wish})
-    assert wishes == [(("20",), "inner")]

@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from bearing_explorer.explorer.plots import compared_curves
 from bearing_explorer.explorer.plots.spectra import levels_of_compared
 from bearing_explorer.explorer.results import motions
 from bearing_explorer.explorer.results.motions import MOST_STEPS, SHORTEST
@@ -14,7 +15,6 @@ from bearing_explorer.explorer.views.orbit import SteadyOrbit
 from bearing_explorer.explorer.views.overview.spectrum import OverviewSpectrum
 from bearing_explorer.explorer.views.vibration_time import VibrationInTime
 from bearing_explorer.kit.compute.cache import Overtaken
-from bearing_explorer.kit.plots import compared_curves
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import View
 

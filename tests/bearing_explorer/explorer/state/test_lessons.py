@@ -13,7 +13,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 from bearing_explorer.__main__ import options
-from bearing_explorer.diagnosis.simulated import simulated
 from bearing_explorer.explorer.results.ball_mass import BallMass
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state import lessons
@@ -40,7 +39,6 @@ from bearingcore import (
     Equilibrium,
     Scene,
     Spectrum,
-    diagnose,
     equilibrium,
     limits,
     orbit,
@@ -546,32 +544,6 @@ def test_what_lessons_say_in_words() -> None:
     nothing = equilibrium(FAN.replace(fy=0.0), [0.0])
     assert not nothing.converged.any()
     assert newton(Balls(HEALTHY, 0.0), np.zeros(5)).failure == "singular matrix"
-
-
-def test_the_signals_of_the_lesson_on_parts_are_told_apart() -> None:
-    """What its buttons simulate is diagnosed as its answer says, sidebands and all."""
-    lesson = lesson_of(next(path for path in FILES if path.stem.startswith("10")))
-    html = "".join(part.html for part in lesson.parts[:-1])
-    buttons = ElementTree.fromstring(f"<div>{html}</div>").iter("button")
-    every = [json.loads(button.attrib["data-ask"]) for button in buttons]
-    asked = [message for message in every if "simulate" in message]
-    assert {message["show"] for message in every} == {"diagnosis"}
-    found = {}
-    for message in asked:
-        editor = SceneEditor("liew-lim")
-        lesson.begin(editor)
-        editor.choose(message["choose"])
-        editor.set(message["typed"])
-        assert message["simulate"] == {"noise": "20"}
-        made = simulated(editor.scene, 20.0, 1)
-        found[made.true_part] = diagnose(made.recording, MOTOR.bearing, made.shaft_speed)
-    assert {truth: one.fault for truth, one in found.items()} == {
-        "outer race": "outer race", "inner race": "inner race", "none": "none seen",
-    }  # fmt: skip
-    inner, outer = found["inner race"].of("inner race"), found["outer race"].of("outer race")
-    assert inner.sideband_spacing == pytest.approx(29.95, abs=0.1)
-    assert inner.sidebands[:3].mean() > 6.0
-    assert outer.sidebands[:3].mean() < 3.0
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)

@@ -80,7 +80,7 @@ def test_balls_with_mass_are_a_reference_of_the_spectrum(found: BallMass) -> Non
     own, other = sources["spectrum_wide_lines"], sources["spectrum_wide_grey"]
     high = own["frequency"] > 9e3
     assert np.median(other["y"][high] - own["y"][high]) > 10.0, "mass adds above 8 kHz"
-    assert "with the mass of its balls" in spectra.caption(results.grey.name)
+    assert "with the mass of its balls" in spectra.caption(results)
     assert any(name.startswith("other_balls_") for name in spectra.table(results))
 
 

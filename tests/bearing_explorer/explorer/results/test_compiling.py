@@ -7,7 +7,8 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 from bearing_explorer.default_results import TABS, draw_all
-from bearing_explorer.kit.compute import cache, compiling, default_results
+from bearing_explorer.explorer.results import default_results
+from bearing_explorer.kit.compute import cache, compiling
 from bearing_explorer.kit.compute.compiling import Compilation, StillCompiling
 from bearing_explorer.page import SECTIONS
 
@@ -102,7 +103,7 @@ def test_pictures_of_the_default_scene_need_no_kernel(compilation: Compilation) 
     pictures = draw_all()
     assert len(pictures) == 2 * len(TABS)
     for picture in pictures:
-        assert picture.limits is not None
+        assert picture.warnings is not None
         for drawing in picture.drawings:
             assert drawing.data is not None, f"{drawing.view.name}: {drawing.sentence}"
         assert picture.status["mood"] == "good", picture.status

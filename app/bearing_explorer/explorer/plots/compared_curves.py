@@ -8,6 +8,7 @@ from typing import TypeVar
 import numpy as np
 from bokeh.models import GlyphRenderer, Legend, LegendItem, Plot
 
+from bearing_explorer.explorer.state.references import MOST_COMPARED
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.layers import Glyph, curve, strips
 
@@ -15,10 +16,6 @@ Other = TypeVar("Other")
 
 COLORS = ("#009E73", "#AA3377", "#661100", "#56B4E9")
 DASHES: tuple[tuple[int, ...], ...] = ((8, 3), (3, 2), (9, 3, 2, 3), (14, 4))
-MOST_COMPARED = len(COLORS)
-"""Greatest number of compared scenes: more colours are hard to distinguish."""
-WITHOUT_DEFECT = "the bearing without its defect"
-"""The scene that is drawn in grey."""
 
 THIN = "thin: x, horizontal"
 """Tag of a figure that has two curves a scene, with the horizontal one thin; its key says so."""

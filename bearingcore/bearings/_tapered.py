@@ -52,10 +52,10 @@ def tapered(
     contact_angle: float,
     radial_clearance: float = 0.0,
 ) -> Bearing:
-    """One row of tapered rollers of steel; `Bearing.paired` makes two of it.
+    """Make a row of tapered rollers of steel; `Bearing.paired` makes two of it.
 
-    Diameters [m] are those of the middles of the rollers, the angle [rad] is that of the outer
-    race. See `bearingcore.bearings._tapered` for what is left out.
+    Diameters [m] are at the middles of the rollers, the angle [rad] is that of the outer race.
+    See `bearingcore.bearings._tapered` for the limitations.
 
     Raises
     ------

@@ -210,10 +210,10 @@ def tables(rows: Sequence[Row]) -> dict[str, str]:
             *by_machine,
         )),
         "sure": f"Of {stated(rows)[0]} answers stated with 90 % or more, {stated(rows)[1]} are "
-        f"right; judged without the machine they are of, {stated(again)[1]} of {stated(again)[0]}. "
-        f"So many records show that {low:.1f} to {high:.0f} % of such answers are right (exact "
-        f"two-sided 95 % interval). Only {len(healthy)} records are of healthy bearings, of which "
-        f"{cleared} was called so: false alarms are hardly tested.",
+        f"right; scored with that machine left out, {stated(again)[1]} of {stated(again)[0]}. "
+        f"With so many records the share of right answers is {low:.1f} to {high:.0f} % (exact "
+        f"two-sided 95 % interval). Only {len(healthy)} records are of healthy bearings; {cleared} "
+        f"of them was called healthy. False alarms are hardly tested.",
         "graded": f"Of the {len(graded)} records here that are graded Y1 or Y2, {clear} are right.",
         "wrong": f"Wrong: {', '.join(wrong) or 'none'}.",
         "extents": _extents(rows),

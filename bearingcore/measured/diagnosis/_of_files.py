@@ -51,7 +51,7 @@ class FolderDiagnosis:
         return "\n".join(lines)
 
     def table(self) -> ResultTable:
-        """A row a file: part, probability, shaft speed and the answer in words."""
+        """A row for each file: part, probability, shaft speed and the answer in words."""
         answers = self.answers
         faults = ["not read" if one is None else one.fault for one in answers]
         odds = [math.nan if one is None else one.probability for one in answers]
@@ -91,7 +91,7 @@ def diagnose(
     sensitivity: float | None = None,
     **more: Any,
 ) -> Diagnosis | FolderDiagnosis:
-    """Diagnosis of the damaged part of a bearing from a signal, a file, or a folder of files.
+    """Diagnose the damaged part of a bearing from a signal, a file, or a folder of files.
 
     Parameters
     ----------
@@ -99,32 +99,34 @@ def diagnose(
         acceleration of the housing, one direction or two; or the path of a file that `read_table`
         reads, or of a folder of such files; documents and pictures beside them are left out.
     bearing
-        its geometry, or its designation or name in `catalogue()`; only balls, diameters and contact
-        angle count. None: that of the file's collection where it is a known one; else it is
-        unknown, no part is named, and the status says so.
+        its geometry, its designation, or its name in `catalogue()`; only balls, diameters and
+        contact angle count. None: the bearing of the public collection that the file belongs to;
+        if there is none, no part is named and the status says so.
     shaft_speed
-        [rad/s], good to `slip`; a pair (from, to) if it is rough; None: what recording or file say,
-        else it is looked for between 300 and 6000 turns a minute.
+        [rad/s], accurate to `slip`; a pair (from, to) if it is rough; None: the speed stated
+        by recording or file, or else a search between 300 and 6000 turns a minute.
     columns, directions, unit, sample_rate, sensitivity
-        what a file does not say, or says wrongly: see `Table.recording`. Without a unit, or
-        in volts without a sensitivity, the numbers are taken as they are: their scale does not
-        count here.
+        facts that the file lacks or states wrongly: see `Table.recording`. Without a unit, or in
+        volts without a sensitivity, the numbers are used as they are; their scale does not
+        matter here.
     **more
-        `slip` (0.02): by how much balls may pass faster or slower than the shaft speed says, as a
-        fraction. `most_samples` (20,000,000): of all directions that may be analysed; where there
-        are more nothing is begun, and the status says so. `speed_source`, `bearing_source`: where
-        they are from, "given", "from the file" or "assumed", perhaps with words behind a colon.
+        `slip` (0.02): largest relative difference between the true passing rate of the balls and
+        that by the shaft speed. `most_samples` (20,000,000): limit on the samples of all
+        directions; a longer signal is not analysed, and the status says so. `speed_source`,
+        `bearing_source`: "given", "from the file" or "assumed", with more words after a colon.
 
     Returns
     -------
     Diagnosis or FolderDiagnosis
-        of a folder the second, a row a file; a file that cannot be read says why in its row.
+        a `FolderDiagnosis` for a folder, with a row for each file; the row of a file that cannot be
+        read has the reason.
 
     Raises
     ------
     ValueError
-        for a speed, slip or source that cannot be, rows that are not alike, a path that leads
-        nowhere, and a file that cannot be read or needs an answer: of which columns, at which rate.
+        for an impossible speed, slip or source, for bearings with unlike rows, for a path that does
+        not exist, and for a file that cannot be read or lacks columns or a rate; the error names
+        the argument to pass.
     """
     choices: dict[str, Any] = {"columns": columns, "directions": directions, "unit": unit}
     choices |= {"sample_rate": sample_rate, "sensitivity": sensitivity}

@@ -102,7 +102,7 @@ class Measurements:
     Attributes
     ----------
     machine
-        what it was measured on.
+        the machine on which it was measured.
     experiments
         by their names in EXPERIMENTS.
     stability
@@ -110,7 +110,7 @@ class Measurements:
     orbits
         the periodic motion over the shaft speed, if measured.
     refused
-        why an experiment cannot be done with this scene, by its name.
+        the reason why an experiment is impossible with this scene, by the name of the experiment.
     """
 
     machine: Machine
@@ -177,21 +177,22 @@ def measure(
     Parameters
     ----------
     scene
-        at hand.
+        the scene to measure.
     names
-        out of MEASURED.
+        names of experiments, out of MEASURED.
     c_loop
-        for `Machine`.
+        time of the plain C loop, for `Machine`.
     slow
-        whether integrators that take longer than all others together are among them.
+        True includes integrators that take longer than all others together.
     progress
-        called with the part done, 0 to 1, and what is being done.
+        called with the part done, 0 to 1, and the name of the current step.
     cancelled
-        called before each point, and within references; True ends with what there is.
+        called before each point, and within references; if it returns True, the results so far are
+        returned.
     shown
-        called with what there is, after each point.
+        called with the results so far, after each point.
     words
-        of a refusal, for `Measurements.refused`.
+        function that words a refusal, for `Measurements.refused`.
     """
     scene = scene.replace(balls=MASSLESS)
     found = Measurements(this_machine(c_loop))

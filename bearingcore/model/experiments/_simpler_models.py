@@ -108,7 +108,7 @@ class Alternatives:
     right_hand_side_calls: int
 
     def table(self) -> ResultTable:
-        """A row a model: its error in the spectrum or in the curves, and the time of both."""
+        """A row for each model: error in the spectrum or the curves, and the time of both."""
         spectral = [row.quantity == SPECTRUM for row in self.rows]
         errors = [row.error for row in self.rows]
         decibels = [error if of else math.nan for error, of in zip(errors, spectral, strict=True)]
@@ -135,9 +135,9 @@ def alternatives(scene: Scene, cancelled: Callable[[], bool] | None = None) -> A
     Parameters
     ----------
     scene
-        whose own model is the one that the others are compared with.
+        the scene; the other models are compared with its own.
     cancelled
-        called before each row; True ends with those that are there.
+        called before each row; if it returns True, the rows so far are returned.
     """
     measure = _Measure(scene)
     rows: list[Alternative] = []

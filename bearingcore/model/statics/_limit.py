@@ -26,13 +26,13 @@ class Limit:
     Attributes
     ----------
     name
-        what is looked at.
+        the quantity that is checked.
     value, limit [unit]
-        value is NaN where it is not known.
+        `value` is NaN if it is not known.
     unit
         SI; empty for a ratio or a count.
     crossed
-        True where the model no longer holds. False where the value is not known.
+        True if the model no longer holds; False if the value is not known.
     sentence
         the same in words, with the number.
     """

@@ -116,38 +116,38 @@ def limits(
     shoulder_height: float | None = None,
     film: Film | None = None,
 ) -> tuple[Limit, ...]:
-    """Limits of the model for `scene`, each with its number, its limit and a sentence.
+    """Check the limits of the model for `scene`, each with its number, its limit and a sentence.
 
     Parameters
     ----------
     scene
-        what to look at.
+        the scene to check.
     state
-        its static equilibrium at cage angles of your own; None takes `state_of_limits`, so that
-        one scene has one verdict. Loads and angles are the greatest over its angles.
+        its static equilibrium at chosen cage angles; None takes `state_of_limits`, so that equal
+        scenes have equal verdicts. Loads and angles are the greatest over the angles.
     dynamic_load
-        greatest load of a ball [N] in a simulated motion, e.g. of `Motion.ball_loads`; None where
-        none was simulated: what depends on it is then not known.
+        greatest load of a ball [N] in a simulated motion, e.g. of `Motion.ball_loads`; None if no
+        motion was simulated: limits that depend on it are then not known.
     step_rate
-        steps a second [Hz] of a simulated motion, e.g. `Motion.step_rate`; None leaves them out.
+        step rate [Hz] of a simulated motion, e.g. `Motion.step_rate`; None leaves its limit out.
     shoulder_height
-        of the grooves, over their bottom, in ball diameters, above 0 and at most 0.5; None:
-        `usual_shoulder_height`.
+        height of the shoulders over the bottom of the groove, in ball diameters, above 0 and at
+        most 0.5; None: `usual_shoulder_height`.
     film
-        of the scene's lubricant, from `film` with a viscosity and roughnesses; None where the oil
-        is not given: whether the surfaces touch is then not known.
+        the film of the scene's lubricant, from `film`; None if no oil is given: contact of the
+        surfaces is then not known.
 
     Returns
     -------
     tuple of Limit
         in the order of the list at the head of the module. Loads in motion and the film appear only
-        where the shaft turns; steps only with a step rate, a defect and a turning shaft.
+        if the shaft turns; steps only with a step rate, a defect and a turning shaft.
 
     Raises
     ------
     ValueError
-        for a shoulder height, step rate or load that is not possible, or a `state` or `film` of
-        another scene.
+        for an impossible shoulder height, step rate or load, or a `state` or `film` of another
+        scene.
     """
     checks.instance("scene", scene, Scene)
     if shoulder_height is not None:

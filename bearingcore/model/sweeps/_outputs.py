@@ -253,19 +253,20 @@ class Settings:
     Parameters
     ----------
     cage_angles
-        how many in a period, ends included. With an inner-race defect a quarter as many to a ball
-        spacing all around, at each place where a ball meets an edge; then least and greatest are
-        looked for between them too. Else they are those at these angles: where few balls carry,
-        as of a light or tilting load, stiffness may dip or rise by some per cent more in between.
+        number of cage angles in a period, ends included. With an inner-race defect, a quarter as
+        many per ball spacing all around, at each place where a ball meets an edge; least and
+        greatest values are then searched between the angles too. Otherwise they are those at the
+        angles: if few balls carry, as under a light or tilting load, stiffness may vary by some per
+        cent more between the angles.
     duration
-        [s] of simulated motions, whose first half is left out as transient, and of records.
+        [s] of simulated motions and records; the first half of a motion is left out as transient.
     sample_rate
         [Hz] of simulated motions and records.
     dynamic_load_rating
-        C_r [N] that lives are computed with; None: that of each bearing, of the catalogue where its
-        number is known, else by ISO 281.
+        C_r [N] for lives; None: the rating of each bearing, by the catalogue if its number is
+        known, else by ISO 281.
     band_low, band_high
-        [Hz] of the band whose share of the power that mass adds is asked for.
+        [Hz] of the band for the share of the power that mass adds.
     """
 
     cage_angles: int = 121

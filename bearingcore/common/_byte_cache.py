@@ -41,7 +41,7 @@ def lru_cache_by_bytes(
         return hashkey(key(*arguments, **named)) if key else hashkey(*arguments, **named)
 
     def decorate(function: Callable[P, Result]) -> Callable[P, Result]:
-        kept: LRUCache[Hashable, tuple[Result, int]] = LRUCache(most_bytes, lambda found: found[1])
+        kept: LRUCache[Hashable, tuple[Result, int]] = LRUCache(most_bytes, lambda entry: entry[1])
 
         @cached(kept, of, Lock())
         def sized(*arguments: P.args, **named: P.kwargs) -> tuple[Result, int]:

@@ -60,12 +60,12 @@ def density_difference(found: Spectrum, expected: Spectrum, band: float) -> floa
     return _greatest(found.density[:known], true.density, lines_that_count(true, band))
 
 
-def _greatest(found: Array, expected: Array, counts: NDArray[np.bool_]) -> float:
+def _greatest(density: Array, expected: Array, counts: NDArray[np.bool_]) -> float:
     """Greatest difference [dB] where it counts: infinite where there is nothing."""
     if not counts.any():
         return math.nan
     with np.errstate(divide="ignore"):
-        return float(np.abs(10.0 * np.log10(found[counts] / expected[counts])).max())
+        return float(np.abs(10.0 * np.log10(density[counts] / expected[counts])).max())
 
 
 def lines_that_count(found: Spectrum, band: float) -> NDArray[np.bool_]:

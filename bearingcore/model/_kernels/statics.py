@@ -292,11 +292,11 @@ def pressed_load(q, place, contacts):
 @inlined
 def stiffest_contact(contacts):
     """Number of the contact with the greatest load-deflection factor."""
-    found = 0
+    stiffest = 0
     for j in range(contacts.factor.size):
-        if contacts.factor[j] > contacts.factor[found]:
-            found = j
-    return found
+        if contacts.factor[j] > contacts.factor[stiffest]:
+            stiffest = j
+    return stiffest
 
 
 @inlined
@@ -396,7 +396,7 @@ def descend(q, place, contacts, load, work, most):
         step = 1.0
         short = 0.0
         long = math.inf
-        found = False
+        accepted = False
         for _ in range(60):
             for i in active:
                 trial[i] = q[i] + step * p[i] if iteration >= 0 else q[i]
@@ -405,7 +405,7 @@ def descend(q, place, contacts, load, work, most):
             )
             evaluations += 1
             if iteration < 0:
-                found = True
+                accepted = True
                 break
             slope1 = 0.0
             for i in active:
@@ -418,7 +418,7 @@ def descend(q, place, contacts, load, work, most):
                 or (slope1 <= 0.9 * abs(slope) and 1e-14 * max(scale, scale1) >= V1 - V)
             ):
                 if slope1 >= 0.9 * slope or long == math.inf or long < 1.5 * short:
-                    found = True
+                    accepted = True
                     break
                 # V still falls as steeply as at the start: between here and the step that was
                 # too long there is a better one
@@ -430,7 +430,7 @@ def descend(q, place, contacts, load, work, most):
                 step *= min(max(secant, 0.05), 0.6)
                 if step <= short:
                     step = math.sqrt(short * long)
-        if not found:
+        if not accepted:
             if residual > limit:
                 return now, NOT_CONVERGED, residual, iteration, evaluations
             stuck = True

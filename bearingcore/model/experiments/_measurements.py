@@ -167,7 +167,7 @@ def measure(
     slow: bool = True,
     progress: Callable[[float, str], object] = lambda part, words: None,
     cancelled: Callable[[], bool] = lambda: False,
-    shown: Callable[[Measurements], object] = lambda found: None,
+    shown: Callable[[Measurements], object] = lambda results: None,
     words: Callable[[ValueError], str] = str,
 ) -> Measurements:
     """Measure a scene by experiments, one after the other.
@@ -194,7 +194,7 @@ def measure(
         of a refusal, for `Measurements.refused`.
     """
     scene = scene.replace(balls=MASSLESS)
-    found = Measurements(this_machine(c_loop))
+    results = Measurements(this_machine(c_loop))
     for k, name in enumerate(names):
         if cancelled():
             break
@@ -202,22 +202,22 @@ def measure(
         def report(part: float, words: str, begin: int = k) -> None:
             progress((begin + part) / len(names), words)
 
-        def show(one: Experiment, name: str = name, before: Measurements = found) -> None:
+        def show(one: Experiment, name: str = name, before: Measurements = results) -> None:
             shown(replace(before, experiments={**before.experiments, name: one}))
 
         watch = Watch(report, cancelled, show)
         try:
             if name == STABILITY:
                 chart = stability_chart(scene, duration=0.1, watch=watch)
-                found = replace(found, stability=chart)
+                results = replace(results, stability=chart)
             elif name == ORBITS:
-                found = replace(found, orbits=orbits_over_speed(scene, watch))
+                results = replace(results, orbits=orbits_over_speed(scene, watch))
             else:
                 one = EXPERIMENTS[name](scene, watch, slow)
-                found = replace(found, experiments={**found.experiments, name: one})
+                results = replace(results, experiments={**results.experiments, name: one})
         except CancelledError:
             break
         except ValueError as refused:
-            found = replace(found, refused={**found.refused, name: words(refused)})
-        shown(found)
-    return found
+            results = replace(results, refused={**results.refused, name: words(refused)})
+        shown(results)
+    return results

@@ -44,9 +44,9 @@ the diagnosis, which are listed."""
 def functions_of_signals() -> Iterator[str]:
     """Public functions of `bearingcore.measured.signals`, each where it is defined."""
     for module in pkgutil.iter_modules(signals.__path__):
-        found = importlib.import_module(f"bearingcore.measured.signals.{module.name}")
-        for name, what in vars(found).items():
-            own = inspect.isfunction(what) and what.__module__ == found.__name__
+        package = importlib.import_module(f"bearingcore.measured.signals.{module.name}")
+        for name, what in vars(package).items():
+            own = inspect.isfunction(what) and what.__module__ == package.__name__
             if own and not name.startswith("_") and name not in PARTS:
                 yield name
 
@@ -54,9 +54,9 @@ def functions_of_signals() -> Iterator[str]:
 def charts() -> list[str]:
     """Experiments and orbits in the charts of speed against accuracy that are shipped."""
     shipped = [json.loads(file.read_text()) for file in (ROOT / "assets/accuracy").glob("*.json")]
-    found = {name for chart in shipped for name in chart["experiments"]}
-    found |= {name for chart in shipped for name in ("orbits", "stability") if chart[name]}
-    return sorted(found)
+    names = {name for chart in shipped for name in chart["experiments"]}
+    names |= {name for chart in shipped for name in ("orbits", "stability") if chart[name]}
+    return sorted(names)
 
 
 def capabilities() -> dict[str, list[str]]:

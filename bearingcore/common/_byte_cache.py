@@ -49,9 +49,9 @@ def lru_cache_by_bytes(
             return result, OVERHEAD + size(result, *arguments, **named)
 
         @wraps(function)
-        def found(*arguments: P.args, **named: P.kwargs) -> Result:
+        def cached_call(*arguments: P.args, **named: P.kwargs) -> Result:
             return sized(*arguments, **named)[0]
 
-        return found
+        return cached_call
 
     return decorate

@@ -266,12 +266,12 @@ def measure_extent(
     if edge is not None:
         checks.choice("edge", edge, EDGES)
     if race is None or not isinstance(shaft_speed, int | float):
-        found = diagnosis or diagnose(recording, bearing, shaft_speed)
-        named = {OUTER: "outer", INNER: "inner"}.get(found.fault)
+        answer = diagnosis or diagnose(recording, bearing, shaft_speed)
+        named = {OUTER: "outer", INNER: "inner"}.get(answer.fault)
         race = race or named
-        if race is None or not found.evidence:
+        if race is None or not answer.evidence:
             return MeasuredExtent(race or "", ball_spacing=spacing)
-        nominal = found.of(f"{race} race").frequency
+        nominal = answer.of(f"{race} race").frequency
         slip = SLIP_OF_LINES
     else:
         speed = checks.real_number("shaft_speed", shaft_speed, above=0.0, unit="rad/s")
@@ -307,7 +307,7 @@ def _answer(knocks: Knocks, bearing: Bearing, race: str, offsets: Offsets | None
     least, offset, most = (
         math.nan if offsets is None else offsets.quantile(share) for share in (0.025, 0.5, 0.975)
     )
-    found = MeasuredExtent(
+    answer = MeasuredExtent(
         race,
         separation=spacing * knocks.separation,
         deviation=spacing * knocks.deviation,
@@ -324,10 +324,10 @@ def _answer(knocks: Knocks, bearing: Bearing, race: str, offsets: Offsets | None
     )
     bound = spacing * knocks.hidden + most
     if bound < LONGEST_BOUND * spacing:
-        return replace(found, low=0.0, high=bound, status=ExtentStatus.SHORTER)
-    if not found.measured:
-        return found
-    extent, low, high = found.alternatives[0]
+        return replace(answer, low=0.0, high=bound, status=ExtentStatus.SHORTER)
+    if not answer.measured:
+        return answer
+    extent, low, high = answer.alternatives[0]
     radius = bearing.outer_raceway_radius if race == "outer" else bearing.inner_raceway_radius
     length = extent * radius
-    return replace(found, extent=extent, low=low, high=high, length=length)
+    return replace(answer, extent=extent, low=low, high=high, length=length)

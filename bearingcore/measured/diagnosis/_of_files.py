@@ -152,9 +152,9 @@ def _of_folder(
     sentences = []
     for one in files:
         try:
-            found = _of_file(one, bearing, shaft_speed, choices, more)
-            answers.append(found)
-            sentences.append(found.sentence)
+            answer = _of_file(one, bearing, shaft_speed, choices, more)
+            answers.append(answer)
+            sentences.append(answer.sentence)
         except ValueError as error:
             answers.append(None)
             sentences.append(str(error))

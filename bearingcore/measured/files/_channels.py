@@ -168,18 +168,18 @@ def places_in(name: str) -> list[str]:
     (['drive end', 'non-drive end'], ['non-drive end', 'bearing 1'])
     """
     squeezed, words = re.sub(r"[\W_]+", "", name.lower()), words_of(name)
-    found = []
+    places = []
     for phrase, place in _PHRASES:
         if phrase in squeezed:
-            found.append(place)
+            places.append(place)
             squeezed = squeezed.replace(phrase, " ")
-    found += [place for word, place in _PLACES.items() if word in words]
+    places += [place for word, place in _PLACES.items() if word in words]
     numbered = re.findall(
         r"(?:bearing|lager|brg)[ _-]?(\d+)|(?<![a-z0-9])b(\d)(?![a-z0-9])", name.lower()
     )
-    found += [f"bearing {one or other}" for one, other in numbered]
-    found += re.findall(r"(?<![a-z])point \d+", name.lower())
-    return list(dict.fromkeys(found))
+    places += [f"bearing {one or other}" for one, other in numbered]
+    places += re.findall(r"(?<![a-z])point \d+", name.lower())
+    return list(dict.fromkeys(places))
 
 
 def words_of(heading: str) -> set[str]:

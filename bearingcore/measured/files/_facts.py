@@ -176,14 +176,14 @@ def _in_line(line: str) -> Iterator[Named]:
     several = len(cells) > 2 and re.match(r"[^\W\d]", cells[0]) and _number(cells[1]) is not None
     # of each channel the same, or the settings of an instrument beside its numbers
     if several and (len({cell for cell in cells[1:] if cell}) == 1 or not cells[2]):
-        found: list[tuple[str, str, str | None]] = [(cells[0], cells[1], None)]
+        named: list[tuple[str, str, str | None]] = [(cells[0], cells[1], None)]
     elif match is not None:
-        found = [(match[1], match[2], match[3])]
+        named = [(match[1], match[2], match[3])]
     elif several:
-        found = []
+        named = []
     else:
-        found = [(one[1], one[2], one[3]) for one in _SEVERAL.finditer(line)]
-    for name, text, unit in found or _without_marks(line):
+        named = [(one[1], one[2], one[3]) for one in _SEVERAL.finditer(line)]
+    for name, text, unit in named or _without_marks(line):
         value = _number(text)
         if value is not None:
             unit = unit_named(unit) if unit else unit_in(name)
@@ -246,7 +246,7 @@ _OTHER_RATE = re.compile(
 
 def sample_rate_in(named: Sequence[Named], file_name: str) -> Finding[float] | None:
     """[Hz]"""
-    found: list[Finding[float]] = []
+    rates: list[Finding[float]] = []
     in_hz = False
     for one in named:
         key, value = _rate_key(one.name), one.value
@@ -255,13 +255,13 @@ def sample_rate_in(named: Sequence[Named], file_name: str) -> Finding[float] | N
         if key in _RATES:
             rate = value * (1e3 if one.unit == "kHz" else 1.0)
             in_hz |= one.unit == "Hz" and not one.thousands
-            found.append(Finding(rate, f"“{one.name}” in the file"))
+            rates.append(Finding(rate, f"“{one.name}” in the file"))
         if key in _INTERVALS and value * TIMES.get(one.unit or "s", 1.0) < 1.0:
             step = value * TIMES.get(one.unit or "s", 1.0)
-            found.append(Finding(1.0 / step, f"“{one.name}” in the file"))
-    if found:
-        first = found[0]
-        if any(abs(one.value / first.value - 1.0) > 0.005 for one in found):
+            rates.append(Finding(1.0 / step, f"“{one.name}” in the file"))
+    if rates:
+        first = rates[0]
+        if any(abs(one.value / first.value - 1.0) > 0.005 for one in rates):
             return _doubted(first)
         if LEAST_STATED <= first.value <= GREATEST_STATED:
             return first
@@ -293,18 +293,18 @@ _OTHER_SPEED = re.compile(r"(?i)max|min|limit|rated|nominal|nenn|range|critical|
 def shaft_speed_in(named: Sequence[Named], file_name: str) -> Finding[float] | None:
     """[rad/s]"""
     rated = bool({_key(one.name) for one in named} & (_RATES | _INTERVALS))
-    found = [speed for one in named if (speed := _speed_of(one, rated)) is not None]
+    speeds = [speed for one in named if (speed := _speed_of(one, rated)) is not None]
     match = re.search(
         r"(?:(?<![a-z0-9])|(?<=[a-z])(?=\d{3}))(\d+(?:\.\d+)?)[ _-]?rpm(?![a-z])", file_name.lower()
     )
     if match is not None and float(match[1]) > 0.0:
         words = f"“{match[0]}” in the file's name"
         turning = float(match[1]) * SPEEDS["rpm"]
-        found.append(Finding(turning, words, stated=False, strong=True, file_unit="rpm"))
-    if not found:
+        speeds.append(Finding(turning, words, stated=False, strong=True, file_unit="rpm"))
+    if not speeds:
         return None
-    first = next((one for one in found if one.stated), found[-1])
-    if any(one.taken and abs(one.value / first.value - 1.0) > 0.005 for one in found):
+    first = next((one for one in speeds if one.stated), speeds[-1])
+    if any(one.taken and abs(one.value / first.value - 1.0) > 0.005 for one in speeds):
         return _doubted(first)
     return first
 
@@ -364,14 +364,14 @@ _SENSITIVITY = re.compile(rf"(?i)({_NUMBER})\s*(mV|V)\s?(?:/|per)\s?(g\b|\(?m/?s
 
 def sensitivity_in(lines: Iterable[str]) -> Finding[float] | None:
     """[V/(m/s²)] where all lines that say one say the same."""
-    found: dict[float, str] = {}
+    values: dict[float, str] = {}
     for match in filter(None, map(_SENSITIVITY.search, lines)):
         per = STANDARD_GRAVITY if match[3].lower() == "g" else 1.0
         if value := _number(match[1]):
-            found[value * VOLTAGES["V" if match[2] in "Vv" else "mV"] / per] = (
+            values[value * VOLTAGES["V" if match[2] in "Vv" else "mV"] / per] = (
                 f"“{match[0]}” in the file"
             )
-    return Finding(*found.popitem()) if len(found) == 1 else None
+    return Finding(*values.popitem()) if len(values) == 1 else None
 
 
 _DESIGNATION = re.compile(
@@ -386,8 +386,8 @@ def designation_in(lines: Iterable[str]) -> Finding[str] | None:
 
     It is as the file has it: whether there is such a bearing is not looked at.
     """
-    found = {match[1]: match[0] for line in lines for match in _DESIGNATION.finditer(line)}
-    (text, words), *others = [*found.items()] or [("", "")]
+    names = {match[1]: match[0] for line in lines for match in _DESIGNATION.finditer(line)}
+    (text, words), *others = [*names.items()] or [("", "")]
     return Finding(text, f"“{words}” in the file") if text and not others else None
 
 

@@ -142,21 +142,21 @@ def _facts_in(sheet: Any) -> list[str]:
     return [f"{row[0]}: {' '.join(row[1:])}" for row in rows if len(row) > 1]
 
 
-def npy(content: bytes, found: Variables) -> None:
+def npy(content: bytes, variables: Variables) -> None:
     """The array of NumPy's `save`."""
     array = np.load(io.BytesIO(content), allow_pickle=False)
-    found.add("" if array.dtype.names else "array", array)
+    variables.add("" if array.dtype.names else "array", array)
 
 
-def npz(content: bytes, found: Variables) -> None:
+def npz(content: bytes, variables: Variables) -> None:
     """All arrays of NumPy's `savez`."""
     with np.load(io.BytesIO(content), allow_pickle=False) as arrays:
         for name in arrays.files:
             with suppress(ValueError):  # of Python's own objects, which are not unpacked
-                found.add(name, arrays[name])
+                variables.add(name, arrays[name])
 
 
-def data_frame(content: bytes, found: Variables) -> None:
+def data_frame(content: bytes, variables: Variables) -> None:
     """Columns of numbers, dates and durations of a data frame, and signals in its cells."""
     import pandas as pd
 
@@ -166,10 +166,10 @@ def data_frame(content: bytes, found: Variables) -> None:
         frame = pd.read_feather(io.BytesIO(content), use_threads=False)
     if not isinstance(frame.index, pd.RangeIndex):
         frame = frame.reset_index()
-    _columns(frame, found)
+    _columns(frame, variables)
 
 
-def cells(content: bytes, found: Variables) -> None:
+def cells(content: bytes, variables: Variables) -> None:
     """Columns of a text that has signals in its cells, each between brackets."""
     import pandas as pd
 
@@ -179,28 +179,28 @@ def cells(content: bytes, found: Variables) -> None:
     for name in frame.columns[(frame.iloc[0].astype(str).str.strip().str[:1] == "[").to_numpy()]:
         signals = [np.array(re.findall(r"[^\s,;\[\]]+", cell), float) for cell in frame[name]]
         frame[name] = pd.Series(signals, dtype=object)
-    _columns(frame, found)
+    _columns(frame, variables)
 
 
-def _columns(frame: Any, found: Variables) -> None:
+def _columns(frame: Any, variables: Variables) -> None:
     for name in frame.columns:
         values = frame[name]
         first = values.iloc[0] if len(values) else None
         if isinstance(first, list | np.ndarray):
             for index, cell in enumerate(values):
                 of = f"{name}({index + 1})" if len(values) > 1 else str(name)
-                found.add(of, np.asarray(cell, dtype=float))
+                variables.add(of, np.asarray(cell, dtype=float))
         elif isinstance(first, str) and len(values) <= MOST_FACTS:
-            found.add(str(name), np.unique(values.to_numpy(dtype=str)))
+            variables.add(str(name), np.unique(values.to_numpy(dtype=str)))
         dated = values.dtype.kind in "Mm"
         if dated or values.dtype.kind in "iuf":
             column = values.to_numpy().astype(
                 values.dtype.str.replace("tz", "") if dated else float
             )
-            found.add(f"{name} [s]" if dated else str(name), column)
+            variables.add(f"{name} [s]" if dated else str(name), column)
 
 
-def tdms(content: bytes, found: Variables) -> None:
+def tdms(content: bytes, variables: Variables) -> None:
     """Channels of all groups, and what the file says of each."""
     from nptdms import TdmsFile
 
@@ -209,14 +209,14 @@ def tdms(content: bytes, found: Variables) -> None:
         for group in file.groups():
             for channel in group.channels():
                 path = f"{group.name}.{channel.name}"
-                found.add(path, np.asarray(channel[:]))
+                variables.add(path, np.asarray(channel[:]))
                 parts.append((path, channel))
         for path, part in parts:
             for name, value in part.properties.items():
-                found.add(f"{path}.{name}" if path else name, np.asarray(value))
+                variables.add(f"{path}.{name}" if path else name, np.asarray(value))
 
 
-def uff(content: bytes, found: Variables) -> None:
+def uff(content: bytes, variables: Variables) -> None:
     """Signals over time, data set 58."""
     import pyuff
 
@@ -225,23 +225,27 @@ def uff(content: bytes, found: Variables) -> None:
         sets = pyuff.UFF(os.devnull).read_sets()
     sets = [one for one in (sets if isinstance(sets, list) else [sets]) if one.get("type") == 58]
     if sets and all(one["abscissa_spec_data_type"] == _FREQUENCY for one in sets):
-        found.instead = f"a signal over time; this is a spectrum: export the waveform, or {BRING}"
+        variables.instead = (
+            f"a signal over time; this is a spectrum: export the waveform, or {BRING}"
+        )
     sets = [one for one in sets if one["func_type"] in _TIME_RESPONSE]
     points = {one.get("rsp_node") for one in sets}
     for index, one in enumerate(sets):
         said = [_word(one, "id1"), _AXES.get(abs(int(one.get("rsp_dir", 0))), "")]
         said += [f"point {one['rsp_node']}"] if len(points) > 1 else []
         path = " ".join(filter(None, said))
-        path = path if path and path not in found.numbers else f"{path} signal {index + 1}".strip()
-        found.add(path, np.asarray(one["data"]))
+        path = (
+            path if path and path not in variables.numbers else f"{path} signal {index + 1}".strip()
+        )
+        variables.add(path, np.asarray(one["data"]))
         if one["abscissa_spacing"]:
-            found.add(f"{path}.dt", np.array(float(one["abscissa_inc"])))
+            variables.add(f"{path}.dt", np.array(float(one["abscissa_inc"])))
         else:
-            found.add(f"{path} time [s]", np.asarray(one["x"]))
+            variables.add(f"{path} time [s]", np.asarray(one["x"]))
         words = [("unit", "ordinate_axis_units_lab"), ("date", "id3"), ("remark", "id2")]
         for name, key in words:
             if word := _word(one, key):
-                found.add(f"{path}.{name}", np.array(word))
+                variables.add(f"{path}.{name}", np.array(word))
 
 
 def _word(data_set: Mapping[str, Any], key: str) -> str:

@@ -236,27 +236,27 @@ def find_knocks(recording: Recording, nominal: float, slip: float, turns: float 
     highest = min(20.0 * nominal, widest)
     left = envelopes
     for _ in range(MOST_CUTS):
-        found = average_passes(
+        ball_passes = average_passes(
             left, rate, nominal, slip, nominal, highest, widest, follow=True, turns=turns
         )
-        passes = _mean_passes(found, names)
-        jump = _jump(found)
+        passes = _mean_passes(ball_passes, names)
+        jump = _jump(ball_passes)
         if jump is None:
-            return judged(passes, found.frequency, found.n_passes)
+            return judged(passes, ball_passes.frequency, ball_passes.n_passes)
         place = round(jump * rate)
         left = left[:place] if place > len(left) // 2 else left[place:]
         if len(left) < LEAST_LEFT * len(envelopes):
             break
-    return Knocks(tuple(passes), found.frequency, found.n_passes, Seen.UNCLEAR)
+    return Knocks(tuple(passes), ball_passes.frequency, ball_passes.n_passes, Seen.UNCLEAR)
 
 
-def _jump(found: BallPasses) -> float | None:
+def _jump(passes: BallPasses) -> float | None:
     """When [s] the passes jump most; None where they are steady."""
-    if found.begins is None:
+    if passes.begins is None:
         return None
-    away = np.abs(np.diff(found.begins) * found.frequency - 1.0)
+    away = np.abs(np.diff(passes.begins) * passes.frequency - 1.0)
     worst = int(away.argmax())
-    return float(found.begins[worst]) if away[worst] > STEADY else None
+    return float(passes.begins[worst]) if away[worst] > STEADY else None
 
 
 def _envelopes(recording: Recording, nominal: float) -> tuple[list[tuple[Band, str]], Array, float]:
@@ -285,13 +285,13 @@ def _envelopes(recording: Recording, nominal: float) -> tuple[list[tuple[Band, s
             continue
         dropped = faults.dropped
         left = without_ringing(np.where(dropped, 0.0, samples), PREDICTED_FROM)
-        for found in squared_envelopes(
+        for envelope in squared_envelopes(
             left, sample_rate, bands, HARMONICS * nominal, dropped, loudest=math.inf
         ):
-            values = np.sqrt(np.maximum(found.values, 0.0))
-            values = np.interp(time, np.arange(len(values)) / found.rate, values)
+            values = np.sqrt(np.maximum(envelope.values, 0.0))
+            values = np.interp(time, np.arange(len(values)) / envelope.rate, values)
             columns.append(values / values.mean())
-            names.append((found.band, direction))
+            names.append((envelope.band, direction))
     return names, np.array(columns).T, rate
 
 
@@ -315,9 +315,9 @@ def without_ringing(samples: Array, order: int) -> Array:
     return np.asarray(lfilter(np.concatenate(([1.0], -weights)), [1.0], samples))
 
 
-def _mean_passes(found: BallPasses, names: list[tuple[Band, str]]) -> list[MeanPass]:
-    envelopes = found.waveform(PLACES)
-    errors = np.sqrt(2.0 * found.scatter.sum(axis=0))
+def _mean_passes(passes: BallPasses, names: list[tuple[Band, str]]) -> list[MeanPass]:
+    envelopes = passes.waveform(PLACES)
+    errors = np.sqrt(2.0 * passes.scatter.sum(axis=0))
     return [
         MeanPass(band, direction, envelope - np.quantile(envelope, 0.1), float(error))
         for (band, direction), envelope, error in zip(names, envelopes.T, errors, strict=True)
@@ -427,10 +427,10 @@ def two_peaks(mean_pass: MeanPass, frequency: float) -> Pair | None:
     train = None
     for width in SMOOTHING:
         smooth = gaussian_filter1d(mean_pass.envelope, width * PLACES, mode="wrap")
-        found = _two_peaks(smooth, mean_pass.error, lobes)
-        if found is not None and found.third <= THIRD:
-            return found
-        train = train or found
+        pair = _two_peaks(smooth, mean_pass.error, lobes)
+        if pair is not None and pair.third <= THIRD:
+            return pair
+        train = train or pair
     return train
 
 

@@ -216,7 +216,7 @@ def compare(
             deviations = min(deviations, 0.0)
         evidence.append(replace(best, deviations=deviations))
     other, above, swing = max(
-        (one.others(evidence) for one in compared), key=lambda found: found[1]
+        (one.others(evidence) for one in compared), key=lambda rival: rival[1]
     )
     return Judged(
         shaft=shaft,
@@ -331,7 +331,7 @@ class _Comparison:
             at, away = combs.frequency[inside], self.cage
             level = np.stack([comb_level(_or_sidebands(one, at, away)) for one in combs.envelopes])
         explained: dict[float, NDArray[np.float64]] = {}
-        found = []
+        directions = []
         for place in np.argsort(-level.max(axis=1))[:MOST_BANDS].tolist():
             frequency = float(combs.frequency[inside[level[place].argmax()]])
             if frequency not in explained:
@@ -341,8 +341,8 @@ class _Comparison:
                     explained[frequency] = np.maximum(explained[frequency], also)
             others = float((combs.level[place] - explained[frequency]).max())
             own = self._evidence(lines, combs.envelopes[place], frequency, others)
-            found.append(own if beside is not None else self._below_rivals(own))
-        return max(found, key=log_probability)
+            directions.append(own if beside is not None else self._below_rivals(own))
+        return max(directions, key=log_probability)
 
     def explained(self, frequency: float, lines: PartLines) -> NDArray[np.float64]:
         """By how much [dB] combs (n,) may be higher as they follow from a part's lines.
@@ -380,7 +380,7 @@ class _Comparison:
         own; they are the fainter ones. Of a source that itself knocks that seldom all are alike.
         """
         combs = self.combs
-        found = np.zeros(len(combs.frequency), dtype=bool)
+        slower = np.zeros(len(combs.frequency), dtype=bool)
         for part in SLOWER:
             near_it = np.flatnonzero(near(combs, (frequency / part,)))
             if not len(near_it):
@@ -392,8 +392,8 @@ class _Comparison:
             depth = lines_at(one.levels.depth, one.levels.step, at, count)[:, 0]
             shared = np.arange(1, len(depth) + 1) % part == 0
             if depth[~shared].mean() < FAINTER * depth[shared].mean():
-                found[near_it] = True
-        return found
+                slower[near_it] = True
+        return slower
 
     def _below_rivals(self, own: PartEvidence) -> PartEvidence:
         """The evidence, its lead no more than the [dB] by which a part's comb is above the races'.
@@ -594,8 +594,8 @@ class _Comparison:
         place, column = np.unravel_index(int(level.argmax()), level.shape)
         frequency, one = float(combs.frequency[column]), combs.envelopes[int(place)]
         depths = _lines(one, one.levels.depth, frequency)
-        found = OtherLines(frequency, frequency / combs.shaft, float(level[place, column]))
-        return found, found.level - combs.noise, _without_greatest(depths)
+        rival = OtherLines(frequency, frequency / combs.shaft, float(level[place, column]))
+        return rival, rival.level - combs.noise, _without_greatest(depths)
 
 
 def _carried(compared: Iterable[_Comparison], frequency: float) -> float:

@@ -32,7 +32,7 @@ def spectrum_difference(
 
     Parameters
     ----------
-    found, expected : (n, k)
+    actual, expected : (n, k)
         signals along k directions.
     sample_rate, band
         [Hz]; frequencies up to `band` count.

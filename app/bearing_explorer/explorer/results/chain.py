@@ -118,8 +118,8 @@ class Chain:
 def chain(results: Results) -> Chain:
     """The chain of the scene that `results` are of."""
     ranges = results.ranges
-    found = ranges.state
-    bad = np.flatnonzero(~found.converged)
+    state = ranges.state
+    bad = np.flatnonzero(~state.converged)
     bands: dict[str, tuple[float, float]] = {}
     peaks: dict[str, Peak] = {}
     silent = ""
@@ -133,40 +133,40 @@ def chain(results: Results) -> Chain:
         raise
     except ValueError as error:
         silent = str(error)
-    terms = [f"k_{dof}{dof}" for dof in found.dofs]
+    terms = [f"k_{dof}{dof}" for dof in state.dofs]
     return Chain(
-        answered=1.0 - float(found.shares[bad].sum()),
-        reason=found.reason(int(bad[0])) if bad.size else "",
-        off_line=off_line(found, results.scene),
+        answered=1.0 - float(state.shares[bad].sum()),
+        reason=state.reason(int(bad[0])) if bad.size else "",
+        off_line=off_line(state, results.scene),
         direction=direction(results.scene),
         greatest_load=ranges.greatest[BALL_LOAD],
-        loaded_balls=ranges.mean(np.where(found.converged, found.loaded_balls, math.nan)),
-        stiffness={term: ranges.mean(found.term(term)) for term in terms},
+        loaded_balls=ranges.mean(np.where(state.converged, state.loaded_balls, math.nan)),
+        stiffness={term: ranges.mean(state.term(term)) for term in terms},
         bands=bands,
         peaks=peaks,
         silent=silent,
-        upright=upright(found),
+        upright=upright(state),
     )
 
 
-def upright(found: Equilibrium) -> float:
+def upright(state: Equilibrium) -> float:
     """Mean cos²α of loaded balls, each by what it carries; NaN where none does."""
-    carried = np.where(found.converged[:, None], found.ball_load, 0.0) * found.shares[:, None]
+    carried = np.where(state.converged[:, None], state.ball_load, 0.0) * state.shares[:, None]
     total = carried.sum()
     if not total > 0.0:
         return math.nan
-    radial = np.where(carried > 0.0, np.cos(found.contact_angle) ** 2, 0.0)
+    radial = np.where(carried > 0.0, np.cos(state.contact_angle) ** 2, 0.0)
     return float((carried * radial).sum() / total)
 
 
-def off_line(found: Equilibrium, scene: Scene) -> float:
+def off_line(state: Equilibrium, scene: Scene) -> float:
     """Mean angle [rad] between the loaded balls and the radial load, each by what it carries."""
     load = scene.load
-    carried = np.where(found.converged[:, None], found.ball_load, 0.0) * found.shares[:, None]
+    carried = np.where(state.converged[:, None], state.ball_load, 0.0) * state.shares[:, None]
     total = carried.sum()
     if not (math.hypot(load.fx, load.fy) > 0.0 and total > 0.0):
         return math.nan
-    apart = found.ball_angle - math.atan2(load.fy, load.fx)
+    apart = state.ball_angle - math.atan2(load.fy, load.fx)
     apart = np.abs((apart + math.pi) % (2.0 * math.pi) - math.pi)
     return float((carried * apart).sum() / total)
 

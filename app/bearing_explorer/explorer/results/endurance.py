@@ -187,10 +187,10 @@ def limits(
     oil = None
     if inputs.viscosity is not None and scene.bearing.knows_contacts:
         oil = film_of(scene, inputs, _state_of_contacts(scene))
-    found = limits_of(scene, state, dynamic_load=dynamic_load, step_rate=step_rate, film=oil)
+    answers = limits_of(scene, state, dynamic_load=dynamic_load, step_rate=step_rate, film=oil)
     if with_usual_grooves(scene) is None:
-        return found
-    return tuple(_not_judged(one) for one in found)
+        return answers
+    return tuple(_not_judged(one) for one in answers)
 
 
 def _not_judged(one: Limit) -> Limit:

@@ -289,13 +289,13 @@ class Survey:
         x, y = grid.axes
         axes = (Axis(x.name, x.values[columns]), Axis(y.name, y.values[rows]))
         status, numbers = dataclasses.replace(grid, axes=axes).compute()
-        found = numbers[output.in_sweep]
+        values = numbers[output.in_sweep]
         if output.mode in grid.labels:
-            found = found[..., grid.labels.index(output.mode)]
+            values = values[..., grid.labels.index(output.mode)]
         elif output.mode:
-            found = np.full(status.shape, math.nan)
+            values = np.full(status.shape, math.nan)
         for (b, j), (a, i) in itertools.product(enumerate(rows), enumerate(columns)):
-            value = float(found[a, b])
+            value = float(values[a, b])
             why = "" if math.isfinite(value) else self._why(STATUSES[status[a, b]], j, i)
             self._values[j, i] = value if not why else math.nan
             self._reasons[j, i] = why

@@ -55,14 +55,14 @@ _SQUARE = {"x": "cos²φ", "y": "sin²φ"}
 
 def most_loaded(
     scene: Scene,
-    found: Equilibrium,
+    states: Equilibrium,
     state: int,
     drop: NDArray[np.float64],
     *,
     briefly: bool = False,
 ) -> str:
     """Which ball carries the most in a state, and why; `drop` [m] of each ball into defects."""
-    load, bearing = found.ball_load[state], scene.bearing
+    load, bearing = states.ball_load[state], scene.bearing
     if not (np.isfinite(load).all() and load.max() > 0.0):
         return ""
     most = np.flatnonzero(load >= (1.0 - ALIKE) * load.max())
@@ -77,7 +77,7 @@ def most_loaded(
     nearer = np.zeros(0, dtype=np.int64)
     where = brief = "the rings are pressed together most there"
     if not math.isnan(line):
-        apart = np.abs((found.ball_angle[state] - line + math.pi) % (2.0 * math.pi) - math.pi)
+        apart = np.abs((states.ball_angle[state] - line + math.pi) % (2.0 * math.pi) - math.pi)
         nearer = np.flatnonzero(apart < apart[most].min() - 1e-6)
         if not nearer.size:
             off = style.in_degrees(apart[most].min(), 0)
@@ -122,14 +122,14 @@ def _neighbours(bearing: Bearing, which: NDArray[np.int64]) -> NDArray[np.int64]
 
 def greatest_load(results: Results) -> str:
     """The same at the cage angle where a ball carries the most of all, which it names."""
-    found = results.ranges.state
-    load = np.where(found.converged[:, None], found.ball_load, -1.0).max(axis=1)
+    states = results.ranges.state
+    load = np.where(states.converged[:, None], states.ball_load, -1.0).max(axis=1)
     state = [int(np.argmax(load))]
     if load[state] <= 0.0:
         return ""
-    angle = found.cage_angles[state]
-    drop = drops_at(results.scene, angle, None, found.leads[state])[0]
-    why = most_loaded(results.scene, found, state[0], drop)
+    angle = states.cage_angles[state]
+    drop = drops_at(results.scene, angle, None, states.leads[state])[0]
+    why = most_loaded(results.scene, states, state[0], drop)
     return f"That is with the cage at {style.in_degrees(angle[0])}: {why[0].lower()}{why[1:]}"
 
 
@@ -153,10 +153,10 @@ def _named(bearing: Bearing, which: NDArray[np.int64]) -> str:
 def radial(results: Results) -> tuple[dict[str, float], float]:
     """Mean stiffness [N/m] along x and y over all positions, and mean number of loaded balls."""
     ranges = results.ranges
-    found = ranges.state
-    balls = ranges.mean(np.where(found.converged, found.loaded_balls, math.nan))
-    terms = [f"k_{dof}{dof}" for dof in ("x", "y") if dof in found.dofs]
-    return {term: ranges.mean(found.term(term)) for term in terms}, balls
+    states = ranges.state
+    balls = ranges.mean(np.where(states.converged, states.loaded_balls, math.nan))
+    terms = [f"k_{dof}{dof}" for dof in ("x", "y") if dof in states.dofs]
+    return {term: ranges.mean(states.term(term)) for term in terms}, balls
 
 
 def why_softer(
@@ -260,14 +260,14 @@ _LEVER = {"x": "cosα·cosφ", "y": "cosα·sinφ", "z": "sinα"}
 
 def stiffness_term(results: Results, term: str) -> str:
     """Explain a term of the stiffness by what each contact adds to it; empty of most tilts."""
-    found = results.equilibrium
-    if not found.converged.any():
+    states = results.equilibrium
+    if not states.converged.any():
         return ""
     one, other = next((a, b) for a in DOF_NAMES for b in DOF_NAMES if term == f"k_{a}{b}")
     symbol = TERM_SYMBOLS[term].replace(" ", "_", 1)
-    least, most = np.nanmin(found.term(term)), np.nanmax(found.term(term))
+    least, most = np.nanmin(states.term(term)), np.nanmax(states.term(term))
     size = max(abs(least), abs(most))
-    diagonal = (found.term(f"k_{dof}{dof}") for dof in (one, other))
+    diagonal = (states.term(f"k_{dof}{dof}") for dof in (one, other))
     scale = math.sqrt(math.prod(float(np.nanmax(np.abs(values))) for values in diagonal))
     if size <= 1e-6 * scale:
         return f"{symbol} is zero: {DOF_SYMBOLS[one]} and {DOF_SYMBOLS[other]} are not coupled."

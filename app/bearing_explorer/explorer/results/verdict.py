@@ -73,14 +73,14 @@ def verdict(results: Results, shown: frozenset[str]) -> Verdict:
 
 def of_statics(results: Results) -> str:
     """At which cage angles of the curves no static equilibrium was found; empty for none."""
-    found = results.equilibrium
-    bad = np.flatnonzero(~found.converged)
+    states = results.equilibrium
+    bad = np.flatnonzero(~states.converged)
     if not bad.size:
         return ""
-    reason = found.reason(int(bad[0]))
-    if bad.size == found.converged.size:
+    reason = states.reason(int(bad[0]))
+    if bad.size == states.converged.size:
         return f"No answer: {reason}"
-    return f"No answer at {bad.size} of {found.converged.size} cage angles: {reason}"
+    return f"No answer at {bad.size} of {states.converged.size} cage angles: {reason}"
 
 
 def of_now(results: Results) -> str:
@@ -123,15 +123,15 @@ def status_of(
 
     `shown`: the attributes of the results that views on screen read.
     """
-    found = results.equilibrium
-    n_angles = found.converged.size
+    states = results.equilibrium
+    n_angles = states.converged.size
     mood, words = verdict(results, shown)
     details = []
-    finite = found.residual[found.converged & np.isfinite(found.residual)]
+    finite = states.residual[states.converged & np.isfinite(states.residual)]
     if finite.size:
         details.append(f"residual at most {scientific(float(finite.max()))}")
-    symbols = " ".join(DOF_SYMBOLS[dof] for dof in found.dofs)
-    freedom = count(len(found.dofs), "degree of freedom", "degrees of freedom")
+    symbols = " ".join(DOF_SYMBOLS[dof] for dof in states.dofs)
+    freedom = count(len(states.dofs), "degree of freedom", "degrees of freedom")
     details.append(f"{freedom}: {symbols}")
     details.append(count(n_angles, "cage angle"))
     if results.is_coarse(shown):

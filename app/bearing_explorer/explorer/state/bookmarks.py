@@ -180,23 +180,23 @@ class Bookmarks:
         self.step()
         return tab or FIRST_TAB
 
-    def take(self, request: OpenRequest, found: Place | str) -> bool:
+    def take(self, request: OpenRequest, place: Place | str) -> bool:
         """Open or compare the place that `read_request` found; whether anything changed."""
-        if isinstance(found, str):
-            self.say(found)
+        if isinstance(place, str):
+            self.say(place)
             return False
         if request.what == "compare":
-            self._compare(found.scene, request.name)
+            self._compare(place.scene, request.name)
             return True
         try:
             self._editor.take_scene(
-                found.scene, found.preset, found.selected, found.cage_angle, found.name
+                place.scene, place.preset, place.selected, place.cage_angle, place.name
             )
         except ValueError as error:
             self.say(f"{request.name}: {sentence_of(error)}")
             return False
-        self._compared = found.compared or self._compared
-        self.say(found.note or f"{request.name} is open.")
+        self._compared = place.compared or self._compared
+        self.say(place.note or f"{request.name} is open.")
         self.step()
         return True
 

@@ -449,11 +449,11 @@ class SceneEditor:
         )
 
     def _take_listed(self, name: str) -> None:
-        found = find_bearing(name)
-        origin = origin_words(found)
-        self.take_bearing(found.bearing, found.name, origin)
-        if found.assumed:  # seen where it is chosen; sources are behind the question mark
-            self._effects["preset"] += f" Assumed: {', '.join(found.assumed)}."
+        listed = find_bearing(name)
+        origin = origin_words(listed)
+        self.take_bearing(listed.bearing, listed.name, origin)
+        if listed.assumed:  # seen where it is chosen; sources are behind the question mark
+            self._effects["preset"] += f" Assumed: {', '.join(listed.assumed)}."
 
     def _take_kind(self, kind: str) -> None:
         scene, effect = held(scene_with(self.scene, as_kind(self.scene.bearing, kind)))

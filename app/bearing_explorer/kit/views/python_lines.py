@@ -101,12 +101,12 @@ def _differences(scene: Scene, base: Scene) -> dict[str, Any]:
     ]  # fmt: skip
     if isinstance(scene.defect, Defect) and isinstance(base.defect, Defect):
         parts.append((scene.defect, base.defect))
-    found: dict[str, Any] = {}
+    changes: dict[str, Any] = {}
     for own, other in parts:
-        found |= changed_fields(own, other)
+        changes |= changed_fields(own, other)
     if len(parts) == 5:
-        found.pop("defect", None)
-    return {name: v for name, v in found.items() if name not in ("load", "support", "bearing")}
+        changes.pop("defect", None)
+    return {name: v for name, v in changes.items() if name not in ("load", "support", "bearing")}
 
 
 def _field_code(name: str, value: Any) -> str:

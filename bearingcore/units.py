@@ -87,10 +87,10 @@ def units_like(unit: str) -> list[str]:
 
 def factor_between(given: str, wanted: str) -> float | None:
     """Factor from `given` to `wanted`; None between units of different kinds."""
-    one, other = UNITS.get(given), UNITS.get(wanted)
-    if one is None or other is None or one.si != other.si:
+    first, other = UNITS.get(given), UNITS.get(wanted)
+    if first is None or other is None or first.si != other.si:
         return None
-    return one.factor * (1.0 / other.factor)
+    return first.factor * (1.0 / other.factor)
 
 
 _SPELLINGS = {

@@ -46,7 +46,7 @@ def spectrum_difference(
     mine, true = (spectrum(signal, sample_rate, resolution) for signal in (actual, expected))
     if third_octaves:
         edges = third_octave_edges(4.0 * true.frequency[1], band)
-        mine, true = (Spectrum(edges[1:], one.powers(edges)) for one in (mine, true))
+        mine, true = (Spectrum(edges[1:], lines.powers(edges)) for lines in (mine, true))
         counts = _strong(true.density)
     else:
         counts = lines_that_count(true, band)

@@ -156,8 +156,8 @@ class MeasuredExtent:
             long = f", {1e3 * self.length:.1f} mm" if math.isfinite(self.length) else ""
             return f"{extent:.1f}° ({low:.1f}-{high:.1f}°){long}"
         if self.status == ExtentStatus.EITHER:
-            one, other = (math.degrees(extent) for extent, _, _ in self.alternatives)
-            return f"about {one:.0f}° or {other:.0f}°"
+            first, other = (math.degrees(extent) for extent, _, _ in self.alternatives)
+            return f"about {first:.0f}° or {other:.0f}°"
         if self.status == ExtentStatus.SHORTER:
             return f"shorter than about {math.degrees(self.high):.0f}° or near whole ball spacings"
         return ""

@@ -203,7 +203,7 @@ def contents_of(table: FileColumns) -> FileContents:
     ]
     rate = _rate(table, sampling, named, known)
     speed = _speed(table, columns, named) or known.shaft_speed
-    said = {**{one.name: _text(one) for one in named}, **dates.dates_said(lines), **table.texts}
+    said = {**{item.name: _text(item) for item in named}, **dates.dates_said(lines), **table.texts}
     return FileContents(
         columns,
         choice,
@@ -553,5 +553,5 @@ def _constants(table: FileColumns) -> list[Named]:
     return made
 
 
-def _text(one: Named) -> str:
-    return number(one.value, 6) + (f" {one.unit}" if one.unit else "")
+def _text(item: Named) -> str:
+    return number(item.value, 6) + (f" {item.unit}" if item.unit else "")

@@ -141,8 +141,8 @@ FASTEST_IN_HZ = 150.0
 def named_in(lines: Iterable[str]) -> list[Named]:
     """The numbers that lines above a table name, such as "Sample rate: 25.6 kHz"."""
     kept = [line.replace('"', "").strip() for line in islice(lines, MOST_REMARKS)]
-    under = [one for pair in pairwise(kept) for one in _under(*pair)]
-    return [*(one for line in kept for one in _in_line(line)), *under]
+    under = [item for pair in pairwise(kept) for item in _under(*pair)]
+    return [*(item for line in kept for item in _in_line(line)), *under]
 
 
 def _under(names: str, values: str) -> Iterator[Named]:
@@ -182,7 +182,7 @@ def _in_line(line: str) -> Iterator[Named]:
     elif several:
         named = []
     else:
-        named = [(one[1], one[2], one[3]) for one in _SEVERAL.finditer(line)]
+        named = [(pair[1], pair[2], pair[3]) for pair in _SEVERAL.finditer(line)]
     for name, text, unit in named or _without_marks(line):
         value = _number(text)
         if value is not None:
@@ -204,7 +204,7 @@ def _without_marks(line: str) -> Iterator[tuple[str, str, str | None]]:
 
 def names_a_fact(line: str) -> bool:
     """Whether a line says a rate, a speed or a load."""
-    keys = {_rate_key(one.name) for one in named_in([line])}
+    keys = {_rate_key(item.name) for item in named_in([line])}
     return bool(keys & _FACTS) or any("rpm" in key for key in keys) or ":" in line or "=" in line
 
 
@@ -248,20 +248,20 @@ def sample_rate_in(named: Sequence[Named], file_name: str) -> Finding[float] | N
     """[Hz]"""
     rates: list[Finding[float]] = []
     in_hz = False
-    for one in named:
-        key, value = _rate_key(one.name), one.value
+    for item in named:
+        key, value = _rate_key(item.name), item.value
         if not (math.isfinite(value) and value > 0.0):
             continue
         if key in _RATES:
-            rate = value * (1e3 if one.unit == "kHz" else 1.0)
-            in_hz |= one.unit == "Hz" and not one.thousands
-            rates.append(Finding(rate, f"“{one.name}” in the file"))
-        if key in _INTERVALS and value * TIMES.get(one.unit or "s", 1.0) < 1.0:
-            step = value * TIMES.get(one.unit or "s", 1.0)
-            rates.append(Finding(1.0 / step, f"“{one.name}” in the file"))
+            rate = value * (1e3 if item.unit == "kHz" else 1.0)
+            in_hz |= item.unit == "Hz" and not item.thousands
+            rates.append(Finding(rate, f"“{item.name}” in the file"))
+        if key in _INTERVALS and value * TIMES.get(item.unit or "s", 1.0) < 1.0:
+            step = value * TIMES.get(item.unit or "s", 1.0)
+            rates.append(Finding(1.0 / step, f"“{item.name}” in the file"))
     if rates:
         first = rates[0]
-        if any(abs(one.value / first.value - 1.0) > 0.005 for one in rates):
+        if any(abs(other.value / first.value - 1.0) > 0.005 for other in rates):
             return _doubted(first)
         if LEAST_STATED <= first.value <= GREATEST_STATED:
             return first
@@ -273,11 +273,11 @@ def sample_rate_in(named: Sequence[Named], file_name: str) -> Finding[float] | N
 
 def _likely_rate(named: Sequence[Named], file_name: str) -> Finding[float] | None:
     """[Hz] of a number in Hz that may be that of the samples, or of the file's name."""
-    for one in named:
-        value = one.value * (1e3 if one.unit == "kHz" else 1.0)
-        likely = _key(one.name).endswith("rate") or one.unit in ("Hz", "kHz")
-        if value >= LEAST_RATE and likely and not _OTHER_RATE.search(one.name):
-            return Finding(value, f"“{one.name}” in the file, if it is that of the samples", False)
+    for item in named:
+        value = item.value * (1e3 if item.unit == "kHz" else 1.0)
+        likely = _key(item.name).endswith("rate") or item.unit in ("Hz", "kHz")
+        if value >= LEAST_RATE and likely and not _OTHER_RATE.search(item.name):
+            return Finding(value, f"“{item.name}” in the file, if it is that of the samples", False)
     name = file_name.lower()
     for match in re.finditer(r"(?<![a-z0-9])(\d+\.?\d*)[ _-]?(k(?:hz|sps)?|hz)(?![a-z0-9])", name):
         value = float(match[1]) * (1.0 if match[2] == "hz" else 1e3)
@@ -292,8 +292,8 @@ _OTHER_SPEED = re.compile(r"(?i)max|min|limit|rated|nominal|nenn|range|critical|
 
 def shaft_speed_in(named: Sequence[Named], file_name: str) -> Finding[float] | None:
     """[rad/s]"""
-    rated = bool({_key(one.name) for one in named} & (_RATES | _INTERVALS))
-    speeds = [speed for one in named if (speed := _speed_of(one, rated)) is not None]
+    rated = bool({_key(item.name) for item in named} & (_RATES | _INTERVALS))
+    speeds = [speed for item in named if (speed := _speed_of(item, rated)) is not None]
     match = re.search(
         r"(?:(?<![a-z0-9])|(?<=[a-z])(?=\d{3}))(\d+(?:\.\d+)?)[ _-]?rpm(?![a-z])", file_name.lower()
     )
@@ -303,8 +303,8 @@ def shaft_speed_in(named: Sequence[Named], file_name: str) -> Finding[float] | N
         speeds.append(Finding(turning, words, stated=False, strong=True, file_unit="rpm"))
     if not speeds:
         return None
-    first = next((one for one in speeds if one.stated), speeds[-1])
-    if any(one.taken and abs(one.value / first.value - 1.0) > 0.005 for one in speeds):
+    first = next((other for other in speeds if other.stated), speeds[-1])
+    if any(other.taken and abs(other.value / first.value - 1.0) > 0.005 for other in speeds):
         return _doubted(first)
     return first
 
@@ -339,22 +339,22 @@ def _doubted(first: Finding[float]) -> Finding[float]:
 
 def load_in(named: Sequence[Named]) -> Finding[float] | None:
     """[N], where its unit is said."""
-    for one in named:
-        key = _key(one.name)
-        unit = one.unit or {"loadn": "N", "loadlb": "lb"}.get(key)
-        if key in _LOADS and unit is not None and unit in FORCES and math.isfinite(one.value):
-            return Finding(one.value * FORCES[unit], f"“{one.name}” in the file")
+    for item in named:
+        key = _key(item.name)
+        unit = item.unit or {"loadn": "N", "loadlb": "lb"}.get(key)
+        if key in _LOADS and unit is not None and unit in FORCES and math.isfinite(item.value):
+            return Finding(item.value * FORCES[unit], f"“{item.name}” in the file")
     return None
 
 
 def bearing_frequencies_in(named: Sequence[Named]) -> dict[str, float]:
     """[Hz] by the names of BEARING_FREQUENCIES, those that are there."""
     return {
-        key: one.value
-        for one in named
-        if (key := _key(one.name).removesuffix("hz")) in BEARING_FREQUENCIES
-        and math.isfinite(one.value)
-        and one.value > 0.0
+        key: item.value
+        for item in named
+        if (key := _key(item.name).removesuffix("hz")) in BEARING_FREQUENCIES
+        and math.isfinite(item.value)
+        and item.value > 0.0
     }
 
 

@@ -152,14 +152,14 @@ def _walk_json(value: Any, path: str, variables: Variables, depth: int) -> None:
     if isinstance(value, dict) and list(value) == [str(i) for i in range(len(value))]:
         value = list(value.values())  # rows by their numbers, as pandas writes them
     if isinstance(value, list) and value and isinstance(value[0], dict):
-        records = [one for one in value if isinstance(one, dict)]
+        records = [item for item in value if isinstance(item, dict)]
         if sensor := _name_of_sensor(records):
             several: dict[str, list[Any]] = {}
             for one in records:
                 several.setdefault(one.pop(sensor), []).append(one)
             _walk_json(several, path, variables, depth + 1)
             return
-        value = {name: [one.get(name) for one in records] for name in records[0]}
+        value = {name: [record.get(name) for record in records] for name in records[0]}
     if isinstance(value, dict):
         for name, inside in value.items():
             _walk_json(inside, f"{path}.{name}" if path else str(name), variables, depth + 1)
@@ -173,7 +173,7 @@ def _walk_json(value: Any, path: str, variables: Variables, depth: int) -> None:
 def _name_of_sensor(records: Sequence[dict[str, Any]]) -> str:
     """The name under which records of several sensors say of which they are; else empty."""
     for name, first in records[0].items():
-        words = [one.get(name) for one in records] if isinstance(first, str) else [None]
+        words = [record.get(name) for record in records] if isinstance(first, str) else [None]
         if all(isinstance(word, str) for word in words) and are_sensors(np.array(words)):
             return name
     return ""
@@ -203,7 +203,7 @@ def _wav(name: str, content: bytes, most_numbers: int, most_columns: int) -> Ans
         columns /= float(np.iinfo(data.dtype).max) + 1.0
     names = [f"channel {i + 1}" for i in range(columns.shape[1])]
     about = {"names": names, "sample_rate": float(rate), "headed": False, "full_scale_known": False}
-    if any("EOF" in str(one.message) for one in warned):
+    if any("EOF" in str(warning.message) for warning in warned):
         about["notes"] = ["The file is cut off: its head says that it was longer."]
     return about, columns
 

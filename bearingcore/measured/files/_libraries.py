@@ -62,28 +62,28 @@ def unzipped(name: str, content: bytes) -> tuple[list[str], bytes]:
     """
     try:
         with zipfile.ZipFile(io.BytesIO(content)) as packed:
-            files = [one for one in packed.infolist() if not _NO_FILE.search(one.filename)]
-            if any(one.filename == "[Content_Types].xml" for one in files):
+            files = [entry for entry in packed.infolist() if not _NO_FILE.search(entry.filename)]
+            if any(file.filename == "[Content_Types].xml" for file in files):
                 raise checks.refuse("file", name, "no office document: save its sheet as CSV")
-            named = [one for one in files if name.endswith(f".zip/{one.filename}")]
-            files = [one for one in files if not DOCUMENT.search(one.filename)] or files
+            named = [file for file in files if name.endswith(f".zip/{file.filename}")]
+            files = [file for file in files if not DOCUMENT.search(file.filename)] or files
             if not files:
                 raise checks.refuse("file", name, "a zip with a file in it")
             if len(named or files) > 1:
-                if sum(one.file_size for one in files) > MOST_TOGETHER:
+                if sum(file.file_size for file in files) > MOST_TOGETHER:
                     raise checks.refuse(
                         "file", name, f"a zip of at most {MOST_TOGETHER >> 20} MB unpacked"
                     )
-                return [one.filename for one in files[:MOST_INSIDE]], b""
-            one = (named or files)[0]
-            if one.file_size > MOST_UNPACKED:
+                return [file.filename for file in files[:MOST_INSIDE]], b""
+            packed_file = (named or files)[0]
+            if packed_file.file_size > MOST_UNPACKED:
                 raise checks.refuse(
                     "file", name, f"a zip of a file of at most {MOST_UNPACKED >> 20} MB"
                 )
-            inside = packed.read(one)
+            inside = packed.read(packed_file)
             if inside[:4] == b"PK\x03\x04" and not is_npz(inside):
                 raise checks.refuse("file", name, "no zip inside a zip: unpack it")
-            return [one.filename], inside
+            return [packed_file.filename], inside
     except (FieldError, MemoryError):
         raise
     except Exception:  # a damaged zip raises almost anything in there
@@ -115,7 +115,7 @@ def longest_sheet(name: str, content: bytes) -> tuple[bytes, list[str]]:
 
     try:
         with zipfile.ZipFile(io.BytesIO(content)) as packed:
-            size = sum(one.file_size for one in packed.infolist())
+            size = sum(entry.file_size for entry in packed.infolist())
         if size > MOST_UNPACKED:
             raise checks.refuse("file", name, f"at most {MOST_UNPACKED >> 20} MB unpacked")
         sheets = pd.read_excel(io.BytesIO(content), sheet_name=None, header=None, engine="openpyxl")
@@ -123,10 +123,10 @@ def longest_sheet(name: str, content: bytes) -> tuple[bytes, list[str]]:
         raise
     except Exception:  # as above
         raise checks.refuse("file", name, "a whole Excel file; save its sheet as CSV") from None
-    longest = max(sheets, key=lambda one: int(sheets[one].count().sum()))
+    longest = max(sheets, key=lambda name: int(sheets[name].count().sum()))
     table = sheets[longest].dropna(how="all").dropna(how="all", axis=1)
     notes = [f"Read is its longest sheet, “{longest}”."] if len(sheets) > 1 else []
-    facts = [line for one in sheets if one != longest for line in _facts_in(sheets[one])]
+    facts = [line for name in sheets if name != longest for line in _facts_in(sheets[name])]
     head = "".join(f"# {line}\n" for line in facts[:MOST_FACTS])
     return (head + table.to_csv(index=False, header=False)).encode(), notes
 
@@ -224,27 +224,27 @@ def uff(content: bytes, variables: Variables) -> None:
     with patch.object(pyuff.pyuff, "open", lambda *_: io.BytesIO(content), create=True):
         sets = pyuff.UFF(os.devnull).read_sets()
     sets = [one for one in (sets if isinstance(sets, list) else [sets]) if one.get("type") == 58]
-    if sets and all(one["abscissa_spec_data_type"] == _FREQUENCY for one in sets):
+    if sets and all(record["abscissa_spec_data_type"] == _FREQUENCY for record in sets):
         variables.instead = (
             f"a signal over time; this is a spectrum: export the waveform, or {BRING}"
         )
-    sets = [one for one in sets if one["func_type"] in _TIME_RESPONSE]
-    points = {one.get("rsp_node") for one in sets}
-    for index, one in enumerate(sets):
-        said = [_word(one, "id1"), _AXES.get(abs(int(one.get("rsp_dir", 0))), "")]
-        said += [f"point {one['rsp_node']}"] if len(points) > 1 else []
+    sets = [record for record in sets if record["func_type"] in _TIME_RESPONSE]
+    points = {record.get("rsp_node") for record in sets}
+    for index, signal in enumerate(sets):
+        said = [_word(signal, "id1"), _AXES.get(abs(int(signal.get("rsp_dir", 0))), "")]
+        said += [f"point {signal['rsp_node']}"] if len(points) > 1 else []
         path = " ".join(filter(None, said))
         path = (
             path if path and path not in variables.numbers else f"{path} signal {index + 1}".strip()
         )
-        variables.add(path, np.asarray(one["data"]))
-        if one["abscissa_spacing"]:
-            variables.add(f"{path}.dt", np.array(float(one["abscissa_inc"])))
+        variables.add(path, np.asarray(signal["data"]))
+        if signal["abscissa_spacing"]:
+            variables.add(f"{path}.dt", np.array(float(signal["abscissa_inc"])))
         else:
-            variables.add(f"{path} time [s]", np.asarray(one["x"]))
+            variables.add(f"{path} time [s]", np.asarray(signal["x"]))
         words = [("unit", "ordinate_axis_units_lab"), ("date", "id3"), ("remark", "id2")]
         for name, key in words:
-            if word := _word(one, key):
+            if word := _word(signal, key):
                 variables.add(f"{path}.{name}", np.array(word))
 
 

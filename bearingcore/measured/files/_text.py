@@ -217,7 +217,7 @@ def _side_by_side(
 ) -> tuple[Array, list[str], list[int]]:
     """Rows of several sensors as columns of each; times, and what all have alike, once."""
     names = list(dict.fromkeys(sensors.tolist()))
-    several = [columns[sensors == one] for one in names]
+    several = [columns[sensors == label] for label in names]
     size = min(map(len, several))
     if max(map(len, several)) > size + 1:  # the last row may be of the first
         raise checks.refuse(
@@ -235,9 +235,9 @@ def _side_by_side(
         times += [len(made)] * (i in stamps)
         own = [part[:, i] for part in several]
         once = i in stamps or column_of(heading).role == TIME
-        once = once or all(np.array_equal(one, own[0], equal_nan=True) for one in own)
+        once = once or all(np.array_equal(count, own[0], equal_nan=True) for count in own)
         made += own[:1] if once else own
-        heads += [heading] if once else [f"{one}: {heading}" for one in names]
+        heads += [heading] if once else [f"{label}: {heading}" for label in names]
     return np.column_stack(made), heads, times
 
 
@@ -269,8 +269,8 @@ def _without_labels(content: bytes) -> bytes:
 
     def labels(line: str) -> list[tuple[str, str, str]]:
         matches = [*_LABELLED.finditer(line[:LONGEST_REMARK])] if ":" in line or "=" in line else []
-        whole = "".join(one[0] for one in matches) == line
-        return [(one[1].strip(), one[2], one[3] or "") for one in matches] if whole else []
+        whole = "".join(match[0] for match in matches) == line
+        return [(match[1].strip(), match[2], match[3] or "") for match in matches] if whole else []
 
     first = [_decoded(line).strip() for line in islice(io.BytesIO(content), SAMPLE)]
     heads = [[(name, unit) for name, _, unit in labels(line)] for line in first]
@@ -355,11 +355,11 @@ def _day(text: str) -> int:
     parts = re.split(r"[-/.]", text.lower())
     if parts[1] in _MONTHS:
         return date(int(parts[2]), _MONTHS.index(parts[1]) + 1, int(parts[0])).toordinal()
-    one, two, three = (int(number) for number in parts)
-    if one > 31:
-        return date(one, two, three).toordinal()
-    american = "/" in text and two <= 31 and one <= 12
-    month, day = (one, two) if american else (two, one)
+    first, two, three = (int(number) for number in parts)
+    if first > 31:
+        return date(first, two, three).toordinal()
+    american = "/" in text and two <= 31 and first <= 12
+    month, day = (first, two) if american else (two, first)
     return date(three, month, day).toordinal()
 
 

@@ -478,17 +478,17 @@ def minimise_energy(q, place, contacts, load, work):
     F = load.force
     active = load.active
     size = load_size(load)
-    one = stiffest_contact(contacts)
-    K = contacts.factor[one]
-    exponent = contacts.exponent[one]
+    stiffest = stiffest_contact(contacts)
+    K = contacts.factor[stiffest]
+    exponent = contacts.exponent[stiffest]
     hard = compression_under(size, K, exponent)
     # compression of one ball under all of the load, at this softness; a straight valley needs none
-    soft = max(curved_length(contacts, one), hard)
+    soft = max(curved_length(contacts, stiffest), hard)
     start = work.start
     soft_factor = work.soft
     for i in active:
         # of a wedged ring without a load nothing says how soft to begin
-        away = max(contacts.clearance[one], 0.0) / contacts.line_r[one] + soft
+        away = max(contacts.clearance[stiffest], 0.0) / contacts.line_r[stiffest] + soft
         start[i] = away * F[i] / size if size > 0.0 else q[i]
     ratio = 1.0
     for _ in range(40):
@@ -547,9 +547,9 @@ def extrapolate(cage_angles, k, q, active, state):
 def first_guess(contacts, load, state):
     """Put into state (5,): the clearance and one ball's compression, along the load."""
     size = load_size(load)
-    one = stiffest_contact(contacts)
-    reach = max(contacts.clearance[one], 0.0) / contacts.line_r[one] + compression_under(
-        size, contacts.factor[one], contacts.exponent[one]
+    stiffest = stiffest_contact(contacts)
+    reach = max(contacts.clearance[stiffest], 0.0) / contacts.line_r[stiffest] + compression_under(
+        size, contacts.factor[stiffest], contacts.exponent[stiffest]
     )
     for i in load.active:
         state[i] = reach * load.force[i] / max(size, 1e-300)

@@ -302,9 +302,9 @@ def undamped_bands(scene: Scene, terms: Array) -> tuple[Array, Array, list[tuple
         where the support lacks a number, by its name.
     """
     searches = [BandSearch(scene, row, np.ones(row.shape[1])) for row in np.moveaxis(terms, 1, 0)]
-    values = [one.frequencies(terms[:, i]) for i, one in enumerate(searches)]
+    values = [search.frequencies(terms[:, i]) for i, search in enumerate(searches)]
     least, greatest = least_and_greatest(np.stack(values), 2)
-    return least, greatest, [one.labels for one in searches]
+    return least, greatest, [search.labels for search in searches]
 
 
 def _frequencies_like(template: Array, terms: Array, support: Array) -> Array:

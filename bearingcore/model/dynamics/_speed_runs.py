@@ -234,4 +234,4 @@ def _steps_of_marching(
             steps.append(duration * rate)
     except ValueError:  # said where the motion is tried
         return 0.0
-    return sum(one for one in steps if one <= most_steps)
+    return sum(step for step in steps if step <= most_steps)

@@ -123,7 +123,7 @@ class Measurements:
     def count(self) -> int:
         """Number of points in all."""
         trials = self.stability.trials if self.stability is not None else ()
-        points = sum(len(one.points) for one in self.experiments.values())
+        points = sum(len(experiment.points) for experiment in self.experiments.values())
         return points + len(trials) + len(self.orbits)
 
     def table(self) -> ResultTable:
@@ -202,8 +202,8 @@ def measure(
         def report(part: float, words: str, begin: int = k) -> None:
             progress((begin + part) / len(names), words)
 
-        def show(one: Experiment, name: str = name, before: Measurements = results) -> None:
-            shown(replace(before, experiments={**before.experiments, name: one}))
+        def show(experiment: Experiment, name: str = name, before: Measurements = results) -> None:
+            shown(replace(before, experiments={**before.experiments, name: experiment}))
 
         watch = Watch(report, cancelled, show)
         try:
@@ -213,8 +213,8 @@ def measure(
             elif name == ORBITS:
                 results = replace(results, orbits=orbits_over_speed(scene, watch))
             else:
-                one = EXPERIMENTS[name](scene, watch, slow)
-                results = replace(results, experiments={**results.experiments, name: one})
+                measured = EXPERIMENTS[name](scene, watch, slow)
+                results = replace(results, experiments={**results.experiments, name: measured})
         except CancelledError:
             break
         except ValueError as refused:

@@ -119,8 +119,8 @@ def motion_reference(
     ]
     # two families are a reference; a third one that stops at a kink takes nothing from it
     trusted = all(finished[:2]) and all(
-        one[name] <= TRUSTED[name]
-        for one, whole in zip(apart, finished[1:], strict=True)
+        difference[name] <= TRUSTED[name]
+        for difference, whole in zip(apart, finished[1:], strict=True)
         if whole
         for name in TRUSTED
     )

@@ -254,7 +254,7 @@ class _Measure:
         """The other models of the edges of all defects."""
         defects = self.scene.defects
         for edge in EDGES if defects else ():
-            if any(one.edge != edge for one in defects):
+            if any(defect.edge != edge for defect in defects):
                 scene = self.scene.replace(defect=tuple(replace(d, edge=edge) for d in defects))
                 row = self._other_march(f"{edge} edges", scene)
                 yield replace(row, changes={"edge": edge} if len(defects) == 1 else {})

@@ -104,13 +104,13 @@ class Contacts(NamedTuple):
 
 def contacts(problem: StaticProblem, q: Any, rows: Any = slice(None)) -> Contacts:
     """All contacts at displacements q (m, 5) [m], of the precision that q has (Eqs. 7-17)."""
-    one = problem.packed
-    ca, sa, A0, n = one.line_r, one.line_z, one.distance, one.exponent
+    packed = problem.packed
+    ca, sa, A0, n = packed.line_r, packed.line_z, packed.distance, packed.exponent
     c, s, d = problem.c[rows], problem.s[rows], problem.d[rows]
-    R = np.stack([c, s, np.zeros_like(c), -one.arm * s, one.arm * c], axis=-1)
-    Z = np.stack([0.0 * c, 0.0 * c, np.ones_like(c), one.reach * s, -one.reach * c], axis=-1)
-    radial = np.einsum("mjd,md->mj", R, q) - one.clearance  # Equation (11)
-    axial = np.einsum("mjd,md->mj", Z, q) + one.offset  # Equation (12)
+    R = np.stack([c, s, np.zeros_like(c), -packed.arm * s, packed.arm * c], axis=-1)
+    Z = np.stack([0.0 * c, 0.0 * c, np.ones_like(c), packed.reach * s, -packed.reach * c], axis=-1)
+    radial = np.einsum("mjd,md->mj", R, q) - packed.clearance  # Equation (11)
+    axial = np.einsum("mjd,md->mj", Z, q) + packed.offset  # Equation (12)
     longer = radial * ca + axial * sa - d
     along = A0 + longer
     across = axial * ca - radial * sa
@@ -119,14 +119,14 @@ def contacts(problem: StaticProblem, q: Any, rows: Any = slice(None)) -> Contact
     # A - A0 without the difference: lines of centres are a thousand compressions long
     whole = np.maximum(A + A0, 1e-300)
     apart = np.where(along > 0.0, (longer * (A0 + along) + across**2) / whole, A - A0)
-    delta = np.maximum(np.where(one.fixed, longer, apart), 0.0)
+    delta = np.maximum(np.where(packed.fixed, longer, apart), 0.0)
     length = np.maximum(A, 1e-300)
-    eu = np.where(one.fixed, 1.0, guarded / length)
-    ew = np.where(one.fixed, 0.0, across / length)
+    eu = np.where(packed.fixed, 1.0, guarded / length)
+    ew = np.where(packed.fixed, 0.0, across / length)
     er, ez = eu * ca - ew * sa, eu * sa + ew * ca  # Equation (14)
-    k1 = n * one.factor * delta ** (n - 1.0)
+    k1 = n * packed.factor * delta ** (n - 1.0)
     Q = k1 * delta / n  # Equation (13)
-    k2 = np.where((along > 0.0) & ~one.fixed, Q / length, 0.0)
+    k2 = np.where((along > 0.0) & ~packed.fixed, Q / length, 0.0)
     e = er[..., None] * R + ez[..., None] * Z
     t = -ez[..., None] * R + er[..., None] * Z
     force = (Q[..., None] * e).sum(axis=1)  # Equation (15)
@@ -248,7 +248,7 @@ def _compiled(problem: StaticProblem, tolerance: float, warm: bool = True) -> So
         kernels.static_states(part, np.zeros_like(part), problem.packed, path, load)
         for part in parts
     ]
-    q, status, evaluations = (np.concatenate([one[i] for one in states]) for i in (0, 4, 7))
+    q, status, evaluations = (np.concatenate([state[i] for state in states]) for i in (0, 4, 7))
     return Solved(q, status == kernels.CONVERGED, int(evaluations.sum()))
 
 

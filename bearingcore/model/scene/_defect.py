@@ -268,7 +268,7 @@ def _paths_of_rows(defects: tuple[Defect, ...], bearing: Bearing) -> kernels.Pat
     rows, tables, size = [], [], 0
     for row in range(len(bearing.all_rows)):
         there = tuple(
-            dataclasses.replace(one, row=row) for one in defects if one.row in (None, row)
+            dataclasses.replace(defect, row=row) for defect in defects if defect.row in (None, row)
         )
         own = path_tables(there, bearing.of_row(row).replace(rows=()))
         lines = own.defects.copy()

@@ -407,9 +407,9 @@ def _beyond_geometry(
 
     See `kernels.Contacts.room`: each contact of a ball has all of it.
     """
-    one = balls.contacts
-    most = balls.races.factor * one.room**one.exponent
+    contacts = balls.contacts
+    most = balls.races.factor * contacts.room**contacts.exponent
     outside = (load > most[:, None]).any(axis=(0, 2))
-    tilted = (np.abs(q[:, 3:]) > one.most_tilt).any(axis=1)
+    tilted = (np.abs(q[:, 3:]) > contacts.most_tilt).any(axis=1)
     converged, free = (status == code for code in (kernels.CONVERGED, kernels.FREE_DIRECTION))
     return np.asarray(converged & (outside | tilted) | free & outside)

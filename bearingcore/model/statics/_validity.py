@@ -286,7 +286,7 @@ def _shoulder(scene: Scene, state: Equilibrium, height: float | None) -> Limit:
 
 def _worst(limits: Iterable[Limit]) -> Limit:
     """The one that is nearest to its limit, or farthest beyond it."""
-    return max(limits, key=lambda one: float(np.nan_to_num(one.value / one.limit, nan=-1.0)))
+    return max(limits, key=lambda limit: float(np.nan_to_num(limit.value / limit.limit, nan=-1.0)))
 
 
 def _shoulder_of(

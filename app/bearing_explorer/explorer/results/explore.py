@@ -280,8 +280,8 @@ class Survey:
             left = line[~known]
             most = left.size if self.question.grid.in_rows else few
             for start in range(0, left.size, max(most, 1)):
-                part, one = left[start : start + most], np.array([fixed])
-                yield (part, one) if upright else (one, part)
+                part, fixed_value = left[start : start + most], np.array([fixed])
+                yield (part, fixed_value) if upright else (fixed_value, part)
 
     def _find(self, rows: NDArray[np.intp], columns: NDArray[np.intp]) -> None:
         output = self.question.output

@@ -263,23 +263,23 @@ def stiffness_term(results: Results, term: str) -> str:
     states = results.equilibrium
     if not states.converged.any():
         return ""
-    one, other = next((a, b) for a in DOF_NAMES for b in DOF_NAMES if term == f"k_{a}{b}")
+    first, other = next((a, b) for a in DOF_NAMES for b in DOF_NAMES if term == f"k_{a}{b}")
     symbol = TERM_SYMBOLS[term].replace(" ", "_", 1)
     least, most = np.nanmin(states.term(term)), np.nanmax(states.term(term))
     size = max(abs(least), abs(most))
-    diagonal = (states.term(f"k_{dof}{dof}") for dof in (one, other))
+    diagonal = (states.term(f"k_{dof}{dof}") for dof in (first, other))
     scale = math.sqrt(math.prod(float(np.nanmax(np.abs(values))) for values in diagonal))
     if size <= 1e-6 * scale:
-        return f"{symbol} is zero: {DOF_SYMBOLS[one]} and {DOF_SYMBOLS[other]} are not coupled."
-    if not {one, other} <= _LEVER.keys():
+        return f"{symbol} is zero: {DOF_SYMBOLS[first]} and {DOF_SYMBOLS[other]} are not coupled."
+    if not {first, other} <= _LEVER.keys():
         return ""
-    if one == other:
+    if first == other:
         why = ""
         if term in RADIAL and results.scene.defects and results.reference_label:
             why = why_softer(term, radial(results), radial(results.reference))
         why = f" With the defect {why}." if why else ""
-        return f"Each contact of stiffness k adds k·({_LEVER[one]})² to {symbol}.{why}"
-    text = f"Each contact of stiffness k adds k·({_LEVER[one]})·({_LEVER[other]}) to {symbol}, "
+        return f"Each contact of stiffness k adds k·({_LEVER[first]})² to {symbol}.{why}"
+    text = f"Each contact of stiffness k adds k·({_LEVER[first]})·({_LEVER[other]}) to {symbol}, "
     if least < -ALIKE * size and most > ALIKE * size:
         return (
             f"{text}of either sign: contacts left and right cancel, and the side that "
@@ -352,7 +352,7 @@ def frequencies(results: Results) -> str:
     }
     if not widths:
         return ""
-    label = max(widths, key=lambda one: widths[one])
+    label = max(widths, key=lambda label: widths[label])
     term = f"k_{label[:-1] * 2}"
     ratio = ranges.greatest[term] / ranges.least[term] if ranges.least[term] > 0.0 else math.nan
     if not ratio > 1.0:
@@ -424,7 +424,7 @@ def peak(results: Results, rates: Sequence[float], *, briefly: bool = False) -> 
     peaks = results.peaks
     if not peaks:
         return ""
-    dof = max(peaks, key=lambda one: peaks[one].level)
+    dof = max(peaks, key=lambda name: peaks[name].level)
     most = peaks[dof]
     frequency, density = results.late_spectra[dof]
     is_low = frequency < LOWEST_PEAK
@@ -457,7 +457,7 @@ def peak(results: Results, rates: Sequence[float], *, briefly: bool = False) -> 
         return f"{text} {words}: along {dof} the housing takes part in that swing."
     if not bands:
         return ""
-    label = min(bands, key=lambda one: _off(most, bands[one]))
+    label = min(bands, key=lambda name: _off(most, bands[name]))
     side = "below" if most.frequency < bands[label][0] else "above"
     text += f" lies in no band, {_off(most, bands[label]):.0f} Hz {side} {mode_symbol(label)}"
     moving, still = results.load_in_motion, results.ranges.greatest[BALL_LOAD]

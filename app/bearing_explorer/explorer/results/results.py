@@ -179,7 +179,7 @@ class Results(Content):
     @cached_property
     def compared_results(self) -> list[Results]:
         """Results of the compared scenes in their order, each over its own period."""
-        return [self.against(one, own_period=True) for one in self.compared]
+        return [self.against(reference, own_period=True) for reference in self.compared]
 
     @cached_property
     def grey(self) -> Reference:

@@ -224,10 +224,12 @@ def place_of(editor: SceneEditor, tab: str = "") -> Place:
 
 def _written(place: Place, without_floors: bool) -> str:
     pairs = [("v", VERSION), *_scene_pairs(place, without_floors)]
-    for number, one in enumerate(place.compared, 1):
-        preset = min(presets, key=lambda name: len(_scene_pairs(Place(one.scene, name), True)))
-        label = [("label", one.name)] if one.name else []
-        own_place = Place(one.scene, preset, name=one.bearing)
+    for number, reference in enumerate(place.compared, 1):
+        preset = min(
+            presets, key=lambda name: len(_scene_pairs(Place(reference.scene, name), True))
+        )
+        label = [("label", reference.name)] if reference.name else []
+        own_place = Place(reference.scene, preset, name=reference.bearing)
         own = [*label, *_scene_pairs(own_place, without_floors)]
         pairs += [(f"compare{number}.{name}", value) for name, value in own]
     if place.cage_angle:
@@ -289,7 +291,7 @@ def number_text(field: Field, value: float | None) -> str:
     if value is None:
         return "none"
     shown = (float(f"{value / field.factor:.{digits}g}") for digits in (12, 15, 16, 17))
-    exact = [_short(one) for one in shown if field_values.in_si(field, one) == value]
+    exact = [_short(digit) for digit in shown if field_values.in_si(field, digit) == value]
     return min([*exact, _short(value) + "SI"], key=len)
 
 

@@ -117,7 +117,7 @@ class Bookmarks:
 
     def _usual_name(self, scene: Scene, bearing: str) -> str:
         """A name by what differs from the scene of now and those that are compared."""
-        others = [self._editor.scene, *(one.scene for one in self._compared)]
+        others = [self._editor.scene, *(reference.scene for reference in self._compared)]
         return distinct_name(scene, others, self._editor.selected, bearing)
 
     def say(self, sentence: str) -> None:
@@ -242,7 +242,7 @@ class Bookmarks:
             "whole": not leaves_out(address),
             "undo": self._history.can_undo,
             "redo": self._history.can_redo,
-            "compared": [one.name for one in self.compared],
+            "compared": [reference.name for reference in self.compared],
             "scene": scene_line(self._editor.name, self._editor.scene),
             "usual_name": self._usual_name(self._editor.scene, self._editor.name),
             "said": {"number": self._said[0], "words": self._said[1]},

@@ -63,12 +63,12 @@ def sources(
         except ValueError:
             curves.append(nothing)
     curves += [nothing] * (MOST_COMPARED - len(curves))
-    return {f"{name}{_SLOT}{slot}": one for slot, one in enumerate(curves)}
+    return {f"{name}{_SLOT}{slot}": values for slot, values in enumerate(curves)}
 
 
 def numbers(drawn: Mapping[str, Mapping[str, np.ndarray]], column: str) -> np.ndarray:
     """A column of all compared scenes, for the range of an axis."""
-    return np.concatenate([one[column] for one in drawn.values()])
+    return np.concatenate([curve[column] for curve in drawn.values()])
 
 
 class CurveKey:

@@ -194,7 +194,7 @@ class PlaneFigures:
         (x, _), (y, _) = field.x, field.y
         said = {
             "words": [field.words, x.words, y.words],
-            "unit": [one if one in ("", "°") else f" {one}" for one in (unit, x.unit, y.unit)],
+            "unit": [part if part in ("", "°") else f" {part}" for part in (unit, x.unit, y.unit)],
         }
         if (reasons := _reasons_of(field)[0]) != self._reasons.data["text"]:
             self._reasons.data = {"text": reasons}

@@ -286,7 +286,7 @@ class View(Generic[C]):
             if self.cells and not results.moving:
                 self._caption.put(cell_lines=self.cell_lines(results))
             for key in self._keys:
-                key.show([one.name for one in results.compared])
+                key.show([reference.name for reference in results.compared])
             self.show(results)
 
     def cell_lines(self, content: C) -> list[str]:

@@ -179,7 +179,7 @@ def _held_against_the_shaft(
         detail=f"{say.against_the_shaft(answer.of(answer.fault))} {words}",
         probability=CONTRADICTED * answer.probability,
         evidence=tuple(
-            replace(one, probability=CONTRADICTED * one.probability) for one in answer.evidence
+            replace(part, probability=CONTRADICTED * part.probability) for part in answer.evidence
         ),
     )
 

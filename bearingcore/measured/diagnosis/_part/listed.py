@@ -67,7 +67,7 @@ def explaining_bearings(
         if answer.fault in ("outer race", "inner race"):
             answers.append(ListedBearing(name, answer))
     # levels within a decibel are alike: then the nearer geometry is the better
-    return tuple(sorted(answers, key=lambda one: (-round(one.level), abs(one.slip))))
+    return tuple(sorted(answers, key=lambda bearing: (-round(bearing.level), abs(bearing.slip))))
 
 
 def _distinct(bearings: Mapping[str, Bearing]) -> Iterator[tuple[str, Bearing]]:

@@ -101,7 +101,7 @@ def shaft_lines(
         noise = noise_level(RARE / cells, levels.averages)
         turn = _slowest(levels, float(frequency[index]), low, noise)
         # without the lines of both mains, where enough are left, as there is but one
-        fits = [_fine(levels, one, turn, resolution, noise) for one in (own[0] | own[1], *own)]
+        fits = [_fine(levels, lines, turn, resolution, noise) for lines in (own[0] | own[1], *own)]
         turn, error = fits[0] if np.isfinite(fits[0][1]) else _finest(fits[1:])
         inside = min(max(turn, low), high)
         if abs(turn - inside) > 2.0 * error:  # lines of something beyond

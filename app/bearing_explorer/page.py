@@ -5,6 +5,8 @@ The only file that knows both halves; each serves without the other, too.
 
 from __future__ import annotations
 
+import logging
+from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -13,7 +15,6 @@ from urllib.parse import urlencode
 import panel as pn
 
 from bearing_explorer.kit.assets import asset_text, scripts
-from bearing_explorer.kit.compute import compiling
 from bearing_explorer.kit.plots.theme import dark_properties, themes
 from bearing_explorer.kit.serve.bokeh_internals import PLAIN
 from bearing_explorer.kit.serve.live import on_loop
@@ -37,6 +38,8 @@ except ModuleNotFoundError as error:
     if error.name != "bearing_explorer.diagnosis":  # it is there, and broken
         raise
     signal = None  # type: ignore[assignment]
+
+log = logging.getLogger(__name__)
 
 _LAST = ("accuracy", "explore", "over-speed", "paper")
 """Tabs of the scene that come after those of the measured signal."""
@@ -124,9 +127,22 @@ def faults_of(folder: Path) -> tuple[str, ...]:
     return tuple(scene.faults_in(folder, TABS)) if scene else ()
 
 
+def begin_compiling(
+    report: Callable[[str], object] = log.info, done: Callable[[], object] = lambda: None
+) -> None:
+    """Compile kernels in a thread; does nothing the second time, and without the scene's half.
+
+    `report` gets a line for each part. `done` is called at the end, in the thread.
+    """
+    if scene is None:
+        done()
+    else:
+        scene.begin_compiling(report, done)
+
+
 def page(lessons: Path | None = None) -> PageTemplate:
     """The page of a new session; `lessons` is a folder with other ones."""
-    compiling.begin()
+    begin_compiling()
     halves = Halves(address(), lessons_of(lessons))
     session, explorer = halves.session, halves.explorer
     template = PageTemplate(_frame())

@@ -108,16 +108,16 @@ def read_catalogue(table: str | bytes) -> dict[str, CatalogueBearing]:
         raise checks.refuse(
             "table of bearings", f"{len(rows) - 1} bearings long", f"at most {MOST_BEARINGS}"
         )
-    found: dict[str, CatalogueBearing] = {}
+    entries: dict[str, CatalogueBearing] = {}
     for number, cells in rows[1:]:
         at = f"table of bearings: line {number}"
         entry = _bearing(at, _by_heading(at, headings, cells, separator), separator != ",")
-        if entry.name in found:
+        if entry.name in entries:
             raise checks.refuse(f"{at}, column name", entry.name, "a name of its own for each")
-        found[entry.name] = entry
-    if not found:
+        entries[entry.name] = entry
+    if not entries:
         raise checks.refuse("table of bearings", "headings alone", "a line for each bearing")
-    return found
+    return entries
 
 
 def _text(table: str | bytes) -> str:

@@ -246,8 +246,8 @@ def designations(beginning: str = "") -> Iterator[str]:
     own = re.match(r"NUP|NJ|N(?=\d)", wanted)
     letters = own[0] if own else ""
     table = f"NU{wanted.removeprefix(letters)}" if letters else wanted
-    found = (basic for basic in boundaries() if basic.startswith(table))
-    return (letters + basic.removeprefix("NU") if letters else basic for basic in found)
+    basics = (basic for basic in boundaries() if basic.startswith(table))
+    return (letters + basic.removeprefix("NU") if letters else basic for basic in basics)
 
 
 BY_FREQUENCIES = (
@@ -297,10 +297,10 @@ def _inside(kind: str, size: Boundary, angle: float) -> Inside:
 
 def _reinforced(name: str, basic: str, size: Boundary, inside: str) -> Boundary:
     """A line of the table with the ratings of a reinforced inside; refused where not tabulated."""
-    found = [row[inside] for row in rows_of("reinforced.csv") if row["designation"] == basic]
-    if not found or not found[0]:
+    rows = [row[inside] for row in rows_of("reinforced.csv") if row["designation"] == basic]
+    if not rows or not rows[0]:
         raise checks.refuse("designation", name, REINFORCED)
-    C, C_0, *Y_1 = map(float, found[0].split())
+    C, C_0, *Y_1 = map(float, rows[0].split())
     axial = Y_1[0] if Y_1 else size.axial_factor
     return size._replace(
         dynamic_rating=1e3 * C, static_rating=1e3 * C_0, axial_factor=axial, factor=math.nan

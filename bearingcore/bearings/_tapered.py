@@ -127,7 +127,7 @@ class Tapered(Roller):
         if len(bearing.all_rows) == 1:
             return "tapered"
         name = _PREFIX + self.arrangement(bearing)
-        return name if name in [one.name for one in self.variants] else ""
+        return name if name in [variant.name for variant in self.variants] else ""
 
     def nearest(self, bearing: Bearing, variant: str) -> Bearing:
         diameter, distance, preload = bearing.ball_diameter, bearing.row_distance, bearing.preload

@@ -155,15 +155,15 @@ class ResultTable(Mapping[str, NDArray[Any]]):
     def _lines(self) -> list[tuple[str, str, str]]:
         """A line a column of a single row: its name, its value with the unit, its meaning."""
         return [
-            (one.name, f"{_digits(one.values[0])} {_unit(one)}".rstrip(), one.meaning)
-            for one in self.columns
+            (column.name, f"{_digits(column.values[0])} {_unit(column)}".rstrip(), column.meaning)
+            for column in self.columns
         ]
 
     def _headed(self) -> DataFrame:
         size = self.columns[0].values.size  # what is as long as the first stands in its rows
-        alike = [one for one in self.columns if one.values.size == size]
-        heads = [f"{one.name} [{_unit(one)}]".removesuffix(" []") for one in alike]
-        return self.only(*(one.name for one in alike)).frame().set_axis(heads, axis=1)
+        alike = [column for column in self.columns if column.values.size == size]
+        heads = [f"{column.name} [{_unit(column)}]".removesuffix(" []") for column in alike]
+        return self.only(*(column.name for column in alike)).frame().set_axis(heads, axis=1)
 
     def __str__(self) -> str:
         """The table as text: of a single row a line a column, of many the first and last rows."""
@@ -172,7 +172,7 @@ class ResultTable(Mapping[str, NDArray[Any]]):
         lines = self._lines()
         name, value = (max(len(line[i]) for line in lines) for i in (0, 1))
         value = min(value, LONGEST_VALUE)
-        rows = (f"{one:<{name}}  {of:<{value}}  {what}".rstrip() for one, of, what in lines)
+        rows = (f"{title:<{name}}  {of:<{value}}  {what}".rstrip() for title, of, what in lines)
         return "\n".join(textwrap.fill(row, 100, subsequent_indent=" " * 4) for row in rows)
 
     def _repr_html_(self) -> str:
@@ -200,7 +200,7 @@ def table_of(
     made = []
     for name, unit, values, *meaning in columns:
         if isinstance(values, str):
-            values = [getattr(one, values) for one in of]
+            values = [getattr(column, values) for column in of]
         made.append(Column(name, unit, np.asarray(values).ravel(), meaning[0] if meaning else ""))
     return ResultTable(made)
 

@@ -45,7 +45,7 @@ class Spectrum(NamedTuple):
         """Return a row for each frequency, with densities named by `directions` or counted."""
         columns = self.density.reshape(len(self.frequency), -1).T
         named = directions or [str(k + 1) for k in range(len(columns))]
-        names = [f"density_{one}" for one in named]
+        names = [f"density_{direction}" for direction in named]
         if not directions and len(columns) == 1:
             names = ["density"]
         if len(names) != len(columns):

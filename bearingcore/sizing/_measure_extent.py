@@ -155,8 +155,8 @@ class MeasuredExtent:
             long = f", {1e3 * self.length:.1f} mm" if math.isfinite(self.length) else ""
             return f"{extent:.1f}° ({low:.1f}-{high:.1f}°){long}"
         if self.status == ExtentStatus.EITHER:
-            one, other = (math.degrees(extent) for extent, _, _ in self.alternatives)
-            return f"about {one:.0f}° or {other:.0f}°"
+            first, other = (math.degrees(extent) for extent, _, _ in self.alternatives)
+            return f"about {first:.0f}° or {other:.0f}°"
         if self.status == ExtentStatus.SHORTER:
             return f"shorter than about {math.degrees(self.high):.0f}° or near whole ball spacings"
         return ""
@@ -265,12 +265,12 @@ def measure_extent(
     if edge is not None:
         checks.choice("edge", edge, EDGES)
     if race is None or not isinstance(shaft_speed, int | float):
-        found = diagnosis or diagnose(recording, bearing, shaft_speed)
-        named = {OUTER: "outer", INNER: "inner"}.get(found.fault)
+        answer = diagnosis or diagnose(recording, bearing, shaft_speed)
+        named = {OUTER: "outer", INNER: "inner"}.get(answer.fault)
         race = race or named
-        if race is None or not found.evidence:
+        if race is None or not answer.evidence:
             return MeasuredExtent(race or "", ball_spacing=spacing)
-        nominal = found.of(f"{race} race").frequency
+        nominal = answer.of(f"{race} race").frequency
         slip = SLIP_OF_LINES
     else:
         speed = checks.real_number("shaft_speed", shaft_speed, above=0.0, unit="rad/s")
@@ -306,7 +306,7 @@ def _answer(knocks: Knocks, bearing: Bearing, race: str, offsets: Offsets | None
     least, offset, most = (
         math.nan if offsets is None else offsets.quantile(share) for share in (0.025, 0.5, 0.975)
     )
-    found = MeasuredExtent(
+    answer = MeasuredExtent(
         race,
         separation=spacing * knocks.separation,
         deviation=spacing * knocks.deviation,
@@ -323,10 +323,10 @@ def _answer(knocks: Knocks, bearing: Bearing, race: str, offsets: Offsets | None
     )
     bound = spacing * knocks.hidden + most
     if bound < LONGEST_BOUND * spacing:
-        return replace(found, low=0.0, high=bound, status=ExtentStatus.SHORTER)
-    if not found.measured:
-        return found
-    extent, low, high = found.alternatives[0]
+        return replace(answer, low=0.0, high=bound, status=ExtentStatus.SHORTER)
+    if not answer.measured:
+        return answer
+    extent, low, high = answer.alternatives[0]
     radius = bearing.outer_raceway_radius if race == "outer" else bearing.inner_raceway_radius
     length = extent * radius
-    return replace(found, extent=extent, low=low, high=high, length=length)
+    return replace(answer, extent=extent, low=low, high=high, length=length)

@@ -163,10 +163,10 @@ class Trend:
             ),
             ("fault", "", [point.fault for point in points]),
             ("probability", "1", self.column("probability")),
-            ("extent", "rad", [one.extent for one in extents]),
-            ("extent_low", "rad", [one.low for one in extents], "95 % from here"),
-            ("extent_high", "rad", [one.high for one in extents], "to here, or a bound"),
-            ("extent_status", "", [str(one.status.value) for one in extents]),
+            ("extent", "rad", [extent.extent for extent in extents]),
+            ("extent_low", "rad", [extent.low for extent in extents], "95 % from here"),
+            ("extent_high", "rad", [extent.high for extent in extents], "to here, or a bound"),
+            ("extent_status", "", [str(extent.status.value) for extent in extents]),
         )
 
 
@@ -211,9 +211,9 @@ def trend(
         raise checks.refuse("recordings", "none", "one at least")
     checks.whole_number("baseline", baseline, at_least=0, at_most=len(recordings) - 1)
     along = recordings[-1].directions[-1] if direction is None else direction
-    for one in recordings:
-        checks.instance("recordings", one, Recording, "a sequence of Recording")
-        checks.choice(f"direction of {one.name}", along, one.directions)
+    for recording in recordings:
+        checks.instance("recordings", recording, Recording, "a sequence of Recording")
+        checks.choice(f"direction of {recording.name}", along, recording.directions)
     last = recordings[-1]
     chosen = band
     if chosen is None:
@@ -221,9 +221,9 @@ def trend(
     low = checks.real_number("lower end of the band", chosen[0], above=0.0, unit="Hz")
     high = checks.real_number("upper end of the band", chosen[1], above=low, unit="Hz")
     points: list[TrendPoint] = []
-    for one in recordings:
-        speed = _speed(one, shaft_speed)
-        points.append(trend_point(one, bearing, speed, along, (low, high)))
+    for recording in recordings:
+        speed = _speed(recording, shaft_speed)
+        points.append(trend_point(recording, bearing, speed, along, (low, high)))
         done = tuple(points)
         so_far = Trend(done, along, (low, high), baseline if baseline < len(done) else 0)
         if not goes_on(so_far, len(recordings)):

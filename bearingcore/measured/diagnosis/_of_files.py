@@ -53,8 +53,8 @@ class FolderDiagnosis:
     def table(self) -> ResultTable:
         """A row for each file: part, probability, shaft speed and the answer in words."""
         answers = self.answers
-        faults = ["not read" if one is None else one.fault for one in answers]
-        odds = [math.nan if one is None else one.probability for one in answers]
+        faults = ["not read" if answer is None else answer.fault for answer in answers]
+        odds = [math.nan if answer is None else answer.probability for answer in answers]
         speeds = [math.nan if one is None else one.shaft_speed or math.nan for one in answers]
         return table_of(
             ("file", "", self.names),
@@ -146,21 +146,21 @@ def diagnose(
 def _of_folder(
     folder: Path, bearing: BearingLike | None, shaft_speed: Any, choices: Any, more: Any
 ) -> FolderDiagnosis:
-    named = [one for one in sorted(folder.iterdir()) if one.name[0] != "." and one.is_file()]
-    files = [one for one in named if not DOCUMENT.search(one.name)]
+    named = [path for path in sorted(folder.iterdir()) if path.name[0] != "." and path.is_file()]
+    files = [path for path in named if not DOCUMENT.search(path.name)]
     if not files:
         raise checks.refuse("recording", str(folder), "a folder with records in it")
     answers: list[Diagnosis | None] = []
     sentences = []
-    for one in files:
+    for file in files:
         try:
-            found = _of_file(one, bearing, shaft_speed, choices, more)
-            answers.append(found)
-            sentences.append(found.sentence)
+            answer = _of_file(file, bearing, shaft_speed, choices, more)
+            answers.append(answer)
+            sentences.append(answer.sentence)
         except ValueError as error:
             answers.append(None)
             sentences.append(str(error))
-    return FolderDiagnosis(tuple(one.name for one in files), tuple(answers), tuple(sentences))
+    return FolderDiagnosis(tuple(file.name for file in files), tuple(answers), tuple(sentences))
 
 
 def _of_file(
@@ -224,12 +224,12 @@ def _recording(
         directions, columns = directions or tuple(chosen), tuple(chosen.values())
     if directions is None:
         directions = ("x", "y")[-len(columns) :]
-    units: dict[int | str, str | None] = {one.name: one.unit for one in says.columns}
-    units |= {number: one.unit for number, one in enumerate(says.columns)}
+    units: dict[int | str, str | None] = {column.name: column.unit for column in says.columns}
+    units |= {number: column.unit for number, column in enumerate(says.columns)}
     if unit is None and not all(units.get(column) for column in columns):
         unit = says.unit.value if says.unit.taken else "m/s²"
     if sensitivity is None and "voltage" in {
-        kind_of(one) for one in [unit or units.get(column) for column in columns] if one
+        kind_of(unit) for unit in [unit or units.get(column) for column in columns] if unit
     }:
         unit = "m/s²"  # without the sensor's sensitivity, as they are
     rate = says.sample_rate

@@ -127,7 +127,7 @@ def _with_roles(
                 known.direction if role == SIGNAL else "",
             )
     if time_unit is not None and "time" not in columns:
-        timed = [index for index, one in enumerate(guessed) if one.role == TIME]
+        timed = [index for index, column in enumerate(guessed) if column.role == TIME]
         given |= {index: Column("", TIME, time_unit) for index in timed[:1]}
     return table.with_columns(given)
 

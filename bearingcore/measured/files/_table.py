@@ -355,7 +355,7 @@ def files_inside(name: str, content: bytes, give_up: Callable[[], bool] | None =
     about, _ = read_file(name, content, give_up=give_up)
     inside = sorted(about.get("inside", ()), key=_in_order)
     packed = re.sub(r"(?i)\.zip$", "", name) + ".zip"
-    return [f"{packed}/{one}" for one in inside] or [name]
+    return [f"{packed}/{name}" for name in inside] or [name]
 
 
 def _in_order(name: str) -> list[tuple[int, str]]:
@@ -441,12 +441,12 @@ def join_tables(tables: Sequence[Table]) -> Table:
     if not tables:
         raise checks.refuse("tables", "none", "one or more")
     first = tables[0]
-    for one in tables[1:]:
-        _check_alike(first, one)
-    if sum(one.columns.size for one in tables) > MOST_NUMBERS:
+    for table in tables[1:]:
+        _check_alike(first, table)
+    if sum(table.columns.size for table in tables) > MOST_NUMBERS:
         raise checks.refuse("count of numbers in all files", "more", f"at most {MOST_NUMBERS}")
-    columns = np.concatenate([one.columns for one in tables])
-    ends = np.cumsum([len(one.columns) for one in tables])
+    columns = np.concatenate([table.columns for table in tables])
+    ends = np.cumsum([len(table.columns) for table in tables])
     timed = [i for i, column in enumerate(first.contents.columns) if column.role == TIME]
     anew = len(timed) != 1
     for start, end in pairwise(ends) if len(timed) == 1 else ():
@@ -457,7 +457,7 @@ def join_tables(tables: Sequence[Table]) -> Table:
             anew = True
         elif time[start] <= time[start - 1]:
             raise checks.refuse("tables", "not in their order", "files in the order of their times")
-    notes = [note for one in tables for note in one.notes]
+    notes = [note for table in tables for note in table.notes]
     if len(tables) > 1:
         gap = " as if nothing were missing between them" if anew else ""
         notes.append(f"{len(tables)} files are joined{gap}.")

@@ -218,8 +218,8 @@ def _rms_of_integral(
     # the trapezium rule makes tan(turn) of what is turn
     mended = np.divide(np.tan(turn), turn, out=np.ones(n), where=turn > 0.0) ** integrations
     amplitudes = dct(motion, norm="ortho", axis=0) * (kept * mended)[:, None]
-    found = np.sqrt((amplitudes**2).sum(axis=0) / n)
-    return np.asarray(found if samples.ndim > 1 else found[0])
+    rms = np.sqrt((amplitudes**2).sum(axis=0) / n)
+    return np.asarray(rms if samples.ndim > 1 else rms[0])
 
 
 def shaft_share(recording: Recording, shaft_speed: float) -> Array:

@@ -117,15 +117,15 @@ def kurtogram(signal: ArrayLike, sample_rate: float, narrowest: float = 0.0) -> 
     least = max(least, FEWEST * PIECES / duration)
     split_into = {parts: split(rate, least, (parts,)) for parts in BAND_COUNTS}
     bands = [band for own in split_into.values() for band in own]
-    found = squared_envelopes(samples, rate, bands, math.inf, loudest=math.inf)
+    envelopes = squared_envelopes(samples, rate, bands, math.inf, loudest=math.inf)
     whole, density = periodogram(samples, rate, detrend="constant")
-    kept = tuple(one.band for one in found)
+    kept = tuple(envelope.band for envelope in envelopes)
     widths = np.array([band.high - band.low for band in kept])
     numbers = {band: parts for parts, own in split_into.items() for band in own}
     return Kurtogram(
         kept,
         np.array([numbers[band] for band in kept]),
-        np.array([_kurtosis(one.values) for one in found]),
+        np.array([_kurtosis(envelope.values) for envelope in envelopes]),
         np.array([density[(whole >= b.low) & (whole < b.high)].mean() for b in kept]),
         np.sqrt(SCATTER / (duration * widths)),
     )

@@ -162,7 +162,7 @@ def frequency_bands(
     n = ANGLES_A_PERIOD if scene.defect_turns else 3 * ANGLES_A_PERIOD - 2
     n, rounds = ((n - 1) // 3 + 1, 2) if coarse else (n, ROUNDS)
     packed = pack(scene)
-    found = positions_of(packed, n)
+    positions = positions_of(packed, n)
     state = equilibrium_over_all(packed, n, most_contacts)
     if not state.converged.any():
         return modes_at(state).bands()
@@ -179,7 +179,7 @@ def frequency_bands(
     def closer(cage_angles: Array, shaft_angles: Array) -> Array:
         return frequencies(equilibrium_of(packed, cage_angles, shaft_angles))
 
-    ends = extremes(found, frequencies(state), closer, rounds=rounds)
+    ends = extremes(positions, frequencies(state), closer, rounds=rounds)
     there = equilibrium_of(packed, ends.cage_angles.ravel(), ends.shaft_angles.ravel())
     least, greatest = map(np.diagonal, np.split(modes_at(there, search.template).frequency, 2))
     pairs = zip(least.tolist(), greatest.tolist(), strict=True)
@@ -218,9 +218,9 @@ class BandSearch:
         """(m, n) [Hz] for stiffness terms (15, n); NaN where one that counts is not known."""
         chosen = terms[self._rows]
         known = np.asarray(np.isfinite(chosen).all(axis=0))
-        found = np.full((len(self.template), known.size), math.nan)
-        found[:, known] = _frequencies_like(self.template, chosen[:, known], self._support)
-        return found
+        result = np.full((len(self.template), known.size), math.nan)
+        result[:, known] = _frequencies_like(self.template, chosen[:, known], self._support)
+        return result
 
 
 def stiffness_terms(state: Equilibrium) -> Array:
@@ -302,9 +302,9 @@ def undamped_bands(scene: Scene, terms: Array) -> tuple[Array, Array, list[tuple
         if the support lacks a number; the error names it.
     """
     searches = [BandSearch(scene, row, np.ones(row.shape[1])) for row in np.moveaxis(terms, 1, 0)]
-    found = [one.frequencies(terms[:, i]) for i, one in enumerate(searches)]
-    least, greatest = least_and_greatest(np.stack(found), 2)
-    return least, greatest, [one.labels for one in searches]
+    values = [search.frequencies(terms[:, i]) for i, search in enumerate(searches)]
+    least, greatest = least_and_greatest(np.stack(values), 2)
+    return least, greatest, [search.labels for search in searches]
 
 
 def _frequencies_like(template: Array, terms: Array, support: Array) -> Array:

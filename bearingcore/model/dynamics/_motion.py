@@ -505,9 +505,9 @@ def _bands_apart(motion: Motion, finer: Motion) -> str:
     since = 0.5 * float(motion.time[-1])
     edges = motion.bandwidth * 2.0 ** np.arange(-8.0, 0.1, 1.0 / 3.0)
     power = []
-    for one in (motion, finer):
-        found = one.spectrum(max(0.25 * edges[0], 4.0 / since), since)
-        power.append(np.add.reduceat(found.density, np.searchsorted(found.frequency, edges)[:-1]))
+    for each in (motion, finer):
+        lines = each.spectrum(max(0.25 * edges[0], 4.0 / since), since)
+        power.append(np.add.reduceat(lines.density, np.searchsorted(lines.frequency, edges)[:-1]))
     loud = (power[1] > 1e-4 * power[1].sum(axis=0)) & (power[0] > 0.0)
     apart = np.abs(10.0 * np.log10(power[0][loud] / power[1][loud])).max(initial=0.0)
     if apart <= SAME_BANDS:

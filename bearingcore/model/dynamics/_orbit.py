@@ -291,16 +291,16 @@ def orbit(
         return replace(nothing, status=OrbitStatus.NO_START, period=period, cost=why)
     y = shooting.own(y)
     if start is not None:
-        found = _newton(nothing, shooting, y, period, most_iterations)
-        if found.status != OrbitStatus.NOT_CONVERGED or shooting.given_up:
-            return shooting.reported(found)
+        answer = _newton(nothing, shooting, y, period, most_iterations)
+        if answer.status != OrbitStatus.NOT_CONVERGED or shooting.given_up:
+            return shooting.reported(answer)
     # where Newton loses its way it begins again, nearer to where the motion itself goes
     for periods in MARCHED_BEFORE:
         y = shooting.marched(y, periods)
-        found = _newton(nothing, shooting, y, period, most_iterations)
-        if found.status != OrbitStatus.NOT_CONVERGED or shooting.given_up:
+        answer = _newton(nothing, shooting, y, period, most_iterations)
+        if answer.status != OrbitStatus.NOT_CONVERGED or shooting.given_up:
             break
-    return shooting.reported(found)
+    return shooting.reported(answer)
 
 
 def common_ball_passes(scene: Scene) -> int | None:
@@ -384,15 +384,15 @@ class _Shooting:
         if self.calls // 4 + self.steps > self._most_steps:
             self.given_up = self._too_many = True
 
-    def reported(self, found: Orbit) -> Orbit:
+    def reported(self, answer: Orbit) -> Orbit:
         """Result of the search, or its status where it was ended for its cost."""
-        if found.status != OrbitStatus.NOT_CONVERGED or not self._too_many:
-            return found
+        if answer.status != OrbitStatus.NOT_CONVERGED or not self._too_many:
+            return answer
         cost = (
             f"no orbit after {self.calls // 4} steps, {self.steps} a period; allowed are "
             f"most_steps = {self._most_steps}"
         )
-        return replace(found, status=OrbitStatus.TOO_MANY_STEPS, cost=cost)
+        return replace(answer, status=OrbitStatus.TOO_MANY_STEPS, cost=cost)
 
     def miss(self, y: Array, end: Array) -> float:
         """|P(y) − y| over the size of the motion between, of rings that stand still over STILL."""
@@ -426,7 +426,7 @@ def _newton(nothing: Orbit, shooting: _Shooting, y: Array, period: float, most: 
             trial_end, trial_tangent = shooting.with_tangent(trial)
             trial_miss = shooting.miss(trial, trial_end)
         y, end, tangent, miss = trial, trial_end, trial_tangent, trial_miss
-    found = replace(
+    answer = replace(
         nothing,
         status=OrbitStatus.NOT_CONVERGED,
         period=period,
@@ -435,7 +435,7 @@ def _newton(nothing: Orbit, shooting: _Shooting, y: Array, period: float, most: 
         right_hand_side_calls=shooting.calls,
     )
     if not miss <= CLOSED:
-        return found
+        return answer
     multipliers = np.linalg.eigvals(tangent)
     multipliers = multipliers[np.argsort(-np.abs(multipliers))]
     largest = multipliers[0]
@@ -443,7 +443,7 @@ def _newton(nothing: Orbit, shooting: _Shooting, y: Array, period: float, most: 
     if abs(largest) >= 1.0:
         through = "pair" if abs(largest.imag) > 1e-9 else ("+1" if largest.real > 0.0 else "-1")
     return replace(
-        found,
+        answer,
         status=OrbitStatus.STABLE if abs(largest) < 1.0 else OrbitStatus.UNSTABLE,
         through=through,
         multipliers=multipliers.astype(complex),

@@ -60,9 +60,9 @@ def to_ross(scene: Scene, speeds: ArrayLike, *, node: int = 0, **more: Any) -> A
     speeds = np.atleast_1d(checks.finite("speeds", speeds, "rad/s"))
     if speeds.size == 0 or speeds[0] < 0.0 or (np.diff(speeds) <= 0.0).any():
         raise checks.refuse("speeds", speeds.tolist(), "at least 0 rad/s and increasing")
-    found = [_mean_matrices(scene.replace(shaft_speed=float(speed))) for speed in speeds]
+    means = [_mean_matrices(scene.replace(shaft_speed=float(speed))) for speed in speeds]
     coefficients = {
-        f"{letter}{name}": np.array([matrices[k][at] for matrices in found])
+        f"{letter}{name}": np.array([matrices[k][at] for matrices in means])
         for k, letter in enumerate("kc")
         for name, at in ALONG.items()
     }

@@ -186,16 +186,16 @@ def speed_run(
             at = scene.replace(shaft_speed=speed)
             if left < 1:
                 raise ValueError(_NONE_LEFT.format(thousands(most_steps_in_all)))
-            found = None
+            answer = None
             if at.balls == MASSLESS:
                 may_take, rate = min(most_steps, left), fine_step_rate(at, sample_rate)
-                found = orbit(at, start=nearby, step_rate=rate, most_steps=may_take)
-                left -= found.right_hand_side_calls // 4
-            if found is not None and found.stable:
-                lines = found.spectrum(sample_rate, resolution, duration).density
+                answer = orbit(at, start=nearby, step_rate=rate, most_steps=may_take)
+                left -= answer.right_hand_side_calls // 4
+            if answer is not None and answer.stable:
+                lines = answer.spectrum(sample_rate, resolution, duration).density
                 density[i, : len(lines)] = lines
                 proven[i] = True
-                nearby = found
+                nearby = answer
                 continue
             may_take = max(min(most_steps, left), 1)
             motion = simulate(at, lasting, sample_rate, most_steps=may_take)
@@ -237,4 +237,4 @@ def _steps_of_marching(
             steps.append(duration * rate)
     except ValueError:  # said where the motion is tried
         return 0.0
-    return sum(one for one in steps if one <= most_steps)
+    return sum(step for step in steps if step <= most_steps)

@@ -225,7 +225,7 @@ def floor_bytes(defects: tuple[Defect, ...]) -> int:
 # of a rough floor a table holds up to two million numbers: a count of them would be no bound
 @lru_cache_by_bytes(
     64_000_000,
-    lambda found, defects, _: sum(part.nbytes for part in found) + floor_bytes(defects),
+    lambda path, defects, _: sum(part.nbytes for part in path) + floor_bytes(defects),
 )
 def path_tables(defects: tuple[Defect, ...], bearing: Bearing) -> kernels.Path:
     """Arrays of all defects for the kernels: rows of numbers, and paths as tables.
@@ -264,18 +264,18 @@ def path_tables(defects: tuple[Defect, ...], bearing: Bearing) -> kernels.Path:
 
 def _paths_of_rows(defects: tuple[Defect, ...], bearing: Bearing) -> kernels.Path:
     """The same, row by row: each row's balls run on raceways of their own radius."""
-    found, tables, size = [], [], 0
+    rows, tables, size = [], [], 0
     for row in range(len(bearing.all_rows)):
         there = tuple(
-            dataclasses.replace(one, row=row) for one in defects if one.row in (None, row)
+            dataclasses.replace(defect, row=row) for defect in defects if defect.row in (None, row)
         )
         own = path_tables(there, bearing.of_row(row).replace(rows=()))
         lines = own.defects.copy()
         lines[:, _TABLE_START] += size
-        found.append(lines)
+        rows.append(lines)
         tables.append(own.tables)
         size += own.tables.size
-    return kernels.Path(np.concatenate(found), np.concatenate(tables))
+    return kernels.Path(np.concatenate(rows), np.concatenate(tables))
 
 
 _TABLE_START = kernels.PATH_COLUMNS.index("table_start")

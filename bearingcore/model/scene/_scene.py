@@ -134,9 +134,9 @@ class Scene:
             ", ".join(f"{name} = {value:.4g}" for name, value in loads.items() if value),
             f"{30.0 / math.pi * self.shaft_speed:.5g} rpm",
             *(
-                f"{one.race} race damaged over {math.degrees(one.extent):.4g}°, "
-                f"{1e6 * one.depth:.4g} µm deep"
-                for one in self.defects
+                f"{defect.race} race damaged over {math.degrees(defect.extent):.4g}°, "
+                f"{1e6 * defect.depth:.4g} µm deep"
+                for defect in self.defects
             ),
         ]
         return f"<Scene: {'; '.join(filter(None, parts))}>"

@@ -282,27 +282,27 @@ def static_state(
         return equilibrium(
             scene, cage_angles, dofs, shaft_angles=shaft_angles, most_contacts=most_contacts
         )
-    found = ball_positions(
+    answer = ball_positions(
         scene, cage_angles, dofs, shaft_angles=shaft_angles, most_contacts=most_contacts
     )
-    known = found.status < StaticStatus.NOT_CARRIED
-    carries = (found.load[0] > 0.0) & (found.load[1] > 0.0)
+    known = answer.status < StaticStatus.NOT_CARRIED
+    carries = (answer.load[0] > 0.0) & (answer.load[1] > 0.0)
     return EquilibriumWithMass(
         scene=scene,
-        dofs=found.dofs,
-        cage_angles=found.cage_angles,
-        displacement=found.displacement,
-        ball_load=found.load[1],
-        stiffness=found.stiffness,
+        dofs=answer.dofs,
+        cage_angles=answer.cage_angles,
+        displacement=answer.displacement,
+        ball_load=answer.load[1],
+        stiffness=answer.stiffness,
         loaded_balls=np.where(known, carries.sum(axis=1), 0),
-        status=found.status,
-        residual=found.residual,
-        iterations=found.iterations,
-        evaluations=found.iterations,
-        state=found.displacement * packing.length_units(scene),
-        leads=found.leads,
-        cost=found.cost,
-        positions=found,
+        status=answer.status,
+        residual=answer.residual,
+        iterations=answer.iterations,
+        evaluations=answer.iterations,
+        state=answer.displacement * packing.length_units(scene),
+        leads=answer.leads,
+        cost=answer.cost,
+        positions=answer,
     )
 
 
@@ -407,9 +407,9 @@ def _beyond_geometry(
 
     See `kernels.Contacts.room`: each contact of a ball has all of it.
     """
-    one = balls.contacts
-    most = balls.races.factor * one.room**one.exponent
+    contacts = balls.contacts
+    most = balls.races.factor * contacts.room**contacts.exponent
     outside = (load > most[:, None]).any(axis=(0, 2))
-    tilted = (np.abs(q[:, 3:]) > one.most_tilt).any(axis=1)
+    tilted = (np.abs(q[:, 3:]) > contacts.most_tilt).any(axis=1)
     converged, free = (status == code for code in (kernels.CONVERGED, kernels.FREE_DIRECTION))
     return np.asarray(converged & (outside | tilted) | free & outside)

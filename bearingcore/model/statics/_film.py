@@ -267,7 +267,7 @@ def film(
     state = state_of(scene, state, static_state)
     films = [_film_of(scene, ball, (eta, xi), sigma) for ball in heaviest_balls(state)]
     # one that is not known is not the thinnest, unless none is known
-    return min(films, key=lambda one: np.nan_to_num(one.thinner.film_parameter, nan=math.inf))
+    return min(films, key=lambda answer: np.nan_to_num(answer.thinner.film_parameter, nan=math.inf))
 
 
 def _film_of(

@@ -246,8 +246,8 @@ class _Paths:
     refusals: tuple[str, ...]
 
 
-def _bytes_of_paths(found: _Paths, first: Defect, *others: object) -> int:
-    packed = found.packed
+def _bytes_of_paths(paths: _Paths, first: Defect, *others: object) -> int:
+    packed = paths.packed
     return packed.defects.nbytes + packed.tables.nbytes + floor_bytes((first,))
 
 
@@ -271,25 +271,25 @@ def _paths(
         rows[sizes >= TWO_PI, 0, _FLOOR_ANGLE] = 0.0
         counts = np.where((sizes > 0.0) & (first.depth > 0.0), 1, 0)
         return _Paths(kernels.MapPaths(rows, counts, np.zeros(0), _NO_LEADS), ("",) * sizes.size)
-    found: list[tuple[Array, Array]] = []
+    paths: list[tuple[Array, Array]] = []
     refusals = []
     for extent in extents:
         defects = (dataclasses.replace(first, extent=extent), *others)
         try:
             # past its cache, which this would fill with what is not needed again
-            found.append(inspect.unwrap(path_tables)(defects, bearing))
+            paths.append(inspect.unwrap(path_tables)(defects, bearing))
             refusals.append("")
         except ValueError as error:
-            found.append((np.zeros((0, columns)), np.zeros(0)))
+            paths.append((np.zeros((0, columns)), np.zeros(0)))
             refusals.append(str(error))
-    counts = np.array([len(rows) for rows, _ in found], dtype=np.int64)
+    counts = np.array([len(rows) for rows, _ in paths], dtype=np.int64)
     all_rows = np.zeros((sizes.size, max(counts, default=0), columns))
     size = 0
-    for i, (rows, table) in enumerate(found):
+    for i, (rows, table) in enumerate(paths):
         all_rows[i, : len(rows)] = rows
         all_rows[i, : len(rows), _TABLE_START] += size
         size += table.size
-    tables = np.concatenate([*(table for _, table in found), np.zeros(0)])
+    tables = np.concatenate([*(table for _, table in paths), np.zeros(0)])
     return _Paths(kernels.MapPaths(all_rows, counts, tables, _NO_LEADS), tuple(refusals))
 
 

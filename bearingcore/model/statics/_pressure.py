@@ -165,19 +165,19 @@ def contact_pressures(scene: Scene, state: Equilibrium | None = None) -> Contact
     """
     checks.instance("scene", scene, Scene)
     state = state_of(scene, state, static_state)
-    found = [_pressures(scene.bearing.of_row(ball.row), ball) for ball in heaviest_balls(state)]
+    answers = [_pressures(scene.bearing.of_row(ball.row), ball) for ball in heaviest_balls(state)]
     worst = max(
-        found, key=lambda one: max(one.inner.greatest_pressure, one.outer.greatest_pressure)
+        answers, key=lambda one: max(one.inner.greatest_pressure, one.outer.greatest_pressure)
     )
     unknown = math.isnan(worst.ball.load) and state.cage_angles.size
     return dataclasses.replace(worst, reason=state.reason(0)) if unknown else worst
 
 
 def _pressures(bearing: Bearing, ball: HeaviestBall) -> ContactPressures:
-    found = {}
+    races = {}
     for race in RACES:
         contact, load = bearing.race_contact(race), ball.load_on(race)
         a, b = contact.semi_axes(load)
         p = contact.greatest_pressure(load)
-        found[race] = RacePressure(race, load, float(a), float(b), float(p))
-    return ContactPressures(ball, found["inner"], found["outer"])
+        races[race] = RacePressure(race, load, float(a), float(b), float(p))
+    return ContactPressures(ball, races["inner"], races["outer"])

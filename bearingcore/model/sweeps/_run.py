@@ -196,9 +196,9 @@ def _in_memory(
     parts = ((place, grid.part(place)) for place in places)
     done = _Progress(grid.size, progress)
     with cluster as client:
-        for (place, part), (codes, found) in _finished(client, _compute, parts):
+        for (place, part), (codes, part_numbers) in _finished(client, _compute, parts):
             status[place] = codes
-            for name, values in found.items():
+            for name, values in part_numbers.items():
                 numbers[name][place] = values
             done.add(part.size)
     units = stores.coordinate_attributes(grid)

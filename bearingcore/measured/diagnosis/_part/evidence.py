@@ -116,9 +116,9 @@ class PartEvidence:
         return self.probability / (1.0 - self.magnetic)
 
 
-def leading_by(one: PartEvidence) -> tuple[float, float]:
+def leading_by(part: PartEvidence) -> tuple[float, float]:
     """The order of parts: by probability, then by lead."""
-    return one.probability, one.lead
+    return part.probability, part.lead
 
 
 @dataclass(frozen=True)
@@ -249,9 +249,9 @@ class Diagnosis:
 
     def of(self, part: str) -> PartEvidence:
         """Return the evidence of a part by its name; KeyError if there is no evidence."""
-        for one in self.evidence:
-            if one.part == part:
-                return one
+        for evidence in self.evidence:
+            if evidence.part == part:
+                return evidence
         raise KeyError(part)
 
     def table(self) -> ResultTable:
@@ -263,35 +263,35 @@ class Diagnosis:
         parts, spectrum = self.evidence, self.spectrum
         count = len(parts[0].harmonics) if parts else 0
         columns = table_of(
-            ("part", "", [one.part for one in parts]),
-            ("frequency", "Hz", [one.frequency for one in parts], "of its strongest lines"),
+            ("part", "", [part.part for part in parts]),
+            ("frequency", "Hz", [part.frequency for part in parts], "of its strongest lines"),
             (
                 "nominal_frequency",
                 "Hz",
-                [one.nominal_frequency * turns for one in parts],
+                [part.nominal_frequency * turns for part in parts],
                 "by geometry",
             ),
-            ("order", "1", [one.order * turns for one in parts], "turns of the shaft"),
-            ("nominal_order", "1", [one.nominal_order for one in parts]),
-            ("slip", "1", [one.slip * turns for one in parts]),
-            ("level", "dB", [one.level for one in parts], "of all harmonics but the loudest"),
-            ("noise", "dB", [one.noise for one in parts], "reached in one of a thousand signals"),
+            ("order", "1", [part.order * turns for part in parts], "turns of the shaft"),
+            ("nominal_order", "1", [part.nominal_order for part in parts]),
+            ("slip", "1", [part.slip * turns for part in parts]),
+            ("level", "dB", [part.level for part in parts], "of all harmonics but the loudest"),
+            ("noise", "dB", [part.noise for part in parts], "reached in one of a thousand signals"),
             *(
-                (f"harmonic_{k + 1}", "dB", [one.harmonics[k] for one in parts])
+                (f"harmonic_{k + 1}", "dB", [part.harmonics[k] for part in parts])
                 for k in range(count)
             ),
-            ("sidebands", "dB", [one.sidebands.mean() for one in parts], "their mean"),
-            ("sideband_spacing", "Hz", [one.sideband_spacing * turns for one in parts]),
-            ("envelope_swing", "1", [one.depth for one in parts], "at the lines, of its mean"),
-            ("swing_with_sidebands", "1", [one.swing for one in parts]),
-            ("lead", "dB", [one.lead for one in parts], "above noise and all other lines"),
-            ("deviations", "1", [one.deviations for one in parts], "in all bands together"),
-            ("magnetic_noise", "1", [one.magnetic for one in parts], "share of twice the mains"),
-            ("probability", "1", [one.probability for one in parts]),
-            ("band_low", "Hz", [one.band.low for one in parts]),
-            ("band_high", "Hz", [one.band.high for one in parts]),
-            ("direction", "", [one.direction for one in parts]),
-            ("kurtosis", "1", [one.kurtosis for one in parts]),
+            ("sidebands", "dB", [part.sidebands.mean() for part in parts], "their mean"),
+            ("sideband_spacing", "Hz", [part.sideband_spacing * turns for part in parts]),
+            ("envelope_swing", "1", [part.depth for part in parts], "at the lines, of its mean"),
+            ("swing_with_sidebands", "1", [part.swing for part in parts]),
+            ("lead", "dB", [part.lead for part in parts], "above noise and all other lines"),
+            ("deviations", "1", [part.deviations for part in parts], "in all bands together"),
+            ("magnetic_noise", "1", [part.magnetic for part in parts], "share of twice the mains"),
+            ("probability", "1", [part.probability for part in parts]),
+            ("band_low", "Hz", [part.band.low for part in parts]),
+            ("band_high", "Hz", [part.band.high for part in parts]),
+            ("direction", "", [part.direction for part in parts]),
+            ("kurtosis", "1", [part.kurtosis for part in parts]),
         )
         if spectrum is None:
             return columns

@@ -1,4 +1,4 @@
-"""The public names of the core and the packages they are in."""
+"""Public names of the core and the packages that hold them."""
 
 __version__: str
 

@@ -1,7 +1,7 @@
 """The registry of fields: each number of a scene with its symbol, unit, label, range and meaning.
 
-Sliders, links, drafts, sweeps, tables and sentences about a field come from here; a field is said
-nowhere else. A new one needs an entry in `FIELDS` and its attribute in the dataclass of its part.
+Sliders, links, drafts, sweeps, tables and sentences about a field take their data from here only. A
+new field needs an entry in `FIELDS` and its attribute in the dataclass of its part.
 """
 
 from __future__ import annotations

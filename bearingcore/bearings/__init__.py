@@ -1,7 +1,7 @@
-"""Bearings: a file a kind, presets and the catalogue by designation, what a drawing says.
+"""Bearings: one file for each kind, the catalogue, designations, and data of drawings.
 
-A bearing is rows; a row is elements, a place, and a contact that says its own kinematics. No file
-here imports one that imports it.
+A bearing consists of rows; a row has elements, a place, and a contact with its kinematics. Files of
+this package do not import each other in circles.
 """
 
 from bearingcore.bearings._ball import USUAL_GROOVES, Ball, drawn

@@ -1,4 +1,4 @@
-"""Used by every layer: checks of input, progress of long work."""
+"""Helpers of every layer: checks of input, tables, numbers in text, progress of long work."""
 
 from bearingcore.common._arrays import Array, runs, summit, weighted_quantile
 from bearingcore.common._checks import choice, refuse

@@ -1,4 +1,4 @@
-"""Signals over time and their spectra: what the model gives and a sensor measures."""
+"""Signals over time and their spectra, simulated or measured."""
 
 from bearingcore.recordings._recording import FEWEST_SAMPLES, Recording
 from bearingcore.recordings._spectrum import Spectrum, check_samples, envelope_spectrum, spectrum

@@ -1,4 +1,4 @@
-"""A measured signal held against the model: how long a spall is, and how it grows."""
+"""Comparison of measured signals with the model: length and growth of a spall."""
 
 from bearingcore.sizing._measure_extent import ExtentStatus, MeasuredExtent, measure_extent
 from bearingcore.sizing._read_floor import read_floor

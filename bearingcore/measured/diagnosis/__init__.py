@@ -1,4 +1,4 @@
-"""From a measured signal to the machine: which part is damaged."""
+"""Diagnosis of the damaged part of a bearing from a measured signal."""
 
 from bearingcore.measured.diagnosis._extent.knocks import Knocks, MeanPass, Pair, Seen, find_knocks
 from bearingcore.measured.diagnosis._of_files import FolderDiagnosis, diagnose

@@ -1,4 +1,4 @@
-"""Signals out of files: columns of numbers, their meaning by the file, open questions."""
+"""Signals from files: columns of numbers, their meaning by the file, and open questions."""
 
 from bearingcore.measured.files._by_hand import read_recording
 from bearingcore.measured.files._channels import OTHER, PLACES, SIGNAL, SPEED, TIME, Column

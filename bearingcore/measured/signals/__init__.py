@@ -1,4 +1,4 @@
-"""Signals as such, measured or simulated: reading, spectra, envelopes, averages."""
+"""Analysis of signals: indicators, kurtograms, order maps, averages over ball passes."""
 
 from bearingcore.measured.signals._averaging import (
     BallPasses,

@@ -1,4 +1,4 @@
-"""Speed against accuracy: experiments whose points the charts draw.
+"""Experiments on speed against accuracy; the charts draw their points.
 
 Each experiment takes a scene, reports to a `Watch` and can be cancelled; `measure` runs all.
 """

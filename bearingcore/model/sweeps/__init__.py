@@ -1,8 +1,8 @@
-"""Sweeps: grids of scenes on all cores, or on a cluster, to labelled arrays.
+"""Sweeps: labelled arrays of results for grids of scenes, on all cores or on a cluster.
 
-``from bearingcore.model.sweeps import sweep``. Needs xarray, dask, distributed and zarr, which come
-with ``pip install "bearing-explorer[scale]"``; the rest of the core does not, nor do the outputs
-and grids of this package: what needs them is imported when `sweep` is first asked for.
+`sweep` needs xarray, dask, distributed and zarr, which ``pip install "bearing-explorer[scale]"``
+installs. They are imported when `sweep` is first used; the outputs and grids of this package, and
+the rest of the core, do without them.
 """
 
 from typing import TYPE_CHECKING, Any

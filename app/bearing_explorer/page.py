@@ -119,7 +119,9 @@ def _for_teachers() -> str:
 
 def lessons_of(folder: Path | None = None) -> Any:
     """The lessons of a folder, or those that come along; read once."""
-    return scene.lessons_in(folder or scene.own_folder(), TABS) if scene else ()
+    if scene is None:
+        return ()
+    return scene.lessons_in(folder, TABS) if folder else scene.own_lessons(TABS)
 
 
 def faults_of(folder: Path) -> tuple[str, ...]:

@@ -12,7 +12,7 @@ from bearing_explorer.explorer.state.lessons import (
     Tabs,
     faults_in,
     lessons_in,
-    own_folder,
+    own_lessons,
     text_for_teachers,
 )
 from bearing_explorer.explorer.views.accuracy import Accuracy
@@ -56,7 +56,7 @@ __all__ = [
     "figure_of",
     "help_texts",
     "lessons_in",
-    "own_folder",
+    "own_lessons",
     "text_for_teachers",
 ]
 

@@ -8,8 +8,9 @@ from typing import Any, ClassVar
 import param
 from panel.custom import JSComponent
 
+from bearing_explorer.diagnosis.messages import RoleOfColumn
 from bearing_explorer.kit.assets import asset_text, scripts
-from bearing_explorer.kit.messages import RoleOfColumn, read
+from bearing_explorer.kit.messages import read
 
 
 class ColumnTable(JSComponent):

@@ -12,8 +12,9 @@ from typing import Any, ClassVar
 import param
 from panel.custom import JSComponent
 
+from bearing_explorer.diagnosis.messages import UploadBegins, UploadPiece
 from bearing_explorer.kit.assets import asset_text, scripts
-from bearing_explorer.kit.messages import UploadBegins, UploadPiece, read
+from bearing_explorer.kit.messages import read
 
 
 class FileUpload(JSComponent):

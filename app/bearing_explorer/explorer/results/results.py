@@ -46,10 +46,8 @@ from bearing_explorer.explorer.state.settings import Marching, Settings
 from bearing_explorer.kit.compute.cache import cached
 from bearing_explorer.kit.compute.compiling import StillCompiling
 from bearing_explorer.kit.compute.executors import PICTURES
-from bearing_explorer.kit.plots.element_words import with_elements_of
 from bearing_explorer.kit.sentences import words_of
-from bearing_explorer.kit.serve.log import short_digest
-from bearing_explorer.kit.views.content import Content, Warnings
+from bearing_explorer.kit.views.content import SceneContent, Warnings
 from bearing_explorer.kit.views.python_lines import changed_fields, code_of, scene_code, short
 from bearingcore import Equilibrium, Limit, Maps, Modes, Motion, Orbit, Scene, Spectrum
 from bearingcore.common import cached_property
@@ -99,7 +97,7 @@ def _chain_of(scene: Scene, cage_angle: float, settings: Settings, moving: bool)
 
 
 @dataclass(frozen=True, eq=False)
-class Results(Content):
+class Results(SceneContent):
     """All that the views read. Attributes are computed when first asked for, in any thread.
 
     Parameters
@@ -154,20 +152,6 @@ class Results(Content):
     def fine_key(self) -> tuple[object, ...]:
         """All that a fine picture depends on: turning the bearing leaves one fine."""
         return self.scene, self.settings, self.compared, self.grey_kind
-
-    @property
-    def picture_key(self) -> object:
-        return self.scene.bearing
-
-    def log_name(self) -> str:
-        return short_digest(self.scene.to_data())
-
-    def in_words(self, text: str) -> str:
-        """A text in the words of the bearing: its balls may be rollers."""
-        return with_elements_of(self.scene.bearing, text)
-
-    def scene_drawn(self) -> Scene:
-        return self.scene
 
     def at_rest(self, rested: bool = True, give_up: Callable[[], bool] | None = None) -> Results:
         return dataclasses.replace(self, moving=not rested, give_up=give_up)

@@ -47,7 +47,7 @@ def from_drawing(
     ball_youngs_modulus: float | None = None,
     ball_poisson: float | None = None,
 ) -> Bearing:
-    """A bearing from its dimensions: A0, r_d, K and the raceway radii follow.
+    """Make a bearing from its dimensions; A0, r_d, K and the raceway radii follow.
 
     Parameters
     ----------
@@ -60,10 +60,10 @@ def from_drawing(
     contact_angle, diametral_clearance
         α0 [rad] and s [m], at least one of them, as they describe the same freedom.
         Clearance alone: a deep-groove bearing, α0 = 0 and r_L = s/2; `free_contact_angle` is
-        the angle that it amounts to, `seated()` the same bearing given by that angle.
-        Angle alone: r_L = 0; `diametral_play` is the clearance that it amounts to.
-        Both, as Petersen, Howard & Prime (2014) have it: r_L = s/2 on top of the angle.
-        Below 0 the clearance is an interference.
+        the equivalent angle, `seated()` the same bearing given by that angle.
+        Angle alone: r_L = 0; `diametral_play` is the equivalent clearance.
+        Both, as in Petersen, Howard & Prime (2014): r_L = s/2 in addition to the angle.
+        A negative clearance is an interference.
     youngs_modulus, poisson
         E [Pa] and ν of the rings; steel by default.
     groove_center_radius
@@ -130,13 +130,13 @@ def drawn(bearing: Bearing) -> Bearing:
 
 
 def seated(self: Bearing) -> Bearing:
-    """The same bearing given by its free contact angle, without clearance on top.
+    """Return the same bearing given by its free contact angle, without a clearance.
 
     Its axial origin is where the balls touch, A0 (sin α_f − sin α0) further along z: at the
-    same loads δz is smaller by that and all else is equal. Two things are not the same, as
-    both depend on α0 and not on the angle under load: a defect lowers the ball along the
-    unloaded line of contact, here at α_f; and the cage turns a little faster. ValueError where an
-    interference presses the balls: no contact angle amounts to it.
+    same loads δz is smaller by that distance and all else is equal. Two results differ, as
+    they depend on α0 and not on the angle under load: a defect lowers the ball along the
+    unloaded line of contact, here at α_f; and the cage turns a little faster. Raises
+    ValueError for an interference, which has no equivalent contact angle.
     """
     if self.diametral_play < 0.0:
         raise checks.refuse("radial_clearance", self.radial_clearance, "one that leaves play", "m")
@@ -144,7 +144,7 @@ def seated(self: Bearing) -> Bearing:
 
 
 def with_balls_of(self: Bearing, material: BallMaterial) -> Bearing:
-    """The bearing with balls of a material and their density; ValueError without a drawing."""
+    """Return the bearing with balls of another material; ValueError without a drawing."""
     return self.replace(
         ball_youngs_modulus=material.youngs_modulus,
         ball_poisson=material.poisson,

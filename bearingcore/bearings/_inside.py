@@ -182,12 +182,12 @@ def accuracy(bearing: Bearing) -> str:
 
 
 def frequency_spread(self: Bearing, name: str) -> float:
-    """Relative error of a frequency that 19 of 20 estimates stay below; 0 of no estimate.
+    """Relative error that 19 of 20 estimates of a frequency stay below; 0 without an estimate.
 
-    `name` is "bpfo", "bpfi", "ftf" or "bsf". It is what the estimated ratio of ball and pitch
-    diameter may do: a number of balls that is estimated too may be one more or less, which
-    moves BPFO and BPFI by a whole part in that number and is not in here. Of tapered rollers,
-    whose number is less sure, it is.
+    `name` is "bpfo", "bpfi", "ftf" or "bsf". It covers the estimated ratio of ball and
+    pitch diameter. An estimated number of balls may also be off by one, which changes BPFO and
+    BPFI by one part in that number; only for tapered rollers, whose number is less sure, is
+    this included.
     """
     checks.choice("name", name, ("bpfo", "bpfi", "ftf", "bsf"))
     ratio, counted = self.kind.estimate_spread or (MEASURED.ratio_spread, 0)
@@ -300,7 +300,7 @@ def tapered_rollers_from_ratings(
     known = (0.5 * (outside_diameter - bore), pitch, cosine, dynamic_rating, static_rating)
     each = [_tapered(count, *known) for count in range(8, MOST_BALLS + 1)]
     full = math.pi * TAPERED_FILL
-    return min(each, key=lambda one: abs(one.n_balls * one.ball_diameter / pitch - full))
+    return min(each, key=lambda inside: abs(inside.n_balls * inside.ball_diameter / pitch - full))
 
 
 def _tapered(

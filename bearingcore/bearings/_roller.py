@@ -28,10 +28,10 @@ def cylindrical(
     pitch_diameter: float,
     radial_clearance: float = 0.0,
 ) -> Bearing:
-    """A cylindrical roller bearing of steel, its line contacts as stiff as ISO 16281 has them.
+    """Make a cylindrical roller bearing of steel, with line contacts by ISO 16281.
 
     K = 35 948 l^(8/9) N/mm^(10/9), l [mm] the length of a roller, both contacts in series.
-    Lengths in m. A roller does not tilt here and carries nothing along the shaft.
+    Lengths in m. Rollers do not tilt in this model and carry no load along the shaft.
 
     Raises
     ------

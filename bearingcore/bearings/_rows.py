@@ -165,15 +165,15 @@ def spaced(rows: tuple[Row, ...], distance: float | None, preload: float | None)
 
 
 def paired(self: Bearing, distance: float, arrangement: str, preload: float = 0.0) -> Bearing:
-    """Two rows like this one, `distance` [m] apart on the shaft.
+    """Make a pair of rows like this one, `distance` [m] apart on the shaft.
 
-    `arrangement` is "back-to-back", "face-to-face" or "tandem"; `preload` [m] is how far the
-    inner grooves are pushed along the shaft against each other.
+    `arrangement` is "back-to-back", "face-to-face" or "tandem"; `preload` [m] is the
+    displacement of the inner grooves along the shaft against each other.
 
     Raises
     ------
     ValueError
-        for a bearing that has rows already, or without a contact angle for a preload.
+        for a bearing that already has rows, or for a preload without a contact angle.
     """
     if self.rows:
         raise checks.refuse("rows", len(self.rows), "none yet, where a bearing is paired")
@@ -182,7 +182,7 @@ def paired(self: Bearing, distance: float, arrangement: str, preload: float = 0.
 
 
 def respaced(self: Bearing, distance: float | None = None, preload: float | None = None) -> Bearing:
-    """The pair with another distance of its rows, or another preload [m]; see `paired`.
+    """Return the pair with another distance of its rows or another preload [m]; see `paired`.
 
     ValueError for a bearing that is no pair.
     """
@@ -200,7 +200,7 @@ def _check_preload(bearing: Bearing, preload: float) -> None:
 def pressure_centers_apart(bearing: Bearing) -> float | None:
     """Distance [m] of the points in which the lines of contact of a pair meet the shaft.
 
-    With it a pair resists tilt. None of a bearing that is no pair, or one in tandem.
+    A pair resists tilt by this distance. None for a tandem or a bearing that is no pair.
     """
     if bearing.arrangement not in ("back-to-back", "face-to-face"):
         return None

@@ -46,9 +46,9 @@ def self_aligning(
     youngs_modulus: float = 210e9,
     poisson: float = 0.3,
 ) -> Bearing:
-    """A self-aligning ball bearing: two rows in a spherical outer race about its centre.
+    """Make a self-aligning ball bearing: two rows in a spherical outer race about its centre.
 
-    See `bearingcore.bearings._self_aligning` for what follows from these.
+    See `bearingcore.bearings._self_aligning` for the numbers that follow from these.
 
     Parameters
     ----------

@@ -52,10 +52,10 @@ def tapered(
     contact_angle: float,
     radial_clearance: float = 0.0,
 ) -> Bearing:
-    """One row of tapered rollers of steel; `Bearing.paired` makes two of it.
+    """Make a row of tapered rollers of steel; `Bearing.paired` makes two of it.
 
-    Diameters [m] are those of the middles of the rollers, the angle [rad] is that of the outer
-    race. See `bearingcore.bearings._tapered` for what is left out.
+    Diameters [m] are at the middles of the rollers, the angle [rad] is that of the outer race.
+    See `bearingcore.bearings._tapered` for the limitations.
 
     Raises
     ------
@@ -127,7 +127,7 @@ class Tapered(Roller):
         if len(bearing.all_rows) == 1:
             return "tapered"
         name = _PREFIX + self.arrangement(bearing)
-        return name if name in [one.name for one in self.variants] else ""
+        return name if name in [variant.name for variant in self.variants] else ""
 
     def nearest(self, bearing: Bearing, variant: str) -> Bearing:
         diameter, distance, preload = bearing.ball_diameter, bearing.row_distance, bearing.preload

@@ -44,12 +44,12 @@ async def main():
     said = {"unit": "m/s²", "bearing": "scene", "speed": "scene"}
     brought.take_form({**brought.state.values, **said})
     session.draw()
-    view = found = None
-    while getattr(found, "fault", None) is None:
+    view = diagnosis = None
+    while getattr(diagnosis, "fault", None) is None:
         await asyncio.sleep(0.05)
         views = [one for one in session.views_made() if one.name == "diagnosis"]
-        found = views[0].answer() if views else None
-    print(found.fault, len(offered), compiler, sep=", ")
+        diagnosis = views[0].answer() if views else None
+    print(diagnosis.fault, len(offered), compiler, sep=", ")
     session.stop()
 
 asyncio.run(main())

@@ -63,9 +63,9 @@ def functions_of_signals() -> Iterator[str]:
 def charts() -> list[str]:
     """Experiments and orbits in the charts of speed against accuracy that are shipped."""
     shipped = [json.loads(file.read_text()) for file in (ROOT / "assets/accuracy").glob("*.json")]
-    found = {name for chart in shipped for name in chart["experiments"]}
-    found |= {name for chart in shipped for name in ("orbits", "stability") if chart[name]}
-    return sorted(found)
+    names = {name for chart in shipped for name in chart["experiments"]}
+    names |= {name for chart in shipped for name in ("orbits", "stability") if chart[name]}
+    return sorted(names)
 
 
 def capabilities() -> dict[str, list[str]]:

@@ -134,7 +134,7 @@ class Session:
         self._on_screen = self._attached = ""  # on the server, and in the browser
         self.tabs = Tabs(
             self.show_tab,
-            names=[[one.name, one.title, one.tab or one.title] for one in halves],
+            names=[[half.name, half.title, half.tab or half.title] for half in halves],
             active=self._shown,
         )
         # a place for each tab, or the browser would go through all of them whenever one comes

@@ -16,13 +16,13 @@ def imported(path: Path) -> set[str]:
     for node in ast.walk(tree):
         if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING":
             node.body = []
-    found = set()
+    names = set()
     for node in ast.walk(tree):
         if isinstance(node, ast.Import):
-            found |= {alias.name for alias in node.names}
+            names |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom) and node.module:
-            found |= {f"{node.module}.{alias.name}" for alias in node.names}
-    inside = {name.removeprefix(f"{PACKAGE}.") for name in found if name.startswith(PACKAGE)}
+            names |= {f"{node.module}.{alias.name}" for alias in node.names}
+    inside = {name.removeprefix(f"{PACKAGE}.") for name in names if name.startswith(PACKAGE)}
     first = {name.partition(".")[0] for name in inside}
     return {name if name in FILES else "__init__" for name in first}
 

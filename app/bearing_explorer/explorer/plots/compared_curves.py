@@ -52,20 +52,20 @@ def sources(
 ) -> dict[str, dict[str, np.ndarray]]:
     """Their sources, with `columns` by `compute`; empty where a scene has no such curve."""
     nothing = dict.fromkeys(columns, np.zeros(0))
-    found: list[dict[str, np.ndarray]] = []
+    curves: list[dict[str, np.ndarray]] = []
     for other in compared:
         try:
             computed = compute(other)
-            found.append({column: computed[column] for column in columns})
+            curves.append({column: computed[column] for column in columns})
         except ValueError:
-            found.append(nothing)
-    found += [nothing] * (MOST_COMPARED - len(found))
-    return {f"{name}{_SLOT}{slot}": one for slot, one in enumerate(found)}
+            curves.append(nothing)
+    curves += [nothing] * (MOST_COMPARED - len(curves))
+    return {f"{name}{_SLOT}{slot}": values for slot, values in enumerate(curves)}
 
 
 def numbers(drawn: Mapping[str, Mapping[str, np.ndarray]], column: str) -> np.ndarray:
     """A column of all compared scenes, for the range of an axis."""
-    return np.concatenate([one[column] for one in drawn.values()])
+    return np.concatenate([curve[column] for curve in drawn.values()])
 
 
 class CurveKey:

@@ -182,7 +182,7 @@ def compare_motions(massless: Motion, heavy: Motion, since: float) -> BallMass:
     bandwidth = min(massless.bandwidth, heavy.bandwidth)
     octaves = _octaves(bandwidth)
     both = [core.spectrum(s, rate).up_to(bandwidth) for s in late] if finite and dofs else []
-    power = [found.powers(octaves).sum(axis=1) for found in both] or [
+    power = [lines.powers(octaves).sum(axis=1) for lines in both] or [
         np.full(len(octaves) - 1, math.nan)
     ] * 2
     added = level_difference(power[1], power[0])
@@ -256,15 +256,15 @@ def _strikes(
     slot = int(np.flatnonzero(balls == entry.ball)[0])
     until = float(time[-1]) if leaves is None else LATE * leaves.time
     own = [s for s in ball_strikes(time, loads[:, :, [slot]]) if 0.0 < s.time <= until]
-    found = []
+    strikes = []
     for race in RACES:
         there = sorted((s for s in own if s.race == race), key=lambda s: -s.load)[:MOST_STRIKES]
-        found += [
+        strikes += [
             dataclasses.replace(strike, ball=entry.ball)
             for strike in there
             if strike.load >= HARD * there[0].load
         ]
-    return tuple(sorted(found, key=lambda strike: strike.time))
+    return tuple(sorted(strikes, key=lambda strike: strike.time))
 
 
 def _far_edge(scene: Scene, events: tuple[Event, ...], zero: float) -> float:

@@ -135,24 +135,24 @@ def chain_of(
     )
 
 
-def upright(found: Equilibrium) -> float:
+def upright(state: Equilibrium) -> float:
     """Mean cos²α of loaded balls, each by what it carries; NaN where none does."""
-    carried = np.where(found.converged[:, None], found.ball_load, 0.0) * found.shares[:, None]
+    carried = np.where(state.converged[:, None], state.ball_load, 0.0) * state.shares[:, None]
     total = carried.sum()
     if not total > 0.0:
         return math.nan
-    radial = np.where(carried > 0.0, np.cos(found.contact_angle) ** 2, 0.0)
+    radial = np.where(carried > 0.0, np.cos(state.contact_angle) ** 2, 0.0)
     return float((carried * radial).sum() / total)
 
 
-def off_line(found: Equilibrium, scene: Scene) -> float:
+def off_line(state: Equilibrium, scene: Scene) -> float:
     """Mean angle [rad] between the loaded balls and the radial load, each by what it carries."""
     load = scene.load
-    carried = np.where(found.converged[:, None], found.ball_load, 0.0) * found.shares[:, None]
+    carried = np.where(state.converged[:, None], state.ball_load, 0.0) * state.shares[:, None]
     total = carried.sum()
     if not (math.hypot(load.fx, load.fy) > 0.0 and total > 0.0):
         return math.nan
-    apart = found.ball_angle - math.atan2(load.fy, load.fx)
+    apart = state.ball_angle - math.atan2(load.fy, load.fx)
     apart = np.abs((apart + math.pi) % (2.0 * math.pi) - math.pi)
     return float((carried * apart).sum() / total)
 

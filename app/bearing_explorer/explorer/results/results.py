@@ -190,7 +190,7 @@ class Results(SceneContent):
     @cached_property
     def compared_results(self) -> list[Results]:
         """Results of the compared scenes in their order, each over its own period."""
-        return [self.against(one, own_period=True) for one in self.compared]
+        return [self.against(reference, own_period=True) for reference in self.compared]
 
     @cached_property
     def grey(self) -> Reference:
@@ -271,11 +271,11 @@ class Results(SceneContent):
     @cached_property
     def inner_load_curves(self) -> list[Curve]:
         """The same at the inner race, where balls with mass carry less; none of massless ones."""
-        found = self.ranges.state
-        if not isinstance(found, EquilibriumWithMass) or found.positions.centrifugal_load == 0.0:
+        state = self.ranges.state
+        if not isinstance(state, EquilibriumWithMass) or state.positions.centrifugal_load == 0.0:
             return []
-        rows = range(len(found.scene.bearing.all_rows))
-        return [load_curve(found, row, found.inner_load) for row in rows]
+        rows = range(len(state.scene.bearing.all_rows))
+        return [load_curve(state, row, state.inner_load) for row in rows]
 
     @cached_property
     def now(self) -> Equilibrium:
@@ -515,9 +515,9 @@ class Results(SceneContent):
             return None
         # balls without mass, whatever the scene has
         key = self.scene.replace(balls=MASSLESS), self.marching
-        found = motions.quick_orbit(*key)
-        if self.moving or found.status is not OrbitStatus.NOT_CONVERGED:
-            return found
+        answer = motions.quick_orbit(*key)
+        if self.moving or answer.status is not OrbitStatus.NOT_CONVERGED:
+            return answer
         return motions.orbit(*key, give_up=self.give_up)
 
     @cached_property

@@ -50,10 +50,10 @@ def last_shown(work: Callable[[Work], str]) -> Any:
     job = Work(math.inf)
     job.started = time.monotonic()
     words = work(job)
-    found = job.taken()
-    if not found:
+    results = job.taken()
+    if not results:
         raise ValueError(words)
-    return found[-1]
+    return results[-1]
 
 
 class JobForm(pn.Column):
@@ -226,9 +226,9 @@ class JobView(View[C], Generic[C, Found, E]):
         assert self._jobs is not None
         work, asked = self.prepare(given, self._editor), (dict(given), self._editor.scene)
 
-        def take(found: Found) -> None:
+        def take(result: Found) -> None:
             self._found_for = asked
-            self._take(found)
+            self._take(result)
 
         self._jobs.start(work, take, self.report)
 
@@ -249,6 +249,6 @@ class JobView(View[C], Generic[C, Found, E]):
         self.found = last_shown(self.prepare(given, editor))
         self._found_for = given, editor.scene
 
-    def _take(self, found: Found) -> None:
-        self.found = found
+    def _take(self, result: Found) -> None:
+        self.found = result
         self._draw()

@@ -74,14 +74,14 @@ def scene_code(scene: Scene) -> str:
 
     Only where that is the very same; else the whole scene as a file has it.
     """
-    bases = {f"presets[{code_of(one)}]": base for one, base in presets.items()}
+    bases = {f"presets[{code_of(name)}]": base for name, base in presets.items()}
     with suppress(ValueError):  # a bearing without a rating
         if known := name_of(scene.bearing):
             bases = {f"scene_of({code_of(known)})": scene_of(known)} | bases
-    name = min(bases, key=lambda one: len(_differences(scene, bases[one])))
+    name = min(bases, key=lambda base: len(_differences(scene, bases[base])))
     changes = _differences(scene, bases[name])
     plain = all(value is None or isinstance(value, str | int | float) or
-                (isinstance(value, tuple) and all(isinstance(one, str) for one in value))
+                (isinstance(value, tuple) and all(isinstance(item, str) for item in value))
                 for value in changes.values())  # fmt: skip
     try:
         same = plain and bases[name].replace(**changes) == scene
@@ -109,12 +109,12 @@ def _differences(scene: Scene, base: Scene) -> dict[str, Any]:
     ]  # fmt: skip
     if isinstance(scene.defect, Defect) and isinstance(base.defect, Defect):
         parts.append((scene.defect, base.defect))
-    found: dict[str, Any] = {}
+    changes: dict[str, Any] = {}
     for own, other in parts:
-        found |= changed_fields(own, other)
+        changes |= changed_fields(own, other)
     if len(parts) == 5:
-        found.pop("defect", None)
-    return {name: v for name, v in found.items() if name not in ("load", "support", "bearing")}
+        changes.pop("defect", None)
+    return {name: v for name, v in changes.items() if name not in ("load", "support", "bearing")}
 
 
 def _field_code(name: str, value: Any) -> str:

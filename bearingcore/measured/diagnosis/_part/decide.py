@@ -102,44 +102,44 @@ def decide(signal: ListenedSignal, judged: Judged, shaft: float | None, source: 
 def _spectrum(judged: Judged) -> EnvelopeLines:
     """The envelope's spectrum in the band of the best evidence, at the finest resolution."""
     own = judged.own
-    one = next(
-        one
-        for one in judged.resolutions[-1].envelopes
-        if (one.band, one.direction) == (own.band, own.direction)
+    envelope = next(
+        other
+        for other in judged.resolutions[-1].envelopes
+        if (other.band, other.direction) == (own.band, own.direction)
     )
-    frequency = one.levels.step * np.arange(len(one.levels.level), dtype=float)
-    return EnvelopeLines(frequency, one.levels.level, one.band, one.direction)
+    frequency = envelope.levels.step * np.arange(len(envelope.levels.level), dtype=float)
+    return EnvelopeLines(frequency, envelope.levels.level, envelope.band, envelope.direction)
 
 
 def _lines_in_doubt(judged: Judged) -> Reason | None:
     """The reason why lines of a part name none, if there are any."""
-    doubtful = max(judged.evidence, key=lambda one: one.without_magnetic)
+    doubtful = max(judged.evidence, key=lambda part: part.without_magnetic)
     if doubtful.magnetic > 0.0 and doubtful.without_magnetic >= NAMED:
         return DiagnosisStatus.MAGNETIC, say.magnetic(doubtful)
-    for one in judged.evidence:
-        if one.line_lead >= LEAD and not math.isnan(one.foreign_spacing):
-            return DiagnosisStatus.OTHER_SHAFT, say.other_shaft(one, judged.shaft)
+    for part in judged.evidence:
+        if part.line_lead >= LEAD and not math.isnan(part.foreign_spacing):
+            return DiagnosisStatus.OTHER_SHAFT, say.other_shaft(part, judged.shaft)
     seen = [
-        one
-        for one in judged.evidence
-        if one.level - one.noise >= NOISE_MARGIN and one.swing >= LEAST_SWING
+        part
+        for part in judged.evidence
+        if part.level - part.noise >= NOISE_MARGIN and part.swing >= LEAST_SWING
     ]
-    clear = [one for one in seen if one.part != BALL]
+    clear = [part for part in seen if part.part != BALL]
     even = [
-        one
-        for one in seen
-        if one.line_lead >= LEAD and one.modulation < 0.0 and one.level > judged.other.level
+        part
+        for part in seen
+        if part.line_lead >= LEAD and part.modulation < 0.0 and part.level > judged.other.level
     ]
     if even:
-        loudest = max(even, key=lambda one: one.line_lead)
+        loudest = max(even, key=lambda part: part.line_lead)
         if loudest.magnetic > 0.0:
             return DiagnosisStatus.MAGNETIC, say.magnetic(loudest)
         return DiagnosisStatus.UNMODULATED, say.unmodulated(loudest)
-    own = max(judged.evidence, key=lambda one: (one in clear, one.lead))
+    own = max(judged.evidence, key=lambda part: (part in clear, part.lead))
     needed = LEAST_SWING if own.lead >= LEAD else ENOUGH_SWING
     if own.part != BALL and own.lead >= 0.0 and own.swing >= needed:
         return DiagnosisStatus.PERHAPS_A_BALL, say.marked(own)
-    ball = next(one for one in judged.evidence if one.part == BALL)
+    ball = next(part for part in judged.evidence if part.part == BALL)
     if ball.deviations >= FAINT:
         return DiagnosisStatus.FAINT, say.faint(ball)
     sharp = ball.level - ball.noise >= NOISE_MARGIN and ball.swing >= LEAST_SWING
@@ -171,7 +171,7 @@ def _nothing_and_why(signal: ListenedSignal, judged: Judged) -> Reason | None:
         return DiagnosisStatus.ROUNDED, say.rounded()
     if judged.detectable > ENOUGH_SWING:
         return DiagnosisStatus.INSENSITIVE, say.weak(SURELY * judged.detectable, signal.duration)
-    broadest = max(judged.evidence, key=lambda one: one.deviations)
+    broadest = max(judged.evidence, key=lambda part: part.deviations)
     if broadest.deviations >= FAINT_RACE:
         return DiagnosisStatus.FAINT, say.faint(broadest)
     return None
@@ -189,7 +189,7 @@ def _impulsiveness(judged: Judged, signal: ListenedSignal) -> float:
         for one in envelopes
         if one.band.high <= 5.05 * sixth and one.band.high - one.band.low >= 0.95 * sixth
     ]
-    return max(broad or [one.kurtosis for one in envelopes])
+    return max(broad or [envelope.kurtosis for envelope in envelopes])
 
 
 def silent(

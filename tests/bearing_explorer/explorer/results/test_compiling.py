@@ -135,8 +135,8 @@ def test_what_comes_along_is_what_is_computed() -> None:
     draw_all()
     shipped, computed = default_results.read(), default_results.collected()
     assert set(shipped) == set(computed)
-    for key, found in computed.items():
-        for path, (one, other) in numbers_of(shipped[key], found):
+    for key, types in computed.items():
+        for path, (one, other) in numbers_of(shipped[key], types):
             size = np.nanmax(np.abs(other), initial=1e-300)
             np.testing.assert_allclose(
                 one, other, rtol=0.0, atol=1e-6 * size, err_msg=f"{key[0]}{path}"

@@ -80,13 +80,13 @@ def test_balls_that_carry_nothing_are_drawn_on_the_scale_of_those_that_do() -> N
 @pytest.mark.parametrize("speed", [7.0, 1000.0])
 def test_the_largest_peak_is_that_of_the_whole_spectrum_and_is_in_the_picture(speed: float) -> None:
     """At 1000 Hz balls pass at 5755 Hz, and the housing moves most as often as that."""
-    found = Results(FAN_RIG.replace(shaft_speed=2.0 * np.pi * speed))
+    results = Results(FAN_RIG.replace(shaft_speed=2.0 * np.pi * speed))
     view = VibrationSpectra(PackedSource())
-    frequency, density = found.late_spectra["y"]
+    frequency, density = results.late_spectra["y"]
     above = frequency >= 100.0
     largest = frequency[above][np.argmax(density[above])]
-    assert f"{largest:.0f} Hz along y" in view.sentence(found)
-    assert view.data(found)[1]["spectrum_frequency"][1] >= max(largest, 2500.0)
+    assert f"{largest:.0f} Hz along y" in view.sentence(results)
+    assert view.data(results)[1]["spectrum_frequency"][1] >= max(largest, 2500.0)
     assert (largest > 5000.0) == (speed > 7.0)
 
 

@@ -240,9 +240,9 @@ def test_models_are_found_as_bokeh_finds_them() -> None:
         await client.connect()
         assert await client.until_drawn()
         [session] = session_of(server)
-        found = _slow_walk(session.document)
-        assert {model.id for model in found} == set(session.document.models._models)
-        assert len(found) > 150
+        models = _slow_walk(session.document)
+        assert {model.id for model in models} == set(session.document.models._models)
+        assert len(models) > 150
         session.document.validate()
 
     served(look)

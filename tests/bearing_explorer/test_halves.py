@@ -1,4 +1,7 @@
-"""Each half of the program serves without the other; a half that is broken is not left out."""
+"""A file is diagnosed without the other half; a half that is broken is not left out.
+
+`.ci/run` runs the tests of each half, and of the kit, without the other half.
+"""
 
 import subprocess
 import sys
@@ -55,32 +58,6 @@ async def main():
 asyncio.run(main())
 """
 
-_SCENE_CHANGED = """
-import asyncio
-from bearing_explorer.explorer.messages import SceneChange
-from bearing_explorer.kit.messages import take
-from bearing_explorer.page import TABS, Halves, page
-
-async def main():
-    page()
-    halves = Halves("v=1&preset=fan-rig&tab=diagnosis")  # a tab of the other half
-    session = halves.session
-    assert halves.diagnosis is None and "diagnosis" not in dict(TABS)
-    assert session.shown == "overview"
-    session.start()
-    session.show_tab({"show": "load"})
-    take(halves.explorer.change_scene, SceneChange, {"mark": 4, "set": {"depth_um": 80}})
-    halves.explorer.simulate("20")  # of the other half: nothing comes
-    while session._drawn_mark < 4 or not session._loop.idle:
-        await asyncio.sleep(0.05)
-    [drawn] = [view for view in session.views_made() if view.name == "depth-profile"]
-    assert drawn.csv()
-    print(f"{halves.explorer.scene.defect.depth:.6g}")
-    session.stop()
-
-asyncio.run(main())
-"""
-
 
 def _without(half: str, script: str) -> str:
     """What a script prints where a half is not there."""
@@ -96,11 +73,6 @@ def _without(half: str, script: str) -> str:
 def test_a_file_is_diagnosed_without_the_half_of_the_scene() -> None:
     """Nothing is simulated then: neither is it offered, nor is a compiler loaded for it."""
     assert _without("explorer", _FILE_DIAGNOSED) == "outer race, 1, False"
-
-
-@pytest.mark.proof
-def test_the_scene_is_changed_and_drawn_without_the_half_of_the_signal() -> None:
-    assert _without("diagnosis", _SCENE_CHANGED) == "8e-05"
 
 
 _BROKEN = """

@@ -86,9 +86,9 @@ SECTIONS = (
 """Tabs of the scene, and their parts."""
 
 
-def begin_compiling(report: Callable[[str], object], done: Callable[[], object]) -> None:
-    """Compile kernels in a thread; the results that come along are drawn until then."""
-    compiling.begin(default_results.keep, report, done)
+def begin_compiling(**report: Callable[..., object]) -> None:
+    """Begin `compiling`; the results that come along are drawn until it has ended."""
+    compiling.begin(default_results.keep, **report)
 
 
 def help_texts() -> dict[str, str]:

@@ -15,25 +15,14 @@ from typing import Any, ClassVar, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from bearing_explorer.explorer.results import endurance, motions, statics
+from bearing_explorer.explorer.results import endurance, motions, statics, verdict
 from bearing_explorer.explorer.results.ball_mass import BallMass
 from bearing_explorer.explorer.results.chain import Chain, Peak, chain_of, loudest
 from bearing_explorer.explorer.results.defect_shape import Profile, profile
 from bearing_explorer.explorer.results.endurance import Endurance, LifeInputs
 from bearing_explorer.explorer.results.excerpt import Excerpt, why_ended
-from bearing_explorer.explorer.results.limit_rows import rows_of
 from bearing_explorer.explorer.results.load_curve import Curve, load_curve
-from bearing_explorer.explorer.results.verdict import (
-    BALLS,
-    MOTIONS,
-    ORBITS,
-    Verdict,
-    details_of,
-    of_chain,
-    of_now,
-    of_orbit,
-    of_statics,
-)
+from bearing_explorer.explorer.results.verdict import Verdict
 from bearing_explorer.explorer.state.field_values import defects_of
 from bearing_explorer.explorer.state.references import (
     HEALTHY,
@@ -339,7 +328,7 @@ class Results(SceneContent):
     def status(self, seconds: float, needed: frozenset[str] = frozenset()) -> dict[str, Any]:
         """The status line of results that took `seconds` [s], for views that need these."""
         mood, words = self.verdict(needed)
-        details = details_of(self.equilibrium)
+        details = verdict.details_of(self.equilibrium)
         if self.is_coarse(needed):
             details.append(self.coarse_words(needed))
         details.append(f"{1e3 * seconds:.1f} ms of computing")
@@ -352,20 +341,20 @@ class Results(SceneContent):
         broke off has no orbit. An orbit that is shown is judged, converged or not: an unstable one
         is no place where a machine stays.
         """
-        bad = of_statics(self.equilibrium)
+        bad = verdict.of_statics(self.equilibrium)
         if not bad and "now" in shown:
-            bad = of_now(self.now)
+            bad = verdict.of_now(self.now)
         if not bad and "chain" in shown:
-            bad = of_chain(self.chain)
+            bad = verdict.of_chain(self.chain)
         if bad:
             return Verdict("bad", bad)
         try:
-            if shown & BALLS and self.ball_mass.broke_off:
+            if shown & verdict.BALLS and self.ball_mass.broke_off:
                 return Verdict("bad", f"No motion: {self.ball_mass.broke_off}")
-            if shown & MOTIONS and self.fault:
+            if shown & verdict.MOTIONS and self.fault:
                 return Verdict("bad", f"The motion {self.fault}")
-            if shown & ORBITS:
-                return of_orbit(self.orbit, self.moving)
+            if shown & verdict.ORBITS:
+                return verdict.of_orbit(self.orbit, self.moving)
         except StillCompiling as wait:
             return Verdict("busy", f"Not ready: {wait}")
         except ValueError as error:  # the view gives the whole sentence
@@ -540,7 +529,7 @@ class Results(SceneContent):
 
     @property
     def warnings(self) -> Warnings:
-        return Warnings(rows_of(self.limits), summary(self.limits))
+        return Warnings(verdict.rows_of(self.limits), summary(self.limits))
 
     @property
     def endurance(self) -> Endurance:

@@ -41,7 +41,11 @@ FIELDS: list[FieldSpec] = [
     }
 ]
 
-EDGE_WORDS = "return ['ball enters', 'ball leaves', 'enters or leaves'][row.exit]"
+EDGE_WORDS = """
+const short = ['ball enters', 'ball leaves', 'enters or leaves'][row.exit]
+const long = ['ball enters: low frequency', 'ball leaves: high frequency', short][row.exit]
+return narrow || row.shift < 0 ? short : long
+"""
 
 
 def layers() -> list[Layer]:
@@ -66,7 +70,9 @@ class SpallExtent(LookView, MeasuredView):
         "Length of a spall, from entry to exit. Drawn is the mean envelope of a ball pass. A "
         "ball that enters a spall and one that leaves it each give a peak; their distance and the "
         "angle over which a ball carries nothing yet, or no longer, are the extent. Strong: the "
-        "frequency band that shows both best. Faint: other bands."
+        "frequency band that shows both best. Faint: other bands. A ball that enters is released "
+        "gradually, which shows at low frequency; one that leaves strikes the edge, which shows "
+        "at high frequency. The card below simulates the lengths that remain."
     )
     finds_speed = True
     in_report = True

@@ -102,11 +102,11 @@ class WhichLength(JobView[Model, SizedDefect, Editor], MeasuredView):
         frequency = packed.range("length_frequency", 0.0, 2500.0)
         self._plots = {dof: _plot(packed, dof, frequency) for dof in reversed(SHOWN)}
         self._candidates = facts_pane(sizing_mode="stretch_width")
-        self._seen = stack(
-            row(*self._plots.values(), stylesheets=[style.WRAPPED]), self._candidates,
-            visible=False, stylesheets=[AS_HIGH_AS_SHOWN],
+        self._spectra = row(*self._plots.values(), stylesheets=[style.WRAPPED])
+        self.hidden = stack(
+            self.job, self._spectra, self._candidates, visible=False,
+            stylesheets=[AS_HIGH_AS_SHOWN],
         )  # fmt: skip
-        self.hidden = stack(self.job, self._seen, visible=False)
         return self.hidden
 
     # The job
@@ -137,7 +137,8 @@ class WhichLength(JobView[Model, SizedDefect, Editor], MeasuredView):
                 if job.cancelled():
                     raise Cancelled
 
-            need(MOTION, machine)
+            if known:
+                need(MOTION, machine)
             try:
                 sizing = size_defect(
                     measured.recording, machine, support_known=known, progress=progress
@@ -159,7 +160,7 @@ class WhichLength(JobView[Model, SizedDefect, Editor], MeasuredView):
         if measured is None:
             return
         self.hidden.visible = bool(race) or self.drawn
-        self._seen.visible = self.drawn
+        self._spectra.visible = self._candidates.visible = self.drawn
         if self.drawn and self.found is not None:
             self._candidates.object = candidates_html(self.found.sizing)
             for dof, plot in self._plots.items():
@@ -290,7 +291,7 @@ def _bands(candidate: Candidate, dof: str, number: int, top: float) -> dict[str,
 def candidates_html(sizing: Sizing) -> str:
     """The candidates with their misfits and the bands that distinguish them, as a table."""
     modes = [mode for mode in ("x1", "y1") if mode in sizing.candidates[0].bands]
-    heads = ["Length", "Misfit", *(f"Mode {mode.translate(SUBSCRIPTS)} rings at" for mode in modes)]
+    heads = ["Length", "Misfit", *(f"Mode {mode.translate(SUBSCRIPTS)}" for mode in modes)]
     rows = []
     for candidate, color in zip(sizing.candidates, COLORS, strict=False):
         swatch = f'<span style="color: {style.css_color(color)}">━</span>'

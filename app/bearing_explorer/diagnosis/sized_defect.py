@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
 from bearing_explorer.diagnosis.signal import Measured
 from bearingcore import MeasuredExtent, Scene, Sizing
 
@@ -96,34 +98,40 @@ def size_in_words(sizing: Sizing) -> str:
     return f"{extent:.1f}° ({low:.1f} to {high:.1f}°), {length:.1f} mm"
 
 
-def likelier(sizing: Sizing, extent: MeasuredExtent) -> str:
-    """A sentence on which of two lengths that entry and exit allow is the likelier, and why.
+def nearest_way_round(length: float, extent: MeasuredExtent) -> int | None:
+    """Index of the one alternative of entry and exit that a length [rad] fits; None: not one.
 
-    Each stands for itself and the lengths that are whole ball spacings longer. Empty where entry
-    and exit leave no choice; both stay possible where the sizing is open.
+    An alternative stands for itself and the lengths that are whole ball spacings longer.
     """
-    if len(extent.alternatives) < 2 or extent.measured:
+    spacing = extent.ball_spacing
+    fitting = [
+        number
+        for number, (middle, low, high) in enumerate(extent.alternatives)
+        if low <= length - spacing * max(round((length - middle) / spacing), 0) <= high
+    ]
+    return fitting[0] if len(fitting) == 1 else None
+
+
+def likelier(sizing: Sizing, extent: MeasuredExtent) -> str:
+    """A sentence on which of the two lengths of entry and exit is the likelier, and why.
+
+    Empty where entry and exit leave no choice; both stay possible where the sizing is open.
+    """
+    if not extent.alternatives or extent.measured:
         return ""
-    names = [f"{math.degrees(length):.0f}°" for length, _, _ in extent.alternatives]
-    if not sizing.misfits.size:
+    first, second = (f"{math.degrees(length):.0f}°" for length, _, _ in extent.alternatives)
+    ways = np.array([nearest_way_round(length, extent) for length in sizing.extents.tolist()])
+    least, other = (sizing.misfits[ways == way].min(initial=math.inf) for way in (0, 1))
+    if not math.isfinite(least + other):
         return (
-            f"Entry and exit alone do not say whether {names[0]} or {names[1]} is likelier: either "
+            f"Entry and exit alone do not say whether {first} or {second} is likelier: either "
             "impact can be the sharper one."
         )
-    spacing = extent.ball_spacing
-    misfits = [
-        min(
-            (misfit for tried, misfit in zip(sizing.extents, sizing.misfits, strict=True)
-             if low <= tried - spacing * max(round((tried - length) / spacing), 0) <= high),
-            default=math.inf,
-        )
-        for length, low, high in extent.alternatives
-    ]  # fmt: skip
-    first = misfits.index(min(misfits))
-    least, other = sorted(misfits)
-    if not other >= CLEARLY * least:
-        return f"{names[0]} and {names[1]} explain the signal about equally well."
+    if other < least:
+        first, second, least, other = second, first, other, least
+    if other < CLEARLY * least:
+        return f"{first} and {second} explain the signal about equally well."
     return (
-        f"Of {names[0]} and {names[1]}, each also with whole ball spacings more, {names[first]} is "
-        f"likelier: its misfit is {least:.2f}, that of the other {other:.2f}."
+        f"Of {first} and {second}, each also with whole ball spacings more, {first} is likelier: "
+        f"its misfit is {least:.2f}, that of the other {other:.2f}."
     )

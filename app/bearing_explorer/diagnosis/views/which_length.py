@@ -25,7 +25,6 @@ from bearing_explorer.diagnosis.views.measurement import with_head
 from bearing_explorer.kit.compute.compiling import MOTION, need
 from bearing_explorer.kit.compute.jobs import SIZING, Work
 from bearing_explorer.kit.plots import style
-from bearing_explorer.kit.plots.frequency_bands import band_rows
 from bearing_explorer.kit.plots.layers import (
     Glyph,
     Layer,
@@ -54,17 +53,9 @@ BAND_ROW = 0.075
 KNOWN = "scene"
 """The answer that the support of the machine is that of the scene."""
 
-FIRST_ENTRY_AND_EXIT = "The length from entry to exit comes first."
-NOT_COMPARED = "The possible lengths have not been compared with this signal on this machine yet."
+NOT_COMPARED = "The possible lengths have not been compared with this signal yet."
 SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
-BAND_COLUMNS = ("low", "extent", "direction", "number", "named")
-BAND_WORDS = """
-const name = `${row.extent.toFixed(1)}°`
-if (!row.named) return ''
-if (narrow) return name
-const mode = 'xy'[row.direction] + '₀₁₂₃₄₅₆₇₈₉'[row.number]
-return `${name}: ${mode} ${row.low.toFixed(0)}–${row.high.toFixed(0)} Hz`
-"""
+BAND_WORDS = "return row.extent.toFixed(1) + '°'"
 
 
 class Cancelled(Exception):  # noqa: N818
@@ -218,10 +209,10 @@ class WhichLength(JobView[Model, SizedDefect, Editor], MeasuredView):
         measured, extent, sizing = self.measured, self.measurement.extent(), self._sizing
         if measured is None:
             return ""
-        if sizing is None and extent is None:
-            return FIRST_ENTRY_AND_EXIT if measured.bearing is not None else WITHOUT_BEARING
+        if measured.bearing is None:
+            return WITHOUT_BEARING
         if sizing is None:
-            return NOT_COMPARED if self.race else extent.status.sentence
+            return NOT_COMPARED if extent is None or extent.race else extent.status.sentence
         words = [re.sub(r"\bmode \w+", lambda mode: mode[0].translate(SUBSCRIPTS), sizing.sentence)]
         if extent is not None and not sizing.conclusive:
             words.append(likelier(sizing, extent))
@@ -258,34 +249,24 @@ def _layers(dof: str) -> list[Layer]:
     below: list[Layer] = [strips(f"length_bands_{dof}_0", COLORS[0], 0.10)]
     above: list[Layer] = []
     for number, color in reversed(list(enumerate(COLORS))):
-        bands, best = f"length_bands_{dof}_{number}", number == 0
-        bar = {"fill_color": color, "fill_alpha": 0.6, "line_color": None}
+        bands, spectrum = f"length_bands_{dof}_{number}", f"length_candidate_{dof}_{number}"
+        bar = {"line_color": color, "line_width": 9, "line_alpha": 0.6, "y_range_name": "shares"}
         below += [
-            names_over(bands, BAND_WORDS, "high", "middle", color, BAND_COLUMNS, x_offset=4),
-            Glyph(models.Quad, bands, ("low", "high", "top", "bottom"),
-                  {**bar, "y_range_name": "shares"}),
-        ]  # fmt: skip
-        spectrum = f"length_candidate_{dof}_{number}"
-        look = (2.2, ()) if best else (1.4, (5, 3))
+            names_over(bands, BAND_WORDS, "high", "row", color, ("extent",), x_offset=4),
+            Glyph(models.Segment, bands, ("low", "row", "high", "row"), bar),
+        ]
+        look = (1.4, (5, 3)) if number else (2.2, ())
         above.append(curve(spectrum, "frequency", "amplitude", color, *look))
     return [*below, segments(f"length_measured_{dof}", MEASURED, 2.0), *above]
 
 
 def _bands(candidate: Candidate, dof: str, number: int, top: float) -> dict[str, np.ndarray]:
-    """The natural frequencies of a candidate along a direction, in its row; the first is named."""
-    rows = band_rows({label: ends for label, ends in candidate.bands.items()
-                      if label[:-1] == dof and ends[0] < top})  # fmt: skip
-    rows["high"] = np.minimum(rows["high"], top)
-    each = np.ones_like(rows["low"])
-    middle = 1.0 - BAND_ROW * (number + 0.6)
-    return {
-        **rows,
-        "middle": middle * each,
-        "top": (middle + 0.3 * BAND_ROW) * each,
-        "bottom": (middle - 0.3 * BAND_ROW) * each,
-        "extent": math.degrees(candidate.extent) * each,
-        "named": rows["low"] == rows["low"].min(initial=np.inf),
-    }
+    """The natural frequencies of a candidate along a direction, in its row of the frame."""
+    ends = [span for label, span in candidate.bands.items() if label[:-1] == dof and span[0] < top]
+    low, high = np.array(ends).reshape(-1, 2).T
+    row, extent = 1.0 - BAND_ROW * (number + 0.6), math.degrees(candidate.extent)
+    columns = {"low": low, "high": np.minimum(high, top)}
+    return columns | {"row": np.full_like(low, row), "extent": np.full_like(low, extent)}
 
 
 def candidates_html(sizing: Sizing) -> str:

@@ -116,6 +116,10 @@ def test_measured_and_simulated_spectra_are_drawn_with_the_bands_of_each(view: W
 
 
 def test_verdict_summary_and_report_carry_the_length(view: WhichLength) -> None:
+    extent = SpallExtent(PackedSource())
+    extent.measure(view.measurement)
+    edges = extent.all_data(MODEL)[0]["extent_edges"]
+    assert edges["exit"].tolist() == [0.0, 1.0], "12.9° and a ball spacing: the exit is second"
     part = PartDiagnosis(PackedSource())
     part.measure(view.measurement)
     part.say(MODEL, part.sentence(MODEL))

@@ -22,7 +22,6 @@ from dataclasses import dataclass
 from functools import cache
 
 from bearingcore.bearings import _ratings as ratings
-from bearingcore.bearings._ball import USUAL_GROOVES
 from bearingcore.bearings._bearing import Bearing
 from bearingcore.bearings._catalogue import CatalogueBearing
 from bearingcore.bearings._designation_tables import (
@@ -33,7 +32,7 @@ from bearingcore.bearings._designation_tables import (
     rows_of,
     series_of,
 )
-from bearingcore.bearings._drawing import center_distance
+from bearingcore.bearings._drawing import USUAL_GROOVES, center_distance
 from bearingcore.bearings._inside import (
     Inside,
     accuracy,
@@ -154,7 +153,8 @@ class Designation:
             "not been measured, and makers differ: count the balls."
             if self.reinforced
             else "JTEKT (Koyo) catalogue; nine of ten of other makers' are from 10 % below to 15 % "
-            f"above, some of small or thin bearings 35 % below or above. {accuracy(self.bearing)}"
+            "above, some of small or thin bearings 35 % below or above. "
+            f"{accuracy(self.bearing.kind, self.bearing.contact_angle)}"
         )
         return CatalogueBearing(
             self.name, self.bearing, self.dynamic_load_rating, note, self.assumed, self.unread

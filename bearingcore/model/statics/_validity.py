@@ -213,7 +213,8 @@ def _estimate(scene: Scene) -> Limit | None:
         0.0,
         "",
         "they are estimated from the designation, and everything shown follows from that."
-        f"{good} {accuracy(bearing)} Give the real numbers where they are known",
+        f"{good} {accuracy(bearing.kind, bearing.contact_angle)} Give the real numbers where they "
+        "are known",
     )
 
 

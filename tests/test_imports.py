@@ -13,7 +13,8 @@ PACKAGES = ("bearingcore",)
 def files_of(package: str) -> dict[str, Path]:
     """The files of a package by the names of their modules."""
     spec = importlib.util.find_spec(package)
-    assert spec is not None and spec.origin is not None
+    assert spec is not None
+    assert spec.origin is not None
     root = Path(spec.origin).parent
     files = {}
     for path in root.rglob("*.py"):

@@ -57,7 +57,7 @@ from bearingcore.bearings._ratings import groove_ratio
 from bearingcore.common import ResultTable, shown_as_table, table_of
 from bearingcore.common import _checks as checks
 from bearingcore.model.scene import Scene
-from bearingcore.model.statics._life_words import life_sentence
+from bearingcore.model.statics._life_words import life_sentence, long_number
 from bearingcore.model.statics._load_rating import (
     GIVEN,
     ROW_POWER,
@@ -291,7 +291,8 @@ def life(
         equivalent_load=P,
         healthy_million_revolutions=L_healthy,
         status=loads.status,
-        sentence=life_sentence(scene, loads.reason, (L, hours, L_healthy), (P, C), rating_source),
+        sentence=life_sentence(scene, loads.reason, L, hours, L_healthy, P / C)
+        + (f" Rating {long_number(C)} N, {rating_source}." if rating_source != GIVEN else ""),
         rows=tuple(million_revolutions(contact, rated[k], carried[k]) for k in rows),
         rating_source=rating_source,
     )

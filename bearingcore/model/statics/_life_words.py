@@ -6,7 +6,6 @@ import math
 
 from bearingcore.common import number, percent, thousands
 from bearingcore.model.scene import Scene
-from bearingcore.model.statics._load_rating import GIVEN
 
 HEAVIEST_SHARE = 0.5
 """Of the rating, up to which ISO 281 vouches for its life (P ≤ 0.5 C_r)."""
@@ -42,32 +41,12 @@ def hours_in_words(hours: float) -> str:
 
 
 def life_sentence(
-    scene: Scene,
-    reason: str,
-    lives: tuple[float, float, float],
-    loading: tuple[float, float],
-    rating_source: str,
+    scene: Scene, reason: str, L: float, hours: float, L_healthy: float, share: float
 ) -> str:
-    """Return a life in words, with what it leaves out.
+    """Return a life of L [10⁶ turns] in words, with what it leaves out.
 
-    Parameters
-    ----------
-    reason
-        why loads are not known; empty where they are.
-    lives
-        L_10r [10⁶ turns], the same in hours, and L_10r of the healthy bearing.
-    loading
-        equivalent load P and rating C_r [N].
-    rating_source
-        GIVEN, or where else C_r is from.
+    `reason` says why loads are not known, `share` is that of the equivalent load in the rating.
     """
-    L, hours, L_healthy = lives
-    P, C = loading
-    rating = "" if rating_source == GIVEN else f" Rating {long_number(C)} N, {rating_source}."
-    return _life(scene, reason, L, hours, L_healthy, P / C) + rating
-
-
-def _life(scene: Scene, reason: str, L: float, hours: float, L_healthy: float, share: float) -> str:
     if reason:
         return f"Life is not known: not every cage angle has a static equilibrium ({reason})."
     if math.isinf(L):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from operator import attrgetter
 
 import numpy as np
 from numpy.typing import NDArray
@@ -261,36 +262,36 @@ class Diagnosis:
         turns = math.nan if self.shaft_speed is None else 1.0
         parts, spectrum = self.evidence, self.spectrum
         count = len(parts[0].harmonics) if parts else 0
+
+        def each(attribute: str, factor: float = 1.0) -> list[float]:
+            value_of = attrgetter(attribute)
+            return [factor * value_of(part) for part in parts]
+
         columns = table_of(
-            ("part", "", [one.part for one in parts]),
-            ("frequency", "Hz", [one.frequency for one in parts], "of its strongest lines"),
-            (
-                "nominal_frequency",
-                "Hz",
-                [one.nominal_frequency * turns for one in parts],
-                "by geometry",
-            ),
-            ("order", "1", [one.order * turns for one in parts], "turns of the shaft"),
-            ("nominal_order", "1", [one.nominal_order for one in parts]),
-            ("slip", "1", [one.slip * turns for one in parts]),
-            ("level", "dB", [one.level for one in parts], "of all harmonics but the loudest"),
-            ("noise", "dB", [one.noise for one in parts], "reached in one of a thousand signals"),
+            ("part", "", [part.part for part in parts]),
+            ("frequency", "Hz", each("frequency"), "of its strongest lines"),
+            ("nominal_frequency", "Hz", each("nominal_frequency", turns), "by geometry"),
+            ("order", "1", each("order", turns), "turns of the shaft"),
+            ("nominal_order", "1", each("nominal_order")),
+            ("slip", "1", each("slip", turns)),
+            ("level", "dB", each("level"), "of all harmonics but the loudest"),
+            ("noise", "dB", each("noise"), "reached in one of a thousand signals"),
             *(
-                (f"harmonic_{k + 1}", "dB", [one.harmonics[k] for one in parts])
+                (f"harmonic_{k + 1}", "dB", [part.harmonics[k] for part in parts])
                 for k in range(count)
             ),
-            ("sidebands", "dB", [one.sidebands.mean() for one in parts], "their mean"),
-            ("sideband_spacing", "Hz", [one.sideband_spacing * turns for one in parts]),
-            ("envelope_swing", "1", [one.depth for one in parts], "at the lines, of its mean"),
-            ("swing_with_sidebands", "1", [one.swing for one in parts]),
-            ("lead", "dB", [one.lead for one in parts], "above noise and all other lines"),
-            ("deviations", "1", [one.deviations for one in parts], "in all bands together"),
-            ("magnetic_noise", "1", [one.magnetic for one in parts], "share of twice the mains"),
-            ("probability", "1", [one.probability for one in parts]),
-            ("band_low", "Hz", [one.band.low for one in parts]),
-            ("band_high", "Hz", [one.band.high for one in parts]),
-            ("direction", "", [one.direction for one in parts]),
-            ("kurtosis", "1", [one.kurtosis for one in parts]),
+            ("sidebands", "dB", [part.sidebands.mean() for part in parts], "their mean"),
+            ("sideband_spacing", "Hz", each("sideband_spacing", turns)),
+            ("envelope_swing", "1", each("depth"), "at the lines, of its mean"),
+            ("swing_with_sidebands", "1", each("swing")),
+            ("lead", "dB", each("lead"), "above noise and all other lines"),
+            ("deviations", "1", each("deviations"), "in all bands together"),
+            ("magnetic_noise", "1", each("magnetic"), "share of twice the mains"),
+            ("probability", "1", each("probability")),
+            ("band_low", "Hz", each("band.low")),
+            ("band_high", "Hz", each("band.high")),
+            ("direction", "", [part.direction for part in parts]),
+            ("kurtosis", "1", each("kurtosis")),
         )
         if spectrum is None:
             return columns

@@ -6,20 +6,16 @@ tuple of names. Nothing outside this package compares numbers to find out what a
 
 from __future__ import annotations
 
-import dataclasses
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from bearingcore.bearings._contact import Contact
+from bearingcore.bearings._drawing import Derived
+from bearingcore.bearings._hertz import RaceContact
+from bearingcore.bearings._in_rows import InRows
+from bearingcore.bearings._line_contact import RollerContact
 from bearingcore.common import Array
 from bearingcore.common import _checks as checks
-
-if TYPE_CHECKING:
-    from bearingcore.bearings._bearing import Bearing
-    from bearingcore.bearings._drawing import Derived
-    from bearingcore.bearings._hertz import RaceContact
-    from bearingcore.bearings._line_contact import RollerContact
-
 
 DIRECTIONS = ("x", "y", "z", "rx", "ry")
 """Displacements of the inner ring against the outer one: along x, y, z, rotations about x, y."""
@@ -61,7 +57,7 @@ class Kind:
     element
         what a rolling element is called: "ball" or "roller".
     variants
-        how the kind is offered; the first is what `nearest` makes of any other bearing.
+        how the kind is offered, the usual one first.
     exponent, exponent_text
         of load over compression, as a number and raised in print.
     line_contact
@@ -125,83 +121,67 @@ class Kind:
         """Name of several rolling elements."""
         return f"{self.element}s"
 
-    def recognizes(self, bearing: Bearing) -> bool:
+    def recognizes(self, bearing: InRows) -> bool:
         """True where numbers without the name of a kind, as in old files, are of this one."""
         raise NotImplementedError
 
-    def check(self, bearing: Bearing) -> None:
+    def check(self, bearing: InRows) -> None:
         """ValueError where a bearing has numbers that this kind cannot have."""
         raise NotImplementedError
 
-    def variant(self, bearing: Bearing) -> str:
+    def variant(self, bearing: InRows) -> str:
         """Which of `variants` a bearing is; empty where it is none of them."""
         return self.variants[0].name
 
-    def arrangement(self, bearing: Bearing) -> str:
+    def arrangement(self, bearing: InRows) -> str:
         """Arrangement of a pair, out of ARRANGEMENTS; empty of one row and of any other rows."""
         return ""
 
-    def nearest(self, bearing: Bearing, variant: str) -> Bearing:
-        """The bearing of this kind that has the dimensions of another one.
-
-        What the other does not say is assumed as it is usual. ValueError where there is none.
-        """
-        raise NotImplementedError
-
-    def inputs(self, bearing: Bearing) -> tuple[str, ...]:
+    def inputs(self, bearing: InRows) -> tuple[str, ...]:
         """Names of the fields that a bearing is given by; all others follow."""
         raise NotImplementedError
 
-    def facts(self, bearing: Bearing) -> tuple[str, ...]:
+    def facts(self, bearing: InRows) -> tuple[str, ...]:
         """Names of the numbers worth showing that follow from the fields."""
         raise NotImplementedError
 
-    def derived(self, bearing: Bearing) -> Derived | None:
+    def derived(self, bearing: InRows) -> Derived | None:
         """The fields that follow from others, or None where nothing follows."""
         return None
 
-    def replaced(self, bearing: Bearing, changes: dict[str, Any]) -> Bearing:
-        """A bearing with fields changed, and with what follows from them; see `Bearing.replace`."""
-        if "rows" in changes:
-            changes.setdefault("kind", "")  # a row more or less makes another kind
-        changed = dataclasses.replace(bearing, **changes)
-        before, after = self.derived(bearing), changed.kind.derived(changed)
-        if before is None or after is None:
-            return changed
-        for name in before._fields:
-            old, was, now = getattr(bearing, name), getattr(before, name), getattr(after, name)
-            if name not in changes and now != was:
-                changes[name] = now if old == was else old * (now / was)
-        return dataclasses.replace(bearing, **changes)
+    def completed(self, bearing: InRows, changes: dict[str, Any]) -> dict[str, Any]:
+        """Add to changed fields what has to change with them; see `Bearing.replace`."""
+        # a row more or less makes another kind
+        return {"kind": ""} | changes if "rows" in changes else changes
 
-    def race_contact(self, bearing: Bearing, race: str) -> RaceContact | RollerContact:
+    def race_contact(self, bearing: InRows, race: str) -> RaceContact | RollerContact:
         """Contact of a rolling element with a race, "outer" or "inner"; see `Bearing`."""
         raise NotImplementedError
 
-    def knows_contacts(self, bearing: Bearing) -> bool:
+    def knows_contacts(self, bearing: InRows) -> bool:
         """True where `race_contact` has an answer."""
         return True
 
-    def carries_thrust_one_way(self, bearing: Bearing) -> bool:
+    def carries_thrust_one_way(self, bearing: InRows) -> bool:
         """True where one of its rows has a shoulder on one side of each race alone.
 
         Contacts at an angle have; at 0 they carry thrust both ways, or not at all.
         """
         return bearing.contact_angle > 0.0
 
-    def groove_radius(self, bearing: Bearing, race: str) -> float | None:
+    def groove_radius(self, bearing: InRows, race: str) -> float | None:
         """Radius [m] of a race across the rolling; None where it is not known, or no groove."""
         return None
 
-    def profile_drop(self, bearing: Bearing, place: Array) -> Array:
+    def profile_drop(self, bearing: InRows, place: Array) -> Array:
         """Drop P [m] of a roller's profile at places [m] from its middle; see `statics.laminae`."""
         raise NotImplementedError
 
-    def volume(self, bearing: Bearing) -> float:
+    def volume(self, bearing: InRows) -> float:
         """Volume [m³] of a rolling element; a ball's, π D_b³/6."""
         return math.pi / 6.0 * bearing.ball_diameter**3
 
-    def contact(self, bearing: Bearing) -> Contact:
+    def contact(self, bearing: InRows) -> Contact:
         """The contact of each element of a bearing, or of one of its rows."""
         return Contact(
             angle=bearing.contact_angle,
@@ -213,7 +193,7 @@ class Kind:
             center_distance=bearing.groove_center_distance,
         )
 
-    def race_factors(self, bearing: Bearing) -> tuple[float, float]:
+    def race_factors(self, bearing: InRows) -> tuple[float, float]:
         """Load-deflection factors [N/m^n] of an element's contacts with inner and outer race.
 
         Their ratio is that of Hertz's contacts where the drawing is known and 1 elsewhere, and in
@@ -228,7 +208,7 @@ class Kind:
         scale = bearing.load_deflection_factor * (inner ** (-1.0 / n) + outer ** (-1.0 / n)) ** n
         return scale * inner, scale * outer
 
-    def race_distances(self, bearing: Bearing) -> tuple[float, float]:
+    def race_distances(self, bearing: InRows) -> tuple[float, float]:
         """Unloaded distances [m] of a ball's centre from the inner and outer groove's centre.
 
         r_i − D_b/2 and r_o − D_b/2, in proportion to make A0; halves of it without a drawing. 0

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-PACKAGES = ("bearing_explorer",)
+PACKAGES = ("bearingcore", "bearing_explorer")
 
 
 def files_of(package: str) -> dict[str, Path]:
@@ -46,3 +46,9 @@ def test_no_files_import_each_other_in_a_circle(package: str) -> None:
     assert sum(map(len, graph.values())) > len(files), "imports are seen"
     order = list(TopologicalSorter(graph).static_order())  # refuses a circle, and names it
     assert set(order) == set(files)
+
+
+def test_the_kinds_of_bearing_stand_below_the_bearing() -> None:
+    files = files_of("bearingcore")
+    of_bearing = imports_of(files["bearingcore.bearings._bearing"], files)
+    assert {"bearingcore.bearings._kinds", "bearingcore.bearings._tapered"} <= of_bearing

@@ -148,7 +148,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     gc.disable()  # nothing of what is loaded is garbage, and looking takes an eighth of the time
     from bearing_explorer.kit.compute import compiling
     from bearing_explorer.kit.serve.serving import Limits, freeze_startup_objects, make_server
-    from bearing_explorer.page import begin_compiling, faults_of, lessons_of, page, scene
+    from bearing_explorer.page import faults_of, lessons_of, page, scene
 
     for sentence in faults_of(chosen.lessons) if chosen.lessons else ():
         _say(f"Lessons: {sentence}")
@@ -200,13 +200,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
     shown = "localhost" if chosen.address in ("0.0.0.0", "::", "127.0.0.1") else chosen.address
     url = f"http://{shown}:{server.port}{server.prefix}/"
 
-    begin_compiling(
-        _say if chosen.num_procs == 1 else str,
-        lambda: loop.add_callback(freeze_startup_objects),
-    )
-    # a later start reads machine code from disk, and need not begin with pages of no use
-    if scene is not None and compiled:
-        compiling.wait(READ_FROM_DISK)
+    if scene is None:
+        loop.add_callback(freeze_startup_objects)
+    else:
+        scene.begin_compiling(
+            report=_say if chosen.num_procs == 1 else str,
+            done=lambda: loop.add_callback(freeze_startup_objects),
+        )
+        # a later start reads machine code from disk, and need not begin with pages of no use
+        compiling.wait(READ_FROM_DISK if compiled else 0.0)
     server.start()
     _say(f"Ready after {time.perf_counter() - started:.1f} s: {url} (Ctrl+C ends)")
     if not chosen.no_browser:

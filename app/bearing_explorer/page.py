@@ -5,8 +5,6 @@ The only file that knows both halves; each serves without the other, too.
 
 from __future__ import annotations
 
-import logging
-from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -38,8 +36,6 @@ except ModuleNotFoundError as error:
     if error.name != "bearing_explorer.diagnosis":  # it is there, and broken
         raise
     signal = None  # type: ignore[assignment]
-
-log = logging.getLogger(__name__)
 
 _LAST = ("accuracy", "explore", "over-speed", "paper")
 """Tabs of the scene that come after those of the measured signal."""
@@ -119,7 +115,9 @@ def _for_teachers() -> str:
 
 def lessons_of(folder: Path | None = None) -> Any:
     """The lessons of a folder, or those that come along; read once."""
-    return scene.lessons_in(folder or scene.own_folder(), TABS) if scene else ()
+    if scene is None:
+        return ()
+    return scene.lessons_in(folder, TABS) if folder else scene.own_lessons(TABS)
 
 
 def faults_of(folder: Path) -> tuple[str, ...]:
@@ -127,22 +125,10 @@ def faults_of(folder: Path) -> tuple[str, ...]:
     return tuple(scene.faults_in(folder, TABS)) if scene else ()
 
 
-def begin_compiling(
-    report: Callable[[str], object] = log.info, done: Callable[[], object] = lambda: None
-) -> None:
-    """Compile kernels in a thread; does nothing the second time, and without the scene's half.
-
-    `report` gets a line for each part. `done` is called at the end, in the thread.
-    """
-    if scene is None:
-        done()
-    else:
-        scene.begin_compiling(report, done)
-
-
 def page(lessons: Path | None = None) -> PageTemplate:
     """The page of a new session; `lessons` is a folder with other ones."""
-    begin_compiling()
+    if scene is not None:
+        scene.begin_compiling()
     halves = Halves(address(), lessons_of(lessons))
     session, explorer = halves.session, halves.explorer
     template = PageTemplate(_frame())

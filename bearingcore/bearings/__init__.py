@@ -4,7 +4,7 @@ A bearing consists of rows; a row has elements, a place, and a contact with its 
 this package do not import each other in circles.
 """
 
-from bearingcore.bearings._ball import USUAL_GROOVES, Ball, drawn
+from bearingcore.bearings._ball import Ball
 from bearingcore.bearings._bearing import Bearing
 from bearingcore.bearings._catalogue import (
     CATALOGUE_COLUMNS,
@@ -14,6 +14,7 @@ from bearingcore.bearings._catalogue import (
     catalogue,
     read_catalogue,
 )
+from bearingcore.bearings._convert import convert_bearing, drawn
 from bearingcore.bearings._designation import (
     Designation,
     designations,
@@ -21,13 +22,19 @@ from bearingcore.bearings._designation import (
     read_designation,
     series_words,
 )
-from bearingcore.bearings._drawing import BALL_MATERIAL, OPTIONAL_FIELDS, Derived, center_distance
+from bearingcore.bearings._drawing import (
+    BALL_MATERIAL,
+    OPTIONAL_FIELDS,
+    USUAL_GROOVES,
+    Derived,
+    center_distance,
+)
 from bearingcore.bearings._frequencies import FREQUENCIES, bearing_of_frequencies
 from bearingcore.bearings._kinds import KINDS
 from bearingcore.bearings._line_contact import STEEL_MODULUS, STEEL_POISSON
 from bearingcore.bearings._material import BALL_MATERIALS
 from bearingcore.bearings._named import BearingLike, bearing_of, name_of
-from bearingcore.bearings._rows import Row
+from bearingcore.bearings._row import Row
 
 __all__ = [
     "BALL_MATERIAL",
@@ -52,6 +59,7 @@ __all__ = [
     "bearing_of_frequencies",
     "catalogue",
     "center_distance",
+    "convert_bearing",
     "designations",
     "drawn",
     "is_known",

@@ -5,39 +5,23 @@ from __future__ import annotations
 import dataclasses
 import math
 from dataclasses import dataclass, field
-from typing import Any, Self, cast
+from typing import Any, Self
 
-from bearingcore.bearings import (
-    _ball as ball,
-)
-from bearingcore.bearings import (
-    _drawing as drawing,
-)
-from bearingcore.bearings import (
-    _inside as inside,
-)
-from bearingcore.bearings import (
-    _roller as roller,
-)
-from bearingcore.bearings import (
-    _self_aligning as self_aligning,
-)
-from bearingcore.bearings import (
-    _tapered as tapered,
-)
+from bearingcore.bearings import _drawing as drawing
 from bearingcore.bearings._contact import Contact
 from bearingcore.bearings._hertz import RaceContact
 from bearingcore.bearings._in_rows import InRows
+from bearingcore.bearings._inside import MEASURED
 from bearingcore.bearings._kind import Kind
 from bearingcore.bearings._kinds import kind_of
+from bearingcore.bearings._kinematics import check_contact_angle
 from bearingcore.bearings._line_contact import RollerContact
-from bearingcore.bearings._material import BALL_MATERIALS, STEEL_DENSITY
-from bearingcore.bearings._rows import MOST_ROWS, Row, paired, pressure_centers_apart, respaced
+from bearingcore.bearings._material import BALL_MATERIALS, BallMaterial
+from bearingcore.bearings._roller import ROLLER, roller_numbers
+from bearingcore.bearings._row import pair, spaced
+from bearingcore.bearings._self_aligning import self_aligning_numbers
+from bearingcore.bearings._tapered import TAPERED
 from bearingcore.common import _checks as checks
-from bearingcore.common import _scene_file as scene_file
-
-ESTIMATES = ("n_balls", "ball_diameter", "pitch_diameter", "roller_length")
-"""Fields that may be estimates."""
 
 RATED = (
     *("n_balls", "ball_diameter", "pitch_diameter", "contact_angle", "roller_length"),
@@ -45,10 +29,6 @@ RATED = (
     *("ball_youngs_modulus", "ball_poisson"),
 )
 """Fields that C_r depends on, besides how many rows there are and what each has of its own."""
-_ABOVE_0 = (
-    *("groove_center_radius", "load_deflection_factor"),
-    *("outer_raceway_radius", "inner_raceway_radius"),
-)
 
 
 @dataclass(frozen=True)
@@ -111,56 +91,10 @@ class Bearing(InRows):
     Source: Petersen, Howard & Prime (2014), Sections 2.1 and 2.3.
     """
 
-    groove_center_radius: float
-    groove_center_distance: float | None
-    radial_clearance: float
-    load_deflection_factor: float
-    outer_raceway_radius: float
-    inner_raceway_radius: float
-    inner_groove_radius: float | None = None
-    outer_groove_radius: float | None = None
-    youngs_modulus: float | None = None
-    poisson: float | None = None
-    rows: tuple[Row, ...] = ()
-    roller_length: float | None = None
-    density: float = field(default=STEEL_DENSITY, metadata=scene_file.LEFT_OUT)
     kind: Kind = field(default="")  # type: ignore[assignment]  # a name becomes its kind
-    estimated: tuple[str, ...] = field(default=(), metadata=scene_file.LEFT_OUT)
-    ball_youngs_modulus: float | None = None
-    ball_poisson: float | None = None
-    dynamic_load_rating: float | None = None
-
-    from_drawing = classmethod(ball.from_drawing)
-    cylindrical = classmethod(roller.cylindrical)
-    tapered = classmethod(tapered.tapered)
-    self_aligning = classmethod(self_aligning.self_aligning)
-    paired = paired
-    respaced = respaced
-    pressure_centers_apart = property(pressure_centers_apart)
-    seated = ball.seated
-    with_balls_of = ball.with_balls_of
-    frequency_spread = inside.frequency_spread
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        for name in _ABOVE_0:
-            checks.keep_number(self, name, above=0.0)
-        for name in ("groove_center_distance", "roller_length"):
-            checks.keep_number(self, name, optional=True, above=0.0)
-        checks.keep_number(self, "density", above=0.0, unit="kg/m³")
-        checks.keep_number(self, "dynamic_load_rating", optional=True, above=0.0, unit="N")
-        least = -self.ball_radius  # more than any contact could be compressed
-        checks.keep_number(self, "radial_clearance", at_least=least, unit="m")
-        drawing.check_fit(vars(self))
-        checks.keep(self, **drawing.checked(vars(self)))
-        rows = self.rows if isinstance(self.rows, tuple | list) else (self.rows,)
-        checks.keep(self, rows=tuple(rows))
-        if len(self.rows) > MOST_ROWS or not all(isinstance(row, Row) for row in self.rows):
-            raise checks.refuse("rows", self.rows, f"at most {MOST_ROWS} of Row")
-        names: object = self.estimated
-        for name in names if isinstance(names, tuple | list) else (names,):
-            checks.choice("estimated", name, ESTIMATES)
-        checks.keep(self, estimated=tuple(self.estimated))
         checks.keep(self, kind=kind_of(self))
         self.kind.check(self)
         if self.kind.line_contact:
@@ -169,6 +103,170 @@ class Bearing(InRows):
             drawing.center_distance(self.groove_center_distance)
         for k in range(len(self.rows)):
             self.of_row(k)  # refuses dimensions that do not fit each other
+
+    @classmethod
+    def from_drawing(
+        cls,
+        n_balls: int,
+        ball_diameter: float,
+        pitch_diameter: float,
+        inner_groove_radius: float,
+        outer_groove_radius: float,
+        contact_angle: float | None = None,
+        diametral_clearance: float | None = None,
+        youngs_modulus: float = 210e9,
+        poisson: float = 0.3,
+        groove_center_radius: float | None = None,
+        ball_youngs_modulus: float | None = None,
+        ball_poisson: float | None = None,
+    ) -> Self:
+        """A bearing from its dimensions: A0, r_d, K and the raceway radii follow.
+
+        Parameters
+        ----------
+        n_balls
+            N_b.
+        ball_diameter, pitch_diameter
+            D_b, D_p [m].
+        inner_groove_radius, outer_groove_radius
+            r_i, r_o [m], above D_b/2 and at most 0.6 D_b.
+        contact_angle, diametral_clearance
+            α0 [rad] and s [m], at least one of them, as they describe the same freedom.
+            Clearance alone: a deep-groove bearing, α0 = 0 and r_L = s/2; `free_contact_angle` is
+            the angle that it amounts to, `seated()` the same bearing given by that angle.
+            Angle alone: r_L = 0; `diametral_play` is the clearance that it amounts to.
+            Both, as Petersen, Howard & Prime (2014) have it: r_L = s/2 on top of the angle.
+            Below 0 the clearance is an interference.
+        youngs_modulus, poisson
+            E [Pa] and ν of the rings; steel by default.
+        groove_center_radius
+            r_d [m]; None: D_p/2 + (r_i − D_b/2) cos α0.
+        ball_youngs_modulus, ball_poisson
+            E [Pa] and ν of the balls; None: as of the rings.
+
+        Raises
+        ------
+        ValueError
+            for a drawing that cannot be built, with the numbers.
+
+        Examples
+        --------
+        >>> import math
+        >>> from bearingcore import Bearing
+        >>> bearing = Bearing.from_drawing(
+        ...     9, 7.94e-3, 39.04e-3, 4.13e-3, 4.21e-3, diametral_clearance=10e-6
+        ... )
+        >>> round(math.degrees(bearing.free_contact_angle), 2)
+        9.07
+        """
+        D_b = checks.real_number("ball_diameter", ball_diameter, above=0.0, unit="m")
+        if contact_angle is None and diametral_clearance is None:
+            raise checks.refuse(
+                "contact_angle", None, "a number [rad], unless diametral_clearance is given"
+            )
+        angle = check_contact_angle(0.0 if contact_angle is None else contact_angle)
+        dimensions: dict[str, Any] = {
+            "ball_diameter": D_b,
+            "pitch_diameter": checks.real_number(
+                "pitch_diameter", pitch_diameter, above=D_b, unit="m"
+            ),
+            "contact_angle": angle,
+            "inner_groove_radius": inner_groove_radius,
+            "outer_groove_radius": outer_groove_radius,
+            "youngs_modulus": youngs_modulus,
+            "poisson": poisson,
+            "ball_youngs_modulus": ball_youngs_modulus,
+            "ball_poisson": ball_poisson,
+        }
+        dimensions |= drawing.checked(dimensions)
+        follows = drawing.derive(**dimensions)._asdict()
+        s = 0.0 if diametral_clearance is None else diametral_clearance
+        s = drawing.check_clearance(s, angle, D_b, follows["groove_center_distance"])
+        if groove_center_radius is not None:
+            follows["groove_center_radius"] = groove_center_radius
+        return cls(n_balls=n_balls, **dimensions, **follows, radial_clearance=0.5 * s)
+
+    @classmethod
+    def cylindrical(
+        cls,
+        n_rollers: int,
+        roller_diameter: float,
+        roller_length: float,
+        pitch_diameter: float,
+        radial_clearance: float = 0.0,
+    ) -> Self:
+        """A cylindrical roller bearing of steel, its line contacts as stiff as ISO 16281 has them.
+
+        K = 35 948 l^(8/9) N/mm^(10/9), l [mm] the length of a roller, both contacts in series.
+        Lengths in m. A roller does not tilt here and carries nothing along the shaft.
+
+        Raises
+        ------
+        ValueError
+            naming the field, its value and what is allowed.
+        """
+        sizes = (roller_diameter, roller_length, pitch_diameter)
+        return cls(**roller_numbers(ROLLER, n_rollers, sizes, 0.0, radial_clearance))
+
+    @classmethod
+    def tapered(
+        cls,
+        n_rollers: int,
+        roller_diameter: float,
+        roller_length: float,
+        pitch_diameter: float,
+        contact_angle: float,
+        radial_clearance: float = 0.0,
+    ) -> Self:
+        """One row of tapered rollers of steel; `Bearing.paired` makes two of it.
+
+        Diameters [m] are those of the middles of the rollers, the angle [rad] is that of the outer
+        race. See `bearingcore.bearings._tapered` for what is left out.
+
+        Raises
+        ------
+        ValueError
+            naming the field, its value and what is allowed.
+        """
+        sizes = (roller_diameter, roller_length, pitch_diameter)
+        return cls(**roller_numbers(TAPERED, n_rollers, sizes, contact_angle, radial_clearance))
+
+    @classmethod
+    def self_aligning(
+        cls,
+        n_balls: int,
+        ball_diameter: float,
+        sphere_radius: float,
+        inner_groove_radius: float,
+        contact_angle: float,
+        radial_clearance: float = 0.0,
+        youngs_modulus: float = 210e9,
+        poisson: float = 0.3,
+    ) -> Self:
+        """A self-aligning ball bearing: two rows in a spherical outer race about its centre.
+
+        See `bearingcore.bearings._self_aligning` for what follows from these.
+
+        Parameters
+        ----------
+        n_balls
+            of each row.
+        ball_diameter, sphere_radius, inner_groove_radius
+            D_b, R_e and r_i [m].
+        contact_angle
+            α0 [rad] of both rows, above 0.
+        radial_clearance
+            r_L [m].
+        youngs_modulus, poisson
+            E [Pa] and ν; steel by default.
+
+        Raises
+        ------
+        ValueError
+            for a drawing that cannot be built.
+        """
+        sizes = (n_balls, ball_diameter, sphere_radius, inner_groove_radius, contact_angle)
+        return cls(**self_aligning_numbers(*sizes, radial_clearance, youngs_modulus, poisson))
 
     def __repr__(self) -> str:
         """Rolling elements and their places, in a line."""
@@ -212,18 +310,117 @@ class Bearing(InRows):
     def replace(self, **changes: Any) -> Self:
         """Return the bearing with changed fields; derived fields follow.
 
-
         A derived field (A0, r_d, K, R_o, R_i) that differs from the value by the drawing keeps its
         ratio to that value; one that is named in `changes` is taken as it is.
         """
-        kept: dict[str, Any] = {
-            "estimated": tuple(name for name in self.estimated if name not in changes)
-        }
-        new = cast(Self, self.kind.replaced(self, kept | changes))
+        kept = {"estimated": tuple(name for name in self.estimated if name not in changes)}
+        changes = self.kind.completed(self, kept | changes)
+        new = dataclasses.replace(self, **changes)
+        before, after = self.kind.derived(self), new.kind.derived(new)
+        if before is not None and after is not None:
+            follows = {}
+            for name in before._fields:
+                old, was, now = getattr(self, name), getattr(before, name), getattr(after, name)
+                if name not in changes and now != was:
+                    follows[name] = now if old == was else old * (now / was)
+            new = dataclasses.replace(new, **follows)
         if "dynamic_load_rating" in changes:
             return new
         rating = self.dynamic_load_rating if new.rated == self.rated else None
         return dataclasses.replace(new, dynamic_load_rating=rating)
+
+    def paired(self, distance: float, arrangement: str, preload: float = 0.0) -> Self:
+        """Two rows like this one, `distance` [m] apart on the shaft.
+
+        `arrangement` is "back-to-back", "face-to-face" or "tandem"; `preload` [m] is how far the
+        inner grooves are pushed along the shaft against each other.
+
+        Raises
+        ------
+        ValueError
+            for a bearing that has rows already, or without a contact angle for a preload.
+        """
+        if self.rows:
+            raise checks.refuse("rows", len(self.rows), "none yet, where a bearing is paired")
+        self._check_preload(preload)
+        return self.replace(rows=pair(distance, arrangement, preload))
+
+    def respaced(self, distance: float | None = None, preload: float | None = None) -> Self:
+        """The pair with another distance of its rows, or another preload [m]; see `paired`.
+
+        ValueError for a bearing that is no pair.
+        """
+        if not self.arrangement:
+            raise checks.refuse("rows", len(self.all_rows), "two rows that form a pair")
+        self._check_preload(preload or 0.0)
+        return self.replace(rows=spaced(self.rows, distance, preload))
+
+    def _check_preload(self, preload: float) -> None:
+        if preload > 0.0 and self.contact_angle == 0.0:
+            raise checks.refuse("preload", preload, "0 m at a contact angle of 0")
+
+    @property
+    def pressure_centers_apart(self) -> float | None:
+        """Distance [m] of the points in which the lines of contact of a pair meet the shaft.
+
+        With it a pair resists tilt. None of a bearing that is no pair, or one in tandem.
+        """
+        if self.arrangement not in ("back-to-back", "face-to-face"):
+            return None
+        meets = [
+            row.place - row.facing * 0.5 * own.pitch_diameter * math.tan(own.contact_angle)
+            for row, own in ((row, self.of_row(k)) for k, row in enumerate(self.rows))
+        ]
+        return abs(meets[1] - meets[0])
+
+    def seated(self) -> Self:
+        """The same bearing given by its free contact angle, without clearance on top.
+
+        Its axial origin is where the balls touch, A0 (sin α_f − sin α0) further along z: at the
+        same loads δz is smaller by that and all else is equal. Two things are not the same, as
+        both depend on α0 and not on the angle under load: a defect lowers the ball along the
+        unloaded line of contact, here at α_f; and the cage turns a little faster. ValueError where
+        an interference presses the balls: no contact angle amounts to it.
+        """
+        if self.diametral_play < 0.0:
+            raise checks.refuse(
+                "radial_clearance", self.radial_clearance, "one that leaves play", "m"
+            )
+        return dataclasses.replace(
+            self, contact_angle=self.free_contact_angle, radial_clearance=0.0
+        )
+
+    def with_balls_of(self, material: BallMaterial) -> Self:
+        """The bearing with balls of a material and their density; ValueError without a drawing."""
+        return self.replace(
+            ball_youngs_modulus=material.youngs_modulus,
+            ball_poisson=material.poisson,
+            density=material.density,
+        )
+
+    def frequency_spread(self, name: str) -> float:
+        """Relative error of a frequency that 19 of 20 estimates stay below; 0 of no estimate.
+
+        `name` is "bpfo", "bpfi", "ftf" or "bsf". It is what the estimated ratio of ball and pitch
+        diameter may do: a number of balls that is estimated too may be one more or less, which
+        moves BPFO and BPFI by a whole part in that number and is not in here. Of tapered rollers,
+        whose number is less sure, it is.
+        """
+        checks.choice("name", name, ("bpfo", "bpfi", "ftf", "bsf"))
+        ratio, counted = self.kind.estimate_spread or (MEASURED.ratio_spread, 0)
+        spread = 0.0
+        if {"ball_diameter", "pitch_diameter"} & set(self.estimated):
+            gamma = self.size_ratio
+            part = {
+                "bpfo": gamma / (1.0 - gamma),
+                "ftf": gamma / (1.0 - gamma),
+                "bpfi": gamma / (1.0 + gamma),
+                "bsf": (1.0 + gamma**2) / (1.0 - gamma**2),
+            }
+            spread = ratio * part[name]
+        if "n_balls" in self.estimated and name in ("bpfo", "bpfi"):
+            spread += counted / self.n_balls
+        return spread
 
     @property
     def rated(self) -> tuple[object, ...]:
@@ -245,18 +442,6 @@ class Bearing(InRows):
             return "steel"
         own = (self.ball_youngs_modulus, self.ball_poisson)
         return next((name for name, material in BALL_MATERIALS.items() if material[:2] == own), "")
-
-    @property
-    def is_hybrid(self) -> bool:
-        """True if the balls are of another material than the rings."""
-        own = (self.ball_youngs_modulus, self.ball_poisson)
-        rings = (self.youngs_modulus, self.poisson)
-        return any(name not in (None, ring) for name, ring in zip(own, rings, strict=True))
-
-    @property
-    def is_drawn(self) -> bool:
-        """True if the bearing carries its groove radii and material."""
-        return any(getattr(self, name) is not None for name in drawing.OPTIONAL_FIELDS)
 
     @property
     def knows_contacts(self) -> bool:

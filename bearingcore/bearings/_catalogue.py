@@ -26,8 +26,8 @@ from functools import lru_cache
 from importlib import resources
 from types import MappingProxyType
 
-from bearingcore.bearings._ball import USUAL_GROOVES
 from bearingcore.bearings._bearing import Bearing
+from bearingcore.bearings._drawing import USUAL_GROOVES
 from bearingcore.common import _checks as checks
 from bearingcore.errors import FieldError
 

@@ -22,7 +22,6 @@ from dataclasses import dataclass
 from functools import cache
 
 from bearingcore.bearings import _ratings as ratings
-from bearingcore.bearings._ball import USUAL_GROOVES
 from bearingcore.bearings._bearing import Bearing
 from bearingcore.bearings._catalogue import CatalogueBearing
 from bearingcore.bearings._designation_tables import (
@@ -33,7 +32,7 @@ from bearingcore.bearings._designation_tables import (
     rows_of,
     series_of,
 )
-from bearingcore.bearings._drawing import center_distance
+from bearingcore.bearings._drawing import USUAL_GROOVES, center_distance
 from bearingcore.bearings._inside import (
     Inside,
     accuracy,
@@ -154,7 +153,8 @@ class Designation:
             "not been measured, and makers differ: count the balls."
             if self.reinforced
             else "JTEKT (Koyo) catalogue; nine of ten of other makers' are from 10 % below to 15 % "
-            f"above, some of small or thin bearings 35 % below or above. {accuracy(self.bearing)}"
+            "above, some of small or thin bearings 35 % below or above. "
+            f"{accuracy(self.bearing.kind, self.bearing.contact_angle)}"
         )
         return CatalogueBearing(
             self.name, self.bearing, self.dynamic_load_rating, note, self.assumed, self.unread
@@ -170,14 +170,8 @@ def read_designation(text: str) -> Designation:
         for a text that is no designation, or one of an unknown series or size.
     """
     checks.instance("designation", text, str, 'text such as "6205-2RS/C3"')
-    name = " ".join(text.upper().replace("–", "-").split())
-    name = re.sub(r"^(\d{2,3}) (\d{2})\b", r"\1\2", name)  # "320 08": series, then bore
-    form = _FORM.fullmatch(name) if len(name) <= LONGEST_DESIGNATION else None
-    basic = None if form is None else _basic(form["letters"] or "", form["number"])
-    suffix = "" if form is None else form["suffix"] or ""
-    if form is None or basic is None or (_kind_of(basic) == TAPERED_ROLLERS and is_steep(suffix)):
-        allowed = f"a bearing of the series {series_words()}; {BY_FREQUENCIES}"
-        raise checks.refuse("designation", text[:LONGEST_DESIGNATION], allowed)
+    form, basic = _form_and_basic(text)
+    name, letters, suffix = form.string, form["letters"] or "", form["suffix"] or ""
     kind, size = _kind_of(basic), boundaries()[basic]
     said = read_suffix(name, kind, suffix, form["count"] or "", form["ceramic"] is not None)
     if said.inside:
@@ -186,22 +180,15 @@ def read_designation(text: str) -> Designation:
         raise checks.refuse("designation", name, REINFORCED)
     assumed: list[str] = []
     angle = _angle(basic, size, said.angle, assumed)
-    none = kind in (ANGULAR_CONTACT, TAPERED_ROLLERS)
-    clearance_class = "" if none else said.clearance_class or "CN"
-    play = 0.0
-    if clearance_class:
-        least, most = clearance(kind, size.bore, clearance_class)
-        play = 0.5 * (least + most)
-        assumed.append(
-            f"a clearance of {number(1e6 * play)} µm, the middle of {clearance_class} "
-            f"({number(1e6 * least)} to {number(1e6 * most)} µm)"
-        )
+    has_clearance = kind not in (ANGULAR_CONTACT, TAPERED_ROLLERS)  # theirs is set at mounting
+    clearance_class = (said.clearance_class or "CN") if has_clearance else ""
+    play = _play(kind, size, clearance_class, assumed) if has_clearance else 0.0
     inside = _inside(kind, size, angle) if said.inside else inside_of(basic)
     bearing = _built(kind, inside, angle, play, assumed)
     if unread := unknown_letters(kind, suffix):
         assumed.append(f"that {unread}, which is not known here, changes nothing")
     if kind == ROLLERS:
-        assumed += _of_flanges(form["letters"] or "", basic, suffix)
+        assumed += _of_flanges(letters, basic, suffix)
     if said.is_ceramic:
         ceramic = BALL_MATERIALS["silicon nitride"]
         bearing = bearing.with_balls_of(ceramic)
@@ -229,6 +216,31 @@ def read_designation(text: str) -> Designation:
         said.inside,
         unread,
     )
+
+
+def _form_and_basic(text: str) -> tuple[re.Match[str], str]:
+    """Parts of a designation in capitals, and its basic number in the table; else ValueError."""
+    name = " ".join(text.upper().replace("–", "-").split())
+    name = re.sub(r"^(\d{2,3}) (\d{2})\b", r"\1\2", name)  # "320 08": series, then bore
+    form = _FORM.fullmatch(name) if len(name) <= LONGEST_DESIGNATION else None
+    basic = form and _basic(form["letters"] or "", form["number"])
+    # the table has no steep tapered rollers, whose other angle makes another inside
+    steep = form and basic and _kind_of(basic) == TAPERED_ROLLERS and is_steep(form["suffix"] or "")
+    if not form or not basic or steep:
+        allowed = f"a bearing of the series {series_words()}; {BY_FREQUENCIES}"
+        raise checks.refuse("designation", text[:LONGEST_DESIGNATION], allowed)
+    return form, basic
+
+
+def _play(kind: str, size: Boundary, clearance_class: str, assumed: list[str]) -> float:
+    """Clearance [m] in the middle of a class, which is added to what is assumed."""
+    least, most = clearance(kind, size.bore, clearance_class)
+    play = 0.5 * (least + most)
+    assumed.append(
+        f"a clearance of {number(1e6 * play)} µm, the middle of {clearance_class} "
+        f"({number(1e6 * least)} to {number(1e6 * most)} µm)"
+    )
+    return play
 
 
 def is_known(text: str) -> bool:

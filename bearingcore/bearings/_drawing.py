@@ -30,6 +30,9 @@ from bearingcore.bearings._kinematics import GREATEST_CONTACT_ANGLE
 from bearingcore.common import _checks as checks
 from bearingcore.fields import WIDEST_CONFORMITY
 
+USUAL_GROOVES = {"inner": 0.52, "outer": 0.53}
+"""Groove radii over the ball diameter where none are given: the widest that ISO 281 rates fully."""
+
 GROOVES = ("inner_groove_radius", "outer_groove_radius")
 OPTIONAL_FIELDS = (*GROOVES, "youngs_modulus", "poisson")
 """Fields of a `Bearing` that only one with a drawing has."""

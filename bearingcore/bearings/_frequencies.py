@@ -12,8 +12,8 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
-from bearingcore.bearings._ball import USUAL_GROOVES
 from bearingcore.bearings._bearing import Bearing
+from bearingcore.bearings._drawing import USUAL_GROOVES
 from bearingcore.common import _checks as checks
 from bearingcore.common import number
 

@@ -5,24 +5,23 @@ from __future__ import annotations
 import math
 from functools import lru_cache
 from itertools import accumulate
-from typing import TYPE_CHECKING, Any, Self, cast
+from typing import Any, Self, TypeVar
 
 from bearingcore.bearings._drawing import GROOVES
-from bearingcore.bearings._kinematics import Kinematics
-from bearingcore.bearings._rows import LENGTHS, Row
+from bearingcore.bearings._numbers import Numbers
+from bearingcore.bearings._row import LENGTHS, Row
 from bearingcore.common import _checks as checks
 from bearingcore.errors import FieldError
-
-if TYPE_CHECKING:
-    from bearingcore.bearings._bearing import Bearing
 
 _ONE_ROW = (Row(),)
 
 
-class InRows(Kinematics):
-    """Base of `Bearing` for its rows."""
+class InRows(Numbers):
+    """Rows of a bearing of any kind; methods of a `Kind` take these."""
 
-    rows: tuple[Row, ...]
+    def replace(self, **changes: Any) -> Self:
+        """Return the bearing with changed fields; see `Bearing.replace`."""
+        raise NotImplementedError
 
     @property
     def all_rows(self) -> tuple[Row, ...]:
@@ -43,8 +42,7 @@ class InRows(Kinematics):
         if self.rows_are_alike:
             return self
         try:
-            own = tuple(self.unlike(self.rows[row]).items())
-            return cast(Self, _with_own(cast("Bearing", self), own))
+            return _with_own(self, tuple(self.unlike(self.rows[row]).items()))
         except FieldError as refused:
             raise refused.inside(f"row {row + 1}") from None
 
@@ -108,8 +106,11 @@ class InRows(Kinematics):
         return self.balls_of_rows[-1].stop
 
 
+B = TypeVar("B", bound=InRows)
+
+
 @lru_cache(maxsize=256)
-def _with_own(bearing: Bearing, own: tuple[tuple[str, float], ...]) -> Bearing:
+def _with_own(bearing: B, own: tuple[tuple[str, float], ...]) -> B:
     """The bearing without rows and with what one of them has of its own."""
     values: dict[str, Any] = dict(own)
     if not bearing.is_drawn:

@@ -23,19 +23,15 @@ from __future__ import annotations
 
 import math
 from functools import lru_cache
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from bearingcore.bearings import _ratings as ratings
-from bearingcore.bearings._ball import USUAL_GROOVES
-from bearingcore.common import _checks as checks
+from bearingcore.bearings._drawing import USUAL_GROOVES
+from bearingcore.bearings._kind import Kind
 from bearingcore.common import percent
 from bearingcore.units import INCH
-
-if TYPE_CHECKING:
-    from bearingcore.bearings._bearing import Bearing
-
 
 BALL_SIZES: tuple[float, ...] = tuple(
     sorted(
@@ -158,9 +154,9 @@ SPINDLE_BEARINGS, SAME_BALLS, ONE_OFF = 59, 16, 28
 estimated one of 70, 72 or 719 of the same sizes, and of how many one more or less."""
 
 
-def accuracy(bearing: Bearing) -> str:
-    """Accuracy of the estimated inside of a bearing, in sentences."""
-    if bearing.kind.estimate_spread is not None:
+def accuracy(kind: Kind, contact_angle: float) -> str:
+    """Accuracy of the estimated inside of a bearing of a kind, its angle in rad, in sentences."""
+    if kind.estimate_spread is not None:
         return (
             "No table of the insides of such bearings was found to measure that by. From the "
             "ratings of another maker follows a ratio of roller and pitch diameter within "
@@ -173,37 +169,12 @@ def accuracy(bearing: Bearing) -> str:
         f"{percent(MEASURED.frequency_spread, 2)}. Makers differ: the number may be one more or "
         "less."
     )
-    if not bearing.contact_angle or not bearing.kind.has_drawing:
+    if not contact_angle or not kind.has_drawing:
         return words
     return (
         f"{words} Spindle bearings differ most: of {SPINDLE_BEARINGS} of SNFA {SAME_BALLS} have "
         f"the number estimated here, {ONE_OFF} one more or less. Count the balls."
     )
-
-
-def frequency_spread(self: Bearing, name: str) -> float:
-    """Relative error that 19 of 20 estimates of a frequency stay below; 0 without an estimate.
-
-    `name` is "bpfo", "bpfi", "ftf" or "bsf". It covers the estimated ratio of ball and
-    pitch diameter. An estimated number of balls may also be off by one, which changes BPFO and
-    BPFI by one part in that number; only for tapered rollers, whose number is less sure, is
-    this included.
-    """
-    checks.choice("name", name, ("bpfo", "bpfi", "ftf", "bsf"))
-    ratio, counted = self.kind.estimate_spread or (MEASURED.ratio_spread, 0)
-    spread = 0.0
-    if {"ball_diameter", "pitch_diameter"} & set(self.estimated):
-        gamma = self.size_ratio
-        part = {
-            "bpfo": gamma / (1.0 - gamma),
-            "ftf": gamma / (1.0 - gamma),
-            "bpfi": gamma / (1.0 + gamma),
-            "bsf": (1.0 + gamma**2) / (1.0 - gamma**2),
-        }
-        spread = ratio * part[name]
-    if "n_balls" in self.estimated and name in ("bpfo", "bpfi"):
-        spread += counted / self.n_balls
-    return spread
 
 
 @lru_cache(maxsize=512)

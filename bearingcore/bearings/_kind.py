@@ -6,20 +6,16 @@ tuple of names. No code outside this package infers the kind of a bearing from i
 
 from __future__ import annotations
 
-import dataclasses
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from bearingcore.bearings._contact import Contact
+from bearingcore.bearings._drawing import Derived
+from bearingcore.bearings._hertz import RaceContact
+from bearingcore.bearings._in_rows import InRows
+from bearingcore.bearings._line_contact import RollerContact
 from bearingcore.common import Array
 from bearingcore.common import _checks as checks
-
-if TYPE_CHECKING:
-    from bearingcore.bearings._bearing import Bearing
-    from bearingcore.bearings._drawing import Derived
-    from bearingcore.bearings._hertz import RaceContact
-    from bearingcore.bearings._line_contact import RollerContact
-
 
 DIRECTIONS = ("x", "y", "z", "rx", "ry")
 """Displacements of the inner ring against the outer one: along x, y, z, rotations about x, y."""
@@ -61,7 +57,7 @@ class Kind:
     element
         word for a rolling element: "ball" or "roller".
     variants
-        variants in lists of choices; `nearest` turns any other bearing into the first.
+        variants in lists of choices, the usual one first.
     exponent, exponent_text
         exponent of load over compression, as a number and as superscript text.
     line_contact
@@ -125,83 +121,67 @@ class Kind:
         """Name of several rolling elements."""
         return f"{self.element}s"
 
-    def recognizes(self, bearing: Bearing) -> bool:
+    def recognizes(self, bearing: InRows) -> bool:
         """Return True if numbers without a named kind, as in old files, belong to this kind."""
         raise NotImplementedError
 
-    def check(self, bearing: Bearing) -> None:
+    def check(self, bearing: InRows) -> None:
         """Raise ValueError if a bearing has numbers that this kind cannot have."""
         raise NotImplementedError
 
-    def variant(self, bearing: Bearing) -> str:
+    def variant(self, bearing: InRows) -> str:
         """Return the name of a bearing's variant; empty if it is none of `variants`."""
         return self.variants[0].name
 
-    def arrangement(self, bearing: Bearing) -> str:
+    def arrangement(self, bearing: InRows) -> str:
         """Return the arrangement of a pair, out of ARRANGEMENTS; empty without a pair."""
         return ""
 
-    def nearest(self, bearing: Bearing, variant: str) -> Bearing:
-        """Return a bearing of this kind with the dimensions of another one.
-
-        Missing numbers take usual values. Raises ValueError if there is no such bearing.
-        """
-        raise NotImplementedError
-
-    def inputs(self, bearing: Bearing) -> tuple[str, ...]:
+    def inputs(self, bearing: InRows) -> tuple[str, ...]:
         """Return the names of the fields that define a bearing; all others follow."""
         raise NotImplementedError
 
-    def facts(self, bearing: Bearing) -> tuple[str, ...]:
+    def facts(self, bearing: InRows) -> tuple[str, ...]:
         """Return the names of derived numbers that are worth showing."""
         raise NotImplementedError
 
-    def derived(self, bearing: Bearing) -> Derived | None:
+    def derived(self, bearing: InRows) -> Derived | None:
         """Return the derived fields, or None if there are none."""
         return None
 
-    def replaced(self, bearing: Bearing, changes: dict[str, Any]) -> Bearing:
-        """Return a bearing with changed fields and new derived fields; see `Bearing.replace`."""
-        if "rows" in changes:
-            changes.setdefault("kind", "")  # a row more or less makes another kind
-        changed = dataclasses.replace(bearing, **changes)
-        before, after = self.derived(bearing), changed.kind.derived(changed)
-        if before is None or after is None:
-            return changed
-        for name in before._fields:
-            old, was, now = getattr(bearing, name), getattr(before, name), getattr(after, name)
-            if name not in changes and now != was:
-                changes[name] = now if old == was else old * (now / was)
-        return dataclasses.replace(bearing, **changes)
+    def completed(self, bearing: InRows, changes: dict[str, Any]) -> dict[str, Any]:
+        """Add to changed fields what has to change with them; see `Bearing.replace`."""
+        # a row more or less makes another kind
+        return {"kind": ""} | changes if "rows" in changes else changes
 
-    def race_contact(self, bearing: Bearing, race: str) -> RaceContact | RollerContact:
+    def race_contact(self, bearing: InRows, race: str) -> RaceContact | RollerContact:
         """Return the contact of an element with a race, "outer" or "inner"; see `Bearing`."""
         raise NotImplementedError
 
-    def knows_contacts(self, bearing: Bearing) -> bool:
+    def knows_contacts(self, bearing: InRows) -> bool:
         """Return True if `race_contact` has an answer."""
         return True
 
-    def carries_thrust_one_way(self, bearing: Bearing) -> bool:
+    def carries_thrust_one_way(self, bearing: InRows) -> bool:
         """Return True if a row has a shoulder on only one side of each race.
 
         This holds at a contact angle; at angle 0 a row carries thrust both ways or not at all.
         """
         return bearing.contact_angle > 0.0
 
-    def groove_radius(self, bearing: Bearing, race: str) -> float | None:
+    def groove_radius(self, bearing: InRows, race: str) -> float | None:
         """Return the radius [m] of a race across the rolling direction; None if unknown."""
         return None
 
-    def profile_drop(self, bearing: Bearing, place: Array) -> Array:
+    def profile_drop(self, bearing: InRows, place: Array) -> Array:
         """Return the drop P [m] of a roller's profile at distances [m] from its middle."""
         raise NotImplementedError
 
-    def volume(self, bearing: Bearing) -> float:
+    def volume(self, bearing: InRows) -> float:
         """Return the volume [m³] of a rolling element; π D_b³/6 for a ball."""
         return math.pi / 6.0 * bearing.ball_diameter**3
 
-    def contact(self, bearing: Bearing) -> Contact:
+    def contact(self, bearing: InRows) -> Contact:
         """Return the contact of each element of a bearing, or of one of its rows."""
         return Contact(
             angle=bearing.contact_angle,
@@ -213,7 +193,7 @@ class Kind:
             center_distance=bearing.groove_center_distance,
         )
 
-    def race_factors(self, bearing: Bearing) -> tuple[float, float]:
+    def race_factors(self, bearing: InRows) -> tuple[float, float]:
         """Return the load-deflection factors [N/m^n] of contacts with inner and outer race.
 
         Their ratio is that of Hertzian contacts if the drawing is known, and else 1. In series they
@@ -228,7 +208,7 @@ class Kind:
         scale = bearing.load_deflection_factor * (inner ** (-1.0 / n) + outer ** (-1.0 / n)) ** n
         return scale * inner, scale * outer
 
-    def race_distances(self, bearing: Bearing) -> tuple[float, float]:
+    def race_distances(self, bearing: InRows) -> tuple[float, float]:
         """Return the unloaded distances [m] of a ball's centre from both groove centres.
 
         They are r_i − D_b/2 and r_o − D_b/2, scaled so that their sum is A0; without a drawing each

@@ -26,7 +26,7 @@ from functools import cache
 import numpy as np
 from numpy.typing import ArrayLike
 
-from bearingcore.bearings._ball import USUAL_GROOVES
+from bearingcore.bearings._drawing import USUAL_GROOVES
 from bearingcore.bearings._hertz import race_contact, spherical_contact
 from bearingcore.bearings._kind import ISO_76_BALLS, ISO_76_SELF_ALIGNING
 from bearingcore.common import Array

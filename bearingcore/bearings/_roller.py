@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import Any
 
 from bearingcore.bearings._drawing import Derived
+from bearingcore.bearings._in_rows import InRows
 from bearingcore.bearings._kind import ISO_76_ROLLERS, Kind, Picture, Variant
 from bearingcore.bearings._line_contact import (
     RollerContact,
@@ -16,45 +17,19 @@ from bearingcore.bearings._line_contact import (
 from bearingcore.common import Array
 from bearingcore.common import _checks as checks
 
-if TYPE_CHECKING:
-    from bearingcore.bearings._bearing import Bearing
 
-
-def cylindrical(
-    cls: type[Bearing],
-    n_rollers: int,
-    roller_diameter: float,
-    roller_length: float,
-    pitch_diameter: float,
-    radial_clearance: float = 0.0,
-) -> Bearing:
-    """Make a cylindrical roller bearing of steel, with line contacts by ISO 16281.
-
-    K = 35 948 l^(8/9) N/mm^(10/9), l [mm] the length of a roller, both contacts in series.
-    Lengths in m. Rollers do not tilt in this model and carry no load along the shaft.
-
-    Raises
-    ------
-    ValueError
-        naming the field, its value and what is allowed.
-    """
-    sizes = (roller_diameter, roller_length, pitch_diameter)
-    return rollers(cls, ROLLER, n_rollers, sizes, 0.0, radial_clearance)
-
-
-def rollers(
-    cls: type[Bearing],
+def roller_numbers(
     kind: Kind,
     n_rollers: int,
     sizes: tuple[float, float, float],
     contact_angle: float,
     radial_clearance: float,
-) -> Bearing:
-    """One row of rollers of steel; `sizes` [m] are diameter, length and pitch diameter."""
+) -> dict[str, Any]:
+    """Fields of a row of steel rollers; `sizes` [m] are diameter, length and pitch diameter."""
     diameter = checks.real_number("roller_diameter", sizes[0], above=0.0, unit="m")
     length = checks.real_number("roller_length", sizes[1], above=0.0, unit="m")
     pitch = checks.real_number("pitch_diameter", sizes[2], above=diameter, unit="m")
-    return cls(
+    return dict(
         kind=kind,
         n_balls=n_rollers,
         ball_diameter=diameter,
@@ -79,7 +54,7 @@ def _derived(
     )
 
 
-def length_of(bearing: Bearing) -> float:
+def length_of(bearing: InRows) -> float:
     """Length of the rollers [m]. ValueError where there is none."""
     return checks.real_number("roller_length", bearing.roller_length, above=0.0, unit="m")  # type: ignore[arg-type]  # None is refused there
 
@@ -122,10 +97,10 @@ class Roller(Kind):
     static_pressure = ISO_76_ROLLERS
     has_drawing = False
 
-    def recognizes(self, bearing: Bearing) -> bool:
+    def recognizes(self, bearing: InRows) -> bool:
         return bearing.roller_length is not None and bearing.contact_angle == 0.0
 
-    def check(self, bearing: Bearing) -> None:
+    def check(self, bearing: InRows) -> None:
         length = length_of(bearing)
         if bearing.contact_angle != 0.0 or bearing.rows or bearing.is_drawn:
             raise checks.refuse(
@@ -135,23 +110,14 @@ class Roller(Kind):
                 contact_angle=bearing.contact_angle,
             )
 
-    def nearest(self, bearing: Bearing, variant: str) -> Bearing:
-        return bearing.cylindrical(
-            bearing.n_balls,
-            bearing.ball_diameter,
-            bearing.ball_diameter,
-            bearing.pitch_diameter,
-            bearing.radial_clearance,
-        )
-
-    def inputs(self, bearing: Bearing) -> tuple[str, ...]:
+    def inputs(self, bearing: InRows) -> tuple[str, ...]:
         sizes = ("n_balls", "ball_diameter", "roller_length", "pitch_diameter", "radial_clearance")
         return sizes if self.mass_unknown else (*sizes, "density")
 
-    def facts(self, bearing: Bearing) -> tuple[str, ...]:
+    def facts(self, bearing: InRows) -> tuple[str, ...]:
         return ("line_load_deflection_factor",)
 
-    def derived(self, bearing: Bearing) -> Derived:
+    def derived(self, bearing: InRows) -> Derived:
         return _derived(
             bearing.ball_diameter,
             length_of(bearing),
@@ -159,15 +125,15 @@ class Roller(Kind):
             bearing.contact_angle,
         )
 
-    def race_contact(self, bearing: Bearing, race: str) -> RollerContact:
+    def race_contact(self, bearing: InRows, race: str) -> RollerContact:
         return roller_contact(
             race, bearing.ball_diameter, bearing.pitch_diameter, length_of(bearing)
         )
 
-    def profile_drop(self, bearing: Bearing, place: Array) -> Array:
+    def profile_drop(self, bearing: InRows, place: Array) -> Array:
         return profile_drop(place, bearing.ball_diameter, length_of(bearing))
 
-    def volume(self, bearing: Bearing) -> float:
+    def volume(self, bearing: InRows) -> float:
         return math.pi / 4.0 * bearing.ball_diameter**2 * length_of(bearing)
 
 

@@ -9,17 +9,15 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from bearingcore.bearings import _drawing as drawing
 from bearingcore.bearings._hertz import RaceContact, in_series, race_contact, spherical_contact
+from bearingcore.bearings._in_rows import InRows
 from bearingcore.bearings._kind import ISO_76_SELF_ALIGNING, Kind, Picture, Variant
 from bearingcore.bearings._kinematics import check_contact_angle
-from bearingcore.bearings._rows import Row
+from bearingcore.bearings._row import Row
 from bearingcore.common import _checks as checks
-
-if TYPE_CHECKING:
-    from bearingcore.bearings._bearing import Bearing
 
 POISSON = 0.3
 """Poisson's ratio of ball and rings; the modulus is the one that gives the factor K."""
@@ -35,39 +33,17 @@ _FOLLOWS = (
 )
 
 
-def self_aligning(
-    cls: type[Bearing],
+def self_aligning_numbers(
     n_balls: int,
     ball_diameter: float,
     sphere_radius: float,
     inner_groove_radius: float,
     contact_angle: float,
-    radial_clearance: float = 0.0,
+    radial_clearance: float,
     youngs_modulus: float = 210e9,
     poisson: float = 0.3,
-) -> Bearing:
-    """Make a self-aligning ball bearing: two rows in a spherical outer race about its centre.
-
-    See `bearingcore.bearings._self_aligning` for the numbers that follow from these.
-
-    Parameters
-    ----------
-    n_balls
-        of each row.
-    ball_diameter, sphere_radius, inner_groove_radius
-        D_b, R_e and r_i [m].
-    contact_angle
-        α0 [rad] of both rows, above 0.
-    radial_clearance
-        r_L [m].
-    youngs_modulus, poisson
-        E [Pa] and ν; steel by default.
-
-    Raises
-    ------
-    ValueError
-        for a drawing that cannot be built.
-    """
+) -> dict[str, Any]:
+    """Fields of a self-aligning bearing; see `Bearing.self_aligning`."""
     angle = check_contact_angle(contact_angle)
     checks.real_number("contact_angle", angle, above=0.0, unit="rad")
     diameter = checks.real_number("ball_diameter", ball_diameter, above=0.0, unit="m")
@@ -77,20 +53,20 @@ def self_aligning(
     distance = sphere + inner_groove_radius - diameter
     sizes = (diameter, pitch, sphere, inner_groove_radius, angle)
     place = distance * math.sin(angle)
-    return cls(
-        kind=SELF_ALIGNING,
-        n_balls=n_balls,
-        ball_diameter=diameter,
-        pitch_diameter=pitch,
-        contact_angle=angle,
-        groove_center_radius=distance * math.cos(angle),
-        groove_center_distance=distance,
-        radial_clearance=radial_clearance,
-        load_deflection_factor=_factor(*_contacts(*sizes, youngs_modulus, poisson)),
-        outer_raceway_radius=sphere,
-        inner_raceway_radius=0.5 * pitch - 0.5 * diameter * math.cos(angle),
-        rows=(Row(-place, -1), Row(place, 1)),
-    )
+    return {
+        "kind": SELF_ALIGNING,
+        "n_balls": n_balls,
+        "ball_diameter": diameter,
+        "pitch_diameter": pitch,
+        "contact_angle": angle,
+        "groove_center_radius": distance * math.cos(angle),
+        "groove_center_distance": distance,
+        "radial_clearance": radial_clearance,
+        "load_deflection_factor": _factor(*_contacts(*sizes, youngs_modulus, poisson)),
+        "outer_raceway_radius": sphere,
+        "inner_raceway_radius": 0.5 * pitch - 0.5 * diameter * math.cos(angle),
+        "rows": (Row(-place, -1), Row(place, 1)),
+    }
 
 
 def _contacts(
@@ -111,7 +87,7 @@ def _factor(inner: RaceContact, outer: RaceContact) -> float:
     return in_series(inner.load_deflection_factor, outer.load_deflection_factor)
 
 
-def inner_groove(bearing: Bearing) -> float:
+def inner_groove(bearing: InRows) -> float:
     """Inner groove radius r_i = A0 + D_b − R_e [m]."""
     distance = bearing.groove_center_distance
     assert distance is not None  # as recognized
@@ -146,7 +122,7 @@ class SelfAligning(Kind):
     static_pressure = ISO_76_SELF_ALIGNING
     has_drawing = False
 
-    def recognizes(self, bearing: Bearing) -> bool:
+    def recognizes(self, bearing: InRows) -> bool:
         if len(bearing.rows) != 2 or bearing.contact_angle == 0.0 or bearing.is_drawn:
             return False
         if bearing.groove_center_distance is None or bearing.roller_length is not None:
@@ -158,7 +134,7 @@ class SelfAligning(Kind):
             for row in bearing.rows
         )
 
-    def check(self, bearing: Bearing) -> None:
+    def check(self, bearing: InRows) -> None:
         if not self.recognizes(bearing):
             raise checks.refuse(
                 "rows",
@@ -167,53 +143,37 @@ class SelfAligning(Kind):
                 "Bearing.self_aligning",
             )
 
-    def nearest(self, bearing: Bearing, variant: str) -> Bearing:
-        ball = bearing.ball_diameter
-        angle = bearing.contact_angle or ASSUMED_ANGLE
-        return bearing.self_aligning(
-            bearing.n_balls,
-            ball,
-            0.5 * bearing.pitch_diameter / math.cos(angle) + 0.5 * ball,
-            bearing.kind.groove_radius(bearing, "inner") or USUAL_GROOVE * ball,
-            angle,
-            bearing.radial_clearance,
-        )
-
-    def inputs(self, bearing: Bearing) -> tuple[str, ...]:
+    def inputs(self, bearing: InRows) -> tuple[str, ...]:
         return ("n_balls", *_DRAWN_BY, "radial_clearance", "density")
 
-    def facts(self, bearing: Bearing) -> tuple[str, ...]:
+    def facts(self, bearing: InRows) -> tuple[str, ...]:
         return ("sphere_rows_apart", "load_deflection_factor", "groove_center_distance")
 
-    def replaced(self, bearing: Bearing, changes: dict[str, Any]) -> Bearing:
-        """A bearing with what it is drawn by changed: all else follows."""
+    def completed(self, bearing: InRows, changes: dict[str, Any]) -> dict[str, Any]:
+        """Add what follows from the drawing where some of its dimensions change."""
         if "rows" in changes:
-            return super().replaced(bearing, changes)
+            return super().completed(bearing, changes)
+        given = {name: value for name, value in changes.items() if name not in _FOLLOWS}
         for name in _FOLLOWS:
-            given, own = changes.pop(name, None), getattr(bearing, name)
-            if given is not None and (own is None or not math.isclose(given, own, rel_tol=1e-9)):
+            value, own = changes.get(name), getattr(bearing, name)
+            if value is not None and (own is None or not math.isclose(value, own, rel_tol=1e-9)):
                 raise checks.refuse(
-                    name, given, "what follows from ball, sphere, groove and contact angle"
+                    name, value, "what follows from ball, sphere, groove and contact angle"
                 )
-        if not any(changes.get(name) is not None for name in _DRAWN_BY):
-            return dataclasses.replace(bearing, **changes)
-        new = _built(bearing, changes)
-        stiffer = bearing.load_deflection_factor / _built(bearing, {}).load_deflection_factor
-        rows = tuple(
+        if not any(given.get(name) is not None for name in _DRAWN_BY):
+            return given
+        new = _drawn_anew(bearing, given)
+        # a factor that was set apart from the drawing's keeps its proportion to it
+        stiffer = bearing.load_deflection_factor
+        stiffer /= _drawn_anew(bearing, {})["load_deflection_factor"]
+        new["load_deflection_factor"] *= stiffer
+        new["rows"] = tuple(
             dataclasses.replace(row, place=fresh.place)
-            for row, fresh in zip(bearing.rows, new.rows, strict=True)
+            for row, fresh in zip(bearing.rows, new["rows"], strict=True)
         )
-        return dataclasses.replace(
-            new,
-            rows=rows,
-            load_deflection_factor=changes.get(
-                "load_deflection_factor", new.load_deflection_factor * stiffer
-            ),
-            density=changes.get("density", bearing.density),
-            estimated=changes.get("estimated", bearing.estimated),
-        )
+        return new | {name: value for name, value in given.items() if name not in _DRAWN_BY}
 
-    def race_contact(self, bearing: Bearing, race: str) -> RaceContact:
+    def race_contact(self, bearing: InRows, race: str) -> RaceContact:
         """Contact of a ball; the modulus is the one that gives K."""
         sizes = (
             bearing.ball_diameter,
@@ -226,17 +186,17 @@ class SelfAligning(Kind):
         inner, outer = _contacts(*sizes, modulus, POISSON)
         return inner if race == "inner" else outer
 
-    def carries_thrust_one_way(self, bearing: Bearing) -> bool:
+    def carries_thrust_one_way(self, bearing: InRows) -> bool:
         return False  # both rows are of one ring, and carry it both ways between them
 
-    def groove_radius(self, bearing: Bearing, race: str) -> float:
+    def groove_radius(self, bearing: InRows, race: str) -> float:
         return inner_groove(bearing) if race == "inner" else bearing.outer_raceway_radius
 
 
-def _built(bearing: Bearing, given: dict[str, Any]) -> Bearing:
-    """The bearing drawn anew, with some of what it is drawn by changed."""
+def _drawn_anew(bearing: InRows, given: dict[str, Any]) -> dict[str, Any]:
+    """Fields of the bearing with some of what it is drawn by changed."""
     get = given.get
-    return bearing.self_aligning(
+    return self_aligning_numbers(
         n_balls=get("n_balls", bearing.n_balls),
         ball_diameter=get("ball_diameter", bearing.ball_diameter),
         sphere_radius=get("outer_raceway_radius", bearing.outer_raceway_radius),

@@ -185,22 +185,35 @@ def read_suffix(name: str, kind: str, text: str, count: str, is_ceramic: bool) -
         is_ceramic=is_ceramic,
         has_better_steel=_BETTER_STEEL.search(rest) is not None,
     )
+    try:
+        return _inside_of(kind, said, rest)
+    except ValueError as why:
+        raise refused(str(why)) from None
+
+
+def _inside_of(kind: str, said: Suffix, rest: str) -> Suffix:
+    """`said` and what else the letters say of the inside; ValueError with what is allowed."""
     if said.is_ceramic and kind in (ROLLERS, TAPERED_ROLLERS):
-        raise refused(CERAMIC_ROLLERS)
+        raise ValueError(CERAMIC_ROLLERS)
+    if kind == ANGULAR_CONTACT:
+        return _inside_at_an_angle(said, rest)
     if kind == SELF_ALIGNING_BALLS and _SEALED.search(rest):
-        raise refused(SEALED)
+        raise ValueError(SEALED)
     if kind == SELF_ALIGNING_BALLS and is_reinforced(rest):
         return said._replace(inside="E")
     if kind == DEEP_GROOVE and is_reinforced(rest):
         if not re.match(r"[ /-]*ETN9", rest):
-            raise refused(REINFORCED)
+            raise ValueError(REINFORCED)
         return said._replace(inside="ETN9")
-    if kind != ANGULAR_CONTACT:
-        return said
+    return said
+
+
+def _inside_at_an_angle(said: Suffix, rest: str) -> Suffix:
+    """The same of angular contact, whose letters name the angle and a reinforced inside."""
     if _PRECISION.match(rest):
-        raise refused(PRECISION)
+        raise ValueError(PRECISION)
     if _OF_ANOTHER_MAKER.match(rest):
-        raise refused(REINFORCED)
+        raise ValueError(REINFORCED)
     letters = _ANGULAR.match(rest)
     assert letters is not None  # all of it is optional
     matched = letters["matched"] or ""

@@ -22,48 +22,23 @@ Nor does a roller swivel or tilt between its races: it is as stiff as its middle
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from bearingcore.bearings import _inside as inside
 from bearingcore.bearings._contact import Contact
+from bearingcore.bearings._in_rows import InRows
 from bearingcore.bearings._kind import DIRECTIONS, Picture, Variant
 from bearingcore.bearings._line_contact import RollerContact, roller_contact, tapered_profile_drop
-from bearingcore.bearings._roller import Roller, length_of, rollers
-from bearingcore.bearings._rows import USUAL_DISTANCE, arrangement_of
+from bearingcore.bearings._roller import Roller, length_of
+from bearingcore.bearings._row import arrangement_of
 from bearingcore.common import Array
 from bearingcore.common import _checks as checks
-
-if TYPE_CHECKING:
-    from bearingcore.bearings._bearing import Bearing
-
 
 USUAL_ANGLE = math.radians(14.0361)
 """14°02′10″, the angle of most bearings of the series 302 and 322 (ISO 355)."""
 
-_PREFIX = "tapered-"
-
-
-def tapered(
-    cls: type[Bearing],
-    n_rollers: int,
-    roller_diameter: float,
-    roller_length: float,
-    pitch_diameter: float,
-    contact_angle: float,
-    radial_clearance: float = 0.0,
-) -> Bearing:
-    """Make a row of tapered rollers of steel; `Bearing.paired` makes two of it.
-
-    Diameters [m] are at the middles of the rollers, the angle [rad] is that of the outer race.
-    See `bearingcore.bearings._tapered` for the limitations.
-
-    Raises
-    ------
-    ValueError
-        naming the field, its value and what is allowed.
-    """
-    sizes = (roller_diameter, roller_length, pitch_diameter)
-    return rollers(cls, TAPERED, n_rollers, sizes, contact_angle, radial_clearance)
+PAIR_PREFIX = "tapered-"
+"""Before the arrangement in the name of a pair."""
 
 
 class Tapered(Roller):
@@ -107,10 +82,10 @@ class Tapered(Roller):
     estimate_spread = (inside.OTHER_MAKER.ratio_spread, 1)
     mass_unknown = "tapered rollers: a rib holds them, which is left out"
 
-    def recognizes(self, bearing: Bearing) -> bool:
+    def recognizes(self, bearing: InRows) -> bool:
         return bearing.roller_length is not None and bearing.contact_angle != 0.0
 
-    def check(self, bearing: Bearing) -> None:
+    def check(self, bearing: InRows) -> None:
         length_of(bearing)
         checks.real_number("contact_angle", bearing.contact_angle, above=0.0, unit="rad")
         if bearing.is_drawn:
@@ -120,50 +95,35 @@ class Tapered(Roller):
         if any(row.own for row in bearing.rows):
             raise checks.refuse("rows", len(bearing.rows), "rows of tapered rollers that are alike")
 
-    def arrangement(self, bearing: Bearing) -> str:
+    def arrangement(self, bearing: InRows) -> str:
         return arrangement_of(bearing.rows)
 
-    def variant(self, bearing: Bearing) -> str:
+    def variant(self, bearing: InRows) -> str:
         if len(bearing.all_rows) == 1:
             return "tapered"
-        name = _PREFIX + self.arrangement(bearing)
-        return name if name in [variant.name for variant in self.variants] else ""
+        name = PAIR_PREFIX + self.arrangement(bearing)
+        return name if name in [one.name for one in self.variants] else ""
 
-    def nearest(self, bearing: Bearing, variant: str) -> Bearing:
-        diameter, distance, preload = bearing.ball_diameter, bearing.row_distance, bearing.preload
-        made = bearing.tapered(
-            bearing.n_balls,
-            diameter,
-            bearing.roller_length or diameter,
-            bearing.pitch_diameter,
-            bearing.contact_angle or USUAL_ANGLE,
-            bearing.radial_clearance,
-        )
-        if variant == "tapered":
-            return made
-        apart = USUAL_DISTANCE * diameter if distance is None else distance
-        return made.paired(apart, variant.removeprefix(_PREFIX), preload or 0.0)
-
-    def inputs(self, bearing: Bearing) -> tuple[str, ...]:
+    def inputs(self, bearing: InRows) -> tuple[str, ...]:
         paired = ("row_distance", "preload") if self.arrangement(bearing) else ()
         return (*super().inputs(bearing), "contact_angle", *paired)
 
-    def facts(self, bearing: Bearing) -> tuple[str, ...]:
+    def facts(self, bearing: InRows) -> tuple[str, ...]:
         meet = ("pressure_centers_apart",) if self.arrangement(bearing) else ()
         return (*meet, *super().facts(bearing))
 
-    def replaced(self, bearing: Bearing, changes: dict[str, Any]) -> Bearing:
-        return super().replaced(bearing, {"kind": self} | changes)
+    def completed(self, bearing: InRows, changes: dict[str, Any]) -> dict[str, Any]:
+        return {"kind": self} | changes
 
-    def contact(self, bearing: Bearing) -> Contact:
+    def contact(self, bearing: InRows) -> Contact:
         # a rib holds the roller on the inner race: half its length on, its middle is past the outer
         return super().contact(bearing)._replace(room=0.5 * length_of(bearing))
 
-    def race_contact(self, bearing: Bearing, race: str) -> RollerContact:
+    def race_contact(self, bearing: InRows, race: str) -> RollerContact:
         across = bearing.pitch_diameter / math.cos(bearing.contact_angle)
         return roller_contact(race, bearing.ball_diameter, across, length_of(bearing))
 
-    def profile_drop(self, bearing: Bearing, place: Array) -> Array:
+    def profile_drop(self, bearing: InRows, place: Array) -> Array:
         return tapered_profile_drop(place, bearing.ball_diameter, length_of(bearing))
 
 

@@ -155,18 +155,19 @@ class Sizing:
         if self.status == SizingStatus.UNEXPLAINED:
             return f"{self.status.sentence} The nearest is {words}, misfit {best.misfit:.2f}."
         if not self.conclusive:
-            alike = [f"{math.degrees(c.extent):.1f}°" for c in others if c.ratio < AHEAD]
-            return f"{words} or {' or '.join(alike)}. {self.status.sentence}"
-        words += f", misfit {best.misfit:.2f}; {math.degrees(others[0].extent):.1f}° has "
-        words += f"{others[0].misfit:.2f}."
+            near = [f"{math.degrees(c.extent):.1f}°" for c in others if c.ratio < AHEAD]
+            return f"{words} or {' or '.join(near)}. {self.status.sentence}"
         spacing = best.scene.bearing.ball_spacing
-        other = min(others, key=lambda c: abs(abs(c.extent - best.extent) - spacing))
+        alike = [c for c in others if abs(abs(c.extent - best.extent) - spacing) < APART * spacing]
+        other = (alike or others)[0]
         falls = {mode: (band[0], other.bands[mode][0]) for mode, band in best.bands.items()}
         mode = max(falls, key=lambda name: np.nan_to_num(abs(falls[name][0] - falls[name][1])))
         here, there = falls[mode]
         return (
-            f"{words} As balls pass, mode {mode} falls to {here:.0f} Hz; with "
-            f"{math.degrees(other.extent):.1f}° it would fall to {there:.0f} Hz."
+            f"{words}. As balls pass, mode {mode} falls to {here:.0f} Hz; with "
+            f"{math.degrees(other.extent):.1f}° it would fall to {there:.0f} Hz. Misfit "
+            f"{best.misfit:.2f}; the next, {math.degrees(others[0].extent):.1f}°, has "
+            f"{others[0].misfit:.2f}."
         )
 
     def table(self) -> ResultTable:
@@ -322,7 +323,7 @@ class _Search:
         spacing = self.scene.bearing.ball_spacing
         ranked = sorted(self.misfits, key=self.misfit)
         first, starts = ranked[0], ranked[:1]
-        for away, room in ((0.0, LONGEST), (-spacing, APART * spacing), (spacing, APART * spacing)):
+        for away, room in ((0.0, LONGEST), (-spacing, 2.0 * STEP), (spacing, 2.0 * STEP)):
             others = [e for e in ranked if abs(e - first - away) <= room]
             clear = [e for e in others if min(abs(e - s) for s in starts) > APART * spacing]
             starts += clear[:1]

@@ -8,7 +8,7 @@ import numpy as np
 
 from bearingcore import EDGES, RACES, Bearing, Defect, Load, Scene, presets
 from bearingcore.bearings import Row
-from bearingcore.bearings._rows import ARRANGEMENTS
+from bearingcore.bearings._row import ARRANGEMENTS
 
 OWN_ANGLES = "rows with angles of their own"
 UNLIKE = "rows of unlike balls"

@@ -5,9 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from bearing_explorer.kit.plots.element_words import with_elements_of
-from bearing_explorer.kit.serve.log import short_digest
-from bearing_explorer.kit.views.content import Content
+from bearing_explorer.kit.views.content import SceneContent
 from bearingcore import Scene
 
 NOT_TAKEN = "Not taken: see step {}"
@@ -17,7 +15,7 @@ WANTED = "An answer is missing: see step 1"
 
 
 @dataclass(frozen=True)
-class Model(Content):
+class Model(SceneContent):
     """All that views of a signal draw at one moment: the scene, and whether a slider moves it.
 
     `at_work` says what is under way with the signal; `mark` is the number of the newest change.
@@ -27,24 +25,6 @@ class Model(Content):
     moving: bool = False
     at_work: str = ""
     mark: int = 0
-
-    @property
-    def fine_key(self) -> tuple[object, ...]:
-        return (self.scene,)
-
-    @property
-    def picture_key(self) -> object:
-        return self.scene.bearing
-
-    def log_name(self) -> str:
-        return short_digest(self.scene.to_data())
-
-    def in_words(self, text: str) -> str:
-        """A text in the words of the bearing: its balls may be rollers."""
-        return with_elements_of(self.scene.bearing, text)
-
-    def scene_drawn(self) -> Scene:
-        return self.scene
 
     def status(self, seconds: float, needed: frozenset[str]) -> dict[str, Any]:
         """The status line: a signal has no equilibrium to converge."""

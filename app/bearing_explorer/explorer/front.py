@@ -12,7 +12,7 @@ from bearing_explorer.explorer.state.lessons import (
     Tabs,
     faults_in,
     lessons_in,
-    own_folder,
+    own_lessons,
     text_for_teachers,
 )
 from bearing_explorer.explorer.views.accuracy import Accuracy
@@ -56,7 +56,7 @@ __all__ = [
     "figure_of",
     "help_texts",
     "lessons_in",
-    "own_folder",
+    "own_lessons",
     "text_for_teachers",
 ]
 
@@ -86,9 +86,9 @@ SECTIONS = (
 """Tabs of the scene, and their parts."""
 
 
-def begin_compiling(report: Callable[[str], object], done: Callable[[], object]) -> None:
-    """Compile kernels in a thread; the results that come along are drawn until then."""
-    compiling.begin(default_results.keep, report, done)
+def begin_compiling(**report: Callable[..., object]) -> None:
+    """Begin `compiling`; the results that come along are drawn until it has ended."""
+    compiling.begin(default_results.keep, **report)
 
 
 def help_texts() -> dict[str, str]:

@@ -15,8 +15,8 @@ from typing import Any
 
 from bokeh.embed import json_item
 
-from bearing_explorer.explorer.results.limit_rows import rows_of
 from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.results.verdict import rows_of
 from bearing_explorer.explorer.state.choice_list import OF_DEFECT, OF_SCENE, floor_name
 from bearing_explorer.explorer.state.field_values import SHOWN_FIELDS, defects_of, values_of
 from bearing_explorer.explorer.views.bearing_editor import facts_of

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from textwrap import fill
@@ -211,16 +212,7 @@ def _recording(
     if isinstance(columns, (int, str)):
         columns = (columns,)
     if columns is None:
-        chosen = says.choice.columns
-        if not chosen:
-            options = says.choice.options or range(len(table.names))
-            names = ", ".join(f'"{table.names[i]}"' for i in options)
-            why = says.choice.question or says.choice.reason or "Which column is the signal?"
-            way = "Say it with" if says.choice.options else "If one is a signal all the same, use"
-            raise ValueError(
-                f"{table.name}: {why} {way} columns=[...], one or two of {names}, or by "
-                f"numbers from 0: {', '.join(map(str, options))}."
-            )
+        chosen = _chosen_columns(table)
         directions, columns = directions or tuple(chosen), tuple(chosen.values())
     if directions is None:
         directions = ("x", "y")[-len(columns) :]
@@ -228,11 +220,25 @@ def _recording(
     units |= {number: column.unit for number, column in enumerate(says.columns)}
     if unit is None and not all(units.get(column) for column in columns):
         unit = says.unit.value if says.unit.taken else "m/s²"
-    if sensitivity is None and "voltage" in {
-        kind_of(unit) for unit in [unit or units.get(column) for column in columns] if unit
-    }:
+    used = {unit or units.get(column) or "" for column in columns} - {""}
+    if sensitivity is None and "voltage" in map(kind_of, used):
         unit = "m/s²"  # without the sensor's sensitivity, as they are
     rate = says.sample_rate
     if sample_rate is None and rate is not None and rate.taken:
         sample_rate = rate.value
     return table.recording(columns, directions, unit, sample_rate, sensitivity=sensitivity)
+
+
+def _chosen_columns(table: Table) -> Mapping[str, int]:
+    """Columns of the signal by direction, if the file says them; else ValueError."""
+    choice = table.contents.choice
+    if choice.columns:
+        return choice.columns
+    options = choice.options or range(len(table.names))
+    names = ", ".join(f'"{table.names[i]}"' for i in options)
+    why = choice.question or choice.reason or "Which column is the signal?"
+    way = "Say it with" if choice.options else "If one is a signal all the same, use"
+    raise ValueError(
+        f"{table.name}: {why} {way} columns=[...], one or two of {names}, or by "
+        f"numbers from 0: {', '.join(map(str, options))}."
+    )

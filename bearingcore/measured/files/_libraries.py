@@ -62,32 +62,38 @@ def unzipped(name: str, content: bytes) -> tuple[list[str], bytes]:
     """
     try:
         with zipfile.ZipFile(io.BytesIO(content)) as packed:
-            files = [entry for entry in packed.infolist() if not _NO_FILE.search(entry.filename)]
-            if any(file.filename == "[Content_Types].xml" for file in files):
-                raise checks.refuse("file", name, "no office document: save its sheet as CSV")
-            named = [file for file in files if name.endswith(f".zip/{file.filename}")]
-            files = [file for file in files if not DOCUMENT.search(file.filename)] or files
-            if not files:
-                raise checks.refuse("file", name, "a zip with a file in it")
-            if len(named or files) > 1:
-                if sum(file.file_size for file in files) > MOST_TOGETHER:
-                    raise checks.refuse(
-                        "file", name, f"a zip of at most {MOST_TOGETHER >> 20} MB unpacked"
-                    )
+            files = _to_choose_from(name, packed.infolist())
+            if len(files) > 1:
                 return [file.filename for file in files[:MOST_INSIDE]], b""
-            packed_file = (named or files)[0]
-            if packed_file.file_size > MOST_UNPACKED:
-                raise checks.refuse(
-                    "file", name, f"a zip of a file of at most {MOST_UNPACKED >> 20} MB"
-                )
-            inside = packed.read(packed_file)
+            inside = packed.read(files[0])
             if inside[:4] == b"PK\x03\x04" and not is_npz(inside):
                 raise checks.refuse("file", name, "no zip inside a zip: unpack it")
-            return [packed_file.filename], inside
+            return [files[0].filename], inside
     except (FieldError, MemoryError):
         raise
     except Exception:  # a damaged zip raises almost anything in there
         raise checks.refuse("file", name, "a whole zip without a password") from None
+
+
+def _to_choose_from(name: str, packed: list[zipfile.ZipInfo]) -> list[zipfile.ZipInfo]:
+    """The file in a zip that its name names, else all that may hold a table.
+
+    FieldError where there is none, or where they are more than is unpacked: a small zip may hold
+    terabytes.
+    """
+    files = [file for file in packed if not _NO_FILE.search(file.filename)]
+    if any(file.filename == "[Content_Types].xml" for file in files):
+        raise checks.refuse("file", name, "no office document: save its sheet as CSV")
+    named = [file for file in files if name.endswith(f".zip/{file.filename}")]
+    files = named or [file for file in files if not DOCUMENT.search(file.filename)] or files
+    if not files:
+        raise checks.refuse("file", name, "a zip with a file in it")
+    many, size = len(files) > 1, sum(file.file_size for file in files)
+    if many and size > MOST_TOGETHER:
+        raise checks.refuse("file", name, f"a zip of at most {MOST_TOGETHER >> 20} MB unpacked")
+    if not many and size > MOST_UNPACKED:
+        raise checks.refuse("file", name, f"a zip of a file of at most {MOST_UNPACKED >> 20} MB")
+    return files
 
 
 def is_npz(content: bytes) -> bool:

@@ -82,6 +82,7 @@ def read_text(
         saying what is wrong, and in which line.
     """
     content = _without_labels(_of_one_byte(name, content))
+    # the first lines that are numbers tell how all are written: delimiter, decimal sign, width
     style, begin, remarks = _beginning(name, content)
     if style.width > min(LONG_ROW, most_columns):
         # few long rows are signals, not columns
@@ -95,19 +96,22 @@ def read_text(
                 f"at most {most_columns}: leave out some, or write each signal in a row",
             )
     read, sensors, said, notes = _read_numbers(name, content, begin, style, remarks, most_numbers)
-    headings = _headings(remarks, style, read)
+    headings = _headings(remarks, style, read)  # of the remarks above, the line that names columns
     if headings and any(column_of(name).role == TIME for name in headings):
         whole = ~np.isnan(read).all(axis=1)  # what is missing there shows in the times
         read, sensors = read[whole], None if sensors is None else sensors[whole]
+    # columns of words were read as gaps; a date is one that the style knows, and stays
     kept = [i for i in range(style.width) if i in style.stamps or not np.isnan(read[:, i]).all()]
     if kept:
         read, headings = read[:, kept], headings and [headings[i] for i in kept]
     stamps = [kept.index(i) for i in style.stamps]
     if headings is None:
+        # without names the first rows may be no samples but say the start and the rate
         read, lines, more = _without_start(read)
         said, notes = said + lines, notes + more
     elif sensors is None:
         sensors = _numbers_of_sensors(read, headings)
+    # rows of several sensors one after the other have no common time until they are side by side
     if sensors is not None and not _goes_through(read, headings, stamps, sensors):
         read, headings, stamps = _side_by_side(name, read, headings, stamps, sensors)
         which = ", ".join(dict.fromkeys(sensors))

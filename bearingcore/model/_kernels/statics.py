@@ -311,11 +311,51 @@ def load_size(load):
     return math.sqrt(size)
 
 
+@inlined
+def has_descended(V, V1, slope, slope1, step, rounding):
+    """True where a line search may stop at V1, a `step` along a direction from V.
+
+    V is convex, so it has fallen while its slope there, slope1, still points down, whatever its own
+    rounding says. Beyond the minimum along the direction it must have fallen by a part of what the
+    first slope promised (Armijo's rule); where that fall drowns in `rounding`, the slope must at
+    least be less steep than the first one.
+    """
+    return (
+        slope1 <= 0.0
+        or V + 1e-4 * step * slope >= V1
+        or (slope1 <= 0.9 * abs(slope) and rounding >= V1 - V)
+    )
+
+
+@inlined
+def sizes_at(q, g, H, force, active, tight):
+    """Sizes by which a gradient is judged: |g|² over the active directions, ...
+
+    the square of what holds the other directions, g + F there; the greatest displacement, at least
+    `tight`; and the greatest stiffness on the diagonal.
+    """
+    norm = 0.0
+    taken = 0.0
+    reach = tight
+    stiffest = 0.0
+    for i in range(5):
+        taken += (g[i] + force[i]) ** 2
+        reach = max(reach, abs(q[i]))
+    for i in active:
+        taken -= (g[i] + force[i]) ** 2
+        norm += g[i] * g[i]
+        stiffest = max(stiffest, H[i, i])
+    return norm, taken, reach, stiffest
+
+
 @called
 def descend(q, place, contacts, load, work, most):
     """Move q downhill to the minimum of V by Newton's method with a line search, in `most` steps.
 
-    What is returned is that of `minimise_energy`.
+    The balance of loads (Eq. 15) is g = ∂V/∂q = 0 and the stiffness (Appendix A) H = ∂²V/∂q². Each
+    step goes along p = −H⁻¹ g as far as V falls. V is convex, so there is one minimum, or a flat
+    stretch of them, or none where nothing carries the load. What is returned is that of
+    `minimise_energy`.
     """
     F = load.force
     active = load.active
@@ -334,7 +374,7 @@ def descend(q, place, contacts, load, work, most):
         carried_load += F[i] * F[i]
         axial = axial or i == 2
     size = math.sqrt(carried_load)
-    nothing = 0.0
+    nothing = 0.0  # load [N] up to which nothing touches: all that rounding leaves of a preload
     k_typical = 0.0
     shift_part = 1e-3
     residual = math.inf
@@ -352,17 +392,8 @@ def descend(q, place, contacts, load, work, most):
     for iteration in range(-1, most):
         g = G[now]
         if iteration >= 0:
-            norm = 0.0
-            taken = 0.0  # by what holds the directions that are not active
-            reach = tight
-            for i in range(5):
-                taken += (g[i] + F[i]) ** 2
-                reach = max(reach, abs(q[i]))
-            stiffest = 0.0
-            for i in active:
-                taken -= (g[i] + F[i]) ** 2
-                norm += g[i] * g[i]
-                stiffest = max(stiffest, H[now, i, i])
+            # the residual: what is out of balance, over all that the bearing carries
+            norm, taken, reach, stiffest = sizes_at(q, g, H[now], F, active, tight)
             whole = math.sqrt(carried_load + max(taken, 0.0))
             if preloaded:
                 whole = pressed_load(q, place, contacts)
@@ -372,8 +403,10 @@ def descend(q, place, contacts, load, work, most):
             residual = math.sqrt(norm) / whole
             limit = max(RESIDUAL_LIMIT, ROUNDING * reach * stiffest / whole)
             least = newton_direction(H[now], g, active, 0.0, L, p)
+            # near the minimum a Newton step squares the residual: one that hardly falls is rounding
             settled = residual <= limit and residual >= 0.5 * before
             if residual <= RESIDUAL_AIM or settled or stuck:
+                # balls that only just touch must not be what makes the minimum look firm
                 noise = FAINT * max(residual, RESIDUAL_AIM) * whole
                 if faintest < noise:
                     least = drop_negligible_contacts(q, noise, place, contacts, load, work, 1 - now)
@@ -390,6 +423,7 @@ def descend(q, place, contacts, load, work, most):
             slope = 0.0
             for i in active:
                 slope += g[i] * p[i]
+        # line search: `short` is a step after which V still falls steeply, `long` one too far
         step = 1.0
         short = 0.0
         long = math.inf
@@ -407,13 +441,7 @@ def descend(q, place, contacts, load, work, most):
             slope1 = 0.0
             for i in active:
                 slope1 += G[1 - now, i] * p[i]
-            # V is convex: while it slopes down it has fallen, whatever rounding says. Beyond, it
-            # must have fallen; where its fall drowns in rounding its slope must.
-            if (
-                slope1 <= 0.0
-                or V + 1e-4 * step * slope >= V1
-                or (slope1 <= 0.9 * abs(slope) and 1e-14 * max(scale, scale1) >= V1 - V)
-            ):
+            if has_descended(V, V1, slope, slope1, step, 1e-14 * max(scale, scale1)):
                 if slope1 >= 0.9 * slope or long == math.inf or long < 1.5 * short:
                     accepted = True
                     break
@@ -422,12 +450,14 @@ def descend(q, place, contacts, load, work, most):
                 short = step
                 step = math.sqrt(short * long)
             else:
+                # too far: to where the slope, taken as a line, would be zero, but not all too near
                 long = step
                 secant = slope / (slope - slope1) if slope1 > 0.0 else 0.5
                 step *= min(max(secant, 0.05), 0.6)
                 if step <= short:
                     step = math.sqrt(short * long)
         if not accepted:
+            # rounding hides every fall; what has been reached counts if it is within the limit
             if residual > limit:
                 return now, NOT_CONVERGED, residual, iteration, evaluations
             stuck = True

@@ -408,27 +408,15 @@ def _marched(
     n_balls = packed.contacts.angle.size
     parts = place_parts(scene, dofs)
     least = least_step_rate(packed) if with_mass else 0.0
-    if shown > most_steps or step_rate < least:
+    if (refusal := _refusal(shown, most_steps, step_rate, least)) is not None:
         # NaN everywhere, without the memory of it
-        nothing = np.broadcast_to(
-            np.float64(math.nan), (n if with_mass else shown + 1, 6, len(dofs))
-        )
-        status = MotionStatus.TOO_MANY_STEPS
-        detail = (
-            f": {thousands(shown)} of {with_prefix(1.0 / step_rate, 's')} each, "
-            f"allowed are most_steps = {thousands(most_steps)}"
-        )
-        if step_rate < least:
-            status = MotionStatus.DIVERGED
-            detail = (
-                f": {thousands(step_rate)} steps a second are too few, balls with mass need "
-                f"{thousands(math.ceil(least))}"
-            )
-        nowhere = np.broadcast_to(np.float64(math.nan), (n, parts, n_balls))
+        unknown = np.float64(math.nan)
+        nothing = np.broadcast_to(unknown, (n if with_mass else shown + 1, 6, len(dofs)))
+        nowhere = np.broadcast_to(unknown, (n, parts, n_balls)) if with_mass else None
+        status, detail = refusal
         return Motion(
-            scene, dofs, sample_rate, step_rate, status, 0, time, None, nothing,
-            nowhere if with_mass else None, detail,
-        )  # fmt: skip
+            scene, dofs, sample_rate, step_rate, status, 0, time, None, nothing, nowhere, detail
+        )
     h = 1.0 / step_rate
     place = filtered = None
     history = np.empty((rows, 6, len(dofs)))
@@ -467,6 +455,26 @@ def _marched(
         detail=detail,
         filtered=filtered,
     )
+
+
+def _refusal(
+    shown: int, most_steps: int, step_rate: float, least: float
+) -> tuple[MotionStatus, str] | None:
+    """Why a motion of so many steps, at a rate that has to be `least` [Hz], is not begun; or None.
+
+    Explicit steps that are too long for the stiffest mode of a ball grow without end.
+    """
+    if step_rate < least:
+        return MotionStatus.DIVERGED, (
+            f": {thousands(step_rate)} steps a second are too few, balls with mass need "
+            f"{thousands(math.ceil(least))}"
+        )
+    if shown > most_steps:
+        return MotionStatus.TOO_MANY_STEPS, (
+            f": {thousands(shown)} of {with_prefix(1.0 / step_rate, 's')} each, "
+            f"allowed are most_steps = {thousands(most_steps)}"
+        )
+    return None
 
 
 def _with_enough_steps(at: Callable[[float], Motion], rate: float, sample_rate: float) -> Motion:

@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from bearingcore.bearings import Bearing
-from bearingcore.bearings._rows import MOST_ROWS
+from bearingcore.bearings._row import MOST_ROWS
 from bearingcore.common import Array
 from bearingcore.common import _checks as checks
 from bearingcore.common._byte_cache import lru_cache_by_bytes

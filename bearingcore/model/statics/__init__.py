@@ -18,18 +18,10 @@ from bearingcore.model.statics._equilibrium import (
     has_long_period,
 )
 from bearingcore.model.statics._film import Film, RaceFilm, film
-from bearingcore.model.statics._life import (
-    GIVEN,
-    LEFT_OUT,
-    OF_A_CATALOGUE,
-    ContactLife,
-    Life,
-    dynamic_load_rating,
-    hours_in_words,
-    life,
-    turns_in_words,
-)
+from bearingcore.model.statics._life import ContactLife, Life, life
+from bearingcore.model.statics._life_words import LEFT_OUT, hours_in_words, turns_in_words
 from bearingcore.model.statics._limit import NO_OIL, Limit, summary, unknown
+from bearingcore.model.statics._load_rating import GIVEN, OF_A_CATALOGUE, dynamic_load_rating
 from bearingcore.model.statics._maps import Maps, stiffness_maps
 from bearingcore.model.statics._passes import (
     Crossing,

@@ -27,11 +27,7 @@ by ISO 281, under C_r/20 three and a half times, under C_r/2 twice as long.
 Of several rows the sum is over all their races, each row with its own ratings Q_ci, Q_ce, as all of
 them have to live.
 
-C_r is the rating of all i rows together. Of rows alike each counts as C_r/i^0.7 alone (i^(7/9) of
-rollers), so that rows that carry equal parts of the load last as C_r says. The standard goes no
-further; here rows that are unlike share C_r in proportion to what ISO 281 rates each of them, so
-that rows which carry parts of the load in that proportion last as C_r says: alone, row k counts as
-C_r i^0.3 C_k/Σ C, and all rows together have C_r = i^(−0.3) Σ C_k.
+What C_r says of each of several rows: `_load_rating`.
 
 Which loads are averaged, and how: `_race_loads`. Those of balls with mass hold
 their centrifugal load.
@@ -42,8 +38,7 @@ strikes the far edge, and debris dents the rest. All of that shortens the life, 
 for a damaged bearing is the effect of the changed load distribution alone: an upper bound, no
 forecast and no promise. Lubrication, cleanliness and the fatigue limit (a_ISO) are left out too.
 
-Source: ISO 16281 (before: ISO/TS 16281); Lundberg and Palmgren for the exponents; ISO 281 for the
-rating of a bearing from its dimensions.
+Source: ISO 16281 (before: ISO/TS 16281); Lundberg and Palmgren for the exponents.
 """
 
 from __future__ import annotations
@@ -57,17 +52,18 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from bearingcore.bearings import USUAL_GROOVES, Bearing, BearingLike, bearing_of
-from bearingcore.bearings._drawing import WIDEST_CONFORMITY
-from bearingcore.bearings._ratings import (
-    capacity_factor,
-    dynamic_rating,
-    groove_ratio,
-    roller_dynamic_rating,
-)
-from bearingcore.common import ResultTable, number, percent, shown_as_table, table_of, thousands
+from bearingcore.bearings import Bearing
+from bearingcore.bearings._ratings import groove_ratio
+from bearingcore.common import ResultTable, shown_as_table, table_of
 from bearingcore.common import _checks as checks
 from bearingcore.model.scene import Scene
+from bearingcore.model.statics._life_words import life_sentence, long_number
+from bearingcore.model.statics._load_rating import (
+    GIVEN,
+    ROW_POWER,
+    rating_and_source,
+    ratings_alone,
+)
 from bearingcore.model.statics._race_loads import RaceLoads, race_loads, snapshot_loads, together
 
 POSITIONS = ("load line", "all")
@@ -75,24 +71,6 @@ POSITIONS = ("load line", "all")
 the standard's examples do, or everywhere, as it is."""
 
 TURNING = ("inner", "outer")
-
-GIVEN, OF_A_CATALOGUE = "given", "of a catalogue, by the bearing's number"
-"""Origins of a rating."""
-
-NO_RATING = (
-    "a number [N], as the catalogue has it: this bearing has none, as its number is not known or "
-    "its dimensions were changed. dynamic_load_rating(bearing) is that of ISO 281"
-)
-
-ROWS_OF_RADIAL_CONTACT = 0.90 / 0.95
-"""Rating of rows of deep groove balls, which share a load less evenly, over that of other rows."""
-
-MAKERS_RATING = (
-    "a number [N], the rating that the maker's catalogue has for this very bearing. It is not {}"
-)
-
-HEAVIEST_SHARE = 0.5
-"""Of the rating, up to which ISO 281 vouches for its life (P ≤ 0.5 C_r)."""
 
 
 class ContactLife(NamedTuple):
@@ -116,7 +94,7 @@ class ContactLife(NamedTuple):
     groove_power: float
 
 
-POINT_CONTACT = ContactLife(3.0, 10.0 / 9.0, 3.0, 1.0, 0.407, 0.389, 0.7, 1.044, 1.72, 0.41)
+POINT_CONTACT = ContactLife(3.0, 10.0 / 9.0, 3.0, 1.0, 0.407, 0.389, ROW_POWER, 1.044, 1.72, 0.41)
 
 LINE_CONTACT = ContactLife(
     4.0, 9.0 / 8.0, 10.0 / 3.0, 0.83, 0.378, 0.364, 7.0 / 9.0, 1.038, 143.0 / 108.0, 0.0
@@ -267,14 +245,7 @@ def life(
     (10797, 119961)
     """
     checks.instance("scene", scene, Scene)
-    rating_source = GIVEN if dynamic_load_rating is not None else OF_A_CATALOGUE
-    if dynamic_load_rating is None:
-        dynamic_load_rating = scene.bearing.dynamic_load_rating
-        if dynamic_load_rating is None:
-            why = _rating_unknown(scene.bearing)
-            wanted = MAKERS_RATING.format(why) if why else NO_RATING
-            raise checks.refuse("dynamic_load_rating", None, wanted, "N")
-    C = checks.real_number("dynamic_load_rating", dynamic_load_rating, above=0.0, unit="N")
+    C, rating_source = rating_and_source(scene.bearing, dynamic_load_rating)
     damaged = bool(scene.defects)
     alike = scene.bearing.rows_are_alike
     checks.choice("positions", positions, POSITIONS)
@@ -319,7 +290,7 @@ def life(
         equivalent_load=P,
         healthy_million_revolutions=L_healthy,
         status=loads.status,
-        sentence=_sentence(scene, loads.reason, L, hours, L_healthy, P / C)
+        sentence=life_sentence(scene, loads.reason, L, hours, L_healthy, P / C)
         + (f" Rating {long_number(C)} N, {rating_source}." if rating_source != GIVEN else ""),
         rows=tuple(million_revolutions(contact, rated[k], carried[k]) for k in rows),
         rating_source=rating_source,
@@ -334,7 +305,7 @@ def race_ratings(bearing: Bearing, dynamic_load_rating: float, row: int = 0) -> 
     """
     own = bearing.of_row(row)
     cosine = math.cos(own.contact_angle)
-    each = [1.0] if bearing.rows_are_alike else _ratings_alone(bearing)
+    each = [1.0] if bearing.rows_are_alike else ratings_alone(bearing)
     part = each[row % len(each)] * len(each) / sum(each)  # over the mean of all rows
     return ratings_of_races(
         LINE_CONTACT if bearing.kind.line_contact else POINT_CONTACT,
@@ -343,11 +314,6 @@ def race_ratings(bearing: Bearing, dynamic_load_rating: float, row: int = 0) -> 
         1.0 if bearing.kind.line_contact else groove_ratio(*_conformities(own)),
         len(bearing.all_rows),
     )
-
-
-def _ratings_alone(bearing: Bearing) -> list[float]:
-    """C_r [N] of each of unlike rows as if it were a bearing; see `dynamic_load_rating`."""
-    return [dynamic_load_rating(bearing.of_row(k)) for k in range(len(bearing.rows))]
 
 
 def _conformities(bearing: Bearing) -> tuple[float, float]:
@@ -390,68 +356,6 @@ def ratings_of_races(
     return Q_ci, Q_ce
 
 
-def dynamic_load_rating(bearing: BearingLike) -> float:
-    """Compute the basic dynamic load rating C_r [N] of a bearing from its dimensions, by ISO 281.
-
-    Of balls C_r = b_m f_c (i cos α)^0.7 Z^(2/3) D^1.8 (D^1.4 for balls above 25.4 mm), in N and mm,
-    for i rows of Z balls, b_m = 1.3. Of several rows of deep groove balls (α = 0) it is 0.90/0.95
-    of that (λ of ISO/TR 1281-1). Of rollers of length l C_r = b_m f_c (i l cos α)^(7/9) Z^(3/4)
-    D^(29/27), b_m = 1.1; l is the length that touches, without the roller's chamfers. f_c are the
-    standard's tables as formulas, 0.2 % from each of their numbers: that of balls holds for grooves
-    of 0.52 (inner) and 0.53 (outer) ball diameters and is not raised for closer ones; wider ones
-    lower it, and a bearing whose grooves are not known counts as one with those. Catalogues give
-    more where a maker vouches for better steel. Of rows that are unlike it is i^(−0.3) Σ C_k: see
-    the head of the module.
-
-    Raises
-    ------
-    ValueError
-        for self-aligning bearings, whose factors are in another table of the standard, and for
-        hybrid bearings, which ISO 20056 rates: take their rating from the catalogue.
-    """
-    bearing = bearing_of(bearing)
-    if words := _rating_unknown(bearing):
-        raise checks.refuse("dynamic_load_rating", words, "that of the catalogue")
-    if bearing.roller_length is not None:
-        return float(
-            roller_dynamic_rating(
-                bearing.n_balls,
-                bearing.ball_diameter,
-                bearing.roller_length,
-                bearing.pitch_diameter,
-                math.cos(bearing.contact_angle),
-                len(bearing.all_rows),
-            )
-        )
-    rows = len(bearing.all_rows)
-    radial = all(bearing.of_row(k).contact_angle == 0.0 for k in range(rows))
-    uneven = ROWS_OF_RADIAL_CONTACT if rows > 1 and radial else 1.0
-    if not bearing.rows_are_alike:
-        each = _ratings_alone(bearing)
-        return float(uneven * sum(each) * rows ** (POINT_CONTACT.row_power - 1.0))
-    cosine = math.cos(bearing.contact_angle)
-    gamma = bearing.ball_diameter * cosine / bearing.pitch_diameter
-    full = capacity_factor(gamma, USUAL_GROOVES["inner"], USUAL_GROOVES["inner"])
-    widths = {}
-    for race, usual in USUAL_GROOVES.items():
-        radius = getattr(bearing, f"{race}_groove_radius")
-        conformity = usual if radius is None else radius / bearing.ball_diameter
-        widths[race] = min(max(conformity, usual), WIDEST_CONFORMITY)
-    wider = capacity_factor(gamma, widths["inner"], widths["outer"]) / capacity_factor(
-        gamma, USUAL_GROOVES["inner"], USUAL_GROOVES["outer"]
-    )
-    C = dynamic_rating(
-        full * min(float(wider), 1.0), bearing.n_balls, bearing.ball_diameter, cosine, rows
-    )
-    return float(uneven * C)
-
-
-def _rating_unknown(bearing: Bearing) -> str:
-    """Reason why ISO 281 gives no rating from the dimensions; empty where it gives one."""
-    hybrid = "to be computed for balls of another material than the rings (ISO 20056)"
-    return bearing.kind.rating_unknown or (hybrid if bearing.is_hybrid else "")
-
-
 @lru_cache(maxsize=256)
 def _loads(scene: Scene, positions: str, turning_race: str) -> RaceLoads:
     contact = LINE_CONTACT if scene.bearing.kind.line_contact else POINT_CONTACT
@@ -472,57 +376,3 @@ def million_revolutions(contact: ContactLife, ratings: ArrayLike, loads: ArrayLi
     parts = np.ravel(np.asarray(loads) / np.asarray(ratings)).tolist()
     failing = sum(part ** (p * e) for part in parts)
     return math.inf if failing == 0.0 else float(failing ** (-1.0 / e))
-
-
-LEFT_OUT = (
-    "This counts the changed load distribution only. The standard rates smooth races: pressure on "
-    "the edges of a defect, the impact of each ball and debris are left out, so that a damaged "
-    "bearing fails sooner. Treat it as an upper limit."
-)
-
-
-A_CENTURY = 876_600.0
-"""[h] of a life beyond which its number means nothing."""
-
-
-def long_number(value: float) -> str:
-    """To three digits, in groups of three where it is long: of lives no more is known."""
-    return number(value, 3) if value < 1e4 else thousands(float(f"{value:.3g}"))
-
-
-def turns_in_words(L: float) -> str:
-    """A life [10⁶ turns], up to a million of millions; "unlimited" where it is infinite."""
-    if math.isinf(L):
-        return "unlimited"
-    return (
-        f"{long_number(L)} million turns" if L < 1e6 else "practically unlimited (over 10¹² turns)"
-    )
-
-
-def hours_in_words(hours: float) -> str:
-    """Hours of a life [h], up to a century."""
-    return f"{long_number(hours)} hours" if hours < A_CENTURY else "more than 100 years"
-
-
-def _sentence(
-    scene: Scene, reason: str, L: float, hours: float, L_healthy: float, share: float
-) -> str:
-    if reason:
-        return f"Life is not known: not every cage angle has a static equilibrium ({reason})."
-    if math.isinf(L):
-        return f"No {scene.bearing.kind.element} carries load, so there is no fatigue."
-    words = f"Nine of ten bearings reach {turns_in_words(L)}"
-    if math.isnan(hours):
-        words += "; the shaft is at rest, so there are no hours."
-    else:
-        rpm = scene.shaft_speed / (2.0 * math.pi) * 60.0
-        words += f", {hours_in_words(hours)} at {number(rpm, 4)} rpm."
-    if share > HEAVIEST_SHARE:
-        words += (
-            f" The equivalent load is {100.0 * share:.0f} % of the rating: above "
-            f"{100.0 * HEAVIEST_SHARE:.0f} % the standard does not vouch for its formula."
-        )
-    words = f"{words} {scene.tilt_words()}".rstrip()
-    if scene.defects:
-        words += f" That is {percent(L / L_healthy)} of the healthy bearing's life. {LEFT_OUT}"
-    return words

@@ -7,7 +7,7 @@ import math
 
 from bearingcore.bearings import BearingLike, bearing_of
 from bearingcore.model.scene import Defect, Load, Scene, Support, presets
-from bearingcore.model.statics._life import dynamic_load_rating
+from bearingcore.model.statics._load_rating import dynamic_load_rating
 from bearingcore.model.statics._thrust import facing, induced_thrust
 from bearingcore.units import STANDARD_GRAVITY
 

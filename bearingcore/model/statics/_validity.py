@@ -153,8 +153,6 @@ def limits(
     if shoulder_height is not None:
         checks.real_number("shoulder_height", shoulder_height, above=0.0, at_most=0.5)
     state = state_of(scene, state_of_limits(scene) if state is None else state)
-    if film is not None and film.scene != scene:
-        raise checks.refuse("film", "the film of another scene", "that of this scene")
     bearing, turns = scene.bearing, scene.shaft_speed > 0.0
     heaviest = [(bearing.of_row(ball.row), ball) for ball in heaviest_balls(state)]
     at_rest = [(own, ball.load) for own, ball in heaviest]
@@ -189,16 +187,23 @@ def limits(
         candidates.append(_stiffness(scene))
     candidates += thrust_limits(scene, state)
     candidates += [held_tilts(state), free_tilts(state)]
+    film_limit = _film_limit(scene, film)  # refuses the film of another scene
     if turns:
-        no_film = unknown(
-            "film parameter", TOUCHING, "", NO_OIL if bearing.knows_contacts else NO_DRAWING
-        )
-        candidates.append(no_film if film is None else film.limit)
+        candidates.append(film_limit)
     if step_rate is not None:
         rate = checks.real_number("step_rate", step_rate, above=0.0, unit="Hz")
         candidates.append(_steps(scene, rate))
     candidates.append(_estimate(scene))
     return tuple(limit for limit in candidates if limit is not None)
+
+
+def _film_limit(scene: Scene, film: Film | None) -> Limit:
+    if film is None:
+        why = NO_OIL if scene.bearing.knows_contacts else NO_DRAWING
+        return unknown("film parameter", TOUCHING, "", why)
+    if film.scene != scene:
+        raise checks.refuse("film", "the film of another scene", "that of this scene")
+    return film.limit
 
 
 def _estimate(scene: Scene) -> Limit | None:
@@ -215,7 +220,8 @@ def _estimate(scene: Scene) -> Limit | None:
         0.0,
         "",
         "they are estimated from the designation, and everything shown follows from that."
-        f"{good} {accuracy(bearing)} Give the real numbers where they are known",
+        f"{good} {accuracy(bearing.kind, bearing.contact_angle)} Give the real numbers where they "
+        "are known",
     )
 
 

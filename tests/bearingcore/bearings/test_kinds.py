@@ -6,7 +6,7 @@ import pickle
 import pytest
 
 from bearingcore import presets
-from bearingcore.bearings import KINDS
+from bearingcore.bearings import KINDS, convert_bearing
 
 every_preset = pytest.mark.parametrize("name", list(presets))
 
@@ -23,6 +23,6 @@ def test_a_kind_is_recognized_in_files_without_its_name(name: str) -> None:
 def test_each_variant_is_made_of_any_bearing(name: str) -> None:
     for kind in KINDS.values():
         for variant in kind.variants:
-            made = kind.nearest(presets[name].bearing, variant.name)
+            made = convert_bearing(presets[name].bearing, variant.name)
             assert made.kind is kind
             assert kind.variant(made) == variant.name

@@ -24,10 +24,9 @@ from bearing_explorer.diagnosis.series import MOST_FILES
 from bearing_explorer.diagnosis.session import Measurement
 from bearing_explorer.diagnosis.upload import MOST_BYTES, PIECE
 from bearing_explorer.diagnosis.widgets.column_table import ColumnTable
-from bearing_explorer.diagnosis.widgets.file_upload import FileUpload
+from bearing_explorer.diagnosis.widgets.file_upload import FileUpload, UploadBegins, UploadPiece
 from bearing_explorer.diagnosis.widgets.machine_form import MachineForm, notes_html
 from bearing_explorer.kit.assets import asset_text
-from bearing_explorer.kit.messages import UploadBegins, UploadPiece
 from bearing_explorer.kit.simulated_signals import NOISES
 from bearing_explorer.kit.widgets.form import Fields, button, choices, entry, row, select
 from bearingcore.common import number

@@ -15,25 +15,14 @@ from typing import Any, ClassVar, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from bearing_explorer.explorer.results import endurance, motions, statics
+from bearing_explorer.explorer.results import endurance, motions, statics, verdict
 from bearing_explorer.explorer.results.ball_mass import BallMass
 from bearing_explorer.explorer.results.chain import Chain, Peak, chain_of, loudest
 from bearing_explorer.explorer.results.defect_shape import Profile, profile
 from bearing_explorer.explorer.results.endurance import Endurance, LifeInputs
 from bearing_explorer.explorer.results.excerpt import Excerpt, why_ended
-from bearing_explorer.explorer.results.limit_rows import rows_of
 from bearing_explorer.explorer.results.load_curve import Curve, load_curve
-from bearing_explorer.explorer.results.verdict import (
-    BALLS,
-    MOTIONS,
-    ORBITS,
-    Verdict,
-    details_of,
-    of_chain,
-    of_now,
-    of_orbit,
-    of_statics,
-)
+from bearing_explorer.explorer.results.verdict import Verdict
 from bearing_explorer.explorer.state.field_values import defects_of
 from bearing_explorer.explorer.state.references import (
     HEALTHY,
@@ -46,10 +35,8 @@ from bearing_explorer.explorer.state.settings import Marching, Settings
 from bearing_explorer.kit.compute.cache import cached
 from bearing_explorer.kit.compute.compiling import StillCompiling
 from bearing_explorer.kit.compute.executors import PICTURES
-from bearing_explorer.kit.plots.element_words import with_elements_of
 from bearing_explorer.kit.sentences import words_of
-from bearing_explorer.kit.serve.log import short_digest
-from bearing_explorer.kit.views.content import Content, Warnings
+from bearing_explorer.kit.views.content import SceneContent, Warnings
 from bearing_explorer.kit.views.python_lines import changed_fields, code_of, scene_code, short
 from bearingcore import Equilibrium, Limit, Maps, Modes, Motion, Orbit, Scene, Spectrum
 from bearingcore.common import cached_property
@@ -99,7 +86,7 @@ def _chain_of(scene: Scene, cage_angle: float, settings: Settings, moving: bool)
 
 
 @dataclass(frozen=True, eq=False)
-class Results(Content):
+class Results(SceneContent):
     """All that the views read. Attributes are computed when first asked for, in any thread.
 
     Parameters
@@ -154,20 +141,6 @@ class Results(Content):
     def fine_key(self) -> tuple[object, ...]:
         """All that a fine picture depends on: turning the bearing leaves one fine."""
         return self.scene, self.settings, self.compared, self.grey_kind
-
-    @property
-    def picture_key(self) -> object:
-        return self.scene.bearing
-
-    def log_name(self) -> str:
-        return short_digest(self.scene.to_data())
-
-    def in_words(self, text: str) -> str:
-        """A text in the words of the bearing: its balls may be rollers."""
-        return with_elements_of(self.scene.bearing, text)
-
-    def scene_drawn(self) -> Scene:
-        return self.scene
 
     def at_rest(self, rested: bool = True, give_up: Callable[[], bool] | None = None) -> Results:
         return dataclasses.replace(self, moving=not rested, give_up=give_up)
@@ -355,7 +328,7 @@ class Results(Content):
     def status(self, seconds: float, needed: frozenset[str] = frozenset()) -> dict[str, Any]:
         """The status line of results that took `seconds` [s], for views that need these."""
         mood, words = self.verdict(needed)
-        details = details_of(self.equilibrium)
+        details = verdict.details_of(self.equilibrium)
         if self.is_coarse(needed):
             details.append(self.coarse_words(needed))
         details.append(f"{1e3 * seconds:.1f} ms of computing")
@@ -368,20 +341,20 @@ class Results(Content):
         broke off has no orbit. An orbit that is shown is judged, converged or not: an unstable one
         is no place where a machine stays.
         """
-        bad = of_statics(self.equilibrium)
+        bad = verdict.of_statics(self.equilibrium)
         if not bad and "now" in shown:
-            bad = of_now(self.now)
+            bad = verdict.of_now(self.now)
         if not bad and "chain" in shown:
-            bad = of_chain(self.chain)
+            bad = verdict.of_chain(self.chain)
         if bad:
             return Verdict("bad", bad)
         try:
-            if shown & BALLS and self.ball_mass.broke_off:
+            if shown & verdict.BALLS and self.ball_mass.broke_off:
                 return Verdict("bad", f"No motion: {self.ball_mass.broke_off}")
-            if shown & MOTIONS and self.fault:
+            if shown & verdict.MOTIONS and self.fault:
                 return Verdict("bad", f"The motion {self.fault}")
-            if shown & ORBITS:
-                return of_orbit(self.orbit, self.moving)
+            if shown & verdict.ORBITS:
+                return verdict.of_orbit(self.orbit, self.moving)
         except StillCompiling as wait:
             return Verdict("busy", f"Not ready: {wait}")
         except ValueError as error:  # the view gives the whole sentence
@@ -556,7 +529,7 @@ class Results(Content):
 
     @property
     def warnings(self) -> Warnings:
-        return Warnings(rows_of(self.limits), summary(self.limits))
+        return Warnings(verdict.rows_of(self.limits), summary(self.limits))
 
     @property
     def endurance(self) -> Endurance:

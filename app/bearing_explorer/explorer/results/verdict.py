@@ -1,16 +1,18 @@
-"""Status of the computation, in words and colour: one verdict for all that is on screen."""
+"""Status of the computation and limits of the model, in words, for all that is on screen."""
 
 from __future__ import annotations
 
-from typing import NamedTuple
+import math
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from bearing_explorer.explorer.results.chain import Chain
-from bearingcore import Equilibrium, Orbit
-from bearingcore.common import count, number, scientific
+from bearingcore import Equilibrium, Limit, Orbit
+from bearingcore.common import count, number, scientific, with_prefix
 from bearingcore.model.dynamics import OrbitStatus
 from bearingcore.model.scene import DOF_SYMBOLS
+from bearingcore.model.statics import NO_OIL
 
 ORBITS = frozenset({"orbit"})
 """Attributes of the results that are of the steady orbit."""
@@ -87,3 +89,41 @@ def details_of(state: Equilibrium) -> list[str]:
         f"{freedom}: {symbols}",
         count(state.converged.size, "cage angle"),
     ]
+
+
+def rows_of(limits: tuple[Limit, ...]) -> tuple[dict[str, Any], ...]:
+    """Limits for the browser, crossed ones first: names, numbers and sentences in words."""
+    rows = [
+        {
+            "name": limit.name,
+            "value": _number(limit.value, limit.unit),
+            "limit": _number(limit.limit, limit.unit),
+            "state": "unknown"
+            if math.isnan(limit.value)
+            else "crossed"
+            if limit.crossed
+            else "kept",
+            "short": f"{limit.name.capitalize()}: {_number(limit.value, limit.unit)} "
+            f"(limit {_number(limit.limit, limit.unit)})",
+            "sentence": limit.sentence + _where(limit),
+        }
+        for limit in limits
+    ]
+    return tuple(sorted(rows, key=lambda row: row["state"] != "crossed"))
+
+
+def _where(limit: Limit) -> str:
+    """The tab with the fields for a number that is missing."""
+    if math.isnan(limit.value) and NO_OIL in limit.sentence:
+        return " Enter them on the Machine tab, under Life."
+    return ""
+
+
+def _number(value: float, unit: str) -> str:
+    if math.isnan(value):
+        return "not known"
+    if unit == "rad":
+        return f"{number(math.degrees(value))}°"
+    if unit:
+        return with_prefix(value, unit)
+    return number(value) if value >= 1e-4 or value == 0.0 else "below 0.0001"

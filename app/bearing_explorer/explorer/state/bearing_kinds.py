@@ -5,9 +5,9 @@ from __future__ import annotations
 import dataclasses
 import math
 
-from bearing_explorer.explorer.state.choice_list import KIND_OF_VARIANT
 from bearing_explorer.explorer.state.field_values import BEARING_GROUPS, SHOWN_FIELDS, defects_of
 from bearingcore import Bearing, Scene
+from bearingcore.bearings import convert_bearing
 from bearingcore.common import number
 from bearingcore.model.scene import LOAD_ALONG, MASSLESS, TILT_FREE
 
@@ -27,7 +27,7 @@ def as_kind(bearing: Bearing, variant: str) -> Bearing:
     """
     if variant == bearing.kind.variant(bearing):
         return bearing
-    made = KIND_OF_VARIANT[variant].nearest(bearing, variant)
+    made = convert_bearing(bearing, variant)
     rating = bearing.dynamic_load_rating if made.rated == bearing.rated else None
     return dataclasses.replace(made, estimated=bearing.estimated, dynamic_load_rating=rating)
 

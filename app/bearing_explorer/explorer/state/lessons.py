@@ -236,6 +236,11 @@ def lessons_in(folder: Path, tabs: Tabs) -> list[Lesson | Fault]:
     return lessons
 
 
+def own_lessons(tabs: Tabs) -> list[Lesson | Fault]:
+    """The lessons that come with the program, without those on a tab that is not there."""
+    return [one for one in lessons_in(own_folder(), tabs) if isinstance(one, Lesson)]
+
+
 def faults_in(folder: Path, tabs: Tabs) -> list[str]:
     """Faults of the lessons of a folder, a sentence for each file."""
     return [lesson.sentence for lesson in lessons_in(folder, tabs) if isinstance(lesson, Fault)]

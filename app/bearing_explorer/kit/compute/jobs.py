@@ -56,6 +56,8 @@ COMPUTATION = Kind("computation", JOBS)
 """A map, a sweep or a trend that a person has started."""
 PART, EXTENT, LISTED = (Kind(name, JOBS) for name in ("part", "extent", "listed"))
 """Analyses of a signal: the damaged part, the extent of its spall, other bearings."""
+SIZING = Kind("sizing", JOBS)
+"""Lengths of a spall are simulated and held against a signal."""
 
 _TICK = 0.12  # [s] between two looks at a job
 _ASIDE = 1.0  # [s] that a sentence is shown at least, so that it can be read and read out

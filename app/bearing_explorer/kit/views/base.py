@@ -4,7 +4,7 @@ A view never computes physics. It says in `needs` which attributes of its result
 its half, it reads; only those are computed, and only while the view is on screen.
 
 To write one, subclass `View`, set the class attributes (the first sentence of `about` is short: it
-is seen above the figure with the sentences of the key, “Grey: ...”, and the rest opens on a click),
+is seen above the figure with the sentences of the key, “Blue: ...”, and the rest opens on a click),
 and give it
 
 - `build(packed)`: make figures, sources and ranges, once, and return what goes on the page;
@@ -113,7 +113,7 @@ FADED = "0.2"
 
 
 class View(Generic[C]):
-    """One picture of the scene. The head of this module lists the parts of a subclass."""
+    """One picture of the content. The head of this module lists the parts of a subclass."""
 
     name: ClassVar[str]
     title: ClassVar[str]
@@ -388,7 +388,7 @@ _IS_KEY = re.compile(r"[A-Z][^:.]{0,26}: ")
 def parts_of(text: str) -> tuple[str, str]:
     """The part of a caption that is seen, and the part that opens on a click.
 
-    The first sentence and the key are seen: sentences such as “Grey: the healthy bearing.”
+    The first sentence and the key are seen: sentences such as “Shaded: the defect.”
     """
     first, *others = _BETWEEN.split(text)
     key = [sentence for sentence in others if _IS_KEY.match(sentence)]

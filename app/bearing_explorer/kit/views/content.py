@@ -6,6 +6,8 @@ from collections.abc import Callable, Mapping, Set
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar, Self
 
+from bearing_explorer.kit.plots.element_words import with_elements_of
+from bearing_explorer.kit.serve.log import short_digest
 from bearingcore import Scene
 
 
@@ -75,3 +77,27 @@ class Content:
     def arguments(self, needed: frozenset[str]) -> Mapping[str, str]:
         """Arguments of the figure of a view that needs these, as expressions of Python."""
         return {}
+
+
+class SceneContent(Content):
+    """Content with a scene: that of the controls, or the model of a measured machine."""
+
+    scene: Scene
+
+    @property
+    def fine_key(self) -> tuple[object, ...]:
+        return (self.scene,)
+
+    @property
+    def picture_key(self) -> object:
+        return self.scene.bearing
+
+    def log_name(self) -> str:
+        return short_digest(self.scene.to_data())
+
+    def in_words(self, text: str) -> str:
+        """A text in the words of the bearing: its balls may be rollers."""
+        return with_elements_of(self.scene.bearing, text)
+
+    def scene_drawn(self) -> Scene:
+        return self.scene

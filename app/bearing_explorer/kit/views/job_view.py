@@ -10,7 +10,7 @@ from typing import Any, ClassVar, Generic, Protocol, TypeVar
 import numpy as np
 import panel as pn
 
-from bearing_explorer.kit.compute.jobs import Jobs, JobState, Work
+from bearing_explorer.kit.compute.jobs import COMPUTATION, Jobs, JobState, Kind, Work
 from bearing_explorer.kit.views.base import C, Sentence, SessionParts, View
 from bearing_explorer.kit.widgets.facts import sentence_html
 from bearing_explorer.kit.widgets.form import (
@@ -151,6 +151,8 @@ class JobView(View[C], Generic[C, Found, E]):
     """A sentence: how large a job may be."""
     at_once: ClassVar[bool] = False
     """True where a changed field starts the job, without the button."""
+    kind: ClassVar[Kind] = COMPUTATION
+    """The jobs of the session that it takes the place of."""
 
     computes = True
     found: Found | None = None
@@ -219,7 +221,7 @@ class JobView(View[C], Generic[C, Found, E]):
     def cancel_job(self) -> None:
         """End the job; its newest result stays."""
         if self._jobs is not None:
-            self._jobs.cancel()
+            self._jobs.cancel(self.kind)
 
     def begin(self, given: Mapping[str, str]) -> None:
         """Start the job of a form; ValueError with a sentence where there is none."""
@@ -230,7 +232,7 @@ class JobView(View[C], Generic[C, Found, E]):
             self._found_for = asked
             self._take(result)
 
-        self._jobs.start(work, take, self.report)
+        self._jobs.start(work, take, self.report, self.kind)
 
     def report(self, state: JobState) -> None:
         """Show the state of the job, on the event loop."""

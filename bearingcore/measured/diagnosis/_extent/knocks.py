@@ -345,7 +345,6 @@ def judged(passes: Sequence[MeanPass], frequency: float, n_passes: int) -> Knock
         seen = Seen.UNCLEAR if len(shown) > ONLY_ONE * len(passes) else Seen.ONE
         return Knocks(passes, frequency, n_passes, seen, hidden=_hidden(passes))
     height = np.array([pair.height for _, pair in agreeing])
-    apart = np.array([pair.apart for _, pair in agreeing])
     ratios = np.log([pair.ratio for _, pair in agreeing])
     # a release is soft: above the bands that show it only the exit may be left
     reached = max(mean_pass.band.low for mean_pass, _ in agreeing)
@@ -355,6 +354,23 @@ def judged(passes: Sequence[MeanPass], frequency: float, n_passes: int) -> Knock
         return Knocks(passes, frequency, n_passes, Seen.UNCLEAR, hidden=_hidden(passes))
     if np.ptp(np.quantile(ratios, (0.1, 0.9))) < ALIKE and abs(np.median(ratios)) > UNLIKE:
         return Knocks(passes, frequency, n_passes, Seen.ALIKE)
+    return _two_knocks(passes, agreeing, frequency, n_passes)
+
+
+def _two_knocks(
+    passes: tuple[MeanPass, ...],
+    agreeing: Sequence[tuple[MeanPass, Pair]],
+    frequency: float,
+    n_passes: int,
+) -> Knocks:
+    """Two knocks as far apart as the bands have them that agree, weighted by their heights.
+
+    ALIKE where the later one fades with frequency, as an echo, not an exit.
+    """
+    height = np.array([pair.height for _, pair in agreeing])
+    apart = np.array([pair.apart for _, pair in agreeing])
+    ratios = np.log([pair.ratio for _, pair in agreeing])
+    reached = max(one.band.low for one, _ in agreeing)
     separation = float(np.average(apart, weights=height))
     spread = math.sqrt(float(np.average((apart - separation) ** 2, weights=height)))
     deviation = max(spread, 0.25 / HARMONICS)

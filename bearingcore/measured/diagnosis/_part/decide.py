@@ -14,6 +14,7 @@ from bearingcore.measured.diagnosis._part.evidence import (
     NONE_SEEN,
     Diagnosis,
     EnvelopeLines,
+    PartEvidence,
 )
 from bearingcore.measured.diagnosis._part.judged import NOISE_MARGIN, Judged
 from bearingcore.measured.diagnosis._part.listened_signal import ListenedSignal
@@ -113,28 +114,37 @@ def _spectrum(judged: Judged) -> EnvelopeLines:
 
 def _lines_in_doubt(judged: Judged) -> Reason | None:
     """The reason why lines of a part name none, if there are any."""
+    # a cause from outside the bearing explains all lines of a part, so it goes first
+    return _cause_outside(judged) or _parts_in_doubt(judged)
+
+
+def _cause_outside(judged: Judged) -> Reason | None:
+    """Mains, another shaft or another bearing, to which lines of a part belong."""
     doubtful = max(judged.evidence, key=lambda part: part.without_magnetic)
     if doubtful.magnetic > 0.0 and doubtful.without_magnetic >= NAMED:
         return DiagnosisStatus.MAGNETIC, say.magnetic(doubtful)
-    for part in judged.evidence:
-        if part.line_lead >= LEAD and not math.isnan(part.foreign_spacing):
+    leading = [part for part in judged.evidence if part.line_lead >= LEAD]
+    for part in leading:
+        if not math.isnan(part.foreign_spacing):
             return DiagnosisStatus.OTHER_SHAFT, say.other_shaft(part, judged.shaft)
-    seen = [
-        part
-        for part in judged.evidence
-        if part.level - part.noise >= NOISE_MARGIN and part.swing >= LEAST_SWING
-    ]
-    clear = [part for part in seen if part.part != BALL]
+    # damage under a load that stands still is modulated once a turn of its part: blows of one size
+    # may come from elsewhere
     even = [
         part
-        for part in seen
-        if part.line_lead >= LEAD and part.modulation < 0.0 and part.level > judged.other.level
+        for part in leading
+        if _is_seen(part) and part.modulation < 0.0 and part.level > judged.other.level
     ]
-    if even:
-        loudest = max(even, key=lambda part: part.line_lead)
-        if loudest.magnetic > 0.0:
-            return DiagnosisStatus.MAGNETIC, say.magnetic(loudest)
-        return DiagnosisStatus.UNMODULATED, say.unmodulated(loudest)
+    if not even:
+        return None
+    loudest = max(even, key=lambda part: part.line_lead)
+    if loudest.magnetic > 0.0:
+        return DiagnosisStatus.MAGNETIC, say.magnetic(loudest)
+    return DiagnosisStatus.UNMODULATED, say.unmodulated(loudest)
+
+
+def _parts_in_doubt(judged: Judged) -> Reason | None:
+    """Lines of the bearing's own that fit several parts, or none well enough."""
+    clear = [part for part in judged.evidence if part.part != BALL and _is_seen(part)]
     own = max(judged.evidence, key=lambda part: (part in clear, part.lead))
     needed = LEAST_SWING if own.lead >= LEAD else ENOUGH_SWING
     if own.part != BALL and own.lead >= 0.0 and own.swing >= needed:
@@ -142,14 +152,18 @@ def _lines_in_doubt(judged: Judged) -> Reason | None:
     ball = next(part for part in judged.evidence if part.part == BALL)
     if ball.deviations >= FAINT:
         return DiagnosisStatus.FAINT, say.faint(ball)
-    sharp = ball.level - ball.noise >= NOISE_MARGIN and ball.swing >= LEAST_SWING
-    if sharp and (own is ball or ball.level > own.level):
+    if _is_seen(ball) and (own is ball or ball.level > own.level):
         return DiagnosisStatus.NOT_ALONE, say.not_carried(ball)
     if len(clear) > 1:
         return DiagnosisStatus.ALIKE, say.alike(*clear)
     if clear:
         return DiagnosisStatus.NOT_ALONE, say.not_alone(own, judged.other)
     return None
+
+
+def _is_seen(part: PartEvidence) -> bool:
+    """True where the lines of a part stand out of noise and move the envelope enough."""
+    return part.level - part.noise >= NOISE_MARGIN and part.swing >= LEAST_SWING
 
 
 def _hidden(signal: ListenedSignal) -> Reason | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from operator import attrgetter
 
 import numpy as np
 from numpy.typing import NDArray
@@ -262,36 +263,36 @@ class Diagnosis:
         turns = math.nan if self.shaft_speed is None else 1.0
         parts, spectrum = self.evidence, self.spectrum
         count = len(parts[0].harmonics) if parts else 0
+
+        def each(attribute: str, factor: float = 1.0) -> list[float]:
+            value_of = attrgetter(attribute)
+            return [factor * value_of(part) for part in parts]
+
         columns = table_of(
             ("part", "", [part.part for part in parts]),
-            ("frequency", "Hz", [part.frequency for part in parts], "of its strongest lines"),
-            (
-                "nominal_frequency",
-                "Hz",
-                [part.nominal_frequency * turns for part in parts],
-                "by geometry",
-            ),
-            ("order", "1", [part.order * turns for part in parts], "turns of the shaft"),
-            ("nominal_order", "1", [part.nominal_order for part in parts]),
-            ("slip", "1", [part.slip * turns for part in parts]),
-            ("level", "dB", [part.level for part in parts], "of all harmonics but the loudest"),
-            ("noise", "dB", [part.noise for part in parts], "reached in one of a thousand signals"),
+            ("frequency", "Hz", each("frequency"), "of its strongest lines"),
+            ("nominal_frequency", "Hz", each("nominal_frequency", turns), "by geometry"),
+            ("order", "1", each("order", turns), "turns of the shaft"),
+            ("nominal_order", "1", each("nominal_order")),
+            ("slip", "1", each("slip", turns)),
+            ("level", "dB", each("level"), "of all harmonics but the loudest"),
+            ("noise", "dB", each("noise"), "reached in one of a thousand signals"),
             *(
                 (f"harmonic_{k + 1}", "dB", [part.harmonics[k] for part in parts])
                 for k in range(count)
             ),
             ("sidebands", "dB", [part.sidebands.mean() for part in parts], "their mean"),
-            ("sideband_spacing", "Hz", [part.sideband_spacing * turns for part in parts]),
-            ("envelope_swing", "1", [part.depth for part in parts], "at the lines, of its mean"),
-            ("swing_with_sidebands", "1", [part.swing for part in parts]),
-            ("lead", "dB", [part.lead for part in parts], "above noise and all other lines"),
-            ("deviations", "1", [part.deviations for part in parts], "in all bands together"),
-            ("magnetic_noise", "1", [part.magnetic for part in parts], "share of twice the mains"),
-            ("probability", "1", [part.probability for part in parts]),
-            ("band_low", "Hz", [part.band.low for part in parts]),
-            ("band_high", "Hz", [part.band.high for part in parts]),
+            ("sideband_spacing", "Hz", each("sideband_spacing", turns)),
+            ("envelope_swing", "1", each("depth"), "at the lines, of its mean"),
+            ("swing_with_sidebands", "1", each("swing")),
+            ("lead", "dB", each("lead"), "above noise and all other lines"),
+            ("deviations", "1", each("deviations"), "in all bands together"),
+            ("magnetic_noise", "1", each("magnetic"), "share of twice the mains"),
+            ("probability", "1", each("probability")),
+            ("band_low", "Hz", each("band.low")),
+            ("band_high", "Hz", each("band.high")),
             ("direction", "", [part.direction for part in parts]),
-            ("kurtosis", "1", [part.kurtosis for part in parts]),
+            ("kurtosis", "1", each("kurtosis")),
         )
         if spectrum is None:
             return columns

@@ -39,14 +39,8 @@ def in_range(
     the range. Which it is, the shaft's own lines at that speed decide.
     """
     parts = part_lines(bearing)
-    slow, fast = unfit(signal, parts, low), unfit(signal, parts, high)
-    if slow is not None and fast is not None and slow[0] == fast[0]:  # at any speed between
-        return silent(*(fast if slow[0] == DiagnosisStatus.TOO_SHORT else slow), source)
-    if (refused := slow or fast) is not None:
-        known = "is known only roughly" if high <= NARROW * low else "is not known"
-        words = say.too_far(known, "fastest" if slow is None else "slowest",
-                            high if slow is None else low, refused[1])  # fmt: skip
-        return silent(DiagnosisStatus.SPEED_OPEN, words, source)
+    if (refusal := _unfit_in_range(signal, parts, low, high)) is not None:
+        return silent(*refusal, source)
     own = signal.shaft(low, high)
     hypotheses = []
     if own.clear:
@@ -61,26 +55,53 @@ def in_range(
         ),
         key=lambda pair: pair[1],
     )
-    stands_out = above >= NOISE_MARGIN
-    if stands_out:
+    if above >= NOISE_MARGIN:
         for lines in parts:
             speed = strongest / lines.order
             if low * (1.0 - slip) <= speed <= high * (1.0 + slip):
                 hypotheses.append(_Hypothesis.at(signal, parts, speed, slip, low, high))
     holding = sorted((one for one in hypotheses if one.holds), key=lambda one: -one.shaft.excess)
-    if not holding:
-        if own.clear:
-            return decide(signal, hypotheses[0].judged, own.frequency, _FOUND)
-        if not hypotheses:  # no lines, or such as no part has at any of these speeds
-            judged = compare(resolutions, parts, reach)
-            answer = decide(signal, judged, None, f"{source}, not found")
-            if not answer.names_a_part:
-                return answer
-            # of a part only at a speed outside the range, or too faint to find one
-            best = judged.own
-            beyond = replace(judged, shaft=best.frequency / best.nominal_order)
-            return _undecided_speed(signal, [_Hypothesis(own, beyond)], best.frequency, source)
+    if holding:
+        return _choose(signal, holding, slip, low, high, source)
+    if own.clear:
+        return decide(signal, hypotheses[0].judged, own.frequency, _FOUND)
+    if hypotheses:
         return _undecided_speed(signal, hypotheses, strongest, source)
+    # no lines, or such as no part has at any of these speeds
+    judged = compare(resolutions, parts, reach)
+    answer = decide(signal, judged, None, f"{source}, not found")
+    if not answer.names_a_part:
+        return answer
+    # of a part only at a speed outside the range, or too faint to find one
+    best = judged.own
+    beyond = replace(judged, shaft=best.frequency / best.nominal_order)
+    return _undecided_speed(signal, [_Hypothesis(own, beyond)], best.frequency, source)
+
+
+def _unfit_in_range(
+    signal: ListenedSignal, parts: Sequence[PartLines], low: float, high: float
+) -> tuple[DiagnosisStatus, str] | None:
+    """Why a signal does not serve at one end of the speeds [Hz], or at any between; else None."""
+    slow, fast = unfit(signal, parts, low), unfit(signal, parts, high)
+    if slow is not None and fast is not None and slow[0] == fast[0]:  # at any speed between
+        return fast if slow[0] == DiagnosisStatus.TOO_SHORT else slow
+    known = "is known only roughly" if high <= NARROW * low else "is not known"
+    if slow is not None:
+        return DiagnosisStatus.SPEED_OPEN, say.too_far(known, "slowest", low, slow[1])
+    if fast is not None:
+        return DiagnosisStatus.SPEED_OPEN, say.too_far(known, "fastest", high, fast[1])
+    return None
+
+
+def _choose(
+    signal: ListenedSignal,
+    holding: Sequence[_Hypothesis],
+    slip: float,
+    low: float,
+    high: float,
+    source: str,
+) -> Diagnosis:
+    """The diagnosis of the speed at which the shaft shows best, if no other is nearly as good."""
     first = holding[0]
     rival = next((guess for guess in holding[1:] if not guess.agrees(first, slip)), None)
     alone = high <= NARROW * low and rival is None
@@ -88,12 +109,12 @@ def in_range(
         return _undecided_speed(signal, holding, first.judged.own.frequency, source)
     if rival is not None and first.shaft.excess < rival.shaft.excess + SHAFT_MARGIN:
         return _undecided_speed(signal, [first, rival], first.judged.own.frequency, source)
-    part = first.judged.own.part
     if first.shaft.clear:
         return decide(signal, first.judged, first.judged.shaft, _FOUND)
     # any source with lines somewhere in the range would have been taken for the part's
     width = 2.0 * math.atanh(max(slip, ERROR))
     judged = first.judged.among(1.0 + math.log(high / low) / width)
+    part = first.judged.own.part
     return decide(signal, judged, judged.shaft, f"taken from the lines of the {part}")
 
 

@@ -48,6 +48,7 @@ from bearingcore.model._kernels.statics import (
     RESIDUAL_AIM,
     RESIDUAL_LIMIT,
     ROUNDING,
+    has_descended,
     least_pivot,
     new_map_work,
     newton_direction,
@@ -144,9 +145,41 @@ def first_place(r, z, force, j, balls, places):
     return r + (Ai - di) * ca - reach, z + (Ai - di) * sa, True
 
 
+@inlined
+def series_stiffness(i_rr, i_rz, i_zz, e_rr, e_rz, e_zz, i_r, i_z):
+    """Stiffness (M_i⁻¹ + M_e⁻¹)⁻¹ of both contacts of a ball, one behind the other [N/m].
+
+    Computed as M_e (M_i + M_e)⁻¹ M_i, which is no difference of near numbers; a direction that
+    nothing stiffens keeps nothing. (i_r, i_z) is the line of the inner contact.
+    """
+    h_rr = i_rr + e_rr
+    h_rz = i_rz + e_rz
+    h_zz = i_zz + e_zz
+    det = h_rr * h_zz - h_rz * h_rz
+    trace = h_rr + h_zz
+    if det < 1e-300 + 1e-15 * trace * trace:
+        # across the line of contact, where any spring keeps the answer along it
+        h_rr += trace * i_z * i_z
+        h_rz -= trace * i_r * i_z
+        h_zz += trace * i_r * i_r
+        det = h_rr * h_zz - h_rz * h_rz
+    v_rr = (h_zz * i_rr - h_rz * i_rz) / det
+    v_rz = (h_zz * i_rz - h_rz * i_zz) / det
+    v_zr = (h_rr * i_rz - h_rz * i_rr) / det
+    v_zz = (h_rr * i_zz - h_rz * i_rz) / det
+    w_rr = e_rr * v_rr + e_rz * v_zr
+    w_rz = e_rr * v_rz + e_rz * v_zz
+    w_zz = e_rz * v_rz + e_zz * v_zz
+    return w_rr, w_rz, w_zz
+
+
 @called
 def settle_ball(r, z, j, balls, places):
     """Move ball j to its minimum; (r, z) is the displacement of the inner groove's centre.
+
+    The minimum over its place b = (br, bz) of W = E_i(δ_i) + E_e(δ_e) − F b_r, by Newton's method
+    in the plane: there Q_e e_e − Q_i e_i = (F, 0), the ball's balance. The names begin with i (or
+    a, at the place that is tried) at the inner contact and e (or o) at the outer one.
 
     Returns its energy [N·m], whether it settled, and the stiffness (rr, rz, zz) [N/m] that the
     inner ring feels. Loads and directions go into `places`.
@@ -199,13 +232,9 @@ def settle_ball(r, z, j, balls, places):
         gr = te * o_r - ti * a_r - force
         gz = te * o_z - ti * a_z
         slope1 = gr * pr + gz * pz
-        better = (
-            step == 0.0
-            or slope1 <= 0.0
-            or energy + 1e-4 * step * slope >= V
-            or (slope1 <= 0.9 * abs(slope) and 1e-14 * (scale + abs(V)) >= V - energy)
-        )
-        if not better:
+        rounding = 1e-14 * (scale + abs(V))
+        if not (step == 0.0 or has_descended(energy, V, slope, slope1, step, rounding)):
+            # a shorter step along (pr, pz): to where the slope, taken as a line, would be zero
             tries += 1
             rise = slope1 - slope  # 0 where rounding has left no descent in the direction
             step *= min(max(-slope / rise, 0.05), 0.6) if rise > 0.0 else 0.3
@@ -214,6 +243,7 @@ def settle_ball(r, z, j, balls, places):
             x = br + step * pr
             y = bz + step * pz
             continue
+        # the step is taken: the ball is at (x, y), with these loads Q and stiffnesses M
         br = x
         bz = y
         energy = V
@@ -228,6 +258,7 @@ def settle_ball(r, z, j, balls, places):
         residual = norm / size
         stiff = max(i_rr + e_rr, i_zz + e_zz)
         lost = ROUNDING * (abs(r) + abs(z) + abs(br) + abs(bz)) * stiff / size
+        # a residual that no longer halves at what lost digits of the places make of it is rounding
         if residual <= BALL_AIM or (residual <= max(BALL_LIMIT, lost) and residual >= 0.5 * before):
             settled = True
             break
@@ -268,25 +299,7 @@ def settle_ball(r, z, j, balls, places):
     places.ez[OUTER, j] = e_z
     if Qi == 0.0 or Qe == 0.0:
         return energy, settled, 0.0, 0.0, 0.0
-    # M_i − M_i (M_i + M_e)⁻¹ M_i; a direction that nothing stiffens keeps nothing
-    h_rr = i_rr + e_rr
-    h_rz = i_rz + e_rz
-    h_zz = i_zz + e_zz
-    det = h_rr * h_zz - h_rz * h_rz
-    trace = h_rr + h_zz
-    if det < 1e-300 + 1e-15 * trace * trace:
-        # across the line of contact, where any spring keeps the answer along it
-        h_rr += trace * i_z * i_z
-        h_rz -= trace * i_r * i_z
-        h_zz += trace * i_r * i_r
-        det = h_rr * h_zz - h_rz * h_rz
-    v_rr = (h_zz * i_rr - h_rz * i_rz) / det
-    v_rz = (h_zz * i_rz - h_rz * i_zz) / det
-    v_zr = (h_rr * i_rz - h_rz * i_rr) / det
-    v_zz = (h_rr * i_zz - h_rz * i_rz) / det
-    w_rr = e_rr * v_rr + e_rz * v_zr  # M_e (M_i + M_e)⁻¹ M_i: no difference of near numbers
-    w_rz = e_rr * v_rz + e_rz * v_zz
-    w_zz = e_rz * v_rz + e_zz * v_zz
+    w_rr, w_rz, w_zz = series_stiffness(i_rr, i_rz, i_zz, e_rr, e_rz, e_zz, i_r, i_z)
     return energy, settled, w_rr, w_rz, w_zz
 
 
@@ -397,11 +410,7 @@ def settle_ring(q, load, balls, places, work):
             slope1 = 0.0
             for a in active:
                 slope1 += work.g[1 - now, a] * work.p[a]
-            if (
-                slope1 <= 0.0
-                or V + 1e-4 * step * slope >= V1
-                or (slope1 <= 0.9 * abs(slope) and 1e-13 * max(scale, scale1) >= V1 - V)
-            ):
+            if has_descended(V, V1, slope, slope1, step, 1e-13 * max(scale, scale1)):
                 accepted = True
                 break
             rise = slope1 - slope  # 0 where rounding has left no descent in the direction

@@ -100,7 +100,7 @@ def test_the_part_is_named_and_marked(truth, mood, headline):
 def test_a_step_is_on_the_page_once_there_is_a_signal():
     form, *steps = next(one for one in SECTIONS if one.name == "diagnosis").views
     waiting = [kind for kind in steps if issubclass(kind, MeasuredView)]
-    assert len(waiting) == 8
+    assert len(waiting) == 9
     for kind in (form, *waiting):
         view = kind(PackedSource())
         view.measure(measuring(None))

@@ -3,8 +3,8 @@
 import math
 
 import pytest
-from bearing_explorer.explorer.results.limit_rows import rows_of
 from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.results.verdict import rows_of
 from bearing_explorer.explorer.state.settings import Settings
 from bearing_explorer.explorer.views.modes import NaturalFrequencies
 from bearing_explorer.explorer.views.orbit import SteadyOrbit

@@ -3,8 +3,8 @@
 from dataclasses import replace
 
 import pytest
-from bearing_explorer.explorer.results.limit_rows import rows_of
 from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.results.verdict import rows_of
 from bearing_explorer.explorer.views.life import LifeOfBearing, groups_of
 from bearing_explorer.explorer.views.load_distribution import LoadDistribution
 from bearing_explorer.explorer.views.modes import NaturalFrequencies

@@ -24,6 +24,7 @@ from bearing_explorer.explorer.state.lessons import (
     faults_in,
     lessons_in,
     own_folder,
+    own_lessons,
     read_lesson,
     text_for_teachers,
 )
@@ -52,7 +53,11 @@ from bearingcore.model.experiments._motions import motion_experiment
 from tests.helpers.contact_law import Balls, newton
 from tests.helpers.sessions import SceneSession
 
-FILES = sorted(own_folder().glob("*.md"))
+FILES = [
+    path
+    for path in sorted(own_folder().glob("*.md"))
+    if "diagnosis" in dict(TABS) or 'tab = "diagnosis"' not in path.read_text(encoding="utf-8")
+]
 FAN, LIEW_LIM = presets["fan-rig"], presets["liew-lim"]
 RATE = 65536.0
 
@@ -497,8 +502,9 @@ def test_what_lessons_say_in_words() -> None:
     assert between(loads(fan(0.0, radial_clearance=20e-6)).loaded_balls) == (2, 3)
     assert loads(fan(0.0, radial_clearance=0.0)).loaded_balls.min() == 7
     assert loads(fan(0.0, fy=-500.0)).loaded_balls.max() > loads(HEALTHY).loaded_balls.max()
-    for number, value in (("01", below(HEALTHY)), ("10", MOTOR.bearing.bpfo(TURN))):
-        asked = lesson_of(next(path for path in FILES if path.stem.startswith(number))).predict
+    right = {"01": below(HEALTHY), "10": MOTOR.bearing.bpfo(TURN)}
+    for path, value in ((path, right[path.stem[:2]]) for path in FILES if path.stem[:2] in right):
+        asked = lesson_of(path).predict
         assert asked is not None
         assert asked.right == pytest.approx(value, abs=0.5 * asked.within)
     # 2: from 5.5° on the floor is reached, and at 5.4° it is not
@@ -589,8 +595,8 @@ def test_words_asked_for_again_leave_the_scene_alone() -> None:
 
 
 def test_the_lessons_that_come_along_are_in_order() -> None:
-    lessons = lessons_in(own_folder(), TABS)
-    assert [lesson.sentence for lesson in lessons if isinstance(lesson, Fault)] == []
+    lessons = own_lessons(TABS)
+    assert len(lessons) == len(FILES), "one has a fault"
     assert 8 <= len(lessons) <= 16
     for lesson in lessons:
         assert isinstance(lesson, Lesson)

@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 from bearing_explorer.explorer.results.endurance import LifeInputs, endurance, with_usual_grooves
-from bearing_explorer.explorer.results.limit_rows import rows_of
 from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.results.verdict import rows_of
 from bearing_explorer.explorer.state.references import Reference
 from bearing_explorer.explorer.views.life import LifeOfBearing, groups_of
 from bearing_explorer.kit.serve.packed_source import PackedSource

@@ -61,24 +61,38 @@ class Cause:
 
 
 def story(by: Cause, now: Chain, before: Chain) -> str:
-    """The cause, then its effects link after link, "so" only where one makes the next."""
-    cause, why_not = by.words, by.why_not
-    whose = cause or "With the defect"
+    """Tell the cause, then its effects link after link: load, stiffness, frequency, spectrum.
+
+    "So" and "therefore" stand only where one link makes the next.
+    """
     if now.answered == 0.0:
         gone = "there is no equilibrium" + (" any more" if before.answered else ", as before")
-        return f"{whose}: {gone} ({now.reason})."
+        return f"{by.words or 'With the defect'}: {gone} ({now.reason})."
     if before.answered == 0.0:
+        whose = by.words or "With the defect"
         return f"{whose}: now there is an equilibrium, which there was not before."
     along = direction(now, before)
-    moved, stiff = moved_load(now, before, by.defect), stiffness_words(now, before, along)
-    label = moved_band(now, before, along)
-    peaks = (along, *(dof for dof in now.peaks if dof != along))
-    heard = next(filter(None, (peak_words(now, before, dof, label) for dof in peaks)), "")
-    band = band_words(label, now.bands[label], before.bands[label]) if label else ""
-    if band and by.weighs:
-        band += f" ({by.weighs})"
-    own = label and f"k_{label[:-1] * 2}"
-    follows = own and band_follows(now, before, label) and any(own in words for words in stiff)
+    stiff = stiffness_words(now, before, along)
+    text = _load_and_stiffness(by, now, before, along, stiff)
+    text = _with_band_and_peak(text, by, now, before, along, stiff)
+    if before.silent and not now.silent:
+        text += f"{'; ' if text else ''}now there is a spectrum, which there was not before"
+    text = text or unchanged(now, before, by.why_not)
+    text = f"{by.words}: {text}" if by.words else text[0].upper() + text[1:]
+    if now.answered < 1.0:
+        text += (
+            f"; at {style.number(100.0 * (1.0 - now.answered), 2)} % of the cage angles there is "
+            f"no equilibrium ({now.reason})"
+        )
+    if now.silent:
+        text += f"; there is no spectrum: {now.silent}"
+    return f"{text}."
+
+
+def _load_and_stiffness(by: Cause, now: Chain, before: Chain, along: str, stiff: list[str]) -> str:
+    """Where the load went, and what that did to the stiffness."""
+    moved = moved_load(now, before, by.defect)
+    # harder or softer contacts are a reason by themselves, which the cause has said
     why = why_stiffer(now, before, along) if stiff and not by.contacts else ""
     # where the load went explains the stiffness only if balls push back elsewhere; what each
     # carries, or another bearing's balls, do not
@@ -89,22 +103,26 @@ def story(by: Cause, now: Chain, before: Chain) -> str:
         text = f"{by.play}, {why}" if why else by.play
     if stiff:
         text += f"{', so ' if why or by.play else ', ' if text else ''}{style.list_words(stiff)}"
+    return text
+
+
+def _with_band_and_peak(
+    text: str, by: Cause, now: Chain, before: Chain, along: str, stiff: list[str]
+) -> str:
+    """`text` and what became of natural frequencies and of the spectrum's highest peak."""
+    label = moved_band(now, before, along)
+    peaks = (along, *(dof for dof in now.peaks if dof != along))
+    heard = next(filter(None, (peak_words(now, before, dof, label) for dof in peaks)), "")
+    band = band_words(label, now.bands[label], before.bands[label]) if label else ""
+    if band and by.weighs:
+        band += f" ({by.weighs})"
     last = [words for words in (band, heard) if words]
     if text and last:
+        # a frequency follows from its own stiffness, "x1" from k_xx, and not if masses changed
+        own = label and f"k_{label[:-1] * 2}"
+        follows = own and band_follows(now, before, label) and any(own in words for words in stiff)
         text += ". Therefore " if band and follows and not by.masses else "; "
-    text += (" and " if "with it" in heard else "; ").join(last)
-    if before.silent and not now.silent:
-        text += f"{'; ' if text else ''}now there is a spectrum, which there was not before"
-    text = text or unchanged(now, before, why_not)
-    text = f"{cause}: {text}" if cause else text[0].upper() + text[1:]
-    if now.answered < 1.0:
-        text += (
-            f"; at {style.number(100.0 * (1.0 - now.answered), 2)} % of the cage angles there is "
-            f"no equilibrium ({now.reason})"
-        )
-    if now.silent:
-        text += f"; there is no spectrum: {now.silent}"
-    return f"{text}."
+    return text + (" and " if "with it" in heard else "; ").join(last)
 
 
 def each_alone(causes: Mapping[str, Chain], now: Chain, before: Chain) -> str:

@@ -1,0 +1,68 @@
+"""The fatigue life of a bearing in words."""
+
+from __future__ import annotations
+
+import math
+
+from bearingcore.common import number, percent, thousands
+from bearingcore.model.scene import Scene
+
+HEAVIEST_SHARE = 0.5
+"""Of the rating, up to which ISO 281 vouches for its life (P ≤ 0.5 C_r)."""
+
+LEFT_OUT = (
+    "This counts the changed load distribution only. The standard rates smooth races: pressure on "
+    "the edges of a defect, the impact of each ball and debris are left out, so that a damaged "
+    "bearing fails sooner. Treat it as an upper limit."
+)
+
+
+A_CENTURY = 876_600.0
+"""[h] of a life beyond which its number means nothing."""
+
+
+def long_number(value: float) -> str:
+    """To three digits, in groups of three where it is long: of lives no more is known."""
+    return number(value, 3) if value < 1e4 else thousands(float(f"{value:.3g}"))
+
+
+def turns_in_words(L: float) -> str:
+    """A life [10⁶ turns], up to a million of millions; "unlimited" where it is infinite."""
+    if math.isinf(L):
+        return "unlimited"
+    return (
+        f"{long_number(L)} million turns" if L < 1e6 else "practically unlimited (over 10¹² turns)"
+    )
+
+
+def hours_in_words(hours: float) -> str:
+    """Hours of a life [h], up to a century."""
+    return f"{long_number(hours)} hours" if hours < A_CENTURY else "more than 100 years"
+
+
+def life_sentence(
+    scene: Scene, reason: str, L: float, hours: float, L_healthy: float, share: float
+) -> str:
+    """Return a life of L [10⁶ turns] in words, with what it leaves out.
+
+    `reason` says why loads are not known, `share` is that of the equivalent load in the rating.
+    """
+    if reason:
+        return f"Life is not known: not every cage angle has a static equilibrium ({reason})."
+    if math.isinf(L):
+        return f"No {scene.bearing.kind.element} carries load, so there is no fatigue."
+    words = f"Nine of ten bearings reach {turns_in_words(L)}"
+    if math.isnan(hours):
+        words += "; the shaft is at rest, so there are no hours."
+    else:
+        rpm = scene.shaft_speed / (2.0 * math.pi) * 60.0
+        words += f", {hours_in_words(hours)} at {number(rpm, 4)} rpm."
+    if share > HEAVIEST_SHARE:
+        words += (
+            f" The equivalent load is {100.0 * share:.0f} % of the rating: above "
+            f"{100.0 * HEAVIEST_SHARE:.0f} % the standard does not vouch for its formula."
+        )
+    words = f"{words} {scene.tilt_words()}".rstrip()
+    if scene.defects:
+        words += f" That is {percent(L / L_healthy)} of the healthy bearing's life. {LEFT_OUT}"
+    return words

@@ -17,8 +17,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING
 
-from bearing_explorer.kit.plots.color_scales import DIVERGING, SEQUENTIAL, hex_colors
-from bearing_explorer.kit.plots.plane import Field, color_limits
+from bearing_explorer.kit.plots.plane import Field, layout_of
 from bearing_explorer.kit.views.base import View
 from bearing_explorer.kit.views.still_figure import Figure
 from bearing_explorer.page import SECTIONS, figure_of
@@ -35,37 +34,18 @@ names = tuple(_VIEWS)
 """The functions that there are."""
 
 
-def of_sweep(found: DataArray) -> hv.AdjointLayout:
-    """One output of a sweep over two fields as HoloViews: a map and its histogram.
+def of_sweep(found: DataArray) -> hv.Layout:
+    """One output of a sweep over two fields as HoloViews: a map, and curves across it.
 
-    Angles are in degrees; HoloViews and hvPlot go on from there: slices, overlays, selections.
+    They are those of the page, and follow the pointer. Angles are in degrees; HoloViews and hvPlot
+    go on from there: slices, overlays, selections.
 
     Raises
     ------
     ValueError
         for another number of fields.
     """
-    import holoviews as hv
-    import holoviews.plotting.bokeh  # what `opts` may say; hv.extension asks other computers
-
-    hv.Store.set_current_backend("bokeh")
-    field = Field.of_sweep(found)
-    values, unit = field.scaled
-    sides = [hv.Dimension(side.words, unit=side.unit or None) for side, _ in (field.x, field.y)]
-    number = hv.Dimension(field.words, unit=unit or None)
-    image = hv.Image((field.x[1], field.y[1], values), sides, number)
-    limits = color_limits(values)
-    image = image.opts(
-        hv.opts.Image(
-            cmap=hex_colors(DIVERGING if limits[0] == -limits[1] else SEQUENTIAL),
-            clim=limits,
-            colorbar=True,
-            tools=["hover"],
-            frame_width=420,
-            frame_height=320,
-        )
-    )
-    return image.hist()
+    return layout_of(Field.of_sweep(found))
 
 
 def __getattr__(name: str) -> Callable[..., Figure]:

@@ -7,6 +7,7 @@ plots, as elements that a stream makes anew take twice as long as all else until
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property, partial
@@ -20,6 +21,7 @@ from numpy.typing import NDArray
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.color_scales import DIVERGING, SEQUENTIAL, hex_colors
 from bearing_explorer.kit.plots.heat_map import BAR_LOOK, CLEAR, Side, ends
+from bearing_explorer.kit.serve.live import one_message
 from bearingcore.common import PREFIXES, number, prefix_power
 from bearingcore.fields import FIELD_OF
 
@@ -242,7 +244,7 @@ class PlaneFigures:
             kind(source=plane.Image.I, subscribers=[act])
             for kind, act in (
                 (streams.PointerXY, self._point),
-                (streams.MouseLeave, lambda **_: self._draw_sections(self._mark)),
+                (streams.MouseLeave, lambda **_: self._send_sections(self._mark)),
                 (streams.SingleTap, self._tap),
             )
         ]
@@ -320,7 +322,12 @@ class PlaneFigures:
         """Follow the pointer: most of its moves stay in a cell."""
         if x is None or y is None or self._field.cell_at(x, y) in (None, self._cell):
             return
-        self._draw_sections((x, y))
+        self._send_sections((x, y))
+
+    def _send_sections(self, at: tuple[float, float]) -> None:
+        """Draw the curves through a place: streams act outside of the document's lock."""
+        change = one_message(self.map.document, partial(self._draw_sections, at))
+        self._sent = asyncio.get_running_loop().create_task(change)
 
     def _tap(self, x: float | None, y: float | None) -> None:
         """Go to the middle of the cell that is clicked at."""
@@ -346,6 +353,7 @@ def _house_style(plot: figure, name: str) -> None:
         name=name, sizing_mode="stretch_both", width=None, height=None, min_width=280,
         min_height=200 if name.endswith("across") else 340, min_border_left=64,
         min_border_right=14, min_border_top=10, lod_threshold=None,
+        output_backend="canvas",
     )  # fmt: skip
     plot.toolbar_location, plot.toolbar_inner = "right", True
 

@@ -27,7 +27,6 @@ from bokeh.models import (
     LinearColorMapper,
     Plot,
     Range1d,
-    Scatter,
 )
 from bokeh.palettes import Viridis256
 from bokeh.plotting import figure
@@ -35,7 +34,6 @@ from numpy.typing import NDArray
 
 from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.plots import style
-from bearing_explorer.kit.plots.layers import Glyph
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearingcore.fields import Field
 
@@ -90,11 +88,6 @@ class Side:
         """The side for the scripts."""
         unit = self.unit if self.unit in ("", "°") else f" {self.unit}"
         return {"name": self.name, "words": self.words, "unit": unit, "sign": self.sign}
-
-
-def sections(image: Any, **args: Any) -> CustomJS:
-    """Draws the line across a map at the pointer, see heat_map_sections.js."""
-    return CustomJS(args={"image": image, **args}, code=_PLACE + asset_text("heat_map_sections.js"))
 
 
 def scale_by(shown: Range1d, mapper: LinearColorMapper) -> None:
@@ -219,15 +212,6 @@ def bright_image(
     return GridImage(plot, packed, name, [mapper], sides, say)
 
 
-def ring_at(source: str) -> list[Glyph]:
-    """A ring at the place of the scene: dark on light, so that it shows on every colour."""
-    ring = {"size": 15, "fill_color": None, "level": "annotation"}
-    return [
-        Glyph(Scatter, source, ("x", "y"), {**ring, "line_color": color, "line_width": width})
-        for color, width in ((style.LIGHT, 5.0), (style.SHADE, 2.0))
-    ]
-
-
 class GridImage:
     """Layers of one grid in a figure, drawn one over the other.
 
@@ -244,15 +228,6 @@ class GridImage:
     say
         JavaScript: body of a function of `cell`, the numbers of all layers under the pointer,
         which returns their meaning as text.
-    empty
-        look of what is seen through cells that are transparent.
-    known
-        models that `say` knows besides.
-
-    Attributes
-    ----------
-    source
-        Bokeh's source of the lowest layer: image, x, y, dw, dh.
     """
 
     def __init__(
@@ -263,8 +238,6 @@ class GridImage:
         mappers: Sequence[ColorMapper],
         sides: Sequence[Side],
         say: str,
-        empty: Mapping[str, Any] | None = None,
-        **known: Any,
     ) -> None:
         self.name = name
         self._sides = list(sides)
@@ -275,9 +248,6 @@ class GridImage:
             ColumnDataSource({"image": [np.zeros((1, 1), np.float32)], **blank}, syncable=False)
             for _ in mappers
         ]
-        self.source = layers[0]
-        if empty is not None:
-            plot.block("x", "y", "dw", "dh", source=self.source, level="image", **empty)
         drawn = [
             plot.image(
                 "image", "x", "y", "dw", "dh", source=layer, color_mapper=mapper,
@@ -295,7 +265,7 @@ class GridImage:
         cells.js_on_change(
             "data", CustomJS(args={**args, "labels": labels}, code=asset_text("heat_map.js"))
         )
-        let_point(plot, self.source, self._sides, drawn[:1], say, layers, stands=stands, **known)
+        let_point(plot, layers[0], self._sides, drawn[:1], say, layers, stands=stands)
 
     def columns(
         self,

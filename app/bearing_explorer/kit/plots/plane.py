@@ -13,6 +13,8 @@ from dataclasses import dataclass
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
 
+import holoviews as hv
+import holoviews.plotting.bokeh  # what `opts` may say
 import numpy as np
 from bokeh.models import HoverTool, Range1d
 from bokeh.plotting import figure
@@ -21,16 +23,17 @@ from numpy.typing import NDArray
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.color_scales import DIVERGING, SEQUENTIAL, hex_colors
 from bearing_explorer.kit.plots.heat_map import BAR_LOOK, CLEAR, Side, ends
+from bearing_explorer.kit.sentences import with_unit
 from bearing_explorer.kit.serve.live import one_message
-from bearingcore.common import PREFIXES, number, prefix_power
+from bearingcore.common import PREFIXES, prefix_power
 from bearingcore.fields import FIELD_OF
 
 if TYPE_CHECKING:
-    import holoviews as hv
     from xarray import DataArray
 
-_HATCHES = {"hatch_pattern": "/", "hatch_color": "white", "hatch_alpha": 0.6, "hatch_scale": 8}
-"""Look of points without an answer; HoloViews has no option for it."""
+hv.Store.set_current_backend("bokeh")  # hv.extension would ask other computers
+WAYS = ("up", "across")
+"""Of the sections of a map."""
 _NO_PREFIX = ("", "°", "kg", "kg·m²")
 _PALETTES = {True: hex_colors(DIVERGING), False: hex_colors(SEQUENTIAL)}
 
@@ -104,24 +107,27 @@ class Field:
         reasons = self.reasons[rows, columns].astype(str)
         return {"x": x, "y": y, "x1": x + width, "y1": y + height, "reason": reasons}
 
-    def cell_at(self, x: float, y: float) -> tuple[int, int] | None:
-        """Row and column of the cell at a place; None beside the map."""
-        cell = []
-        for at, (first, last), side in zip((x, y), self.bounds, (self.x, self.y), strict=True):
-            share = (at - first) / (last - first)
-            if not 0.0 <= share <= 1.0:
-                return None
-            cell.append(min(int(share * side[1].size), side[1].size - 1))
-        return cell[1], cell[0]
+    def cell_at(self, x: float | None, y: float | None) -> tuple[int, int] | None:
+        """Row and column of the cell at a place; None where that is beside the map or nowhere."""
+        if x is None or y is None:
+            return None
+        (left, right), (bottom, top) = self.bounds
+        rows, columns = self.values.shape
+        row, column = rows * (y - bottom) / (top - bottom), columns * (x - left) / (right - left)
+        if not (0.0 <= row <= rows and 0.0 <= column <= columns):
+            return None
+        return min(int(row), rows - 1), min(int(column), columns - 1)
 
-    def section(self, cell: tuple[int, int], up: bool) -> tuple[NDArray[Any], NDArray[Any], str]:
-        """The numbers through a cell, upwards or to the right: places, values, and a title."""
-        row, column = cell
-        values = self.scaled[0]
-        fixed, at = (self.x, column) if up else (self.y, row)
-        unit = fixed[0].unit if fixed[0].unit in ("", "°") else f" {fixed[0].unit}"
-        title = f"{self.words} at {fixed[0].words} {number(float(fixed[1][at]), 4)}{unit}"
-        return (self.y[1], values[:, column], title) if up else (self.x[1], values[row], title)
+    def section(
+        self, way: str, cell: tuple[int, int] | None
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64], str]:
+        """Places, numbers and title of the section through a cell, or through the middle."""
+        rows, columns = self.values.shape
+        row, column = cell or (rows // 2, columns // 2)
+        (side, at), (_, places) = (self.x, self.y) if way == "up" else (self.y, self.x)
+        values = self.scaled[0][:, column] if way == "up" else self.scaled[0][row]
+        fixed = with_unit(at[column if way == "up" else row], side.unit, 4)
+        return places, values, f"{self.words} at {side.words} {fixed}"
 
 
 def _in_page_units(given: DataArray) -> tuple[tuple[str, str, str], NDArray[np.float64]]:
@@ -137,36 +143,27 @@ def _in_page_units(given: DataArray) -> tuple[tuple[str, str, str], NDArray[np.f
 
 
 def dimensions(field: Field) -> list[hv.Dimension]:
-    """The sides and the numbers as HoloViews has them: `x`, `y` and `value`, with their labels."""
-    import holoviews as hv
-    import holoviews.plotting.bokeh  # what `opts` may say; hv.extension asks other computers
-
-    hv.Store.set_current_backend("bokeh")
+    """The sides and the numbers for HoloViews: `x`, `y` and `value`, with their labels."""
     (x, _), (y, _) = field.x, field.y
-    said = {"x": (x.words, x.unit), "y": (y.words, y.unit), "value": (field.words, field.scaled[1])}
-    return [
-        hv.Dimension((name, words or name), unit=unit or None)
-        for name, (words, unit) in said.items()
-    ]
+    labels = ("x", x.words, x.unit), ("y", y.words, y.unit), ("value", field.words, field.scaled[1])
+    return [hv.Dimension((name, words or name), unit=unit or None) for name, words, unit in labels]
 
 
-def map_of(field: Field, mark: tuple[float, float] | None = None) -> hv.Overlay:
-    """The map, hatched where there is no answer, with a ring at the `mark`."""
-    import holoviews as hv
-
+def map_of(field: Field) -> hv.Overlay:
+    """The map, hatched where there is no answer, and rings for a mark, which is nowhere."""
     x, y, value = dimensions(field)
-    limits = color_limits(field.scaled[0])
+    low, high = color_limits(field.scaled[0])
     image = hv.Image((field.x[1], field.y[1], field.scaled[0]), [x, y], value).opts(
-        cmap=_PALETTES[limits[0] == -limits[1]], clim=limits, clipping_colors={"NaN": CLEAR},
+        cmap=_PALETTES[low == -high], clim=(low, high), clipping_colors={"NaN": CLEAR},
         colorbar=True, colorbar_opts={**BAR_LOOK, "bar_line_color": style.STEEL_EDGE},
         default_tools=[], tools=[HoverTool(visible=False, point_policy="follow_mouse")],
     )  # fmt: skip
     missing = hv.Rectangles(field.missing, [x, y, "x1", "y1"], "reason").opts(
-        default_tools=[], tools=[HoverTool(visible=False, tooltips="no answer: @reason")],
         fill_color="#B9BEC4", line_color=None, hooks=[_hatch],
+        default_tools=[], tools=[HoverTool(visible=False, tooltips="no answer: @reason")],
     )  # fmt: skip
     rings = [  # dark on light, so that it shows on every colour
-        hv.Points([] if mark is None else [mark], [x, y]).opts(
+        hv.Points([], [x, y]).opts(
             size=15, fill_color=None, line_color=color, line_width=width, default_tools=[]
         )
         for color, width in ((style.LIGHT, 5.0), (style.SHADE, 2.0))
@@ -175,84 +172,53 @@ def map_of(field: Field, mark: tuple[float, float] | None = None) -> hv.Overlay:
 
 
 def _hatch(plot: Any, _: hv.Rectangles) -> None:
-    plot.handles["glyph"].update(**_HATCHES)
+    plot.handles["glyph"].update(
+        hatch_pattern="/", hatch_color="white", hatch_alpha=0.6, hatch_scale=8
+    )
 
 
-def section_of(field: Field, cell: tuple[int, int], up: bool) -> hv.Curve:
-    """The curve through a cell, upwards or to the right."""
-    import holoviews as hv
-
-    x, y, value = dimensions(field)
-    places, values, title = field.section(cell, up)
-    return hv.Curve((places, values), y if up else x, value).opts(
+def section_of(field: Field, way: str, x: float | None = None, y: float | None = None) -> hv.Curve:
+    """The curve through a place, "up" or "across"; through the middle where that is nowhere."""
+    places, values, title = field.section(way, field.cell_at(x, y))
+    side, value = dimensions(field)[way == "up"], dimensions(field)[2]
+    return hv.Curve((places, values), side, value).opts(
         color=style.DEFECTIVE, line_width=2.0, title=title, default_tools=[], framewise=True
     )
 
 
 def layout_of(field: Field) -> hv.Layout:
-    """The map and its sections, which follow the pointer; they begin in the middle."""
-    import holoviews as hv
-
+    """The map, and its sections, which follow the pointer."""
     plane = map_of(field)
-    pointer = hv.streams.PointerXY(x=None, y=None, source=plane.Image.I)
-    middle = (field.y[1].size // 2, field.x[1].size // 2)
-
-    def section(x: float | None, y: float | None, up: bool) -> hv.Curve:
-        cell = None if x is None or y is None else field.cell_at(x, y)
-        return section_of(field, cell or middle, up)
-
-    up, across = (
-        hv.DynamicMap(partial(section, up=up), streams=[pointer]) for up in (True, False)
-    )
-    return hv.Layout([plane, up, across]).cols(2)
+    pointer = hv.streams.PointerXY(source=plane.Image.I)
+    sections = [hv.DynamicMap(partial(section_of, field, way), streams=[pointer]) for way in WAYS]
+    return hv.Layout([plane, *sections]).cols(2)
 
 
 class PlaneFigures:
-    """The map, and a curve across it each way, on a page.
+    """The map and its sections on a page; a click there calls `go` with the place.
 
-    Parameters
-    ----------
-    name
-        of the figures.
-    go
-        called with a place that is clicked at.
-
-    Attributes
-    ----------
-    plots
-        those of HoloViews, for its pane.
+    `plots` are those of HoloViews, for its pane.
     """
 
     def __init__(self, name: str, go: Callable[[float, float], None]) -> None:
-        import holoviews as hv
-
         self._field, self._mark, self._go = _BLANK, (0.0, 0.0), go
-        self._cell: tuple[int, int] | None = None
-        #: models of each element, by name: HoloViews calls a hook with them
-        self._models: dict[str, dict[str, Any]] = {}
-        plane = map_of(_BLANK)
-        elements = {
-            f"{name}_map": plane,
-            **{f"{name}_{way}": section_of(_BLANK, (0, 0), way == "up") for way in _WAYS},
-        }
-        for part, key in zip(plane, ("image", "missing", "light", "dark"), strict=True):
-            part.opts(hooks=[partial(self._keep, key), *([_hatch] if key == "missing" else [])])
-        for way in _WAYS:
-            elements[f"{name}_{way}"].opts(hooks=[partial(self._keep, way)])
-        streams = hv.streams
+        plane, renderer = map_of(_BLANK), hv.renderer("bokeh")
         self._streams = [
-            kind(source=plane.Image.I, subscribers=[act])
-            for kind, act in (
-                (streams.PointerXY, self._point),
-                (streams.MouseLeave, lambda **_: self._send_sections(self._mark)),
-                (streams.SingleTap, self._tap),
+            stream(source=plane.Image.I, subscribers=[subscriber])
+            for stream, subscriber in (
+                (hv.streams.PointerXY, self._point),
+                (hv.streams.MouseLeave, lambda **_: self._send_sections(*self._mark)),
+                (hv.streams.SingleTap, self._tap),
             )
         ]
-        draw = hv.renderer("bokeh").get_plot
-        self.plots = [draw(element) for element in elements.values()]
-        self.map, self.up, self.across = (plot.state for plot in self.plots)
-        for plot, name in zip((self.map, self.up, self.across), elements, strict=True):
-            _house_style(plot, name)
+        elements = [plane, *(section_of(_BLANK, way) for way in WAYS)]
+        self.plots = [renderer.get_plot(element) for element in elements]
+        self._image, self._missing, *self._rings = (
+            plot.handles for plot in self.plots[0].subplots.values()
+        )
+        self.map, self.up, self.across = figures = [plot.state for plot in self.plots]
+        for plot, what in zip(figures, ("map", *WAYS), strict=True):
+            _house_style(plot, f"{name}_{what}")
         self.up.x_range, self.across.x_range = self.map.y_range, self.map.x_range
         self.across.y_range = self.up.y_range
         self.map.grid.visible = False
@@ -260,83 +226,64 @@ class PlaneFigures:
         self.map.stylesheets = [":host { cursor: crosshair; }"]
         self.up.frame_align = False  # it needs no colour bar's room
 
-    def _keep(self, key: str, plot: Any, _: Any) -> None:
-        self._models[key] = plot.handles
-
     def show(self, field: Field, mark: tuple[float, float], alpha: float = 1.0) -> None:
-        """Draw a field, and the curves across it at the `mark`. On the event loop only."""
+        """Draw a field, and the sections at the `mark`. On the event loop only."""
         self._field, self._mark = field, mark
-        values = field.scaled[0]
+        values, unit = field.scaled
         (left, right), (bottom, top) = field.bounds
-        image = self._models["image"]
-        image["source"].data = {
+        self._image["source"].data = {
             "image": [values.astype(np.float32)],
             "x": [left], "y": [bottom], "dw": [right - left], "dh": [top - bottom],
         }  # fmt: skip
-        image["glyph"].global_alpha = alpha
+        self._image["glyph"].global_alpha = alpha
         low, high = color_limits(values)
-        image["color_mapper"].update(low=low, high=high, palette=_PALETTES[low == -high])
-        cells = field.missing
-        self._models["missing"]["source"].data = {
-            "left": cells["x"], "bottom": cells["y"], "right": cells["x1"], "top": cells["y1"],
-            "reason": cells["reason"],
-        }  # fmt: skip
-        for ring in ("light", "dark"):
-            self._models[ring]["source"].data = {"x": [mark[0]], "y": [mark[1]]}
+        self._image["color_mapper"].update(low=low, high=high, palette=_PALETTES[low == -high])
+        names = {"x": "left", "y": "bottom", "x1": "right", "y1": "top", "reason": "reason"}
+        self._missing["source"].data = {names[key]: at for key, at in field.missing.items()}
+        for ring in self._rings:
+            ring["source"].data = {"x": [mark[0]], "y": [mark[1]]}
         known = values[np.isfinite(values)]
         least, most = (float(known.min()), float(known.max())) if known.size else (0.0, 1.0)
         room = 0.06 * (most - least) or 0.06 * abs(most) or 1.0
         _move(self.map.x_range, left, right)
         _move(self.map.y_range, bottom, top)
         _move(self.up.y_range, least - room, most + room)
-        self._write()
-        self._draw_sections(mark)
+        (x, _), (y, _), in_unit = field.x, field.y, f"({unit})" if unit else ""
+        self._image["colorbar"].title = f"{field.words} {in_unit}".rstrip()
+        self.map.xaxis[0].axis_label = self.across.xaxis[0].axis_label = x.label
+        self.map.yaxis[0].axis_label = self.up.xaxis[0].axis_label = y.label
+        self.up.yaxis[0].axis_label = self.across.yaxis[0].axis_label = in_unit
+        tooltips = (
+            (x.words, f"$x {x.unit}"),
+            (y.words, f"$y {y.unit}"),
+            (field.words, f"@image {unit}"),
+        )
+        if self._image["hover"].tooltips != list(tooltips):
+            self._image["hover"].tooltips = list(tooltips)
+        self._draw_sections(*mark)
 
-    def _write(self) -> None:
-        """Write labels and tooltips."""
-        (x, _), (y, _), unit = self._field.x, self._field.y, self._field.scaled[1]
-        in_unit = f" ({unit})" if unit else ""
-        self._models["image"]["colorbar"].title = f"{self._field.words}{in_unit}"
-        labels = [(x.label, y.label), (y.label, in_unit[1:]), (x.label, in_unit[1:])]
-        for plot, (across, up) in zip((self.map, self.up, self.across), labels, strict=True):
-            plot.xaxis[0].axis_label, plot.yaxis[0].axis_label = across, up
-        tooltips = [
-            (x.words, f"$x {x.unit}"), (y.words, f"$y {y.unit}"), (self._field.words, f"@image {unit}")
-        ]  # fmt: skip
-        hover = self._models["image"]["hover"]
-        if hover.tooltips != tooltips:
-            hover.tooltips = tooltips
-
-    def _draw_sections(self, at: tuple[float, float]) -> None:
-        """Draw the curves through a place; through the middle where that is beside the map."""
-        field = self._field
-        self._cell = field.cell_at(*at)
-        cell = self._cell or (field.y[1].size // 2, field.x[1].size // 2)
-        for way, plot in zip(_WAYS, (self.up, self.across), strict=True):
-            places, values, title = field.section(cell, way == "up")
+    def _draw_sections(self, x: float, y: float) -> None:
+        self._cell = self._field.cell_at(x, y)
+        for way, plot in zip(WAYS, self.plots[1:], strict=True):
+            places, values, title = self._field.section(way, self._cell)
             side = "y" if way == "up" else "x"
-            self._models[way]["source"].data = {side: places, "value": values}
-            plot.title.text = title
+            plot.handles["source"].data = {side: places, "value": values}
+            plot.state.title.text = title
 
-    def _point(self, x: float | None, y: float | None) -> None:
-        """Follow the pointer: most of its moves stay in a cell."""
-        if x is None or y is None or self._field.cell_at(x, y) in (None, self._cell):
-            return
-        self._send_sections((x, y))
-
-    def _send_sections(self, at: tuple[float, float]) -> None:
-        """Draw the curves through a place: streams act outside of the document's lock."""
-        change = one_message(self.map.document, partial(self._draw_sections, at))
+    def _send_sections(self, x: float, y: float) -> None:
+        """Draw the sections through a place: streams act while the document is not locked."""
+        change = one_message(self.map.document, partial(self._draw_sections, x, y))
         self._sent = asyncio.get_running_loop().create_task(change)
 
+    def _point(self, x: float, y: float) -> None:
+        if self._field.cell_at(x, y) not in (None, self._cell):  # most moves stay in a cell
+            self._send_sections(x, y)
+
     def _tap(self, x: float | None, y: float | None) -> None:
-        """Go to the middle of the cell that is clicked at."""
-        if x is None or y is None or (cell := self._field.cell_at(x, y)) is None:
-            return
-        self._go(float(self._field.x[1][cell[1]]), float(self._field.y[1][cell[0]]))
+        if (cell := self._field.cell_at(x, y)) is not None:
+            self._go(float(self._field.x[1][cell[1]]), float(self._field.y[1][cell[0]]))
 
 
-_WAYS = ("up", "across")
 _NO_SIDE = Side("", "", "", "")
 _BLANK = Field(
     (_NO_SIDE, np.arange(2.0)), (_NO_SIDE, np.arange(2.0)), "", "", np.zeros((2, 2)),

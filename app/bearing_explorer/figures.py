@@ -24,7 +24,7 @@ from bearing_explorer.page import SECTIONS, figure_of
 
 if TYPE_CHECKING:
     import holoviews as hv
-    from xarray import DataArray
+    from xarray import DataArray, Dataset
 
 _VIEWS: dict[str, type[View]] = {
     view.name.replace("-", "_"): view for section in SECTIONS for view in section.views
@@ -34,18 +34,23 @@ names = tuple(_VIEWS)
 """The functions that there are."""
 
 
-def of_sweep(found: DataArray) -> hv.Layout:
-    """One output of a sweep over two fields as HoloViews: a map, and curves across it.
+def of_sweep(swept: DataArray | Dataset) -> hv.Layout:
+    """Return an output of a sweep over two fields as HoloViews: a map, and curves across it.
 
-    They are those of the page, and follow the pointer. Angles are in degrees; HoloViews and hvPlot
-    go on from there: slices, overlays, selections.
+    They are those that Explore shows; on a server (`panel.panel(...).show()`) and in a live
+    notebook the curves follow the pointer. Angles are in degrees.
 
     Raises
     ------
     ValueError
-        for another number of fields.
+        for another number of fields, or of outputs.
     """
-    return layout_of(Field.of_sweep(found))
+    if (outputs := getattr(swept, "data_vars", None)) is not None:
+        names = [str(name) for name in outputs if name != "status"]
+        if len(names) != 1:
+            raise ValueError(f"outputs are {names}; allowed: one, choose with [name]")
+        swept = outputs[names[0]]
+    return layout_of(Field.of_sweep(swept))
 
 
 def __getattr__(name: str) -> Callable[..., Figure]:

@@ -37,7 +37,7 @@ from bearing_explorer.explorer.views.scene_job_view import SceneJobView
 from bearing_explorer.kit.compute.jobs import COMPUTATION, Jobs, JobState, Work
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.heat_map import Side
-from bearing_explorer.kit.plots.plane import SIDE_BY_SIDE, Field, PlaneFigures
+from bearing_explorer.kit.plots.plane import Field, PlaneFigures
 from bearing_explorer.kit.sentences import sentence_of, with_unit
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.job_view import last_shown
@@ -84,13 +84,11 @@ class ExplorePlane(SceneJobView[Plane]):
     _request: MapRequest | None = None
     _question: Question | None = None
     _refining: tuple[Question, int] | None = None
-    #: the map, the place of the scene and the opacity in the figures
-    _drawn: tuple[Plane, tuple[float, float], float] | None = None
 
     def build(self, packed: PackedSource) -> Any:
         self._plane = PlaneFigures("explore", self._go)
         panes = [pn.pane.HoloViews(plot, margin=0) for plot in self._plane.plots]
-        maps = stack(*panes, stylesheets=[SIDE_BY_SIDE])
+        maps = stack(*panes, stylesheets=[style.SIDE_BY_SIDE])
         return [self.job, self.only_with_numbers(maps)]
 
     @property
@@ -171,10 +169,7 @@ class ExplorePlane(SceneJobView[Plane]):
         if self.found is not None:
             scene = focused(results.scene, results.focus)
             x, y = (value_of(scene, sweep.field) for sweep in (self.found.x, self.found.y))
-            picture = self.found, (x, y), _FADED if plane is None else 1.0
-            if picture != self._drawn:
-                self._drawn = picture
-                self._plane.show(field_of(self.found), *picture[1:])
+            self._plane.show(field_of(self.found), (x, y), _FADED if plane is None else 1.0)
         if self._jobs is None or self._refining == (question, self._request.stride):
             return
         if self._refining is not None:

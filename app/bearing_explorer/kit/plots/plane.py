@@ -24,7 +24,7 @@ from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.color_scales import DIVERGING, SEQUENTIAL, hex_colors
 from bearing_explorer.kit.plots.heat_map import BAR_LOOK, CLEAR, Side, ends
 from bearing_explorer.kit.sentences import with_unit
-from bearing_explorer.kit.serve.live import one_message
+from bearing_explorer.kit.serve.live import on_loop, one_message
 from bearingcore.common import PREFIXES, prefix_power
 from bearingcore.fields import FIELD_OF
 
@@ -32,17 +32,12 @@ if TYPE_CHECKING:
     from xarray import DataArray
 
 hv.Store.set_current_backend("bokeh")  # hv.extension would ask other computers
+SECOND_CLICK = 0.32
+"""For which a click on a map that is zoomed waits for another one [s]."""
 WAYS = ("up", "across")
 """Of the sections of a map."""
 _NO_PREFIX = ("", "°", "kg", "kg·m²")
 _PALETTES = {True: hex_colors(DIVERGING), False: hex_colors(SEQUENTIAL)}
-
-SIDE_BY_SIDE = """
-:host { display: grid !important; gap: 8px 16px;
-        min-height: auto !important;
-        grid-template-columns: repeat(auto-fit, minmax(min(100%, max(380px, 40%)), 1fr)); }
-"""
-"""Style of a layout of the figures: two in a row where there is room."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,7 +100,8 @@ class Field:
         width, height = (right - left) / self.x[1].size, (top - bottom) / self.y[1].size
         x, y = left + width * columns, bottom + height * rows
         reasons = self.reasons[rows, columns].astype(str)
-        return {"x": x, "y": y, "x1": x + width, "y1": y + height, "reason": reasons}
+        ends_of_cells = {"left": x, "bottom": y, "right": x + width, "top": y + height}
+        return {**ends_of_cells, "reason": reasons}
 
     def cell_at(self, x: float | None, y: float | None) -> tuple[int, int] | None:
         """Row and column of the cell at a place; None where that is beside the map or nowhere."""
@@ -158,7 +154,7 @@ def map_of(field: Field) -> hv.Overlay:
         colorbar=True, colorbar_opts={**BAR_LOOK, "bar_line_color": style.STEEL_EDGE},
         default_tools=[], tools=[HoverTool(visible=False, point_policy="follow_mouse")],
     )  # fmt: skip
-    missing = hv.Rectangles(field.missing, [x, y, "x1", "y1"], "reason").opts(
+    missing = hv.Rectangles(tuple(field.missing.values()), [x, y, "x1", "y1"], "reason").opts(
         fill_color="#B9BEC4", line_color=None, hooks=[_hatch],
         default_tools=[], tools=[HoverTool(visible=False, tooltips="no answer: @reason")],
     )  # fmt: skip
@@ -191,7 +187,10 @@ def layout_of(field: Field) -> hv.Layout:
     plane = map_of(field)
     pointer = hv.streams.PointerXY(source=plane.Image.I)
     sections = [hv.DynamicMap(partial(section_of, field, way), streams=[pointer]) for way in WAYS]
-    return hv.Layout([plane, *sections]).cols(2)
+    frames = {"frame_width": 420, "frame_height": 320}
+    return (
+        hv.Layout([plane, *sections]).cols(2).opts(hv.opts.Image(**frames), hv.opts.Curve(**frames))
+    )
 
 
 class PlaneFigures:
@@ -202,6 +201,7 @@ class PlaneFigures:
 
     def __init__(self, name: str, go: Callable[[float, float], None]) -> None:
         self._field, self._mark, self._go = _BLANK, (0.0, 0.0), go
+        self._going: asyncio.TimerHandle | None = None
         plane, renderer = map_of(_BLANK), hv.renderer("bokeh")
         self._streams = [
             stream(source=plane.Image.I, subscribers=[subscriber])
@@ -209,6 +209,7 @@ class PlaneFigures:
                 (hv.streams.PointerXY, self._point),
                 (hv.streams.MouseLeave, lambda **_: self._send_sections(*self._mark)),
                 (hv.streams.SingleTap, self._tap),
+                (hv.streams.DoubleTap, lambda **_: self._going and self._going.cancel()),
             )
         ]
         elements = [plane, *(section_of(_BLANK, way) for way in WAYS)]
@@ -238,8 +239,7 @@ class PlaneFigures:
         self._image["glyph"].global_alpha = alpha
         low, high = color_limits(values)
         self._image["color_mapper"].update(low=low, high=high, palette=_PALETTES[low == -high])
-        names = {"x": "left", "y": "bottom", "x1": "right", "y1": "top", "reason": "reason"}
-        self._missing["source"].data = {names[key]: at for key, at in field.missing.items()}
+        self._missing["source"].data = field.missing
         for ring in self._rings:
             ring["source"].data = {"x": [mark[0]], "y": [mark[1]]}
         known = values[np.isfinite(values)]
@@ -253,13 +253,8 @@ class PlaneFigures:
         self.map.xaxis[0].axis_label = self.across.xaxis[0].axis_label = x.label
         self.map.yaxis[0].axis_label = self.up.xaxis[0].axis_label = y.label
         self.up.yaxis[0].axis_label = self.across.yaxis[0].axis_label = in_unit
-        tooltips = (
-            (x.words, f"$x {x.unit}"),
-            (y.words, f"$y {y.unit}"),
-            (field.words, f"@image {unit}"),
-        )
-        if self._image["hover"].tooltips != list(tooltips):
-            self._image["hover"].tooltips = list(tooltips)
+        shown = (x.words, "$x", x.unit), (y.words, "$y", y.unit), (field.words, "@image", unit)
+        self._image["hover"].tooltips = [(words, f"{at} {of}") for words, at, of in shown]
         self._draw_sections(*mark)
 
     def _draw_sections(self, x: float, y: float) -> None:
@@ -280,8 +275,12 @@ class PlaneFigures:
             self._send_sections(x, y)
 
     def _tap(self, x: float | None, y: float | None) -> None:
+        """Go to a cell; a second click on a map that is zoomed brings all of it back instead."""
         if (cell := self._field.cell_at(x, y)) is not None:
-            self._go(float(self._field.x[1][cell[1]]), float(self._field.y[1][cell[0]]))
+            place = float(self._field.x[1][cell[1]]), float(self._field.y[1][cell[0]])
+            wait = SECOND_CLICK * any(map(_is_zoomed, (self.map.x_range, self.map.y_range)))
+            go, loop = partial(self._go, *place), asyncio.get_running_loop()
+            self._going = loop.call_later(wait, on_loop, self.map.document, go)
 
 
 _NO_SIDE = Side("", "", "", "")
@@ -299,8 +298,7 @@ def _house_style(plot: figure, name: str) -> None:
     plot.update(
         name=name, sizing_mode="stretch_both", width=None, height=None, min_width=280,
         min_height=200 if name.endswith("across") else 340, min_border_left=64,
-        min_border_right=14, min_border_top=10, lod_threshold=None,
-        output_backend="canvas",
+        min_border_right=14, min_border_top=10, output_backend="canvas",
     )  # fmt: skip
     plot.toolbar_location, plot.toolbar_inner = "right", True
 
@@ -308,8 +306,11 @@ def _house_style(plot: figure, name: str) -> None:
 def _move(shown: Range1d, start: float, end: float) -> None:
     """Move a range, and what a reset goes back to; where it is zoomed the latter alone."""
     home = {"reset_start": start, "reset_end": end}
-    zoomed = (shown.start, shown.end) != (shown.reset_start, shown.reset_end)
-    shown.update(**home, **({} if zoomed else {"start": start, "end": end}))
+    shown.update(**home, **({} if _is_zoomed(shown) else {"start": start, "end": end}))
+
+
+def _is_zoomed(shown: Range1d) -> bool:
+    return (shown.start, shown.end) != (shown.reset_start, shown.reset_end)
 
 
 def color_limits(values: NDArray[np.float64]) -> tuple[float, float]:

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 import holoviews as hv
 import holoviews.plotting.bokeh  # what `opts` may say
 import numpy as np
-from bokeh.models import HoverTool, Range1d
+from bokeh.models import CustomJSHover, HoverTool, Range1d
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
@@ -38,6 +38,9 @@ WAYS = ("up", "across")
 """Of the sections of a map."""
 _NO_PREFIX = ("", "°", "kg", "kg·m²")
 _PALETTES = {True: hex_colors(DIVERGING), False: hex_colors(SEQUENTIAL)}
+
+_ROUNDED = f"{style.JS_PREFIX}return isNaN(value) ? 'no answer' : rounded(value, 4)"
+_TOOLTIP = f'<div style="{style.HTML_FONT}">{{}}</div>'
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,6 +89,11 @@ class Field:
             return self.values, self.unit
         power = prefix_power(float(np.nanmax(np.abs(self.values), initial=0.0)))
         return self.values / 10.0**power, PREFIXES[power] + self.unit
+
+    @property
+    def label(self) -> str:
+        """The words with the unit."""
+        return style.AxisQuantity(self.words, "", self.scaled[1]).label()
 
     @property
     def bounds(self) -> tuple[tuple[float, float], tuple[float, float]]:
@@ -138,6 +146,12 @@ def _in_page_units(given: DataArray) -> tuple[tuple[str, str, str], NDArray[np.f
     return (words, "", "" if unit == "1" else unit), values
 
 
+def tooltip(field: Field) -> str:
+    """The text under the pointer: both places and the number."""
+    places = f"{field.x[0].label}: $x{{custom}}<br>{field.y[0].label}: $y{{custom}}"
+    return _TOOLTIP.format(f"{places}<br><b>{field.label}: @image{{custom}}</b>")
+
+
 def dimensions(field: Field) -> list[hv.Dimension]:
     """The sides and the numbers for HoloViews: `x`, `y` and `value`, with their labels."""
     (x, _), (y, _) = field.x, field.y
@@ -152,11 +166,17 @@ def map_of(field: Field) -> hv.Overlay:
     image = hv.Image((field.x[1], field.y[1], field.scaled[0]), [x, y], value).opts(
         cmap=_PALETTES[low == -high], clim=(low, high), clipping_colors={"NaN": CLEAR},
         colorbar=True, colorbar_opts={**BAR_LOOK, "bar_line_color": style.STEEL_EDGE},
-        default_tools=[], tools=[HoverTool(visible=False, point_policy="follow_mouse")],
+        default_tools=[],
+        tools=[
+            HoverTool(
+                visible=False, point_policy="follow_mouse", tooltips=tooltip(field),
+                formatters=dict.fromkeys(("$x", "$y", "@image"), CustomJSHover(code=_ROUNDED)),
+            )
+        ],
     )  # fmt: skip
     missing = hv.Rectangles(tuple(field.missing.values()), [x, y, "x1", "y1"], "reason").opts(
         fill_color="#B9BEC4", line_color=None, hooks=[_hatch],
-        default_tools=[], tools=[HoverTool(visible=False, tooltips="no answer: @reason")],
+        default_tools=[], tools=[HoverTool(visible=False, tooltips=_TOOLTIP.format("@reason"))],
     )  # fmt: skip
     rings = [  # dark on light, so that it shows on every colour
         hv.Points([], [x, y]).opts(
@@ -249,12 +269,11 @@ class PlaneFigures:
         _move(self.map.y_range, bottom, top)
         _move(self.up.y_range, least - room, most + room)
         (x, _), (y, _), in_unit = field.x, field.y, f"({unit})" if unit else ""
-        self._image["colorbar"].title = f"{field.words} {in_unit}".rstrip()
+        self._image["colorbar"].title = field.label
         self.map.xaxis[0].axis_label = self.across.xaxis[0].axis_label = x.label
         self.map.yaxis[0].axis_label = self.up.xaxis[0].axis_label = y.label
         self.up.yaxis[0].axis_label = self.across.yaxis[0].axis_label = in_unit
-        shown = (x.words, "$x", x.unit), (y.words, "$y", y.unit), (field.words, "@image", unit)
-        self._image["hover"].tooltips = [(words, f"{at} {of}") for words, at, of in shown]
+        self._image["hover"].tooltips = tooltip(field)
         self._draw_sections(*mark)
 
     def _draw_sections(self, x: float, y: float) -> None:

@@ -17,7 +17,6 @@ from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING
 
-from bearing_explorer.kit.plots.plane import Field, layout_of
 from bearing_explorer.kit.views.base import View
 from bearing_explorer.kit.views.still_figure import Figure
 from bearing_explorer.page import SECTIONS, figure_of
@@ -45,6 +44,8 @@ def of_sweep(swept: DataArray | Dataset) -> hv.Layout:
     ValueError
         for another number of fields, or of outputs.
     """
+    from bearing_explorer.kit.plots.plane import Field, layout_of  # HoloViews: not at the start
+
     if (outputs := getattr(swept, "data_vars", None)) is not None:
         names = [str(name) for name in outputs if name != "status"]
         if len(names) != 1:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import panel as pn
@@ -37,12 +37,14 @@ from bearing_explorer.explorer.views.scene_job_view import SceneJobView
 from bearing_explorer.kit.compute.jobs import COMPUTATION, Jobs, JobState, Work
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.heat_map import Side
-from bearing_explorer.kit.plots.plane import Field, PlaneFigures
 from bearing_explorer.kit.sentences import sentence_of, with_unit
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.job_view import last_shown
 from bearing_explorer.kit.widgets.form import FieldSpec, stack
 from bearingcore.fields import Range
+
+if TYPE_CHECKING:
+    from bearing_explorer.kit.plots.plane import Field
 
 _FIRST = {"x": "extent_deg", "y": "fy_n", "output": "k_yy_mean", "grid": "2"}
 _GRIDS = [[str(stride), f"{n} × {m}"] for stride, (n, m) in SIZES.items() if stride < 16]
@@ -86,6 +88,8 @@ class ExplorePlane(SceneJobView[Plane]):
     _refining: tuple[Question, int] | None = None
 
     def build(self, packed: PackedSource) -> Any:
+        from bearing_explorer.kit.plots.plane import PlaneFigures  # HoloViews: not at the start
+
         self._plane = PlaneFigures("explore", self._go)
         panes = [pn.pane.HoloViews(plot, margin=0) for plot in self._plane.plots]
         maps = stack(*panes, stylesheets=[style.SIDE_BY_SIDE])
@@ -281,6 +285,8 @@ def plane_sweeps(
 
 def field_of(plane: Plane) -> Field:
     """A map as the figures take it."""
+    from bearing_explorer.kit.plots.plane import Field
+
     output = plane.question.output
     words = output.label[0].upper() + output.label[1:] if output.label[:2] != "k " else output.label
     x, y = ((Side.of(sweep.field), sweep.values) for sweep in (plane.x, plane.y))

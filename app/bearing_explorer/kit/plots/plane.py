@@ -73,11 +73,15 @@ class Field:
         Raises
         ------
         ValueError
-            for another number of fields.
+            for another number of fields, or values that are not evenly spaced.
         """
         if found.ndim != 2:
             raise ValueError(f"dimensions are {found.dims}; allowed: two, choose with .sel(...)")
+        found = found.sortby(list(found.dims))
         y, x = ((Side("", *of), at) for of, at in (_in_page_units(found[d]) for d in found.dims))
+        for side, at in (x, y):
+            if np.ptp(np.diff(at)) > 1e-3 * (at[1] - at[0]):
+                raise ValueError(f"{side.words} is {at}; allowed: evenly spaced values")
         (words, _, unit), values = _in_page_units(found)
         reasons = np.where(np.isfinite(values), "", "see the status of the sweep").astype(object)
         return cls(x, y, words, unit, values, reasons)

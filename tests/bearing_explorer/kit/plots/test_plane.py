@@ -95,9 +95,14 @@ def test_an_output_of_a_sweep_is_drawn_in_the_units_of_the_page() -> None:
     assert isinstance(hv.render(drawn, backend="bokeh"), LayoutDOM)
     image = drawn.traverse(lambda part: part, [hv.Image])[0]
     assert image[30.0, -100.0] == 5.0
+    curve = drawn.DynamicMap.I
+    curve.streams[0].event(x=12.0, y=-140.0)
+    assert list(curve[()].dimension_values("value")) == [0.0, 3.0]
     assert [d.unit for d in image.dimensions()] == ["°", "N", "m/s²"]
     with pytest.raises(ValueError, match="two"):
         figures.of_sweep(swept.isel(fy=0))
+    with pytest.raises(ValueError, match="evenly"):
+        figures.of_sweep(swept.assign_coords(extent=[0.1, 0.2, 0.5]))
     with pytest.raises(ValueError, match="outputs are"):
         figures.of_sweep(xarray.Dataset({"a": swept, "b": swept}))
 

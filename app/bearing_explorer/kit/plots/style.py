@@ -59,6 +59,12 @@ HTML_FONT = f"font:12.5px/1.45 {FONT}".replace('"', "'")
 TEXT_SIZE = "12px"
 WRAPPED = ":host { flex-wrap: wrap; min-width: 0 !important; }"
 """Style of rows that stand below one another where there is little room."""
+SIDE_BY_SIDE = """
+:host { display: grid !important; gap: 8px 16px;
+        min-height: auto !important;
+        grid-template-columns: repeat(auto-fit, minmax(min(100%, max(380px, 40%)), 1fr)); }
+"""
+"""Style of figures of which two stand in a row where there is room."""
 BUTTONS = f"""
 :host {{
   --default: var(--card); --default-hover: var(--track-soft); --default-active: var(--accent-paper);

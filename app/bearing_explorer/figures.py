@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 from bearing_explorer.kit.views.base import View
 from bearing_explorer.kit.views.still_figure import Figure
@@ -54,7 +54,7 @@ def of_sweep(swept: DataArray | Dataset) -> hv.Layout:
         if len(names) != 1:
             raise ValueError(f"outputs are {names}; allowed: one, choose with [name]")
         swept = outputs[names[0]]
-    return layout_of(Field.of_sweep(swept))
+    return layout_of(Field.of_sweep(cast("DataArray", swept)))
 
 
 def __getattr__(name: str) -> Callable[..., Figure]:

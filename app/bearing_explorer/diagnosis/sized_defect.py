@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -82,7 +83,9 @@ def machine_of(measured: Measured, scene: Scene, race: str, shaft_speed: float |
     machine = measured.scene(measured.true_scene or scene)
     if not machine.defects:
         raise ValueError(WITHOUT_DEFECT)
-    changes = {"shaft_speed": shaft_speed} if shaft_speed is not None else {}
+    changes: dict[str, Any] = {}
+    if shaft_speed is not None:
+        changes["shaft_speed"] = shaft_speed
     if race and len(machine.defects) == 1:
         changes["race"] = race
     return machine.replace(**changes)

@@ -60,7 +60,7 @@ FAINT = 0.35
 RESOLUTION = 16.0  # [Hz] half a ball pass at 7 Hz on the fan rig is 20 Hz
 DEPTH_OF_VIEW = 60.0  # [dB] below the loudest point
 HARMONICS = 8
-HEIGHT = 520
+HEIGHT = 330
 
 _SIDES = {"frequency": Side("", "Frequency", "f", "Hz"), SPEED: Side.of(SWEEPABLE[SPEED])}
 _SAY = "return isNaN(cell) ? 'not computed' : `${cell.toFixed(1).replace('-', '\\u2212')} dB`"
@@ -175,7 +175,7 @@ class SpeedRunSpectra(SceneJobView[FoundRun]):
         along = switch([f"Along {dof}" for dof in SHOWN], plots, active=1)
         box = toggle("Mark bands and ball-pass harmonics", marks, shown=True)
         choices = pn.Row(along, box, margin=0, stylesheets=[style.WRAPPED])
-        return [self.job, self.only_with_numbers(choices, *plots)]
+        return [self.only_with_numbers(*plots, choices), self.job]
 
     # The job
 

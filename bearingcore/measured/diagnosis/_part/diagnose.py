@@ -23,6 +23,7 @@ from bearingcore.measured.diagnosis._part.decide import ENOUGH_SWING, decide, si
 from bearingcore.measured.diagnosis._part.evidence import CANNOT_TELL, NONE_SEEN, Diagnosis
 from bearingcore.measured.diagnosis._part.judged import judge
 from bearingcore.measured.diagnosis._part.listened_signal import ListenedSignal, unfit
+from bearingcore.measured.diagnosis._part.over_turns import at_steady_speed
 from bearingcore.measured.diagnosis._part.parts import BALL, INNER, OUTER, PartLines, part_lines
 from bearingcore.measured.diagnosis._part.status import DiagnosisStatus
 from bearingcore.measured.diagnosis._part.unknown_speed import NARROW, in_range
@@ -111,6 +112,7 @@ def _diagnose(
     if recording.acceleration.size > most:
         words = say.too_many(recording.acceleration.size, most)
         return silent(DiagnosisStatus.TOO_LONG, words, source)
+    recording, low, high, source = at_steady_speed(recording, low, high, source)
     signal = ListenedSignal(recording)
     if signal.unusable is not None:
         return silent(*signal.unusable, source)

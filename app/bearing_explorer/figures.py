@@ -46,12 +46,11 @@ def of_sweep(swept: DataArray | Dataset) -> hv.Layout:
     """
     from bearing_explorer.kit.plots.plane import Field, layout_of  # HoloViews: not at the start
 
-    if (outputs := getattr(swept, "data_vars", None)) is not None:
-        names = [str(name) for name in outputs if name != "status"]
-        if len(names) != 1:
-            raise ValueError(f"outputs are {names}; allowed: one, choose with [name]")
-        swept = outputs[names[0]]
-    return layout_of(Field.of_sweep(swept))
+    outputs = getattr(swept, "data_vars", {"": swept})
+    names = [name for name in outputs if name != "status"]
+    if len(names) != 1:
+        raise ValueError(f"outputs are {names}; allowed: one, choose with [name]")
+    return layout_of(Field.of_sweep(outputs[names[0]]))
 
 
 def __getattr__(name: str) -> Callable[..., Figure]:

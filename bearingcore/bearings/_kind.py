@@ -14,8 +14,7 @@ from bearingcore.bearings._drawing import Derived
 from bearingcore.bearings._hertz import RaceContact
 from bearingcore.bearings._in_rows import InRows
 from bearingcore.bearings._line_contact import RollerContact
-from bearingcore.common import Array
-from bearingcore.common import _checks as checks
+from bearingcore.common import Array, _checks as checks
 
 DIRECTIONS = ("x", "y", "z", "rx", "ry")
 """Displacements of the inner ring against the outer one: along x, y, z, rotations about x, y."""

@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from bearingcore.common import _checks as checks
-from bearingcore.common import cached_property
+from bearingcore.common import _checks as checks, cached_property
 
 GREATEST_CONTACT_ANGLE = math.radians(80.0)
 """Beyond this angle a bearing is a thrust bearing, and a radial clearance has no meaning."""

@@ -7,8 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from bearingcore.common import Array, count
-from bearingcore.common import _checks as checks
+from bearingcore.common import Array, _checks as checks, count
 
 DIRECTIONS = ("x", "y")
 

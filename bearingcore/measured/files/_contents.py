@@ -12,10 +12,8 @@ from types import MappingProxyType
 
 import numpy as np
 
-from bearingcore.common import Array, number
-from bearingcore.common import _checks as checks
-from bearingcore.measured.files import _dates as dates
-from bearingcore.measured.files import _facts as facts
+from bearingcore.common import Array, _checks as checks, number
+from bearingcore.measured.files import _dates as dates, _facts as facts
 from bearingcore.measured.files._channels import (
     OTHER,
     SIGNAL,

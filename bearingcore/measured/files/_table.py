@@ -16,8 +16,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from bearingcore.common import Array, cached_property, count, number, runs
-from bearingcore.common import _checks as checks
+from bearingcore.common import Array, _checks as checks, cached_property, count, number, runs
 from bearingcore.measured.files._channels import OTHER, ROLES, SIGNAL, SPEED, TIME, Column
 from bearingcore.measured.files._child import MOST_NUMBERS, read_file
 from bearingcore.measured.files._contents import FileColumns, FileContents, contents_of

@@ -12,8 +12,7 @@ from bearingcore.bearings import Bearing, bearing_of
 from bearingcore.bearings._kind import DIRECTIONS
 from bearingcore.bearings._kinds import recognized
 from bearingcore.bearings._line_contact import mended_factor
-from bearingcore.common import _checks as checks
-from bearingcore.common import _scene_file as scene_file
+from bearingcore.common import _checks as checks, _scene_file as scene_file
 from bearingcore.model.scene._defect import Defect, path_tables
 from bearingcore.model.scene._load import Load
 from bearingcore.model.scene._support import Support

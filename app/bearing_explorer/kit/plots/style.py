@@ -27,9 +27,7 @@ from bokeh.models import (
 )
 from bokeh.plotting import figure
 
-from bearingcore.common import PREFIXES, prefix_power
-from bearingcore.common import number as number
-from bearingcore.common import with_prefix as with_prefix
+from bearingcore.common import PREFIXES, number as number, prefix_power, with_prefix as with_prefix
 
 DEFECTIVE = "#0072B2"
 """The bearing as the sliders have it."""

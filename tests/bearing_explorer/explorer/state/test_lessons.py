@@ -30,8 +30,7 @@ from bearing_explorer.explorer.state.lessons import (
 )
 from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.page import SECTIONS, TABS
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from bearingcore import (
     DOF_NAMES,

@@ -48,7 +48,7 @@ def machine(
     )
     kept = (index >= 0) & (index < len(time))
     ringing = np.bincount(index[kept], (blow[:, None] * ring)[kept], len(time))
-    signal = rng.standard_normal(len(time)) + ringing / ringing.std()
+    signal = rng.standard_normal(len(time)) + 1.4 * ringing / ringing.std()
     for multiple, height in ((1, 0.5), (2, 0.25), (3, 0.2)):
         signal += height * np.cos(TURN * (multiple * turns + rng.uniform()))
     return time, signal, turns

@@ -41,9 +41,6 @@ from .measured.diagnosis import (
 from .measured.diagnosis import (
     diagnose as diagnose,
 )
-from .measured.diagnosis import (
-    explaining_bearings as explaining_bearings,
-)
 from .measured.files import (
     Table as Table,
 )
@@ -100,9 +97,6 @@ from .model.dynamics import (
 )
 from .model.dynamics import (
     SpeedRun as SpeedRun,
-)
-from .model.dynamics import (
-    compare_motions as compare_motions,
 )
 from .model.dynamics import (
     contact_damping as contact_damping,
@@ -168,9 +162,6 @@ from .model.scene import (
     Support as Support,
 )
 from .model.scene import (
-    measured_floor as measured_floor,
-)
-from .model.scene import (
     preset_notes as preset_notes,
 )
 from .model.scene import (
@@ -223,9 +214,6 @@ from .model.statics import (
 )
 from .model.statics import (
     scene_of as scene_of,
-)
-from .model.statics import (
-    static_ranges as static_ranges,
 )
 from .model.statics import (
     static_state as static_state,

@@ -19,9 +19,9 @@ _short.maxstring = _short.maxother = _short.maxlong = 80  # a value may be a who
 
 
 class Status(enum.StrEnum):
-    """Outcome of a solver. A member equals its text, so files and tables hold that.
+    """Outcome of a solver. A member equals its text, which files and tables hold.
 
-    Members are a text, or a text and the status in words: its `sentence`, else the text itself.
+    A member is a text, or a text and a sentence; `sentence` is the latter, or else the text.
     """
 
     sentence: str
@@ -80,16 +80,16 @@ class FieldError(ValueError):
     Parameters
     ----------
     field
-        name of the field, as `Scene.replace` or the function that refused knows it.
+        name of the field, as in `Scene.replace` or the function that refused it.
     value
-        the value that was given [unit].
+        the refused value [unit].
     allowed
         the values that are allowed: an `Interval` [unit], or words. In words ``{name}`` stands for
         a field and ``{name:unit}`` for its number, both out of `numbers`.
     unit
         SI unit of the value and of the bounds of an interval; empty where it is not said.
     numbers
-        numbers that the words speak of, by name, in the unit given there.
+        numbers in the words, by name, in the unit given there.
     where
         the parts that the field is in, outermost first: ("row 2",), ("line 7",).
     """
@@ -109,7 +109,7 @@ class FieldError(ValueError):
         self.numbers, self.where = dict(numbers), where
 
     def inside(self, where: str) -> Self:
-        """The same error of a part: ``error.inside("row 2")``."""
+        """Return the same error for a part: ``error.inside("row 2")``."""
         return type(self)(
             self.field, self.value, self.allowed, self.unit, self.numbers, (where, *self.where)
         )

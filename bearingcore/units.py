@@ -87,10 +87,10 @@ def units_like(unit: str) -> list[str]:
 
 def factor_between(given: str, wanted: str) -> float | None:
     """Factor from `given` to `wanted`; None between units of different kinds."""
-    one, other = UNITS.get(given), UNITS.get(wanted)
-    if one is None or other is None or one.si != other.si:
+    first, other = UNITS.get(given), UNITS.get(wanted)
+    if first is None or other is None or first.si != other.si:
         return None
-    return one.factor * (1.0 / other.factor)
+    return first.factor * (1.0 / other.factor)
 
 
 _SPELLINGS = {
@@ -147,15 +147,15 @@ def read_number(text: str, unit: str) -> float:
         for what is no number, or one in a unit of another kind.
     """
     plain = " ".join(text.replace("−", "-").replace(",", ".").split())
-    found = _WITH_UNIT.fullmatch(plain)
-    if found is None:
+    match = _WITH_UNIT.fullmatch(plain)
+    if match is None:
         raise ValueError(f"“{text}” is not a number")
-    value = float(found["number"])
-    if found["below"]:
-        below = float(found["below"])
-        part = float(found["above"] or value) / below if below else math.nan
-        value = math.copysign(abs(value) + part, value) if found["above"] else part
-    factor = _factor_of((found["unit"] or unit).strip(), unit)
+    value = float(match["number"])
+    if match["below"]:
+        below = float(match["below"])
+        part = float(match["above"] or value) / below if below else math.nan
+        value = math.copysign(abs(value) + part, value) if match["above"] else part
+    factor = _factor_of((match["unit"] or unit).strip(), unit)
     if factor is None or not math.isfinite(value):
         raise ValueError(f"“{text}” is no number in {unit}" if unit else f"“{text}” is no number")
     return value * factor

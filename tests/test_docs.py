@@ -18,8 +18,8 @@ DOCS = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "assets/do
 def test_the_api_reference_holds_every_public_name_as_it_is(name: str) -> None:
     """With the arguments it has today: who changes one builds the reference anew."""
     text = (ROOT / "assets/docs/API.md").read_text(encoding="utf-8")
-    _, found, rest = text.partition(f"### `bearingcore.{name}`\n")
-    assert found, "see CONTRIBUTING.md for the command that builds it"
+    _, heading, rest = text.partition(f"### `bearingcore.{name}`\n")
+    assert heading, "see CONTRIBUTING.md for the command that builds it"
     own = rest.partition("\n### `")[0]
     thing = getattr(bearingcore, name)
     if inspect.isfunction(thing):

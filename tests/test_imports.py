@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-PACKAGES = ("bearingcore",)
+PACKAGES = ("bearingcore", "bearing_explorer")
 
 
 def files_of(package: str) -> dict[str, Path]:

@@ -91,11 +91,11 @@ def test_newton_without_a_line_search_fails_now_and_then() -> None:
         )
         balls = Balls(scene, rng.uniform(0.0, scene.bearing.ball_spacing))
         failures += bool(newton(balls, fair_guess(balls), steps=50).failure)
-        found = equilibrium(scene, [balls.cage_angle])
+        state = equilibrium(scene, [balls.cage_angle])
         # a few bearings are pressed out of their grooves: their balance is found too
-        beyond += found.status[0] == kernels.BEYOND
-        assert found.converged[0] or found.status[0] == kernels.BEYOND
-        assert found.residual[0] <= 1e-9
+        beyond += state.status[0] == kernels.BEYOND
+        assert state.converged[0] or state.status[0] == kernels.BEYOND
+        assert state.residual[0] <= 1e-9
     assert 2 <= failures <= 50
     assert beyond < 10
 
@@ -134,9 +134,9 @@ def test_a_ball_is_stuck_between_its_contacts() -> None:
     inner, outer = scene.bearing.race_factors
     assert inner > outer
     force = scene.bearing.centrifugal_load(15_000 * math.pi / 30.0)
-    found = ball_positions(scene, [0.0], centrifugal_load=force)
-    assert found.converged[0]
-    Q_i, Q_e = found.load[:, 0, int(np.argmax(found.load[0, 0]))]
+    positions = ball_positions(scene, [0.0], centrifugal_load=force)
+    assert positions.converged[0]
+    Q_i, Q_e = positions.load[:, 0, int(np.argmax(positions.load[0, 0]))]
     assert Q_e - Q_i == pytest.approx(force, rel=1e-9)
     place = (Q_e / outer) ** (2.0 / 3.0)
     both = place + (Q_i / inner) ** (2.0 / 3.0)
@@ -164,10 +164,10 @@ def by_scipy(duration: float, rtol: float, atol: float) -> Array:
 
 def test_default_tolerances_are_the_size_of_the_signal() -> None:
     """An absolute tolerance of 1e-6 m lets through errors of a fifth of all that moves."""
-    found = simulate(FAN_RIG, 0.05, RATE, step_rate=RATE).outer_acceleration
+    acceleration = simulate(FAN_RIG, 0.05, RATE, step_rate=RATE).outer_acceleration
     right, wrong = (by_scipy(0.05, *limits) for limits in ((1e-6, 1e-12), (1e-3, 1e-6)))
-    assert (right - found).std() < 0.02 * found.std()
-    assert (wrong - found).std() > 0.15 * found.std()
+    assert (right - acceleration).std() < 0.02 * acceleration.std()
+    assert (wrong - acceleration).std() > 0.15 * acceleration.std()
 
 
 def pushes(motion: Motion) -> tuple[Array, Array]:

@@ -148,21 +148,21 @@ def main(arguments: Sequence[str] | None = None) -> int:
     gc.disable()  # nothing of what is loaded is garbage, and looking takes an eighth of the time
     from bearing_explorer.kit.compute import compiling
     from bearing_explorer.kit.serve.serving import Limits, freeze_startup_objects, make_server
-    from bearing_explorer.page import faults_of, lessons_of, page
+    from bearing_explorer.page import faults_of, lessons_of, page, scene
 
     for sentence in faults_of(chosen.lessons) if chosen.lessons else ():
         _say(f"Lessons: {sentence}")
-    from bearingcore import warm
-    from bearingcore.model import kept_on_disk
+    from bearingcore import model, warm
 
     gc.freeze()
     gc.enable()
     lessons_of(chosen.lessons)  # kept: the first page need not read them
-    if not kept_on_disk():
+    compiled = scene is None or compiling.all_on_disk()
+    if scene is not None and not model.kept_on_disk():
         _say(NOT_KEPT)
-    if not compiling.all_on_disk():
+    if not compiled:
         _say("Compiling the kernels, once; pages show the default scene meanwhile ...")
-    if chosen.num_procs > 1:  # before they part: a thread would stay with one of them
+    if scene is not None and chosen.num_procs > 1:  # a thread would stay with one of them
         warm(report=_say)
 
     # With several processes this one only waits for them, inside `serve`.
@@ -200,12 +200,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
     shown = "localhost" if chosen.address in ("0.0.0.0", "::", "127.0.0.1") else chosen.address
     url = f"http://{shown}:{server.port}{server.prefix}/"
 
-    compiling.begin(
-        _say if chosen.num_procs == 1 else str,
-        lambda: loop.add_callback(freeze_startup_objects),
-    )
-    # a later start reads machine code from disk, and need not begin with pages of no use
-    compiling.wait(READ_FROM_DISK if compiling.all_on_disk() else 0.0)
+    if scene is None:
+        loop.add_callback(freeze_startup_objects)
+    else:
+        scene.begin_compiling(
+            report=_say if chosen.num_procs == 1 else str,
+            done=lambda: loop.add_callback(freeze_startup_objects),
+        )
+        # a later start reads machine code from disk, and need not begin with pages of no use
+        compiling.wait(READ_FROM_DISK if compiled else 0.0)
     server.start()
     _say(f"Ready after {time.perf_counter() - started:.1f} s: {url} (Ctrl+C ends)")
     if not chosen.no_browser:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
+from bearing_explorer.explorer.results.default_results import NAME, write
 from bearing_explorer.kit.compute import cache
-from bearing_explorer.kit.compute.default_results import NAME, write
 from bearing_explorer.kit.pictures import Picture, picture_of
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.page import SECTIONS, Halves
@@ -24,7 +24,7 @@ def draw_all() -> list[Picture]:
             views = [view(PackedSource()) for view in section.views]
             for rested in (False, True):
                 content = moving.at_rest(rested)
-                pictures.append(picture_of(content, views, limits=True))
+                pictures.append(picture_of(content, views, warnings=True))
     return pictures
 
 

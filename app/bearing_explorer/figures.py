@@ -18,7 +18,6 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from bearing_explorer.kit.plots.color_scales import DIVERGING, SEQUENTIAL, hex_colors
-from bearing_explorer.kit.plots.plane import Field, color_limits
 from bearing_explorer.kit.views.base import View
 from bearing_explorer.kit.views.still_figure import Figure
 from bearing_explorer.page import SECTIONS, figure_of
@@ -47,6 +46,8 @@ def of_sweep(found: DataArray) -> hv.AdjointLayout:
     """
     import holoviews as hv
     import holoviews.plotting.bokeh  # what `opts` may say; hv.extension asks other computers
+
+    from bearing_explorer.explorer.plots.plane import Field, color_limits
 
     hv.Store.set_current_backend("bokeh")
     field = Field.of_sweep(found)

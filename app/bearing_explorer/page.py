@@ -13,7 +13,6 @@ from urllib.parse import urlencode
 import panel as pn
 
 from bearing_explorer.kit.assets import asset_text, scripts
-from bearing_explorer.kit.compute import compiling
 from bearing_explorer.kit.plots.theme import dark_properties, themes
 from bearing_explorer.kit.serve.bokeh_internals import PLAIN
 from bearing_explorer.kit.serve.live import on_loop
@@ -116,7 +115,9 @@ def _for_teachers() -> str:
 
 def lessons_of(folder: Path | None = None) -> Any:
     """The lessons of a folder, or those that come along; read once."""
-    return scene.lessons_in(folder or scene.own_folder(), TABS) if scene else ()
+    if scene is None:
+        return ()
+    return scene.lessons_in(folder, TABS) if folder else scene.own_lessons(TABS)
 
 
 def faults_of(folder: Path) -> tuple[str, ...]:
@@ -126,7 +127,8 @@ def faults_of(folder: Path) -> tuple[str, ...]:
 
 def page(lessons: Path | None = None) -> PageTemplate:
     """The page of a new session; `lessons` is a folder with other ones."""
-    compiling.begin()
+    if scene is not None:
+        scene.begin_compiling()
     halves = Halves(address(), lessons_of(lessons))
     session, explorer = halves.session, halves.explorer
     template = PageTemplate(_frame())

@@ -1,4 +1,4 @@
-// A cursor with harmonics and sidebands in a spectrum. See app/bearing_explorer/kit/plots/frequency_cursor.py.
+// A cursor with harmonics and sidebands in a spectrum. See app/bearing_explorer/diagnosis/views/frequency_cursor.py.
 // `lines.tags` holds the cursor's frequency [Hz], so that it stays when the axis changes.
 const SIDES = 3, MOST = 60
 const {shaft, cage, hertz} = turning.data

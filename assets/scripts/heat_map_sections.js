@@ -1,5 +1,5 @@
 // Draws the lines across a map at the pointer, or where the scene is, or through the middle.
-// See app/bearing_explorer/kit/plots/plane.py. sideways: the line runs to the right; else upwards.
+// See app/bearing_explorer/explorer/plots/plane.py. sideways: the line runs to the right; else upwards.
 const {data} = image
 const [left, bottom, width, height] = [data.x[0], data.y[0], data.dw[0], data.dh[0]]
 const scene = mark.data.x.length ? [mark.data.x[0], mark.data.y[0]] : [left + width/2, bottom + height/2]

@@ -50,18 +50,18 @@ class Bearing(InRows):
         distance A0 [m] between the groove centres of an unloaded ball (Eqs. 9, 10). None of
         rollers, whose line of contact is fixed; a number of old files is taken off.
     radial_clearance
-        r_L [m], on top of the contact angle (Eq. 11); below 0 an interference fit, which
-        compresses the elements by as much without a load.
+        r_L [m], in addition to the contact angle (Eq. 11); below 0 an interference fit, which
+        compresses the elements by this amount without a load.
     load_deflection_factor
         K [N/m^1.5] of both contacts of a ball in series (Eq. 13).
     outer_raceway_radius, inner_raceway_radius
         radii R_o and R_i [m] at the bottom of the grooves; defects are cut there (Eq. 6).
     inner_groove_radius, outer_groove_radius, youngs_modulus, poisson
-        r_i, r_o [m], E [Pa] and ν where the drawing is known, all four of them: contact pressure
+        r_i, r_o [m], E [Pa] and ν, all four of them, if the drawing is known: contact pressure
         needs them. `from_drawing` derives K, A0, r_d, R_o and R_i from them, `replace` again.
     rows
-        none for one row at the middle of the bearing; else each `Row`. `n_balls` and dimensions are
-        those of every row that has none of its own.
+        empty for one row at the middle of the bearing; else each `Row`. A row without its own
+        number of balls or dimensions takes those of the bearing.
     roller_length
         [m] of cylindrical rollers, which replace balls: line contact, K in N/m^(10/9),
         radial directions only. None for balls.
@@ -73,15 +73,15 @@ class Bearing(InRows):
         `youngs_modulus` and `poisson` are then those of the rings; see `with_balls_of`. None: as of
         the rings. Only with a drawing: K given as a number is that of both materials together.
     kind
-        a `Kind` or its name, out of `bearingcore.bearings._kinds`. Empty: the one whose numbers
-        these are, as in files that do not say it.
+        a `Kind` or its name, out of `bearingcore.bearings._kinds`. Empty: the kind follows from the
+        other fields, as in files without it.
     estimated
-        names of fields out of ESTIMATES whose numbers are estimates, as of bearings known by their
-        designation alone (`bearingcore.bearings._designation`). `replace` takes those off that it
-        gives a number.
+        names of fields out of ESTIMATES whose numbers are estimates, as for bearings known by their
+        designation (`bearingcore.bearings._designation`). `replace` removes a name when it sets
+        the field.
     dynamic_load_rating
-        C_r [N] of the whole bearing by a catalogue, as of bearings known by their designation; None
-        where it is not known. `replace` takes it off where it changes what is rated.
+        C_r [N] of the whole bearing by a catalogue, as for bearings known by their designation;
+        None if it is not known. `replace` removes it when a rated dimension changes.
 
     Raises
     ------
@@ -279,12 +279,12 @@ class Bearing(InRows):
 
     @property
     def row_distance(self) -> float | None:
-        """Distance [m] of two rows along the shaft; None of another number of rows."""
+        """Distance [m] of two rows along the shaft; None for any other number of rows."""
         return self.rows[1].place - self.rows[0].place if len(self.rows) == 2 else None
 
     @property
     def preload(self) -> float | None:
-        """Displacement [m] of the inner grooves of a pair against each other; None of any other."""
+        """Displacement [m] of a pair's inner grooves against each other; None without a pair."""
         if not self.arrangement:
             return None
         low, high = self.rows
@@ -292,26 +292,26 @@ class Bearing(InRows):
 
     @property
     def arrangement(self) -> str:
-        """Arrangement of a pair, out of ARRANGEMENTS; empty of one row and of any other rows."""
+        """Arrangement of a pair, out of ARRANGEMENTS; empty without a pair."""
         return self.kind.arrangement(self)
 
     @property
     def contact(self) -> Contact:
-        """The contact of each element, by the bearing's own numbers; of a row, `of_row`'s."""
+        """The contact of each element by the bearing's own numbers; for a row see `of_row`."""
         return self.kind.contact(self)
 
     @property
     def is_flat(self) -> bool:
-        """True where a radial load moves nothing out of the plane of the balls."""
+        """True if a radial load moves nothing out of the plane of the balls."""
         return self.contact_angle == 0.0 and all(
             row.place == 0.0 and not self.unlike(row) for row in self.all_rows
         )
 
     def replace(self, **changes: Any) -> Self:
-        """A bearing with fields changed. What follows from a drawing, or of rollers, follows.
+        """Return the bearing with changed fields; derived fields follow.
 
-        A derived field (A0, r_d, K, R_o, R_i) that was set apart from what the drawing gives keeps
-        its proportion to it; one named in `changes` is taken as it is.
+        A derived field (A0, r_d, K, R_o, R_i) that differs from the value by the drawing keeps its
+        ratio to that value; one that is named in `changes` is taken as it is.
         """
         kept = {"estimated": tuple(name for name in self.estimated if name not in changes)}
         changes = self.kind.completed(self, kept | changes)
@@ -424,49 +424,49 @@ class Bearing(InRows):
 
     @property
     def rated(self) -> tuple[object, ...]:
-        """Numbers that C_r depends on: dimensions, and what each row has of its own.
+        """Numbers that C_r depends on: dimensions of the bearing and of each row.
 
-        Not among them is what shifts loads, but no dimension: clearance, preload, the places of
-        rows and how they face.
+        Clearance, preload, and the places and arrangement of rows are not among them: they shift
+        loads only.
         """
         rows = tuple(tuple(self.unlike(row).items()) for row in self.all_rows)
         return tuple(getattr(self, name) for name in RATED), rows
 
     @property
     def ball_material(self) -> str:
-        """Name out of `BALL_MATERIALS` that the balls are of; empty where it is none of them.
+        """Material of the balls, a name out of `BALL_MATERIALS`; empty for any other.
 
-        The density does not count: it may be set apart from the stiffness.
+        The density does not matter: it may be set independently of the stiffness.
         """
         if not self.is_hybrid:
             return "steel"
         own = (self.ball_youngs_modulus, self.ball_poisson)
-        return next((name for name, one in BALL_MATERIALS.items() if one[:2] == own), "")
+        return next((name for name, material in BALL_MATERIALS.items() if material[:2] == own), "")
 
     @property
     def knows_contacts(self) -> bool:
-        """True where `race_contact` has an answer."""
+        """True if `race_contact` has an answer."""
         return self.kind.knows_contacts(self)
 
     def race_contact(self, race: str) -> RaceContact | RollerContact:
-        """Hertzian contact of a ball or roller with a race, "outer" or "inner".
+        """Return the Hertzian contact of a ball or roller with a race, "outer" or "inner".
 
-        Rollers are of steel. Of a self-aligning bearing groove radius and modulus follow from its
-        numbers, with a Poisson's ratio of 0.3. ValueError where a bearing does not carry its
+        Rollers are of steel. For a self-aligning bearing groove radius and modulus follow from its
+        numbers, with a Poisson's ratio of 0.3. Raises ValueError if a bearing does not carry its
         drawing.
         """
         return self.kind.race_contact(self, checks.choice("race", race, ("outer", "inner")))
 
     def groove_radius(self, race: str) -> float | None:
-        """Radius [m] of a race across the rolling, "outer" or "inner"; None where not known.
+        """Radius [m] of a race, "outer" or "inner", across the rolling direction; None if unknown.
 
-        Of a self-aligning bearing R_e and r_i = A0 + D_b − R_e; rollers run in no groove.
+        For a self-aligning bearing R_e and r_i = A0 + D_b − R_e; rollers have no groove.
         """
         return self.kind.groove_radius(self, checks.choice("race", race, ("outer", "inner")))
 
     @property
     def diametral_play(self) -> float:
-        """Sideways play of the inner ring from contact to contact [m], see `Contact.play`."""
+        """Radial play of the inner ring from contact to contact [m], see `Contact.play`."""
         return self.contact.play(self.radial_clearance)
 
     @property
@@ -476,11 +476,11 @@ class Bearing(InRows):
 
     @property
     def ball_mass(self) -> float:
-        """Mass of a ball or roller [kg], of its density throughout."""
+        """Mass of a solid ball or roller [kg]."""
         return self.density * self.kind.volume(self)
 
     def centrifugal_load(self, shaft_speed: float) -> float:
-        """Centrifugal load F_c = m ω_c² D_p/2 [N] of a ball on the pitch circle; speed in rad/s."""
+        """Return the centrifugal load F_c = m ω_c² D_p/2 [N] of a ball; shaft speed in rad/s."""
         return self.ball_mass * self.cage_speed(shaft_speed) ** 2 * 0.5 * self.pitch_diameter
 
     @property

@@ -66,13 +66,13 @@ class CatalogueBearing:
     bearing
         with groove radii, steel on steel.
     dynamic_load_rating
-        C_r [N] as given, or None.
+        C_r [N] as stated in the table, or None.
     note
-        where the numbers come from, as given.
+        source of the numbers, as stated in the table.
     assumed
         values assumed for empty cells, in words.
     unread
-        letters of a designation of which no meaning is known.
+        letters of a designation without a known meaning.
     """
 
     name: str
@@ -91,12 +91,12 @@ def catalogue() -> Mapping[str, CatalogueBearing]:
 
 
 def read_catalogue(table: str | bytes) -> dict[str, CatalogueBearing]:
-    """The bearings of a CSV text, by name, in its order. See the head of the module.
+    """Read the bearings of a CSV text, by name, in its order. See the head of the module.
 
     Raises
     ------
     ValueError
-        that names the first fault by line and column, with the text found and what is allowed.
+        naming the first fault by line and column, with its text and the allowed values.
     """
     lines = _lines(_text(table))
     if not lines:
@@ -108,16 +108,16 @@ def read_catalogue(table: str | bytes) -> dict[str, CatalogueBearing]:
         raise checks.refuse(
             "table of bearings", f"{len(rows) - 1} bearings long", f"at most {MOST_BEARINGS}"
         )
-    found: dict[str, CatalogueBearing] = {}
+    entries: dict[str, CatalogueBearing] = {}
     for number, cells in rows[1:]:
         at = f"table of bearings: line {number}"
         entry = _bearing(at, _by_heading(at, headings, cells, separator), separator != ",")
-        if entry.name in found:
+        if entry.name in entries:
             raise checks.refuse(f"{at}, column name", entry.name, "a name of its own for each")
-        found[entry.name] = entry
-    if not found:
+        entries[entry.name] = entry
+    if not entries:
         raise checks.refuse("table of bearings", "headings alone", "a line for each bearing")
-    return found
+    return entries
 
 
 def _text(table: str | bytes) -> str:

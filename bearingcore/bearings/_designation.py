@@ -91,12 +91,12 @@ _ROWS_OF = {ANGULAR_CONTACT: ROWS_OF_BALLS, TAPERED_ROLLERS: ROWS_OF_ROLLERS} | 
 
 @dataclass(frozen=True)
 class Designation:
-    """A bearing as its designation gives it.
+    """A bearing known by its designation.
 
     Attributes
     ----------
     name
-        as it was given, in capitals but for an arrangement in words.
+        as given, in capitals except for an arrangement in words.
     basic
         the number without suffix, as the table has it: "6208", "NU208", "61804".
     kind
@@ -112,11 +112,11 @@ class Designation:
     bearing
         with estimated inside dimensions.
     assumed
-        what the designation does not say, in words.
+        assumptions beyond the designation, in words.
     reinforced
-        the inside by its letters, where it is not the plain one of the number: "BECB".
+        letters of a reinforced inside, such as "BECB"; empty for the plain one.
     unread
-        letters behind the number of which no meaning is known.
+        letters behind the number without a known meaning.
     """
 
     name: str
@@ -134,7 +134,7 @@ class Designation:
 
     @property
     def entry(self) -> CatalogueBearing:
-        """The same as an entry of a list of bearings."""
+        """The bearing as an entry of a list of bearings."""
         kind = self.kind[0].upper() + self.kind[1:]
         if self.bearing.arrangement:
             stand = self.bearing.arrangement.replace("-", " ").replace("tandem", "in tandem")
@@ -162,12 +162,12 @@ class Designation:
 
 
 def read_designation(text: str) -> Designation:
-    """The bearing of a designation; case, spaces and the maker's name do not matter.
+    """Return the bearing of a designation; case, spaces and the maker's name do not matter.
 
     Raises
     ------
     ValueError
-        for what is no designation, or one of another series or size.
+        for a text that is no designation, or one of an unknown series or size.
     """
     checks.instance("designation", text, str, 'text such as "6205-2RS/C3"')
     form, basic = _form_and_basic(text)
@@ -258,8 +258,8 @@ def designations(beginning: str = "") -> Iterator[str]:
     own = re.match(r"NUP|NJ|N(?=\d)", wanted)
     letters = own[0] if own else ""
     table = f"NU{wanted.removeprefix(letters)}" if letters else wanted
-    found = (basic for basic in boundaries() if basic.startswith(table))
-    return (letters + basic.removeprefix("NU") if letters else basic for basic in found)
+    basics = (basic for basic in boundaries() if basic.startswith(table))
+    return (letters + basic.removeprefix("NU") if letters else basic for basic in basics)
 
 
 BY_FREQUENCIES = (
@@ -309,10 +309,10 @@ def _inside(kind: str, size: Boundary, angle: float) -> Inside:
 
 def _reinforced(name: str, basic: str, size: Boundary, inside: str) -> Boundary:
     """A line of the table with the ratings of a reinforced inside; refused where not tabulated."""
-    found = [row[inside] for row in rows_of("reinforced.csv") if row["designation"] == basic]
-    if not found or not found[0]:
+    rows = [row[inside] for row in rows_of("reinforced.csv") if row["designation"] == basic]
+    if not rows or not rows[0]:
         raise checks.refuse("designation", name, REINFORCED)
-    C, C_0, *Y_1 = map(float, found[0].split())
+    C, C_0, *Y_1 = map(float, rows[0].split())
     axial = Y_1[0] if Y_1 else size.axial_factor
     return size._replace(
         dynamic_rating=1e3 * C, static_rating=1e3 * C_0, axial_factor=axial, factor=math.nan

@@ -48,12 +48,12 @@ _UNITS = Boundary(1e-3, 1e-3, 1e-3, 1e3, 1e3, 1.0, 1e-3, 1e-3, 1.0, 1e-3, 1e-3, 
 @cache
 def boundaries() -> Mapping[str, Boundary]:
     """Boundary dimensions and ratings by basic number."""
-    found = {}
+    table = {}
     for row in rows_of("designations.csv"):
         values = [float(cell) if cell else math.nan for cell in list(row.values())[1:]]
         scaled = (value * unit for value, unit in zip(values, _UNITS, strict=True))
-        found[row["designation"]] = Boundary(*scaled)
-    return found
+        table[row["designation"]] = Boundary(*scaled)
+    return table
 
 
 def series_of(basic: str) -> str:

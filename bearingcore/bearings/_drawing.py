@@ -91,14 +91,14 @@ def checked(values: Mapping[str, Any]) -> dict[str, float]:
             if values[name] is not None:
                 raise checks.refuse(name, values[name], "None, unless the bearing has groove radii")
         return {}
-    found = {}
+    numbers = {}
     for name in GROOVES:
         race = name.partition("_")[0]
-        found[name] = check_groove(race, values[name], values["ball_diameter"])
+        numbers[name] = check_groove(race, values[name], values["ball_diameter"])
     for name in ("youngs_modulus", "poisson", *BALL_MATERIAL):
         if values[name] is not None or name not in BALL_MATERIAL:
-            found[name] = check_material(name, values[name])
-    return found
+            numbers[name] = check_material(name, values[name])
+    return numbers
 
 
 def check_fit(values: Mapping[str, Any]) -> None:

@@ -51,7 +51,7 @@ def bearing_of_frequencies(orders: Mapping[str, float], pitch_diameter: float) -
     balls, gamma = _balls_and_ratio(known)
     ratio, angle = _shape(gamma, known.get("bsf"))
     ball = ratio * pitch_diameter
-    found = Bearing.from_drawing(
+    bearing = Bearing.from_drawing(
         balls,
         ball,
         pitch_diameter,
@@ -60,7 +60,7 @@ def bearing_of_frequencies(orders: Mapping[str, float], pitch_diameter: float) -
         contact_angle=angle,
         diametral_clearance=0.0,
     )
-    return found.replace(estimated=("ball_diameter", "pitch_diameter"))
+    return bearing.replace(estimated=("ball_diameter", "pitch_diameter"))
 
 
 def _balls_and_ratio(known: Mapping[str, float]) -> tuple[int, float]:

@@ -271,7 +271,7 @@ def tapered_rollers_from_ratings(
     known = (0.5 * (outside_diameter - bore), pitch, cosine, dynamic_rating, static_rating)
     each = [_tapered(count, *known) for count in range(8, MOST_BALLS + 1)]
     full = math.pi * TAPERED_FILL
-    return min(each, key=lambda one: abs(one.n_balls * one.ball_diameter / pitch - full))
+    return min(each, key=lambda inside: abs(inside.n_balls * inside.ball_diameter / pitch - full))
 
 
 def _tapered(

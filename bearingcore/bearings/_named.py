@@ -51,14 +51,14 @@ def name_of(bearing: Bearing) -> str:
 
     Of a bearing that a number gives but for its clearance, which is of no class, that number.
     """
-    for name, one in catalogue().items():
-        if one.bearing == bearing:
+    for name, entry in catalogue().items():
+        if entry.bearing == bearing:
             return name
     for name in (f"{basic}{angle}" for basic in _alike(bearing) for angle in _ANGLES):
         made = _made(name)
         if made and made.replace(radial_clearance=bearing.radial_clearance) == bearing:
             whole = (f"{name}{suffix}" for suffix in _CLEARANCES)
-            return next((one for one in whole if _made(one) == bearing), name)
+            return next((name for name in whole if _made(name) == bearing), name)
     return ""
 
 

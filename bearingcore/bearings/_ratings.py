@@ -146,7 +146,7 @@ def _static_factors(self_aligning: bool) -> tuple[float, ...]:
             else race_contact("outer", D, pitch, USUAL_GROOVES["outer"] * D, 0.0, modulus, poisson)
         )
         inner = race_contact("inner", D, pitch, groove, 0.0, modulus, poisson)
-        greatest = max(float(one.greatest_pressure(1.0)) for one in (inner, outer))
+        greatest = max(float(radius.greatest_pressure(1.0)) for radius in (inner, outer))
         return (allowed / greatest) ** 3 / 5.0 / (1e3 * D) ** 2
 
     return tuple(factor(0.01 * k) for k in range(1, 41))

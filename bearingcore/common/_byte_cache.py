@@ -41,7 +41,7 @@ def lru_cache_by_bytes(
         return hashkey(key(*arguments, **named)) if key else hashkey(*arguments, **named)
 
     def decorate(function: Callable[P, Result]) -> Callable[P, Result]:
-        kept: LRUCache[Hashable, tuple[Result, int]] = LRUCache(most_bytes, lambda found: found[1])
+        kept: LRUCache[Hashable, tuple[Result, int]] = LRUCache(most_bytes, lambda entry: entry[1])
 
         @cached(kept, of, Lock())
         def sized(*arguments: P.args, **named: P.kwargs) -> tuple[Result, int]:
@@ -49,9 +49,9 @@ def lru_cache_by_bytes(
             return result, OVERHEAD + size(result, *arguments, **named)
 
         @wraps(function)
-        def found(*arguments: P.args, **named: P.kwargs) -> Result:
+        def cached_call(*arguments: P.args, **named: P.kwargs) -> Result:
             return sized(*arguments, **named)[0]
 
-        return found
+        return cached_call
 
     return decorate

@@ -142,17 +142,17 @@ def span(low: float, high: float, unit: str, digits: int = 3) -> str:
     """From the least to the greatest number: "365 to 436 Hz", or "670 Hz" where they look alike."""
     if not (math.isfinite(low) and math.isfinite(high)):
         return NO_VALUE
-    one, other = number(low, digits), number(high, digits)
-    return f"{one} {unit}" if one == other else f"{one} to {other} {unit}"
+    low_text, other = number(low, digits), number(high, digits)
+    return f"{low_text} {unit}" if low_text == other else f"{low_text} to {other} {unit}"
 
 
 def prefixed_span(low: float, high: float, unit: str) -> str:
     """From the least to the greatest number with a prefix: "11.1 to 20.1 MN/m"."""
-    one, other = with_prefix(low, unit), with_prefix(high, unit)
-    first, its_unit = one.rsplit(" ", 1)
-    if one == other or not (math.isfinite(low) and math.isfinite(high)):
+    low_text, other = with_prefix(low, unit), with_prefix(high, unit)
+    first, its_unit = low_text.rsplit(" ", 1)
+    if low_text == other or not (math.isfinite(low) and math.isfinite(high)):
         return other
-    return f"{first if low == 0.0 or other.endswith(f' {its_unit}') else one} to {other}"
+    return f"{first if low == 0.0 or other.endswith(f' {its_unit}') else low_text} to {other}"
 
 
 def with_deviation(value: float, deviation: float, unit: str) -> str:

@@ -82,9 +82,9 @@ class Column:
 
 
 class ResultTable(Mapping[str, NDArray[Any]]):
-    """Columns of a result by name: `table["k_yy"]` its numbers, `unit("k_yy")` their unit.
+    """Columns of a result by name: `table["k_yy"]` has its numbers, `unit("k_yy")` their unit.
 
-    Columns may differ in length where a result has several kinds of rows.
+    Columns differ in length if a result has several kinds of rows.
     """
 
     def __init__(self, columns: Iterable[Column]) -> None:
@@ -107,27 +107,27 @@ class ResultTable(Mapping[str, NDArray[Any]]):
         return len(self.columns)
 
     def unit(self, name: str) -> str:
-        """Unit of a column."""
+        """Return the unit of a column."""
         return self._by_name[name].unit
 
     def meaning(self, name: str) -> str:
-        """Meaning of a column, in a few words."""
+        """Return the meaning of a column, in a few words."""
         return self._by_name[name].meaning
 
     def in_units(self, units: Mapping[str, str] = READ_UNITS) -> ResultTable:
-        """The table in other units: `{"rad": "deg"}` turns every column in rad into one in deg."""
+        """Return the table in other units: `{"rad": "deg"}` converts every column in rad to deg."""
         return ResultTable(
             column.within(units.get(column.unit, column.unit)) for column in self.columns
         )
 
     def prefixed(self, prefix: str) -> ResultTable:
-        """The table with a word before each name, so that two can stand side by side."""
+        """Return the table with a prefix before each name, to combine it with another."""
         return ResultTable(
             Column(f"{prefix}_{c.name}", c.unit, c.values, c.meaning) for c in self.columns
         )
 
     def only(self, *names: str) -> ResultTable:
-        """The columns of these names, in their order."""
+        """Return the columns of these names, in their order."""
         return ResultTable(self._by_name[name] for name in names)
 
     def __or__(self, other: ResultTable) -> ResultTable:
@@ -135,15 +135,15 @@ class ResultTable(Mapping[str, NDArray[Any]]):
         return ResultTable([*self.columns, *other.columns])
 
     def named(self) -> dict[str, NDArray[Any]]:
-        """The numbers under names that hold their units: "cage_angle_deg"."""
+        """Return the numbers under names with units: "cage_angle_deg"."""
         return {column.named: column.values for column in self.columns}
 
     def csv(self) -> str:
-        """Comma-separated text under names that hold their units; short columns end empty."""
+        """Return comma-separated text under names with units; short ones end with empty cells."""
         return as_csv(self.named())
 
     def frame(self) -> DataFrame:
-        """A pandas data frame under names that hold their units; short columns end in NaN."""
+        """Return a pandas data frame under names with units; short columns are filled with NaN."""
         import pandas as pd  # imported late: it takes as long as all of this package
 
         return pd.DataFrame({name: pd.Series(values) for name, values in self.named().items()})
@@ -155,15 +155,15 @@ class ResultTable(Mapping[str, NDArray[Any]]):
     def _lines(self) -> list[tuple[str, str, str]]:
         """A line a column of a single row: its name, its value with the unit, its meaning."""
         return [
-            (one.name, f"{_digits(one.values[0])} {_unit(one)}".rstrip(), one.meaning)
-            for one in self.columns
+            (column.name, f"{_digits(column.values[0])} {_unit(column)}".rstrip(), column.meaning)
+            for column in self.columns
         ]
 
     def _headed(self) -> DataFrame:
         size = self.columns[0].values.size  # what is as long as the first stands in its rows
-        alike = [one for one in self.columns if one.values.size == size]
-        heads = [f"{one.name} [{_unit(one)}]".removesuffix(" []") for one in alike]
-        return self.only(*(one.name for one in alike)).frame().set_axis(heads, axis=1)
+        alike = [column for column in self.columns if column.values.size == size]
+        heads = [f"{column.name} [{_unit(column)}]".removesuffix(" []") for column in alike]
+        return self.only(*(column.name for column in alike)).frame().set_axis(heads, axis=1)
 
     def __str__(self) -> str:
         """The table as text: of a single row a line a column, of many the first and last rows."""
@@ -172,7 +172,7 @@ class ResultTable(Mapping[str, NDArray[Any]]):
         lines = self._lines()
         name, value = (max(len(line[i]) for line in lines) for i in (0, 1))
         value = min(value, LONGEST_VALUE)
-        rows = (f"{one:<{name}}  {of:<{value}}  {what}".rstrip() for one, of, what in lines)
+        rows = (f"{title:<{name}}  {of:<{value}}  {what}".rstrip() for title, of, what in lines)
         return "\n".join(textwrap.fill(row, 100, subsequent_indent=" " * 4) for row in rows)
 
     def _repr_html_(self) -> str:
@@ -200,7 +200,7 @@ def table_of(
     made = []
     for name, unit, values, *meaning in columns:
         if isinstance(values, str):
-            values = [getattr(one, values) for one in of]
+            values = [getattr(column, values) for column in of]
         made.append(Column(name, unit, np.asarray(values).ravel(), meaning[0] if meaning else ""))
     return ResultTable(made)
 

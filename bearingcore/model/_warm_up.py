@@ -16,7 +16,7 @@ Report = Callable[[str], object]
 
 
 def warm(report: Report = print, parts: Iterable[str] | None = None) -> None:
-    """Call what statics, motions and orbits are computed by, with arguments of all types.
+    """Compile all kernels by calling them with arguments of all types.
 
     Parameters
     ----------

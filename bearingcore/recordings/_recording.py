@@ -20,22 +20,22 @@ FEWEST_SAMPLES = 256
 
 @dataclass(frozen=True)
 class Recording:
-    """Acceleration of the housing as it was measured, in SI units.
+    """Measured acceleration of the housing, in SI units.
 
     Attributes
     ----------
     acceleration : (n, d) [m/s²]
-        one column a direction.
+        one column per direction.
     sample_rate
         [Hz]
     directions
         of the columns: "x" (horizontal), "y" (vertical, up).
     name
-        where it comes from.
+        origin, such as the name of the file.
     shaft_speed
-        [rad/s] at the measurement, None where it is not known.
+        [rad/s] at the measurement; None if it is not known.
     notes
-        sentences on what was done to the signal, or left out of it.
+        sentences on changes of the signal, and on omissions.
 
     Raises
     ------

@@ -31,21 +31,21 @@ class Spectrum(NamedTuple):
     density: Array
 
     def up_to(self, frequency: float) -> Spectrum:
-        """The same, ending at a frequency [Hz]."""
+        """Return the spectrum up to a frequency [Hz]."""
         end = int(np.searchsorted(self.frequency, frequency, side="right"))
         return Spectrum(self.frequency[:end], self.density[:end])
 
     def powers(self, edges: ArrayLike) -> Array:
-        """Power (n,) or (n, k) [(unit of the signal)²] in bands between n + 1 edges [Hz]."""
+        """Return the power (n,) or (n, k) [(unit of the signal)²] between n + 1 edges [Hz]."""
         ends = np.searchsorted(self.frequency, edges)
         sums = [self.density[low:high].sum(axis=0) for low, high in pairwise(ends)]
         return np.array(sums) * (self.frequency[1] - self.frequency[0])
 
     def table(self, directions: Sequence[str] = (), unit: str = "(m/s²)²/Hz") -> ResultTable:
-        """A row a frequency: the density, of several signals named by `directions` or counted."""
+        """Return a row for each frequency, with densities named by `directions` or counted."""
         columns = self.density.reshape(len(self.frequency), -1).T
         named = directions or [str(k + 1) for k in range(len(columns))]
-        names = [f"density_{one}" for one in named]
+        names = [f"density_{direction}" for direction in named]
         if not directions and len(columns) == 1:
             names = ["density"]
         if len(names) != len(columns):
@@ -63,7 +63,7 @@ def spectrum(
     *,
     most_samples: int = MOST_SAMPLES,
 ) -> Spectrum:
-    """Spectrum by Welch's method: Hann window, segments of 1/resolution seconds, half overlapping.
+    """Compute a spectrum by Welch's method: Hann window, segments of 1/resolution s, half overlap.
 
     Parameters
     ----------
@@ -74,13 +74,13 @@ def spectrum(
     resolution
         [Hz] spacing of the frequencies, rounded so that a segment is a whole number of samples.
     most_samples
-        of all signals that may be taken.
+        limit on the samples of all signals together.
 
     Raises
     ------
     ValueError
-        where a sample is not finite, the signal is shorter than one segment, or there are more
-        samples than may be taken.
+        if a sample is not finite, the signal is shorter than one segment, or it has more samples
+        than `most_samples`.
     """
     from scipy.signal import welch  # imported late: it would double the time to import this package
 
@@ -102,11 +102,11 @@ def envelope_spectrum(
     *,
     most_samples: int = MOST_SAMPLES,
 ) -> Spectrum:
-    """Spectrum of the envelope of a signal inside a band: what rings there, and how often.
+    """Compute the spectrum of the envelope of a signal inside a band.
 
     The signal is filtered to the band without delay (Butterworth, forwards and backwards); its
-    envelope is the size of the analytic signal. Repeated knocks show as lines at their frequency
-    and its multiples, whatever they make ring.
+    envelope is the magnitude of the analytic signal. Repeated knocks show as lines at their
+    repetition frequency and its multiples, independent of the resonance that they excite.
 
     Parameters
     ----------
@@ -117,14 +117,14 @@ def envelope_spectrum(
     band
         (from, to) [Hz], inside 0 and half the sample rate.
     resolution
-        [Hz]; None takes the whole signal as one segment, the finest there is.
+        [Hz]; None takes the whole signal as one segment, which is the finest resolution.
     most_samples
-        of all signals that may be taken.
+        limit on the samples of all signals together.
 
     Raises
     ------
     ValueError
-        where a sample is not finite, the signal is too short or longer than may be taken, or the
+        if a sample is not finite, the signal is too short or longer than `most_samples`, or the
         band does not fit.
     """
     from scipy.fft import next_fast_len  # imported late, as above

@@ -24,7 +24,7 @@ GROWN = 1e100
 
 
 def spectrum_difference(
-    found: Array, expected: Array, sample_rate: float, band: float, *, third_octaves: bool = False
+    actual: Array, expected: Array, sample_rate: float, band: float, *, third_octaves: bool = False
 ) -> float:
     """Greatest difference of the spectra of two signals [dB], where they count.
 
@@ -32,50 +32,50 @@ def spectrum_difference(
 
     Parameters
     ----------
-    found, expected : (n, k)
+    actual, expected : (n, k)
         signals along k directions.
     sample_rate, band
         [Hz]; frequencies up to `band` count.
     third_octaves
         of levels in third octaves, from the fourth line on, instead of single lines.
     """
-    if not max(np.abs(found).max(), np.abs(expected).max()) < GROWN:
+    if not max(np.abs(actual).max(), np.abs(expected).max()) < GROWN:
         return math.inf
     segment = round(sample_rate / RESOLUTION)
     resolution = RESOLUTION if len(expected) >= segment else sample_rate / len(expected) * 1.001
-    mine, true = (spectrum(signal, sample_rate, resolution) for signal in (found, expected))
+    mine, true = (spectrum(signal, sample_rate, resolution) for signal in (actual, expected))
     if third_octaves:
         edges = third_octave_edges(4.0 * true.frequency[1], band)
-        mine, true = (Spectrum(edges[1:], one.powers(edges)) for one in (mine, true))
+        mine, true = (Spectrum(edges[1:], lines.powers(edges)) for lines in (mine, true))
         counts = _strong(true.density)
     else:
         counts = lines_that_count(true, band)
     return _greatest(mine.density, true.density, counts)
 
 
-def density_difference(found: Spectrum, expected: Spectrum, band: float) -> float:
+def density_difference(actual: Spectrum, expected: Spectrum, band: float) -> float:
     """`spectrum_difference` of two spectra of the same lines, as far as both go."""
-    known = min(len(found.frequency), len(expected.frequency))
+    known = min(len(actual.frequency), len(expected.frequency))
     true = Spectrum(expected.frequency[:known], expected.density[:known])
-    return _greatest(found.density[:known], true.density, lines_that_count(true, band))
+    return _greatest(actual.density[:known], true.density, lines_that_count(true, band))
 
 
-def _greatest(found: Array, expected: Array, counts: NDArray[np.bool_]) -> float:
+def _greatest(density: Array, expected: Array, counts: NDArray[np.bool_]) -> float:
     """Greatest difference [dB] where it counts: infinite where there is nothing."""
     if not counts.any():
         return math.nan
     with np.errstate(divide="ignore"):
-        return float(np.abs(10.0 * np.log10(found[counts] / expected[counts])).max())
+        return float(np.abs(10.0 * np.log10(density[counts] / expected[counts])).max())
 
 
-def lines_that_count(found: Spectrum, band: float) -> NDArray[np.bool_]:
+def lines_that_count(lines: Spectrum, band: float) -> NDArray[np.bool_]:
     """(m, k) where k spectra are worth comparing: below `band` [Hz], within 40 dB of their best.
 
     Of the first lines the mean of each segment, which is taken away, leaves no more than a remnant.
     """
-    frequency = found.frequency
+    frequency = lines.frequency
     within = (frequency > 2.5 * frequency[1]) & (frequency <= band)
-    return _strong(found.density) & within[:, None]
+    return _strong(lines.density) & within[:, None]
 
 
 def _strong(density: Array) -> NDArray[np.bool_]:

@@ -76,30 +76,29 @@ class MeasuredExtent:
     race
         "outer" or "inner"; "" where no race is named.
     extent, low, high
-        [rad] and the interval in which it lies with 95 %. NaN where there is none, or two that
-        are alike: see `alternatives`. Where there is only a bound, `extent` is NaN and `high` is
-        the bound.
+        [rad], with its 95 % interval. NaN if there is none or two are as likely: see
+        `alternatives`. If there is only a bound, `extent` is NaN and `high` is the bound.
     separation, deviation
         [rad] of the race between the peaks of entry and exit, the shorter way round, and its
         standard deviation.
     offset, offset_low, offset_high
-        [rad] added to it, with the interval in which it lies with 95 %: the angle over which a
-        ball carries nothing yet or no longer, see `release`.
+        [rad] added to it, with its 95 % interval: the angle beside the edges over which a ball
+        carries no load, see `release`.
     ball_spacing
-        [rad]. A longer spall with whole ball spacings more gives the same passes.
+        [rad]. A spall longer by whole ball spacings gives the same passes.
     passes
-        mean ball passes of the bands that decided, the best first; empty where there are none.
+        mean ball passes of the bands that decided, the best first; may be empty.
     entry, exit
         places of the two peaks in the first of `passes`, as shares of a ball pass, the shorter way
-        round; NaN without. Where either may be the entry, so may these.
+        round; NaN without peaks. If either peak may be the entry, the two may be exchanged.
     frequency
         ball passes a second over the race [Hz].
     n_passes
-        how many were averaged.
+        number of ball passes that were averaged.
     length
-        of the extent along the race [m]; NaN where there is none.
+        of the extent along the race [m]; NaN if there is none.
     status
-        how it ended.
+        the outcome.
     """
 
     race: str = ""
@@ -122,15 +121,15 @@ class MeasuredExtent:
 
     @property
     def measured(self) -> bool:
-        """Whether there is an extent."""
+        """True if there is an extent."""
         return self.status == ExtentStatus.MEASURED
 
     @property
     def alternatives(self) -> tuple[tuple[float, float, float], ...]:
-        """Extents [rad], each with its interval, that the two peaks may mean, the likelier first.
+        """Possible extents [rad] for the two peaks, each with its interval, the likelier first.
 
-        The shorter way round and the longer one, which is rare where the shorter one `measured`;
-        none where no two peaks are seen. Whole ball spacings more are as possible.
+        These are the shorter and the longer way round; the longer one is rare if the shorter one
+        was `measured`. Empty without two peaks. Whole ball spacings more are as possible.
         """
         if not math.isfinite(self.separation):
             return ()
@@ -150,14 +149,14 @@ class MeasuredExtent:
 
     @property
     def size(self) -> str:
-        """The answer without its race: "5.0° (4.3-5.9°), 2.0 mm"; empty where there is none."""
+        """The answer without its race: "5.0° (4.3-5.9°), 2.0 mm"; empty if there is none."""
         if self.status == ExtentStatus.MEASURED:
             extent, low, high = np.degrees([self.extent, self.low, self.high])
             long = f", {1e3 * self.length:.1f} mm" if math.isfinite(self.length) else ""
             return f"{extent:.1f}° ({low:.1f}-{high:.1f}°){long}"
         if self.status == ExtentStatus.EITHER:
-            one, other = (math.degrees(extent) for extent, _, _ in self.alternatives)
-            return f"about {one:.0f}° or {other:.0f}°"
+            first, other = (math.degrees(extent) for extent, _, _ in self.alternatives)
+            return f"about {first:.0f}° or {other:.0f}°"
         if self.status == ExtentStatus.SHORTER:
             return f"shorter than about {math.degrees(self.high):.0f}° or near whole ball spacings"
         return ""
@@ -215,13 +214,13 @@ def measure_extent(
     edge: str | None = None,
     diagnosis: Diagnosis | None = None,
 ) -> MeasuredExtent:
-    """The extent of a spall from the knocks of balls that enter and leave it.
+    """Measure the extent of a spall from the knocks of balls that enter and leave it.
 
     The envelope of the signal is averaged over the ball passes, aligned against slip, in the bands
-    that show them best. Two peaks on which bands agree are entry and exit. Their separation and
-    the angle over which statics say that a ball carries nothing beside the edges are the extent,
-    but for whole ball spacings, of which the pass itself says nothing. Nor does it say which peak
-    is the entry: where one way round is not much longer than the other, both are given.
+    that show them best. Two peaks on which bands agree are entry and exit. The extent is their
+    separation plus the angle beside the edges over which, by statics, a ball carries no load. It is
+    known up to whole ball spacings, which do not change the mean pass. The pass does not show which
+    peak is the entry: if one way round is not much longer than the other, both are given.
 
     Parameters
     ----------
@@ -232,27 +231,27 @@ def measure_extent(
     shaft_speed
         [rad/s], a pair (from, to) if it is rough, None if it is unknown: see `diagnose`.
     race
-        "outer" or "inner" where it is known to be damaged; None: what `diagnose` names. A rough or
-        unknown speed always asks `diagnose`.
+        "outer" or "inner" if the damaged race is known; None: the race that `diagnose` names. With
+        a rough or unknown speed `diagnose` is always called.
     load, clearance
-        radial load on the bearing [N] and radial clearance [m] where they are known: they narrow
-        the interval. A load that is not given is taken to be 0.1 to 5 % of the dynamic rating.
+        radial load on the bearing [N] and radial clearance [m] if they are known: they narrow the
+        interval. Without a load, 0.1 to 5 % of the dynamic rating is assumed.
     edge
-        how a ball rolls over the edges, see `Defect`, where that is known, as of a simulated
-        signal; None: as measured spalls suggest, whose offsets those of "published" exceed, so
-        that extents and bounds of a signal simulated with it are too small.
+        model of the edges, see `Defect`, if it is known, as for a simulated signal; None: the
+        offsets of measured spalls. Those of "published" are larger, so that extents and bounds of a
+        signal simulated with it come out too small.
     diagnosis
-        what `diagnose` says, where that is known already.
+        the result of `diagnose`, if it is known.
 
     Returns
     -------
-    A `MeasuredExtent`: with `status` "measured" an extent and its interval, else the reason why
-    there is none.
+    MeasuredExtent
+        with `status` "measured" an extent and its interval, else the reason why there is none.
 
     Raises
     ------
     ValueError
-        for a race, load, clearance, edge or speed that cannot be, and for rows that are not alike.
+        for an impossible race, load, clearance, edge or speed, and for unlike rows.
     """
     checks.instance("recording", recording, Recording)
     bearing = bearing_of(bearing)
@@ -266,12 +265,12 @@ def measure_extent(
     if edge is not None:
         checks.choice("edge", edge, EDGES)
     if race is None or not isinstance(shaft_speed, int | float):
-        found = diagnosis or diagnose(recording, bearing, shaft_speed)
-        named = {OUTER: "outer", INNER: "inner"}.get(found.fault)
+        answer = diagnosis or diagnose(recording, bearing, shaft_speed)
+        named = {OUTER: "outer", INNER: "inner"}.get(answer.fault)
         race = race or named
-        if race is None or not found.evidence:
+        if race is None or not answer.evidence:
             return MeasuredExtent(race or "", ball_spacing=spacing)
-        nominal = found.of(f"{race} race").frequency
+        nominal = answer.of(f"{race} race").frequency
         slip = SLIP_OF_LINES
     else:
         speed = checks.real_number("shaft_speed", shaft_speed, above=0.0, unit="rad/s")
@@ -307,7 +306,7 @@ def _answer(knocks: Knocks, bearing: Bearing, race: str, offsets: Offsets | None
     least, offset, most = (
         math.nan if offsets is None else offsets.quantile(share) for share in (0.025, 0.5, 0.975)
     )
-    found = MeasuredExtent(
+    answer = MeasuredExtent(
         race,
         separation=spacing * knocks.separation,
         deviation=spacing * knocks.deviation,
@@ -324,10 +323,10 @@ def _answer(knocks: Knocks, bearing: Bearing, race: str, offsets: Offsets | None
     )
     bound = spacing * knocks.hidden + most
     if bound < LONGEST_BOUND * spacing:
-        return replace(found, low=0.0, high=bound, status=ExtentStatus.SHORTER)
-    if not found.measured:
-        return found
-    extent, low, high = found.alternatives[0]
+        return replace(answer, low=0.0, high=bound, status=ExtentStatus.SHORTER)
+    if not answer.measured:
+        return answer
+    extent, low, high = answer.alternatives[0]
     radius = bearing.outer_raceway_radius if race == "outer" else bearing.inner_raceway_radius
     length = extent * radius
-    return replace(found, extent=extent, low=low, high=high, length=length)
+    return replace(answer, extent=extent, low=low, high=high, length=length)

@@ -17,16 +17,16 @@ _LENGTHS = {"m": 1.0, "mm": 1e-3, "nm": 1e-9, "in": INCH}
 
 
 def read_floor(text: str) -> tuple[MeasuredFloor, float, float, float]:
-    """`measured_floor` from text: two columns, angle [degrees] and depth [µm].
+    """Read a `measured_floor` from text with two columns, angle [degrees] and depth [µm].
 
-    As lenient as the reading of measured signals: columns between commas, semicolons, tabs or
-    blanks, numbers with points or commas, lines that begin with # passed over. Headings may give
-    other units: "angle [rad]", "depth_mm".
+    Columns may be separated by commas, semicolons, tabs or blanks; numbers may have decimal points
+    or commas; lines that begin with # are skipped. Headings may give other units: "angle [rad]",
+    "depth_mm".
 
     Raises
     ------
     ValueError
-        that says which line cannot be read, or what `measured_floor` refuses.
+        for a line that cannot be read, by its number, or a floor that `measured_floor` refuses.
     """
     lines = "2 or more lines of two numbers, angle [degrees] and depth [µm]"
     if not text.strip() or "\x00" in text:

@@ -78,23 +78,23 @@ class SizingStatus(Status):
 
 @dataclass(frozen=True)
 class Candidate:
-    """A length that the signal may mean, as it was simulated.
+    """A possible length of the spall, with its simulation.
 
     Attributes
     ----------
     extent, low, high
-        [rad] and the interval around it of lengths that explain the signal nearly as well.
+        [rad], with the interval of lengths that explain the signal nearly as well.
     misfit
-        of measured and simulated lines: 0 is alike, 1 unlike.
+        difference between measured and simulated lines, from 0 (alike) to 1 (unlike).
     ratio
-        of its misfit to the least, 1 for the best candidate.
+        its misfit over the least misfit; 1 for the best candidate.
     lines : (N, d) complex [m/s²]
-        of its mean ball pass at `Sizing.frequency`, laid over the measured ones; twice their size
-        is the amplitude.
+        Fourier lines of its mean ball pass at `Sizing.frequency`, aligned with the measured ones;
+        the amplitude is twice their magnitude.
     bands
         least and greatest natural frequency [Hz] of each mode as balls pass, by label.
     scene
-        with this extent.
+        the scene with this extent.
     """
 
     extent: float
@@ -115,16 +115,16 @@ class Sizing:
     Attributes
     ----------
     status
-        how it ended.
+        the outcome.
     candidates
-        lengths that the signal may mean, the best first: the best two, and those a ball spacing
-        from the best, which have the same entry and exit. Empty where none was simulated.
+        possible lengths, the best first: the best two, and those a ball spacing from the best,
+        which have the same entry and exit. Empty if none was simulated.
     frequency : (N,) [Hz]
-        of the lines of the mean ball pass that were compared.
+        frequencies of the compared lines of the mean ball pass.
     lines : (N, d) complex [m/s²]
-        the measured ones, a column for each direction of the recording.
+        measured lines, a column for each direction of the recording.
     extents, misfits : (n,) [rad], (n,)
-        all that was simulated, by rising extent.
+        all simulated extents, in rising order, and their misfits.
     """
 
     status: SizingStatus
@@ -136,17 +136,17 @@ class Sizing:
 
     @property
     def best(self) -> Candidate | None:
-        """The candidate with the least misfit; None where there is none."""
+        """The candidate with the least misfit; None without candidates."""
         return self.candidates[0] if self.candidates else None
 
     @property
     def conclusive(self) -> bool:
-        """True where one length explains the signal and no other does."""
+        """True if exactly one length explains the signal."""
         return self.status == SizingStatus.SIZED
 
     @property
     def sentence(self) -> str:
-        """The answer with what distinguishes the lengths, or why there is none."""
+        """The answer with the difference between the lengths, or the reason why there is none."""
         if not self.candidates:
             return self.status.sentence
         best, *others = self.candidates
@@ -155,22 +155,23 @@ class Sizing:
         if self.status == SizingStatus.UNEXPLAINED:
             return f"{self.status.sentence} The nearest is {words}, misfit {best.misfit:.2f}."
         if not self.conclusive:
-            alike = [f"{math.degrees(c.extent):.1f}°" for c in others if c.ratio < AHEAD]
-            return f"{words} or {' or '.join(alike)}. {self.status.sentence}"
-        words += f", misfit {best.misfit:.2f}; {math.degrees(others[0].extent):.1f}° has "
-        words += f"{others[0].misfit:.2f}."
+            near = [f"{math.degrees(c.extent):.1f}°" for c in others if c.ratio < AHEAD]
+            return f"{words} or {' or '.join(near)}. {self.status.sentence}"
         spacing = best.scene.bearing.ball_spacing
-        other = min(others, key=lambda c: abs(abs(c.extent - best.extent) - spacing))
+        alike = [c for c in others if abs(abs(c.extent - best.extent) - spacing) < APART * spacing]
+        other = (alike or others)[0]
         falls = {mode: (band[0], other.bands[mode][0]) for mode, band in best.bands.items()}
         mode = max(falls, key=lambda name: np.nan_to_num(abs(falls[name][0] - falls[name][1])))
         here, there = falls[mode]
         return (
-            f"{words} As balls pass, mode {mode} falls to {here:.0f} Hz; with "
-            f"{math.degrees(other.extent):.1f}° it would fall to {there:.0f} Hz."
+            f"{words}. As balls pass, mode {mode} falls to {here:.0f} Hz; with "
+            f"{math.degrees(other.extent):.1f}° it would fall to {there:.0f} Hz. Misfit "
+            f"{best.misfit:.2f}; the next, {math.degrees(others[0].extent):.1f}°, has "
+            f"{others[0].misfit:.2f}."
         )
 
     def table(self) -> ResultTable:
-        """A row a candidate, the best first."""
+        """A row for each candidate, the best first."""
         return table_of(
             ("extent", "rad", "extent"),
             ("low", "rad", "low", "of the interval"),
@@ -188,30 +189,30 @@ def size_defect(
     support_known: bool = False,
     progress: Progress | None = None,
 ) -> Sizing:
-    """Find the length of a spall of the outer race by simulating each that is possible.
+    """Find the length of an outer-race spall by simulating every possible length.
 
-    That this race is damaged is taken as known: ask `diagnose` first. Every length is simulated,
-    not only those that entry and exit allow (`measure_extent`): these may mislead.
+    The damaged race is taken as known: call `diagnose` first. All lengths are simulated, not only
+    those that entry and exit allow (`measure_extent`), because these can be misread.
 
     Parameters
     ----------
     recording
-        acceleration of the housing along y, or x and y: two directions say more.
+        acceleration of the housing along y, or along x and y, which says more.
     scene
         bearing, load, support and shaft speed of the machine, and a defect whose centre, depth and
-        edges are taken as known; its extent is not looked at. Balls are taken to be massless: what
-        is compared is far below their resonances.
+        edges are taken as known; its extent is ignored. Balls are taken to be massless, because
+        the compared frequencies are far below their resonances.
     support_known
-        True where mass and stiffness of the support are measured ones, or the signal is a simulated
-        one of the scene. Else there is no length, and the status says why.
+        True if mass and stiffness of the support were measured, or the signal was simulated with
+        the scene. Otherwise there is no length, and the status says why.
     progress
-        called before each simulation with the part done and words; what it raises ends the search.
+        called before each simulation with the part done and words; an exception from it ends the
+        search.
 
     Raises
     ------
     ValueError
-        for a shaft that stands still, directions in which the scene does not move, and rows that
-        are not alike.
+        for a shaft that stands still, directions in which the scene does not move, and unlike rows.
     """
     checks.instance("recording", recording, Recording)
     checks.instance("scene", scene, Scene)
@@ -322,7 +323,7 @@ class _Search:
         spacing = self.scene.bearing.ball_spacing
         ranked = sorted(self.misfits, key=self.misfit)
         first, starts = ranked[0], ranked[:1]
-        for away, room in ((0.0, LONGEST), (-spacing, APART * spacing), (spacing, APART * spacing)):
+        for away, room in ((0.0, LONGEST), (-spacing, 2.0 * STEP), (spacing, 2.0 * STEP)):
             others = [e for e in ranked if abs(e - first - away) <= room]
             clear = [e for e in others if min(abs(e - s) for s in starts) > APART * spacing]
             starts += clear[:1]

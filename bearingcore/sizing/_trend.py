@@ -55,19 +55,19 @@ class TrendPoint:
     name
         of the recording.
     shaft_speed
-        [rad/s]; NaN where it is neither known nor found.
+        [rad/s]; NaN if it is neither known nor found.
     rms, peak
         [m/s²]
     crest_factor, kurtosis
         see `indicators`.
     lines, noise : (4,) [m/s²]
-        amplitude of each of `LINES` in the envelope, and what noise reaches there once in a
-        thousand recordings; NaN where the recording is too short, or does not hold the band, where
-        bearing or speed are not known, and where the highest line is one of the shaft's own.
+        amplitude of each of `LINES` in the envelope, and the level that noise reaches there in one
+        of a thousand recordings. NaN if the recording is too short or does not hold the band, if
+        bearing or speed are unknown, or if the highest line is one of the shaft's own.
     fault, probability
-        see `Diagnosis`; "cannot tell" and NaN of an unknown bearing.
+        see `Diagnosis`; "cannot tell" and NaN for an unknown bearing.
     extent
-        of the spall of a race that is named.
+        extent of the spall if a race is named.
     """
 
     name: str
@@ -86,14 +86,14 @@ class TrendPoint:
 @shown_as_table
 @dataclass(frozen=True)
 class Trend:
-    """Recordings of one machine in their order; k of them.
+    """Trend of k recordings of one machine, in their order.
 
     Attributes
     ----------
     points
-        their numbers.
+        the numbers of each recording.
     direction
-        along which.
+        direction of the signal.
     band
         [Hz] of the envelope, the same for all.
     baseline
@@ -110,7 +110,7 @@ class Trend:
         checks.whole_number("baseline", self.baseline, at_least=0, at_most=last)
 
     def column(self, name: str) -> Array:
-        """Attribute of all points (k,) or (k, 4)."""
+        """Return an attribute of all points, (k,) or (k, 4)."""
         return np.array([getattr(point, name) for point in self.points], dtype=float)
 
     @property
@@ -126,9 +126,9 @@ class Trend:
         return np.asarray(rms / rms[self.baseline])
 
     def line_change(self, part: str) -> Array:
-        """Amplitude (k,) of a part's line over that of the baseline; NaN where there is none.
+        """Return the amplitude (k,) of a part's line over that of the baseline; NaN without a line.
 
-        Where the baseline shows no line it is over what noise reaches there: a lower bound.
+        If the baseline has no line, the ratio is to the noise there, which makes it a lower bound.
         """
         place = PARTS.index(part)
         first = np.fmax(self.column("lines"), self.column("noise"))[self.baseline, place]
@@ -145,7 +145,7 @@ class Trend:
         return np.array(since) if np.isfinite(since).all() else np.full(len(times), math.nan)
 
     def table(self) -> ResultTable:
-        """A row a recording."""
+        """A row for each recording."""
         points, clear = self.points, self.clear_lines
         extents = [point.extent for point in points]
         return table_of(
@@ -163,10 +163,10 @@ class Trend:
             ),
             ("fault", "", [point.fault for point in points]),
             ("probability", "1", self.column("probability")),
-            ("extent", "rad", [one.extent for one in extents]),
-            ("extent_low", "rad", [one.low for one in extents], "95 % from here"),
-            ("extent_high", "rad", [one.high for one in extents], "to here, or a bound"),
-            ("extent_status", "", [str(one.status.value) for one in extents]),
+            ("extent", "rad", [extent.extent for extent in extents]),
+            ("extent_low", "rad", [extent.low for extent in extents], "95 % from here"),
+            ("extent_high", "rad", [extent.high for extent in extents], "to here, or a bound"),
+            ("extent_status", "", [str(extent.status.value) for extent in extents]),
         )
 
 
@@ -180,40 +180,40 @@ def trend(
     baseline: int = 0,
     goes_on: Callable[[Trend, int], bool] = lambda so_far, of: True,
 ) -> Trend:
-    """Numbers of many recordings of one machine, in the order in which they are given.
+    """Compute the trend of several recordings of one machine, in the order given.
 
     Parameters
     ----------
     recordings
-        one at least.
+        at least one.
     bearing
-        that was measured; None where it is not known: then no part is named.
+        the measured bearing; None if it is unknown: no part is then named.
     shaft_speed
-        [rad/s] of recordings that carry none, a pair (from, to) if it is rough, None if it is
-        unknown: see `diagnose`, which then looks for it in each.
+        [rad/s] of recordings that state none, a pair (from, to) if it is rough, None if it is
+        unknown: `diagnose` then searches for it in each recording.
     direction
         "x" or "y"; None: the last of the last recording.
     band
-        [Hz] of the envelope; None: where the kurtogram of the last recording is highest.
+        [Hz] of the envelope; None: the band where the kurtogram of the last recording is highest.
     baseline
         number of the recording with which the others are compared.
     goes_on
-        called with what there is so far and the number of all; False ends it there.
+        called with the trend so far and the number of recordings; False ends it there.
 
     Raises
     ------
     ValueError
-        for no recording, a recording without the direction, a baseline that is none of them, a
-        band or speed that cannot be, and for rows of balls that are not alike.
+        for no recording, a recording without the direction, a baseline out of range, an impossible
+        band or speed, and for unlike rows of balls.
     """
     bearing = None if bearing is None else bearing_of(bearing)
     if not recordings:
         raise checks.refuse("recordings", "none", "one at least")
     checks.whole_number("baseline", baseline, at_least=0, at_most=len(recordings) - 1)
     along = recordings[-1].directions[-1] if direction is None else direction
-    for one in recordings:
-        checks.instance("recordings", one, Recording, "a sequence of Recording")
-        checks.choice(f"direction of {one.name}", along, one.directions)
+    for recording in recordings:
+        checks.instance("recordings", recording, Recording, "a sequence of Recording")
+        checks.choice(f"direction of {recording.name}", along, recording.directions)
     last = recordings[-1]
     chosen = band
     if chosen is None:
@@ -221,9 +221,9 @@ def trend(
     low = checks.real_number("lower end of the band", chosen[0], above=0.0, unit="Hz")
     high = checks.real_number("upper end of the band", chosen[1], above=low, unit="Hz")
     points: list[TrendPoint] = []
-    for one in recordings:
-        speed = _speed(one, shaft_speed)
-        points.append(trend_point(one, bearing, speed, along, (low, high)))
+    for recording in recordings:
+        speed = _speed(recording, shaft_speed)
+        points.append(trend_point(recording, bearing, speed, along, (low, high)))
         done = tuple(points)
         so_far = Trend(done, along, (low, high), baseline if baseline < len(done) else 0)
         if not goes_on(so_far, len(recordings)):
@@ -238,7 +238,7 @@ def trend_point(
     direction: str,
     band: tuple[float, float],
 ) -> TrendPoint:
-    """Numbers of one recording; the arguments are those of `trend`, all of them given."""
+    """Compute the numbers of one recording; all arguments of `trend` are necessary."""
     checks.instance("recording", recording, Recording)
     bearing = None if bearing is None else bearing_of(bearing)
     column = recording.directions.index(direction)

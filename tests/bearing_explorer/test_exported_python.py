@@ -98,7 +98,7 @@ def shown(case: tuple[str, str]) -> tuple[View, Results]:
 
 RUN = """
 import pickle, sys, webbrowser
-from bearingcore.experiments.points import least_time
+from bearingcore.model.experiments._points import least_time
 least_time.__kwdefaults__["budget"] = 0.0  # work is not repeated for the sake of its time
 webbrowser.open = lambda address: True
 with open("scripts", "rb") as file:

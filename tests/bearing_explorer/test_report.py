@@ -76,10 +76,10 @@ def made() -> dict:
 
     speeds = Sweep(SWEEPABLE[SPEED], np.array([10.0, 20.0, 30.0]))
     run = speed_run(presets["fan-rig"], speeds.in_si[1], resolution=16.0)
-    found = {"speed-run": FoundRun(run, speeds)}
+    results_of_jobs = {"speed-run": FoundRun(run, speeds)}
     with pytest.MonkeyPatch.context() as patched:
         patched.setattr("bokeh.io.curdoc", current)
-        return report(Results(presets["fan-rig"], 0.1), KINDS, found, about())
+        return report(Results(presets["fan-rig"], 0.1), KINDS, results_of_jobs, about())
 
 
 def test_every_figure_has_its_place_and_its_numbers(made: dict) -> None:
@@ -210,7 +210,7 @@ def test_the_next_step_rests_on_part_zone_and_growth(
     fault: str, zone: str, change: float | None, begins: str, says: str
 ) -> None:
     question = Question.about(simulated(presets["6205"], 20.0, 1))
-    found = dataclasses.replace(answered(question), fault=fault, probability=0.99)
+    diagnosis = dataclasses.replace(answered(question), fault=fault, probability=0.99)
     grown = None
     if change is not None:
         points = [SimpleNamespace(fault=fault)] * 2
@@ -218,17 +218,17 @@ def test_the_next_step_rests_on_part_zone_and_growth(
         grown = SimpleNamespace(
             points=points, baseline=0, rms_change=changes, line_change=lambda part: 4.0 * changes
         )
-    words = next_steps(found, question, zone, grown)
+    words = next_steps(diagnosis, question, zone, grown)
     assert words.startswith(begins)
     assert says in words
     assert (PRACTICE in words) == (fault == "outer race")
     assert (ONE_RECORD in words) == (fault == "outer race" and change is None)
     if fault == "outer race":
-        unsure = next_steps(dataclasses.replace(found, probability=0.6), question, zone, grown)
+        unsure = next_steps(dataclasses.replace(diagnosis, probability=0.6), question, zone, grown)
         assert "confirm it" in unsure.lower()
         assert "onfirm it" not in words
     if fault == "cannot tell":
-        dropped = dataclasses.replace(found, status=DiagnosisStatus.DROPPED_OUT)
+        dropped = dataclasses.replace(diagnosis, status=DiagnosisStatus.DROPPED_OUT)
         assert next_steps(dropped, question, zone, grown).startswith("Check sensor, cable")
-        open_speed = dataclasses.replace(found, status=DiagnosisStatus.SPEED_OPEN)
+        open_speed = dataclasses.replace(diagnosis, status=DiagnosisStatus.SPEED_OPEN)
         assert next_steps(open_speed, question, zone).startswith("Read the shaft speed")

@@ -230,14 +230,14 @@ def test_one_report_at_a_time(news: list[dict], monkeypatch: pytest.MonkeyPatch)
 def test_every_model_that_would_do_less_is_taken(preset: str, kinds: set[str]) -> None:
     """Each row of the table, in a session: its model becomes that of the scene."""
     section = (Section("accuracy", "Accuracy", (OtherModels,)),)
-    found = alternatives(presets[preset])
-    models = {one.name: one.changes for one in takeable(found.rows)}
+    simpler = alternatives(presets[preset])
+    models = {one.name: one.changes for one in takeable(simpler.rows)}
     assert {kind for changes in models.values() for kind in changes} == kinds
     for name, changes in models.items():
 
         def take_it(explorer: SceneSession, name: str = name) -> None:
             (view,) = explorer._views["accuracy"]
-            view.found = found
+            view.found = simpler
             view._use(name)  # type: ignore[attr-defined]
 
         explorer = session(take_it, sections=section, preset=preset)

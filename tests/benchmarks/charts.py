@@ -40,11 +40,11 @@ IN_DOCUMENT = ("fan-rig", "liew-lim")
 def ship(preset: str) -> None:
     """Measure a preset and write its file."""
     began = time.perf_counter()
-    found = measure(presets[preset], c_loop=pace().motion)
+    results = measure(presets[preset], c_loop=pace().motion)
     FILES.mkdir(exist_ok=True)
-    (FILES / f"{preset}.json").write_text(as_json(found), encoding="utf-8")
-    print(f"{preset}: {found.count} points in {time.perf_counter() - began:.0f} s; {pace()}")
-    for name, why in found.refused.items():
+    (FILES / f"{preset}.json").write_text(as_json(results), encoding="utf-8")
+    print(f"{preset}: {results.count} points in {time.perf_counter() - began:.0f} s; {pace()}")
+    for name, why in results.refused.items():
         print(f"  no {name}: {why}", flush=True)
 
 
@@ -52,9 +52,9 @@ _AS_USUAL = (("status", "right"), ("against", ""), ("in_use", False))
 """Entries of points that files leave out."""
 
 
-def as_json(found: Measurements) -> str:
+def as_json(results: Measurements) -> str:
     """The text of a file: numbers with four digits, an experiment to a line."""
-    parts = _rounded(asdict(found))
+    parts = _rounded(asdict(results))
     experiments = ",\n".join(
         f"{json.dumps(name)}: {json.dumps(one, ensure_ascii=False)}"
         for name, one in parts.pop("experiments").items()
@@ -71,10 +71,10 @@ def _rounded(value: Any) -> Any:
     return [_rounded(one) for one in value] if isinstance(value, list | tuple) else value
 
 
-def tables(found: Measurements) -> str:
+def tables(results: Measurements) -> str:
     """Every experiment as Markdown: a table for each reference, a row for each method."""
-    parts = [found.machine.sentence]
-    for name, one in found.experiments.items():
+    parts = [results.machine.sentence]
+    for name, one in results.experiments.items():
         parts += [
             f"### {name}: against {case or 'the reference'}\n\n{_table(part)}"
             for case, part in one.per_reference().items()
@@ -90,11 +90,11 @@ def _table(one: Experiment) -> str:
     rows += [["---", "---", "---:", "---:", "---:"]]
     own = [point for method in one.methods for point in _row_of(one.of(method), one, error)]
     for point in (p for p in one.points if any(p is known for known in own)):
-        found = _error(point.errors.get(error, math.nan), one.unit(error))
+        cell = _error(point.errors.get(error, math.nan), one.unit(error))
         seconds = with_prefix(point.seconds, "s") if math.isfinite(point.seconds) else ""
         method = f"**{point.method}**" if point.in_use else point.method
-        found = point.status if point.failed else found
-        rows.append([method, point.setting, found, seconds, number(point.evaluations, 4)])
+        cell = point.status if point.failed else cell
+        rows.append([method, point.setting, cell, seconds, number(point.evaluations, 4)])
     lines = "\n".join(f"| {' | '.join(row)} |" for row in rows)
     apart = ", ".join(f"{name} {scientific(v, 2)}" for name, v in reference.agreement.items())
     verdict = "agree" if reference.trusted else "DO NOT AGREE, so errors below mean little"
@@ -121,8 +121,8 @@ def _error(error: float, unit: str) -> str:
 def document(text: str) -> str:
     """The document with the tables of the files in it."""
     for preset in IN_DOCUMENT:
-        found = measurements_from((FILES / f"{preset}.json").read_text(encoding="utf-8"))
-        text = put(text, preset, tables(found))
+        results = measurements_from((FILES / f"{preset}.json").read_text(encoding="utf-8"))
+        text = put(text, preset, tables(results))
     return text
 
 

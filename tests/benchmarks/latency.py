@@ -90,14 +90,14 @@ def slider_of(page: Page, name: str) -> Locator:
 def steps(slider: Locator, count: int) -> list[tuple[float, float]]:
     """Times of steps and of their paints [ms], each left to finish, never two to one place."""
     low, high = slider.evaluate("slider => [Number(slider.min), Number(slider.max)]")
-    found = []
+    times = []
     for index in range(count):
         share = 0.12 + 0.8 * ((index * 0.381966) % 1.0)
         step, paint = slider.evaluate(_STEP, low + share * (high - low))
         if step is None:
             raise RuntimeError("a step painted nothing")
-        found.append((step, paint))
-    return found
+        times.append((step, paint))
+    return times
 
 
 STEPS, SECONDS = 20, 3.0

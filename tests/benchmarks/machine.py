@@ -96,15 +96,15 @@ def worked_by_kind(server: int) -> dict[str, float]:
 
     Of the "server", the "browser" and the "hand" that moves the mouse, which no page has to carry.
     """
-    found = {"hand": worked(psutil.Process().pid), "server": 0.0, "browser": 0.0}
+    seconds = {"hand": worked(psutil.Process().pid), "server": 0.0, "browser": 0.0}
     for process in psutil.Process().children(recursive=True):
         try:
             browser = "chrom" in process.exe()
         except psutil.Error:
             continue
         kind = "server" if process.pid == server else "browser" if browser else "hand"
-        found[kind] += worked(process.pid)
-    return found
+        seconds[kind] += worked(process.pid)
+    return seconds
 
 
 if __name__ == "__main__":

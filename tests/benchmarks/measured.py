@@ -26,13 +26,13 @@ OTHERS = ("fan-rig", "liew-lim", "6203", "6205", "seven-ball", "3208")
 """Presets with which records of other machines are judged."""
 
 
-def other_bearings(found: list[Record]) -> int:
+def other_bearings(records: list[Record]) -> int:
     """Parts named with bearings that are not the machine's; how many are surely wrong."""
     table: dict[str, Counter[str]] = {}
     for name in OTHERS:
         counts = table[name] = Counter()
         bearing = presets[name].bearing
-        for record in found:
+        for record in records:
             if _has_lines_of(bearing, record.bearing):
                 continue
             answer = diagnose(record.recording, bearing, record.shaft_speed)
@@ -60,13 +60,13 @@ def main() -> int:
     parser.add_argument("--scoreboard", action="store_true", help="write assets/scoreboard.json")
     parser.add_argument("--other-bearings", action="store_true", help="not the machine's own")
     chosen = parser.parse_args()
-    found = list(records(chosen.folder))
-    if not found:
+    all_records = list(records(chosen.folder))
+    if not all_records:
         print(f"no records in {chosen.folder}", file=sys.stderr)
         return 2
     if chosen.other_bearings:
-        return int(other_bearings(found) > 0)
-    return int(judge(found, chosen.scoreboard) > 0)
+        return int(other_bearings(all_records) > 0)
+    return int(judge(all_records, chosen.scoreboard) > 0)
 
 
 if __name__ == "__main__":

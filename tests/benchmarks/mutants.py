@@ -65,12 +65,12 @@ def mutants_of(file: Path) -> Iterator[Mutant]:
 
 def drawn(count: int, seed: int, tree: Path = ROOT) -> list[Mutant]:
     """So many mutants, drawn evenly over all changes of a tree."""
-    found: list[Mutant] = []
+    mutants: list[Mutant] = []
     for folder in FOLDERS:
         for file in sorted((tree / "bearingcore" / folder).rglob("*.py")):
             if file.stem not in WORDS:
-                found += mutants_of(file)
-    return random.Random(seed).sample(found, count)
+                mutants += mutants_of(file)
+    return random.Random(seed).sample(mutants, count)
 
 
 def stages(one: Mutant, tree: Path) -> Iterator[list[str]]:

@@ -62,9 +62,9 @@ def processor_time(work: Callable[[], Any]) -> tuple[Any, float]:
     return answer, least
 
 
-def apart(found: float, own: float) -> float:
+def apart(ours: float, own: float) -> float:
     """Relative difference."""
-    return abs(found / own - 1.0)
+    return abs(ours / own - 1.0)
 
 
 def by_iso_16281(folder: Path) -> Iterator[Row]:
@@ -134,8 +134,8 @@ def by_ross() -> Iterator[Row]:
     work = "8 balls of 30 mm at 30° under 500 N, no clearance: stiffness"
     program = f"ROSS {version('ross-rotordynamics')}"
     for term, name in (("k_yy", "kyy"), ("k_xx", "kxx")):
-        found = float(np.ravel(getattr(theirs, name))[0])
-        difference = apart(found, rest.term(term)[0])
+        number = float(np.ravel(getattr(theirs, name))[0])
+        difference = apart(number, rest.term(term)[0])
         yield Row(work, program, seconds, own_seconds, difference, term)
         work = ""
 
@@ -167,9 +167,9 @@ def by_integrators() -> Iterator[Row]:
     work = "0.1 s of the fan rig's motion"
     yield Row(work, "here", own_seconds, own_seconds, own, "housing's displacement")
     for method in ("DOP853", "LSODA"):
-        found, seconds = processor_time(lambda method=method: solved(method))
+        answer, seconds = processor_time(lambda method=method: solved(method))
         program = f"SciPy {version('scipy')}, {method} to 1e-9"
-        yield Row("", program, seconds, own_seconds, swings(found, true), "the same")
+        yield Row("", program, seconds, own_seconds, swings(answer, true), "the same")
 
     def push(
         mbs: Any, t: float, item: int, q: NDArray[np.float64], v: NDArray[np.float64]
@@ -210,8 +210,10 @@ def by_integrators() -> Iterator[Row]:
         ("RK44", kinds.RK44, 1),
         ("generalised α", kinds.GeneralizedAlpha, 1),
     ):
-        found, seconds = processor_time(lambda solver=solver, steps=steps: multibody(solver, steps))
-        difference = swings(found[: len(true)], true)
+        answer, seconds = processor_time(
+            lambda solver=solver, steps=steps: multibody(solver, steps)
+        )
+        difference = swings(answer[: len(true)], true)
         yield Row("", f"{program}, {name}", seconds, own_seconds, difference, "the same")
 
 
@@ -235,11 +237,11 @@ def by_root_finder() -> Iterator[Row]:
         return e @ (5453e6 * pressed**1.5) + [0.0, 100.0]
 
     def solved() -> NDArray[np.float64]:
-        q, found = np.array([0.0, -10.0]), []
+        q, states = np.array([0.0, -10.0]), []
         for turned in cage:
             q = root(missing, q, gaps(turned), "hybr", tol=1e-10).x
-            found.append(1e-6 * q)
-        return np.array(found)
+            states.append(1e-6 * q)
+        return np.array(states)
 
     theirs, seconds = processor_time(solved)
     scene = presets["fan-rig"]

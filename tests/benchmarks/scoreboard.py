@@ -54,9 +54,9 @@ SHOWN = ("record", "truth", "answer", "probability", "verdict", "status")
 Row = dict[str, Any]
 
 
-def verdict(record: Record, found: Diagnosis) -> str:
+def verdict(record: Record, diagnosis: Diagnosis) -> str:
     """Whether a diagnosis is right."""
-    return _verdict(record.truth, found.fault)
+    return _verdict(record.truth, diagnosis.fault)
 
 
 def _verdict(truth: str, fault: str) -> str:
@@ -67,38 +67,38 @@ def _verdict(truth: str, fault: str) -> str:
     return RIGHT if fault == (NONE_SEEN if truth == HEALTHY else truth) else WRONG
 
 
-def extent_verdict(record: Record, found: MeasuredExtent) -> str:
+def extent_verdict(record: Record, extent: MeasuredExtent) -> str:
     """Whether an extent from entry to exit is right: the truth lies in its interval."""
-    if not found.measured:
+    if not extent.measured:
         return CANNOT
     if record.spall_extent_deg is None:
         return UNCHECKED
     true = math.radians(record.spall_extent_deg)
-    return RIGHT if found.low <= true <= found.high else WRONG
+    return RIGHT if extent.low <= true <= extent.high else WRONG
 
 
 def row_of(record: Record) -> Row:
     """One record: its truth, the answer and what it rests on; angles in degrees."""
-    found = diagnose(record.recording, record.bearing, record.shaft_speed)
+    diagnosis = diagnose(record.recording, record.bearing, record.shaft_speed)
     row: Row = {
         "record": record.name,
         "machine": record.machine,
         "grade": record.grade,
         "truth": record.truth,
-        "answer": found.fault,
-        "probability": round(found.probability, 3),
-        "status": str(found.status),
-        "verdict": verdict(record, found),
+        "answer": diagnosis.fault,
+        "probability": round(diagnosis.probability, 3),
+        "status": str(diagnosis.status),
+        "verdict": verdict(record, diagnosis),
         "evidence": {
             one.part: {
                 name: round(float(getattr(one, name)), 4)
                 for name in ("lead", "swing", "deviations", "magnetic")
             }
-            for one in found.evidence
+            for one in diagnosis.evidence
         },
         "true_extent_deg": record.spall_extent_deg,
     }
-    if found.fault in (OUTER, INNER):
+    if diagnosis.fault in (OUTER, INNER):
         extent = measure_extent(record.recording, record.bearing, record.shaft_speed)
         row["extent_status"] = str(extent.status)
         row["extent_verdict"] = extent_verdict(record, extent)
@@ -116,6 +116,8 @@ def fitted(rows: Iterable[Row]) -> Calibration:
         if row["truth"] != UNKNOWN
         for part, one in row["evidence"].items()
         if part != BALL and one["lead"] >= LEAD
+        # a race beside one that is named has a lead of another kind
+        if part == row["answer"] or row["answer"] not in (OUTER, INNER)
     ]
     swing = np.array([pair[0] for pair in pairs])
     own = np.array([pair[1] for pair in pairs], dtype=float)
@@ -153,10 +155,10 @@ def left_out(rows: Sequence[Row]) -> None:
             }
 
 
-def judge(found: Iterable[Record], write: bool) -> int:
+def judge(records: Iterable[Record], write: bool) -> int:
     """Print every answer and the tables, or write them too; how many answers are wrong."""
     rows = []
-    for record in found:
+    for record in records:
         rows.append(row_of(record))
         print(" | ".join(str(rows[-1][name]) for name in SHOWN), flush=True)
     left_out(rows)
@@ -208,10 +210,10 @@ def tables(rows: Sequence[Row]) -> dict[str, str]:
             *by_machine,
         )),
         "sure": f"Of {stated(rows)[0]} answers stated with 90 % or more, {stated(rows)[1]} are "
-        f"right; judged without the machine they are of, {stated(again)[1]} of {stated(again)[0]}. "
-        f"So many records show that {low:.1f} to {high:.0f} % of such answers are right (exact "
-        f"two-sided 95 % interval). Only {len(healthy)} records are of healthy bearings, of which "
-        f"{cleared} was called so: false alarms are hardly tested.",
+        f"right; scored with that machine left out, {stated(again)[1]} of {stated(again)[0]}. "
+        f"With so many records the share of right answers is {low:.1f} to {high:.0f} % (exact "
+        f"two-sided 95 % interval). Only {len(healthy)} records are of healthy bearings; {cleared} "
+        f"of them was called healthy. False alarms are hardly tested.",
         "graded": f"Of the {len(graded)} records here that are graded Y1 or Y2, {clear} are right.",
         "wrong": f"Wrong: {', '.join(wrong) or 'none'}.",
         "extents": _extents(rows),

@@ -104,7 +104,7 @@ def source(page: Page, name: str) -> dict[str, list[float]]:
 
 def place(page: Page, drawing: str, x: float, y: float) -> tuple[float, float]:
     """Where on the screen a place in a figure lies."""
-    found = page.evaluate(
+    position = page.evaluate(
         """([name, x, y]) => {
           const [view] = [...Bokeh.index.query(view => view.model.name == name)]
           view.el.scrollIntoView({block: "center"})
@@ -113,7 +113,7 @@ def place(page: Page, drawing: str, x: float, y: float) -> tuple[float, float]:
         }""",
         [drawing, x, y],
     )
-    return float(found[0]), float(found[1])
+    return float(position[0]), float(position[1])
 
 
 def status(page: Page) -> Locator:

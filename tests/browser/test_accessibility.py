@@ -38,7 +38,7 @@ def opened(page: Page, server: Server, tab: str) -> None:
 
 def findings(page: Page, where: str) -> list[str]:
     """What axe finds serious or critical in a part of the page."""
-    found = page.evaluate(
+    result = page.evaluate(
         """async (where) => {
              const options = { preload: false, resultTypes: ['violations'] }
              const { violations } = await axe.run(where, options)
@@ -47,12 +47,12 @@ def findings(page: Page, where: str) -> list[str]:
            }""",
         where,
     )
-    return [words for impact, words in found if impact in ("serious", "critical")]
+    return [words for impact, words in result if impact in ("serious", "critical")]
 
 
 def colors(page: Page) -> set[str]:
     """Grounds of the figures on screen."""
-    found = page.evaluate(
+    result = page.evaluate(
         """() => Object.values(Bokeh.index.roots ?? []).flatMap(view => {
              const plots = []
              for (const model of view.model.document._all_models.values())
@@ -60,7 +60,7 @@ def colors(page: Page) -> set[str]:
              return plots
            }).map(c => c?.value ?? c)"""
     )
-    return {str(color).upper() for color in found if color is not None}
+    return {str(color).upper() for color in result if color is not None}
 
 
 def make_ready(page: Page) -> None:

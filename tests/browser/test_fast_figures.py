@@ -29,7 +29,7 @@ def test_every_pixel_is_as_bokeh_paints_it(
             assert page.evaluate("window.fast_figures.missing") == []
             page = browser.new_page()
             page.add_init_script("window.fast_figures = {without: ['all']}")
-        found = []
+        pixels = []
         open_page(page, explorer, "overview")
         for tab, views in _COMPARED.items():
             show(page, tab)
@@ -38,8 +38,8 @@ def test_every_pixel_is_as_bokeh_paints_it(
                 settle(page)
             rest(page)
             canvases = [page.locator(f".view-{view} canvas") for view in views]
-            found += [canvas.evaluate_all(_INSIDE) for canvas in canvases]
-        shown.append(found)
+            pixels += [canvas.evaluate_all(_INSIDE) for canvas in canvases]
+        shown.append(pixels)
     page.close()
     assert shown[0] == shown[1]
 

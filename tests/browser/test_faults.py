@@ -54,8 +54,8 @@ def works(page: Page) -> None:
 
 def shown_extent(page: Page) -> float | None:
     """The extent in the address, which is that of the scene that the server has."""
-    found: str | None = page.evaluate("new URLSearchParams(location.search).get('extent_deg')")
-    return None if found is None else float(found)
+    extent: str | None = page.evaluate("new URLSearchParams(location.search).get('extent_deg')")
+    return None if extent is None else float(extent)
 
 
 def comes_back(page: Page) -> None:

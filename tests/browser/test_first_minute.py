@@ -9,11 +9,11 @@ from tests.browser.helpers import Server
 
 #: words and type sizes outside of figures, words and sizes in figures, and controls
 COUNTS = """() => {
-  const found = { words: [], drawn: [], sizes: {}, controls: [] }
-  const size = (px, of) => { (found.sizes[px] ??= []).push(of.slice(0, 30)) }
+  const counts = { words: [], drawn: [], sizes: {}, controls: [] }
+  const size = (px, of) => { (counts.sizes[px] ??= []).push(of.slice(0, 30)) }
   const words_of = (text) => text.match(/[\\p{L}\\p{N}.,−–]*\\p{L}[\\p{L}\\p{N}.,−–]*/gu) ?? []
   const add = (text, element) => {
-    found.words.push(...words_of(text))
+    counts.words.push(...words_of(text))
     const { fontSize } = getComputedStyle(element)
     if (words_of(text).length) size(parseFloat(fontSize) * element.currentCSSZoom, text)
   }
@@ -25,7 +25,7 @@ COUNTS = """() => {
     if (element.matches("script, style, option, optgroup, template") || !seen(element)) continue
     if (clipped(element)) continue
     if (element.matches("button, input, select, textarea, a[href], summary"))
-      found.controls.push(element.id || element.getAttribute("aria-label") || element.textContent)
+      counts.controls.push(element.id || element.getAttribute("aria-label") || element.textContent)
     if (element.matches("select")) add(element.selectedOptions[0]?.textContent ?? "", element)
     for (const node of element.childNodes)
       if (node.nodeType === Node.TEXT_NODE) add(node.textContent, element)
@@ -34,7 +34,7 @@ COUNTS = """() => {
     if (!seen(el)) continue
     for (const axis of [...model.left, ...model.below]) {
       if (!axis.visible || !axis.axis_label) continue
-      found.drawn.push(...words_of(axis.axis_label))
+      counts.drawn.push(...words_of(axis.axis_label))
       for (const name of ["axis_label", "major_label"])
         size(parseFloat(axis[`${name}_text_font_size`]), axis.axis_label)
     }
@@ -42,11 +42,11 @@ COUNTS = """() => {
       if (glyph?.type !== "Text") continue
       const { expr, field, value } = glyph.text
       const texts = [...(expr?.v_compute(data_source) ?? data_source.data[field] ?? [value])]
-      found.drawn.push(...texts.flatMap(words_of))
+      counts.drawn.push(...texts.flatMap(words_of))
       size(parseFloat(glyph.text_font_size.value ?? glyph.text_font_size), texts.join(" "))
     }
   }
-  return found
+  return counts
 }"""
 
 
@@ -60,12 +60,12 @@ def test_the_first_screen_is_seen_at_a_glance_and_a_figure_is_near_its_top(
     page.goto(explorer.url)
     page.wait_for_function("window.__frames >= 1")
     rest(page)
-    found: dict[str, Any] = page.evaluate(COUNTS)
-    assert len(found["controls"]) <= 30, found["controls"]
-    assert len(found["words"]) <= 120, found["words"]
-    sizes = sorted(float(size) for size in found["sizes"])
-    assert len(sizes) <= 4, found["sizes"]
-    assert sizes[0] >= 11.0, found["sizes"]
+    counts: dict[str, Any] = page.evaluate(COUNTS)
+    assert len(counts["controls"]) <= 30, counts["controls"]
+    assert len(counts["words"]) <= 120, counts["words"]
+    sizes = sorted(float(size) for size in counts["sizes"])
+    assert len(sizes) <= 4, counts["sizes"]
+    assert sizes[0] >= 11.0, counts["sizes"]
     expect(page.get_by_text("Bearing explorer", exact=True).first).to_be_visible()
     expect(page.get_by_role("region", name="Introduction")).to_be_visible()
     for width in (768, 1199):

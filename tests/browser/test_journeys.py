@@ -225,11 +225,11 @@ def test_a_map_is_read_and_clicked(visitor: Visitor) -> None:
     visitor.point(0, 0.13, 0.13)
     tooltip = visitor.page.locator(".bk-Tooltip div:has(> b)").filter(visible=True)
     shown = tooltip.inner_text().replace("−", "-")
-    found = re.search(r"(-?[\d.]+) ([kM])N/m", shown)
+    match = re.search(r"(-?[\d.]+) ([kM])N/m", shown)
     place = [
         re.search(rf"{name}\D*?([\d.]+)°", shown) for name in ("Length of the defect", "Cage angle")
     ]
-    assert found is not None
+    assert match is not None
     assert None not in place, shown
     extent, angle = (float(number[1]) for number in place if number is not None)
     liew_lim, near = presets["liew-lim"], []
@@ -237,7 +237,7 @@ def test_a_map_is_read_and_clicked(visitor: Visitor) -> None:
         scene = liew_lim.replace(extent=math.radians(extent + apart))
         angles = np.radians(angle + np.array([-0.3, 0.0, 0.3]))
         near.append(equilibrium(scene, np.maximum(angles, 0.0)).term("k_xx"))
-    value = float(found[1]) * {"k": 1e3, "M": 1e6}[found[2]]
+    value = float(match[1]) * {"k": 1e3, "M": 1e6}[match[2]]
     assert 0.99 * np.min(near) <= value <= 1.01 * np.max(near)
 
 
@@ -266,8 +266,8 @@ def test_the_bearing_turns_and_stops(desk: Visitor) -> None:
     desk.press("Stop turning")
     desk.steady()
     stopped = desk.number(CAGE_ANGLE)
-    found = equilibrium(FAN, [math.radians(stopped)])
-    desk.reads(re.compile(rf"\b{found.loaded_balls[0]} of 14 balls"))
+    state = equilibrium(FAN, [math.radians(stopped)])
+    desk.reads(re.compile(rf"\b{state.loaded_balls[0]} of 14 balls"))
 
 
 # --- what is special to a tab ---------------------------------------------------------------------
@@ -747,13 +747,13 @@ def test_a_figure_of_the_paper_is_drawn_and_opened_live(desk: Visitor) -> None:
 
 def _keys(visitor: Visitor) -> list[str]:
     """The names of compared scenes in the keys of figures, one text a figure."""
-    found: list[str] = visitor.page.evaluate(
+    keys: list[str] = visitor.page.evaluate(
         """() => [...Bokeh.index.query((view) => view.model.type === "Legend")]
           .filter(({model, parent}) => model.visible && parent.el.getClientRects().length)
           .map(({model}) => model.items.filter((item) => item.visible)
                                        .map((item) => item.label.value).join(", "))"""
     )
-    return found
+    return keys
 
 
 @pytest.mark.proof

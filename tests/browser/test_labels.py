@@ -31,20 +31,20 @@ COLLISIONS = """(room) => {
       return [{ text: label.text, left: x - w/2, right: x + w/2, top: y - h/2, bottom: y + h/2 }]
     })
   })
-  const found = []
+  const faults = []
   for (const view of Bokeh.index.query((view) => view.model.type === "Figure")) {
     if (!view.el.checkVisibility({ visibilityProperty: true }) || view.el.offsetWidth < 3) continue
     const { width, height } = view.canvas_view.bbox, all = boxes(view)
     all.forEach((one, i) => {
       if (one.left < -1 || one.right > width + 1 || one.top < -1 || one.bottom > height + 1)
-        found.push(`“${one.text}” is cut`)
+        faults.push(`“${one.text}” is cut`)
       for (const other of all.slice(0, i))
         if (Math.min(one.right, other.right) - Math.max(one.left, other.left) > 1
             && Math.min(one.bottom, other.bottom) - Math.max(one.top, other.top) > room)
-          found.push(`“${one.text}” lies on “${other.text}”`)
+          faults.push(`“${one.text}” lies on “${other.text}”`)
     })
   }
-  return found
+  return faults
 }"""
 
 

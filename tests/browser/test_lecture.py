@@ -290,15 +290,15 @@ def test_what_a_lesson_asks_and_how_it_was_answered_are_on_the_screen(
         rest(page)
         if projected:  # figures follow their places in steps
             page.wait_for_function(f"({ON_SCREEN})().views.every(([share]) => share > 0.99)")
-        found: dict[str, Any] = page.evaluate(ON_SCREEN)
-        assert found["choices"] == [WHOLE] * len(found["choices"]) != [], number
+        on_screen: dict[str, Any] = page.evaluate(ON_SCREEN)
+        assert on_screen["choices"] == [WHOLE] * len(on_screen["choices"]) != [], number
         if projected:
-            assert not found["broken"], number
-            assert found["words"] <= 80.0, "two lines"
-            for share, high in found["views"]:
+            assert not on_screen["broken"], number
+            assert on_screen["words"] <= 80.0, "two lines"
+            for share, high in on_screen["views"]:
                 assert share == WHOLE, number
                 assert high >= height * 2 / 3, number
-        return found
+        return on_screen
 
     for number in range(1, LESSONS + 1):
         before = seen(number)

@@ -15,8 +15,8 @@ RANGE = """view => {
   const inside = (root) => {
     for (const element of root.querySelectorAll("*")) {
       if (element.matches(`.view-${view}`)) return element
-      const found = element.shadowRoot && inside(element.shadowRoot)
-      if (found) return found
+      const inner = element.shadowRoot && inside(element.shadowRoot)
+      if (inner) return inner
     }
   }
   const card = inside(document)
@@ -41,8 +41,8 @@ def test_figures_zoom_stay_zoomed_and_go_back(page: Page, explorer: Server) -> N
 
     def shown() -> list[float]:
         painted(page)
-        found: Any = page.evaluate(RANGE, "modes")
-        return [float(end) for end in found]
+        ends: Any = page.evaluate(RANGE, "modes")
+        return [float(end) for end in ends]
 
     box = page.locator(".view-modes canvas").first.bounding_box()
     assert box is not None
@@ -81,8 +81,8 @@ def test_figures_zoom_stay_zoomed_and_go_back(page: Page, explorer: Server) -> N
       const [{ model }] = [...Bokeh.index.query(view => view.model.name === "maps_drawing")]
       const words = ({ visible, axis_label, formatter }) =>
         visible && [axis_label, formatter.args.get?.("shown") ?? formatter.args.shown]
-      return [...model.left, ...model.below].map(words).map((found) =>
-        found && [found[0], found[1].data.words])
+      return [...model.left, ...model.below].map(words).map((axis) =>
+        axis && [axis[0], axis[1].data.words])
     }"""
     assert page.evaluate(axes) == [False, False]
     x, y = place(page, "maps_drawing", 1.3, -4.0)

@@ -162,8 +162,8 @@ class Visitor:
 
     def figures(self) -> list[str]:
         """What each visible figure shows, without the lines of its key; none must be blank."""
-        found = self.main.locator("canvas:not(.bk-glyph)").evaluate_all(_FIGURES)
-        return [pixels if drawn > 300 else "blank" for pixels, drawn in found]
+        figures = self.main.locator("canvas:not(.bk-glyph)").evaluate_all(_FIGURES)
+        return [pixels if drawn > 300 else "blank" for pixels, drawn in figures]
 
     def look_over(self) -> None:
         """Scroll past all figures and back: those out of sight are painted last."""

@@ -48,10 +48,10 @@ def _break_text(random_: random.Random, text: str, seeds: Sequence[str]) -> str:
         i, j = random_.randrange(len(lines)), random_.randrange(len(lines))
         lines[i], lines[j] = lines[j], lines[i]
         return "\n".join(lines)
-    found = list(re.finditer(r"[-+]?\d[\d.]*(?:e[-+]?\d+)?", text))
-    if not found:
+    numbers = list(re.finditer(r"[-+]?\d[\d.]*(?:e[-+]?\d+)?", text))
+    if not numbers:
         return text + random_.choice(NUMBERS)
-    number = random_.choice(found)
+    number = random_.choice(numbers)
     return text[: number.start()] + random_.choice(NUMBERS) + text[number.end() :]
 
 

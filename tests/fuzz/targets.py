@@ -35,7 +35,7 @@ class Target:
     meet: Callable[[Any], object]
     refused: int = 0
     taken: int = 0
-    found: list[str] = field(default_factory=list)
+    faults: list[str] = field(default_factory=list)
 
     def run(self, number: int) -> None:
         """Meet the input with this number."""
@@ -55,8 +55,8 @@ class Target:
             self._note(number, given, f"took {took:.1f} s")
 
     def _note(self, number: int, given: Any, what: str) -> None:
-        if len(self.found) < 20:
-            self.found.append(f"{self.name} {number}: {what}\n    {repr(given)[:300]}")
+        if len(self.faults) < 20:
+            self.faults.append(f"{self.name} {number}: {what}\n    {repr(given)[:300]}")
 
 
 def unclear(sentence: str) -> str | None:

@@ -25,6 +25,6 @@ def test_broken_inputs_are_taken_or_refused_in_a_sentence(
         warnings.simplefilter("ignore")
         for number in range(10_000_000, 10_000_000 + inputs):
             target.run(number)
-    assert not target.found, "\n".join(target.found)
+    assert not target.faults, "\n".join(target.faults)
     assert target.refused + target.taken == inputs
     assert target.refused or name == "address"

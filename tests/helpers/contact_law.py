@@ -81,7 +81,7 @@ def centers_apart(bearing: Bearing) -> float:
 
 def rows_of(bearing: Bearing) -> list[dict[str, float]]:
     """What the contacts of each row are made of, written out from its dimensions."""
-    b, found = bearing, []
+    b, rows = bearing, []
     for row in b.all_rows:
         n = b.n_balls if row.n_balls is None else row.n_balls
         angle = b.contact_angle if row.contact_angle is None else row.contact_angle
@@ -91,7 +91,7 @@ def rows_of(bearing: Bearing) -> list[dict[str, float]]:
             "place": row.place, "facing": row.facing, "turn": row.turn, "offset": row.offset,
             "slack": b.radial_clearance + row.clearance, "D": b.ball_diameter,
         }  # fmt: skip
-        found.append(each)
+        rows.append(each)
         if not row.own:
             continue
         assert b.inner_groove_radius is not None
@@ -111,10 +111,10 @@ def rows_of(bearing: Bearing) -> list[dict[str, float]]:
         slow = b.ball_diameter * math.cos(b.contact_angle) / b.pitch_diameter
         each["pace"] = (1.0 - D * math.cos(angle) / pitch) / (1.0 - slow)
     if b.kind.name == "rows":  # placed by their balls; the inner grooves are further along the line
-        for row, each in zip(b.all_rows, found, strict=True):
+        for row, each in zip(b.all_rows, rows, strict=True):
             beyond = each["reach"] - 0.5 * (row.pitch_diameter or b.pitch_diameter)
             each["place"] += each["facing"] * beyond * math.tan(each["angle"])
-    return found
+    return rows
 
 
 @dataclass(frozen=True)

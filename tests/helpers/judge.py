@@ -90,13 +90,13 @@ def way_to_move(
     along = along.astype(float)
     best = np.zeros(5)
     for sign in (-1.0, 1.0):
-        found = linprog(
+        answer = linprog(
             -sign * flat[:, dof],
             A_ub=along @ flat.T if len(along) else None,
             b_ub=np.zeros(len(along)) if len(along) else None,
             bounds=(-1.0, 1.0),
         )
-        way = found.x @ flat
+        way = answer.x @ flat
         if abs(way[dof]) > abs(best[dof]):
             best = way
     return best
@@ -127,9 +127,9 @@ def _judge_equilibrium(
     rounding = spoilt / size
     if not answer.residual[i] <= max(RESIDUAL, rounding):
         return f"residual said to be {answer.residual[i]:.2e}"
-    found = balls.unbalanced(q, active) / size
-    if not found <= RESIDUAL + rounding:
-        return f"residual is {found:.2e}, rounding makes {rounding:.1e} of it"
+    residual = balls.unbalanced(q, active) / size
+    if not residual <= RESIDUAL + rounding:
+        return f"residual is {residual:.2e}, rounding makes {rounding:.1e} of it"
     loads = balls.ball_load(q).astype(float)
     off = np.abs(answer.ball_load[i] - loads).max() / size
     if not off <= RESIDUAL + rounding:

@@ -56,8 +56,8 @@ class PageClient:
         """Ask for the page; return the status. The token for the websocket is kept."""
         request = HTTPRequest(self.url, request_timeout=120.0)
         response = await AsyncHTTPClient(max_clients=1000).fetch(request, raise_error=False)
-        found = _TOKEN.search(response.body or b"")
-        self.token = found.group(1).decode() if found else ""
+        match = _TOKEN.search(response.body or b"")
+        self.token = match.group(1).decode() if match else ""
         self.body = response.body or b""
         return int(response.code)
 
@@ -307,14 +307,14 @@ def _plain(value: Any) -> Any:
 
 def _models(value: Any) -> list[dict[str, Any]]:
     """All models that are written out in a piece of a document."""
-    found: list[dict[str, Any]] = []
+    models: list[dict[str, Any]] = []
     left = [value]
     while left:
         item = left.pop()
         if isinstance(item, dict):
             if item.get("type") == "object" and "id" in item:
-                found.append(item)
+                models.append(item)
             left.extend(item.values())
         elif isinstance(item, list):
             left.extend(item)
-    return found
+    return models

@@ -13,6 +13,7 @@ from pathlib import Path
 import bearing_explorer.explorer.views.paper_figures as paper
 
 import bearingcore
+from bearingcore import recordings
 from bearingcore.bearings import BALL_MATERIALS, KINDS
 from bearingcore.measured import signals
 from bearingcore.measured.signals import Indicators
@@ -31,6 +32,12 @@ ASPECTS = (
 NOT_A_NUMBER = {"warm"}
 """Functions of the front that give no number: kernels compiled ahead."""
 
+LISTED_BY_RESULT = {
+    *("sweep", "measure", "alternatives"),
+    *("order_map", "spectrogram", "severity_zone"),
+}
+"""Functions whose numbers have rows of their own: outputs of sweeps, charts, signals."""
+
 PARTS = {
     *("check_samples", "check_directions", "hann", "split", "thinned", "coefficients"),
     *("least_passes", "lines_that_count", "third_octave_edges", "smooth_lag", "oversampled"),
@@ -42,9 +49,11 @@ the diagnosis, which are listed."""
 
 
 def functions_of_signals() -> Iterator[str]:
-    """Public functions of `bearingcore.measured.signals`, each where it is defined."""
-    for module in pkgutil.iter_modules(signals.__path__):
-        found = importlib.import_module(f"bearingcore.measured.signals.{module.name}")
+    """Public functions of both packages of signals, each where it is defined."""
+    packages = (signals, recordings)
+    modules = [(one, module) for one in packages for module in pkgutil.iter_modules(one.__path__)]
+    for package, module in modules:
+        found = importlib.import_module(f"{package.__name__}.{module.name}")
         for name, what in vars(found).items():
             own = inspect.isfunction(what) and what.__module__ == found.__name__
             if own and not name.startswith("_") and name not in PARTS:
@@ -54,9 +63,9 @@ def functions_of_signals() -> Iterator[str]:
 def charts() -> list[str]:
     """Experiments and orbits in the charts of speed against accuracy that are shipped."""
     shipped = [json.loads(file.read_text()) for file in (ROOT / "assets/accuracy").glob("*.json")]
-    found = {name for chart in shipped for name in chart["experiments"]}
-    found |= {name for chart in shipped for name in ("orbits", "stability") if chart[name]}
-    return sorted(found)
+    names = {name for chart in shipped for name in chart["experiments"]}
+    names |= {name for chart in shipped for name in ("orbits", "stability") if chart[name]}
+    return sorted(names)
 
 
 def capabilities() -> dict[str, list[str]]:
@@ -67,6 +76,7 @@ def capabilities() -> dict[str, list[str]]:
         name
         for name in bearingcore.__all__
         if name.islower() and callable(getattr(bearingcore, name)) and name not in NOT_A_NUMBER
+        if name not in LISTED_BY_RESULT
     ]
     choices = {
         "edge": EDGES,

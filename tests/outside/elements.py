@@ -146,12 +146,12 @@ class Rows:
             return float(energy / np.abs(force * size).max()), gradient(p)
 
         if near is not None:
-            found = root(gradient, (near / size)[free], tol=1e-14, options={"xtol": 1e-14})
-            if np.abs(gradient(found.x)).max() < 1e-9:
-                return full(found.x)
+            result = root(gradient, (near / size)[free], tol=1e-14, options={"xtol": 1e-14})
+            if np.abs(gradient(result.x)).max() < 1e-9:
+                return full(result.x)
         start = np.sign(force[free]) * np.array([2.0, 2.0, 2.0, 0.0, 0.0])[free]
-        found = minimize(value, start, jac=True, method="BFGS", options={"gtol": 1e-8})
-        return full(root(gradient, found.x, tol=1e-14, options={"xtol": 1e-14}).x)
+        result = minimize(value, start, jac=True, method="BFGS", options={"gtol": 1e-8})
+        return full(root(gradient, result.x, tol=1e-14, options={"xtol": 1e-14}).x)
 
     def curves(self, force: Array, cage: Array, free: list[int]) -> tuple[Array, Array]:
         """Loads (n, elements) and stiffness (n, 5, 5) at cage angles (n,), one after the other."""

@@ -31,7 +31,7 @@ class Jones:
     def factors(self) -> tuple[float, float]:
         """K [N/m^1.5] of the inner and the outer contact."""
         compliance = [(1.0 - nu * nu) / E for E, nu in (self.ball, self.race)]
-        found = [
+        factors = [
             point_contact(
                 self.D,
                 -1.0 / (groove * self.D),
@@ -40,7 +40,7 @@ class Jones:
             )[0]
             for groove, side in zip(self.grooves, (1.0, -1.0), strict=True)
         ]
-        return found[0], found[1]
+        return factors[0], factors[1]
 
     def solve(
         self, thrust: float, radial: float, speed: float, gyroscopic: bool
@@ -99,8 +99,8 @@ class Jones:
         start[2:] *= 1.02
         for share in (0.0, 0.5, 1.0):  # centrifugal load comes on in steps
             whole, speed = speed, speed * share
-            found = root(off, start, method="hybr", tol=1e-13, options={"maxfev": 100_000})
-            start, speed = found.x, whole
+            result = root(off, start, method="hybr", tol=1e-13, options={"maxfev": 100_000})
+            start, speed = result.x, whole
         assert np.abs(off(start)).max() < 1e-6 * (thrust + abs(radial))
         loads, alpha, moment, _ = ball(1e-6 * start)
         return loads, alpha, moment, 1e-6 * start[:2]

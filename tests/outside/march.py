@@ -184,8 +184,8 @@ class Problem:
     def accelerations(self, times: Array, states: Array) -> Array:
         """(len(times), n) [m/s², rad/s²] of the outer ring."""
         n, packed = len(self.free), self.packed()
-        found = [rates(t, y, *packed)[3 * n :] for t, y in zip(times, states, strict=True)]
-        return 1e-6 * np.array(found)
+        all_rates = [rates(t, y, *packed)[3 * n :] for t, y in zip(times, states, strict=True)]
+        return 1e-6 * np.array(all_rates)
 
     def multipliers(self, passes: int = 8) -> Array:
         """Of the periodic orbit of one ball pass, greatest first: Newton's method on its closing,

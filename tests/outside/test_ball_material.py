@@ -81,9 +81,9 @@ def test_the_rating_of_steel_balls_is_not_that_of_a_hybrid(steel: Bearing) -> No
     with pytest.raises(FieldError, match="maker's catalogue"):
         life(scene_of("6205/HC5"))
     assert dynamic_load_rating(steel) > 0.0
-    found = read_designation("6205-2RSLTN9/HC5C3WT")
-    assert (found.dynamic_load_rating, found.clearance_class) == (None, "C3")
-    assert found.bearing.ball_material == "silicon nitride"
+    designation = read_designation("6205-2RSLTN9/HC5C3WT")
+    assert (designation.dynamic_load_rating, designation.clearance_class) == (None, "C3")
+    assert designation.bearing.ball_material == "silicon nitride"
     with pytest.raises(FieldError, match="steel rollers"):
         read_designation("NU 208 ECP/HC5")
 

@@ -96,9 +96,9 @@ def test_the_march_meets_the_stored_reference() -> None:
     stored = np.load(ROOT / "tests/reference/motion_reference.npz")["12.9deg/displacement"][:100]
     one = replace(problem("fan-rig"), c=122.0)
     times = np.arange(len(stored)) * 64.0 / RATE
-    found = 1e-6 * one.solved(one.start(), times)[:, :4]
+    history = 1e-6 * one.solved(one.start(), times)[:, :4]
     swing = np.abs(stored - stored.mean(axis=0)).max()
-    assert np.abs(found - stored).max() < 1e-6 * swing
+    assert np.abs(history - stored).max() < 1e-6 * swing
 
 
 @witness(
@@ -119,8 +119,8 @@ def test_points_of_the_motion_charts(preset: str) -> None:
     for point in [p for p in points if p["value"] >= RATE][:3]:
         keep = round(point["value"] / RATE)
         steps = (len(true) - 1) * keep
-        found = by_runge_kutta(one.start(), 1.0 / point["value"], steps, keep, *one.packed())
-        off = np.sum((size * (found - true)) ** 2)
+        history = by_runge_kutta(one.start(), 1.0 / point["value"], steps, keep, *one.packed())
+        off = np.sum((size * (history - true)) ** 2)
         error = math.sqrt(off / np.sum((size * true) ** 2))
         assert error == pytest.approx(point["errors"]["series L2"], rel=2e-3), point["setting"]
 
@@ -157,8 +157,8 @@ def test_points_of_the_stability_charts(preset: str) -> None:
     for trial in trials[last : last + 3]:
         rate = trial["step_rate"]
         with np.errstate(all="ignore"):
-            found = by_runge_kutta(one.start(), 1.0 / rate, round(0.25 * rate), 1, *one.packed())
-            grown = not np.abs(found).max() < 1e6 * np.abs(found[: len(found) // 100]).max()
+            history = by_runge_kutta(one.start(), 1.0 / rate, round(0.25 * rate), 1, *one.packed())
+            grown = not np.abs(history).max() < 1e6 * np.abs(history[: len(history) // 100]).max()
         assert grown == (trial["verdict"] == "diverged"), rate
 
 
@@ -193,8 +193,8 @@ def test_points_of_the_statics_charts(preset: str) -> None:
     size = np.where(size > 1e-6 * neighbors, size, neighbors)
     size = np.where(size > 0.0, size, 1.0)
 
-    def errors(loads_found: np.ndarray, found: np.ndarray) -> dict[str, float]:
-        off = np.abs(found - stiffness) / size
+    def errors(loads_found: np.ndarray, slopes: np.ndarray) -> dict[str, float]:
+        off = np.abs(slopes - stiffness) / size
         return {"stiffness": off.max(), "load": np.abs(loads_found - loads).max() / loads.max()}
 
     state = equilibrium(presets[preset], cage)
@@ -233,9 +233,12 @@ def test_points_of_the_statics_charts(preset: str) -> None:
     for method, tolerance in wanted:
         q = np.stack([solved(method, tolerance, at) for at in cage], axis=1)
         slopes = rows.slopes(q, cage) / np.outer(units, units)
-        found = errors(rows.load(q[:, :, None], cage[:, None]), slopes)
+        differences = errors(rows.load(q[:, :, None], cage[:, None]), slopes)
         for name, error in points.get((method, tolerance), {}).items():
-            assert error == pytest.approx(found[name], rel=1e-2, abs=1e-9), (method, tolerance)
+            assert error == pytest.approx(differences[name], rel=1e-2, abs=1e-9), (
+                method,
+                tolerance,
+            )
 
 
 NOT_YET_OF_ORDER_2 = ("209", "liew-lim")
@@ -275,8 +278,12 @@ def test_levels_of_edge_models(preset: str) -> None:
     for edge in ("exact", "chord", "published"):
         true = exact(preset, 0.2, edge, tolerance=1e-7)[:, :2]
         scene = presets[preset].replace(edge=edge)
-        found = simulate(scene, 0.2, RATE, step_rate=4.0 * RATE).instant_acceleration("outer")
-        powers = [np.mean(one[: len(true), :2] ** 2) for one in (found, true[: len(found)])]
+        acceleration = simulate(scene, 0.2, RATE, step_rate=4.0 * RATE).instant_acceleration(
+            "outer"
+        )
+        powers = [
+            np.mean(one[: len(true), :2] ** 2) for one in (acceleration, true[: len(acceleration)])
+        ]
         assert abs(10.0 * math.log10(powers[0] / powers[1])) < 0.05, edge
 
 
@@ -292,8 +299,8 @@ def test_points_of_the_orbits_charts(preset: str) -> None:
     known = [one for one in chart("orbits", preset) if one["status"] == "stable orbit"]
     last = 3 if len(presets[preset].active_dofs) == 2 else 1  # a pass is short at high speed
     for point in known[-last:]:
-        found = problem(preset, shaft=point["shaft_speed"]).multipliers()
+        multipliers = problem(preset, shaft=point["shaft_speed"]).multipliers()
         here = orbit(presets[preset].replace(shaft_speed=point["shaft_speed"]))
-        assert here.largest_multiplier == pytest.approx(abs(found[0]), abs=1e-3)
+        assert here.largest_multiplier == pytest.approx(abs(multipliers[0]), abs=1e-3)
         shown = np.abs([complex(*one) for one in point["multipliers"]]).max()
-        assert shown == pytest.approx(abs(found[0]), abs=1e-3), point["shaft_speed"]
+        assert shown == pytest.approx(abs(multipliers[0]), abs=1e-3), point["shaft_speed"]

@@ -34,15 +34,15 @@ def pressures(kind: str, load: float) -> list[float]:
     if kind in LENGTH:  # cylinder on cylinder: p² = Q/l E'/(2 π R)
         radii = [0.5 * case.rows.element * (1.0 + side * gamma(case)) for _, side in RACES]
         return [math.sqrt(load / LENGTH[kind] * PLANE / (2.0 * math.pi * R)) for R in radii]
-    found = []
+    results = []
     for across, along in case.curvatures:
         if across == along:  # a sphere in a sphere: p³ = 6 Q (E'/2)²/(π³ R²)
             R = 1.0 / (2.0 / case.rows.element + across)
-            found.append((6.0 * load * (0.5 * PLANE) ** 2 / (math.pi**3 * R**2)) ** (1.0 / 3.0))
+            results.append((6.0 * load * (0.5 * PLANE) ** 2 / (math.pi**3 * R**2)) ** (1.0 / 3.0))
         else:
             one = point_contact(case.rows.element, across, along)[1]
-            found.append(one * load ** (1.0 / 3.0))
-    return found
+            results.append(one * load ** (1.0 / 3.0))
+    return results
 
 
 @witness(
@@ -53,9 +53,9 @@ def pressures(kind: str, load: float) -> list[float]:
 @kinds
 def test_pressures(kind: str) -> None:
     scene = CASES[kind].scene
-    found = contact_pressures(scene, equilibrium(scene, CAGE))
+    both = contact_pressures(scene, equilibrium(scene, CAGE))
     own = pressures(kind, heaviest(CASES[kind]))
-    ours = [one.greatest_pressure for one in (found.inner, found.outer)]
+    ours = [one.greatest_pressure for one in (both.inner, both.outer)]
     assert ours == pytest.approx(own, rel=1e-5)
 
 
@@ -74,10 +74,10 @@ def test_limits_of_pressure(kind: str) -> None:
     for times in (1.0, 25.0):
         case = CASES[kind]._replace(force=times * CASES[kind].force)
         scene = case.scene.replace(**dict(zip(LOADS, map(float, case.force), strict=True)))
-        found = limits(scene, equilibrium(scene, CAGE))
+        every_limit = limits(scene, equilibrium(scene, CAGE))
         own = pressures(kind, heaviest(case))
         for (race, _), pressure in zip(RACES, own, strict=True):
-            (limit,) = [one for one in found if one.name == f"contact pressure, {race} race"]
+            (limit,) = [one for one in every_limit if one.name == f"contact pressure, {race} race"]
             assert limit.limit == printed
             assert limit.value == pytest.approx(pressure, rel=1e-5)
             assert limit.crossed == (pressure > printed)
@@ -110,8 +110,8 @@ def test_free_tilts_are_those_of_least_energy() -> None:
     """The pair of 7208 with a radial and an axial load, by `elements`."""
     case = CASES["rows"]
     q = case.rows.rest(case.force, CAGE[1], case.free)
-    found = limits(case.scene, equilibrium(case.scene, [CAGE[1]]))
-    (said,) = [one.sentence for one in found if one.name == "free tilts"]
+    every_limit = limits(case.scene, equilibrium(case.scene, [CAGE[1]]))
+    (said,) = [one.sentence for one in every_limit if one.name == "free tilts"]
     shown, unit = said.partition("tilts by up to ")[2].split()
     assert unit == "µrad."
     assert 1e-6 * float(shown) == pytest.approx(np.hypot(*q[3:]), rel=3e-3)
@@ -128,7 +128,7 @@ OIL = {"viscosity": 0.017, "pressure_viscosity": 1.8e-8}
 @kinds
 def test_films(kind: str) -> None:
     case, scene = CASES[kind], CASES[kind].scene
-    found = film(scene, **OIL, state=equilibrium(scene, CAGE))
+    oil_film = film(scene, **OIL, state=equilibrium(scene, CAGE))
     load, D = heaviest(case), case.rows.element
     pitch = D * math.cos(case.rows.angle) / gamma(case)
     # seen from the cage, the inner race and the ball's surface move alike
@@ -143,7 +143,7 @@ def test_films(kind: str) -> None:
             k = 1.0 if across == along else point_contact(D, across, along)[2]
             W = load / (PLANE * R**2)
             own = 3.63 * R * U**0.68 * G**0.49 * W**-0.073 * (1.0 - math.exp(-0.68 * k))
-        ours = getattr(found, race)
+        ours = getattr(oil_film, race)
         assert ours.thickness == pytest.approx(own, rel=1e-5)
         sigma = math.hypot(0.1e-6, 0.05e-6)  # race and ball, as they are unless given
         assert ours.film_parameter == pytest.approx(own / sigma, rel=1e-5)
@@ -176,10 +176,10 @@ def test_lives_of_balls(kind: str) -> None:
     Q_ei = np.mean(loads**3, axis=1) ** (1.0 / 3.0)
     Q_ee = np.mean(loads ** (10.0 / 3.0), axis=1) ** 0.3
     worn = (Q_ei / Q_ci) ** (10.0 / 3.0) + (Q_ee / Q_ce) ** (10.0 / 3.0)
-    found = life(case.scene.healthy(), 30e3, positions="load line")
-    assert found.million_revolutions == pytest.approx(worn.sum() ** -0.9, rel=1e-5)
+    rated = life(case.scene.healthy(), 30e3, positions="load line")
+    assert rated.million_revolutions == pytest.approx(worn.sum() ** -0.9, rel=1e-5)
     turns_an_hour = case.scene.shaft_speed / (2.0 * math.pi) * 3600.0
-    assert found.hours == pytest.approx(worn.sum() ** -0.9 * 1e6 / turns_an_hour, rel=1e-5)
+    assert rated.hours == pytest.approx(worn.sum() ** -0.9 * 1e6 / turns_an_hour, rel=1e-5)
 
 
 @witness(
@@ -198,5 +198,5 @@ def test_frequencies_of_rolling(kind: str) -> None:
     # the cage goes with the middle of the element, halfway between the speeds of the contacts
     cage = 0.5 * turn * contacts[0] / (0.5 * pitch) / turn
     spin = (1.0 - cage) * contacts[0] / (0.5 * D)
-    found = [getattr(bearing, name)(turn) for name in ("ftf", "bpfo", "bpfi", "bsf")]
-    assert found == pytest.approx([cage, Z * cage, Z * (1.0 - cage), spin], rel=1e-12)
+    frequencies = [getattr(bearing, name)(turn) for name in ("ftf", "bpfo", "bpfi", "bsf")]
+    assert frequencies == pytest.approx([cage, Z * cage, Z * (1.0 - cage), spin], rel=1e-12)

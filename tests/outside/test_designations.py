@@ -64,12 +64,12 @@ SKF_RACEWAY_MM = {"NU204": 26.5, "NU2204": 26.5, "NU304": 27.5, "NU2304": 27.5, 
 @pytest.mark.parametrize("name", SKF)
 def test_dimensions_and_ratings_of_skf(name: str) -> None:
     """A reinforced inside has SKF's own rating, others that of another maker within 13 %."""
-    found = read_designation(name)
+    designation = read_designation(name)
     *sizes, rating = SKF[name]
-    own = (found.bore, found.outside_diameter, found.width)
+    own = (designation.bore, designation.outside_diameter, designation.width)
     assert [1e3 * one for one in own] == pytest.approx(sizes)
-    within = 1e-9 if found.reinforced else 0.13
-    assert found.dynamic_load_rating == pytest.approx(1e3 * rating, rel=within)
+    within = 1e-9 if designation.reinforced else 0.13
+    assert designation.dynamic_load_rating == pytest.approx(1e3 * rating, rel=within)
 
 
 def test_raceways_of_cylindrical_rollers() -> None:
@@ -106,8 +106,8 @@ def test_a_pair_is_a_pair_with_its_clearance(
 
     Half of the clearance takes the ring from the middle to the free contact angle.
     """
-    found = read_designation(name)
-    pair, single = found.bearing, read_designation("7208 BEP")
+    designation = read_designation(name)
+    pair, single = designation.bearing, read_designation("7208 BEP")
     assert pair.arrangement == arrangement
     assert pair.row_distance == pytest.approx(single.width)
     middle = 0.5e-6 * (least + most)
@@ -185,9 +185,9 @@ def test_balls_of_reinforced_insides_give_their_ratings(
     name: str, dynamic: float, static: float, axial: float | None
 ) -> None:
     """Source: SKF general catalogue, C, C_0 and Y_1; by ISO 76 from the balls found."""
-    found = read_designation(name)
-    b, rows = found.bearing, 1 if axial is None else 2
-    assert found.dynamic_load_rating == pytest.approx(1e3 * dynamic)
+    designation = read_designation(name)
+    b, rows = designation.bearing, 1 if axial is None else 2
+    assert designation.dynamic_load_rating == pytest.approx(1e3 * dynamic)
     if axial is not None:
         assert 0.42 / math.tan(b.contact_angle) == pytest.approx(axial)
     cosine = math.cos(b.contact_angle)
@@ -232,9 +232,9 @@ def test_other_makers_ratings_are_as_far_off_as_the_note_says() -> None:
     """Nine of ten from 10 % below to 15 % above, the farthest 35 % off."""
     off = {}
     for name, printed in (SKF_C_KN | FARTHEST_KN).items():
-        found = read_designation(name)
-        assert "from 10 % below to 15 % above" in found.entry.note
-        off[name] = 1e3 * printed / float(found.dynamic_load_rating or 0.0) - 1.0
+        designation = read_designation(name)
+        assert "from 10 % below to 15 % above" in designation.entry.note
+        off[name] = 1e3 * printed / float(designation.dynamic_load_rating or 0.0) - 1.0
     drawn = [-0.1 <= off[name] <= 0.155 for name in SKF_C_KN]
     assert sum(drawn) >= 0.9 * len(drawn)
     assert [off[name] for name in FARTHEST_KN] == pytest.approx([-0.354, -0.349, 0.316], abs=5e-4)
@@ -258,15 +258,15 @@ def test_seals_behind_a_slash_are_no_bore(name: str) -> None:
 )  # fmt: skip
 def test_static_ratings_are_the_loads_of_their_pressure(name: str) -> None:
     """The plain insides' balls follow from C and C_0 of the catalogue, the pressure from them."""
-    found, scene = read_designation(name), scene_of(name).healthy()
-    b = found.bearing.replace(radial_clearance=0.0)
-    static = boundaries()[found.basic].static_rating * (2.0 if "DB" in name else 1.0)
+    designation, scene = read_designation(name), scene_of(name).healthy()
+    b = designation.bearing.replace(radial_clearance=0.0)
+    static = boundaries()[designation.basic].static_rating * (2.0 if "DB" in name else 1.0)
     scene = scene.replace(bearing=b, fx=0.0, fy=-static, fz=0.0, dofs="tilt held")
     races = contact_pressures(scene)
     load = 5.0 * static / (len(b.all_rows) * b.n_balls * math.cos(b.contact_angle))
     line = b.roller_length is not None
     power = 0.5 if line else 1.0 / 3.0
-    known = 4000e6 if line else 4600e6 if found.kind.startswith("self") else 4200e6
+    known = 4000e6 if line else 4600e6 if designation.kind.startswith("self") else 4200e6
     own = max(
         one.greatest_pressure * (load / one.load) ** power for one in (races.inner, races.outer)
     )
@@ -292,9 +292,9 @@ def test_balls_of_spindle_bearings_differ_as_the_note_says() -> None:
     off, note = [], ""
     for series, (first, counts) in SNFA_BALLS.items():
         for bore, count in enumerate(map(int, counts.split()), first):
-            found = read_designation(f"{series}{bore:02d} C")
-            off.append(abs(found.bearing.n_balls - count))
-            note = found.entry.note
+            designation = read_designation(f"{series}{bore:02d} C")
+            off.append(abs(designation.bearing.n_balls - count))
+            note = designation.entry.note
     known = inside.SPINDLE_BEARINGS, inside.SAME_BALLS, inside.ONE_OFF
     assert (len(off), off.count(0), off.count(1)) == known
     assert f"of {len(off)} of SNFA {off.count(0)} have the number estimated here" in note
@@ -310,9 +310,9 @@ def test_combined_loads_last_longer_by_iso_16281() -> None:
     """LIFE.md says why; of a 7310 DB under 3 and 5 kN ISO 281 has P = 0.57 F_r + 0.93 F_a."""
     bearing = read_designation("6208").bearing.replace(radial_clearance=0.0)
     scene = scene_of("6208").replace(bearing=bearing, fx=0.0, fy=-3200.0, fz=1800.0)
-    found = life(scene.replace(shaft_speed=650.0 * math.pi / 30.0), 32.5e3)
-    assert found.equivalent_load == pytest.approx(4380.0, rel=0.09)
-    assert (found.hours, found.equivalent_load) == pytest.approx((13_700.0, 4004.0), rel=2e-3)
+    rated = life(scene.replace(shaft_speed=650.0 * math.pi / 30.0), 32.5e3)
+    assert rated.equivalent_load == pytest.approx(4380.0, rel=0.09)
+    assert (rated.hours, rated.equivalent_load) == pytest.approx((13_700.0, 4004.0), rel=2e-3)
     pair = life(scene_of("7310 BECBP DB").replace(fx=0.0, fy=-3000.0, fz=5000.0))
     by_factors = (pair.dynamic_load_rating / (0.57 * 3000.0 + 0.93 * 5000.0)) ** 3
     assert (pair.million_revolutions, by_factors) == pytest.approx((11_686.0, 7030.0), rel=1e-3)

@@ -65,11 +65,11 @@ def recording(signal: Array, rate: float = RATE, name: str = "signal") -> Record
 )  # fmt: skip
 @pytest.mark.parametrize("part", list(PRINTED))
 def test_parts_by_their_printed_multiples(part: str) -> None:
-    found = diagnose(recording(damaged(part, 1.5)), BEARING, TURN * SHAFT)
-    assert found.fault == part
-    assert found.probability > 0.9
-    assert found.of(part).frequency == pytest.approx(PRINTED[part] * SHAFT, rel=0.002)
-    assert found.of(part).nominal_order == pytest.approx(PRINTED[part], rel=1e-4)
+    diagnosis = diagnose(recording(damaged(part, 1.5)), BEARING, TURN * SHAFT)
+    assert diagnosis.fault == part
+    assert diagnosis.probability > 0.9
+    assert diagnosis.of(part).frequency == pytest.approx(PRINTED[part] * SHAFT, rel=0.002)
+    assert diagnosis.of(part).nominal_order == pytest.approx(PRINTED[part], rel=1e-4)
     # blows as often as those of no part of this bearing name none
     times = np.arange(0.01, SECONDS, 1.0 / (4.21 * SHAFT))
     other = blows(times, np.ones_like(times), RATE, round(RATE * SECONDS), (3300.0, 900.0))
@@ -92,9 +92,9 @@ def test_lines_that_a_ball_may_have_name_a_race_only_near_its_own(off: float, su
     times = np.cumsum(1.0 + 0.002 * rng.standard_normal(int(0.98 * SECONDS * often))) / often
     knocks = blows(times, np.ones_like(times), RATE, round(RATE * SECONDS), (3300.0, 900.0))
     signal = damaged("", 0.0) + 1.5 * knocks / knocks.std()
-    found = diagnose(recording(signal), bearing, TURN * SHAFT)
-    assert (found.fault == "outer race" and found.probability >= 0.9) == sure
-    assert sure or found.probability < 0.6
+    diagnosis = diagnose(recording(signal), bearing, TURN * SHAFT)
+    assert (diagnosis.fault == "outer race" and diagnosis.probability >= 0.9) == sure
+    assert sure or diagnosis.probability < 0.6
 
 
 def test_blows_that_no_speed_of_the_range_explains_name_no_part() -> None:
@@ -103,10 +103,10 @@ def test_blows_that_no_speed_of_the_range_explains_name_no_part() -> None:
     often = 4.3 * PRINTED["outer race"]
     times = np.cumsum(1.0 + 0.05 * rng.standard_normal(int(0.99 * SECONDS * often))) / often
     knocks = blows(times, np.ones_like(times), RATE, round(RATE * SECONDS), (3300.0, 900.0))
-    found = diagnose(recording(damaged("", 0.0) + 0.9 * knocks / knocks.std()), BEARING)
-    assert (found.fault, found.shaft_speed) == (CANNOT_TELL, None)
-    assert found.probability < 0.5
-    assert "outer race at 2" in found.sentence
+    diagnosis = diagnose(recording(damaged("", 0.0) + 0.9 * knocks / knocks.std()), BEARING)
+    assert (diagnosis.fault, diagnosis.shaft_speed) == (CANNOT_TELL, None)
+    assert diagnosis.probability < 0.5
+    assert "outer race at 2" in diagnosis.sentence
 
 
 @witness(
@@ -121,20 +121,20 @@ def test_a_fault_that_grows() -> None:
         recording(damaged("inner race", height, seed), name=f"{seed}")
         for seed, height in enumerate(heights)
     ]
-    found = trend(series, BEARING, TURN * SHAFT, band=(2500.0, 4500.0))
-    assert found.column("rms") == pytest.approx(np.sqrt(1.0 + heights**2), rel=0.03)
-    assert found.rms_change[-1] == pytest.approx(math.sqrt(1.0 + 3.2**2), rel=0.03)
-    named = [point.fault for point in found.points]
+    history = trend(series, BEARING, TURN * SHAFT, band=(2500.0, 4500.0))
+    assert history.column("rms") == pytest.approx(np.sqrt(1.0 + heights**2), rel=0.03)
+    assert history.rms_change[-1] == pytest.approx(math.sqrt(1.0 + 3.2**2), rel=0.03)
+    named = [point.fault for point in history.points]
     assert set(named[:2]) <= {NONE_SEEN, CANNOT_TELL}
     assert named[2:] == ["inner race"] * 3
     # a line of the envelope is as high as the blows, but for the noise that fills it up below them
-    line = found.clear_lines[:, LINES.index("bpfi")]
+    line = history.clear_lines[:, LINES.index("bpfi")]
     assert np.isnan(line[:2]).all()
     assert line[4] / line[3] == pytest.approx(2.0, rel=0.1)
-    grown = found.line_change("inner race")
+    grown = history.line_change("inner race")
     assert np.isnan(grown[:2]).all()
     assert grown[4] / grown[3] == pytest.approx(line[4] / line[3])
-    hidden = found.points[0].noise[LINES.index("bpfi")]
+    hidden = history.points[0].noise[LINES.index("bpfi")]
     assert grown[4] == pytest.approx(line[4] / hidden)  # the baseline shows no line: at least
 
 
@@ -160,14 +160,16 @@ def passages(apart_deg: float, rate: float = 25_600.0, seed: int = 3) -> Array:
 )  # fmt: skip
 @pytest.mark.parametrize("apart", [4.0, 6.0, 12.0, 27.0])
 def test_an_extent_known_by_entry_and_exit(apart: float) -> None:
-    found = measure_extent(recording(passages(apart), 25_600.0), BEARING, TURN * 15.0, race="outer")
+    extent = measure_extent(
+        recording(passages(apart), 25_600.0), BEARING, TURN * 15.0, race="outer"
+    )
     sure = apart < 40.0 / 6.0
-    assert found.status == (ExtentStatus.MEASURED if sure else ExtentStatus.EITHER)
+    assert extent.status == (ExtentStatus.MEASURED if sure else ExtentStatus.EITHER)
     shorter = min(apart, 40.0 - apart)
-    assert math.degrees(found.separation) == pytest.approx(shorter, abs=0.3)
-    (one, low, high), (other, _, _) = np.degrees(found.alternatives)
-    assert one + other == pytest.approx(40.0 + 2.0 * math.degrees(found.offset))
-    assert low < shorter + math.degrees(found.offset) < high
+    assert math.degrees(extent.separation) == pytest.approx(shorter, abs=0.3)
+    (one, low, high), (other, _, _) = np.degrees(extent.alternatives)
+    assert one + other == pytest.approx(40.0 + 2.0 * math.degrees(extent.offset))
+    assert low < shorter + math.degrees(extent.offset) < high
 
 
 @witness(
@@ -180,11 +182,11 @@ def test_an_extent_known_by_entry_and_exit(apart: float) -> None:
 def test_an_extent_of_a_motion_by_scipy() -> None:
     truth, content = file_from_elsewhere()
     read = read_table("rig.csv", content).recording(["vertical", "horizontal"], ["y", "x"], "g")
-    found = measure_extent(
+    extent = measure_extent(
         read, truth.bearing, truth.shaft_speed, race="outer", load=300.0, clearance=0.0,
         edge="published",
     )  # fmt: skip
-    assert found.status == ExtentStatus.EITHER
-    assert math.isnan(found.extent)
-    beyond = math.radians(47.3) - found.ball_spacing
-    assert any(low <= beyond <= high for _, low, high in found.alternatives)
+    assert extent.status == ExtentStatus.EITHER
+    assert math.isnan(extent.extent)
+    beyond = math.radians(47.3) - extent.ball_spacing
+    assert any(low <= beyond <= high for _, low, high in extent.alternatives)

@@ -58,8 +58,8 @@ PHI = np.linspace(DOWN - 0.2, DOWN + 0.2, 161)
 def test_balls_over_slots(parts: list[tuple[float, float, float]]) -> None:
     own = rolled(*slots(*parts)[::-1], PHI)
     made = tuple(Defect(extent, depth, middle, edge="exact") for middle, extent, depth in parts)
-    found = drop_into(made, BASE.bearing, PHI)
-    assert found == pytest.approx(own, abs=4e-3 * 100e-6)
+    drop = drop_into(made, BASE.bearing, PHI)
+    assert drop == pytest.approx(own, abs=4e-3 * 100e-6)
 
 
 @witness(
@@ -135,5 +135,5 @@ def test_loads_over_two_defects() -> None:
     force = np.array([0.0, -1000.0, 0.0, 0.0, 0.0])
     loads = [rows.load(rows.rest(force, one, [0, 1]), one) for one in cage]
     made = tuple(Defect(extent, depth, middle, edge="exact") for middle, extent, depth in parts)
-    found = equilibrium(BASE.replace(defect=made), cage).ball_load
-    assert found == pytest.approx(np.array(loads), abs=2e-3 * found.max())
+    actual = equilibrium(BASE.replace(defect=made), cage).ball_load
+    assert actual == pytest.approx(np.array(loads), abs=2e-3 * actual.max())

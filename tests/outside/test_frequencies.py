@@ -47,5 +47,5 @@ def test_frequencies_are_the_printed_ones(name: str, within: float) -> None:
     bearing = Bearing.from_drawing(
         int(count), ball, pitch, 0.52 * ball, 0.53 * ball, contact_angle=0.0
     )
-    found = (bearing.ftf(TURN), bearing.bsf(TURN), bearing.bpfo(TURN), bearing.bpfi(TURN))
-    assert found == pytest.approx(printed, rel=within, abs=6e-5)
+    frequencies = (bearing.ftf(TURN), bearing.bsf(TURN), bearing.bpfo(TURN), bearing.bpfi(TURN))
+    assert frequencies == pytest.approx(printed, rel=within, abs=6e-5)

@@ -34,8 +34,8 @@ def heavy_rates(t: float, y: np.ndarray, least: float) -> np.ndarray:
     `least`: load [N] that a contact that touches may have, 0 or a pull without end.
     """
     n = 4 + N_BALLS
-    found = np.empty(2 * n)
-    found[:n] = y[n:]
+    rates = np.empty(2 * n)
+    rates[:n] = y[n:]
     inner_x = inner_y = outer_x = outer_y = 0.0
     for j in range(N_BALLS):
         angle = CAGE * t + 2.0 * math.pi / N_BALLS * j
@@ -62,13 +62,13 @@ def heavy_rates(t: float, y: np.ndarray, least: float) -> np.ndarray:
         inner_x, inner_y = inner_x + push_i * c, inner_y + push_i * s
         outer_x, outer_y = outer_x + push_o * c, outer_y + push_o * s
         turning = BALL * 22.5e-3 * CAGE**2 - BALL * 9.80665 * s
-        found[n + 4 + j] = 1e6 * (push_i - push_o + turning) / BALL
-    found[n] = -1e6 * inner_x / MASS
-    found[n + 1] = 1e6 * (LOAD - inner_y) / MASS
+        rates[n + 4 + j] = 1e6 * (push_i - push_o + turning) / BALL
+    rates[n] = -1e6 * inner_x / MASS
+    rates[n + 1] = 1e6 * (LOAD - inner_y) / MASS
     for i, push in ((2, outer_x), (3, outer_y)):
         held = SUPPORT * 1e-6 * y[i] + SUPPORT_DAMPING * 1e-6 * y[n + i]
-        found[n + i] = 1e6 * (push - held) / MASS
-    return found
+        rates[n + i] = 1e6 * (push - held) / MASS
+    return rates
 
 
 RATE = 65_536.0
@@ -104,8 +104,8 @@ def marched(
 @pytest.mark.parametrize(("law", "within"), [("published", 1e-4), ("no tension", 2e-3)])
 def test_motion_of_heavy_balls(law: str, within: float) -> None:
     own, _ = marched(0.02, law)
-    found = simulate(RIG.replace(contact_law=law), 0.02, RATE).outer_velocity
-    off = np.sqrt(np.mean((found - own) ** 2, axis=0) / np.mean(own**2, axis=0))
+    velocity = simulate(RIG.replace(contact_law=law), 0.02, RATE).outer_velocity
+    off = np.sqrt(np.mean((velocity - own) ** 2, axis=0) / np.mean(own**2, axis=0))
     assert off.max() < within
 
 
@@ -146,8 +146,8 @@ def test_share_of_the_power_that_mass_adds() -> None:
         return float(density[(frequency >= 2100.0) & (frequency < 10_000.0)].sum())
 
     settings = Settings(duration=0.07, band_low=2100.0, band_high=10_000.0)
-    _, found = Grid.of(RIG, {"fz": [0.0]}, ["mass_share"], settings).compute()
-    assert found["mass_share"][0] == pytest.approx(1.0 - power(light) / power(heavy), abs=0.01)
+    _, numbers = Grid.of(RIG, {"fz": [0.0]}, ["mass_share"], settings).compute()
+    assert numbers["mass_share"][0] == pytest.approx(1.0 - power(light) / power(heavy), abs=0.01)
 
 
 @witness(
@@ -181,10 +181,10 @@ def test_steps_are_fine_enough(
         balls="massless", contact_damping=damping, contact_law=law, shaft_speed=speed, fy=load,
         stiffness_x=SUPPORT / soft, stiffness_y=SUPPORT / soft, unbalance=unbalance,
     )  # fmt: skip
-    found = simulate(scene, 0.01, RATE)
-    assert found.completed
-    own = 1e-6 * one.solved(one.start(), found.time)[:, 6:8]
-    off = np.sqrt(np.mean((found.outer_velocity - own) ** 2, axis=0) / np.mean(own**2, axis=0))
+    motion = simulate(scene, 0.01, RATE)
+    assert motion.completed
+    own = 1e-6 * one.solved(one.start(), motion.time)[:, 6:8]
+    off = np.sqrt(np.mean((motion.outer_velocity - own) ** 2, axis=0) / np.mean(own**2, axis=0))
     assert off.max() < within
 
 
@@ -200,10 +200,10 @@ def test_steps_are_doubled_where_contacts_let_go(monkeypatch: pytest.MonkeyPatch
     )
     force = np.array([0.0, -0.5, 0.5, 0.0, 0.0])
     one = replace(problem("7208-25deg"), c=1e3, no_tension=True, force=force)
-    found = simulate(scene, 0.02, RATE)
-    own = 1e-6 * one.solved(one.start(), found.time, 1e-7)[:, 9:12]
+    motion = simulate(scene, 0.02, RATE)
+    own = 1e-6 * one.solved(one.start(), motion.time, 1e-7)[:, 9:12]
     level, true = (
-        np.sqrt(np.mean(v[len(v) // 2 :] ** 2, axis=0)) for v in (found.outer_velocity, own)
+        np.sqrt(np.mean(v[len(v) // 2 :] ** 2, axis=0)) for v in (motion.outer_velocity, own)
     )
     assert level == pytest.approx(true, rel=0.08)
     monkeypatch.setattr("bearingcore.model.dynamics._motion.SAME_LEVEL", 0.0)

@@ -35,10 +35,10 @@ def test_factors_and_pressures_by_elliptic_integrals(name: str) -> None:
     bearing = presets[name].bearing if name == "6205" else catalogue()[name].bearing
     contacts = both(bearing)
     for race, (factor, pressure) in zip(("inner", "outer"), contacts, strict=True):
-        found = bearing.race_contact(race)
-        assert found.load_deflection_factor == pytest.approx(factor, rel=1e-10)
+        contact = bearing.race_contact(race)
+        assert contact.load_deflection_factor == pytest.approx(factor, rel=1e-10)
         for load in (1.0, 3000.0):
-            assert float(found.greatest_pressure(load)) == pytest.approx(
+            assert float(contact.greatest_pressure(load)) == pytest.approx(
                 pressure * load ** (1.0 / 3.0), rel=1e-10
             )
     series = sum(factor ** (-2.0 / 3.0) for factor, _ in contacts) ** -1.5

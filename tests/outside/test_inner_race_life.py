@@ -51,17 +51,17 @@ def tiring(damaged: bool, places: int = 64) -> tuple[float, float]:
 )
 def test_loads_and_share_by_brute_force() -> None:
     """Q_ei 294.76, Q_ee 308.19 N, 0.92893 of the healthy bearing's life."""
-    found = life(SCENE, 14e3)
-    assert (found.inner_load, found.outer_load) == pytest.approx((294.76, 308.19), rel=2e-4)
-    assert found.share_of_healthy == pytest.approx(0.92893, rel=2e-4)
-    assert "That is 92.9 % of the healthy bearing's life." in found.sentence
+    answer = life(SCENE, 14e3)
+    assert (answer.inner_load, answer.outer_load) == pytest.approx((294.76, 308.19), rel=2e-4)
+    assert answer.share_of_healthy == pytest.approx(0.92893, rel=2e-4)
+    assert "That is 92.9 % of the healthy bearing's life." in answer.sentence
     Q_ei, Q_ee = tiring(damaged=True)
-    assert (found.inner_load, found.outer_load) == pytest.approx((Q_ei, Q_ee), rel=2e-3)
+    assert (answer.inner_load, answer.outer_load) == pytest.approx((Q_ei, Q_ee), rel=2e-3)
     sound = tiring(damaged=False)
-    rated = found.inner_rating, found.outer_rating
+    rated = answer.inner_rating, answer.outer_rating
 
     def failing(loads: tuple[float, float]) -> float:
         return sum((Q / Q_c) ** (P * E) for Q, Q_c in zip(loads, rated, strict=True))
 
     share = (failing((Q_ei, Q_ee)) / failing(sound)) ** (-1.0 / E)
-    assert found.share_of_healthy == pytest.approx(share, rel=2e-3)
+    assert answer.share_of_healthy == pytest.approx(share, rel=2e-3)

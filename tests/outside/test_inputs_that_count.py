@@ -72,15 +72,15 @@ def test_a_race_spalled_all_around_has_no_wall_at_its_seam() -> None:
     within=1e-5,
 )  # fmt: skip
 def test_life_counts_the_centrifugal_load_of_balls() -> None:
-    found = life(FAST_PAIR, positions="load line")
+    rated = life(FAST_PAIR, positions="load line")
     line = math.atan2(-150.0, 0.0) % FAST_PAIR.bearing.ball_spacing
     inner, outer = ball_positions(FAST_PAIR, [line]).load[:, 0].reshape(2, 2, -1)
     failing = sum(
-        (np.mean(inner[row] ** 3) ** (1 / 3) / found.inner_rating) ** (10 / 3)
-        + (np.mean(outer[row] ** (10 / 3)) ** 0.3 / found.outer_rating) ** (10 / 3)
+        (np.mean(inner[row] ** 3) ** (1 / 3) / rated.inner_rating) ** (10 / 3)
+        + (np.mean(outer[row] ** (10 / 3)) ** 0.3 / rated.outer_rating) ** (10 / 3)
         for row in (0, 1)
     )
-    assert found.million_revolutions == pytest.approx(failing**-0.9, rel=1e-5)
+    assert rated.million_revolutions == pytest.approx(failing**-0.9, rel=1e-5)
     assert life(FAST_PAIR).million_revolutions == pytest.approx(75_420.0, rel=1e-4)
 
 

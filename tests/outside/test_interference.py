@@ -53,14 +53,14 @@ def law(bearing: Bearing) -> tuple[int, float, float]:
 def test_without_a_load_all_elements_carry_alike(scene: Scene) -> None:
     """Equal springs around a circle: Q = K δ^n each, k_xx = k_yy = N/2 n K δ^(n−1)."""
     N, K, n = law(scene.bearing)
-    found = equilibrium(pressed(scene, fy=0.0), [0.0, 0.1])
-    assert found.converged.all()
-    assert np.abs(found.displacement).max() < 1e-18
-    assert found.ball_load == pytest.approx(np.full((2, N), K * TIGHT**n), rel=1e-12)
+    state = equilibrium(pressed(scene, fy=0.0), [0.0, 0.1])
+    assert state.converged.all()
+    assert np.abs(state.displacement).max() < 1e-18
+    assert state.ball_load == pytest.approx(np.full((2, N), K * TIGHT**n), rel=1e-12)
     stiff = 0.5 * N * n * K * TIGHT ** (n - 1.0)
-    assert found.term("k_xx") == pytest.approx(stiff, rel=1e-12)
-    assert found.term("k_yy") == pytest.approx(stiff, rel=1e-12)
-    assert np.abs(found.term("k_xy")).max() < 1e-12 * stiff
+    assert state.term("k_xx") == pytest.approx(stiff, rel=1e-12)
+    assert state.term("k_yy") == pytest.approx(stiff, rel=1e-12)
+    assert np.abs(state.term("k_xy")).max() < 1e-12 * stiff
 
 
 def test_balls_pressed_together_hold_the_ring_along_the_shaft_and_rollers_do_not() -> None:
@@ -70,11 +70,11 @@ def test_balls_pressed_together_hold_the_ring_along_the_shaft_and_rollers_do_not
     drawn = Bearing.from_drawing(N, 7.94e-3, 39.04e-3, 4.13e-3, 4.13e-3, contact_angle=0.0)
     row = drawn.replace(load_deflection_factor=K, radial_clearance=-TIGHT)
     free = dataclasses.replace(BALLS, bearing=row, dofs=None).replace(fy=0.0)
-    found = equilibrium(free, [0.0])
-    assert found.converged[0]
-    assert found.term("k_zz")[0] == pytest.approx(swivel, rel=1e-12)
+    state = equilibrium(free, [0.0])
+    assert state.converged[0]
+    assert state.term("k_zz")[0] == pytest.approx(swivel, rel=1e-12)
     tilt = 0.5 * row.groove_center_radius**2 * swivel
-    assert found.stiffness[0, 3, 3] == pytest.approx(tilt, rel=1e-12)
+    assert state.stiffness[0, 3, 3] == pytest.approx(tilt, rel=1e-12)
     assert equilibrium(pressed(ROLLERS, fy=0.0), [0.0]).term("k_zz")[0] == 0.0
 
 
@@ -89,11 +89,11 @@ def test_under_a_load_it_is_the_balance_that_scipy_finds(scene: Scene, load: flo
         return np.asarray(K * np.maximum(TIGHT - down * s, 0.0) ** n)
 
     down = brentq(lambda y: -loads(y) @ s - load, 0.0, 1e-3, xtol=1e-22, rtol=1e-14)
-    found = equilibrium(pressed(scene, fy=-load), [-0.5 * math.pi])
-    assert found.converged[0]
-    assert -found.displacement[0, 1] == pytest.approx(down, rel=1e-8)
-    assert found.ball_load[0] == pytest.approx(loads(down), rel=1e-9, abs=1e-9 * load)
-    assert (found.loaded_balls[0] == N) == (down < TIGHT)
+    state = equilibrium(pressed(scene, fy=-load), [-0.5 * math.pi])
+    assert state.converged[0]
+    assert -state.displacement[0, 1] == pytest.approx(down, rel=1e-8)
+    assert state.ball_load[0] == pytest.approx(loads(down), rel=1e-9, abs=1e-9 * load)
+    assert (state.loaded_balls[0] == N) == (down < TIGHT)
 
 
 def test_a_row_at_an_angle_leans_on_the_shaft_s_other_bearing() -> None:
@@ -128,14 +128,14 @@ def test_every_question_takes_an_interference(name: str) -> None:
     scene = presets[name].healthy()
     one_row = scene.bearing.replace(rows=(), radial_clearance=-TIGHT)
     scene = dataclasses.replace(scene, bearing=one_row, dofs=("x", "y"))
-    found = equilibrium(scene)
-    assert found.converged.all()
-    assert (found.loaded_balls == one_row.n_balls).all()
+    state = equilibrium(scene)
+    assert state.converged.all()
+    assert (state.loaded_balls == one_row.n_balls).all()
     assert np.isfinite(modes(scene).frequency).all()
     moved = simulate(scene, 0.02)
     assert moved.status is MotionStatus.COMPLETED
     assert moved.history[-1, 0, 1] - moved.history[-1, 3, 1] == pytest.approx(
-        found.displacement[:, 1].mean(), rel=2e-3, abs=2e-8
+        state.displacement[:, 1].mean(), rel=2e-3, abs=2e-8
     )
     assert orbit(scene).status is OrbitStatus.STABLE
     assert np.isfinite(stiffness_maps(scene, [0.0], [0.0]).stiffness).all()
@@ -169,6 +169,6 @@ def test_the_interference_alone_wears_a_bearing_out() -> None:
 
 def test_balls_with_mass_share_the_interference_between_both_contacts() -> None:
     """At rest both races carry the same: two springs in series are the K of the row."""
-    found = ball_positions(pressed(BALLS, fy=0.0), [0.0], centrifugal_load=0.0)
+    positions = ball_positions(pressed(BALLS, fy=0.0), [0.0], centrifugal_load=0.0)
     N, K, n = law(BALLS.bearing)
-    assert found.load[:, 0] == pytest.approx(np.full((2, N), K * TIGHT**n), rel=1e-9)
+    assert positions.load[:, 0] == pytest.approx(np.full((2, N), K * TIGHT**n), rel=1e-9)

@@ -53,10 +53,10 @@ def test_spindles_under_centrifugal_load(name: str) -> None:
     speed = rpm * math.pi / 30.0
     load, angle, _, moved = case.solve(thrust, radial, speed, gyroscopic=False)
     scene = scene_of(case, thrust, radial, speed)
-    found = ball_positions(scene, [0.0])
-    assert found.load[:, 0] == pytest.approx(load, rel=1e-6)
-    assert found.contact_angle[:, 0] == pytest.approx(angle, rel=1e-6)
-    assert found.displacement[0, 1:3] == pytest.approx(moved, rel=1e-6, abs=1e-12)
+    positions = ball_positions(scene, [0.0])
+    assert positions.load[:, 0] == pytest.approx(load, rel=1e-6)
+    assert positions.contact_angle[:, 0] == pytest.approx(angle, rel=1e-6)
+    assert positions.displacement[0, 1:3] == pytest.approx(moved, rel=1e-6, abs=1e-12)
     heavy = static_state(scene.replace(balls="with mass"), [0.0])
     assert heavy.ball_load[0] == pytest.approx(load[1], rel=1e-6)
 
@@ -74,12 +74,12 @@ def test_a_7208_at_speed(angle: int, rpm: int) -> None:
     speed = rpm * math.pi / 30.0
     load, _, _, moved = case.solve(2000.0, 0.0, speed, gyroscopic=False)
     ends = [case.solve(F, 0.0, speed, gyroscopic=False)[3][1] for F in (1999.0, 2001.0)]
-    found = ball_positions(presets[f"7208-{angle}deg"].healthy().replace(
+    positions = ball_positions(presets[f"7208-{angle}deg"].healthy().replace(
         fy=0.0, fz=2000.0, shaft_speed=speed
     ), [0.0])  # fmt: skip
-    assert found.load[1, 0] == pytest.approx(load[1], rel=1e-5)
-    assert found.displacement[0, 2] == pytest.approx(moved[1], rel=1e-5)
-    assert found.term("k_zz")[0] == pytest.approx(2.0 / (ends[1] - ends[0]), rel=1e-5)
+    assert positions.load[1, 0] == pytest.approx(load[1], rel=1e-5)
+    assert positions.displacement[0, 2] == pytest.approx(moved[1], rel=1e-5)
+    assert positions.term("k_zz")[0] == pytest.approx(2.0 / (ends[1] - ends[0]), rel=1e-5)
 
 
 @witness(
@@ -96,7 +96,7 @@ def test_each_race_of_a_fast_bearing_has_its_own_pressure_and_reach() -> None:
     scene = presets["7208-25deg"].healthy().replace(
         fy=0.0, fz=500.0, shaft_speed=speed, balls="with mass"
     )  # fmt: skip
-    found, oil = contact_pressures(scene), film(scene, viscosity=0.02)
+    pressures, oil = contact_pressures(scene), film(scene, viscosity=0.02)
     reach = []
     for race, one, groove, side in zip(
         ("inner", "outer"), load, (0.52, 0.53), (1, -1), strict=True
@@ -106,8 +106,8 @@ def test_each_race_of_a_fast_bearing_has_its_own_pressure_and_reach() -> None:
         own = pressure * one ** (1.0 / 3.0)
         half = math.sqrt(1.5 * one * ratio / (math.pi * own))
         reach.append(angles[len(reach)] + math.asin(half / (0.5 * D)))
-        assert getattr(found, race).load == pytest.approx(one, rel=1e-5)
-        assert getattr(found, race).greatest_pressure == pytest.approx(own, rel=1e-5)
+        assert getattr(pressures, race).load == pytest.approx(one, rel=1e-5)
+        assert getattr(pressures, race).greatest_pressure == pytest.approx(own, rel=1e-5)
         assert getattr(oil, race).load == pytest.approx(one, rel=1e-5)
     said = {one.name: one.value for one in limits(scene, static_state(scene))}
     assert said["contact angle at the shoulder"] == pytest.approx(max(reach), rel=1e-5)

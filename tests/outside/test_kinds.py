@@ -164,7 +164,7 @@ def test_loads_and_stiffness(kind: str) -> None:
 @kinds
 def test_natural_frequencies(kind: str) -> None:
     case = CASES[kind]
-    found = modes(case.scene.replace(contact_damping=C), CAGE)
+    vibration = modes(case.scene.replace(contact_damping=C), CAGE)
     at, n = np.ix_(case.free, case.free), len(case.free)
     for i, cage in enumerate(CAGE):
         q = case.rows.rest(case.force, cage, case.free)
@@ -176,7 +176,7 @@ def test_natural_frequencies(kind: str) -> None:
         zero, one = np.zeros((2 * n, 2 * n)), np.eye(2 * n)
         values = np.linalg.eigvals(np.block([[zero, one], [-matrices[0], -matrices[1]]]))
         own = np.sort(np.abs(values[values.imag > 0.0])) / (2.0 * math.pi)
-        assert np.sort(found.frequency[i]) == pytest.approx(own, rel=1e-5)
+        assert np.sort(vibration.frequency[i]) == pytest.approx(own, rel=1e-5)
 
 
 @witness(
@@ -188,7 +188,7 @@ def test_natural_frequencies(kind: str) -> None:
 def test_a_mode_is_named_after_the_direction_that_has_most_of_its_energy() -> None:
     """A rotor of 0.1 g·m²: tilts move far with little energy."""
     case = CASES["rows"]
-    found = modes(case.scene.replace(inner_inertia=1e-4, outer_inertia=1e-2), CAGE)
+    vibration = modes(case.scene.replace(inner_inertia=1e-4, outer_inertia=1e-2), CAGE)
     bearing = np.mean(
         [case.rows.stiffness(case.rows.rest(case.force, one, case.free), one) for one in CAGE],
         axis=0,
@@ -199,7 +199,7 @@ def test_a_mode_is_named_after_the_direction_that_has_most_of_its_energy() -> No
     energy = (shapes**2).reshape(2, 5, 10).sum(axis=0).T
     most = energy.max(axis=1) > 0.6
     assert most.sum() >= 8
-    named = [label[:-1] for label in found.label]
+    named = [label[:-1] for label in vibration.label]
     for name, own in zip(np.array(named)[most], energy[most], strict=True):
         assert name == ("x", "y", "z", "rx", "ry")[own.argmax()]
 
@@ -233,8 +233,8 @@ def test_motion(kind: str, law: str) -> None:
     one = problem_of(case, rows, no_tension=law == "no tension", unbalance=turning)
     states, n = 1e-6 * one.solved(one.start(), motion.time), len(case.free)
     rings = motion.inner_displacement, motion.outer_displacement
-    for found, expected in zip(rings, (states[:, :n], states[:, n : 2 * n]), strict=True):
-        for ours, theirs in zip(found.T, expected.T, strict=True):
+    for actual, expected in zip(rings, (states[:, :n], states[:, n : 2 * n]), strict=True):
+        for ours, theirs in zip(actual.T, expected.T, strict=True):
             swing = max(np.ptp(theirs), 1e-2 * np.ptp(expected))
             assert np.abs(ours - theirs).max() < 1e-3 * swing
 
@@ -259,9 +259,9 @@ def test_motion_over_a_defect_that_turns(kind: str) -> None:
     motion = simulate(scene, 2.5e-3, 65536.0, step_rate=16 * 65536.0)
     states, n = 1e-6 * one.solved(one.start(), motion.time), len(case.free)
     assert np.ptp(states[:, :n], axis=0).max() > 1e-7
-    for found, expected in (
+    for actual, expected in (
         (motion.inner_displacement, states[:, :n]),
         (motion.outer_displacement, states[:, n : 2 * n]),
     ):
         swing = np.maximum(np.ptp(expected, axis=0), 1e-2 * np.ptp(expected))
-        assert (np.abs(found - expected).max(axis=0) < 1e-3 * swing).all()
+        assert (np.abs(actual - expected).max(axis=0) < 1e-3 * swing).all()

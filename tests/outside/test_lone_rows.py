@@ -70,8 +70,8 @@ def directions(n: int, angle: float, cage_angle: float) -> np.ndarray:
     return np.stack([ca * c, ca * s, sa + 0.0 * c, sa * s, -sa * c], axis=1)
 
 
-def of(found: tuple[Limit, ...], name: str) -> Limit:
-    return next(limit for limit in found if limit.name == name)
+def of(limits: tuple[Limit, ...], name: str) -> Limit:
+    return next(limit for limit in limits if limit.name == name)
 
 
 @pytest.mark.parametrize(("fy", "fz", "dofs", "missing"), OUT.values(), ids=OUT.keys())
@@ -80,16 +80,16 @@ def test_a_cone_that_leaves_its_cup_has_no_equilibrium_anywhere(
 ) -> None:
     """A cone's lines of contact meet on the shaft: no moment about that point (any textbook)."""
     scene = cone(fy, fz, dofs)
-    found = equilibrium(scene, [0.0, 0.1])
-    assert (found.status == StaticStatus.NOT_CARRIED).all()
-    for values in (found.displacement, found.ball_load, found.stiffness):
+    state = equilibrium(scene, [0.0, 0.1])
+    assert (state.status == StaticStatus.NOT_CARRIED).all()
+    for values in (state.displacement, state.ball_load, state.stiffness):
         assert np.isnan(values).all()
-    assert missing in found.reason(0)
-    assert missing in str(found.table().named()["status"][0])
+    assert missing in state.reason(0)
+    assert missing in str(state.table().named()["status"][0])
     lasts = life(scene, 43_500.0)
     assert not lasts.known
     assert missing in lasts.sentence
-    pressed = contact_pressures(scene, found)
+    pressed = contact_pressures(scene, state)
     assert math.isnan(pressed.inner.greatest_pressure)
     assert missing in pressed.reason
     ringing = modes(scene, [0.0])
@@ -108,10 +108,10 @@ def test_a_cone_that_leaves_its_cup_has_no_equilibrium_anywhere(
 
 
 def test_a_sweep_says_so_too() -> None:
-    found = sweep(cone(-4000.0, 4000.0, LEVEL), {"fz": [4000.0, 500.0, -500.0]}, ["k_zz_mean"])
-    codes = [STATUSES[int(code)].value for code in found["status"].values]
+    dataset = sweep(cone(-4000.0, 4000.0, LEVEL), {"fz": [4000.0, 500.0, -500.0]}, ["k_zz_mean"])
+    codes = [STATUSES[int(code)].value for code in dataset["status"].values]
     assert codes == ["complete", "load_not_carried", "load_not_carried"]
-    assert np.isfinite(found["k_zz_mean"].values).tolist() == [True, False, False]
+    assert np.isfinite(dataset["k_zz_mean"].values).tolist() == [True, False, False]
 
 
 @pytest.mark.parametrize(
@@ -131,9 +131,9 @@ def test_a_cone_with_held_tilts_carries_what_statics_at_a_fixed_angle_gives(
 
         loads = np.maximum(e @ fsolve(unbalanced, [0.0, -200.0, 2000.0], xtol=1e-13), 0.0)
         loads = loads ** (10.0 / 9.0)
-        found = equilibrium(cone(-4000.0, 4000.0, LEVEL, bearing), [cage_angle])
-        assert found.ball_load[0] == pytest.approx(loads, rel=1e-7)
-        assert found.loaded_balls[0] == Z
+        state = equilibrium(cone(-4000.0, 4000.0, LEVEL, bearing), [cage_angle])
+        assert state.ball_load[0] == pytest.approx(loads, rel=1e-7)
+        assert state.loaded_balls[0] == Z
         if cage_angle == 0.0:
             assert loads.max() == pytest.approx(heaviest, abs=0.5)
 
@@ -152,9 +152,9 @@ def test_random_cones_converge_where_rollers_can_carry_the_load_and_only_there()
         free = [0, 1, 2] if dofs == LEVEL else [0, 1, 2, 3, 4]
         e, load = directions(n, angle, cage_angle)[:, free], scene.load.vector[free]
         can = linprog(np.ones(n), A_eq=e.T, b_eq=load).status == 0
-        found = equilibrium(scene, [cage_angle])
-        assert bool(found.converged[0]) == can, scene
-        assert found.status[0] in (StaticStatus.CONVERGED, StaticStatus.NOT_CARRIED)
+        state = equilibrium(scene, [cage_angle])
+        assert bool(state.converged[0]) == can, scene
+        assert state.status[0] in (StaticStatus.CONVERGED, StaticStatus.NOT_CARRIED)
         carried += can
     assert 30 < carried < 120
 
@@ -167,15 +167,15 @@ def test_no_converged_state_is_beyond_the_geometry_of_its_contacts(kind: str) ->
     for _ in range(150):
         scene = random_scene(rng, kind)
         scene = dataclasses.replace(scene, load=heavier(scene.load, float(rng.choice([1.0, 30.0]))))
-        found = equilibrium(scene, [float(rng.uniform(0.0, 6.28))])
-        part = share_of_room(found)
-        assert part <= 1.0 + 1e-6 or not found.converged[0], scene
-        if found.status[0] == StaticStatus.BEYOND_GEOMETRY:
+        state = equilibrium(scene, [float(rng.uniform(0.0, 6.28))])
+        part = share_of_room(state)
+        assert part <= 1.0 + 1e-6 or not state.converged[0], scene
+        if state.status[0] == StaticStatus.BEYOND_GEOMETRY:
             beyond += 1
             assert part > 1.0 - 1e-6
-            assert np.isnan(found.ball_load).all()
-            assert np.isnan(found.stiffness).all()
-            assert found.reason(0).startswith("no equilibrium that the geometry")
+            assert np.isnan(state.ball_load).all()
+            assert np.isnan(state.stiffness).all()
+            assert state.reason(0).startswith("no equilibrium that the geometry")
     assert beyond > 0 or kind == "rollers"
 
 
@@ -183,8 +183,8 @@ def heavier(load: Load, times: float) -> Load:
     return Load(*(times * load.vector))
 
 
-def share_of_room(found: Equilibrium) -> float:
-    return beyond_geometry(Balls(found.scene, float(found.cage_angles[0])), found.state[0])
+def share_of_room(state: Equilibrium) -> float:
+    return beyond_geometry(Balls(state.scene, float(state.cage_angles[0])), state.state[0])
 
 
 def sjovall(n: float) -> float:
@@ -272,6 +272,6 @@ def test_the_thrust_that_is_missing_is_the_least_that_any_forces_hold() -> None:
             e = directions(n, ALPHA, cage_angle)
             least = linprog(e[:, 2], A_eq=e[:, :2].T, b_eq=[0.0, -4000.0]).fun
             for share in (0.2, 0.99):
-                found = equilibrium(cone(-4000.0, share * least, LEVEL, bearing), [cage_angle])
-                said = found.reason(0).partition("and over ")[2].partition(" must")[0]
+                state = equilibrium(cone(-4000.0, share * least, LEVEL, bearing), [cage_angle])
+                said = state.reason(0).partition("and over ")[2].partition(" must")[0]
                 assert said == with_prefix(least, "N")

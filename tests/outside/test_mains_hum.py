@@ -30,8 +30,8 @@ def hum(mains: float) -> list[tuple[float, float]]:
     return [(2.0 * mains, 0.8), (4.0 * mains, 0.32), (6.0 * mains, 0.2)]
 
 
-def rpm_of(found) -> float:
-    return 60.0 / TURN * found.shaft_speed
+def rpm_of(diagnosis) -> float:
+    return 60.0 / TURN * diagnosis.shaft_speed
 
 
 def check_pair(rpm: float, mains: float, seed: int) -> None:
@@ -39,9 +39,9 @@ def check_pair(rpm: float, mains: float, seed: int) -> None:
     for tones in ([], hum(mains)):
         slip = 0.002 * (seed % 5 - 2)
         motor = Motor(rpm, "inner race", height=1.5, slip=slip, hum=tones)
-        found = answer(motor, seed)
-        assert found.fault == "inner race"
-        assert rpm_of(found) == pytest.approx(rpm, rel=1e-3)
+        diagnosis = answer(motor, seed)
+        assert diagnosis.fault == "inner race"
+        assert rpm_of(diagnosis) == pytest.approx(rpm, rel=1e-3)
 
 
 @witness(
@@ -68,27 +68,27 @@ def test_all_pairs_agree(rpm, mains, seed):
 
 @pytest.mark.parametrize(("rpm", "mains"), [(1478.0, 50.0), (2960.0, 50.0), (1774.0, 60.0)])
 def test_a_sound_motor_does_not_turn_at_the_mains_frequency(rpm, mains):
-    found = answer(Motor(rpm, hum=[*hum(mains), (mains, 0.5), (3.0 * mains, 0.3)]), 3)
-    assert not found.names_a_part
-    assert rpm_of(found) == pytest.approx(rpm, rel=1e-3)
+    diagnosis = answer(Motor(rpm, hum=[*hum(mains), (mains, 0.5), (3.0 * mains, 0.3)]), 3)
+    assert not diagnosis.names_a_part
+    assert rpm_of(diagnosis) == pytest.approx(rpm, rel=1e-3)
 
 
 @pytest.mark.parametrize("bounds", [(1477.0, 1479.0), (1470.0, 1490.0), (1400.0, 1560.0)])
 @pytest.mark.parametrize("part", ["inner race", "outer race"])
 def test_a_speed_is_never_outside_given_bounds(bounds, part):
-    found = answer(Motor(1478.0, part, height=1.5, slip=-0.008, hum=hum(50.0)), 1, bounds)
-    assert found.fault == part
-    assert bounds[0] <= rpm_of(found) * (1.0 + 1e-12)
-    assert rpm_of(found) <= bounds[1] * (1.0 + 1e-12)
+    diagnosis = answer(Motor(1478.0, part, height=1.5, slip=-0.008, hum=hum(50.0)), 1, bounds)
+    assert diagnosis.fault == part
+    assert bounds[0] <= rpm_of(diagnosis) * (1.0 + 1e-12)
+    assert rpm_of(diagnosis) <= bounds[1] * (1.0 + 1e-12)
 
 
 def test_a_speed_that_is_off_is_refined_to_a_thousandth():
     """Lines of unbalance that the mains cannot make are evidence: the true speed is 2931 rpm."""
     lines = (0.5, 0.3, 0.2, 0.2, 0.1, 0.1)
     motor = Motor(2931.0, "inner race", height=1.0, shaft_lines=lines, hum=hum(50.0))
-    found = answer(motor, 2, 2955.0)
-    assert "refined" in found.speed_source
-    assert rpm_of(found) == pytest.approx(2931.0, rel=1e-3)
+    diagnosis = answer(motor, 2, 2955.0)
+    assert "refined" in diagnosis.speed_source
+    assert rpm_of(diagnosis) == pytest.approx(2931.0, rel=1e-3)
 
 
 @pytest.mark.proof
@@ -112,12 +112,12 @@ def test_refined_speeds_are_right_to_a_thousandth(tones):
             hum=[(k * mains, rng.uniform(0.02, 1.5)) for k in range(1, 13) if tones and k % 3],
             duration=float(rng.choice([2.0, 4.0])),
         )
-        found = answer(motor, seed, rpm * (1.0 + off))
-        if "refined" in found.speed_source:
+        diagnosis = answer(motor, seed, rpm * (1.0 + off))
+        if "refined" in diagnosis.speed_source:
             moved += 1
-            assert rpm_of(found) == pytest.approx(rpm, rel=1e-3)
+            assert rpm_of(diagnosis) == pytest.approx(rpm, rel=1e-3)
         else:
-            assert rpm_of(found) == pytest.approx(rpm * (1.0 + off), rel=1e-9)
+            assert rpm_of(diagnosis) == pytest.approx(rpm * (1.0 + off), rel=1e-9)
     assert moved >= 5
 
 
@@ -129,26 +129,26 @@ def test_refined_speeds_are_right_to_a_thousandth(tones):
 def test_magnetic_noise_at_twice_the_mains_is_no_damaged_part(frequency, order, sharpness):
     """A sound bearing whose line is there, and noise that swells with the magnetic pull."""
     motor = Motor(60.0 * frequency / order, swell=(frequency, 0.8), sharpness=sharpness)
-    found = answer(motor, 0)
-    assert (found.fault, found.status) == (CANNOT_TELL, DiagnosisStatus.MAGNETIC)
-    assert found.probability < 0.5
-    assert f"twice the mains frequency ({frequency:g} Hz) looks alike" in found.sentence
+    diagnosis = answer(motor, 0)
+    assert (diagnosis.fault, diagnosis.status) == (CANNOT_TELL, DiagnosisStatus.MAGNETIC)
+    assert diagnosis.probability < 0.5
+    assert f"twice the mains frequency ({frequency:g} Hz) looks alike" in diagnosis.sentence
 
 
 @pytest.mark.parametrize(("harmonic", "rpm"), [(1, 1273.0), (2, 646.0)])
 def test_one_line_in_all_bands_is_no_ball(harmonic, rpm):
     """All noise swells by two fifths 100 times a second: a harmonic of a ball's line, all alone."""
     assert harmonic * BALL_ORDER * rpm / 60.0 == pytest.approx(100.0, rel=0.02)
-    found = answer(Motor(rpm, swell=(100.0, 0.4), sharpness=1.0, duration=3.0), 0)
-    assert not found.names_a_part
-    assert found.of("ball").probability < 0.5
+    diagnosis = answer(Motor(rpm, swell=(100.0, 0.4), sharpness=1.0, duration=3.0), 0)
+    assert not diagnosis.names_a_part
+    assert diagnosis.of("ball").probability < 0.5
 
 
 @pytest.mark.parametrize(
     ("frequency", "least", "most"), [(100.5, 0.5, 0.8), (100.9, 0.8, 0.95), (103.0, 0.97, 1.0)]
 )
 def test_damage_near_twice_the_mains_is_less_sure_and_says_so(frequency, least, most):
-    found = answer(Motor(60.0 * frequency / OUTER_ORDER, "outer race", height=1.5), 0)
-    assert found.fault == "outer race"
-    assert least <= found.probability <= most
-    assert ("looks alike" in found.sentence) == (frequency < 101.0)
+    diagnosis = answer(Motor(60.0 * frequency / OUTER_ORDER, "outer race", height=1.5), 0)
+    assert diagnosis.fault == "outer race"
+    assert least <= diagnosis.probability <= most
+    assert ("looks alike" in diagnosis.sentence) == (frequency < 101.0)

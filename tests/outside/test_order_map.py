@@ -14,9 +14,9 @@ RATE = 25_600.0
 TIME = np.arange(round(8.0 * RATE)) / RATE
 
 
-def power(found: Spectrogram) -> np.ndarray:
+def power(orders: Spectrogram) -> np.ndarray:
     """Mean square of each segment."""
-    return np.asarray(found.density.sum(axis=1) * (found.frequency[1] - found.frequency[0]))
+    return np.asarray(orders.density.sum(axis=1) * (orders.frequency[1] - orders.frequency[0]))
 
 
 @witness(
@@ -29,8 +29,8 @@ def power(found: Spectrogram) -> np.ndarray:
 @pytest.mark.parametrize("speeds", [(25.0, 25.0), (20.0, 30.0)])
 def test_a_tone_keeps_its_power(frequency: float, speeds: tuple[float, float]) -> None:
     """cos² has the mean 1/2, up to 0.4 of the sample rate; the cubic had left 0.369 at 10 kHz."""
-    found = order_map(np.cos(2.0 * math.pi * frequency * TIME), RATE, [0.0, 8.0], speeds)
-    assert power(found) == pytest.approx(0.5, rel=0.01)
+    orders = order_map(np.cos(2.0 * math.pi * frequency * TIME), RATE, [0.0, 8.0], speeds)
+    assert power(orders) == pytest.approx(0.5, rel=0.01)
 
 
 @witness(
@@ -43,7 +43,7 @@ def test_a_tone_keeps_its_power(frequency: float, speeds: tuple[float, float]) -
 def test_an_order_stays_where_it_is_in_a_run_up(order: float) -> None:
     """A chirp that turns 20 to 30 times a second has its line at its order, to 1e-3 of it."""
     turns = 20.0 * TIME + 0.5 * 10.0 / 8.0 * TIME**2
-    found = order_map(np.cos(2.0 * math.pi * order * turns), RATE, [0.0, 8.0], [20.0, 30.0])
-    assert power(found) == pytest.approx(0.5, rel=0.01)
-    mean = (found.density * found.frequency).sum() / found.density.sum()
+    orders = order_map(np.cos(2.0 * math.pi * order * turns), RATE, [0.0, 8.0], [20.0, 30.0])
+    assert power(orders) == pytest.approx(0.5, rel=0.01)
+    mean = (orders.density * orders.frequency).sum() / orders.density.sum()
     assert mean == pytest.approx(order, rel=1e-3)

@@ -24,12 +24,12 @@ def answer(signal: np.ndarray, rate: float, rpm: float = RPM) -> Diagnosis:
 def test_a_wrong_sample_rate_names_no_part_and_says_where_the_shaft_is() -> None:
     motor = Motor(RPM, "inner race", height=1.5, shaft_lines=LINES)
     assert answer(motor.signal(1), motor.rate).fault == "inner race"
-    found = answer(motor.signal(1), AS_OUTER * motor.rate)
-    assert (found.fault, found.status) == (CANNOT_TELL, DiagnosisStatus.OTHER_SHAFT)
-    assert max(one.probability for one in found.evidence) < 0.5
-    spacing = found.of("outer race").foreign_spacing
+    diagnosis = answer(motor.signal(1), AS_OUTER * motor.rate)
+    assert (diagnosis.fault, diagnosis.status) == (CANNOT_TELL, DiagnosisStatus.OTHER_SHAFT)
+    assert max(one.probability for one in diagnosis.evidence) < 0.5
+    spacing = diagnosis.of("outer race").foreign_spacing
     assert spacing == pytest.approx(AS_OUTER * RPM / 60.0, rel=0.01)
-    shown = float(found.sentence.split("own lines are at ")[1].split(" rpm")[0])
+    shown = float(diagnosis.sentence.split("own lines are at ")[1].split(" rpm")[0])
     assert shown == pytest.approx(AS_OUTER * RPM, rel=1e-3)
 
 
@@ -37,10 +37,10 @@ def test_a_wrong_sample_rate_names_no_part_and_says_where_the_shaft_is() -> None
 def test_an_inner_race_of_a_driven_shaft_is_no_outer_race(ratio: float) -> None:
     driven = Motor(ratio * RPM, "inner race", height=1.5, shaft_lines=())
     signal = driven.signal(2) + Motor(RPM, shaft_lines=LINES).signal(3)
-    found = answer(signal, driven.rate)
-    assert not found.names_a_part
-    assert "Neither this shaft nor its cage" in found.sentence
-    assert "own lines" not in found.sentence  # they are where they were said to be
+    diagnosis = answer(signal, driven.rate)
+    assert not diagnosis.names_a_part
+    assert "Neither this shaft nor its cage" in diagnosis.sentence
+    assert "own lines" not in diagnosis.sentence  # they are where they were said to be
 
 
 @witness(
@@ -50,9 +50,9 @@ def test_an_inner_race_of_a_driven_shaft_is_no_outer_race(ratio: float) -> None:
 @pytest.mark.parametrize("off", [0.965, 1.035])
 def test_a_nameplate_that_is_off_is_answered_by_the_speed_of_the_lines(off: float) -> None:
     motor = Motor(RPM, "outer race", height=1.5, shaft_lines=LINES)
-    found = answer(motor.signal(4), motor.rate, off * RPM)
-    assert not found.names_a_part
-    proposed = float(found.sentence.split("give ")[1].split(" rpm")[0].replace(" ", ""))
+    diagnosis = answer(motor.signal(4), motor.rate, off * RPM)
+    assert not diagnosis.names_a_part
+    proposed = float(diagnosis.sentence.split("give ")[1].split(" rpm")[0].replace(" ", ""))
     assert proposed == pytest.approx(RPM, rel=0.002)
     assert answer(motor.signal(4), motor.rate, proposed).fault == "outer race"
 

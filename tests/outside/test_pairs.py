@@ -219,10 +219,10 @@ def test_a_pair_under_radial_load_lives_as_iso_281_says(name: str) -> None:
     """C_r is derived for that load zone (ISO/TR 1281-1). At 40° (cos α)^0.7 in place of cos α in
     Q_ci, as minzhun/ISO16281 has it, makes 21 % less of the life, and no longer fits.
     """
-    found = read_designation(name)
-    rating = float(found.dynamic_load_rating or 0.0)
+    designation = read_designation(name)
+    rating = float(designation.dynamic_load_rating or 0.0)
     load = 1e-3 * rating
-    one = scene_of(name).healthy().replace(bearing=found.bearing, fx=0.0, fy=-load, fz=0.0)
+    one = scene_of(name).healthy().replace(bearing=designation.bearing, fx=0.0, fy=-load, fz=0.0)
     own = life(one.replace(dofs="tilt held"), rating, positions="all").million_revolutions
     assert own == pytest.approx((rating / load) ** 3, rel=0.004)
 

@@ -28,12 +28,15 @@ def numbers(number: int, name: str) -> list[float]:
         .replace("kg", "")
         .replace("m/s²", "")
     )
-    found, units = [], re.findall(r"(-?\d+(?:\.\d+)?)\s*([GMkmµn]?)(?=(N|m/s|Hz|kg|s\b|dB))?", text)
+    values, units = (
+        [],
+        re.findall(r"(-?\d+(?:\.\d+)?)\s*([GMkmµn]?)(?=(N|m/s|Hz|kg|s\b|dB))?", text),
+    )
     last = 1.0
     for value, prefix, unit in reversed(units):
         last = PREFIX[prefix] if unit or prefix else last
-        found.append(float(value) * last)
-    return found[::-1]
+        values.append(float(value) * last)
+    return values[::-1]
 
 
 LIEW_LIM = Rows(12, 6e-3, math.radians(30.0), 19.65e-3, 50e-6, 0.05e-6, (1.45e10, 1.5))
@@ -190,8 +193,8 @@ def test_accelerations_and_levels_of_figures_9_and_10() -> None:
     first, last = round(0.745 * RATE), round(0.775 * RATE)
     for i, name in enumerate(("Horizontal", "Vertical")):
         seen = np.concatenate([one[first:last, i] for one in runs])
-        found = numbers(9, f"{name} acceleration; the printed axis")
-        assert found == pytest.approx([seen.min(), seen.max()], rel=0.02), name
+        printed = numbers(9, f"{name} acceleration; the printed axis")
+        assert printed == pytest.approx([seen.min(), seen.max()], rel=0.02), name
     for i, dof in enumerate("xy"):
         levels = []
         for one in runs:

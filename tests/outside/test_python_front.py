@@ -30,15 +30,15 @@ def written(part: slice) -> bytes:
     within=1e-9,
 )  # fmt: skip
 def test_a_file_is_read_as_the_hand_says() -> None:
-    found = read_recording(
+    recording = read_recording(
         "a.csv",
         written(slice(None)),
         columns={"time": "a", "signal": "b"},
         unit="g",
         directions="y",
     )
-    assert found.sample_rate == pytest.approx(RATE, rel=1e-9)
-    np.testing.assert_allclose(found.acceleration[:, 0], 9.80665 * SIGNAL, rtol=1e-9)
+    assert recording.sample_rate == pytest.approx(RATE, rel=1e-9)
+    np.testing.assert_allclose(recording.acceleration[:, 0], 9.80665 * SIGNAL, rtol=1e-9)
 
 
 @witness(

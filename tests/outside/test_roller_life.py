@@ -124,9 +124,9 @@ def test_life_of_a_public_program_and_of_the_standard(
     sizes: tuple[int, float, float, float], C: float, load: float, clearance: float, printed: float
 ) -> None:
     assert reference_life(sizes, C, load, clearance) == pytest.approx(printed, rel=1e-5)
-    found = life(scene_of(sizes, load, clearance), C, positions="load line")
-    assert found.million_revolutions == pytest.approx(printed, rel=0.01)
-    assert found.equivalent_load == pytest.approx(C * printed ** (-3.0 / 10.0), rel=0.01)  # P_ref
+    rated = life(scene_of(sizes, load, clearance), C, positions="load line")
+    assert rated.million_revolutions == pytest.approx(printed, rel=0.01)
+    assert rated.equivalent_load == pytest.approx(C * printed ** (-3.0 / 10.0), rel=0.01)  # P_ref
 
 
 @pytest.mark.parametrize(("part", "published"), [(20, 62_286.14), (4, 99.65782), (2, 6.2286140)])
@@ -134,8 +134,8 @@ def test_the_slip_of_the_public_program_explains_what_it_prints(
     part: int, published: float
 ) -> None:
     """As published, with 40 laminae and no profile: its outer race carries 2.1 times its loads."""
-    found = reference_life(NU208, C_208, C_208 / part, slip=True)
-    assert found == pytest.approx(published, rel=1e-5)
+    turns = reference_life(NU208, C_208, C_208 / part, slip=True)
+    assert turns == pytest.approx(published, rel=1e-5)
 
 
 def test_long_rollers() -> None:
@@ -172,8 +172,8 @@ def test_tapered_rollers_under_an_axial_load(load: float) -> None:
     q = factors() * laminae(float(brentq(lambda way: laminae(way).sum() - Q, 0.0, 1.0)))
     q_ci, q_ce = ratings(C, Z, 7.66 * math.cos(alpha) / 46.0, math.cos(alpha))
     expected = float(np.sum((q / q_ci) ** 4.5 + (q / q_ce) ** 4.5) ** (-8.0 / 9.0))
-    found = life(scene.replace(fy=0.0, fz=load), C)
-    assert found.million_revolutions == pytest.approx(expected, rel=0.01)
+    rated = life(scene.replace(fy=0.0, fz=load), C)
+    assert rated.million_revolutions == pytest.approx(expected, rel=0.01)
 
 
 def test_profiled_rollers_carry_the_load_in_any_scene() -> None:
@@ -198,6 +198,6 @@ def test_profiled_rollers_carry_the_load_in_any_scene() -> None:
         ]
         load = scene.load
         size = max(float(Q.max()), abs(load.fy))
-        for found, expected in zip(push, (load.fx, load.fy, load.fz), strict=True):
-            assert np.abs(found - expected).max() < 1e-5 * size, (name, changes)
+        for actual, expected in zip(push, (load.fx, load.fy, load.fz), strict=True):
+            assert np.abs(actual - expected).max() < 1e-5 * size, (name, changes)
         assert drops(bearing)[0] == 0.0

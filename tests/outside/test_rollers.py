@@ -52,9 +52,9 @@ NU208 = presets["nu208"].healthy()
 def test_six_rollers_against_statics_of_their_own(load: float, clearance: float) -> None:
     """SciPy's brentq on c_L l^(8/9), six rollers of 13.6 mm."""
     scene = below(SIX.replace(radial_clearance=0.5 * clearance), load)
-    found = -equilibrium(scene, [BELOW]).displacement[0, 1]
+    sinking = -equilibrium(scene, [BELOW]).displacement[0, 1]
     expected = 1e-3 * compression(load, 6, 13.6, 1e3 * clearance)
-    assert found == pytest.approx(expected, rel=1e-9)
+    assert sinking == pytest.approx(expected, rel=1e-9)
 
 
 @witness(
@@ -144,8 +144,8 @@ def test_a_pair_of_tapered_rollers_against_statics_of_its_own() -> None:
     start = [0.0, -3e-3, 1e-3, 0.0, 0.0]
     q = root(lambda q: rows_push(q, rows) - load, start, method="hybr", tol=1e-13).x
     state = equilibrium(scene, [0.0])
-    found = state.displacement[0] * [1e3, 1e3, 1e3, 1.0, 1.0]
-    assert found == pytest.approx(q, rel=1e-4, abs=1e-9)
+    displacement = state.displacement[0] * [1e3, 1e3, 1e3, 1.0, 1.0]
+    assert displacement == pytest.approx(q, rel=1e-4, abs=1e-9)
     step = np.array([1e-7, 0.0, 0.0, 0.0, 0.0])
     k_xx = 1e3 * (rows_push(q + step, rows) - rows_push(q - step, rows))[0] / 2e-7
     assert state.term("k_xx")[0] == pytest.approx(k_xx, rel=1e-4)
@@ -175,12 +175,12 @@ def test_files_of_the_wrong_constant_open_with_the_right_one(name: str) -> None:
 )
 def test_displacements_of_a_makers_approximation(name: str, factor: float) -> None:
     """For usual clearances: the middle between none and CN, of which one is 3 to 34 % away."""
-    found = read_designation(name)
-    load = 0.1 * float(found.dynamic_load_rating or 0.0)
-    known = load**0.84 / (factor * (1e3 * found.bore) ** 0.65)
+    designation = read_designation(name)
+    load = 0.1 * float(designation.dynamic_load_rating or 0.0)
+    known = load**0.84 / (factor * (1e3 * designation.bore) ** 0.65)
     over = []
-    for clearance in (0.0, found.bearing.radial_clearance):
-        b = found.bearing.replace(radial_clearance=clearance)
+    for clearance in (0.0, designation.bearing.radial_clearance):
+        b = designation.bearing.replace(radial_clearance=clearance)
         scene = scene_of(name).healthy().replace(bearing=b, fx=0.0, fy=-load, fz=0.0)
         moved = 1e6 * (-float(equilibrium(scene, [0.0]).displacement[0, 1]) - clearance)
         over.append(moved / known - 1.0)

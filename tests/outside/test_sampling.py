@@ -75,10 +75,10 @@ def test_a_tone_keeps_its_phase_and_has_the_gain_of_a_windowed_sinc(ratio: int) 
         history = np.zeros((len(time), 6, 1))
         waves = -np.sin(w * time) / w**2, -np.cos(w * time) / w, np.sin(w * time)
         history[:, 3:, 0] = np.transpose(waves)
-        found = low_passed(history, 3, 200, RATE, step)[100:180, 0]
+        filtered = low_passed(history, 3, 200, RATE, step)[100:180, 0]
         phase = w * np.arange(100, 180) / RATE
         both = np.stack([np.sin(phase), np.cos(phase)], axis=1)
-        in_phase, late = np.linalg.lstsq(both, found, rcond=None)[0]
+        in_phase, late = np.linalg.lstsq(both, filtered, rcond=None)[0]
         gain = abs(freqz(taps, worN=[part * RATE], fs=64.0 * RATE)[1][0])
         assert in_phase == pytest.approx(gain, abs=5e-4)  # its gain at 0 Hz is made exactly 1
         assert abs(late) < 1e-6
@@ -92,9 +92,9 @@ def test_the_signal_is_what_a_filter_makes_of_a_dense_one() -> None:
     taps = firwin(2 * 320 + 1, 0.45 * RATE, window=("kaiser", 8.0), fs=FINE)
     expected = upfirdn(taps, dense(), 1, 8)[40 : 40 + len(motion.time)]
     settled = slice(round(SETTLED * RATE), -100)
-    found, expected = motion.outer_acceleration[settled, 1], expected[settled]
-    assert np.sqrt(np.mean((found - expected) ** 2) / np.mean(expected**2)) < 5e-3
-    assert np.abs(found).max() == pytest.approx(np.abs(expected).max(), rel=2e-3)
+    actual, expected = motion.outer_acceleration[settled, 1], expected[settled]
+    assert np.sqrt(np.mean((actual - expected) ** 2) / np.mean(expected**2)) < 5e-3
+    assert np.abs(actual).max() == pytest.approx(np.abs(expected).max(), rel=2e-3)
 
 
 @pytest.mark.parametrize("balls", ["massless", "with mass"])
@@ -112,9 +112,9 @@ def test_a_denser_sampling_shows_the_same(balls: str) -> None:
 def test_spectra_end_where_they_are_known() -> None:
     """No line is exactly 0: above half the steps of a period nothing is known of an orbit."""
     rig = presets["fan-rig"].replace(contact_damping=DAMPING)
-    for found in (simulate(rig, 0.3).spectrum(), orbit(rig).spectrum()):
-        assert found.frequency[-1] <= 0.4 * RATE
-        assert (found.density[1:] > 0.0).all()
+    for lines in (simulate(rig, 0.3).spectrum(), orbit(rig).spectrum()):
+        assert lines.frequency[-1] <= 0.4 * RATE
+        assert (lines.density[1:] > 0.0).all()
     run = speed_run(rig, [2.0 * math.pi * 7.0, 2.0 * math.pi * 30.0], duration=0.3)
     known = np.isfinite(run.density)
     assert known.any(axis=(1, 2)).all()
@@ -124,6 +124,7 @@ def test_spectra_end_where_they_are_known() -> None:
 
 @witness(
     "function: orbit",
+    "function: speed_run",
     "chart: orbits",
     by="SciPy's DOP853, settled",
     compared="levels below 5 kHz [dB]",

@@ -53,11 +53,11 @@ def test_indicators() -> None:
     """A sine: A/√2, A, √2, 3/2. Two alike of other frequencies: A, 2 A, 2, 9/4."""
     burst = np.where(TIME < 0.02, 5.0, 0.0) * np.sign(wave(600.0, 1.0, 1.0))
     signal = np.stack([wave(100.0, 3.0), wave(100.0) + wave(1050.5)], axis=1)
-    found = indicators(Recording(signal, RATE, ("x", "y")))
-    assert found.rms == pytest.approx([3.0 / math.sqrt(2.0), 1.0], rel=1e-3)
-    assert found.peak == pytest.approx([3.0, 2.0], rel=2e-3)
-    assert found.crest_factor == pytest.approx([math.sqrt(2.0), 2.0], rel=2e-3)
-    assert found.kurtosis == pytest.approx([1.5, 2.25], rel=1e-3)
+    levels = indicators(Recording(signal, RATE, ("x", "y")))
+    assert levels.rms == pytest.approx([3.0 / math.sqrt(2.0), 1.0], rel=1e-3)
+    assert levels.peak == pytest.approx([3.0, 2.0], rel=2e-3)
+    assert levels.crest_factor == pytest.approx([math.sqrt(2.0), 2.0], rel=2e-3)
+    assert levels.kurtosis == pytest.approx([1.5, 2.25], rel=1e-3)
     once = indicators(Recording(burst[:, None], RATE, ("y",)))
     assert once.kurtosis[0] == pytest.approx(100.0, rel=1e-3)  # of a hundredth of the time
     assert once.rms[0] == pytest.approx(0.5, rel=1e-3)
@@ -72,13 +72,13 @@ def test_indicators() -> None:
 @pytest.mark.parametrize("m", [0.0, 0.5, 1.0])
 def test_kurtosis_of_modulated_tones(m: float) -> None:
     noise = 1e-4 * np.random.default_rng(1).standard_normal(TIME.size)
-    found = kurtogram((1.0 + m * np.cos(TURN * 40.0 * TIME)) * wave(2250.0) + noise, RATE)
+    chart = kurtogram((1.0 + m * np.cos(TURN * 40.0 * TIME)) * wave(2250.0) + noise, RATE)
     own = (1.0 + 3.0 * m**2 + 0.375 * m**4) / (1.0 + 0.5 * m**2) ** 2 - 2.0
-    holding = [low < 2100.0 and high > 2400.0 for low, high in found.bands]
+    holding = [low < 2100.0 and high > 2400.0 for low, high in chart.bands]
     assert sum(holding) >= 5
-    assert found.kurtosis[holding] == pytest.approx(own, abs=0.02)
-    empty = [low > 3000.0 and high - low > 700.0 for low, high in found.bands]
-    assert np.abs(found.kurtosis[empty]).max() < 0.3
+    assert chart.kurtosis[holding] == pytest.approx(own, abs=0.02)
+    empty = [low > 3000.0 and high - low > 700.0 for low, high in chart.bands]
+    assert np.abs(chart.kurtosis[empty]).max() < 0.3
 
 
 @witness(
@@ -88,10 +88,10 @@ def test_kurtosis_of_modulated_tones(m: float) -> None:
 )  # fmt: skip
 def test_kurtosis_of_noise_scatters_as_said() -> None:
     noise = np.random.default_rng(7).standard_normal((60, 2**14))
-    found = [kurtogram(one, RATE) for one in noise]
-    ratio = np.std([one.kurtosis for one in found], axis=0) / found[0].deviation
-    for parts in np.unique(found[0].parts):
-        own = ratio[found[0].parts == parts]
+    charts = [kurtogram(one, RATE) for one in noise]
+    ratio = np.std([one.kurtosis for one in charts], axis=0) / charts[0].deviation
+    for parts in np.unique(charts[0].parts):
+        own = ratio[charts[0].parts == parts]
         within = 0.12 + 0.3 / math.sqrt(own.size)  # sixty signals know a deviation to a tenth
         assert math.sqrt(np.mean(own**2)) == pytest.approx(1.0, abs=within)
 
@@ -119,9 +119,9 @@ def test_averages_over_passes() -> None:
     passing = 107.36
     signal = sum(wave(k * passing, a, k) for k, a in ((2, 1.0), (3, 0.7), (5, 0.4)))
     noise = 0.3 * np.random.default_rng(2).standard_normal(TIME.size)
-    found = average_passes((signal + noise)[:, None], RATE, 107.0, 0.02, 150.0, 1000.0, 1200.0)
-    assert found.frequency == pytest.approx(passing, rel=2e-4)
-    sizes = 2.0 * np.abs(found.harmonics[:, 0])
+    passes = average_passes((signal + noise)[:, None], RATE, 107.0, 0.02, 150.0, 1000.0, 1200.0)
+    assert passes.frequency == pytest.approx(passing, rel=2e-4)
+    sizes = 2.0 * np.abs(passes.harmonics[:, 0])
     assert sizes[[1, 2, 4]] == pytest.approx([1.0, 0.7, 0.4], abs=0.01 + 0.3 / math.sqrt(200.0))
     tones = wave(29.9, 2.0) + wave(2 * 29.9, 1.0, 0.4)
     rest = signal + noise
@@ -143,12 +143,12 @@ def test_faults_and_differences() -> None:
     clipped = np.clip(noise, -limit, limit)
     beyond = np.abs(noise) >= limit
     alone = beyond & ~np.roll(beyond, 1) & ~np.roll(beyond, -1)  # one sample at the rail is none
-    found = signal_faults(clipped).clipped_share
+    share = signal_faults(clipped).clipped_share
     same_side = np.abs(np.diff(clipped)) == 0.0
     pairs = np.zeros(TIME.size, dtype=bool)
     pairs[1:] |= same_side
     pairs[:-1] |= same_side
-    assert found == pytest.approx((beyond & pairs & ~alone).mean(), rel=1e-9)
+    assert share == pytest.approx((beyond & pairs & ~alone).mean(), rel=1e-9)
     both = np.stack([noise, noise], axis=1)
     apart = spectrum_difference(1.1 * both, both, RATE, 3000.0)
     assert apart == pytest.approx(20.0 * math.log10(1.1), rel=1e-9)
@@ -166,11 +166,11 @@ def test_trends() -> None:
     for depth in (0.2, 0.5):
         swell = 2.0 * (1.0 + depth * np.cos(TURN * bpfo * TIME))
         recordings.append(Recording((swell * wave(3000.0))[:, None], RATE, ("y",)))
-    found = trend(recordings, bearing, speed, band=(2500.0, 3500.0))
-    outer = found.column("lines")[:, LINES.index("bpfo")]
+    history = trend(recordings, bearing, speed, band=(2500.0, 3500.0))
+    outer = history.column("lines")[:, LINES.index("bpfo")]
     assert outer == pytest.approx([0.4, 1.0], rel=0.02)
     rms = [math.sqrt(2.0 * (1.0 + 0.5 * depth**2)) for depth in (0.2, 0.5)]
-    assert found.column("rms") == pytest.approx(rms, rel=1e-3)
+    assert history.column("rms") == pytest.approx(rms, rel=1e-3)
     one = trend_point(recordings[1], bearing, speed, "y", (2500.0, 3500.0))
     assert one.lines[LINES.index("bpfo")] == pytest.approx(1.0, rel=0.02)
     # five vanes beside the 4.98 turns of an outer race
@@ -227,9 +227,9 @@ def test_the_bearing_that_ross_is_given(monkeypatch: pytest.MonkeyPatch) -> None
     rows = type(case.rows)(**{**vars(case.rows), "defect": None})
     cage = np.arange(72) * 2.0 * math.pi / 9 / 72
     _, stiffness = rows.curves(case.force, cage, case.free)
-    found = to_ross(case.scene.healthy(), [0.0])
-    assert found.kyy[0] == pytest.approx(stiffness[:, 1, 1].mean(), rel=5e-3)
-    assert found.kxx[0] == pytest.approx(stiffness[:, 0, 0].mean(), rel=5e-3)
+    bearing = to_ross(case.scene.healthy(), [0.0])
+    assert bearing.kyy[0] == pytest.approx(stiffness[:, 1, 1].mean(), rel=5e-3)
+    assert bearing.kxx[0] == pytest.approx(stiffness[:, 0, 0].mean(), rel=5e-3)
 
 
 @pytest.mark.parametrize("one", TWO_RESONANCES)

@@ -99,7 +99,7 @@ def test_loads_displacements_and_15_terms(name: str) -> None:
 def test_frequencies_and_damping_of_k_m_and_c(name: str) -> None:
     """Eigenvalues by SciPy of matrices put together here; c and the support as given."""
     scene = CASES[name][0]
-    found = modes(scene, CAGE)
+    vibration = modes(scene, CAGE)
     c = contact_damping(scene)
     for i, cage in enumerate(CAGE):
         _, K, _, e = own_state(name, float(cage))
@@ -114,9 +114,9 @@ def test_frequencies_and_damping_of_k_m_and_c(name: str) -> None:
         values = values[values.imag > 0.0]
         order = np.argsort(np.abs(values))
         own = np.abs(values[order]) / (2.0 * math.pi), (-values.real / np.abs(values))[order]
-        ours = np.argsort(found.frequency[i])
-        np.testing.assert_allclose(found.frequency[i, ours], own[0], rtol=1e-6)
-        np.testing.assert_allclose(found.damping_ratio[i, ours], own[1], rtol=1e-5)
+        ours = np.argsort(vibration.frequency[i])
+        np.testing.assert_allclose(vibration.frequency[i, ours], own[0], rtol=1e-6)
+        np.testing.assert_allclose(vibration.damping_ratio[i, ours], own[1], rtol=1e-5)
 
 
 @witness(
@@ -152,16 +152,16 @@ def test_bands_of_an_outer_race_are_those_of_very_many_angles() -> None:
         assert contact_damping(scene) == pytest.approx(c, rel=1e-3)
         bands = sorted(frequency_bands(scene).values())
         ends = sorted(zip(frequency.min(axis=0), frequency.max(axis=0), strict=True))
-        for found, expected in zip(bands, ends, strict=True):
-            assert found == pytest.approx(expected, rel=far)
+        for actual, expected in zip(bands, ends, strict=True):
+            assert actual == pytest.approx(expected, rel=far)
 
 
 def test_statistics_of_a_sweep_are_those_of_its_samples() -> None:
     """45 statistics: mean by the trapezoidal rule, least, greatest of 121 angles, to 5e-10."""
     scene = presets["liew-lim"]
-    _, found = Grid.of(scene, {"fz": [500.0]}, ["k_*"]).compute()
+    _, numbers = Grid.of(scene, {"fz": [500.0]}, ["k_*"]).compute()
     state = equilibrium(scene.replace(fz=500.0), np.linspace(0.0, math.radians(30.0), 121))
-    terms = [name.removesuffix("_mean") for name in found if name.endswith("_mean")]
+    terms = [name.removesuffix("_mean") for name in numbers if name.endswith("_mean")]
     assert len(terms) == 15
     for term in terms:
         values = state.term(term)
@@ -170,5 +170,5 @@ def test_statistics_of_a_sweep_are_those_of_its_samples() -> None:
             "mean": np.trapezoid(values) / 120.0, "least": values.min(), "greatest": values.max()
         }  # fmt: skip
         for which, value in own.items():
-            at = float(found[f"{term}_{which}"][0])
+            at = float(numbers[f"{term}_{which}"][0])
             assert at == pytest.approx(value, rel=5e-10, abs=1e-9 * size), (term, which)

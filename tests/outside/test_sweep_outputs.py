@@ -25,8 +25,8 @@ def swept() -> dict[str, np.ndarray]:
     """All outputs of the pair of 7208, in five directions."""
     wanted = [name for name in OUTPUTS if not name.startswith(("mass", "floquet"))]
     scene = PAIR.scene.replace(contact_damping=C)
-    _, found = Grid.of(scene, {"depth": [1e-4]}, wanted, SETTINGS).compute()
-    return {name: values[0] for name, values in found.items()}
+    _, numbers = Grid.of(scene, {"depth": [1e-4]}, wanted, SETTINGS).compute()
+    return {name: values[0] for name, values in numbers.items()}
 
 
 @cache
@@ -54,8 +54,8 @@ def test_statics() -> None:
         values = stiffness[:, i, j]
         size = math.sqrt(stiffness[:, i, i].max() * stiffness[:, j, j].max())
         own = mean(values), values.min(), values.max()
-        found = [swept()[f"{term}_{which}"] for which in ("mean", "least", "greatest")]
-        assert found == pytest.approx(own, abs=1e-5 * size), term
+        actual = [swept()[f"{term}_{which}"] for which in ("mean", "least", "greatest")]
+        assert actual == pytest.approx(own, abs=1e-5 * size), term
     assert swept()["ball_load_greatest"] == pytest.approx(loads.max(), rel=1e-5)
     carrying = (loads > 0.0).sum(axis=1)
     assert swept()["loaded_balls_mean"] == pytest.approx(mean(carrying), rel=1e-9)
@@ -72,8 +72,8 @@ def test_statics() -> None:
 def test_life_and_pressure() -> None:
     loads, _ = curves()
     own = pressures("rows", loads.max())
-    found = [swept()[f"contact_pressure_{race}"] for race in ("inner", "outer")]
-    assert found == pytest.approx(own, rel=1e-4)
+    actual = [swept()[f"contact_pressure_{race}"] for race in ("inner", "outer")]
+    assert actual == pytest.approx(own, rel=1e-4)
     healthy = type(PAIR.rows)(**{**vars(PAIR.rows), "defect": None})
     cage = np.linspace(0.0, 2.0 * math.pi / PAIR.rows.count, ANGLES)
     whole, _ = healthy.curves(PAIR.force, cage, PAIR.free)
@@ -143,16 +143,16 @@ def test_what_a_missing_rating_leaves_known() -> None:
     case, free = CASES["self-aligning"], [0, 1, 2]
     outputs = ["contact_pressure_*", "life_*", "band_*"]
     grid = Grid.of(case.scene, {"depth": [1e-4]}, outputs, Settings(cage_angles=5))
-    (code,), found = grid.compute()
+    (code,), numbers = grid.compute()
     assert STATUSES[code] is SweepStatus.COMPUTATION_REFUSED
-    assert np.isnan(found["life_turns"][0])
+    assert np.isnan(numbers["life_turns"][0])
     cage = np.linspace(0.0, 2.0 * math.pi / case.rows.count, 5)
     loads, stiffness = case.rows.curves(case.force, cage, free)
-    ours = [found[f"contact_pressure_{race}"][0] for race in ("inner", "outer")]
+    ours = [numbers[f"contact_pressure_{race}"][0] for race in ("inner", "outer")]
     assert ours == pytest.approx(pressures("self-aligning", loads.max()), rel=1e-5)
     bearing = stiffness[:, :3, :3]
     ground = bearing + np.diag(GROUND[:3])
     whole = np.block([[bearing, -bearing], [-bearing, ground]]) / MASS[0]
     frequency = np.sqrt(np.linalg.eigvalsh(whole)) / (2.0 * math.pi)
-    assert np.nanmin(found["band_least"]) == pytest.approx(frequency.min(), rel=2e-3)
-    assert np.nanmax(found["band_greatest"]) == pytest.approx(frequency.max(), rel=2e-3)
+    assert np.nanmin(numbers["band_least"]) == pytest.approx(frequency.min(), rel=2e-3)
+    assert np.nanmax(numbers["band_greatest"]) == pytest.approx(frequency.max(), rel=2e-3)

@@ -37,8 +37,8 @@ SKF_A_MM = {
 @pytest.mark.parametrize("number", CENTRES_MM)
 def test_pressure_centres_are_the_makers(number: str) -> None:
     """Sources stand at CENTRES_MM."""
-    found = [1e3 * (_pair(number, way).pressure_centers_apart or 0.0) for way in ("DB", "DF")]
-    assert found == pytest.approx(CENTRES_MM[number], abs=0.45)
+    centres = [1e3 * (_pair(number, way).pressure_centers_apart or 0.0) for way in ("DB", "DF")]
+    assert centres == pytest.approx(CENTRES_MM[number], abs=0.45)
 
 
 def test_other_makers_print_nearly_the_same() -> None:

@@ -132,8 +132,8 @@ def claimed(document: str) -> set[str]:
 
 @pytest.mark.parametrize("name", HELD)
 def test_no_document_states_a_digit_that_no_test_holds(name: str) -> None:
-    found = claimed("README.md" if name == "README" else f"assets/docs/{name}.md")
-    assert found == set(HELD[name])
+    stated = claimed("README.md" if name == "README" else f"assets/docs/{name}.md")
+    assert stated == set(HELD[name])
     for digits, test in HELD[name].items():
         value = float(digits.split()[0]) * (0.01 if "%" in digits else 1.0)
         held = numbers_of(ROOT / test)

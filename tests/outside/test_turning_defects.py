@@ -63,10 +63,10 @@ def test_a_deep_groove_bearing_over_many_turns() -> None:
     grid = Grid.of(
         DEEP_GROOVE, {"fz": [0.0]}, ["k_xx_least", "ball_load_greatest", "loaded_balls_least"]
     )
-    _, found = grid.compute()
-    assert found["k_xx_least"][0] == pytest.approx(12.1e6, rel=5e-3)
-    assert found["ball_load_greatest"][0] == pytest.approx(803.0, rel=2e-3)
-    assert found["loaded_balls_least"][0] == 2
+    _, numbers = grid.compute()
+    assert numbers["k_xx_least"][0] == pytest.approx(12.1e6, rel=5e-3)
+    assert numbers["ball_load_greatest"][0] == pytest.approx(803.0, rel=2e-3)
+    assert numbers["loaded_balls_least"][0] == 2
     assert contact_pressures(DEEP_GROOVE).ball.load == pytest.approx(803.0, rel=2e-3)
     (pressure,) = [x for x in limits(DEEP_GROOVE) if x.name == "contact pressure, inner race"]
     assert "load 803 N" in pressure.sentence
@@ -88,10 +88,10 @@ def test_bands_loads_and_stiffness_are_those_of_a_computation_of_its_own(center:
     defect = math.radians(12.9), 50e-6, "inner", "published"
     loads, k, _ = plane.solve(100.0, plane.cage * shaft, shaft + center, defect)
     own = undamped(k, 2.0, 212.2e6)
-    found = frequency_bands(FAN)
+    bands = frequency_bands(FAN)
     for mode, label in enumerate(("x1", "y1", "x2", "y2")):
         ends = own[:, mode].min(), own[:, mode].max()
-        assert found[label] == pytest.approx(ends, rel=5e-3), label
+        assert bands[label] == pytest.approx(ends, rel=5e-3), label
     ranges = static_ranges(FAN, ("k_xx", "k_yy", BALL_LOAD))
     for name, values in (
         ("k_xx", k[:, 0, 0]),
@@ -174,8 +174,8 @@ def test_a_light_load_in_a_clearance(balls: int, ball: float, extent: float) -> 
     plane = Plane(balls, ball, 45e-3, 5453e6, 3e-6)
     own = of_two_balls(plane, 1e-3, (math.radians(extent), 50e-6, "inner", "published"))
     scene = FAN.replace(n_balls=balls, ball_diameter=ball, extent=math.radians(extent), fy=-1e-3)
-    found = static_ranges(scene, ())
-    means = [found.mean(found.state.term(name)) for name in ("k_xx", "k_yy")]
+    ranges = static_ranges(scene, ())
+    means = [ranges.mean(ranges.state.term(name)) for name in ("k_xx", "k_yy")]
     assert means == pytest.approx(own, rel=0.01)
 
 

@@ -39,10 +39,10 @@ def test_a_burst_counts_alike_wherever_it_is(begin: float) -> None:
     """Root mean square by definition: sqrt(0.8·1² + 0.2·7²) = 3.256 mm/s, zone B of group 2."""
     time = np.arange(round(10.0 * RATE)) / RATE
     level = np.where((time >= begin) & (time < begin + 2.0), 7.0, 1.0)
-    found = float(velocity_rms(1e-3 * level * tone(100.0, 10.0), RATE))
-    assert found == pytest.approx(1e-3 * math.sqrt(0.8 + 0.2 * 49.0), rel=2e-3)
-    assert severity_zone(found, "medium, rigid") == "C"
-    assert severity_zone(found, "medium, flexible") == "B"
+    actual = float(velocity_rms(1e-3 * level * tone(100.0, 10.0), RATE))
+    assert actual == pytest.approx(1e-3 * math.sqrt(0.8 + 0.2 * 49.0), rel=2e-3)
+    assert severity_zone(actual, "medium, rigid") == "C"
+    assert severity_zone(actual, "medium, flexible") == "B"
 
 
 @witness(
@@ -64,8 +64,8 @@ def test_tones_up_to_both_ends_are_kept(frequency: float, duration: float) -> No
     """A tone's own root mean square within 3 %, whatever its phase and the signal's length."""
     for rate in (2560.0, RATE):
         for phase in np.linspace(0.0, math.pi, 5):
-            found = float(velocity_rms(tone(frequency, duration, 1.0, phase, rate), rate))
-            assert found == pytest.approx(1.0, abs=0.03)
+            actual = float(velocity_rms(tone(frequency, duration, 1.0, phase, rate), rate))
+            assert actual == pytest.approx(1.0, abs=0.03)
 
 
 @pytest.mark.parametrize("frequency", [7.0, 1400.0])
@@ -127,8 +127,8 @@ def test_drift_and_offset_are_no_vibration() -> None:
     """An accelerometer's offset and drift add up to a velocity that no machine has."""
     time = np.arange(round(10.0 * RATE)) / RATE
     clean = tone(50.0, 10.0)
-    found = float(velocity_rms(clean + 5.0 + 0.3 * time, RATE))
-    assert found == pytest.approx(1.0, rel=2e-3)
+    actual = float(velocity_rms(clean + 5.0 + 0.3 * time, RATE))
+    assert actual == pytest.approx(1.0, rel=2e-3)
 
 
 def test_noise_has_the_integral_of_its_density() -> None:
@@ -149,7 +149,7 @@ def test_slow_machines_are_judged_from_2_hz(turns: float, low: float) -> None:
     """ISO 10816-3: 10 to 1000 Hz; at and below 600 turns a minute from 2 Hz."""
     signal = tone(4.0, 10.0)[:, None]
     speed = 2.0 * math.pi * turns / 60.0
-    found = indicators(Recording(signal, RATE, ("y",), shaft_speed=speed))
-    assert found.band == (low, 1000.0)
+    levels = indicators(Recording(signal, RATE, ("y",), shaft_speed=speed))
+    assert levels.band == (low, 1000.0)
     expected = 1.0 if low < 4.0 else 0.0
-    assert float(found.velocity_rms[0]) == pytest.approx(expected, abs=0.03)
+    assert float(levels.velocity_rms[0]) == pytest.approx(expected, abs=0.03)

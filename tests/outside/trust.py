@@ -53,16 +53,16 @@ def closeness(within: float | str) -> str:
 
 def as_markdown() -> str:
     """The document."""
-    found = witnesses()
+    held_by = witnesses()
     number: dict[str, int] = {}
     lines = [HEAD, "## Witnesses", ""]
     lines += ["| | witness | compared | within | test |", "| ---: | --- | --- | --- | --- |"]
-    for one in (one for rows in found.values() for held in rows.values() for one in held):
+    for one in (one for rows in held_by.values() for held in rows.values() for one in held):
         if one.place not in number:
             number[one.place] = len(number) + 1
             cells = (number[one.place], one.by, one.compared, closeness(one.within), one.place)
             lines.append("| " + " | ".join(map(str, cells)) + " |")
-    for heading, rows in found.items():
+    for heading, rows in held_by.items():
         lines += ["", f"## {heading}", "", "| capability | witnesses |", "| --- | --- |"]
         for name, held in rows.items():
             numbers = ", ".join(str(number[one.place]) for one in held)

@@ -30,8 +30,9 @@ from bearing_explorer.diagnosis.measurement_state import (
 )
 from bearing_explorer.diagnosis.model import NOT_TAKEN, WANTED
 from bearing_explorer.diagnosis.signal import Measured
+from bearing_explorer.diagnosis.sized_defect import SizedDefect
 from bearing_explorer.kit.compute.jobs import EXTENT, LISTED, PART, READING, Compute, Jobs, JobState
-from bearingcore import Diagnosis, MeasuredExtent, Scene, Table, catalogue
+from bearingcore import Diagnosis, MeasuredExtent, Scene, Sizing, Table, catalogue
 from bearingcore.measured.diagnosis import ListedBearing
 
 log = logging.getLogger(__name__)
@@ -70,6 +71,8 @@ class Findings:
         self.extents: Answers[MeasuredExtent] = Answers(jobs, EXTENT, draw, extent_of)
         #: listed bearings, where the one that is given does not explain the signal
         self.listed: Answers[tuple[ListedBearing, ...]] = Answers(jobs, LISTED, draw, listed_of)
+        #: the newest choice between lengths of the spall, of whichever signal
+        self.sized: SizedDefect | None = None
         self._scene = of_scene(scene())
         self._table: Table | None = None  # with the roles of its columns as they are given
         self._ended = False
@@ -106,6 +109,13 @@ class Findings:
         question = self.question()
         found = None if question is None else self.extents.latest(question)
         return found if isinstance(found, MeasuredExtent) else None
+
+    def sizing(self) -> Sizing | None:
+        """The choice between lengths of the spall, of this signal on the machine of now."""
+        sized = self.sized
+        if sized is None or self.measured is None:
+            return None
+        return sized.sizing if sized.is_of(self.measured, self._scene_now()) else None
 
     @property
     def shaft_speed(self) -> float | None:

@@ -13,6 +13,7 @@ from bearing_explorer.diagnosis.views.measured_spectrum import MeasuredSpectrum
 from bearing_explorer.diagnosis.views.measurement import MeasuredSignal
 from bearing_explorer.diagnosis.views.signal_figure import figure_of
 from bearing_explorer.diagnosis.views.trend import TrendOfFiles
+from bearing_explorer.diagnosis.views.which_length import WhichLength
 from bearing_explorer.kit.session import Section
 
 __all__ = ["SECTIONS", "DiagnosisOfSignal", "figure_of"]
@@ -25,6 +26,7 @@ SECTIONS = (
             MeasuredSignal,
             PartDiagnosis,
             SpallExtent,
+            WhichLength,
             TrendOfFiles,
             MeasuredIndicators,
             MeasuredSpectrum,

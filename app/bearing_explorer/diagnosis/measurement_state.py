@@ -7,9 +7,8 @@ from dataclasses import dataclass, field
 from bearing_explorer.diagnosis.form import ShownColumns
 
 FIRST_WORDS = (
-    "No signal yet: choose a file with the acceleration of the housing, or simulate one with the "
-    "current scene. Then the damaged part, the length of its spall, trend, indicators and spectra "
-    "appear here."
+    "No signal yet. Once there is one, the damaged part, the length of its spall, trend, "
+    "indicators and spectra appear here."
 )
 
 NO_FILE_TO_COMPARE = "A file is compared with a file: choose the one to compare first."

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from bearing_explorer.kit.views.content import Content
+from bearing_explorer.kit.views.content import SceneContent
 from bearingcore import Scene
 
 NOT_TAKEN = "Not taken: see step {}"
@@ -15,7 +15,7 @@ WANTED = "An answer is missing: see step 1"
 
 
 @dataclass(frozen=True)
-class Model(Content):
+class Model(SceneContent):
     """All that views of a signal draw at one moment: the scene, and whether a slider moves it.
 
     `at_work` says what is under way with the signal; `mark` is the number of the newest change.

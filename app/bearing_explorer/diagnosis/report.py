@@ -28,6 +28,7 @@ from bearing_explorer.diagnosis.views.measured_kurtogram import MeasuredKurtogra
 from bearing_explorer.diagnosis.views.measured_spectrum import MeasuredSpectrum
 from bearing_explorer.diagnosis.views.measurement import MeasuredSignal
 from bearing_explorer.diagnosis.views.trend import FoundTrend, TrendOfFiles, words_on
+from bearing_explorer.diagnosis.views.which_length import WhichLength
 from bearing_explorer.diagnosis.widgets.part_panel import part_html
 from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.report_page import About, document, heading, mark_of
@@ -49,6 +50,7 @@ _ORIGINS = {
 FIGURES = {
     TrendOfFiles: "Trend",
     SpallExtent: "Mean ball pass",
+    WhichLength: "Which length",
     PartDiagnosis: "Envelope spectrum",
     MeasuredKurtogram: "Kurtogram",
     MeasuredSignal: "The record",
@@ -143,8 +145,7 @@ def measured_report(
     state = panel_state(question, answer)
     state |= {"pass_on": "", "facts": ()}
     if extent is not None:
-        known = ", interval of 95 %" if extent.measured else ""
-        state["extent"] = f"{part_words.extent(extent)}{known}"
+        state["extent"] = part_words.length(extent, measurement.sizing())
     machine = question.measured.machine
     bearing = about.bearing if model.scene.bearing == machine.bearing else "Bearing"
     title = f"{machine.bearing_name or bearing}: {question.measured.recording.name}"

@@ -70,6 +70,8 @@ class Measured:
     true_load, true_edge
         radial load [N] that presses balls into the defect, and how they roll over its edges, where
         the signal is a simulated one of one defect, else None.
+    true_scene
+        the scene that was simulated, where the signal is a simulated one, else None.
     noiseless
         whether it is simulated without any noise.
     in_si
@@ -85,6 +87,7 @@ class Measured:
     true_speed: float | None = None
     true_load: float | None = None
     true_edge: str | None = None
+    true_scene: Scene | None = None
     noiseless: bool = False
     in_si: bool = True
     _spectra: dict[float, Spectrum] = field(default_factory=dict, repr=False)

@@ -1,16 +1,18 @@
-"""All that the page takes of the scene's half: its tabs, its session, its lessons, its help."""
+"""All that the page takes of the scene's half: tabs, session, lessons, help, compiled kernels."""
 
 from __future__ import annotations
 
 import html
+from collections.abc import Callable
 
 from bearing_explorer.explorer.half import Explorer
+from bearing_explorer.explorer.results import default_results
 from bearing_explorer.explorer.state import glossary
 from bearing_explorer.explorer.state.lessons import (
     Tabs,
     faults_in,
     lessons_in,
-    own_folder,
+    own_lessons,
     text_for_teachers,
 )
 from bearing_explorer.explorer.views.accuracy import Accuracy
@@ -41,6 +43,7 @@ from bearing_explorer.explorer.views.stiffness import Stiffness
 from bearing_explorer.explorer.views.vibration_spectrum import VibrationSpectra
 from bearing_explorer.explorer.views.vibration_time import VibrationInTime
 from bearing_explorer.kit.assets import asset_text
+from bearing_explorer.kit.compute import compiling
 from bearing_explorer.kit.session import Section
 from bearingcore import presets
 
@@ -48,11 +51,12 @@ __all__ = [
     "SECTIONS",
     "Explorer",
     "Tabs",
+    "begin_compiling",
     "faults_in",
     "figure_of",
     "help_texts",
     "lessons_in",
-    "own_folder",
+    "own_lessons",
     "text_for_teachers",
 ]
 
@@ -80,6 +84,11 @@ SECTIONS = (
     Section("paper", "Paper", (PaperFigures,), "More"),
 )
 """Tabs of the scene, and their parts."""
+
+
+def begin_compiling(**report: Callable[..., object]) -> None:
+    """Begin `compiling`; the results that come along are drawn until it has ended."""
+    compiling.begin(default_results.keep, **report)
 
 
 def help_texts() -> dict[str, str]:

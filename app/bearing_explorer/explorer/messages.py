@@ -6,9 +6,14 @@ from typing import Annotated, Any
 
 import msgspec
 
-from bearing_explorer.kit.messages import TextFile
-
 Mark = Annotated[int, msgspec.Meta(ge=0, lt=2**24)]
+
+
+class TextFile(msgspec.Struct):
+    """A text file that was chosen, or a scene that was kept: its name and its text."""
+
+    name: str
+    text: str
 
 
 class SceneChange(msgspec.Struct, omit_defaults=True):

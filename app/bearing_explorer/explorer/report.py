@@ -16,6 +16,7 @@ from typing import Any
 from bokeh.embed import json_item
 
 from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.results.verdict import rows_of
 from bearing_explorer.explorer.state.choice_list import OF_DEFECT, OF_SCENE, floor_name
 from bearing_explorer.explorer.state.field_values import SHOWN_FIELDS, defects_of, values_of
 from bearing_explorer.explorer.views.bearing_editor import facts_of
@@ -30,7 +31,7 @@ from bearing_explorer.kit.sentences import words_of
 from bearing_explorer.kit.views.base import View
 from bearing_explorer.kit.views.still_figure import Figure
 from bearing_explorer.kit.widgets.facts import html_table, html_text, sentence_html
-from bearing_explorer.kit.widgets.limits import judged, rows_of
+from bearing_explorer.kit.widgets.limits import judged
 from bearingcore import Scene
 from bearingcore.fields import Field
 from bearingcore.model.scene import DOF_SYMBOLS
@@ -115,7 +116,7 @@ def page(results: Results, about: About, parts: Iterable[str]) -> str:
 
 def _figure(view: type[View], results: Results, ids: Sequence[str], sentence: str) -> str:
     bearing = results.scene.bearing
-    caption = html_text(with_elements_of(bearing, view.caption(results.grey.name)))
+    caption = html_text(with_elements_of(bearing, view.caption(results)))
     title = html_text(with_elements_of(bearing, view.title))
     drawings = "".join(f"<div class='drawing'>{mark_of(i)}</div>" for i in ids)
     return (

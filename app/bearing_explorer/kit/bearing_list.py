@@ -59,23 +59,23 @@ def _found(text: str) -> Iterator[dict[str, Any]]:
         if length and _has_length(presets[name].bearing, length):
             rank = 0
         ranked.append((rank, _entry({"preset": name}, label, "", "")))
-    for one in catalogue().values():
-        words = entry_words(one)
-        rank = _rank(wanted, one.name, f"{words} {one.note}")
-        if length and _has_length(one.bearing, length):
+    for bearing in catalogue().values():
+        words = entry_words(bearing)
+        rank = _rank(wanted, bearing.name, f"{words} {bearing.note}")
+        if length and _has_length(bearing.bearing, length):
             rank = 0
-        ranked.append((rank, _entry({"bearing": one.name}, one.name, words, "")))
+        ranked.append((rank, _entry({"bearing": bearing.name}, bearing.name, words, "")))
     best = [entry for rank, entry in ranked if rank == 0]
     # the first one is taken by Enter: the bearing of that very name, then the designation,
     # which may be the first word of longer names; what only has its number comes last
-    named = [one for one in best if _rank(text.lower(), one["label"], "") == 0]
-    named.sort(key=lambda one: one["label"].lower() != text.lower())
-    exact = sum(one["label"].lower() == text.lower() for one in named)
+    named = [entry for entry in best if _rank(text.lower(), entry["label"], "") == 0]
+    named.sort(key=lambda option: option["label"].lower() != text.lower())
+    exact = sum(option["label"].lower() == text.lower() for option in named)
     yield from named[:exact]
     if by_number is not None:
         yield _estimated(by_number)
     yield from named[exact:]
-    yield from (one for one in best if one not in named)
+    yield from (entry for entry in best if entry not in named)
     if by_number is None and len(text) > 1:
         for basic in islice(designations(text), MOST_NUMBERS):
             yield _estimated(read_designation(basic))
@@ -112,7 +112,7 @@ def _length(text: str) -> float | None:
 def _has_length(bearing: Bearing, length: float) -> bool:
     """Whether a bearing has balls or a pitch circle of a diameter [m]."""
     own = (bearing.ball_diameter, bearing.pitch_diameter)
-    return any(math.isclose(length, one, rel_tol=SAME_LENGTH) for one in own)
+    return any(math.isclose(length, number, rel_tol=SAME_LENGTH) for number in own)
 
 
 def _rank(wanted: str, name: str, note: str) -> int:
@@ -138,13 +138,15 @@ def _entry(choose: dict[str, str], label: str, words: str, mark: str) -> dict[st
     return {"choose": choose, "label": label, "words": words, "mark": mark}
 
 
-def _estimated(one: Designation) -> dict[str, Any]:
-    return _entry({"bearing": one.name}, one.name, entry_words(one.entry), "estimated")
+def _estimated(designation: Designation) -> dict[str, Any]:
+    return _entry(
+        {"bearing": designation.name}, designation.name, entry_words(designation.entry), "estimated"
+    )
 
 
-def entry_words(one: CatalogueBearing) -> str:
+def entry_words(entry: CatalogueBearing) -> str:
     """A bearing of the list in a line: balls, diameters, angle or clearance, rating."""
-    bearing = one.bearing
+    bearing = entry.bearing
     rough = bearing.estimated and bearing.kind.estimate_spread is not None
     diameter = number(1e3 * bearing.ball_diameter, 3 if rough else 5)
     words = (
@@ -155,12 +157,12 @@ def entry_words(one: CatalogueBearing) -> str:
         words += f", {number(math.degrees(bearing.contact_angle))}°"
     if bearing.radial_clearance:
         words += f", clearance {number(2e6 * bearing.radial_clearance)} µm"
-    if one.dynamic_load_rating is not None:
-        words += f", dynamic rating {number(one.dynamic_load_rating / 1e3, 4)} kN"
+    if entry.dynamic_load_rating is not None:
+        words += f", dynamic rating {number(entry.dynamic_load_rating / 1e3, 4)} kN"
     return words
 
 
-def origin_words(one: CatalogueBearing) -> str:
+def origin_words(entry: CatalogueBearing) -> str:
     """Sources of the numbers of a bearing, and assumptions."""
-    assumed = f" Assumed here: {', '.join(one.assumed)}." if one.assumed else ""
-    return f"{one.note}{assumed}".strip()
+    assumed = f" Assumed here: {', '.join(entry.assumed)}." if entry.assumed else ""
+    return f"{entry.note}{assumed}".strip()

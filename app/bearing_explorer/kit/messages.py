@@ -1,7 +1,7 @@
 """Messages of the page's scripts: one class for each, checked when they arrive.
 
-The scripts of the page send maps of plain values. `read` makes one of the classes here of a map, or
-refuses it; the receivers see only messages that are whole.
+The scripts of the page send maps of plain values. `read` makes a message of a map, or refuses it;
+the receivers see only messages that are whole. Each half has its own classes of messages.
 """
 
 from __future__ import annotations
@@ -33,45 +33,7 @@ def take(act: Callable[[dict[str, Any]], None], kind: type[msgspec.Struct], data
         act(msgspec.to_builtins(message))
 
 
-class TextFile(msgspec.Struct):
-    """A text file that was chosen, or a scene that was kept: its name and its text."""
-
-    name: str
-    text: str
-
-
 class TabChange(msgspec.Struct):
     """A tab is chosen by its name."""
 
     show: str
-
-
-class UploadBegins(msgspec.Struct, tag="begin"):
-    """A file was chosen: its name and its size [bytes].
-
-    It is the `number`th of `count` that come, from 1, out of so many that were `chosen`; or the
-    `baseline` with which the file that is there is to be compared.
-    """
-
-    name: str
-    size: int
-    number: int = 1
-    count: int = 1
-    chosen: int = 1
-    baseline: bool = False
-
-
-class UploadPiece(msgspec.Struct, tag="piece"):
-    """A piece of a file; `of` is the number of the upload, as the server gave it."""
-
-    content: bytes
-    of: int
-
-
-class RoleOfColumn(msgspec.Struct):
-    """The role of a column of a file, from 0, was chosen, or the unit or place of a signal."""
-
-    column: int
-    role: str
-    unit: str = ""
-    place: str = ""

@@ -12,8 +12,7 @@ from bearing_explorer.kit.compute import compiling
 from bearing_explorer.kit.compute.cache import Overtaken
 from bearing_explorer.kit.sentences import words_of
 from bearing_explorer.kit.views.base import Ranges, Sources, View
-from bearing_explorer.kit.views.content import Content
-from bearingcore import Limit
+from bearing_explorer.kit.views.content import Content, Warnings
 
 log = logging.getLogger(__name__)
 
@@ -37,7 +36,7 @@ class Picture:
     content: Content
     drawings: list[Drawing]
     status: dict[str, Any]
-    limits: tuple[Limit, ...] | None
+    warnings: Warnings | None
     seconds: float
     work: float
 
@@ -45,10 +44,10 @@ class Picture:
 def picture_of(
     content: Content,
     views: Sequence[View],
-    limits: bool = False,
+    warnings: bool = False,
     on_screen: Sequence[View] = (),
 ) -> Picture:
-    """Draw `views`, and check the `limits` of the model.
+    """Draw `views`, and look for `warnings`.
 
     `on_screen`: the views that the status is of, where these are more than those drawn.
     """
@@ -59,7 +58,7 @@ def picture_of(
     work = time.thread_time() - worked
     checked = None
     try:
-        checked = content.limits if limits else None
+        checked = content.warnings if warnings else None
         status = content.status(work, shown)
         if status["mood"] == "good" and any(drawing.data is None for drawing in drawings):
             status |= {"mood": "busy", "words": "Not all can be shown"}

@@ -25,11 +25,10 @@ from bearing_explorer.kit.serve import log as write
 from bearing_explorer.kit.serve.live import one_message, send_at_once
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources, View
-from bearing_explorer.kit.views.content import Content
+from bearing_explorer.kit.views.content import Content, Warnings
 from bearing_explorer.kit.widgets.form import stack
-from bearing_explorer.kit.widgets.limits import LimitsStrip, judged, rows_of
+from bearing_explorer.kit.widgets.limits import LimitsStrip, judged
 from bearing_explorer.kit.widgets.status import StatusLine, Tabs
-from bearingcore.model.statics import summary
 
 log = logging.getLogger(__name__)
 
@@ -47,11 +46,11 @@ _AT_ONCE = 0.025
 #: a tab opens together with its fine picture where that takes less than this [s]
 _SOON = 0.2
 
-#: the limits of the model are checked when the slider rests, and with the first change after so
-#: long [s]: what was typed may be far over them. While a slider moves they are checked after so
-#: long, and where many share the machine, after so many pictures: they cost as much as two
-_LIMITS_EVERY = 1.0
-_LIMITS_PICTURES = 10
+#: warnings are looked for when the slider rests, and with the first change after so long [s]: what
+#: was typed may be far over a limit. While a slider moves they are looked for after so long, and
+#: where many share the machine, after so many pictures: they cost as much as two
+_WARNINGS_EVERY = 1.0
+_WARNINGS_PICTURES = 10
 
 
 @dataclass(frozen=True)
@@ -119,9 +118,9 @@ class Session:
         self._views: dict[str, list[View]] = {}
         self._drawn_mark = 0
         self._slow_cost = self._quick_cost = math.inf
-        self._slow_at = self._limits_at = self._moved_at = -math.inf
-        self._limit_rows: list[dict[str, Any]] = []
-        self._pictures = 0  # since the limits were looked at
+        self._slow_at = self._warnings_at = self._moved_at = -math.inf
+        self._warnings = Warnings()
+        self._pictures = 0  # since warnings were looked for
         self._doc = pn.state.curdoc
         self._compiling: asyncio.Task[None] | None = None
         self._loop: DrawingLoop[Content, Picture] = DrawingLoop(
@@ -135,7 +134,7 @@ class Session:
         self._on_screen = self._attached = ""  # on the server, and in the browser
         self.tabs = Tabs(
             self.show_tab,
-            names=[[one.name, one.title, one.tab or one.title] for one in halves],
+            names=[[half.name, half.title, half.tab or half.title] for half in halves],
             active=self._shown,
         )
         # a place for each tab, or the browser would go through all of them whenever one comes
@@ -284,7 +283,7 @@ class Session:
             content = content.at_rest()
         else:
             content = await self._draw_following(content.at_rest(False) if opens else content)
-        write.update(self._doc, content.scene, self._on_screen, time.perf_counter() - started)
+        write.update(self._doc, content.log_name, self._on_screen, time.perf_counter() - started)
         compiling.drawn()
         if self._on_screen != self._shown:
             # opened meanwhile, and this content may have been the newest
@@ -311,8 +310,8 @@ class Session:
             await self._assign(picture, None if slow else content.mark)
         if slow:
             before = time.perf_counter()
-            limits = not quick and self._limits_due(content)
-            picture = await in_thread(picture_of, content, slow, limits)
+            warnings = not quick and self._warnings_due(content)
+            picture = await in_thread(picture_of, content, slow, warnings)
             self._slow_at = time.perf_counter()
             self._slow_cost = self._slow_at - before
             await self._assign(picture, content.mark)
@@ -326,10 +325,10 @@ class Session:
         """A picture of the newest content: others may have waited for a thread too."""
         newest = self._loop.newest(content)
         content = newest if self._is_for_screen(newest) else content
-        return content, picture_of(content, views, self._limits_due(content))
+        return content, picture_of(content, views, self._warnings_due(content))
 
     def _fine_picture(self, content: Content, give_up: Callable[[], bool]) -> Picture | None:
-        """Views that are finer at rest, with the limits; None where all is drawn finely already."""
+        """Views that are finer at rest, with warnings; None where all is drawn finely already."""
         if not content.moving or not self._is_for_screen(content):
             return None
         fine = content.at_rest(give_up=give_up)
@@ -340,21 +339,21 @@ class Session:
             for view in on_screen
             if view.at_rest or not view.needs or content.is_finer_at_rest(view.needs)
         ]
-        return picture_of(fine, finer, limits=True, on_screen=on_screen)
+        return picture_of(fine, finer, warnings=True, on_screen=on_screen)
 
     async def _draw_fine(self, content: Content, picture: Picture) -> None:
         await self._assign(picture, content.mark)
         self._refined = self._on_screen, *content.fine_key
 
-    def _limits_due(self, content: Content) -> bool:
+    def _warnings_due(self, content: Content) -> bool:
         now = time.perf_counter()
         self._pictures += 1
-        long_ago = now - self._limits_at > _LIMITS_EVERY
-        paused = now - self._moved_at > _LIMITS_EVERY
+        long_ago = now - self._warnings_at > _WARNINGS_EVERY
+        paused = now - self._moved_at > _WARNINGS_EVERY
         self._moved_at = now if content.moving else self._moved_at
-        due = not content.moving or paused or (long_ago and self._pictures >= _LIMITS_PICTURES)
+        due = not content.moving or paused or (long_ago and self._pictures >= _WARNINGS_PICTURES)
         if due:
-            self._limits_at, self._pictures = now, 0
+            self._warnings_at, self._pictures = now, 0
         return due
 
     async def _assign(self, picture: Picture, mark: int | None) -> None:
@@ -372,18 +371,18 @@ class Session:
             for drawing in picture.drawings:
                 drawing.view.put_head(picture.content)
                 drawing.view.say(picture.content if drawing.data else None, drawing.sentence)
-            if picture.limits is not None:
-                self._limit_rows = rows_of(picture.limits)
-                self.limits.put(rows=self._limit_rows, summary=summary(picture.limits))
-            line = judged(picture.status, self._limit_rows)
+            if picture.warnings is not None:
+                self._warnings = warnings = picture.warnings
+                self.limits.put(rows=list(warnings.rows), summary=warnings.summary)
+            line = judged(picture.status, self._warnings.rows)
             self.status.put(line={**line, "tab": self.tabs.active})
 
         await self._send(change)
 
     async def _failed(self, error: Exception) -> None:
         """An unexpected error: show a sentence, answer the mark, keep the last good picture."""
-        scene = write.scene_name(self.content.scene)
-        write.log_warning("failed", self._doc, scene=scene, view=self._shown)
+        name = self.content.log_name()
+        write.log_warning("failed", self._doc, scene=name, view=self._shown)
         self._drawn_mark = self.mark
 
         def change() -> None:

@@ -52,10 +52,10 @@ class FolderDiagnosis:
         return "\n".join(lines)
 
     def table(self) -> ResultTable:
-        """A row a file: part, probability, shaft speed and the answer in words."""
+        """A row for each file: part, probability, shaft speed and the answer in words."""
         answers = self.answers
-        faults = ["not read" if one is None else one.fault for one in answers]
-        odds = [math.nan if one is None else one.probability for one in answers]
+        faults = ["not read" if answer is None else answer.fault for answer in answers]
+        odds = [math.nan if answer is None else answer.probability for answer in answers]
         speeds = [math.nan if one is None else one.shaft_speed or math.nan for one in answers]
         return table_of(
             ("file", "", self.names),
@@ -92,7 +92,7 @@ def diagnose(
     sensitivity: float | None = None,
     **more: Any,
 ) -> Diagnosis | FolderDiagnosis:
-    """Diagnosis of the damaged part of a bearing from a signal, a file, or a folder of files.
+    """Diagnose the damaged part of a bearing from a signal, a file, or a folder of files.
 
     Parameters
     ----------
@@ -100,32 +100,34 @@ def diagnose(
         acceleration of the housing, one direction or two; or the path of a file that `read_table`
         reads, or of a folder of such files; documents and pictures beside them are left out.
     bearing
-        its geometry, or its designation or name in `catalogue()`; only balls, diameters and contact
-        angle count. None: that of the file's collection where it is a known one; else it is
-        unknown, no part is named, and the status says so.
+        its geometry, its designation, or its name in `catalogue()`; only balls, diameters and
+        contact angle count. None: the bearing of the public collection that the file belongs to;
+        if there is none, no part is named and the status says so.
     shaft_speed
-        [rad/s], good to `slip`; a pair (from, to) if it is rough; None: what recording or file say,
-        else it is looked for between 300 and 6000 turns a minute.
+        [rad/s], accurate to `slip`; a pair (from, to) if it is rough; None: the speed stated
+        by recording or file, or else a search between 300 and 6000 turns a minute.
     columns, directions, unit, sample_rate, sensitivity
-        what a file does not say, or says wrongly: see `Table.recording`. Without a unit, or
-        in volts without a sensitivity, the numbers are taken as they are: their scale does not
-        count here.
+        facts that the file lacks or states wrongly: see `Table.recording`. Without a unit, or in
+        volts without a sensitivity, the numbers are used as they are; their scale does not
+        matter here.
     **more
-        `slip` (0.02): by how much balls may pass faster or slower than the shaft speed says, as a
-        fraction. `most_samples` (20,000,000): of all directions that may be analysed; where there
-        are more nothing is begun, and the status says so. `speed_source`, `bearing_source`: where
-        they are from, "given", "from the file" or "assumed", perhaps with words behind a colon.
+        `slip` (0.02): largest relative difference between the true passing rate of the balls and
+        that by the shaft speed. `most_samples` (20,000,000): limit on the samples of all
+        directions; a longer signal is not analysed, and the status says so. `speed_source`,
+        `bearing_source`: "given", "from the file" or "assumed", with more words after a colon.
 
     Returns
     -------
     Diagnosis or FolderDiagnosis
-        of a folder the second, a row a file; a file that cannot be read says why in its row.
+        a `FolderDiagnosis` for a folder, with a row for each file; the row of a file that cannot be
+        read has the reason.
 
     Raises
     ------
     ValueError
-        for a speed, slip or source that cannot be, rows that are not alike, a path that leads
-        nowhere, and a file that cannot be read or needs an answer: of which columns, at which rate.
+        for an impossible speed, slip or source, for bearings with unlike rows, for a path that does
+        not exist, and for a file that cannot be read or lacks columns or a rate; the error names
+        the argument to pass.
     """
     choices: dict[str, Any] = {"columns": columns, "directions": directions, "unit": unit}
     choices |= {"sample_rate": sample_rate, "sensitivity": sensitivity}
@@ -145,21 +147,21 @@ def diagnose(
 def _of_folder(
     folder: Path, bearing: BearingLike | None, shaft_speed: Any, choices: Any, more: Any
 ) -> FolderDiagnosis:
-    named = [one for one in sorted(folder.iterdir()) if one.name[0] != "." and one.is_file()]
-    files = [one for one in named if not DOCUMENT.search(one.name)]
+    named = [path for path in sorted(folder.iterdir()) if path.name[0] != "." and path.is_file()]
+    files = [path for path in named if not DOCUMENT.search(path.name)]
     if not files:
         raise checks.refuse("recording", str(folder), "a folder with records in it")
     answers: list[Diagnosis | None] = []
     sentences = []
-    for one in files:
+    for file in files:
         try:
-            found = _of_file(one, bearing, shaft_speed, choices, more)
-            answers.append(found)
-            sentences.append(found.sentence)
+            answer = _of_file(file, bearing, shaft_speed, choices, more)
+            answers.append(answer)
+            sentences.append(answer.sentence)
         except ValueError as error:
             answers.append(None)
             sentences.append(str(error))
-    return FolderDiagnosis(tuple(one.name for one in files), tuple(answers), tuple(sentences))
+    return FolderDiagnosis(tuple(file.name for file in files), tuple(answers), tuple(sentences))
 
 
 def _of_file(

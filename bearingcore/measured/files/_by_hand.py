@@ -31,18 +31,18 @@ def read_recording(
     sensitivity: float | None = None,
     part: int | None = None,
 ) -> Recording:
-    """The acceleration in a file. What is given goes before what the file says or seems to say.
+    """Read the acceleration in a file. Arguments take precedence over statements of the file.
 
     Parameters
     ----------
     file
-        its path, or its name where `content` is given.
+        its path, or its name if `content` is given.
     content
-        of the file.
+        the bytes of the file.
     columns
-        which column is what, by number from 0 or by name: "signal" (one or more), "time", "speed"
-        and "nothing". What is not named is as the file says; None under "time" or "speed" means
-        that no column is that.
+        roles "signal" (one or more), "time", "speed" and "nothing", each with columns by number
+        from 0 or by name. Roles that are left out follow the file; None under "time" or "speed"
+        means that no column has it.
     directions
         "x" or "y" of each signal; "xy" is both.
     time_unit, unit, speed_unit
@@ -54,17 +54,17 @@ def read_recording(
     full_scale, sensitivity
         see `Table.recording`.
     part
-        which of several recordings in the file, from 1; None is the longest.
+        number of the recording in the file, from 1; None takes the longest.
 
     Returns
     -------
     Recording
-        of the longest part without a gap; its notes say what was left out.
+        the longest part without a gap; its notes list omissions.
 
     Raises
     ------
     FieldError
-        for a file that cannot be read, or naming what is still to be given.
+        for a file that cannot be read, or for a fact that is missing; the error names the argument.
 
     Examples
     --------
@@ -127,7 +127,7 @@ def _with_roles(
                 known.direction if role == SIGNAL else "",
             )
     if time_unit is not None and "time" not in columns:
-        timed = [index for index, one in enumerate(guessed) if one.role == TIME]
+        timed = [index for index, column in enumerate(guessed) if column.role == TIME]
         given |= {index: Column("", TIME, time_unit) for index in timed[:1]}
     return table.with_columns(given)
 

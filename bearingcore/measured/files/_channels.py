@@ -168,18 +168,18 @@ def places_in(name: str) -> list[str]:
     (['drive end', 'non-drive end'], ['non-drive end', 'bearing 1'])
     """
     squeezed, words = re.sub(r"[\W_]+", "", name.lower()), words_of(name)
-    found = []
+    places = []
     for phrase, place in _PHRASES:
         if phrase in squeezed:
-            found.append(place)
+            places.append(place)
             squeezed = squeezed.replace(phrase, " ")
-    found += [place for word, place in _PLACES.items() if word in words]
+    places += [place for word, place in _PLACES.items() if word in words]
     numbered = re.findall(
         r"(?:bearing|lager|brg)[ _-]?(\d+)|(?<![a-z0-9])b(\d)(?![a-z0-9])", name.lower()
     )
-    found += [f"bearing {one or other}" for one, other in numbered]
-    found += re.findall(r"(?<![a-z])point \d+", name.lower())
-    return list(dict.fromkeys(found))
+    places += [f"bearing {number or other}" for number, other in numbered]
+    places += re.findall(r"(?<![a-z])point \d+", name.lower())
+    return list(dict.fromkeys(places))
 
 
 def words_of(heading: str) -> set[str]:
@@ -217,7 +217,7 @@ def choose(
         for index, column in enumerate(columns)
         if column.role == SIGNAL and moving[index] and column.direction != "z"
     ]
-    axial = [i for i, one in enumerate(columns) if one.direction == "z" and moving[i]]
+    axial = [i for i, column in enumerate(columns) if column.direction == "z" and moving[i]]
     if not signals and len(axial) == 1:
         return only_signal(columns[axial[0]].name, axial[0], why)
     if not signals and axial:
@@ -237,7 +237,7 @@ def _by_place(
 ) -> Choice:
     """Signals of the one place that the file's name says, or that is known."""
     places = {columns[index].place for index in signals} - {""}
-    named = [one for one in places_in(file_name) if one in places]
+    named = [place for place in places_in(file_name) if place in places]
     said = named[0] if len(named) == 1 else ""  # two of them name what is in the file
     place = said or place
     there = [index for index in signals if place and columns[index].place == place]

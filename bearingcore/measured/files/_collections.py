@@ -217,7 +217,7 @@ def recognize(
     file_name
         without folders.
     """
-    ends = {one.name.rpartition(".")[2] for one in named}
+    ends = {item.name.rpartition(".")[2] for item in named}
     for row in COLLECTIONS:
         in_name = re.search(row.file, file_name, re.IGNORECASE)
         if (
@@ -236,7 +236,7 @@ def recognize(
 def _known(row: Collection, in_name: dict[str, str | None], named: Sequence[Named]) -> Known:
     why = f"{row.clue} as in the {row.name} collection"
     speed = None if row.rpm is None else _guess(row.rpm * SPEEDS["rpm"], why, "rpm")
-    load = next((one for one in named if one.name.rpartition(".")[2] == "load"), None)
+    load = next((item for item in named if item.name.rpartition(".")[2] == "load"), None)
     force = None
     if load is not None and row.load_unit and math.isfinite(load.value):
         force = _guess(load.value * FORCES[row.load_unit], f"“{load.name}”, {why}")

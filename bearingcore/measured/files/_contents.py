@@ -203,7 +203,7 @@ def contents_of(table: FileColumns) -> FileContents:
     ]
     rate = _rate(table, sampling, named, known)
     speed = _speed(table, columns, named) or known.shaft_speed
-    said = {**{one.name: _text(one) for one in named}, **dates.dates_said(lines), **table.texts}
+    said = {**{item.name: _text(item) for item in named}, **dates.dates_said(lines), **table.texts}
     return FileContents(
         columns,
         choice,
@@ -345,14 +345,14 @@ def _with_times(
     table: FileColumns, columns: list[Column], stamped: Sequence[int]
 ) -> tuple[tuple[Column, ...], Sampling | None]:
     """The columns, and what those say that count rows or are times: by name, or as they rise."""
-    found: dict[int, Sampling] = {}
+    samplings: dict[int, Sampling] = {}
     for index, column in enumerate(columns):
         timed, values = column.role == TIME, table.columns[:, index]
         rises = len(columns) > 1 and column.role == SIGNAL and column.unit is None
         if index in table.given or not (timed or rises):
             continue
         if timed:
-            found[index] = times_of(values, column.unit, sure=index in stamped)
+            samplings[index] = times_of(values, column.unit, sure=index in stamped)
         elif table.sample_rate is None and (
             (dated := since_1970(values)) or (sampling := sampling_of(values)).stated
         ):
@@ -362,17 +362,17 @@ def _with_times(
                 columns[index] = Column(column.name, TIME)
                 sampling = times_of(values)
                 reason = f"{sampling.reason} “{column.name}”"
-                found[index] = dataclasses.replace(sampling, reason=reason)
-    return tuple(columns), _of_most_certain(found, [column.name for column in columns])
+                samplings[index] = dataclasses.replace(sampling, reason=reason)
+    return tuple(columns), _of_most_certain(samplings, [column.name for column in columns])
 
 
-def _of_most_certain(found: Mapping[int, Sampling], names: Sequence[str]) -> Sampling | None:
+def _of_most_certain(samplings: Mapping[int, Sampling], names: Sequence[str]) -> Sampling | None:
     """What the columns of times say, each by its index; where they disagree it is not sure."""
-    if not found:
+    if not samplings:
         return None
-    time = max(found, key=lambda i: (found[i].stated, found[i].sample_rate is not None))
-    first = found[time]
-    for index, other in found.items():
+    time = max(samplings, key=lambda i: (samplings[i].stated, samplings[i].sample_rate is not None))
+    first = samplings[time]
+    for index, other in samplings.items():
         if other.stated and (rate := other.sample_rate) and _differ(rate, first.sample_rate):
             said = f"“{names[time]}”, where “{names[index]}” says {number(rate, 6)} Hz"
             return dataclasses.replace(first, stated=False, reason=said)
@@ -553,5 +553,5 @@ def _constants(table: FileColumns) -> list[Named]:
     return made
 
 
-def _text(one: Named) -> str:
-    return number(one.value, 6) + (f" {one.unit}" if one.unit else "")
+def _text(item: Named) -> str:
+    return number(item.value, 6) + (f" {item.unit}" if item.unit else "")

@@ -103,13 +103,13 @@ def _is_date(match: re.Match[str]) -> bool:
 
 def dates_said(lines: Iterable[str]) -> dict[str, str]:
     """Return dates as lines give them, by what stands before each."""
-    found = {}
+    dates = {}
     for line in lines:
         for match in _DATE.finditer(line):
             if _is_date(match):
                 labels = re.findall(r"[^\W\d][^;|\t:=,\"]*", line[: match.start()])
-                found[labels[-1].strip() if labels else "date"] = match[0].strip()
-    return found
+                dates[labels[-1].strip() if labels else "date"] = match[0].strip()
+    return dates
 
 
 def recorded_in(lines: Iterable[str], file_name: str) -> Finding[datetime] | None:

@@ -141,8 +141,8 @@ FASTEST_IN_HZ = 150.0
 def named_in(lines: Iterable[str]) -> list[Named]:
     """The numbers that lines above a table name, such as "Sample rate: 25.6 kHz"."""
     kept = [line.replace('"', "").strip() for line in islice(lines, MOST_REMARKS)]
-    under = [one for pair in pairwise(kept) for one in _under(*pair)]
-    return [*(one for line in kept for one in _in_line(line)), *under]
+    under = [item for pair in pairwise(kept) for item in _under(*pair)]
+    return [*(item for line in kept for item in _in_line(line)), *under]
 
 
 def _under(names: str, values: str) -> Iterator[Named]:
@@ -176,14 +176,14 @@ def _in_line(line: str) -> Iterator[Named]:
     several = len(cells) > 2 and re.match(r"[^\W\d]", cells[0]) and _number(cells[1]) is not None
     # of each channel the same, or the settings of an instrument beside its numbers
     if several and (len({cell for cell in cells[1:] if cell}) == 1 or not cells[2]):
-        found: list[tuple[str, str, str | None]] = [(cells[0], cells[1], None)]
+        named: list[tuple[str, str, str | None]] = [(cells[0], cells[1], None)]
     elif match is not None:
-        found = [(match[1], match[2], match[3])]
+        named = [(match[1], match[2], match[3])]
     elif several:
-        found = []
+        named = []
     else:
-        found = [(one[1], one[2], one[3]) for one in _SEVERAL.finditer(line)]
-    for name, text, unit in found or _without_marks(line):
+        named = [(pair[1], pair[2], pair[3]) for pair in _SEVERAL.finditer(line)]
+    for name, text, unit in named or _without_marks(line):
         value = _number(text)
         if value is not None:
             unit = unit_named(unit) if unit else unit_in(name)
@@ -204,7 +204,7 @@ def _without_marks(line: str) -> Iterator[tuple[str, str, str | None]]:
 
 def names_a_fact(line: str) -> bool:
     """Whether a line says a rate, a speed or a load."""
-    keys = {_rate_key(one.name) for one in named_in([line])}
+    keys = {_rate_key(item.name) for item in named_in([line])}
     return bool(keys & _FACTS) or any("rpm" in key for key in keys) or ":" in line or "=" in line
 
 
@@ -246,22 +246,22 @@ _OTHER_RATE = re.compile(
 
 def sample_rate_in(named: Sequence[Named], file_name: str) -> Finding[float] | None:
     """[Hz]"""
-    found: list[Finding[float]] = []
+    rates: list[Finding[float]] = []
     in_hz = False
-    for one in named:
-        key, value = _rate_key(one.name), one.value
+    for item in named:
+        key, value = _rate_key(item.name), item.value
         if not (math.isfinite(value) and value > 0.0):
             continue
         if key in _RATES:
-            rate = value * (1e3 if one.unit == "kHz" else 1.0)
-            in_hz |= one.unit == "Hz" and not one.thousands
-            found.append(Finding(rate, f"“{one.name}” in the file"))
-        if key in _INTERVALS and value * TIMES.get(one.unit or "s", 1.0) < 1.0:
-            step = value * TIMES.get(one.unit or "s", 1.0)
-            found.append(Finding(1.0 / step, f"“{one.name}” in the file"))
-    if found:
-        first = found[0]
-        if any(abs(one.value / first.value - 1.0) > 0.005 for one in found):
+            rate = value * (1e3 if item.unit == "kHz" else 1.0)
+            in_hz |= item.unit == "Hz" and not item.thousands
+            rates.append(Finding(rate, f"“{item.name}” in the file"))
+        if key in _INTERVALS and value * TIMES.get(item.unit or "s", 1.0) < 1.0:
+            step = value * TIMES.get(item.unit or "s", 1.0)
+            rates.append(Finding(1.0 / step, f"“{item.name}” in the file"))
+    if rates:
+        first = rates[0]
+        if any(abs(other.value / first.value - 1.0) > 0.005 for other in rates):
             return _doubted(first)
         if LEAST_STATED <= first.value <= GREATEST_STATED:
             return first
@@ -273,11 +273,11 @@ def sample_rate_in(named: Sequence[Named], file_name: str) -> Finding[float] | N
 
 def _likely_rate(named: Sequence[Named], file_name: str) -> Finding[float] | None:
     """[Hz] of a number in Hz that may be that of the samples, or of the file's name."""
-    for one in named:
-        value = one.value * (1e3 if one.unit == "kHz" else 1.0)
-        likely = _key(one.name).endswith("rate") or one.unit in ("Hz", "kHz")
-        if value >= LEAST_RATE and likely and not _OTHER_RATE.search(one.name):
-            return Finding(value, f"“{one.name}” in the file, if it is that of the samples", False)
+    for item in named:
+        value = item.value * (1e3 if item.unit == "kHz" else 1.0)
+        likely = _key(item.name).endswith("rate") or item.unit in ("Hz", "kHz")
+        if value >= LEAST_RATE and likely and not _OTHER_RATE.search(item.name):
+            return Finding(value, f"“{item.name}” in the file, if it is that of the samples", False)
     name = file_name.lower()
     for match in re.finditer(r"(?<![a-z0-9])(\d+\.?\d*)[ _-]?(k(?:hz|sps)?|hz)(?![a-z0-9])", name):
         value = float(match[1]) * (1.0 if match[2] == "hz" else 1e3)
@@ -292,19 +292,19 @@ _OTHER_SPEED = re.compile(r"(?i)max|min|limit|rated|nominal|nenn|range|critical|
 
 def shaft_speed_in(named: Sequence[Named], file_name: str) -> Finding[float] | None:
     """[rad/s]"""
-    rated = bool({_key(one.name) for one in named} & (_RATES | _INTERVALS))
-    found = [speed for one in named if (speed := _speed_of(one, rated)) is not None]
+    rated = bool({_key(item.name) for item in named} & (_RATES | _INTERVALS))
+    speeds = [speed for item in named if (speed := _speed_of(item, rated)) is not None]
     match = re.search(
         r"(?:(?<![a-z0-9])|(?<=[a-z])(?=\d{3}))(\d+(?:\.\d+)?)[ _-]?rpm(?![a-z])", file_name.lower()
     )
     if match is not None and float(match[1]) > 0.0:
         words = f"“{match[0]}” in the file's name"
         turning = float(match[1]) * SPEEDS["rpm"]
-        found.append(Finding(turning, words, stated=False, strong=True, file_unit="rpm"))
-    if not found:
+        speeds.append(Finding(turning, words, stated=False, strong=True, file_unit="rpm"))
+    if not speeds:
         return None
-    first = next((one for one in found if one.stated), found[-1])
-    if any(one.taken and abs(one.value / first.value - 1.0) > 0.005 for one in found):
+    first = next((other for other in speeds if other.stated), speeds[-1])
+    if any(other.taken and abs(other.value / first.value - 1.0) > 0.005 for other in speeds):
         return _doubted(first)
     return first
 
@@ -339,22 +339,22 @@ def _doubted(first: Finding[float]) -> Finding[float]:
 
 def load_in(named: Sequence[Named]) -> Finding[float] | None:
     """[N], where its unit is said."""
-    for one in named:
-        key = _key(one.name)
-        unit = one.unit or {"loadn": "N", "loadlb": "lb"}.get(key)
-        if key in _LOADS and unit is not None and unit in FORCES and math.isfinite(one.value):
-            return Finding(one.value * FORCES[unit], f"“{one.name}” in the file")
+    for item in named:
+        key = _key(item.name)
+        unit = item.unit or {"loadn": "N", "loadlb": "lb"}.get(key)
+        if key in _LOADS and unit is not None and unit in FORCES and math.isfinite(item.value):
+            return Finding(item.value * FORCES[unit], f"“{item.name}” in the file")
     return None
 
 
 def bearing_frequencies_in(named: Sequence[Named]) -> dict[str, float]:
     """[Hz] by the names of BEARING_FREQUENCIES, those that are there."""
     return {
-        key: one.value
-        for one in named
-        if (key := _key(one.name).removesuffix("hz")) in BEARING_FREQUENCIES
-        and math.isfinite(one.value)
-        and one.value > 0.0
+        key: item.value
+        for item in named
+        if (key := _key(item.name).removesuffix("hz")) in BEARING_FREQUENCIES
+        and math.isfinite(item.value)
+        and item.value > 0.0
     }
 
 
@@ -364,14 +364,14 @@ _SENSITIVITY = re.compile(rf"(?i)({_NUMBER})\s*(mV|V)\s?(?:/|per)\s?(g\b|\(?m/?s
 
 def sensitivity_in(lines: Iterable[str]) -> Finding[float] | None:
     """[V/(m/s²)] where all lines that say one say the same."""
-    found: dict[float, str] = {}
+    values: dict[float, str] = {}
     for match in filter(None, map(_SENSITIVITY.search, lines)):
         per = STANDARD_GRAVITY if match[3].lower() == "g" else 1.0
         if value := _number(match[1]):
-            found[value * VOLTAGES["V" if match[2] in "Vv" else "mV"] / per] = (
+            values[value * VOLTAGES["V" if match[2] in "Vv" else "mV"] / per] = (
                 f"“{match[0]}” in the file"
             )
-    return Finding(*found.popitem()) if len(found) == 1 else None
+    return Finding(*values.popitem()) if len(values) == 1 else None
 
 
 _DESIGNATION = re.compile(
@@ -386,8 +386,8 @@ def designation_in(lines: Iterable[str]) -> Finding[str] | None:
 
     It is as the file has it: whether there is such a bearing is not looked at.
     """
-    found = {match[1]: match[0] for line in lines for match in _DESIGNATION.finditer(line)}
-    (text, words), *others = [*found.items()] or [("", "")]
+    names = {match[1]: match[0] for line in lines for match in _DESIGNATION.finditer(line)}
+    (text, words), *others = [*names.items()] or [("", "")]
     return Finding(text, f"“{words}” in the file") if text and not others else None
 
 

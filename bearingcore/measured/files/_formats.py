@@ -64,7 +64,7 @@ def read(
         return read(re.sub(r"(?i)\.gz$", "", name), content, most_numbers, most_columns)
     if content[:4] in (b"RIFF", b"RIFX", b"RF64"):
         return _wav(name, content, most_numbers, most_columns)
-    found = Variables()
+    variables = Variables()
     known = _format_of(name, content)
     if known is None:
         return read_text(name, content, most_numbers, most_columns)
@@ -72,14 +72,14 @@ def read(
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            walk(content, found)
+            walk(content, variables)
     except (FieldError, MemoryError):
         raise
     except Exception:  # a damaged file raises almost anything in there
         raise checks.refuse(
             "file", name, f"a whole {kind}; this has a damaged or unknown part"
         ) from None
-    return found.table(name, kind, most_numbers, most_columns)
+    return variables.table(name, kind, most_numbers, most_columns)
 
 
 Walk = Callable[[bytes, "Variables"], None]
@@ -101,7 +101,7 @@ def _format_of(name: str, content: bytes) -> tuple[str, Walk] | None:
     if content[:4] == b"\xd0\xcf\x11\xe0":
         raise checks.refuse("file", name, "no old office document (.xls): save it as .xlsx or CSV")
     if re.match(rb'\s*(\{\s*"|\[[\s\[]*(-?\.?\d|\{))', content) and (values := _json(content)):
-        return "JSON file", lambda _, found: _walk_json(values, "", found, 0)
+        return "JSON file", lambda _, variables: _walk_json(values, "", variables, 0)
     if re.search(rb"[\"\t;,] ?\[[-+\d.eE,;\s]{500}", content[:100_000]):
         return "text with signals in cells", libraries.cells
     if content[:6] == b"Octave":
@@ -146,34 +146,34 @@ def _json(content: bytes) -> Any:
         return None
 
 
-def _walk_json(value: Any, path: str, found: Variables, depth: int) -> None:
+def _walk_json(value: Any, path: str, variables: Variables, depth: int) -> None:
     """Lists of numbers, and lists of records by the records' names."""
     check_depth(depth)
     if isinstance(value, dict) and list(value) == [str(i) for i in range(len(value))]:
         value = list(value.values())  # rows by their numbers, as pandas writes them
     if isinstance(value, list) and value and isinstance(value[0], dict):
-        records = [one for one in value if isinstance(one, dict)]
+        records = [item for item in value if isinstance(item, dict)]
         if sensor := _name_of_sensor(records):
             several: dict[str, list[Any]] = {}
             for one in records:
                 several.setdefault(one.pop(sensor), []).append(one)
-            _walk_json(several, path, found, depth + 1)
+            _walk_json(several, path, variables, depth + 1)
             return
-        value = {name: [one.get(name) for one in records] for name in records[0]}
+        value = {name: [record.get(name) for record in records] for name in records[0]}
     if isinstance(value, dict):
         for name, inside in value.items():
-            _walk_json(inside, f"{path}.{name}" if path else str(name), found, depth + 1)
+            _walk_json(inside, f"{path}.{name}" if path else str(name), variables, depth + 1)
         return
     try:
-        found.add(path or "array", np.array(value, dtype=float))
+        variables.add(path or "array", np.array(value, dtype=float))
     except (TypeError, ValueError):
-        found.add(path or "array", np.asarray(value, dtype=object))
+        variables.add(path or "array", np.asarray(value, dtype=object))
 
 
 def _name_of_sensor(records: Sequence[dict[str, Any]]) -> str:
     """The name under which records of several sensors say of which they are; else empty."""
     for name, first in records[0].items():
-        words = [one.get(name) for one in records] if isinstance(first, str) else [None]
+        words = [record.get(name) for record in records] if isinstance(first, str) else [None]
         if all(isinstance(word, str) for word in words) and are_sensors(np.array(words)):
             return name
     return ""
@@ -203,7 +203,7 @@ def _wav(name: str, content: bytes, most_numbers: int, most_columns: int) -> Ans
         columns /= float(np.iinfo(data.dtype).max) + 1.0
     names = [f"channel {i + 1}" for i in range(columns.shape[1])]
     about = {"names": names, "sample_rate": float(rate), "headed": False, "full_scale_known": False}
-    if any("EOF" in str(one.message) for one in warned):
+    if any("EOF" in str(warning.message) for warning in warned):
         about["notes"] = ["The file is cut off: its head says that it was longer."]
     return about, columns
 
@@ -211,36 +211,36 @@ def _wav(name: str, content: bytes, most_numbers: int, most_columns: int) -> Ans
 # -- MATLAB, versions 4 to 7 -----------------------------------------------------------------------
 
 
-def _walk_matlab(content: bytes, found: Variables) -> None:
+def _walk_matlab(content: bytes, variables: Variables) -> None:
     from scipy.io import loadmat
 
     for name, value in loadmat(cast(Any, io.BytesIO(content))).items():
         if not name.startswith("__"):
-            _matlab(value, name, found, 0)
+            _matlab(value, name, variables, 0)
 
 
-def _matlab(value: Any, path: str, found: Variables, depth: int) -> None:
+def _matlab(value: Any, path: str, variables: Variables, depth: int) -> None:
     """A matrix, and what is in a struct or cell."""
     from scipy.io.matlab import MatlabFunction, MatlabOpaque
 
     check_depth(depth)
     if isinstance(value, MatlabOpaque):
-        found.objects.append("a variable" if path == "None" else path)  # as SciPy names it
+        variables.objects.append("a variable" if path == "None" else path)  # as SciPy names it
     if not isinstance(value, np.ndarray) or isinstance(value, MatlabFunction | MatlabOpaque):
         return
     if value.dtype.names:
         for index, element in enumerate(value.ravel(order="F")):
             of = f"{path}({index + 1})" if value.size > 1 else path
             if label := _label(element, value.dtype.names):
-                _matlab(element["Data"], f"{path}.{label}", found, depth + 1)
+                _matlab(element["Data"], f"{path}.{label}", variables, depth + 1)
                 continue
             for name in value.dtype.names:
-                _matlab(element[name], f"{of}.{name}", found, depth + 1)
+                _matlab(element[name], f"{of}.{name}", variables, depth + 1)
     elif value.dtype == object:
         for index, inside in enumerate(value.ravel(order="F")):
-            _matlab(inside, f"{path}{{{index + 1}}}", found, depth + 1)
+            _matlab(inside, f"{path}{{{index + 1}}}", variables, depth + 1)
     else:
-        found.add(path, value)
+        variables.add(path, value)
 
 
 def _label(element: Any, fields: Sequence[str]) -> str:
@@ -253,14 +253,14 @@ def _label(element: Any, fields: Sequence[str]) -> str:
 # -- HDF5, MATLAB's version 7.3 among them ---------------------------------------------------------
 
 
-def _walk_hdf5(content: bytes, found: Variables) -> None:
+def _walk_hdf5(content: bytes, variables: Variables) -> None:
     import h5py
 
     with h5py.File(io.BytesIO(content), "r") as file:
-        _hdf5(file, "", found, 0)
+        _hdf5(file, "", variables, 0)
 
 
-def _hdf5(item: Any, path: str, found: Variables, depth: int) -> None:
+def _hdf5(item: Any, path: str, variables: Variables, depth: int) -> None:
     """A group, which is how a struct is kept, or a data set, with the words and numbers at it.
 
     Only data of the file itself: links to other files, data kept elsewhere and views of other
@@ -274,30 +274,30 @@ def _hdf5(item: Any, path: str, found: Variables, depth: int) -> None:
             # MATLAB keeps in #refs# what cells point at
             own = isinstance(item.get(name, getlink=True), h5py.HardLink)
             if own and not (depth == 0 and name.startswith("#")):
-                _hdf5(item[name], f"{path}.{name}" if path else name, found, depth + 1)
+                _hdf5(item[name], f"{path}.{name}" if path else name, variables, depth + 1)
     elif not isinstance(item, h5py.Dataset) or item.external or item.is_virtual:
         return
     elif "MATLAB_object_decode" in item.attrs:
-        found.objects.append(path)
+        variables.objects.append(path)
         return
     elif h5py.check_ref_dtype(item.dtype) is not None:
         references = item[()].ravel()
         for index, reference in enumerate(references):
             if reference:
                 inside = f"{path}{{{index + 1}}}" if len(references) > 1 else path
-                _hdf5(item.file[reference], inside, found, depth + 1)
+                _hdf5(item.file[reference], inside, variables, depth + 1)
         return
     elif item.shape is not None and "MATLAB_empty" not in item.attrs:
-        found.add(path, _as_in_matlab(item))
-    _attributes(item, path, found)
+        variables.add(path, _as_in_matlab(item))
+    _attributes(item, path, variables)
 
 
-def _attributes(item: Any, path: str, found: Variables) -> None:
+def _attributes(item: Any, path: str, variables: Variables) -> None:
     """Words and single numbers that stand at a group or a data set."""
     for name, value in item.attrs.items():
         word = np.size(value) == 1 or np.asarray(value).dtype.kind in "OSU"
         if word and not name.startswith(_OF_THE_FORMAT):
-            found.add(f"{path}.{name}" if path else name, np.asarray(value))
+            variables.add(f"{path}.{name}" if path else name, np.asarray(value))
 
 
 _OF_THE_FORMAT = ("MATLAB_", "H5PATH", "CLASS", "DIMENSION")
@@ -316,12 +316,12 @@ def _as_in_matlab(data: Any) -> NDArray[Any]:
 # -- Octave's text, which its `save` writes where no other is asked for ----------------------------
 
 
-def _walk_octave(content: bytes, found: Variables) -> None:
+def _walk_octave(content: bytes, variables: Variables) -> None:
     """Each value has a head of lines such as "# type: matrix"."""
     lines = iter(content.decode("latin-1").splitlines())
     for line in lines:
         if line.startswith("# name:"):
-            _octave(lines, line.partition(":")[2].strip(), found, 0)
+            _octave(lines, line.partition(":")[2].strip(), variables, 0)
 
 
 def _said(lines: Iterator[str], key: str) -> str:
@@ -337,7 +337,7 @@ def _numbers(lines: Iterator[str], count: int = 1) -> Array:
     return np.array(" ".join(islice(lines, count)).split(), dtype=float)
 
 
-def _octave(lines: Iterator[str], path: str, found: Variables, depth: int) -> None:
+def _octave(lines: Iterator[str], path: str, variables: Variables, depth: int) -> None:
     """A value of any type; those that are no numbers or words are passed over."""
     check_depth(depth)
     kind = _said(lines, "type")
@@ -348,25 +348,25 @@ def _octave(lines: Iterator[str], path: str, found: Variables, depth: int) -> No
         for index in range(math.prod(int(_said(lines, key)) for key in keys)):
             name = _said(lines, "name")
             part = f"{path}{{{index + 1}}}" if kind == "cell" else f"{path}.{name}"
-            _octave(lines, part, found, depth + 1)
+            _octave(lines, part, variables, depth + 1)
     elif kind in ("string", "sq_string"):
         if int(_said(lines, "elements")):
             _said(lines, "length")
-            found.add(path, np.array([next(lines)]))
+            variables.add(path, np.array([next(lines)]))
     elif kind.endswith("scalar"):
-        found.add(path, _numbers(lines))
+        variables.add(path, _numbers(lines))
     elif kind.endswith("range"):
         _said(lines, "base, limit, increment")
         base, limit, step = _numbers(lines)
-        found.add(path, base + step * np.arange(round((limit - base) / step) + 1))
+        variables.add(path, base + step * np.arange(round((limit - base) / step) + 1))
     elif kind.endswith("matrix"):
         head, _, count = next(lines).partition(":")
         if head == "# rows":
             shape = int(count), int(_said(lines, "columns"))
-            found.add(path, _numbers(lines, shape[0]).reshape(shape))
+            variables.add(path, _numbers(lines, shape[0]).reshape(shape))
         elif head == "# ndims":  # of whole numbers, or of more dimensions
             sizes = _numbers(lines).astype(int).tolist()
-            found.add(path, _numbers(lines, math.prod(sizes)).reshape(sizes, order="F"))
+            variables.add(path, _numbers(lines, math.prod(sizes)).reshape(sizes, order="F"))
 
 
 _FORMATS: tuple[tuple[bytes, str, Walk, str], ...] = (

@@ -121,7 +121,7 @@ def longest_sheet(name: str, content: bytes) -> tuple[bytes, list[str]]:
 
     try:
         with zipfile.ZipFile(io.BytesIO(content)) as packed:
-            size = sum(one.file_size for one in packed.infolist())
+            size = sum(entry.file_size for entry in packed.infolist())
         if size > MOST_UNPACKED:
             raise checks.refuse("file", name, f"at most {MOST_UNPACKED >> 20} MB unpacked")
         sheets = pd.read_excel(io.BytesIO(content), sheet_name=None, header=None, engine="openpyxl")
@@ -129,10 +129,10 @@ def longest_sheet(name: str, content: bytes) -> tuple[bytes, list[str]]:
         raise
     except Exception:  # as above
         raise checks.refuse("file", name, "a whole Excel file; save its sheet as CSV") from None
-    longest = max(sheets, key=lambda one: int(sheets[one].count().sum()))
+    longest = max(sheets, key=lambda name: int(sheets[name].count().sum()))
     table = sheets[longest].dropna(how="all").dropna(how="all", axis=1)
     notes = [f"Read is its longest sheet, “{longest}”."] if len(sheets) > 1 else []
-    facts = [line for one in sheets if one != longest for line in _facts_in(sheets[one])]
+    facts = [line for name in sheets if name != longest for line in _facts_in(sheets[name])]
     head = "".join(f"# {line}\n" for line in facts[:MOST_FACTS])
     return (head + table.to_csv(index=False, header=False)).encode(), notes
 
@@ -148,21 +148,21 @@ def _facts_in(sheet: Any) -> list[str]:
     return [f"{row[0]}: {' '.join(row[1:])}" for row in rows if len(row) > 1]
 
 
-def npy(content: bytes, found: Variables) -> None:
+def npy(content: bytes, variables: Variables) -> None:
     """The array of NumPy's `save`."""
     array = np.load(io.BytesIO(content), allow_pickle=False)
-    found.add("" if array.dtype.names else "array", array)
+    variables.add("" if array.dtype.names else "array", array)
 
 
-def npz(content: bytes, found: Variables) -> None:
+def npz(content: bytes, variables: Variables) -> None:
     """All arrays of NumPy's `savez`."""
     with np.load(io.BytesIO(content), allow_pickle=False) as arrays:
         for name in arrays.files:
             with suppress(ValueError):  # of Python's own objects, which are not unpacked
-                found.add(name, arrays[name])
+                variables.add(name, arrays[name])
 
 
-def data_frame(content: bytes, found: Variables) -> None:
+def data_frame(content: bytes, variables: Variables) -> None:
     """Columns of numbers, dates and durations of a data frame, and signals in its cells."""
     import pandas as pd
 
@@ -172,10 +172,10 @@ def data_frame(content: bytes, found: Variables) -> None:
         frame = pd.read_feather(io.BytesIO(content), use_threads=False)
     if not isinstance(frame.index, pd.RangeIndex):
         frame = frame.reset_index()
-    _columns(frame, found)
+    _columns(frame, variables)
 
 
-def cells(content: bytes, found: Variables) -> None:
+def cells(content: bytes, variables: Variables) -> None:
     """Columns of a text that has signals in its cells, each between brackets."""
     import pandas as pd
 
@@ -185,28 +185,28 @@ def cells(content: bytes, found: Variables) -> None:
     for name in frame.columns[(frame.iloc[0].astype(str).str.strip().str[:1] == "[").to_numpy()]:
         signals = [np.array(re.findall(r"[^\s,;\[\]]+", cell), float) for cell in frame[name]]
         frame[name] = pd.Series(signals, dtype=object)
-    _columns(frame, found)
+    _columns(frame, variables)
 
 
-def _columns(frame: Any, found: Variables) -> None:
+def _columns(frame: Any, variables: Variables) -> None:
     for name in frame.columns:
         values = frame[name]
         first = values.iloc[0] if len(values) else None
         if isinstance(first, list | np.ndarray):
             for index, cell in enumerate(values):
                 of = f"{name}({index + 1})" if len(values) > 1 else str(name)
-                found.add(of, np.asarray(cell, dtype=float))
+                variables.add(of, np.asarray(cell, dtype=float))
         elif isinstance(first, str) and len(values) <= MOST_FACTS:
-            found.add(str(name), np.unique(values.to_numpy(dtype=str)))
+            variables.add(str(name), np.unique(values.to_numpy(dtype=str)))
         dated = values.dtype.kind in "Mm"
         if dated or values.dtype.kind in "iuf":
             column = values.to_numpy().astype(
                 values.dtype.str.replace("tz", "") if dated else float
             )
-            found.add(f"{name} [s]" if dated else str(name), column)
+            variables.add(f"{name} [s]" if dated else str(name), column)
 
 
-def tdms(content: bytes, found: Variables) -> None:
+def tdms(content: bytes, variables: Variables) -> None:
     """Channels of all groups, and what the file says of each."""
     from nptdms import TdmsFile
 
@@ -215,14 +215,14 @@ def tdms(content: bytes, found: Variables) -> None:
         for group in file.groups():
             for channel in group.channels():
                 path = f"{group.name}.{channel.name}"
-                found.add(path, np.asarray(channel[:]))
+                variables.add(path, np.asarray(channel[:]))
                 parts.append((path, channel))
         for path, part in parts:
             for name, value in part.properties.items():
-                found.add(f"{path}.{name}" if path else name, np.asarray(value))
+                variables.add(f"{path}.{name}" if path else name, np.asarray(value))
 
 
-def uff(content: bytes, found: Variables) -> None:
+def uff(content: bytes, variables: Variables) -> None:
     """Signals over time, data set 58."""
     import pyuff
 
@@ -230,24 +230,28 @@ def uff(content: bytes, found: Variables) -> None:
     with patch.object(pyuff.pyuff, "open", lambda *_: io.BytesIO(content), create=True):
         sets = pyuff.UFF(os.devnull).read_sets()
     sets = [one for one in (sets if isinstance(sets, list) else [sets]) if one.get("type") == 58]
-    if sets and all(one["abscissa_spec_data_type"] == _FREQUENCY for one in sets):
-        found.instead = f"a signal over time; this is a spectrum: export the waveform, or {BRING}"
-    sets = [one for one in sets if one["func_type"] in _TIME_RESPONSE]
-    points = {one.get("rsp_node") for one in sets}
-    for index, one in enumerate(sets):
-        said = [_word(one, "id1"), _AXES.get(abs(int(one.get("rsp_dir", 0))), "")]
-        said += [f"point {one['rsp_node']}"] if len(points) > 1 else []
+    if sets and all(record["abscissa_spec_data_type"] == _FREQUENCY for record in sets):
+        variables.instead = (
+            f"a signal over time; this is a spectrum: export the waveform, or {BRING}"
+        )
+    sets = [record for record in sets if record["func_type"] in _TIME_RESPONSE]
+    points = {record.get("rsp_node") for record in sets}
+    for index, signal in enumerate(sets):
+        said = [_word(signal, "id1"), _AXES.get(abs(int(signal.get("rsp_dir", 0))), "")]
+        said += [f"point {signal['rsp_node']}"] if len(points) > 1 else []
         path = " ".join(filter(None, said))
-        path = path if path and path not in found.numbers else f"{path} signal {index + 1}".strip()
-        found.add(path, np.asarray(one["data"]))
-        if one["abscissa_spacing"]:
-            found.add(f"{path}.dt", np.array(float(one["abscissa_inc"])))
+        path = (
+            path if path and path not in variables.numbers else f"{path} signal {index + 1}".strip()
+        )
+        variables.add(path, np.asarray(signal["data"]))
+        if signal["abscissa_spacing"]:
+            variables.add(f"{path}.dt", np.array(float(signal["abscissa_inc"])))
         else:
-            found.add(f"{path} time [s]", np.asarray(one["x"]))
+            variables.add(f"{path} time [s]", np.asarray(signal["x"]))
         words = [("unit", "ordinate_axis_units_lab"), ("date", "id3"), ("remark", "id2")]
         for name, key in words:
-            if word := _word(one, key):
-                found.add(f"{path}.{name}", np.array(word))
+            if word := _word(signal, key):
+                variables.add(f"{path}.{name}", np.array(word))
 
 
 def _word(data_set: Mapping[str, Any], key: str) -> str:

@@ -97,28 +97,28 @@ def times_of(time: Array, unit: str | None = None, *, sure: bool = False) -> Sam
     finite = time[np.isfinite(time)]
     first = float(finite[0]) if finite.size else 0.0
     dated = since_1970(time)
-    found = sampling_of(time, TIMES[unit or dated or "s"])
+    sampling = sampling_of(time, TIMES[unit or dated or "s"])
     if unit is None and dated is not None:
-        found = dataclasses.replace(found, reason=f"the time column, in {dated} since 1970")
-    rate = found.sample_rate
+        sampling = dataclasses.replace(sampling, reason=f"the time column, in {dated} since 1970")
+    rate = sampling.sample_rate
     if rate is None or LEAST_STATED <= rate <= GREATEST_STATED:
-        return found
+        return sampling
     if sure:
         trouble = (
             f"A row each {with_prefix(1.0 / rate, 's', 2)} is no signal of vibration: a trend?"
         )
-        return dataclasses.replace(found, sample_rate=None, stated=False, trouble=trouble)
+        return dataclasses.replace(sampling, sample_rate=None, stated=False, trouble=trouble)
     per_second = rate * TIMES[unit or dated or "s"]
     low, high = LIKELY_RATES
     parts = () if unit or dated else _PARTS if first > _SINCE_1900 else _PARTS[:-1]
     likely = next((name for name in parts if low <= per_second / TIMES[name] <= high), None)
     said = f"{unit or dated or 's'} it would be {number(rate, 6)} Hz"
     if likely is None:
-        reason = f"{found.reason}; no recording of vibration is so: in {said}"
-        return dataclasses.replace(found, stated=False, reason=reason)
-    reason = f"{found.reason}, if it is in {likely}; in {said}"
+        reason = f"{sampling.reason}; no recording of vibration is so: in {said}"
+        return dataclasses.replace(sampling, stated=False, reason=reason)
+    reason = f"{sampling.reason}, if it is in {likely}; in {said}"
     rate = per_second / TIMES[likely]
-    return dataclasses.replace(found, sample_rate=rate, stated=False, reason=reason)
+    return dataclasses.replace(sampling, sample_rate=rate, stated=False, reason=reason)
 
 
 _PARTS = ("s", "ms", "µs", "ns", "d")
@@ -301,8 +301,8 @@ def long_parts(parts: Iterable[Sequence[int]]) -> tuple[tuple[int, int], ...]:
     all_parts = [(first, last) for first, last in parts]
     longest = max((last - first for first, last in all_parts), default=0)
     least = max(FEWEST_SAMPLES, SHORTEST_PART * longest)
-    found = tuple((first, last) for first, last in all_parts if last - first >= least)
-    return found if len(found) > 1 else ()
+    kept = tuple((first, last) for first, last in all_parts if last - first >= least)
+    return kept if len(kept) > 1 else ()
 
 
 def _recordings(

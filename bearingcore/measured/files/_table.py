@@ -54,7 +54,7 @@ _UNITS_OF: Mapping[str, Mapping[str, float]] = {
 class Table(FileColumns):
     """Columns of numbers out of a file, with their meaning, for making a recording.
 
-    `chosen`: of several recordings in the file the one that these are, in words.
+    `chosen` names, in words, the one of several recordings in the file.
     """
 
     chosen: str = ""
@@ -66,9 +66,9 @@ class Table(FileColumns):
 
     @property
     def recordings(self) -> tuple[tuple[int, int], ...]:
-        """Rows (last excluded) of each recording, where times jump or numbers are missing between.
+        """Rows (last excluded) of each recording; times jump or numbers are missing between them.
 
-        Empty where there is one alone.
+        Empty for a single recording.
         """
         sampling, picked = self.contents.sampling, list(self.contents.choice.columns.values())
         if sampling is not None and sampling.parts:
@@ -79,12 +79,12 @@ class Table(FileColumns):
         return long_parts(parts.tolist()) if picked else ()
 
     def one_of_recordings(self, number: int) -> Table:
-        """The table of one of the `recordings` in the file alone, counted from 1.
+        """Return the table of one of the `recordings` in the file, counted from 1.
 
         Raises
         ------
         FieldError
-            for a number that there is not.
+            for a number out of range.
         """
         parts = self.recordings
         checks.whole_number("part", number, at_least=1, at_most=max(len(parts), 1))
@@ -98,7 +98,7 @@ class Table(FileColumns):
 
     @property
     def which(self) -> str:
-        """Of several recordings in the file the one that is read, in words; else empty."""
+        """The selected one of several recordings, in words; else empty."""
         parts = self.recordings
         if self.chosen or not parts:
             return self.chosen
@@ -107,18 +107,18 @@ class Table(FileColumns):
 
     @property
     def first_rows(self) -> list[list[float]]:
-        """The first rows of numbers, to show under the columns' names."""
+        """Return the first rows of numbers, to show under the columns' names."""
         rows: list[list[float]] = self.columns[:SHOWN_ROWS].tolist()
         return rows
 
     def with_columns(self, given: Mapping[int | str, Column]) -> Table:
-        """The table with the meaning of some columns as it is given; it goes before all guesses.
+        """Return the table with the meaning of some columns set; it replaces all guesses.
 
         Parameters
         ----------
         given
-            by number from 0 or by name: the role, unit, direction and place. A time without a unit
-            is guessed at by its rate, a signal without one by its size. The names are the file's.
+            role, unit, direction and place, by number from 0 or by the file's name. The unit of a
+            time is guessed by its rate if it is missing, that of a signal by its size.
 
         Raises
         ------
@@ -151,16 +151,16 @@ class Table(FileColumns):
         sensitivity: float | None = None,
         shaft_speed: float | None = None,
     ) -> Recording:
-        """The acceleration in some of the columns.
+        """Return the acceleration in some of the columns.
 
         Parameters
         ----------
         columns
-            which, by number from 0 or by name.
+            the columns, by number from 0 or by name.
         directions
             of those columns.
         unit
-            one of `bearingcore.measured.files._units.UNITS`; None takes what the headings say.
+            one of `bearingcore.measured.files._units.UNITS`; None takes that of the headings.
             Velocities are differentiated, voltages divided by `sensitivity`.
         sample_rate
             [Hz]; None takes that of the file.
@@ -331,7 +331,7 @@ class Table(FileColumns):
         return signal, " ".join(said)
 
     def index_of(self, column: int | str) -> int:
-        """The number from 0 of a column by its number or name; `FieldError` where there is none."""
+        """Return the number from 0 of a column, by number or name; `FieldError` if missing."""
         if isinstance(column, str) and column in self.names:
             return self.names.index(column)
         if isinstance(column, int) and 0 <= column < len(self.names):
@@ -355,7 +355,7 @@ def files_inside(name: str, content: bytes, give_up: Callable[[], bool] | None =
     about, _ = read_file(name, content, give_up=give_up)
     inside = sorted(about.get("inside", ()), key=_in_order)
     packed = re.sub(r"(?i)\.zip$", "", name) + ".zip"
-    return [f"{packed}/{one}" for one in inside] or [name]
+    return [f"{packed}/{name}" for name in inside] or [name]
 
 
 def _in_order(name: str) -> list[tuple[int, str]]:
@@ -370,27 +370,27 @@ def path_in(name: str) -> str:
 
 
 def read_table(name: str, content: bytes, give_up: Callable[[], bool] | None = None) -> Table:
-    """The columns of numbers in a file: text (CSV), WAV, MATLAB, HDF5, and others.
+    """Read the columns of numbers in a file: text (CSV), WAV, MATLAB, HDF5, and others.
 
     JSON, Octave's text and NumPy's files are read too, and with the packages of the extra `files`
-    UFF, TDMS, Parquet, Feather and Excel's .xlsx; also a zip or gzip of one of them. What it is
-    shows in its first bytes. It is read in a process of its own with limits of time and memory: see
-    `bearingcore.measured.files._child`.
+    UFF, TDMS, Parquet, Feather and Excel's .xlsx; also a zip or gzip of one of them. The first
+    bytes decide the format. The file is read in its own process with limits of time and memory:
+    see `bearingcore.measured.files._child`.
 
     Parameters
     ----------
     name
-        of the file; it may hold a hint ("12k", "1797rpm"). "rig.zip/run1.csv" is one of the files
+        name of the file, which may hold a hint ("12k", "1797rpm"); "rig.zip/run1.csv" names a file
         in a zip.
     content
-        the whole file.
+        the bytes of the whole file.
     give_up
-        asked again and again while it is read: True ends the process that reads.
+        called repeatedly during reading; if it returns True, the reading process ends.
 
     Raises
     ------
     ValueError
-        saying in one sentence what is wrong with a damaged, empty, huge or mis-shaped file.
+        for a damaged, empty, huge or mis-shaped file, with the reason in one sentence.
     """
     size = len(content)
     if size > MOST_BYTES:
@@ -427,26 +427,26 @@ def _with_skipped_rows(table: Table) -> Table:
 
 
 def join_tables(tables: Sequence[Table]) -> Table:
-    """The table of all rows of several files that hold the parts of one signal, in their order.
+    """Join the files of one signal, in their order, into a table of all rows.
 
-    Times that go on from file to file show what is missing between two, as in one file. Where they
-    begin anew in each, or there are none, a note says that nothing is taken to be missing.
+    Times that continue from file to file show gaps between files. If they begin anew in each file,
+    or there are none, the files are joined without gaps, and a note says so.
 
     Raises
     ------
     FieldError
         for files whose columns or sample rates differ, that are not in the order of their times, or
-        that are too many numbers together.
+        that hold too many numbers together.
     """
     if not tables:
         raise checks.refuse("tables", "none", "one or more")
     first = tables[0]
-    for one in tables[1:]:
-        _check_alike(first, one)
-    if sum(one.columns.size for one in tables) > MOST_NUMBERS:
+    for table in tables[1:]:
+        _check_alike(first, table)
+    if sum(table.columns.size for table in tables) > MOST_NUMBERS:
         raise checks.refuse("count of numbers in all files", "more", f"at most {MOST_NUMBERS}")
-    columns = np.concatenate([one.columns for one in tables])
-    ends = np.cumsum([len(one.columns) for one in tables])
+    columns = np.concatenate([table.columns for table in tables])
+    ends = np.cumsum([len(table.columns) for table in tables])
     timed = [i for i, column in enumerate(first.contents.columns) if column.role == TIME]
     anew = len(timed) != 1
     for start, end in pairwise(ends) if len(timed) == 1 else ():
@@ -457,7 +457,7 @@ def join_tables(tables: Sequence[Table]) -> Table:
             anew = True
         elif time[start] <= time[start - 1]:
             raise checks.refuse("tables", "not in their order", "files in the order of their times")
-    notes = [note for one in tables for note in one.notes]
+    notes = [note for table in tables for note in table.notes]
     if len(tables) > 1:
         gap = " as if nothing were missing between them" if anew else ""
         notes.append(f"{len(tables)} files are joined{gap}.")

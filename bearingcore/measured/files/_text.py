@@ -127,14 +127,14 @@ def _read_numbers(
     said: list[str] = []
     notes: list[str] = []
     most_rows = most_numbers // style.width + 1
-    found = _numbers(body, style, most_rows)
-    if found is None:  # some lines hold something else
+    numbers = _numbers(body, style, most_rows)
+    if numbers is None:  # some lines hold something else
         above = content.count(b"\n", 0, begin) + 1
         body, notes, said = _mended(name, body, style, above, remarks)
-        found = _numbers(body, style, most_rows)
-    if found is None:
+        numbers = _numbers(body, style, most_rows)
+    if numbers is None:
         raise checks.refuse("file", name, READABLE)
-    read, sensors = found
+    read, sensors = numbers
     if read.size > most_numbers:
         raise checks.refuse(
             f"count of numbers in {name}",
@@ -195,11 +195,11 @@ def are_sensors(names: NDArray[Any]) -> bool:
     """Whether words of all rows name the sensors or records that the rows are of, in turn or as
     blocks of one length.
     """
-    found, counts = np.unique(names, return_counts=True)
-    if not 1 < len(found) <= MOST_SIGNALS_MIXED or len(names) < FEWEST_SAMPLES:
+    labels, counts = np.unique(names, return_counts=True)
+    if not 1 < len(labels) <= MOST_SIGNALS_MIXED or len(names) < FEWEST_SAMPLES:
         return False
     changes = int((names[1:] != names[:-1]).sum())
-    blocks = changes + 1 == len(found) and counts.min() == counts.max() >= FEWEST_SAMPLES
+    blocks = changes + 1 == len(labels) and counts.min() == counts.max() >= FEWEST_SAMPLES
     return changes > MOST_CHANGES * len(names) or bool(blocks)
 
 
@@ -221,7 +221,7 @@ def _side_by_side(
 ) -> tuple[Array, list[str], list[int]]:
     """Rows of several sensors as columns of each; times, and what all have alike, once."""
     names = list(dict.fromkeys(sensors.tolist()))
-    several = [columns[sensors == one] for one in names]
+    several = [columns[sensors == label] for label in names]
     size = min(map(len, several))
     if max(map(len, several)) > size + 1:  # the last row may be of the first
         raise checks.refuse(
@@ -239,9 +239,9 @@ def _side_by_side(
         times += [len(made)] * (i in stamps)
         own = [part[:, i] for part in several]
         once = i in stamps or column_of(heading).role == TIME
-        once = once or all(np.array_equal(one, own[0], equal_nan=True) for one in own)
+        once = once or all(np.array_equal(count, own[0], equal_nan=True) for count in own)
         made += own[:1] if once else own
-        heads += [heading] if once else [f"{one}: {heading}" for one in names]
+        heads += [heading] if once else [f"{label}: {heading}" for label in names]
     return np.column_stack(made), heads, times
 
 
@@ -272,9 +272,9 @@ def _without_labels(content: bytes) -> bytes:
     """Lines of such numbers as a table with a heading; any other text as it is."""
 
     def labels(line: str) -> list[tuple[str, str, str]]:
-        found = [*_LABELLED.finditer(line[:LONGEST_REMARK])] if ":" in line or "=" in line else []
-        whole = "".join(one[0] for one in found) == line
-        return [(one[1].strip(), one[2], one[3] or "") for one in found] if whole else []
+        matches = [*_LABELLED.finditer(line[:LONGEST_REMARK])] if ":" in line or "=" in line else []
+        whole = "".join(match[0] for match in matches) == line
+        return [(match[1].strip(), match[2], match[3] or "") for match in matches] if whole else []
 
     first = [_decoded(line).strip() for line in islice(io.BytesIO(content), SAMPLE)]
     heads = [[(name, unit) for name, _, unit in labels(line)] for line in first]
@@ -359,11 +359,11 @@ def _day(text: str) -> int:
     parts = re.split(r"[-/.]", text.lower())
     if parts[1] in _MONTHS:
         return date(int(parts[2]), _MONTHS.index(parts[1]) + 1, int(parts[0])).toordinal()
-    one, two, three = (int(number) for number in parts)
-    if one > 31:
-        return date(one, two, three).toordinal()
-    american = "/" in text and two <= 31 and one <= 12
-    month, day = (one, two) if american else (two, one)
+    first, two, three = (int(number) for number in parts)
+    if first > 31:
+        return date(first, two, three).toordinal()
+    american = "/" in text and two <= 31 and first <= 12
+    month, day = (first, two) if american else (two, first)
     return date(three, month, day).toordinal()
 
 
@@ -449,10 +449,10 @@ def _row(line: str, delimiter: str | None, words: Sequence[int] = ()) -> list[fl
     """
     cells = _cells(line, delimiter)
     numbers = [math.nan if i in words else _number(cell) for i, cell in enumerate(cells)]
-    found = [number for number in numbers if number is not None]
-    if len(found) < len(numbers) or all(math.isnan(number) for number in found):
+    present = [number for number in numbers if number is not None]
+    if len(present) < len(numbers) or all(math.isnan(number) for number in present):
         return None
-    return found
+    return present
 
 
 def _style(lines: Sequence[str], above: str) -> _Style | None:
@@ -460,7 +460,7 @@ def _style(lines: Sequence[str], above: str) -> _Style | None:
 
     The lines that follow, and the headings `above`, decide where more than one way would do.
     """
-    found: list[tuple[int, _Style]] = []
+    styles: list[tuple[int, _Style]] = []
     for style in _STYLES:
         if style.delimiter is not None and style.delimiter not in lines[0]:
             continue
@@ -468,8 +468,8 @@ def _style(lines: Sequence[str], above: str) -> _Style | None:
         if made is not None:
             fits, full = made
             headed = full.width > 1 and len(_cells(above, style.delimiter)) == full.width
-            found.append((fits + headed * len(lines), full))
-    return max(found, key=lambda made: made[0])[1] if found else None
+            styles.append((fits + headed * len(lines), full))
+    return max(styles, key=lambda made: made[0])[1] if styles else None
 
 
 def _fitted(style: _Style, lines: Sequence[str]) -> tuple[int, _Style] | None:
@@ -561,12 +561,12 @@ def _beginning(name: str, content: bytes) -> tuple[_Style, int, list[str]]:
             rest.seek(place)
             sample = list(islice(_lines_of_numbers(rest), SAMPLE))
             numbered = _is_numbered(sample)
-            found = None if numbered else _style(sample, remarks[-1] if remarks else "")
-            follows = _style(sample[1:], "") if found and found.width == 1 < len(sample) else None
+            style = None if numbered else _style(sample, remarks[-1] if remarks else "")
+            follows = _style(sample[1:], "") if style and style.width == 1 < len(sample) else None
             if follows is not None and follows.width > 2:
-                found = None  # how many lines follow
-            if found is not None:
-                return _one_column(found, sample, remarks), place, remarks
+                style = None  # how many lines follow
+            if style is not None:
+                return _one_column(style, sample, remarks), place, remarks
             words += 1
             remarks.append(_decoded(line) if numbered else bare[:LONGEST_LINE])
             if words > MOST_HEADINGS:

@@ -151,8 +151,8 @@ def unit_in(heading: str) -> str | None:
         if unit is not None:
             return unit
     for mark in ("/", " in ", ","):
-        before, found, after = bare.partition(mark)
-        if found and before.strip() and (unit := unit_named(after)) is not None:
+        before, at_mark, after = bare.partition(mark)
+        if at_mark and before.strip() and (unit := unit_named(after)) is not None:
             return unit
     return _unit_at_end(re.split(r"[\s_.,;]+", bare))
 

@@ -119,14 +119,14 @@ def _fewest(step: float, differences: Array) -> int:
 
 def _drawn(steps: Array, step: float, swing: float) -> NDArray[np.bool_]:
     """Samples (n,) on straight lines between those that were measured."""
-    found = np.zeros(len(steps) + 1, dtype=bool)
+    drawn = np.zeros(len(steps) + 1, dtype=bool)
     bends = np.diff(steps)
     fewest = _fewest(step, bends)
     straight = (np.abs(bends) <= STRAIGHT * swing) & (steps[1:] != 0.0)
     for begin, end in zip(*runs(straight), strict=True):
         if end - begin >= fewest:
-            found[begin + 1 : end + 1] = True
-    return found
+            drawn[begin + 1 : end + 1] = True
+    return drawn
 
 
 def _repeated(samples: Array, steps: Array, times: NDArray[np.int64]) -> NDArray[np.bool_]:
@@ -134,17 +134,17 @@ def _repeated(samples: Array, steps: Array, times: NDArray[np.int64]) -> NDArray
 
     `times` is how many times each number occurs.
     """
-    found = np.zeros(len(samples), dtype=bool)
+    repeated = np.zeros(len(samples), dtype=bool)
     moves_alike = np.unique(steps, return_counts=True)[1]
     # the chance that two samples, or two of the steps between them, are equal
     alike = max(float(np.square(many / many.sum()).sum()) for many in (times, moves_alike))
     if alike >= 0.5:
-        return found
+        return repeated
     word = 2
     if alike * len(samples) > 2.0:  # not as fine as if no two were equal by chance
         word *= math.ceil(math.log(BY_CHANCE / len(samples)) / math.log(alike))
     if word > LONGEST_WORD:
-        return found
+        return repeated
     bits = np.ascontiguousarray(samples + 0.0).view(np.uint64)
     hashed = np.zeros(len(samples) - word + 1, dtype=np.uint64)
     moves = np.zeros(len(hashed), dtype=bool)  # a sensor that rests repeats itself
@@ -155,12 +155,12 @@ def _repeated(samples: Array, steps: Array, times: NDArray[np.int64]) -> NDArray
         moves |= there != bits[: len(hashed)]
     ordered = np.sort(hashed)  # a tenth of the time that the places of equal ones take
     if not (ordered[1:] == ordered[:-1]).any():
-        return found
+        return repeated
     again = np.ones(len(hashed), dtype=bool)
     again[np.unique(hashed, return_index=True)[1]] = False
     for begin, end in zip(*runs(again & moves), strict=True):
-        found[begin : end + word - 1] = True
-    return found
+        repeated[begin : end + word - 1] = True
+    return repeated
 
 
 def cut_off(signal: Array) -> str:

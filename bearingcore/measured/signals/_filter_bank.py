@@ -109,7 +109,7 @@ def squared_envelopes(
     if whitening is not None:
         transform = whiten(transform, resolution, whitening)
     transform = transform.astype(np.complex64)
-    found = []
+    envelopes = []
     for band in bands:
         first = max(1, round(band.low / resolution))
         last = min(len(transform), round(band.high / resolution))
@@ -137,8 +137,8 @@ def squared_envelopes(
         middle = squared[len(squared) // 8 : -(len(squared) // 8)]
         kurtosis = float((middle**2).mean() / middle.mean() ** 2)
         np.minimum(squared, loudest, out=squared)
-        found.append(Envelope(band, *thinned(squared, rate, highest), kurtosis))
-    return found
+        envelopes.append(Envelope(band, *thinned(squared, rate, highest), kurtosis))
+    return envelopes
 
 
 def thinned(values: Array, rate: float, highest: float) -> tuple[Array, float]:

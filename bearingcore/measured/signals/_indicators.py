@@ -71,25 +71,24 @@ DISPLACEMENT_ZONES: Mapping[str, tuple[float, float, float]] = MappingProxyType(
 @shown_as_table
 @dataclass(frozen=True)
 class Indicators:
-    """Condition indicators of a recording, a number a direction; the mean is left out of all.
+    """Condition indicators of a recording, one number per direction; all leave the mean out.
 
     Attributes
     ----------
     directions
         of the recording.
     rms, peak : (d,) [m/s²]
-        root mean square, and the greatest size.
+        root mean square, and the greatest magnitude.
     crest_factor : (d,)
         peak over root mean square; √2 for a sine.
     kurtosis : (d,)
         fourth moment over the squared variance; 1.5 for a sine, 3 for noise, more for knocks.
     velocity_rms, displacement_rms : (d,) [m/s], [m]
-        of velocity and displacement between the ends of `band`; NaN where `velocity_reason` says
-        why.
+        RMS velocity and displacement within `band`; NaN for the reason in `velocity_reason`.
     band
         [Hz]
     velocity_reason
-        why there is no velocity; empty where there is one.
+        the reason why there is no velocity; empty if there is one.
     """
 
     directions: tuple[str, ...]
@@ -103,7 +102,7 @@ class Indicators:
     velocity_reason: str
 
     def table(self) -> ResultTable:
-        """A row a direction."""
+        """A row for each direction."""
         return table_of(
             ("direction", "", np.array(self.directions)),
             ("rms", "m/s²", self.rms),
@@ -116,12 +115,12 @@ class Indicators:
 
 
 def indicators(recording: Recording, shaft_speed: float | None = None) -> Indicators:
-    """Condition indicators of a recording.
+    """Compute the condition indicators of a recording.
 
     Parameters
     ----------
     shaft_speed
-        [rad/s] where the recording does not say it: a slow shaft widens the band of the velocity.
+        [rad/s] if the recording does not state it: a slow shaft widens the band of the velocity.
 
     Raises
     ------
@@ -219,8 +218,8 @@ def _rms_of_integral(
     # the trapezium rule makes tan(turn) of what is turn
     mended = np.divide(np.tan(turn), turn, out=np.ones(n), where=turn > 0.0) ** integrations
     amplitudes = dct(motion, norm="ortho", axis=0) * (kept * mended)[:, None]
-    found = np.sqrt((amplitudes**2).sum(axis=0) / n)
-    return np.asarray(found if samples.ndim > 1 else found[0])
+    rms = np.sqrt((amplitudes**2).sum(axis=0) / n)
+    return np.asarray(rms if samples.ndim > 1 else rms[0])
 
 
 def shaft_share(recording: Recording, shaft_speed: float) -> Array:
@@ -257,7 +256,7 @@ def _share_kept(frequency: Array, low: float, high: float, line: float) -> Array
 
 
 def severity_zone(velocity: float, machine: str, displacement: float = 0.0) -> str:
-    """The zone of ISO 20816-3, "A" to "D", of root mean square velocity and displacement [m/s, m].
+    """Return the zone of ISO 20816-3, "A" to "D", of RMS velocity and displacement [m/s, m].
 
     A: as of new machines. B: fit for long operation. C: not for long. D: may do damage. The
     standard takes the greatest of all directions at a bearing, and the worse zone of the two. Below
@@ -271,7 +270,7 @@ def severity_zone(velocity: float, machine: str, displacement: float = 0.0) -> s
     Raises
     ------
     ValueError
-        for another machine, or a velocity or displacement that is not a number from 0.
+        for an unknown machine, or a velocity or displacement that is not a number from 0.
     """
     if machine not in ZONES:
         raise checks.refuse("machine", machine, ", ".join(ZONES))

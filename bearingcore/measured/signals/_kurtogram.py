@@ -47,13 +47,13 @@ class Kurtogram(NamedTuple):
     bands
         (from, to) [Hz], the whole range first, then its halves, thirds and so on.
     parts : (n,)
-        into how many equal parts the range is split for each band.
+        number of equal parts into which the range is split for each band.
     kurtosis : (n,)
         0 for noise, -1 for a steady tone, more for knocks; the median over pieces of the signal.
     density : (n,) [(unit of the signal)²/Hz]
         mean power spectral density in each band.
     deviation : (n,)
-        standard deviation of the kurtosis of noise in so wide a band.
+        standard deviation of the kurtosis of noise in a band of this width.
     """
 
     bands: tuple[Band, ...]
@@ -63,10 +63,10 @@ class Kurtogram(NamedTuple):
     deviation: Array
 
     def best(self, lowest: float = 0.0) -> Band:
-        """The band for the envelope: the most impulsive one that is not too faint.
+        """Return the band for the envelope: the most impulsive one that is not too faint.
 
-        Narrow bands have little to go by; what chance may add to each is taken off. `lowest` [Hz]:
-        bands that begin below are left out, unless there is no other.
+        From each band the kurtosis that chance may add is subtracted; for narrow bands it is large.
+        Bands that begin below `lowest` [Hz] are left out, unless there is no other.
         """
         loud = self.density >= DYNAMIC_RANGE * self.density.max()
         high = np.array([band.low >= lowest for band in self.bands])
@@ -75,7 +75,7 @@ class Kurtogram(NamedTuple):
         return self.bands[int(certain.argmax())]
 
     def table(self) -> ResultTable:
-        """A row a band."""
+        """A row for each band."""
         low, high = np.array(self.bands).T
         return table_of(
             ("band_low", "Hz", low),
@@ -85,22 +85,22 @@ class Kurtogram(NamedTuple):
 
 
 def kurtogram(signal: ArrayLike, sample_rate: float, narrowest: float = 0.0) -> Kurtogram:
-    """The kurtogram of a signal; its `best` is the band in which knocks are clearest.
+    """Compute the kurtogram of a signal; its `best` is the band with the clearest knocks.
 
     Parameters
     ----------
     signal : (n,)
-        of which the first 2^18 samples are looked at.
+        the signal; the first 2^18 samples are used.
     sample_rate
         [Hz]
     narrowest
-        [Hz] that a band is wide at least; a short signal has wider ones.
+        least width of a band [Hz]; a short signal has wider bands.
 
     Raises
     ------
     ValueError
-        for a sample rate that is not positive, or a signal that is not a row of finite numbers,
-        is too short, or is the same number throughout.
+        for a sample rate that is not positive, or a signal that is not one-dimensional and finite,
+        is too short, or is constant.
     """
     from scipy.signal import periodogram  # imported late: see `spectrum`
 
@@ -117,15 +117,15 @@ def kurtogram(signal: ArrayLike, sample_rate: float, narrowest: float = 0.0) -> 
     least = max(least, FEWEST * PIECES / duration)
     split_into = {parts: split(rate, least, (parts,)) for parts in BAND_COUNTS}
     bands = [band for own in split_into.values() for band in own]
-    found = squared_envelopes(samples, rate, bands, math.inf, loudest=math.inf)
+    envelopes = squared_envelopes(samples, rate, bands, math.inf, loudest=math.inf)
     whole, density = periodogram(samples, rate, detrend="constant")
-    kept = tuple(one.band for one in found)
+    kept = tuple(envelope.band for envelope in envelopes)
     widths = np.array([band.high - band.low for band in kept])
     numbers = {band: parts for parts, own in split_into.items() for band in own}
     return Kurtogram(
         kept,
         np.array([numbers[band] for band in kept]),
-        np.array([_kurtosis(one.values) for one in found]),
+        np.array([_kurtosis(envelope.values) for envelope in envelopes]),
         np.array([density[(whole >= b.low) & (whole < b.high)].mean() for b in kept]),
         np.sqrt(SCATTER / (duration * widths)),
     )

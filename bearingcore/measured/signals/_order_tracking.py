@@ -56,7 +56,7 @@ def followed(
     steady = cut(np.zeros(n_passes))
     # a cage that hardly wanders is nearest to a steady one, another to its neighbours' delays
     starts = np.zeros(n_passes), _added_up(steady, slip)
-    share, lags = max((_settled(cut, start) for start in starts), key=lambda found: found[0])
+    share, lags = max((_settled(cut, start) for start in starts), key=lambda fit: fit[0])
     return lags if share >= _repeating(steady) + LEAST_GAIN else None
 
 

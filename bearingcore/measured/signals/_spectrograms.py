@@ -43,13 +43,13 @@ class Spectrogram(NamedTuple):
 
 
 def spectrogram(signal: ArrayLike, sample_rate: float, resolution: float) -> Spectrogram:
-    """Spectra of segments of 1/resolution in Hann's window, three quarters overlapping.
+    """Compute spectra of segments of 1/resolution (Hann window, overlap of three quarters).
 
     Parameters
     ----------
     signal : (n,)
     sample_rate
-        [Hz], or samples a turn: then the result is over turns and orders.
+        [Hz], or samples per turn: the result is then over turns and orders.
     resolution
         [Hz] or [orders]
 
@@ -82,7 +82,9 @@ def order_map(
     speed: ArrayLike,
     resolution: float = 0.1,
 ) -> Spectrogram:
-    """Spectra over the turns of a shaft whose speed changes: the signal resampled by its angle.
+    """Compute spectra over the turns of a shaft whose speed changes.
+
+    The signal is resampled at equal steps of the shaft's angle.
 
     Parameters
     ----------
@@ -97,9 +99,8 @@ def order_map(
     Raises
     ------
     ValueError
-        for speeds that are not positive, a speed so slow that a turn of it has more samples than
-        may be taken of each, times that do not rise, fewer turns than four segments have, or
-        samples that are not finite.
+        for speeds that are not positive or too slow (too many samples per turn), times that do not
+        rise, fewer turns than four segments need, or samples that are not finite.
     """
     from scipy.fft import next_fast_len  # imported late: see `spectrum`
     from scipy.interpolate import CubicSpline

@@ -161,7 +161,7 @@ def all_on_disk() -> bool:
     """Whether machine code of all kernels, made of the present sources, is on disk."""
     if PLAIN:
         return _keep_plain() and any(Path(numba.config.CACHE_DIR).rglob("*.nbi"))
-    return bool(_kernels) and all(one._cache._cache_file.has_any() for one in _kernels)
+    return bool(_kernels) and all(kernel._cache._cache_file.has_any() for kernel in _kernels)
 
 
 @cache

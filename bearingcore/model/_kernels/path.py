@@ -6,31 +6,26 @@ import math
 
 import numpy as np
 
+from bearingcore.model._kernels.codes import (
+    BALL_RADIUS,
+    CENTER,
+    CHORD,
+    DEPTH,
+    EDGE,
+    EVERY_ROW,
+    EXACT,
+    FLOOR_ANGLE,
+    HALF_EXTENT,
+    PUBLISHED,
+    RACEWAY_RADIUS,
+    ROW,
+    TABLE,
+    TABLE_SIZE,
+    TABLE_START,
+    TURN_RATIO,
+)
 from bearingcore.model._kernels.compiling import called, compiled, inlined
 from bearingcore.model._kernels.structs import Passage
-
-PATH_COLUMNS = (
-    "center",
-    "turn_ratio",
-    "half_extent",
-    "depth",
-    "angle_from_edge_to_floor",
-    "edge",
-    "raceway_radius",
-    "ball_radius",
-    "table_start",
-    "table_size",
-    "row",
-)
-"""Columns of the rows that describe defects; the last is the bearing's row, or EVERY_ROW."""
-CENTER, TURN_RATIO, HALF_EXTENT, DEPTH, FLOOR_ANGLE, EDGE = 0, 1, 2, 3, 4, 5
-RACEWAY_RADIUS, BALL_RADIUS, TABLE_START, TABLE_SIZE, ROW = 6, 7, 8, 9, 10
-
-PUBLISHED, CHORD, EXACT, INNER_EXACT, TABLE = 0, 1, 2, 3, 4
-"""Values of the column `edge`."""
-
-EVERY_ROW = -1
-"""In the column `row`: a defect that the balls of all rows meet."""
 
 BLOCK = 256
 """Half steps whose ball positions are laid out at once: small enough to stay in the cache."""

@@ -6,6 +6,15 @@ import math
 
 import numpy as np
 
+from bearingcore.model._kernels.codes import (
+    BEYOND,
+    CONVERGED,
+    FREE_DIRECTION,
+    NOT_CARRIED,
+    NOT_CONVERGED,
+    NOTHING_TOUCHES,
+    OPEN,
+)
 from bearingcore.model._kernels.compiling import called, compiled, inlined
 from bearingcore.model._kernels.contact import (
     carried,
@@ -27,18 +36,6 @@ from bearingcore.model._kernels.structs import (
     Path,
     Place,
 )
-
-CONVERGED, NOTHING_TOUCHES, FREE_DIRECTION, NOT_CARRIED, NOT_CONVERGED = 0, 1, 2, 3, 4
-"""Statuses of a cage angle; their sentences are in `equilibrium`."""
-
-OPEN, REFUSED = -1, 5
-"""Further statuses of a map's point: not solved yet; no such defects."""
-
-TOO_MANY = 6
-"""Status of all cage angles where there are more of them than were to be solved."""
-
-BEYOND = 7
-"""Status of a balance of loads that only linear formulas have: see `Contacts.room`."""
 
 # A residual |∂V/∂q| below this part of the load ends the iteration; one that rounding keeps above
 # it is still taken below the second. The third is the least pivot, relative to the greatest
@@ -292,11 +289,11 @@ def pressed_load(q, place, contacts):
 @inlined
 def stiffest_contact(contacts):
     """Number of the contact with the greatest load-deflection factor."""
-    found = 0
+    stiffest = 0
     for j in range(contacts.factor.size):
-        if contacts.factor[j] > contacts.factor[found]:
-            found = j
-    return found
+        if contacts.factor[j] > contacts.factor[stiffest]:
+            stiffest = j
+    return stiffest
 
 
 @inlined
@@ -430,7 +427,7 @@ def descend(q, place, contacts, load, work, most):
         step = 1.0
         short = 0.0
         long = math.inf
-        found = False
+        accepted = False
         for _ in range(60):
             for i in active:
                 trial[i] = q[i] + step * p[i] if iteration >= 0 else q[i]
@@ -439,14 +436,14 @@ def descend(q, place, contacts, load, work, most):
             )
             evaluations += 1
             if iteration < 0:
-                found = True
+                accepted = True
                 break
             slope1 = 0.0
             for i in active:
                 slope1 += G[1 - now, i] * p[i]
             if has_descended(V, V1, slope, slope1, step, 1e-14 * max(scale, scale1)):
                 if slope1 >= 0.9 * slope or long == math.inf or long < 1.5 * short:
-                    found = True
+                    accepted = True
                     break
                 # V still falls as steeply as at the start: between here and the step that was
                 # too long there is a better one
@@ -459,7 +456,7 @@ def descend(q, place, contacts, load, work, most):
                 step *= min(max(secant, 0.05), 0.6)
                 if step <= short:
                     step = math.sqrt(short * long)
-        if not found:
+        if not accepted:
             # rounding hides every fall; what has been reached counts if it is within the limit
             if residual > limit:
                 return now, NOT_CONVERGED, residual, iteration, evaluations
@@ -508,17 +505,17 @@ def minimise_energy(q, place, contacts, load, work):
     F = load.force
     active = load.active
     size = load_size(load)
-    one = stiffest_contact(contacts)
-    K = contacts.factor[one]
-    exponent = contacts.exponent[one]
+    stiffest = stiffest_contact(contacts)
+    K = contacts.factor[stiffest]
+    exponent = contacts.exponent[stiffest]
     hard = compression_under(size, K, exponent)
     # compression of one ball under all of the load, at this softness; a straight valley needs none
-    soft = max(curved_length(contacts, one), hard)
+    soft = max(curved_length(contacts, stiffest), hard)
     start = work.start
     soft_factor = work.soft
     for i in active:
         # of a wedged ring without a load nothing says how soft to begin
-        away = max(contacts.clearance[one], 0.0) / contacts.line_r[one] + soft
+        away = max(contacts.clearance[stiffest], 0.0) / contacts.line_r[stiffest] + soft
         start[i] = away * F[i] / size if size > 0.0 else q[i]
     ratio = 1.0
     for _ in range(40):
@@ -577,9 +574,9 @@ def extrapolate(cage_angles, k, q, active, state):
 def first_guess(contacts, load, state):
     """Put into state (5,): the clearance and one ball's compression, along the load."""
     size = load_size(load)
-    one = stiffest_contact(contacts)
-    reach = max(contacts.clearance[one], 0.0) / contacts.line_r[one] + compression_under(
-        size, contacts.factor[one], contacts.exponent[one]
+    stiffest = stiffest_contact(contacts)
+    reach = max(contacts.clearance[stiffest], 0.0) / contacts.line_r[stiffest] + compression_under(
+        size, contacts.factor[stiffest], contacts.exponent[stiffest]
     )
     for i in load.active:
         state[i] = reach * load.force[i] / max(size, 1e-300)

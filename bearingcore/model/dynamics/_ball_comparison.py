@@ -67,7 +67,7 @@ class BallComparison:
         return f"massless: within {number(self.budget)} dB up to {up_to}"
 
     def table(self) -> ResultTable:
-        """A row a third octave: its ends, and what mass adds along each direction."""
+        """A row for each third octave: its ends, and the effect of mass along each direction."""
         return table_of(
             ("lowest_frequency", "Hz", self.edges[:-1]),
             ("highest_frequency", "Hz", self.edges[1:]),

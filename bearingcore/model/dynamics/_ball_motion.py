@@ -256,7 +256,7 @@ def ball_strikes(time: Array, loads: Array) -> tuple[Strike, ...]:
 
     A contact that is closed at the first time has not been seen to strike.
     """
-    found = []
+    strikes = []
     for index, race in enumerate(RACES_OF_LOADS):
         for ball in range(loads.shape[2]):
             load = loads[index, :, ball]
@@ -265,7 +265,7 @@ def ball_strikes(time: Array, loads: Array) -> tuple[Strike, ...]:
                     continue
                 falls = np.flatnonzero(np.diff(load[first:end]) <= 0.0)
                 peak = first + int(falls[0]) if falls.size else end - 1
-                found.append(
+                strikes.append(
                     Strike(ball, race, float(time[first]), float(load[peak]), float(time[peak]))
                 )
-    return tuple(sorted(found, key=lambda strike: (strike.time, strike.ball)))
+    return tuple(sorted(strikes, key=lambda strike: (strike.time, strike.ball)))

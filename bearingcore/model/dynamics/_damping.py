@@ -37,7 +37,9 @@ def _mean_stiffness_a_ball(packed: PackedScene) -> float:
 
 
 def contact_damping(scene: Scene) -> float:
-    """Viscous damping c [N·s/m] of a loaded contact: the scene's, or β·mean(k_xx + k_yy)/mean(n).
+    """Return the viscous damping c [N·s/m] of a loaded contact.
+
+    This is the scene's own, or else β·mean(k_xx + k_yy)/mean(n).
 
     The paper does not print c; it takes a damping of the healthy bearing that is 0.25e-5 to
     2.5e-5 s times its stiffness (Eq. 27). β = 1e-5 s. 0 where the healthy bearing has no static

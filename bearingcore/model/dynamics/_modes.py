@@ -37,34 +37,34 @@ nearly: right to 1e-4 then."""
 class Modes:
     """Natural frequencies and damping at n cage angles, m modes, each followed by its shape.
 
-    A mode keeps its column: it is the one most like that mode of the mean stiffness over the cage
-    angles (modal assurance criterion).
+    Each column is one mode: at every angle it is the mode closest to that mode at mean stiffness
+    (modal assurance criterion).
 
     Attributes
     ----------
     scene, dofs, cage_angles
-        what was linearised, in which directions, at which cage angles (n,) [rad].
+        the scene, its directions, and the cage angles (n,) [rad].
     frequency : (n, m) [Hz]
         |λ|/2π with the damping matrix (Eq. 29).
     damping_ratio : (n, m)
-        −Re λ/|λ|; negative would mean that the motion grows.
+        −Re λ/|λ|; a negative value means a growing motion.
     undamped_frequency : (n, m) [Hz]
         of the mass and stiffness matrices alone.
     shape : (n, m, 2 len(dofs))
-        undamped mode shapes, inner ring first, of unit modal mass; the sign is kept from angle to
-        angle.
+        undamped mode shapes, inner ring first, of unit modal mass; the sign is continuous over the
+        angles.
     label : (m,)
-        direction that moves most, numbered by rising frequency: "x1", "y1", "x2", "y2".
+        direction with the largest motion, numbered by rising frequency: "x1", "y1", "x2", "y2".
     body : (m,)
-        "inner" or "outer": the body that moves most in that direction.
+        "inner" or "outer": the body with the largest motion in that direction.
     mean_shape : (m, 2 len(dofs))
-        undamped shapes at the mean stiffness, which the modes are followed by.
+        undamped shapes at the mean stiffness, with which modes are matched.
     cost
-        what the static states would have taken, where that was too much to begin; else empty.
+        the number of contacts if they exceeded `most_contacts`; else empty.
     state
         the static states that were linearised.
 
-    Rows are NaN where the static state has no answer.
+    Rows are NaN if the static state has no answer.
     """
 
     scene: Scene
@@ -81,11 +81,11 @@ class Modes:
     state: Equilibrium | None = field(default=None, repr=False, compare=False)
 
     def reason(self, i: int) -> str:
-        """In words, what became of the static state at cage angle i."""
+        """Status of the static state at cage angle i in words."""
         return self.cost or (self.state.reason(i) if self.state else "")
 
     def table(self) -> ResultTable:
-        """A row a cage angle: frequency and damping ratio of each mode, status of the statics."""
+        """A row for each cage angle: frequency and damping ratio of each mode, static status."""
         labels = list(enumerate(self.label))
         return table_of(
             ("cage_angle", "rad", self.cage_angles, "angle of the cage"),
@@ -100,8 +100,8 @@ class Modes:
     def bands(self) -> dict[str, tuple[float, float]]:
         """Least and greatest frequency [Hz] of each mode at the cage angles, by label.
 
-        NaN for both where no angle has an answer. Nothing between the angles counts, nor other
-        turns of the shaft: see `frequency_bands`.
+        NaN for both if no angle has an answer. Positions between the angles and other turns of the
+        shaft do not count: see `frequency_bands`.
         """
         ends = zip(*(end.tolist() for end in least_and_greatest(self.frequency, 0)), strict=True)
         return dict(zip(self.label, ends, strict=True))
@@ -110,21 +110,21 @@ class Modes:
 def modes(
     scene: Scene, cage_angles: ArrayLike | None = None, *, most_contacts: int = MOST_CONTACTS
 ) -> Modes:
-    """Natural frequencies, damping and shapes of `scene` at each cage angle (Eqs. 24-29).
+    """Compute natural frequencies, damping and shapes of `scene` at each cage angle (Eqs. 24-29).
 
     Parameters
     ----------
     scene
-        its active directions are those of the statics; support and inertia must be known there.
+        the scene; support and inertia must be known along its active directions.
     cage_angles : (n,)
         [rad]; None takes one period, as `equilibrium` does.
     most_contacts
-        as of `equilibrium`. Where there are more nothing is begun, and `cost` says how many.
+        as of `equilibrium`. Beyond it nothing is computed, and `cost` gives the number.
 
     Raises
     ------
     ValueError
-        where the support lacks a number, by its name.
+        if the support lacks a number; the error names it.
     """
     return modes_at(equilibrium(scene, cage_angles, most_contacts=most_contacts))
 
@@ -132,37 +132,37 @@ def modes(
 def frequency_bands(
     scene: Scene, *, coarse: bool = False, most_contacts: int = MOST_CONTACTS
 ) -> dict[str, tuple[float, float]]:
-    """Least and greatest natural frequency [Hz] of each mode over all positions of the bearing.
+    """Compute the least and greatest natural frequency [Hz] of each mode over all positions.
 
-    Over all cage angles, and where a defect turns with the shaft over all shaft angles at each of
-    them: see `statics._positions`. Around each least and greatest sample it is looked
-    for ever closer: with damping nearly, coarsely and where a defect turns with the shaft without.
-    The frequency there is the damped one, as in `Modes`.
+    The positions are all cage angles and, if a defect turns with the shaft, all shaft angles at
+    each: see `bearingcore.model.statics._positions`. The search refines the surroundings of each
+    extreme sample. It leaves damping out where it is coarse or a defect turns with the shaft; the
+    frequency that is returned is the damped one, as in `Modes`.
 
     Parameters
     ----------
     scene
         as of `modes`.
     coarse
-        a third of the cage angles, and half as often closer.
+        True for a third of the cage angles and half the refinements.
     most_contacts
-        as of `equilibrium`, of the first samples. Where there are more nothing is begun.
+        as of `equilibrium`, for the first samples. Beyond it nothing is computed.
 
     Returns
     -------
     {label: (least, greatest)} [Hz]
-        NaN for both where no angle has an answer, or nothing was begun.
+        NaN for both if no angle has an answer, or nothing was computed.
 
     Raises
     ------
     ValueError
-        where the support lacks a number, by its name.
+        if the support lacks a number; the error names it.
     """
     checks.instance("scene", scene, Scene)
     n = ANGLES_A_PERIOD if scene.defect_turns else 3 * ANGLES_A_PERIOD - 2
     n, rounds = ((n - 1) // 3 + 1, 2) if coarse else (n, ROUNDS)
     packed = pack(scene)
-    found = positions_of(packed, n)
+    positions = positions_of(packed, n)
     state = equilibrium_over_all(packed, n, most_contacts)
     if not state.converged.any():
         return modes_at(state).bands()
@@ -179,7 +179,7 @@ def frequency_bands(
     def closer(cage_angles: Array, shaft_angles: Array) -> Array:
         return frequencies(equilibrium_of(packed, cage_angles, shaft_angles))
 
-    ends = extremes(found, frequencies(state), closer, rounds=rounds)
+    ends = extremes(positions, frequencies(state), closer, rounds=rounds)
     there = equilibrium_of(packed, ends.cage_angles.ravel(), ends.shaft_angles.ravel())
     least, greatest = map(np.diagonal, np.split(modes_at(there, search.template).frequency, 2))
     pairs = zip(least.tolist(), greatest.tolist(), strict=True)
@@ -218,9 +218,9 @@ class BandSearch:
         """(m, n) [Hz] for stiffness terms (15, n); NaN where one that counts is not known."""
         chosen = terms[self._rows]
         known = np.asarray(np.isfinite(chosen).all(axis=0))
-        found = np.full((len(self.template), known.size), math.nan)
-        found[:, known] = _frequencies_like(self.template, chosen[:, known], self._support)
-        return found
+        result = np.full((len(self.template), known.size), math.nan)
+        result[:, known] = _frequencies_like(self.template, chosen[:, known], self._support)
+        return result
 
 
 def stiffness_terms(state: Equilibrium) -> Array:
@@ -299,12 +299,12 @@ def undamped_bands(scene: Scene, terms: Array) -> tuple[Array, Array, list[tuple
     Raises
     ------
     ValueError
-        where the support lacks a number, by its name.
+        if the support lacks a number; the error names it.
     """
     searches = [BandSearch(scene, row, np.ones(row.shape[1])) for row in np.moveaxis(terms, 1, 0)]
-    found = [one.frequencies(terms[:, i]) for i, one in enumerate(searches)]
-    least, greatest = least_and_greatest(np.stack(found), 2)
-    return least, greatest, [one.labels for one in searches]
+    values = [search.frequencies(terms[:, i]) for i, search in enumerate(searches)]
+    least, greatest = least_and_greatest(np.stack(values), 2)
+    return least, greatest, [search.labels for search in searches]
 
 
 def _frequencies_like(template: Array, terms: Array, support: Array) -> Array:

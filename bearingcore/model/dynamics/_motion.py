@@ -79,31 +79,30 @@ class Motion:
     Attributes
     ----------
     scene, dofs, sample_rate [Hz], step_rate [Hz]
-        what was simulated and how.
+        the scene, its directions and rates.
     status
-        how it ended. A motion that is not completed is NaN from where it broke off.
+        the outcome. A motion that is not completed is NaN from the time where it broke off.
     detail
-        numbers of a status that has some, in words that follow it. Of a completed motion whose
-        contacts let go, how well bands of its spectrum are known where that is not within 1 dB.
+        numbers of the status, in words that follow it. For a completed motion whose contacts open
+        it gives the accuracy of bands of the spectrum if that is worse than 1 dB.
     right_hand_side_calls
-        how often the accelerations were evaluated.
+        number of evaluations of the accelerations.
     time : (n,) [s]
     cage_angle : (n,) [rad]
     inner_displacement, outer_displacement : (n, len(dofs)) [m, rad]
     inner_velocity, outer_velocity : (n, len(dofs)) [m/s, rad/s]
     inner_acceleration, outer_acceleration : (n, len(dofs)) [m/s², rad/s²]
-        the outer one is what a sensor on the housing measures. Both are filtered as a recorder
-        does before it samples (`low_pass`): right within 0.1 dB up to `bandwidth`, and nothing from
-        half the sample rate on. So a peak is that of what lies below: strikes of balls with mass
-        are shorter than a sample, and greater the more of them is recorded.
+        a sensor on the housing measures the outer one. Both are filtered as in a recorder before
+        they are sampled (`low_pass`): they are right within 0.1 dB up to `bandwidth`, and zero from
+        half the sample rate on. Peaks therefore depend on the sample rate: strikes of balls with
+        mass are shorter than a sample.
     bandwidth [Hz]
-        up to where accelerations hold what the motion has: 0.4 of the sample rate, or of the step
-        rate where that is less.
+        frequency up to which accelerations are complete: 0.4 of the lower of sample and step rate.
     ball_load : (n, N_b) [N] or None
-        elastic contact loads Q_j = K δ_j^1.5 (Eq. 13), if `ball_loads` was True; of balls with mass
-        those of the outer race.
+        elastic contact loads Q_j = K δ_j^1.5 (Eq. 13), if `ball_loads` was True; for balls with
+        mass at the outer race.
     ball_place : (n, 1 or 2, N_b) [m] or None
-        radial, and where they move along the shaft axial, place of balls that have mass.
+        radial place of balls with mass, and their axial place if they move along the shaft.
     """
 
     scene: Scene
@@ -165,22 +164,22 @@ class Motion:
         return self._accelerations("outer")
 
     def instant_acceleration(self, body: str) -> Array:
-        """(n, len(dofs)) [m/s², rad/s²] of "inner" or "outer" ring at the sample times alone.
+        """(n, len(dofs)) [m/s², rad/s²] unfiltered acceleration of the "inner" or "outer" ring.
 
-        As the forces of the instant give it, unfiltered: for balances, not for spectra.
+        It follows from the forces at each sample time: use it for balances, not for spectra.
         """
         return self._sampled(body, 2)
 
     @property
     def bandwidth(self) -> float:
-        """[Hz] up to where sampled accelerations hold what the motion has."""
+        """[Hz] frequency up to which sampled accelerations are complete."""
         return bandwidth(self.sample_rate, self.step_rate)
 
     def spectrum(self, resolution: float = 32.0, since: float = 0.0) -> Spectrum:
-        """`bearingcore.spectrum` of the housing's acceleration up to `bandwidth`.
+        """Compute `bearingcore.spectrum` of the housing's acceleration up to `bandwidth`.
 
         Density (m, len(dofs)) [(m/s²)²/Hz, (rad/s²)²/Hz] from `since` [s] on. Raises ValueError
-        where the motion did not stay finite, or what is left is shorter than 1/resolution.
+        if the motion did not stay finite, or the rest is shorter than 1/resolution.
         """
         first = max(math.ceil(since * self.sample_rate - 1e-6), 0)
         signal = self.outer_acceleration[first:]
@@ -190,12 +189,12 @@ class Motion:
     def ball_position(self) -> Array:
         """(n, 2, N_b) [m] radial and axial place of each ball.
 
-        Against that of the unloaded ball that touches the outer race, the rings concentric.
+        Relative to the unloaded ball that touches the outer race, with concentric rings.
 
         Raises
         ------
         ValueError
-            for balls without mass, which have no place of their own.
+            for massless balls, whose positions are not computed.
         """
         place = self.ball_place
         if place is None:
@@ -207,20 +206,19 @@ class Motion:
     def race_loads(self, start: int = 0, stop: int | None = None) -> Array:
         """Elastic loads (2, stop − start, N_b) [N] at inner and outer race, of some samples.
 
-        Of balls without mass both are the same.
+        For massless balls both are the same.
         """
         return np.stack(self._loads(None, start, stop))
 
     def ball_loads(self, start: int = 0, stop: int | None = None) -> Array:
         """Elastic contact loads (stop − start, N_b) [N] of the samples from start to stop.
 
-        Of balls with mass those at the outer race. Fewer samples cost less: a short part is all
-        that a figure of contact forces needs.
+        For balls with mass they are those at the outer race. Fewer samples cost less.
         """
         return self._loads(None, start, stop)[1]
 
     def with_ball_loads(self, packed: PackedScene) -> Motion:
-        """The same motion with the loads of its balls; NaN of one without a step."""
+        """Return the same motion with the loads of its balls; NaN for a motion without steps."""
         if not self.right_hand_side_calls:
             nothing = np.full((len(self.time), packed.contacts.angle.size), math.nan)
             return replace(self, ball_load=nothing)
@@ -248,7 +246,7 @@ class Motion:
         return loads, loads
 
     def table(self) -> ResultTable:
-        """A row a sample: displacement, velocity, acceleration of both rings, loads if known."""
+        """A row for each sample: motion of both rings, and loads if known."""
         units = {"displacement": ("m", "rad"), "velocity": ("m/s", "rad/s")}
         units["acceleration"] = ("m/s²", "rad/s²")
         loads = [] if self.ball_load is None else list(enumerate(self.ball_load.T))
@@ -310,42 +308,40 @@ def simulate(
     step_rate: float | None = None,
     most_steps: int = MOST_STEPS,
 ) -> Motion:
-    """Motion of `scene` from its static state at cage angle 0, by Runge-Kutta steps of order 4.
+    """Simulate the motion of `scene` from its static state at cage angle 0 (Runge-Kutta, order 4).
 
     Parameters
     ----------
     scene
-        its active directions move; support and inertia must be known along them.
+        the scene; support and inertia must be known along its active directions.
     duration
         [s]
     sample_rate
-        [Hz] of what is returned.
+        [Hz] of the returned samples.
     ball_loads
-        whether to return the balls' loads too.
+        True to return the loads of the balls too.
     step_rate
-        [Hz] steps a second: a multiple or a whole fraction of the sample rate, with mass of the
-        balls a multiple: fewer than keep a ball from jumping about between its contacts are not
-        taken, and the status says how many are needed. None takes that of `default_step_rate`, and
-        under the law without tension doubles it until half as many steps make no difference, or
-        says that none of them is enough.
-        Samples between steps come from quintic interpolation.
+        [Hz], a multiple or a whole fraction of the sample rate; for balls with mass a multiple. If
+        a step is too long for the contacts of balls with mass, no motion is computed and the status
+        gives the necessary rate. None takes `default_step_rate`; under the law without tension it
+        is doubled until half as many steps make no difference, or the status says that no rate was
+        enough. Samples between steps come from quintic interpolation.
     most_steps
-        steps that may be taken. They are counted before the first: where there are more, none is
-        taken, and the status says how many there would be. A light body on a stiff support needs
-        hundreds of millions a second. Those of REACH more samples (`low_pass`), which the filter of
-        the last accelerations needs, are not counted.
+        limit on the number of steps. Beyond it no motion is computed, and the status gives the
+        number. A light body on a stiff support needs hundreds of millions a second. Steps for the
+        REACH further samples that the filter needs (`low_pass`) are not counted.
 
     Returns
     -------
     Motion
-        with a status: a motion that diverges, one of too many steps, or a scene without a static
-        state to start from, is said there.
+        with a status, also for a motion that diverges, one with too many steps, or a scene without
+        a static state to start from.
 
     Raises
     ------
     ValueError
         for a sample rate below twice the highest natural frequency, a step rate that does not fit
-        it, a shaft that stands still, or a support that lacks a number.
+        the sample rate, a shaft that stands still, or a support that lacks a number.
     """
     checks.instance("scene", scene, Scene)
     duration = checks.real_number("duration", duration, above=0.0, unit="s")
@@ -517,9 +513,9 @@ def _bands_apart(motion: Motion, finer: Motion) -> str:
     since = 0.5 * float(motion.time[-1])
     edges = motion.bandwidth * 2.0 ** np.arange(-8.0, 0.1, 1.0 / 3.0)
     power = []
-    for one in (motion, finer):
-        found = one.spectrum(max(0.25 * edges[0], 4.0 / since), since)
-        power.append(np.add.reduceat(found.density, np.searchsorted(found.frequency, edges)[:-1]))
+    for each in (motion, finer):
+        lines = each.spectrum(max(0.25 * edges[0], 4.0 / since), since)
+        power.append(np.add.reduceat(lines.density, np.searchsorted(lines.frequency, edges)[:-1]))
     loud = (power[1] > 1e-4 * power[1].sum(axis=0)) & (power[0] > 0.0)
     apart = np.abs(10.0 * np.log10(power[0][loud] / power[1][loud])).max(initial=0.0)
     if apart <= SAME_BANDS:

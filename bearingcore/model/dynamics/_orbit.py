@@ -61,32 +61,32 @@ LOSSES = {"-1": "period doubling", "pair": "Neimark-Sacker", "+1": "fold"}
 @shown_as_table
 @dataclass(frozen=True)
 class Orbit:
-    """A periodic motion of a scene and what becomes of small disturbances of it.
+    """A periodic motion of a scene, and the growth of small disturbances of it.
 
     Attributes
     ----------
     scene, dofs
-        what moves, in which directions.
+        the scene, and the directions in which it moves.
     status
-        how the search ended; nothing is tried where there is no common period.
+        outcome of the search; there is none if there is no common period.
     through
         for an unstable orbit, how its largest multiplier leaves the unit circle: "+1" (the motion
         drifts off to another orbit), "-1" (every second period alike: period-doubling) or "pair"
         (a slow beat is added). Empty otherwise.
     period
-        [s]; ball_passes of them make it.
+        [s], `ball_passes` ball passes long.
     multipliers : (4 len(dofs),)
-        Floquet multipliers, the largest first: what a period multiplies disturbances by.
+        Floquet multipliers, the largest first: growth factors of disturbances over a period.
     residual
-        how far the orbit misses its beginning, over its own size.
+        distance between end and beginning of the period, over the size of the orbit.
     iterations, right_hand_side_calls
         Newton steps, and evaluations of the accelerations; one with the tangent counts once.
     history : (steps + 1, 6, len(dofs))
         displacement, velocity, acceleration of the inner, then of the outer ring over the period,
         tilts times r_d.
     cost
-        for "too many steps", how many it would have taken, in words; without a static state to
-        start from, why there is none. Empty otherwise.
+        for "too many steps" their number in words; without a static state to start from the reason.
+        Empty otherwise.
     """
 
     scene: Scene
@@ -104,16 +104,16 @@ class Orbit:
 
     @property
     def stable(self) -> bool:
-        """True where the orbit was found and disturbances of it die out."""
+        """True if the orbit was found and disturbances of it decay."""
         return self.status == OrbitStatus.STABLE
 
     @property
     def largest_multiplier(self) -> float:
-        """|μ| of the largest multiplier; NaN where there is no orbit."""
+        """|μ| of the largest multiplier; NaN if there is no orbit."""
         return float(np.abs(self.multipliers[0])) if self.multipliers.size else math.nan
 
     def table(self) -> ResultTable:
-        """Floquet multipliers: real and imaginary part, and size; a row each."""
+        """Floquet multipliers: a row for each, with real part, imaginary part and magnitude."""
         return table_of(
             ("multiplier_real", "1", self.multipliers.real),
             ("multiplier_imaginary", "1", self.multipliers.imag),
@@ -123,8 +123,8 @@ class Orbit:
     def outer_acceleration(self, time: ArrayLike) -> Array:
         """(n, len(dofs)) [m/s², rad/s²] of the housing at times [s], the period repeated.
 
-        That of the instant, as the equations of motion give it: it jumps as balls touch, and
-        samples of it fold back what is above half their rate. `spectrum` has no such samples.
+        It is unfiltered and jumps as balls touch, so that its samples alias frequencies above half
+        their rate. `spectrum` avoids this.
         """
         time = np.asarray(time, dtype=float).ravel() % self.period
         return self._states(time)[:, 5] / packing.length_units(self.scene, self.dofs)
@@ -160,17 +160,17 @@ class Orbit:
         duration: float = 1.4,
         since: float = 0.0,
     ) -> Spectrum:
-        """`bearingcore.spectrum` of the housing's acceleration while the period repeats.
+        """Compute `bearingcore.spectrum` of the housing's acceleration while the period repeats.
 
-        It ends where it is no longer right within 0.1 dB: at 0.4 of the sample rate, or at 0.15 of
-        the steps that the orbit has in a second where that is less.
+        It ends where its error exceeds 0.1 dB: at 0.4 of the sample rate, or at 0.15 of the step
+        rate of the orbit if that is less.
 
         Density (m, len(dofs)) [(m/s²)²/Hz, (rad/s²)²/Hz] of a record of `duration` [s] that
         begins `since` [s] after the period, without making the record: each Fourier line of the
         orbit is seen through the Hann window, and lines beat with each other from segment to
         segment.
 
-        ValueError for a record, or a segment of 1/resolution, of more than MOST_SAMPLES samples.
+        ValueError for a record, or a segment of 1/resolution, with more than MOST_SAMPLES samples.
         """
         sample_rate = checks.real_number("sample_rate", sample_rate, above=0.0, unit="Hz")
         least, most = sample_rate / MOST_SAMPLES, MOST_SAMPLES / sample_rate
@@ -224,32 +224,31 @@ def orbit(
     most_steps: int = MOST_STEPS,
     give_up: Callable[[], bool] | None = None,
 ) -> Orbit:
-    """The periodic motion of `scene`, by Newton's method on P(y) = y (shooting).
+    """Find the periodic motion of `scene` by Newton's method on P(y) = y (shooting).
 
-    The variational equations are integrated with the motion. Newton finds unstable orbits as
-    well as stable ones, so the multipliers are part of the answer: only a stable orbit is what a
-    machine settles to.
+    The variational equations are integrated with the motion. Newton's method finds unstable orbits
+    too, so the multipliers are part of the answer: a machine settles to a stable orbit only.
 
     Parameters
     ----------
     scene
-        its active directions move.
+        the scene; it moves along its active directions.
     start
-        an orbit of a scene nearby to begin from; None begins at the static state.
+        an orbit of a similar scene to start from; None starts at the static state.
     ball_passes
-        how many of them make a period: 1 for healthy bearings and outer-race defects, as every
-        ball pass is then alike. None takes the shortest period there is; an inner-race defect
-        has one only where shaft and cage return together.
+        number of ball passes in a period: 1 for healthy bearings and outer-race defects, as all
+        ball passes are then alike. None takes the shortest period; an inner-race defect has one
+        only if shaft and cage return together.
     step_rate
-        least number of steps [Hz]; the period takes a whole number of them. None as in `simulate`.
+        least step rate [Hz]; the period has a whole number of steps. None as in `simulate`.
     most_iterations
-        Newton steps before giving up.
+        limit on the Newton steps.
     most_steps
-        steps of integration that may be taken in all. They are counted before each period: where
-        there would be more, the search ends and the status says so.
+        limit on all steps of integration. They are counted before each period; beyond the limit the
+        search ends and the status says so.
     give_up
-        called after every period that was integrated; True ends the search, which has then not
-        converged unless the orbit was just found.
+        called after every period; True ends the search, which has then not converged unless this
+        period was the orbit.
 
     Raises
     ------
@@ -292,16 +291,16 @@ def orbit(
         return replace(nothing, status=OrbitStatus.NO_START, period=period, cost=why)
     y = shooting.own(y)
     if start is not None:
-        found = _newton(nothing, shooting, y, period, most_iterations)
-        if found.status != OrbitStatus.NOT_CONVERGED or shooting.given_up:
-            return shooting.reported(found)
+        answer = _newton(nothing, shooting, y, period, most_iterations)
+        if answer.status != OrbitStatus.NOT_CONVERGED or shooting.given_up:
+            return shooting.reported(answer)
     # where Newton loses its way it begins again, nearer to where the motion itself goes
     for periods in MARCHED_BEFORE:
         y = shooting.marched(y, periods)
-        found = _newton(nothing, shooting, y, period, most_iterations)
-        if found.status != OrbitStatus.NOT_CONVERGED or shooting.given_up:
+        answer = _newton(nothing, shooting, y, period, most_iterations)
+        if answer.status != OrbitStatus.NOT_CONVERGED or shooting.given_up:
             break
-    return shooting.reported(found)
+    return shooting.reported(answer)
 
 
 def common_ball_passes(scene: Scene) -> int | None:
@@ -385,15 +384,15 @@ class _Shooting:
         if self.calls // 4 + self.steps > self._most_steps:
             self.given_up = self._too_many = True
 
-    def reported(self, found: Orbit) -> Orbit:
+    def reported(self, answer: Orbit) -> Orbit:
         """Result of the search, or its status where it was ended for its cost."""
-        if found.status != OrbitStatus.NOT_CONVERGED or not self._too_many:
-            return found
+        if answer.status != OrbitStatus.NOT_CONVERGED or not self._too_many:
+            return answer
         cost = (
             f"no orbit after {self.calls // 4} steps, {self.steps} a period; allowed are "
             f"most_steps = {self._most_steps}"
         )
-        return replace(found, status=OrbitStatus.TOO_MANY_STEPS, cost=cost)
+        return replace(answer, status=OrbitStatus.TOO_MANY_STEPS, cost=cost)
 
     def miss(self, y: Array, end: Array) -> float:
         """|P(y) − y| over the size of the motion between, of rings that stand still over STILL."""
@@ -427,7 +426,7 @@ def _newton(nothing: Orbit, shooting: _Shooting, y: Array, period: float, most: 
             trial_end, trial_tangent = shooting.with_tangent(trial)
             trial_miss = shooting.miss(trial, trial_end)
         y, end, tangent, miss = trial, trial_end, trial_tangent, trial_miss
-    found = replace(
+    answer = replace(
         nothing,
         status=OrbitStatus.NOT_CONVERGED,
         period=period,
@@ -436,7 +435,7 @@ def _newton(nothing: Orbit, shooting: _Shooting, y: Array, period: float, most: 
         right_hand_side_calls=shooting.calls,
     )
     if not miss <= CLOSED:
-        return found
+        return answer
     multipliers = np.linalg.eigvals(tangent)
     multipliers = multipliers[np.argsort(-np.abs(multipliers))]
     largest = multipliers[0]
@@ -444,7 +443,7 @@ def _newton(nothing: Orbit, shooting: _Shooting, y: Array, period: float, most: 
     if abs(largest) >= 1.0:
         through = "pair" if abs(largest.imag) > 1e-9 else ("+1" if largest.real > 0.0 else "-1")
     return replace(
-        found,
+        answer,
         status=OrbitStatus.STABLE if abs(largest) < 1.0 else OrbitStatus.UNSTABLE,
         through=through,
         multipliers=multipliers.astype(complex),

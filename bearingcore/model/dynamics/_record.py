@@ -115,27 +115,29 @@ def simulated_record(
     *,
     seed: int | None = None,
 ) -> Recording:
-    """Record of a sensor in a scene, beyond the motion of its housing, for learning and trials.
+    """Simulate the record of a real sensor in a scene, for learning and trials.
 
-    A cage that wanders is the steady motion on a clock that wanders: passes and events move in
-    time as they do, modes by the same few thousandths, which nothing shows.
+    The record contains the motion of the housing, a path with resonances, a wandering cage, tones
+    of the shaft and noise. The cage wanders by a varying clock of the steady motion; natural
+    frequencies vary by the same few thousandths, which is too little to notice.
 
     Parameters
     ----------
     scene
-        with its defect, or healthy.
+        the scene, with a defect or healthy.
     effects
-        see `PathEffects`; None draws the resonances of the path, and a background between 1 and
+        see `PathEffects`; None draws random resonances of the path, and a background between 1 and
         10 m/s².
     duration, sample_rate
         [s], [Hz].
     seed
-        of all that is drawn; None: that of the scene, so that equal scenes give equal records.
+        seed of the random numbers; None: a seed made from the scene, so that equal scenes give
+        equal records.
 
     Raises
     ------
     ValueError
-        where the motion cannot be computed, in a sentence.
+        if the motion cannot be computed, with the reason.
     """
     checks.instance("scene", scene, Scene)
     duration = checks.real_number("duration", duration, above=0.0, unit="s")

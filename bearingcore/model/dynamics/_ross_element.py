@@ -24,33 +24,33 @@ MISSING = 'to_ross needs ROSS, which is not installed: pip install "bearing-expl
 
 
 def to_ross(scene: Scene, speeds: ArrayLike, *, node: int = 0, **more: Any) -> Any:
-    """The bearing of `scene` as a `ross.BearingElement`: stiffness and damping over shaft speed.
+    """Return the bearing of `scene` as a `ross.BearingElement`, with coefficients over shaft speed.
 
-    At each speed the balls carry their centrifugal load and find their places, whichever model of
-    balls the scene has (`ball_positions`); of rollers without known mass the stiffness is the same
-    at all speeds. Means over the cage angles, as a rotor that turns slower than balls pass has
-    them: K_b (Eq. 17) and c Σ e e' of the loaded balls (Eq. 27), along x, y and z. ROSS has no
-    place for tilts, which are taken to be held by the shaft, nor for k_xz and k_yz. The support is
-    not in it: link the element to a node of the housing.
+    At each speed the balls carry their centrifugal load, whichever model of balls the scene has
+    (`ball_positions`). Rollers have no known mass; their stiffness is the same at all speeds. The
+    coefficients are means over the cage angles of K_b (Eq. 17) and of c Σ e e' of the loaded balls
+    (Eq. 27), along x, y and z, as balls pass faster than the rotor turns. ROSS has no tilts, which
+    are taken to be held by the shaft, and no k_xz and k_yz. The support is not included: link the
+    element to a node of the housing.
 
     Parameters
     ----------
     scene
-        its bearing, defect, load and directions.
+        the scene, with bearing, defect, load and directions.
     speeds : (n,)
         shaft speeds [rad/s], increasing. Between them ROSS interpolates, beyond them it
         extrapolates.
     node
-        of the rotor where the bearing is.
+        node of the rotor at the bearing.
     more
         other arguments of `ross.BearingElement`, such as `n_link` and `tag`.
 
     Raises
     ------
     ImportError
-        where ROSS is not installed: the extra "ross".
+        if ROSS is not installed: install the extra "ross".
     ValueError
-        for speeds that are negative or do not increase, or where a cage angle has no static state.
+        for speeds that are negative or do not increase, or a cage angle without a static state.
     """
     checks.instance("scene", scene, Scene)
     try:
@@ -60,9 +60,9 @@ def to_ross(scene: Scene, speeds: ArrayLike, *, node: int = 0, **more: Any) -> A
     speeds = np.atleast_1d(checks.finite("speeds", speeds, "rad/s"))
     if speeds.size == 0 or speeds[0] < 0.0 or (np.diff(speeds) <= 0.0).any():
         raise checks.refuse("speeds", speeds.tolist(), "at least 0 rad/s and increasing")
-    found = [_mean_matrices(scene.replace(shaft_speed=float(speed))) for speed in speeds]
+    means = [_mean_matrices(scene.replace(shaft_speed=float(speed))) for speed in speeds]
     coefficients = {
-        f"{letter}{name}": np.array([matrices[k][at] for matrices in found])
+        f"{letter}{name}": np.array([matrices[k][at] for matrices in means])
         for k, letter in enumerate("kc")
         for name, at in ALONG.items()
     }

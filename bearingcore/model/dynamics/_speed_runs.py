@@ -38,24 +38,25 @@ class SpeedRun:
     Attributes
     ----------
     scene, dofs
-        what runs up, and the directions of `density`'s last axis.
+        the scene, and the directions of `density`'s last axis.
     shaft_speed : (n,) [rad/s]
     frequency : (m,) [Hz]
-        to where the spectrum of any speed is known.
+        up to the highest frequency at which the spectrum of any speed is known.
     density : (n, m, len(dofs)) [(m/s²)²/Hz, (rad/s²)²/Hz]
-        NaN where a speed was not computed, and above the frequency up to which its motion is known.
+        NaN for a speed that was not computed, and above the frequency up to which its motion is
+        known.
     ball_pass_frequency : (n,) [Hz]
-        of the race the first defect is in; its multiples are the lines.
+        of the race with the first defect; lines stand at its multiples.
     from_orbit : (n,)
-        True where the spectrum is that of a proven stable orbit, False where it was marched.
+        True for the spectrum of a proven stable orbit, False for that of a marched motion.
     bands
-        least and greatest natural frequency [Hz] of each mode, which speed does not move.
+        least and greatest natural frequency [Hz] of each mode; speed does not change them.
     completed
-        False where it was cancelled.
+        False if the run was cancelled.
     refusals
-        why there is no such motion, by the index of the speeds that are refused.
+        reasons of refused speeds, by their index.
     cost
-        what the run would have taken, where that was too much to begin; else empty.
+        number of steps if they exceeded `most_steps_in_all`; else empty.
     """
 
     scene: Scene
@@ -71,7 +72,7 @@ class SpeedRun:
     cost: str = ""
 
     def table(self) -> ResultTable:
-        """A row a speed and frequency: the density of each direction."""
+        """A row for each speed and frequency: the density of each direction."""
         speed, frequency = np.meshgrid(self.shaft_speed, self.frequency, indexing="ij")
         return table_of(
             ("shaft_speed", "rad/s", speed),
@@ -99,34 +100,36 @@ def speed_run(
     progress: Progress | None = None,
     cancelled: Cancelled | None = None,
 ) -> SpeedRun:
-    """Steady spectra at each shaft speed [rad/s]: of the orbit where it is stable, else marched.
+    """Compute the steady spectrum at each shaft speed [rad/s].
 
-    Balls with mass are marched always: only massless ones have orbits that can be looked for.
+    It is that of the periodic orbit if this is stable, and else that of a marched motion.
+
+    Balls with mass are always marched, as the search for orbits needs massless balls.
 
     Parameters
     ----------
     scene
-        all but the speed.
+        the scene; its own speed is ignored.
     shaft_speeds : (n,)
         [rad/s], above 0.
     sample_rate, resolution [Hz], duration [s]
         of the spectra, as in `simulate` and `spectrum`; a marched motion runs twice as long, and
         its first half is left out.
     most_steps
-        steps that may be taken for the orbit of a speed, and for its marched motion. Where there
-        would be more, `refusals` says how many.
+        limit on the steps of an orbit, and of a marched motion. Beyond it the speed is refused, and
+        `refusals` gives the number.
     most_steps_in_all
-        steps of all speeds. What marching them would take is counted before the first: where that
-        is more nothing is begun, and `cost` says how many. Where orbits take what is left, the
-        speeds that are left are refused.
+        limit on the steps of all speeds. If marching them all would exceed it, nothing is computed
+        and `cost` gives the number. If the searches for orbits use it up, the remaining speeds
+        are refused.
     progress, cancelled
         called before each speed.
 
     Raises
     ------
     ValueError
-        for speeds that are not above zero, or where `simulate` refuses every speed. One that is
-        refused among others is in `refusals`.
+        for speeds that are not above zero, or if `simulate` refuses every speed. Single refusals
+        are in `refusals`.
     """
     speeds = np.asarray(shaft_speeds, dtype=float).ravel()
     if not 1 <= speeds.size <= 1000:
@@ -183,16 +186,16 @@ def speed_run(
             at = scene.replace(shaft_speed=speed)
             if left < 1:
                 raise ValueError(_NONE_LEFT.format(thousands(most_steps_in_all)))
-            found = None
+            answer = None
             if at.balls == MASSLESS:
                 may_take, rate = min(most_steps, left), fine_step_rate(at, sample_rate)
-                found = orbit(at, start=nearby, step_rate=rate, most_steps=may_take)
-                left -= found.right_hand_side_calls // 4
-            if found is not None and found.stable:
-                lines = found.spectrum(sample_rate, resolution, duration).density
+                answer = orbit(at, start=nearby, step_rate=rate, most_steps=may_take)
+                left -= answer.right_hand_side_calls // 4
+            if answer is not None and answer.stable:
+                lines = answer.spectrum(sample_rate, resolution, duration).density
                 density[i, : len(lines)] = lines
                 proven[i] = True
-                nearby = found
+                nearby = answer
                 continue
             may_take = max(min(most_steps, left), 1)
             motion = simulate(at, lasting, sample_rate, most_steps=may_take)
@@ -234,4 +237,4 @@ def _steps_of_marching(
             steps.append(duration * rate)
     except ValueError:  # said where the motion is tried
         return 0.0
-    return sum(one for one in steps if one <= most_steps)
+    return sum(step for step in steps if step <= most_steps)

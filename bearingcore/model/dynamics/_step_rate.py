@@ -73,9 +73,9 @@ def _greatest_decay(packed: PackedMotion) -> float:
 
     Beyond what steps hold a motion diverges, or, under a law without tension, stays finite.
     """
-    one, rotor = packed.contacts, packed.rotor
-    tilting = one.reach * one.line_z - one.arm * one.line_r
-    radial, axial, turned = (float(part @ part) for part in (one.line_r, one.line_z, tilting))
+    every, rotor = packed.contacts, packed.rotor
+    tilting = every.reach * every.line_z - every.arm * every.line_r
+    radial, axial, turned = (float(part @ part) for part in (every.line_r, every.line_z, tilting))
     along = np.array([0.5 * radial, 0.5 * radial, axial, 0.5 * turned, 0.5 * turned])
     both = rotor.inverse_inner + rotor.inverse_outer
     contacts = rotor.contact_damping * float(along[rotor.active] @ both)

@@ -164,14 +164,14 @@ def _own_steps(
     """Steps that a general-purpose method chooses itself."""
     time = instants(sample_rate, duration)
     rates = Rates(problem, most=MOST_RATES)
-    found, why = np.empty((0, rates.start.size)), ""
+    history, why = np.empty((0, rates.start.size)), ""
     try:
-        found = states(rates, time, tolerance)
-        if len(found) < len(time):
-            why = f"{MotionStatus.STEP_VANISHED} after {time[max(len(found) - 1, 0)]:.2g} s"
+        history = states(rates, time, tolerance)
+        if len(history) < len(time):
+            why = f"{MotionStatus.STEP_VANISHED} after {time[max(len(history) - 1, 0)]:.2g} s"
     except (TooManyRatesError, ValueError, np.linalg.LinAlgError) as error:
         why = str(error) or type(error).__name__
-    return March(rates.history(time, found), sample_rate, rates.calls, why)
+    return March(rates.history(time, history), sample_rate, rates.calls, why)
 
 
 def _scipy(name: str, *tolerances: float, slow: bool = False) -> Method:

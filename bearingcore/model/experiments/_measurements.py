@@ -102,7 +102,7 @@ class Measurements:
     Attributes
     ----------
     machine
-        what it was measured on.
+        the machine on which it was measured.
     experiments
         by their names in EXPERIMENTS.
     stability
@@ -110,7 +110,7 @@ class Measurements:
     orbits
         the periodic motion over the shaft speed, if measured.
     refused
-        why an experiment cannot be done with this scene, by its name.
+        the reason why an experiment is impossible with this scene, by the name of the experiment.
     """
 
     machine: Machine
@@ -123,7 +123,7 @@ class Measurements:
     def count(self) -> int:
         """Number of points in all."""
         trials = self.stability.trials if self.stability is not None else ()
-        points = sum(len(one.points) for one in self.experiments.values())
+        points = sum(len(experiment.points) for experiment in self.experiments.values())
         return points + len(trials) + len(self.orbits)
 
     def table(self) -> ResultTable:
@@ -167,7 +167,7 @@ def measure(
     slow: bool = True,
     progress: Callable[[float, str], object] = lambda part, words: None,
     cancelled: Callable[[], bool] = lambda: False,
-    shown: Callable[[Measurements], object] = lambda found: None,
+    shown: Callable[[Measurements], object] = lambda results: None,
     words: Callable[[ValueError], str] = str,
 ) -> Measurements:
     """Measure a scene by experiments, one after the other.
@@ -177,24 +177,25 @@ def measure(
     Parameters
     ----------
     scene
-        at hand.
+        the scene to measure.
     names
-        out of MEASURED.
+        names of experiments, out of MEASURED.
     c_loop
-        for `Machine`.
+        time of the plain C loop, for `Machine`.
     slow
-        whether integrators that take longer than all others together are among them.
+        True includes integrators that take longer than all others together.
     progress
-        called with the part done, 0 to 1, and what is being done.
+        called with the part done, 0 to 1, and the name of the current step.
     cancelled
-        called before each point, and within references; True ends with what there is.
+        called before each point, and within references; if it returns True, the results so far are
+        returned.
     shown
-        called with what there is, after each point.
+        called with the results so far, after each point.
     words
-        of a refusal, for `Measurements.refused`.
+        function that words a refusal, for `Measurements.refused`.
     """
     scene = scene.replace(balls=MASSLESS)
-    found = Measurements(this_machine(c_loop))
+    results = Measurements(this_machine(c_loop))
     for k, name in enumerate(names):
         if cancelled():
             break
@@ -202,22 +203,22 @@ def measure(
         def report(part: float, words: str, begin: int = k) -> None:
             progress((begin + part) / len(names), words)
 
-        def show(one: Experiment, name: str = name, before: Measurements = found) -> None:
-            shown(replace(before, experiments={**before.experiments, name: one}))
+        def show(experiment: Experiment, name: str = name, before: Measurements = results) -> None:
+            shown(replace(before, experiments={**before.experiments, name: experiment}))
 
         watch = Watch(report, cancelled, show)
         try:
             if name == STABILITY:
                 chart = stability_chart(scene, duration=0.1, watch=watch)
-                found = replace(found, stability=chart)
+                results = replace(results, stability=chart)
             elif name == ORBITS:
-                found = replace(found, orbits=orbits_over_speed(scene, watch))
+                results = replace(results, orbits=orbits_over_speed(scene, watch))
             else:
-                one = EXPERIMENTS[name](scene, watch, slow)
-                found = replace(found, experiments={**found.experiments, name: one})
+                measured = EXPERIMENTS[name](scene, watch, slow)
+                results = replace(results, experiments={**results.experiments, name: measured})
         except CancelledError:
             break
         except ValueError as refused:
-            found = replace(found, refused={**found.refused, name: words(refused)})
-        shown(found)
-    return found
+            results = replace(results, refused={**results.refused, name: words(refused)})
+        shown(results)
+    return results

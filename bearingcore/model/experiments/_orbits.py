@@ -51,15 +51,15 @@ def orbits_over_speed(scene: Scene, watch: Watch = NOT_WATCHED) -> tuple[OrbitAt
     Balls are taken without mass. Ends early when cancelled.
     """
     scene = scene.replace(balls=MASSLESS)
-    found = []
+    orbits = []
     for factor in in_turn(SPEEDS, str, watch.progress, watch.cancelled):
         speed = factor * scene.shaft_speed
         try:
-            one = orbit(scene.replace(shaft_speed=speed), most_steps=MOST_ORBIT_STEPS)
+            answer = orbit(scene.replace(shaft_speed=speed), most_steps=MOST_ORBIT_STEPS)
         except ValueError as refused:
-            found.append(OrbitAtSpeed(speed, f"refused: {refused}"))
+            orbits.append(OrbitAtSpeed(speed, f"refused: {refused}"))
             continue
-        pairs = tuple((float(mu.real), float(mu.imag)) for mu in one.multipliers)
-        loss = LOSSES[one.through] if one.through else ""
-        found.append(OrbitAtSpeed(speed, str(one.status), loss, pairs))
-    return tuple(found)
+        pairs = tuple((float(mu.real), float(mu.imag)) for mu in answer.multipliers)
+        loss = LOSSES[answer.through] if answer.through else ""
+        orbits.append(OrbitAtSpeed(speed, str(answer.status), loss, pairs))
+    return tuple(orbits)

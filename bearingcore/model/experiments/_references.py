@@ -63,22 +63,22 @@ class MotionReference:
 
 
 def motion_errors(
-    found: Array, expected: Array, sample_rate: float, band: float
+    history: Array, expected: Array, sample_rate: float, band: float
 ) -> dict[str, float]:
     """Errors of a history against another one, by the names in MOTION_ERRORS; band [Hz].
 
     Infinite where the motion found is not finite.
     """
-    n = min(len(found), len(expected))
-    found, expected = found[:n], expected[:n]
-    if not np.all(np.isfinite(found)):
+    n = min(len(history), len(expected))
+    history, expected = history[:n], expected[:n]
+    if not np.all(np.isfinite(history)):
         return dict.fromkeys(MOTION_ERRORS, math.inf)
     places = expected[:, (0, 3)]
     swing = np.abs(places - places.mean(axis=0)).max()
-    signal, mine = expected[:, 5], found[:, 5]
+    signal, mine = expected[:, 5], history[:, 5]
     size = math.sqrt(float(np.mean(signal**2)))
     with np.errstate(over="ignore"):
-        off = np.abs(found[:, (0, 3)] - places) / swing
+        off = np.abs(history[:, (0, 3)] - places) / swing
         series = math.sqrt(float(np.mean((mine - signal) ** 2))) / size
     return {
         "spectrum": spectrum_difference(mine, signal, sample_rate, band),
@@ -119,8 +119,8 @@ def motion_reference(
     ]
     # two families are a reference; a third one that stops at a kink takes nothing from it
     trusted = all(finished[:2]) and all(
-        one[name] <= TRUSTED[name]
-        for one, whole in zip(apart, finished[1:], strict=True)
+        difference[name] <= TRUSTED[name]
+        for difference, whole in zip(apart, finished[1:], strict=True)
         if whole
         for name in TRUSTED
     )

@@ -108,7 +108,7 @@ class Alternatives:
     right_hand_side_calls: int
 
     def table(self) -> ResultTable:
-        """A row a model: its error in the spectrum or in the curves, and the time of both."""
+        """A row for each model: error in the spectrum or the curves, and the time of both."""
         spectral = [row.quantity == SPECTRUM for row in self.rows]
         errors = [row.error for row in self.rows]
         decibels = [error if of else math.nan for error, of in zip(errors, spectral, strict=True)]
@@ -135,9 +135,9 @@ def alternatives(scene: Scene, cancelled: Callable[[], bool] | None = None) -> A
     Parameters
     ----------
     scene
-        whose own model is the one that the others are compared with.
+        the scene; the other models are compared with its own.
     cancelled
-        called before each row; True ends with those that are there.
+        called before each row; if it returns True, the rows so far are returned.
     """
     measure = _Measure(scene)
     rows: list[Alternative] = []
@@ -161,8 +161,8 @@ class _Measure:
     def rows(self) -> Iterator[Alternative]:
         """One after the other."""
         for dofs in fewer_directions(self.scene):
-            found, seconds = self._static(self.scene.replace(dofs=dofs), N_ANGLES)
-            yield self._curves(f"directions {' '.join(dofs)}", found, self.state, seconds)
+            state, seconds = self._static(self.scene.replace(dofs=dofs), N_ANGLES)
+            yield self._curves(f"directions {' '.join(dofs)}", state, self.state, seconds)
         yield from (self._cage_angles(n) for n in (121, 1441))
         try:
             self.own, self.own_seconds = self._march(self.scene)
@@ -186,16 +186,16 @@ class _Measure:
 
     def _static(self, scene: Scene, n: int) -> tuple[Equilibrium, float]:
         began = time.thread_time()
-        found = static_state(scene, default_cage_angles(scene, n))
-        return found, time.thread_time() - began
+        state = static_state(scene, default_cage_angles(scene, n))
+        return state, time.thread_time() - began
 
     def _curves(
-        self, name: str, found: Equilibrium, expected: Equilibrium, seconds: float, note: str = ""
+        self, name: str, state: Equilibrium, expected: Equilibrium, seconds: float, note: str = ""
     ) -> Alternative:
         """Error over the swing that 99 % of the cage angles keep below."""
         error = curve_errors(
-            found.cage_angles,
-            stiffness_curves(found),
+            state.cage_angles,
+            stiffness_curves(state),
             expected.cage_angles,
             stiffness_curves(expected),
         )
@@ -203,10 +203,10 @@ class _Measure:
         return Alternative(name, CURVES, greatest, seconds, self.static_seconds, note)
 
     def _cage_angles(self, n: int) -> Alternative:
-        found, seconds = self._static(self.scene, n)
-        coarse, fine = sorted((self.state, found), key=lambda state: state.cage_angles.size)
+        other, seconds = self._static(self.scene, n)
+        coarse, fine = sorted((self.state, other), key=lambda state: state.cage_angles.size)
         note = f"drawn: {self.state.cage_angles.size}"
-        return self._curves(f"{found.cage_angles.size} cage angles", coarse, fine, seconds, note)
+        return self._curves(f"{other.cage_angles.size} cage angles", coarse, fine, seconds, note)
 
     # Motions
 
@@ -214,15 +214,15 @@ class _Measure:
         seconds = math.inf
         for _ in range(REPEATS):
             began = time.thread_time()
-            found = simulate(scene, DURATION, step_rate=step_rate, most_steps=MOST_CALLS // 4)
-            if not found.completed:
-                raise ValueError(found.status)
-            _ = found.outer_acceleration
+            motion = simulate(scene, DURATION, step_rate=step_rate, most_steps=MOST_CALLS // 4)
+            if not motion.completed:
+                raise ValueError(motion.status)
+            _ = motion.outer_acceleration
             seconds = min(seconds, time.thread_time() - began)
             if seconds > LONG:
                 break
-        self.calls += found.right_hand_side_calls
-        return found, seconds
+        self.calls += motion.right_hand_side_calls
+        return motion, seconds
 
     def _spectrum(self, name: str, error: float, seconds: float, note: str = "") -> Alternative:
         return Alternative(name, SPECTRUM, error, seconds, self.own_seconds, note)
@@ -230,31 +230,31 @@ class _Measure:
     def _without(self, name: str, why: object) -> Alternative:
         return self._spectrum(name, math.nan, math.nan, f"not computed: {why}")
 
-    def _difference(self, found: Motion) -> float:
+    def _difference(self, other: Motion) -> float:
         """Of settled spectra [dB], in the directions that both have."""
         late = [
             motion.outer_acceleration[
                 len(motion.time) // 2 :,
-                [motion.dofs.index(dof) for dof in self.own.dofs if dof in found.dofs],
+                [motion.dofs.index(dof) for dof in self.own.dofs if dof in other.dofs],
             ]
-            for motion in (found, self.own)
+            for motion in (other, self.own)
         ]
         return spectrum_difference(late[0], late[1], self.own.sample_rate, self.band)
 
     def _other_march(self, name: str, scene: Scene, step_rate: float | None = None) -> Alternative:
         try:
-            found, seconds = self._march(scene, step_rate)
+            motion, seconds = self._march(scene, step_rate)
         except ValueError as refused:
             return self._without(name, refused)
         drawn = with_prefix(self.own.step_rate, "Hz")
-        note = f"{with_prefix(found.step_rate, 'Hz')}, drawn: {drawn}"
-        return self._spectrum(name, self._difference(found), seconds, note)
+        note = f"{with_prefix(motion.step_rate, 'Hz')}, drawn: {drawn}"
+        return self._spectrum(name, self._difference(motion), seconds, note)
 
     def _edges(self) -> Iterator[Alternative]:
         """The other models of the edges of all defects."""
         defects = self.scene.defects
         for edge in EDGES if defects else ():
-            if any(one.edge != edge for one in defects):
+            if any(defect.edge != edge for defect in defects):
                 scene = self.scene.replace(defect=tuple(replace(d, edge=edge) for d in defects))
                 row = self._other_march(f"{edge} edges", scene)
                 yield replace(row, changes={"edge": edge} if len(defects) == 1 else {})
@@ -263,10 +263,12 @@ class _Measure:
         heavy = self.scene.balls == WITH_MASS
         name = "massless balls" if heavy else "balls with mass"
         try:
-            found, seconds = self._march(self.scene.replace(balls=MASSLESS if heavy else WITH_MASS))
+            motion, seconds = self._march(
+                self.scene.replace(balls=MASSLESS if heavy else WITH_MASS)
+            )
         except ValueError as refused:
             return self._without(name, refused)
-        comparison = compare_motions(*((found, self.own) if heavy else (self.own, found)))
+        comparison = compare_motions(*((motion, self.own) if heavy else (self.own, motion)))
         added = np.abs(comparison.added[comparison.edges[1:] <= self.band])
         error = float(added.max()) if added.size else math.nan
         return self._spectrum(name, error, seconds, comparison.sentence)
@@ -276,16 +278,16 @@ class _Measure:
         if common_ball_passes(self.scene) is None:
             return self._without(name, "the motion never repeats itself")
         began = time.thread_time()
-        found = orbit(self.scene, step_rate=own.step_rate, most_steps=MOST_CALLS // 4)
+        answer = orbit(self.scene, step_rate=own.step_rate, most_steps=MOST_CALLS // 4)
         seconds = time.thread_time() - began
-        self.calls += found.right_hand_side_calls
-        if not found.stable:
-            why = "unstable" if found.multipliers.size else found.status
+        self.calls += answer.right_hand_side_calls
+        if not answer.stable:
+            why = "unstable" if answer.multipliers.size else answer.status
             return replace(self._without(name, why), seconds=seconds)
         half = len(own.time) // 2
         since, rate = float(own.time[half]), own.sample_rate
         settled = own.spectrum(since=since)
-        lines = found.spectrum(rate, duration=(len(own.time) - half) / rate, since=since)
+        lines = answer.spectrum(rate, duration=(len(own.time) - half) / rate, since=since)
         return self._spectrum(name, density_difference(lines, settled, self.band), seconds)
 
     def _quasi_static(self) -> Alternative:

@@ -87,7 +87,7 @@ class StabilityChart:
         return limit
 
     def table(self) -> ResultTable:
-        """A row a trial: method, steps a second, amplitude and verdict, with the linear limit."""
+        """A row for each trial: method, step rate, amplitude and verdict, with the linear limit."""
         trials = self.trials
         return table_of(
             ("method", "", "method"),

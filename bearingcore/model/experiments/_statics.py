@@ -104,13 +104,13 @@ class Contacts(NamedTuple):
 
 def contacts(problem: StaticProblem, q: Any, rows: Any = slice(None)) -> Contacts:
     """All contacts at displacements q (m, 5) [m], of the precision that q has (Eqs. 7-17)."""
-    one = problem.packed
-    ca, sa, A0, n = one.line_r, one.line_z, one.distance, one.exponent
+    packed = problem.packed
+    ca, sa, A0, n = packed.line_r, packed.line_z, packed.distance, packed.exponent
     c, s, d = problem.c[rows], problem.s[rows], problem.d[rows]
-    R = np.stack([c, s, np.zeros_like(c), -one.arm * s, one.arm * c], axis=-1)
-    Z = np.stack([0.0 * c, 0.0 * c, np.ones_like(c), one.reach * s, -one.reach * c], axis=-1)
-    radial = np.einsum("mjd,md->mj", R, q) - one.clearance  # Equation (11)
-    axial = np.einsum("mjd,md->mj", Z, q) + one.offset  # Equation (12)
+    R = np.stack([c, s, np.zeros_like(c), -packed.arm * s, packed.arm * c], axis=-1)
+    Z = np.stack([0.0 * c, 0.0 * c, np.ones_like(c), packed.reach * s, -packed.reach * c], axis=-1)
+    radial = np.einsum("mjd,md->mj", R, q) - packed.clearance  # Equation (11)
+    axial = np.einsum("mjd,md->mj", Z, q) + packed.offset  # Equation (12)
     longer = radial * ca + axial * sa - d
     along = A0 + longer
     across = axial * ca - radial * sa
@@ -119,14 +119,14 @@ def contacts(problem: StaticProblem, q: Any, rows: Any = slice(None)) -> Contact
     # A - A0 without the difference: lines of centres are a thousand compressions long
     whole = np.maximum(A + A0, 1e-300)
     apart = np.where(along > 0.0, (longer * (A0 + along) + across**2) / whole, A - A0)
-    delta = np.maximum(np.where(one.fixed, longer, apart), 0.0)
+    delta = np.maximum(np.where(packed.fixed, longer, apart), 0.0)
     length = np.maximum(A, 1e-300)
-    eu = np.where(one.fixed, 1.0, guarded / length)
-    ew = np.where(one.fixed, 0.0, across / length)
+    eu = np.where(packed.fixed, 1.0, guarded / length)
+    ew = np.where(packed.fixed, 0.0, across / length)
     er, ez = eu * ca - ew * sa, eu * sa + ew * ca  # Equation (14)
-    k1 = n * one.factor * delta ** (n - 1.0)
+    k1 = n * packed.factor * delta ** (n - 1.0)
     Q = k1 * delta / n  # Equation (13)
-    k2 = np.where((along > 0.0) & ~one.fixed, Q / length, 0.0)
+    k2 = np.where((along > 0.0) & ~packed.fixed, Q / length, 0.0)
     e = er[..., None] * R + ez[..., None] * Z
     t = -ez[..., None] * R + er[..., None] * Z
     force = (Q[..., None] * e).sum(axis=1)  # Equation (15)
@@ -206,10 +206,10 @@ def _by_scipy(
 
     def energy(u: Array, k: int) -> tuple[float, Array]:
         """With the load's, over load times length, and its slopes."""
-        found = at(u, k)
+        state = at(u, k)
         work = float(u @ problem.force[active]) * length
-        slopes = (found.force[0] - problem.force)[active] / load
-        return (float(found.energy[0]) - work) / (load * length), slopes
+        slopes = (state.force[0] - problem.force)[active] / load
+        return (float(state.energy[0]) - work) / (load * length), slopes
 
     for k in range(len(q)):
         begin = problem.guess if starts is None else starts[k]
@@ -217,22 +217,22 @@ def _by_scipy(
         start = begin[active] / length
         if method == "least_squares":
             tight = max(tolerance, 2.3e-16)
-            found: Any = least_squares(
+            result: Any = least_squares(
                 unbalanced, start, jac=jacobian, args=(k,), ftol=tight, xtol=tight, gtol=tight
             )
-            good = found.success and np.abs(found.fun).max() <= max(tolerance, 1e-8)
+            good = result.success and np.abs(result.fun).max() <= max(tolerance, 1e-8)
         elif method == "trust-exact":
-            found = minimize(
+            result = minimize(
                 energy, start, args=(k,), jac=True, hess=jacobian, method="trust-exact",
                 options={"gtol": tolerance},
             )  # fmt: skip
-            good = found.success
+            good = result.success
         else:
-            found = root(  # type: ignore[call-overload]
+            result = root(  # type: ignore[call-overload]
                 unbalanced, start, args=(k,), jac=jacobian, method=method, tol=tolerance
             )
-            good = found.success
-        q[k, active], solved[k] = found.x * length, good
+            good = result.success
+        q[k, active], solved[k] = result.x * length, good
     return Solved(q, solved, evaluations)
 
 
@@ -248,7 +248,7 @@ def _compiled(problem: StaticProblem, tolerance: float, warm: bool = True) -> So
         kernels.static_states(part, np.zeros_like(part), problem.packed, path, load)
         for part in parts
     ]
-    q, status, evaluations = (np.concatenate([one[i] for one in states]) for i in (0, 4, 7))
+    q, status, evaluations = (np.concatenate([state[i] for state in states]) for i in (0, 4, 7))
     return Solved(q, status == kernels.CONVERGED, int(evaluations.sum()))
 
 
@@ -336,15 +336,15 @@ def static_errors(
     problem: StaticProblem, q: Array, stiffness: Array, load: Array, rows: Any
 ) -> dict[str, float]:
     """Errors of displacements q (m, 5) against stiffness and loads, names of STATIC_ERRORS."""
-    found = contacts(problem, q, rows)
+    state = contacts(problem, q, rows)
     size = np.abs(stiffness).max(axis=0)
     diagonal = np.diagonal(size)
     neighbors = np.sqrt(diagonal[:, None] * diagonal)
     size = np.where(size > 1e-6 * neighbors, size, neighbors)
     size = np.where(size > 0.0, size, 1.0)
     return {
-        "stiffness": float((np.abs(found.stiffness - stiffness) / size).max()),
-        "load": float(np.abs(found.load - load).max() / load.max()),
+        "stiffness": float((np.abs(state.stiffness - stiffness) / size).max()),
+        "load": float(np.abs(state.load - load).max() / load.max()),
     }
 
 
@@ -432,21 +432,21 @@ def hard_cases(scene: Scene) -> dict[str, StaticProblem]:
 def _measured(problem: StaticProblem, truth: StaticReference, name: str, tolerance: float) -> Point:
     """One solver at one tolerance; times and evaluations are for one equilibrium."""
     with np.errstate(all="ignore"):
-        found, seconds = least_time(lambda: SOLVERS[name][0](problem, tolerance))
+        answer, seconds = least_time(lambda: SOLVERS[name][0](problem, tolerance))
     known = truth.known
-    missing = int((known & ~found.solved).sum())
+    missing = int((known & ~answer.solved).sum())
     errors: dict[str, float] = {}
     status = RIGHT
     if missing:
         status = f"failed: no answer at {missing} of {int(known.sum())} cage angles"
     elif known.any():
         errors = static_errors(
-            problem, found.q[known].astype(float), truth.stiffness[known], truth.load[known], known
+            problem, answer.q[known].astype(float), truth.stiffness[known], truth.load[known], known
         )
         if tolerance <= STRICT and not errors["stiffness"] <= WRONG_STIFFNESS:
             status = "failed: a wrong answer that it calls solved"
     n = len(problem.angles)
     return Point(
         name, f"tolerance {scientific(tolerance)}", tolerance, errors, seconds / n,
-        found.evaluations / n, status, in_use=name == OWN,
+        answer.evaluations / n, status, in_use=name == OWN,
     )  # fmt: skip

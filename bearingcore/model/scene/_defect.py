@@ -43,13 +43,13 @@ rounding leaves of angles that were typed in degrees and added."""
 
 @dataclass(frozen=True)
 class Defect:
-    """A spall of one race, square-shaped unless it has a floor of its own.
+    """A spall of one race, with vertical edges and a flat floor unless `floor` is given.
 
     Parameters
     ----------
     extent
-        circumferential extent [rad], 0 to 2π. The whole race (2π) has no edges left: it is a
-        race worn down by `depth` everywhere.
+        circumferential extent [rad], 0 to 2π. A defect of 2π has no edges: the race is worn down by
+        `depth` everywhere.
     depth
         depth of the floor [m].
     center
@@ -58,11 +58,11 @@ class Defect:
     race
         "outer" or "inner".
     edge
-        how the ball's centre follows the edges: "published", "chord" or "exact".
+        model of the ball's path over the edges: "published", "chord" or "exact".
     floor
         None for a flat floor, or a `RoughFloor` or `MeasuredFloor`, whose depth is then `depth`.
     row
-        number of the row of balls that meets it, counted from 0; None where all rows do.
+        number of the row of balls that rolls over it, counted from 0; None for all rows.
 
     Raises
     ------
@@ -96,24 +96,24 @@ class Defect:
 
     @classmethod
     def none(cls) -> Self:
-        """A healthy bearing: no extent, no depth."""
+        """Make a defect without extent and depth, as in a healthy bearing."""
         return cls(extent=0.0, depth=0.0, center=0.0)
 
     @classmethod
     def measured(
         cls, angle: ArrayLike, depth: ArrayLike, race: str = "outer", edge: str = "exact"
     ) -> Self:
-        """A defect with a measured floor: angles [rad] around the race, depths [m] below it."""
+        """Make a defect with a measured floor: angles [rad] on the race, depths [m] below it."""
         floor, extent, deepest, center = measured_floor(angle, depth)
         return cls(extent, deepest, center, race, edge, floor)
 
     @property
     def is_none(self) -> bool:
-        """True where there is nothing for a ball to fall into."""
+        """True if extent or depth is 0."""
         return self.extent == 0.0 or self.depth == 0.0
 
     def turn_ratio(self, bearing: Bearing) -> float:
-        """Turning of the defect for each unit of cage angle: 0 (outer) or ω_s/ω_c (inner)."""
+        """Angle of the defect per cage angle: 0 (outer) or ω_s/ω_c (inner)."""
         return 0.0 if self.race == "outer" else 1.0 / bearing.cage_ratio
 
     def raceway_radius(self, bearing: Bearing) -> float:
@@ -123,7 +123,7 @@ class Defect:
         )
 
     def check_depth(self, bearing: Bearing) -> None:
-        """Raise ValueError where the floor is deeper than a ball of `bearing` could roll over."""
+        """Raise ValueError if the floor is deeper than a ball of `bearing` could roll over."""
         rows = range(len(bearing.all_rows)) if self.row is None else [self.row]
         least = min(bearing.of_row(row).ball_radius for row in rows)
         if self.depth > least:
@@ -135,19 +135,19 @@ class Defect:
             )
 
     def check_row(self, bearing: Bearing) -> None:
-        """Raise ValueError where `bearing` has no such row."""
+        """Raise ValueError if `bearing` has no such row."""
         if self.row is not None and self.row >= len(bearing.all_rows):
             raise checks.refuse(
                 "row of a defect", self.row, f"None, or below the {len(bearing.all_rows)} rows"
             )
 
     def check_floor(self, bearing: Bearing) -> None:
-        """Raise ValueError where the floor is finer than can be computed on a race of `bearing`."""
+        """Raise ValueError if the floor is finer than can be computed on a race of `bearing`."""
         if isinstance(self.floor, RoughFloor):
             self.floor.check_length(self.extent * self.raceway_radius(bearing))
 
     def edge_row(self, bearing: Bearing) -> Array:
-        """Path of a ball over the edges, in the order of `kernels.PATH_COLUMNS`."""
+        """Return the path of a ball over the edges, in the order of `kernels.PATH_COLUMNS`."""
         R, r_b, h = self.raceway_radius(bearing), bearing.ball_radius, self.depth
         # where there is no edge left the floor is everywhere
         s_floor = self.edge_width(bearing, h) if self.extent < TWO_PI else 0.0
@@ -160,7 +160,7 @@ class Defect:
         return np.array([*edge, 0.0, 0.0, row])
 
     def edge_width(self, bearing: Bearing, drop: float) -> float:
-        """Angle [rad] from an edge at which a ball that rolls over it has sunk by a drop [m]."""
+        """Return the angle [rad] from an edge at which a ball has sunk by a drop [m]."""
         R, r_b = self.raceway_radius(bearing), bearing.ball_radius
         if self.edge == "exact":
             # law of cosines: the ball touches floor and corner at once; one much larger than the
@@ -172,7 +172,7 @@ class Defect:
         return math.sqrt(drop * (2.0 * r_b - drop) / factor) / R
 
     def surface(self, angle: ArrayLike, bearing: Bearing) -> Array:
-        """Actual depth [m] of the race at angles [rad], cage angle 0: what was cut."""
+        """Return the depth [m] of the race itself at angles [rad], at cage angle 0."""
         away = _wrapped(np.asarray(angle, dtype=float) - self.center)
         inside = np.abs(away) <= 0.5 * self.extent
         if self.is_none:
@@ -183,11 +183,10 @@ class Defect:
         return np.where(inside, self.floor.surface(away, self.extent, self.depth, radius), 0.0)
 
     def path(self, ball_angle: ArrayLike, bearing: Bearing, cage_angle: ArrayLike = 0.0) -> Array:
-        """Drop d(φ) [m] of the ball's centre at the ball angles [rad] (Eq. 6, mended).
+        """Return the drop d(φ) [m] of the ball's centre at ball angles [rad] (Eq. 6, corrected).
 
-        `cage_angle` [rad] says how far the cage has turned, and with it the shaft: it moves an
-        inner-race defect and leaves an outer-race one where it is. Shapes broadcast. ValueError
-        for a defect that is too deep for the balls.
+        `cage_angle` [rad] sets the angle of cage and shaft, and with it the place of an inner-race
+        defect. Shapes broadcast. Raises ValueError for a defect too deep for the balls.
         """
         self.check_depth(bearing)
         return drop_into((self,), bearing, ball_angle, cage_angle)
@@ -226,7 +225,7 @@ def floor_bytes(defects: tuple[Defect, ...]) -> int:
 # of a rough floor a table holds up to two million numbers: a count of them would be no bound
 @lru_cache_by_bytes(
     64_000_000,
-    lambda found, defects, _: sum(part.nbytes for part in found) + floor_bytes(defects),
+    lambda path, defects, _: sum(part.nbytes for part in path) + floor_bytes(defects),
 )
 def path_tables(defects: tuple[Defect, ...], bearing: Bearing) -> kernels.Path:
     """Arrays of all defects for the kernels: rows of numbers, and paths as tables.
@@ -265,18 +264,18 @@ def path_tables(defects: tuple[Defect, ...], bearing: Bearing) -> kernels.Path:
 
 def _paths_of_rows(defects: tuple[Defect, ...], bearing: Bearing) -> kernels.Path:
     """The same, row by row: each row's balls run on raceways of their own radius."""
-    found, tables, size = [], [], 0
+    rows, tables, size = [], [], 0
     for row in range(len(bearing.all_rows)):
         there = tuple(
-            dataclasses.replace(one, row=row) for one in defects if one.row in (None, row)
+            dataclasses.replace(defect, row=row) for defect in defects if defect.row in (None, row)
         )
         own = path_tables(there, bearing.of_row(row).replace(rows=()))
         lines = own.defects.copy()
         lines[:, _TABLE_START] += size
-        found.append(lines)
+        rows.append(lines)
         tables.append(own.tables)
         size += own.tables.size
-    return kernels.Path(np.concatenate(found), np.concatenate(tables))
+    return kernels.Path(np.concatenate(rows), np.concatenate(tables))
 
 
 _TABLE_START = kernels.PATH_COLUMNS.index("table_start")

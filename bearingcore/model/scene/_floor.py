@@ -41,7 +41,7 @@ class RoughFloor:
     correlation_length
         distance along the race [m] at which the correlation of heights has fallen to 1/e.
     seed
-        whole number; the same seed is the same surface, and a longer defect only continues it.
+        whole number; equal seeds give equal surfaces, and a longer defect continues the same one.
     """
 
     kind: ClassVar[str] = "rough"
@@ -57,7 +57,7 @@ class RoughFloor:
         checks.keep(self, seed=seed)
 
     def check_length(self, length: float) -> None:
-        """Raise ValueError where a floor of `length` [m] along the race takes too many samples."""
+        """Raise ValueError if a floor of `length` [m] along the race needs too many samples."""
         least = SAMPLES_A_LENGTH * length / MOST_SAMPLES
         if self.correlation_length < least:
             raise checks.refuse(

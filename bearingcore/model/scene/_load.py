@@ -13,7 +13,7 @@ from bearingcore.common import _checks as checks
 
 @dataclass(frozen=True)
 class Load:
-    """Static load on the inner ring (Eq. 2): forces [N] and moments [N·m]. Gravity-like: fy < 0."""
+    """Static load on the inner ring (Eq. 2): forces [N] and moments [N·m]. A weight has fy < 0."""
 
     fx: float = 0.0
     fy: float = 0.0
@@ -27,7 +27,7 @@ class Load:
 
     @property
     def has_moment(self) -> bool:
-        """True where a moment is part of it."""
+        """True if it has a moment."""
         return (self.mx, self.my) != (0.0, 0.0)
 
     @property

@@ -149,22 +149,22 @@ def contacts(bearing: Bearing) -> kernels.Contacts:
         relative_speed=each(*(bearing.pace(k) for k in range(len(rows)))),
         arm=each(
             *(
-                (row.place + row.facing * one.beyond) / lever
-                for row, one in zip(rows, made, strict=True)
+                (row.place + row.facing * part.beyond) / lever
+                for row, part in zip(rows, made, strict=True)
             )
         ),
-        reach=each(*(one.lever / lever for one in made)),
-        line_r=each(*(math.cos(one.angle) for one in made)),
+        reach=each(*(part.lever / lever for part in made)),
+        line_r=each(*(math.cos(part.angle) for part in made)),
         line_z=each(
-            *(row.facing * math.sin(one.angle) for row, one in zip(rows, made, strict=True))
+            *(row.facing * math.sin(part.angle) for row, part in zip(rows, made, strict=True))
         ),
-        fixed=each(*(one.center_distance is None for one in made)).astype(bool),
-        distance=each(*(one.center_distance or 0.0 for one in made)),
+        fixed=each(*(part.center_distance is None for part in made)).astype(bool),
+        distance=each(*(part.center_distance or 0.0 for part in made)),
         clearance=each(*(bearing.radial_clearance + row.clearance for row in rows)),
         offset=each(*(row.offset for row in rows)),
-        room=each(*(one.room for one in made)),
-        factor=each(*(one.factor for one in made)),
-        exponent=each(*(one.exponent for one in made)),
+        room=each(*(part.room for part in made)),
+        factor=each(*(part.factor for part in made)),
+        exponent=each(*(part.exponent for part in made)),
         rows=np.array([[own.start, own.stop - own.start] for own in bearing.balls_of_rows]),
         most_tilt=SMALL_TILT * lever,
     )

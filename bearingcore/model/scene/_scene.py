@@ -48,7 +48,7 @@ BALLS = (MASSLESS, WITH_MASS)
 
 @dataclass(frozen=True)
 class Scene:
-    """A bearing, its defect or defects, load, speed and support: all that decides an answer.
+    """A bearing, its defects, load, speed and support: all inputs of a computation.
 
     Parameters
     ----------
@@ -61,21 +61,21 @@ class Scene:
     shaft_speed
         ω_s [rad/s], at least 0.
     contact_damping
-        viscous damping c [N·s/m] of a loaded contact (Eq. 18). None: from the stiffness of the
-        healthy bearing, see `bearingcore.contact_damping`.
+        viscous damping c [N·s/m] of a loaded contact (Eq. 18). None: derived from the stiffness of
+        the healthy bearing, see `bearingcore.contact_damping`.
     contact_law
         "published" or "no tension".
     dofs
-        free directions out of ("x", "y", "z", "rx", "ry"). "tilt free": what the scene needs, tilts
-        among them where the load causes any, as if this bearing alone held the shaft. "tilt held":
-        these without the tilts, as on a shaft on two bearings. None: the same, but free where the
-        load has a moment, which this bearing then carries.
+        free directions out of ("x", "y", "z", "rx", "ry"). "tilt free": all directions that the
+        load moves, including tilts, as if this bearing alone held the shaft. "tilt held": the same
+        without tilts, as for a shaft on two bearings. None: "tilt free" if the load has a moment,
+        which this bearing then carries, else "tilt held".
     balls
-        "massless" or "with mass": of simulated motions, and of `static_state`, which then counts
-        the centrifugal load of each ball at the scene's speed.
+        "massless" or "with mass". With mass, simulated motions include the inertia of each ball,
+        and `static_state` its centrifugal load at the scene's speed.
     unbalance
-        U = m·e [kg·m] of the rotor, at least 0: of simulated motions, on whose inner ring the force
-        U ω_s² turns with the shaft, along x at cage angle 0. Static answers leave it out.
+        U = m·e [kg·m] of the rotor, at least 0. In simulated motions the force U ω_s² on the inner
+        ring turns with the shaft, along x at cage angle 0. Static answers leave it out.
 
     Raises
     ------
@@ -134,9 +134,9 @@ class Scene:
             ", ".join(f"{name} = {value:.4g}" for name, value in loads.items() if value),
             f"{30.0 / math.pi * self.shaft_speed:.5g} rpm",
             *(
-                f"{one.race} race damaged over {math.degrees(one.extent):.4g}°, "
-                f"{1e6 * one.depth:.4g} µm deep"
-                for one in self.defects
+                f"{defect.race} race damaged over {math.degrees(defect.extent):.4g}°, "
+                f"{1e6 * defect.depth:.4g} µm deep"
+                for defect in self.defects
             ),
         ]
         return f"<Scene: {'; '.join(filter(None, parts))}>"
@@ -154,19 +154,19 @@ class Scene:
 
     @property
     def defects(self) -> tuple[Defect, ...]:
-        """The defects as a tuple, without those that are none."""
+        """The defects as a tuple, without empty ones."""
         several = (self.defect,) if isinstance(self.defect, Defect) else self.defect
         return tuple(defect for defect in several if not defect.is_none)
 
     @property
     def needed_dofs(self) -> tuple[str, ...]:
-        """The directions that the load moves where nothing but this bearing holds the shaft.
+        """Directions that the load moves if this bearing alone holds the shaft.
 
         All five, unless a smaller set is exact.
 
         A radial load on a bearing with zero contact angle leaves the plane of the balls a plane of
-        symmetry: z, rx and ry stay zero and only x and y are needed. Of some kinds of bearing
-        fewer than five are all there is, see `Kind.needed_directions`.
+        symmetry: z, rx and ry stay zero and only x and y are needed. Some kinds of
+        bearing have fewer than five directions, see `Kind.needed_directions`.
         """
         flat = self.bearing.is_flat
         radial = self.load.fz == self.load.mx == self.load.my == 0.0
@@ -179,7 +179,7 @@ class Scene:
     def tilt_words(self, dofs: Iterable[str] | None = None) -> str:
         """Sentences on tilts, free or held, and on loads that this bearing does not carry.
 
-        Empty where the load causes no tilt and is carried.
+        Empty if the load causes no tilt and is carried.
         """
         free = self.free_dofs(dofs)
         if set(TILTS) & set(free):
@@ -194,18 +194,18 @@ class Scene:
 
     @property
     def active_dofs(self) -> tuple[str, ...]:
-        """The directions that are computed: see `dofs`."""
+        """Directions that are computed: see `dofs`."""
         if isinstance(self.dofs, tuple):
             return self.dofs
         free = self.dofs == TILT_FREE or self.load.has_moment
         return self.needed_dofs if free else self._held_dofs
 
     def free_dofs(self, dofs: Iterable[str] | None = None) -> tuple[str, ...]:
-        """The directions that a computation leaves free: `dofs` if given, else `active_dofs`.
+        """Return the free directions of a computation: `dofs` if given, else `active_dofs`.
 
-        "tilt held" are those that the scene needs but for the tilts, "tilt free" all of these.
+        "tilt free" means all directions that the scene needs, "tilt held" these without tilts.
 
-        ValueError for names that are none, or that the kind of bearing cannot move along.
+        Raises ValueError for unknown names, or directions in which the kind of bearing cannot move.
         """
         if dofs is None:
             return self.active_dofs
@@ -222,17 +222,17 @@ class Scene:
 
     @property
     def defect_turns(self) -> bool:
-        """True where a defect turns with the shaft."""
+        """True if a defect turns with the shaft."""
         return any(defect.race == "inner" for defect in self.defects)
 
     @property
     def turning_force(self) -> float:
-        """Force [N] that turns with the shaft, along x at cage angle 0: U ω_s² of the unbalance."""
+        """Force U ω_s² [N] of the unbalance; it turns with the shaft, along x at cage angle 0."""
         return self.unbalance * self.shaft_speed**2
 
     @property
     def holds_tilt_unasked(self) -> bool:
-        """True where tilts are held, as `dofs` says nothing of them, that the load would cause."""
+        """True if `dofs` is None and tilts that the load would cause are therefore held."""
         return self.dofs is None and self.active_dofs != self.needed_dofs
 
     def with_tilts_as(self, said: object) -> Self:
@@ -248,11 +248,11 @@ class Scene:
         return self
 
     def healthy(self) -> Scene:
-        """The same scene without its defects."""
+        """Return the same scene without its defects."""
         return dataclasses.replace(self, defect=Defect.none())
 
     def to_data(self) -> dict[str, Any]:
-        """The scene as dictionaries, lists, numbers and strings; what is None is left out."""
+        """Return the scene as dictionaries, lists, numbers and strings; None is left out."""
         defects = [scene_file.to_data(defect) for defect in self.defects]
         data = {"version": scene_file.VERSION, **scene_file.to_data(self), "defect": defects}
         # what says nothing had free tilts before there was a choice: see `with_tilts_as`
@@ -267,7 +267,7 @@ class Scene:
 
     @classmethod
     def from_data(cls, data: object) -> Scene:
-        """The scene of `to_data`.
+        """Make a scene from the result of `to_data`.
 
         Raises
         ------
@@ -300,12 +300,12 @@ class Scene:
         return scene_file.from_data(cls, "scene", table, top=True).with_tilts_as(said)
 
     def to_toml(self) -> str:
-        """The scene as text that `from_toml` reads; SI units and radians."""
+        """Return the scene as TOML text for `from_toml`, in SI units and radians."""
         return scene_file.to_toml(self.to_data())
 
     @classmethod
     def from_toml(cls, text: str) -> Scene:
-        """The scene of a TOML text.
+        """Make a scene from a TOML text.
 
         Raises
         ------
@@ -315,14 +315,14 @@ class Scene:
         return cls.from_data(scene_file.from_toml(text))
 
     def replace(self, **changes: Any) -> Self:
-        """A scene with fields changed, its own or those of its parts, by name.
+        """Return a scene with changed fields, its own or those of its parts, by name.
 
         >>> from bearingcore import presets
         >>> scene = presets["fan-rig"].replace(extent=0.2, fy=-50.0)
         >>> scene.defect.extent, scene.load.fy
         (0.2, -50.0)
 
-        Fields of a defect change the first one where there are several.
+        Fields of a defect change the first of several defects.
 
         Raises
         ------

@@ -17,12 +17,13 @@ BODIES = ("inner", "outer")
 
 @dataclass(frozen=True)
 class Support:
-    """Two rigid bodies: the inner ring with the shaft, and the outer ring with the housing, which
-    rests on springs and dampers to ground (Eqs. 22, 23).
+    """Masses, springs and dampers of inner ring with shaft and outer ring with housing.
+
+    Both are rigid bodies; the housing rests on springs and dampers to ground (Eqs. 22, 23).
 
     Masses [kg], stiffness [N/m] and damping [N·s/m] along x, y, z; about x and y (rx, ry)
-    stiffness [N·m/rad], damping [N·m·s/rad] and moments of inertia [kg·m²]. What is None is not
-    known: a motion that needs it is refused by name.
+    stiffness [N·m/rad], damping [N·m·s/rad] and moments of inertia [kg·m²]. None means
+    not known: a motion that needs the number is refused, and the error names it.
     """
 
     inner_mass: float
@@ -71,20 +72,20 @@ class Support:
         return f". Give {', '.join(every)} of the support{held}"
 
     def stiffness(self, dofs: Iterable[str]) -> Array:
-        """Stiffness to ground along `dofs` [N/m, N·m/rad]. ValueError where it is not known."""
+        """Return the stiffness to ground along `dofs` [N/m, N·m/rad]; ValueError if unknown."""
         return self._numbers({dof: f"stiffness_{dof}" for dof in dofs})
 
     def damping(self, dofs: Iterable[str]) -> Array:
-        """Damping to ground along `dofs` [N·s/m, N·m·s/rad]. ValueError where it is not known."""
+        """Return the damping to ground along `dofs` [N·s/m, N·m·s/rad]; ValueError if unknown."""
         return self._numbers({dof: f"damping_{dof}" for dof in dofs})
 
     def inertias(self, dofs: Iterable[str]) -> Array:
-        """`inertia` of both bodies, the inner one first: (2 len(dofs),)."""
+        """Return the `inertia` of both bodies, the inner one first: (2 len(dofs),)."""
         names = tuple(dofs)
         return np.concatenate([self.inertia(body, names) for body in BODIES])
 
     def inertia(self, body: str, dofs: Iterable[str]) -> Array:
-        """Mass [kg] or moment of inertia [kg·m²] of `body` ("inner", "outer") along `dofs`."""
+        """Return mass [kg] or moment of inertia [kg·m²] of `body`, "inner" or "outer"."""
         return self._numbers({dof: f"{body}_{_inertia(dof)}" for dof in dofs})
 
 

@@ -49,12 +49,12 @@ UNSETTLED = StaticStatus.NOT_CONVERGED
 class BallPositions:
     """Static equilibrium of a scene whose balls find their own places, at n cage angles.
 
-    NaN where there is no answer. Of what has a row a race, the inner race comes first.
+    NaN where there is no answer. In arrays with one entry per race the inner race comes first.
 
     Attributes
     ----------
     scene, dofs, cage_angles : (n,) [rad]
-        what was solved, along which free directions.
+        the scene, its free directions, and the cage angles.
     centrifugal_load
         F_c [N] of each ball of the first row.
     displacement : (n, 5) [m, rad]
@@ -62,7 +62,7 @@ class BallPositions:
     load : (2, n, N_b) [N]
         of the contacts with the inner and outer race.
     contact_angle : (2, n, N_b) [rad]
-        of each; NaN where a contact carries nothing.
+        of each contact; NaN where a contact carries nothing.
     position : (n, 2, N_b) [m]
         of each ball, radial and axial, against the ball that touches the outer race at the unloaded
         contact angle. A ball that carries nothing has its position inside the clearance.
@@ -99,14 +99,14 @@ class BallPositions:
         return self.stiffness[:, i, j]
 
     def reason(self, i: int) -> str:
-        """In words, what became of cage angle i."""
+        """Status of cage angle i in words."""
         status = StaticStatus(int(self.status[i]))
         words = status.sentence(" or ".join(self.dofs), float(self.residual[i]))
         at = float(self.cage_angles[i])
         return self.cost or words + explanation(status, self.scene, at, self.dofs)
 
     def table(self) -> ResultTable:
-        """A row a cage angle: displacements, stiffness, and of each ball both loads and angles."""
+        """A row for each cage angle: displacement, stiffness, loads and angles of each ball."""
         balls = range(self.load.shape[2])
         return table_of(
             ("cage_angle", "rad", self.cage_angles),
@@ -137,7 +137,7 @@ def ball_positions(
     weight: bool = False,
     most_contacts: int = MOST_CONTACTS,
 ) -> BallPositions:
-    """Static equilibrium of `scene` under the centrifugal load of its balls.
+    """Compute the static equilibrium of `scene` under the centrifugal load of its balls.
 
     Each ball finds its place between its two contacts; contact angles, loads and stiffness follow.
     Without centrifugal load and weight this is `equilibrium` to rounding. The gyroscopic moment of
@@ -150,7 +150,7 @@ def ball_positions(
     centrifugal_load
         F_c [N] of each ball; None: at the scene's speed.
     weight
-        whether the balls' weight acts, along −y.
+        True if the weight of the balls acts, along −y.
     most_contacts
         as of `equilibrium`.
 
@@ -162,8 +162,8 @@ def ball_positions(
     Raises
     ------
     ValueError
-        for angles that are not finite or not as many, unknown names in `dofs`, or contacts so soft
-        or stiff that a computer has no numbers for them.
+        for angles that are not finite or arrays of unequal length, unknown names in `dofs`, or
+        contacts so soft or stiff that their numbers overflow.
     """
     checks.instance("scene", scene, Scene)
     scene.bearing.kind.check_mass()
@@ -271,38 +271,38 @@ def static_state(
     shaft_angles: ArrayLike | None = None,
     most_contacts: int = MOST_CONTACTS,
 ) -> Equilibrium:
-    """Static equilibrium by the model of the scene.
+    """Compute the static equilibrium by the scene's own model of the balls.
 
-    `equilibrium` of massless balls. Balls with mass (`Scene.balls`) carry their centrifugal load at
-    the scene's speed: an `EquilibriumWithMass`, from `ball_positions`. Arguments and what is raised
-    are those of `equilibrium`.
+    For massless balls this is `equilibrium`. Balls with mass (`Scene.balls`) carry their
+    centrifugal load at the scene's speed, with an `EquilibriumWithMass` from `ball_positions`.
+    Arguments and exceptions are those of `equilibrium`.
     """
     checks.instance("scene", scene, Scene)
     if scene.balls != WITH_MASS:
         return equilibrium(
             scene, cage_angles, dofs, shaft_angles=shaft_angles, most_contacts=most_contacts
         )
-    found = ball_positions(
+    answer = ball_positions(
         scene, cage_angles, dofs, shaft_angles=shaft_angles, most_contacts=most_contacts
     )
-    known = found.status < StaticStatus.NOT_CARRIED
-    carries = (found.load[0] > 0.0) & (found.load[1] > 0.0)
+    known = answer.status < StaticStatus.NOT_CARRIED
+    carries = (answer.load[0] > 0.0) & (answer.load[1] > 0.0)
     return EquilibriumWithMass(
         scene=scene,
-        dofs=found.dofs,
-        cage_angles=found.cage_angles,
-        displacement=found.displacement,
-        ball_load=found.load[1],
-        stiffness=found.stiffness,
+        dofs=answer.dofs,
+        cage_angles=answer.cage_angles,
+        displacement=answer.displacement,
+        ball_load=answer.load[1],
+        stiffness=answer.stiffness,
         loaded_balls=np.where(known, carries.sum(axis=1), 0),
-        status=found.status,
-        residual=found.residual,
-        iterations=found.iterations,
-        evaluations=found.iterations,
-        state=found.displacement * packing.length_units(scene),
-        leads=found.leads,
-        cost=found.cost,
-        positions=found,
+        status=answer.status,
+        residual=answer.residual,
+        iterations=answer.iterations,
+        evaluations=answer.iterations,
+        state=answer.displacement * packing.length_units(scene),
+        leads=answer.leads,
+        cost=answer.cost,
+        positions=answer,
     )
 
 
@@ -407,9 +407,9 @@ def _beyond_geometry(
 
     See `kernels.Contacts.room`: each contact of a ball has all of it.
     """
-    one = balls.contacts
-    most = balls.races.factor * one.room**one.exponent
+    contacts = balls.contacts
+    most = balls.races.factor * contacts.room**contacts.exponent
     outside = (load > most[:, None]).any(axis=(0, 2))
-    tilted = (np.abs(q[:, 3:]) > one.most_tilt).any(axis=1)
+    tilted = (np.abs(q[:, 3:]) > contacts.most_tilt).any(axis=1)
     converged, free = (status == code for code in (kernels.CONVERGED, kernels.FREE_DIRECTION))
     return np.asarray(converged & (outside | tilted) | free & outside)

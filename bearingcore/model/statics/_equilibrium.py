@@ -65,34 +65,34 @@ class Equilibrium:
     Attributes
     ----------
     scene, dofs
-        what was solved, and the free directions.
+        the scene that was solved, and its free directions.
     cage_angles : (n,) [rad]
     displacement : (n, 5) [m, rad]
-        of the inner ring along x, y, z and about x, y (Eq. 16); 0 in directions that are held,
-        NaN in those that nothing resists.
+        of the inner ring along x, y, z and about x, y (Eq. 16); 0 in held directions, NaN in
+        directions without any resistance.
     ball_load : (n, N_b) [N]
         Q_j (Eq. 13).
     stiffness : (n, 5, 5) [N/m, N/rad, N·m/rad]
-        K_b (Eq. 17), all five directions, also those that are held.
+        K_b (Eq. 17) in all five directions, including held ones.
     loaded_balls : (n,)
-        how many balls carry load.
+        number of balls that carry load.
     status : (n,)
         each a `StaticStatus`; `reason(i)` puts it into words.
     residual : (n,)
-        size of the unbalanced load over the size of the load, moments over r_d; to the load counts
-        what the held directions take. Converged is 1e-9 or less, or what the digits of a
-        displacement allow where a very light load meets very stiff balls.
+        unbalanced load over total load, moments divided by r_d; the total includes loads of held
+        directions. A state has converged at 1e-9 or less, or at the rounding error of the
+        displacement where a very light load meets very stiff balls.
     iterations, evaluations : (n,)
-        Newton steps, and how often the energy was evaluated.
+        number of Newton steps, and of evaluations of the energy.
     state : (n, 5) [m]
-        the last displacement reached, tilts times r_d, whatever became of it.
+        the last displacement reached, tilts times r_d, also where the solver failed.
     leads : (n,) [rad]
-        how far the shaft is ahead of where the cage angle has it: see `shaft_angles`.
+        lead of the shaft over its angle by the cage angle: see `shaft_angles`.
     cost
-        what solving them would have taken, where that was too much to begin; else empty.
+        the number of contacts if they exceeded `most_contacts`; else empty.
     weights : (n,)
-        share of the time, where the angles stand for all positions that balls and shaft take:
-        `bearingcore.model.statics._positions`. None elsewhere.
+        share of the time of each angle if the angles sample all positions of balls and shaft (see
+        `bearingcore.model.statics._positions`); else None.
     """
 
     scene: Scene
@@ -118,13 +118,13 @@ class Equilibrium:
 
     @property
     def sentence(self) -> str:
-        """Free directions, and whether the shaft may tilt."""
+        """Sentence on the free directions and on tilts of the shaft."""
         free = f"Free are {', '.join(DOF_SYMBOLS[dof] for dof in self.dofs)}."
         return f"{free} {self.scene.tilt_words(self.dofs)}".rstrip()
 
     @property
     def shaft_angles(self) -> Array:
-        """(n,) [rad] how far the shaft has turned, and with it defects of the inner race."""
+        """(n,) [rad] angles of the shaft, and of defects of the inner race."""
         return self.cage_angles / self.scene.bearing.cage_ratio + self.leads
 
     @property
@@ -174,7 +174,7 @@ class Equilibrium:
         return self.stiffness[:, i, j]
 
     def table(self) -> ResultTable:
-        """A row a cage angle: displacements, stiffness terms, loaded balls, loads, in words how."""
+        """A row for each cage angle: displacement, stiffness terms, loaded balls, loads, status."""
         state = zip(DOF_NAMES, self.displacement.T, strict=True)
         return table_of(
             ("cage_angle", "rad", self.cage_angles, "angle of the cage"),
@@ -192,9 +192,9 @@ class Equilibrium:
         )
 
     def stiffness_table(self, i: int | None = None) -> ResultTable:
-        """K_b as 5 × 5 numbers to copy: a row a load, a column a displacement, in SI units.
+        """K_b as 5 × 5 numbers in SI units: a row for each load, a column for each displacement.
 
-        Of cage angle i; None: the mean in time over all angles that have an equilibrium.
+        At cage angle i; None: the mean in time over all angles with an equilibrium.
         """
         if i is None:
             stiffness = self._mean(self.stiffness)
@@ -215,9 +215,9 @@ class Equilibrium:
         )
 
     def displacement_table(self) -> ResultTable:
-        """Displacement of the inner ring over all angles: a row a direction, in m and rad.
+        """Displacement of the inner ring over all angles: a row for each direction, in m and rad.
 
-        Least, mean in time and greatest, of the angles that have an equilibrium.
+        Least value, mean in time and greatest value of the angles with an equilibrium.
         """
         least, greatest = least_and_greatest(self.displacement, 0)
         return table_of(
@@ -235,7 +235,7 @@ class Equilibrium:
         return np.tensordot(share, np.nan_to_num(values), 1) / (share.sum() or np.nan)
 
     def reason(self, i: int) -> str:
-        """In words, what became of cage angle i."""
+        """Status of cage angle i in words."""
         free = [
             name for name in self.dofs if math.isnan(self.displacement[i, DOF_NAMES.index(name)])
         ]
@@ -289,36 +289,36 @@ def equilibrium(
     shaft_angles: ArrayLike | None = None,
     most_contacts: int = MOST_CONTACTS,
 ) -> Equilibrium:
-    """Static equilibrium (Eq. 15) and stiffness (Eq. 17) of `scene` at each cage angle.
+    """Compute the static equilibrium (Eq. 15) and stiffness (Eq. 17) of `scene` at each cage angle.
 
     Parameters
     ----------
     scene
-        what to solve.
+        the scene to solve.
     cage_angles : (n,)
-        [rad]; None takes `default_cage_angles`. Each is solved from those before it, so angles in
-        order are cheapest; the answer does not depend on the order.
+        [rad]; None takes `default_cage_angles`. Each solution starts from the ones before it, so
+        ordered angles are cheapest; the answer does not depend on the order.
     dofs
-        free directions, names out of x, y, z, rx, ry, or "tilt held"; None takes the scene's.
-        Loads along directions that are held are carried by what holds them.
+        free directions, names out of x, y, z, rx, ry, or "tilt held"; None takes the scene's. The
+        constraint of a held direction carries the load along it.
     shaft_angles : (n,)
-        [rad] how far the shaft, and with it an inner-race defect, has turned at each cage angle.
-        None: ω_s/ω_c times as far as the cage, which is one run of many: see
+        [rad], angle of the shaft, and of an inner-race defect, at each cage angle. None: ω_s/ω_c
+        times the cage angle, which is one of many possible runs: see
         `bearingcore.model.statics._positions`.
     most_contacts
-        contacts that may be solved: cage angles times balls. Where there are more nothing is
-        begun, and `reason` says how many there would be.
+        limit on the contacts to solve, cage angles times balls. Beyond it nothing is computed, and
+        `reason` gives the number.
 
     Returns
     -------
     Equilibrium
-        with a status for each cage angle. That there is no unique answer is a status too, not an
-        error: see `Equilibrium.reason`.
+        with a status for each cage angle. A missing or ambiguous answer is a status, not an error:
+        see `Equilibrium.reason`.
 
     Raises
     ------
     ValueError
-        for angles that are not finite or not as many, or unknown names in `dofs`.
+        for angles that are not finite or arrays of unequal length, or unknown names in `dofs`.
     """
     checks.instance("scene", scene, Scene)
     packed = packing.pack(scene, scene.free_dofs(dofs))

@@ -105,7 +105,7 @@ class Film:
     Attributes
     ----------
     scene
-        what it is of.
+        the scene of the film.
     rolling_speed [m/s]
         u, the same at both races.
     inner, outer
@@ -124,7 +124,7 @@ class Film:
 
     @property
     def sentence(self) -> str:
-        """The thinner film in words, and what was left out."""
+        """The thinner film in words, with the limitations."""
         left_out = ROLLER_LEFT_OUT if self.scene.bearing.kind.line_contact else FILM_LEFT_OUT
         return f"{self.thinner.sentence} {left_out}"
 
@@ -135,7 +135,7 @@ class Film:
         return Limit("film parameter", value, TOUCHING, "", value < TOUCHING, self.thinner.sentence)
 
     def table(self) -> ResultTable:
-        """A row a race: speed, film thickness, roughness, film parameter, in words what it says."""
+        """A row for each race: speed, film thickness, roughness, film parameter, and a sentence."""
         return table_of(
             ("race", "", "race"),
             (
@@ -224,9 +224,9 @@ def film(
     roughness_ball: float = 0.05e-6,
     state: Equilibrium | None = None,
 ) -> Film:
-    """Least film thickness and film parameter at each race, where a ball or roller carries most.
+    """Compute film thickness and film parameter at each race for the heaviest ball or roller.
 
-    Of rows that are unlike, that of the row where the film is thinnest against the roughness.
+    In a bearing with unlike rows the row with the least film parameter counts.
 
     Parameters
     ----------
@@ -240,7 +240,7 @@ def film(
         σ [m], root mean square, of each surface, rollers too; usual ones of honed races by default.
         The root of the sum of squares counts, and must be above 0.
     state
-        the scene's static equilibrium, if it is there already; None computes it at all positions.
+        the static equilibrium of the scene, if it is known; None computes it at all positions.
 
     Raises
     ------
@@ -267,7 +267,7 @@ def film(
     state = state_of(scene, state, static_state)
     films = [_film_of(scene, ball, (eta, xi), sigma) for ball in heaviest_balls(state)]
     # one that is not known is not the thinnest, unless none is known
-    return min(films, key=lambda one: np.nan_to_num(one.thinner.film_parameter, nan=math.inf))
+    return min(films, key=lambda answer: np.nan_to_num(answer.thinner.film_parameter, nan=math.inf))
 
 
 def _film_of(

@@ -82,32 +82,32 @@ def gyroscopic_limit(scene: Scene) -> Limit | None:
     if scene.bearing.kind.mass_unknown or not scene.shaft_speed:
         return None
     try:
-        found = _greatest(scene)
+        worst = _greatest(scene)
     except ValueError as error:
         return unknown(GYROSCOPIC_MOMENT, LIMIT, "", str(error))
-    if found is None:
+    if worst is None:
         return unknown(
             GYROSCOPIC_MOMENT, LIMIT, "", "no cage angle has a static state with centrifugal load"
         )
-    if found.share < 1e-9:
+    if worst.share < 1e-9:
         return None
     fact = (
         "The gyroscopic moment of a heavily loaded ball, "
-        f"{with_prefix(found.moment, 'N·m')}, takes a force across the groove of "
-        f"{percent(found.share, 3)} of its load of {with_prefix(found.load, 'N')}; left out, it "
-        f"would turn the outer contact by {_turn_words(found)}"
+        f"{with_prefix(worst.moment, 'N·m')}, takes a force across the groove of "
+        f"{percent(worst.share, 3)} of its load of {with_prefix(worst.load, 'N')}; left out, it "
+        f"would turn the outer contact by {_turn_words(worst)}"
     )
-    speed = _speed_of_limit(scene, found.share)
-    if found.share <= LIMIT and math.isfinite(speed):
+    speed = _speed_of_limit(scene, worst.share)
+    if worst.share <= LIMIT and math.isfinite(speed):
         fact += f", and from about {thousands(speed * 30.0 / math.pi)} rpm on by a degree"
     beyond = ", more than the degree up to which it may be left out."
-    return upper_limit(GYROSCOPIC_MOMENT, found.share, LIMIT, "", fact, beyond, ".")
+    return upper_limit(GYROSCOPIC_MOMENT, worst.share, LIMIT, "", fact, beyond, ".")
 
 
-def _turn_words(found: _Gyroscopic) -> str:
+def _turn_words(worst: _Gyroscopic) -> str:
     """Turn of the outer contact; the moment grows with it, which the estimate leaves out."""
-    turn, most = math.degrees(found.turn), math.degrees(found.share)
-    if found.turn > GREATEST_ESTIMATE:
+    turn, most = math.degrees(worst.turn), math.degrees(worst.share)
+    if worst.turn > GREATEST_ESTIMATE:
         return f"more than {number(turn, 2)}°"
     return f"{number(turn, 3)}° under thrust alone, at most by {number(most, 2)}°"
 
@@ -118,12 +118,12 @@ def _speed_of_limit(scene: Scene, share: float) -> float:
     for _ in range(_ROUNDS):
         speed *= math.sqrt(LIMIT / share)
         try:
-            found = _greatest(scene.replace(shaft_speed=speed))
+            worst = _greatest(scene.replace(shaft_speed=speed))
         except ValueError:
             return math.nan
-        if found is None or not found.share > 0.0:
+        if worst is None or not worst.share > 0.0:
             return math.nan
-        share = found.share
+        share = worst.share
     return speed if abs(share / LIMIT - 1.0) < 0.2 else math.nan
 
 
@@ -132,11 +132,11 @@ def _greatest(scene: Scene) -> _Gyroscopic | None:
     state = ball_positions(scene, default_cage_angles(scene, _ANGLES))
     if not state.converged.any():
         return None
-    found = [
+    rows = [
         _of_row(scene.bearing.of_row(k), state, balls)
         for k, balls in enumerate(scene.bearing.balls_of_rows)
     ]
-    return max(found)
+    return max(rows)
 
 
 def _of_row(bearing: Bearing, state: BallPositions, balls: slice) -> _Gyroscopic:

@@ -105,9 +105,9 @@ def compressions(state: Equilibrium) -> Array:
     every, numbers = packed.contacts, packed.load
     force = numbers.force[numbers.active]
     known = np.isfinite(state.ball_load).all(axis=1)
-    found = np.full(known.shape + every.angle.shape, np.nan)
+    result = np.full(known.shape + every.angle.shape, np.nan)
     if not known.any():
-        return found
+        return result
     angle = state.ball_angle[known]
     c, s = np.cos(angle), np.sin(angle)
     lever = every.arm * every.line_r - every.reach * every.line_z
@@ -143,8 +143,8 @@ def compressions(state: Equilibrium) -> Array:
                 break
             part[higher] *= 0.5
         place, reached = place + part * step, moved
-    found[known] = np.where(settled[:, None], pressed(place), np.nan)
-    return found
+    result[known] = np.where(settled[:, None], pressed(place), np.nan)
+    return result
 
 
 def carried(state: Equilibrium) -> Array:

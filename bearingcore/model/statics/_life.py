@@ -104,7 +104,7 @@ LINE_CONTACT = ContactLife(
 @shown_as_table
 @dataclass(frozen=True)
 class Life:
-    """Reference rating life of a scene's bearing (ISO 16281). NaN where it is not known.
+    """Reference rating life of a scene's bearing (ISO 16281). Unknown numbers are NaN.
 
     Attributes
     ----------
@@ -114,25 +114,25 @@ class Life:
         Q_ci, Q_ce: the ball load under which each race of the first row lasts 10⁶ turns; of a
         roller one that is spread evenly along it.
     inner_load, outer_load [N]
-        Q_ei, Q_ee: the load of a ball that tires each race as all loads of all rows do, theirs as
-        much larger as their ratings are smaller than those of the first row.
+        Q_ei, Q_ee: equivalent load of each race, the constant load of a ball with the same life as
+        all loads of all rows. Loads of other rows are scaled by the ratio of the ratings.
     rows
-        L_10r [10⁶ turns] of each row on its own, under what it carries in the bearing.
+        L_10r [10⁶ turns] of each row alone, under the loads that it carries in the bearing.
     heaviest_load [N]
         greatest load of a ball.
     million_revolutions
-        L_10r [10⁶ turns]; infinite where no ball carries anything.
+        L_10r [10⁶ turns]; infinite if no ball carries a load.
     hours
-        L_10h [h]; NaN where the shaft stands still, as a standing bearing has no hours.
+        L_10h [h]; NaN if the shaft stands still.
     equivalent_load [N]
         P, under which ISO 281 gives the same life: C_r/L_10r^(1/3) of balls, C_r/L_10r^(3/10) of
         rollers (P_ref of ISO 16281).
     healthy_million_revolutions
         L_10r [10⁶ turns] of the same bearing without its defects, averaged in the same way.
     status
-        code of `kernels` of the first cage angle whose loads are not known, else CONVERGED.
+        code of the first cage angle with unknown loads, else CONVERGED.
     sentence
-        the result in words, with what it leaves out.
+        the result in words, with its limitations.
     rating_source
         GIVEN or OF_A_CATALOGUE.
     """
@@ -162,13 +162,13 @@ class Life:
 
     @property
     def share_of_healthy(self) -> float:
-        """Life over that of the healthy bearing: what the changed load distribution alone does."""
+        """Life over that of the healthy bearing: the effect of the changed loads alone."""
         if math.isinf(self.healthy_million_revolutions):
             return 1.0 if math.isinf(self.million_revolutions) else 0.0
         return self.million_revolutions / self.healthy_million_revolutions
 
     def table(self) -> ResultTable:
-        """One row: life, loads, ratings, in words what they say."""
+        """One row: life, loads, ratings, and the result in words."""
         element = self.scene.bearing.kind.element
         of_ball = f"load of a {element} under which the {{}} race lasts 10⁶ turns"
         as_tiring = f"equivalent load of a {element} on the {{}} race"
@@ -204,22 +204,22 @@ def life(
     positions: str = "all",
     turning_race: str = "inner",
 ) -> Life:
-    """Reference rating life L_10r of the scene's bearing, with the loads its defects leave it.
+    """Compute the reference rating life L_10r of a bearing under the loads that its defects leave.
 
     Parameters
     ----------
     scene
         bearing, defects, load, speed. A ball bearing needs its groove radii.
     dynamic_load_rating
-        C_r [N] of the whole bearing, with all its rows, from the catalogue;
-        `dynamic_load_rating(bearing)` gives that of ISO 281. None: the bearing's own, which
-        bearings have that are known by their designation.
+        C_r [N] of the whole bearing with all its rows, from the catalogue;
+        `dynamic_load_rating(bearing)` computes it by ISO 281. None: the rating that the bearing
+        carries, as bearings known by their designation do.
     positions
-        "all": loads averaged over all cage angles, and over all shaft angles where a defect turns
-        with the shaft: a cage that turns comes to all of them, and a healthy bearing has the life
-        that a damaged one is compared with. "load line": with a ball on the line of the radial load
-        (cage angle 0 without one), as the standard's examples and commercial codes take them; for
-        a healthy bearing of rows alike only. The two differ by up to some 3 % with seven balls.
+        "all": loads averaged over all cage angles, and over all shaft angles if a defect turns with
+        the shaft, because a turning cage reaches all of them. "load line": one cage angle, with a
+        ball on the line of the radial load (angle 0 without one), as in the standard's examples
+        and commercial codes; only for a healthy bearing with rows alike. The two differ by up to
+        some 3 % with seven balls.
     turning_race
         the race that turns against the load: "inner", as in a scene with a defect; "outer" for a
         healthy bearing whose load turns with the shaft (an imbalance), or whose hub turns.
@@ -227,16 +227,15 @@ def life(
     Returns
     -------
     Life
-        NaN, with a sentence, where some cage angle has no static equilibrium. For a damaged race
-        it is an upper bound: see the head of the module.
+        with NaN and a sentence if some cage angle has no static equilibrium. For a damaged race the
+        life is an upper bound: see the head of the module.
 
     Raises
     ------
     ValueError
-        for a rating that is not positive, or neither given nor known of the bearing; a bearing
-        without groove radii, for "load line" with
-        rows that are not alike, for that or a turning outer race with a damaged bearing, and for a
-        damaged inner race of rows that are not alike.
+        for a rating that is missing or not positive; for a ball bearing without groove radii; for
+        "load line" with unlike rows or a damaged bearing; for a turning outer race with a damaged
+        bearing; and for a damaged inner race of unlike rows.
 
     Examples
     --------

@@ -26,13 +26,13 @@ class Limit:
     Attributes
     ----------
     name
-        what is looked at.
+        the quantity that is checked.
     value, limit [unit]
-        value is NaN where it is not known.
+        `value` is NaN if it is not known.
     unit
         SI; empty for a ratio or a count.
     crossed
-        True where the model no longer holds. False where the value is not known.
+        True if the model no longer holds; False if the value is not known.
     sentence
         the same in words, with the number.
     """
@@ -58,16 +58,16 @@ def unknown(name: str, limit: float, unit: str, why: str) -> Limit:
     return Limit(name, math.nan, limit, unit, False, f"{name.capitalize()}: not known, as {why}.")
 
 
-def summary(found: Sequence[Limit]) -> str:
+def summary(limits: Sequence[Limit]) -> str:
     """The limits in a line: "No limit exceeded (4 unchecked: groove radii unknown)"."""
-    crossed = sum(one.crossed for one in found)
+    crossed = sum(limit.crossed for limit in limits)
     words = f"{count(crossed, 'limit') if crossed else 'No limit'} exceeded"
-    open_ones = [one.sentence for one in found if math.isnan(one.value)]
+    open_ones = [limit.sentence for limit in limits if math.isnan(limit.value)]
     if not open_ones:
         return words
-    if len(open_ones) == len(found):
+    if len(open_ones) == len(limits):
         words = "No limit judged"
     causes = {why: short for why, short in _SHORTLY.items() if any(why in one for one in open_ones)}
-    known = all(any(why in one for why in causes) for one in open_ones)
+    known = all(any(why in sentence for why in causes) for sentence in open_ones)
     because = f": {', '.join(causes.values())}" if known else ""
     return f"{words} ({len(open_ones)} unchecked{because})"

@@ -45,26 +45,27 @@ class Maps:
     Attributes
     ----------
     scene, dofs
-        what was solved, and the free directions. The extent of its first defect does not count.
+        the scene that was solved, and its free directions. The extent of its first defect does not
+        matter.
     extents : (m,) [rad]
     cage_angles : (n,) [rad]
     stiffness : (15, m, n) [N/m, N/rad, N·m/rad]
         the terms of K_b (Eq. 17) in the order of `STIFFNESS_TERMS`; see `term`.
     loaded_balls : (m, n)
-        how many balls carry load.
+        number of balls that carry load.
     greatest_load : (m, n) [N]
         load of the ball that carries most.
     status : (m, n)
         each a `StaticStatus`; `reason(i, k)` puts it into words.
     residual : (m, n)
-        size of the unbalanced load over the size of the load, moments over r_d.
+        unbalanced load over total load, moments divided by r_d.
     solved, evaluations
-        how many points were solved rather than known from the extent before, where all balls had
-        sunk as deep, and how often the energy was evaluated.
+        number of points that were solved instead of copied from the previous extent, and number of
+        evaluations of the energy.
     refusals : (m,)
-        why a scene with this extent cannot be; empty where it can.
+        the reason why a scene with this extent is impossible; empty if it is possible.
     cost
-        what the map would have taken, where that was too much to begin; else empty.
+        the number of contacts if they exceeded `most_contacts`; else empty.
     """
 
     scene: Scene
@@ -94,14 +95,14 @@ class Maps:
 
     @cached_property
     def mean_loaded_balls(self) -> Array:
-        """(m,) loaded balls, averaged in time over the angles that have an answer; NaN without."""
+        """(m,) mean in time of the loaded balls over the angles with an answer; NaN without any."""
         shares = time_shares(self.cage_angles, self.scene.bearing.period)
         known = self.converged @ shares
         balls = np.where(self.converged, self.loaded_balls, 0) @ shares
         return np.where(known > 0.0, balls / np.maximum(known, 1e-300), math.nan)
 
     def table(self) -> ResultTable:
-        """A row a point: extent, cage angle, loaded balls, greatest load, stiffness terms."""
+        """A row for each point: extent, cage angle, loaded balls, greatest load, stiffness."""
         extents, angles = np.meshgrid(self.extents, self.cage_angles, indexing="ij")
         return table_of(
             ("extent", "rad", extents, "extent of the first defect"),
@@ -112,7 +113,7 @@ class Maps:
         )
 
     def reason(self, i: int, k: int) -> str:
-        """In words, what became of extent i and cage angle k."""
+        """Status of extent i and cage angle k in words."""
         if self.cost:
             return self.cost
         if self.status[i, k] == StaticStatus.REFUSED:
@@ -130,15 +131,15 @@ def stiffness_maps(
     *,
     most_contacts: int = MOST_CONTACTS,
 ) -> Maps:
-    """Stiffness (Eq. 17) and loaded balls of `scene` for each extent of its first defect.
+    """Compute stiffness (Eq. 17) and loaded balls of `scene` for each extent of its first defect.
 
     The answers are those of `equilibrium` for `scene.replace(extent=...)`, several times faster:
-    points at which all balls have sunk as deep as at the extent before are known already.
+    a point at which all balls have sunk as deep as at the previous extent is not solved again.
 
     Parameters
     ----------
     scene
-        what to solve; its other defects stay as they are.
+        the scene to solve; its other defects stay as they are.
     extents : (m,)
         [rad], 0 to 2π; None takes 91 from 0 to 90 degrees.
     cage_angles : (n,)
@@ -146,19 +147,19 @@ def stiffness_maps(
     dofs
         free directions, names out of x, y, z, rx, ry; None takes the scene's.
     most_contacts
-        contacts that may be solved: extents times cage angles times balls. Where there are more
-        nothing is begun, and `cost` says how many there would be.
+        limit on the contacts to solve, extents times cage angles times balls. Beyond it nothing is
+        computed, and `cost` gives the number.
 
     Returns
     -------
     Maps
-        with a status for each point. That there is no answer, or that defects of this extent
-        exclude each other, is a status and not an error.
+        with a status for each point. A missing answer, or defects that overlap at this extent, are
+        a status and not an error.
 
     Raises
     ------
     ValueError
-        for extents or cage angles that are not finite or not allowed, or unknown names in `dofs`.
+        for extents or cage angles that are not finite or out of range, or unknown names in `dofs`.
     """
     checks.instance("scene", scene, Scene)
     if extents is None:
@@ -245,8 +246,8 @@ class _Paths:
     refusals: tuple[str, ...]
 
 
-def _bytes_of_paths(found: _Paths, first: Defect, *others: object) -> int:
-    packed = found.packed
+def _bytes_of_paths(paths: _Paths, first: Defect, *others: object) -> int:
+    packed = paths.packed
     return packed.defects.nbytes + packed.tables.nbytes + floor_bytes((first,))
 
 
@@ -270,25 +271,25 @@ def _paths(
         rows[sizes >= TWO_PI, 0, _FLOOR_ANGLE] = 0.0
         counts = np.where((sizes > 0.0) & (first.depth > 0.0), 1, 0)
         return _Paths(kernels.MapPaths(rows, counts, np.zeros(0), _NO_LEADS), ("",) * sizes.size)
-    found: list[tuple[Array, Array]] = []
+    paths: list[tuple[Array, Array]] = []
     refusals = []
     for extent in extents:
         defects = (dataclasses.replace(first, extent=extent), *others)
         try:
             # past its cache, which this would fill with what is not needed again
-            found.append(inspect.unwrap(path_tables)(defects, bearing))
+            paths.append(inspect.unwrap(path_tables)(defects, bearing))
             refusals.append("")
         except ValueError as error:
-            found.append((np.zeros((0, columns)), np.zeros(0)))
+            paths.append((np.zeros((0, columns)), np.zeros(0)))
             refusals.append(str(error))
-    counts = np.array([len(rows) for rows, _ in found], dtype=np.int64)
+    counts = np.array([len(rows) for rows, _ in paths], dtype=np.int64)
     all_rows = np.zeros((sizes.size, max(counts, default=0), columns))
     size = 0
-    for i, (rows, table) in enumerate(found):
+    for i, (rows, table) in enumerate(paths):
         all_rows[i, : len(rows)] = rows
         all_rows[i, : len(rows), _TABLE_START] += size
         size += table.size
-    tables = np.concatenate([*(table for _, table in found), np.zeros(0)])
+    tables = np.concatenate([*(table for _, table in paths), np.zeros(0)])
     return _Paths(kernels.MapPaths(all_rows, counts, tables, _NO_LEADS), tuple(refusals))
 
 

@@ -79,7 +79,7 @@ def crossings(scene: Scene, first: float, last: float) -> list[Crossing]:
 
     A defect around the whole race has no edges and gives none.
     """
-    found = []
+    events = []
     bearing = scene.bearing
     angles = contacts(bearing).angle.tolist()
     for index, row in product(range(len(scene.defects)), range(len(bearing.all_rows))):
@@ -97,9 +97,9 @@ def crossings(scene: Scene, first: float, last: float) -> list[Crossing]:
                 period = TWO_PI / abs(rate)
                 at = start + math.ceil((first - start) / period) * period
                 while at <= last:
-                    found.append(Crossing(at, ball, index, enters))
+                    events.append(Crossing(at, ball, index, enters))
                     at += period
-    return sorted(found)
+    return sorted(events)
 
 
 def passing_rate(scene: Scene, defect: Defect, row: int) -> float:
@@ -128,19 +128,19 @@ def path_kinks(scene: Scene, first: float, last: float) -> Array:
     The path of a ball has a corner, or its curvature jumps, there and only there, as long as
     floors are flat and defects are apart.
     """
-    found = []
+    kinks = []
     for crossing in crossings(scene, first - math.pi, last + math.pi):
         defect = scene.defects[crossing.defect]
         row, _ = scene.bearing.row_of_ball(crossing.ball)
         rate = abs(passing_rate(scene, defect, row))
         inwards = 1.0 if crossing.enters else -1.0
         at = crossing.cage_angle
-        found.append(at)
+        kinks.append(at)
         # too short for the floor, it turns up again in the middle
         own = scene.bearing.of_row(row)
         s_floor = min(float(defect.edge_row(own)[4]), 0.5 * defect.extent)
-        found.append(at + inwards * s_floor / rate)
-    angles = np.array(sorted(found))
+        kinks.append(at + inwards * s_floor / rate)
+    angles = np.array(sorted(kinks))
     angles = angles[(angles > first - SAME_ANGLE) & (angles < last + SAME_ANGLE)]
     for end in (first, last):
         angles[np.abs(angles - end) < SAME_ANGLE] = end

@@ -131,11 +131,11 @@ def over_all_positions(
     packed = pack(scene)
     if solve is None:
         return equilibrium_over_all(packed, n, most_contacts)
-    found = positions_of(packed, n)
+    places = positions_of(packed, n)
     state = solve(
-        scene, found.cage_angles, shaft_angles=found.shaft_angles, most_contacts=most_contacts
+        scene, places.cage_angles, shaft_angles=places.shaft_angles, most_contacts=most_contacts
     )
-    return dataclasses.replace(state, weights=found.weights)
+    return dataclasses.replace(state, weights=places.weights)
 
 
 def state_of(
@@ -156,9 +156,9 @@ def equilibrium_over_all(
     packed: PackedScene, n: int, most_contacts: int = MOST_CONTACTS
 ) -> Equilibrium:
     """`over_all_positions` of a scene that is packed."""
-    found = positions_of(packed, n)
-    state = equilibrium_of(packed, found.cage_angles, found.shaft_angles, most_contacts)
-    return dataclasses.replace(state, weights=found.weights)
+    places = positions_of(packed, n)
+    state = equilibrium_of(packed, places.cage_angles, places.shaft_angles, most_contacts)
+    return dataclasses.replace(state, weights=places.weights)
 
 
 def positions(scene: Scene, n: int = ANGLES_A_PERIOD) -> Positions:
@@ -168,7 +168,7 @@ def positions(scene: Scene, n: int = ANGLES_A_PERIOD) -> Positions:
 
 @lru_cache_by_bytes(
     16_000_000,
-    lambda found, packed, _: 24 * found.weights.size + floor_bytes(packed.scene.defects),
+    lambda places, packed, _: 24 * places.weights.size + floor_bytes(packed.scene.defects),
     lambda packed, n: (packed.scene, n),
 )
 def positions_of(packed: PackedScene, n: int) -> Positions:
@@ -269,18 +269,18 @@ def _nodes(packed: PackedScene, race: str) -> Array:
     """Race against cage [rad] over the period, rising: where balls meet an edge, and between."""
     scene = packed.scene
     bearing, period = scene.bearing, scene.bearing.period
-    found = [np.zeros(1 if race == "inner" else 0)]
+    angles = [np.zeros(1 if race == "inner" else 0)]
     for defect, (k, row) in product(scene.defects, enumerate(bearing.all_rows)):
         if defect.race != race or defect.row not in (None, k):
             continue
         own = packed.rows[k]
         balls = row.turn + own.ball_spacing * np.arange(own.n_balls)
         places = _places_on_edges(defect, own, _greatest_compression(packed, k))
-        found.append((balls[:, None] - places).ravel())
+        angles.append((balls[:, None] - places).ravel())
         if defect.floor is not None:
             spacings = round(period / own.ball_spacing)
-            found.append(np.linspace(0.0, period, ON_A_FLOOR * spacings + 1))
-    nodes = np.unique(np.round(np.concatenate(found) % period, 12))
+            angles.append(np.linspace(0.0, period, ON_A_FLOOR * spacings + 1))
+    nodes = np.unique(np.round(np.concatenate(angles) % period, 12))
     return nodes[nodes < period - 1e-11]
 
 
@@ -315,13 +315,13 @@ def _lowest(values: Array) -> NDArray[np.int64]:
     for axis, by in product((1, 2), (1, -1)):
         low &= values <= np.roll(values, by, axis=axis)
     order = np.where(low, values, math.inf).reshape(q, r * n)
-    found = np.argpartition(order, min(STARTS, r * n - 1), axis=1)[:, :STARTS].T
-    found[0] = values.reshape(q, r * n).argmin(axis=1)
-    return found
+    lowest = np.argpartition(order, min(STARTS, r * n - 1), axis=1)[:, :STARTS].T
+    lowest[0] = values.reshape(q, r * n).argmin(axis=1)
+    return lowest
 
 
 def extremes(
-    found: Positions,
+    places: Positions,
     values: Array,
     evaluate: Callable[[Array, Array], Array],
     *,
@@ -332,23 +332,23 @@ def extremes(
     Parameters
     ----------
     values : (q, m·n)
-        at the pairs of `found`; what is NaN does not count.
+        at the pairs of `places`; what is NaN does not count.
     evaluate
         gives the quantities (q, k) at cage and shaft angles (k,): around each extreme of the grid
         they are looked at ever closer.
     rounds
         how often closer: by PARTS times each.
     """
-    r, n, q = found.rows.size, found.columns.size, len(values)
-    whole = values.reshape(q, found.weights.size // n, n)[:, found.alike].reshape(q, r * n)
+    r, n, q = places.rows.size, places.columns.size, len(values)
+    whole = values.reshape(q, places.weights.size // n, n)[:, places.alike].reshape(q, r * n)
     signed = np.concatenate([whole, -whole])  # the least of each is looked for
     signed = np.where(np.isnan(signed), math.inf, signed)
     starts = _lowest(signed.reshape(2 * q, r, n))
     best = np.take_along_axis(signed.T, starts, axis=0)
     changes = np.isfinite(best) & (signed.max(axis=1) > best)
     row, column = np.divmod(starts, n)
-    c, u = found.columns[column], found.rows[row]
-    turn, ways = found.steps[:, column], _steps(found.rows, found.period)[:, row]
+    c, u = places.columns[column], places.rows[row]
+    turn, ways = places.steps[:, column], _steps(places.rows, places.period)[:, row]
     parts = np.arange(-PARTS, PARTS + 1) / PARTS
     across = parts if r > 1 else np.zeros(1)
     side = np.sign(parts).astype(int).clip(0)
@@ -361,7 +361,7 @@ def extremes(
         where, back = np.unique(np.stack([cs[:, 0], us[:, 0]]), axis=1, return_index=True,
                                 return_inverse=True)[1:]  # fmt: skip
         cage = pairs[0][where].ravel()
-        shaft = found.shaft_ratio * cage + pairs[1][where].ravel()
+        shaft = places.shaft_ratio * cage + pairs[1][where].ravel()
         new = evaluate(cage, shaft).reshape(q, where.size, -1)
         own = np.where(of < q, 1.0, -1.0)[:, None] * new[of % q, back.ravel()]
         own = np.where(np.isnan(own), math.inf, own)
@@ -377,5 +377,5 @@ def extremes(
     least, c, u = (np.take_along_axis(x, better[None], axis=0)[0] for x in (best, c, u))
     least = np.where(np.isinf(least), math.nan, least)
     return Extremes(
-        least[:q], -least[q:], c.reshape(2, q), (found.shaft_ratio * c + u).reshape(2, q)
+        least[:q], -least[q:], c.reshape(2, q), (places.shaft_ratio * c + u).reshape(2, q)
     )

@@ -108,11 +108,11 @@ class ContactPressures:
     Attributes
     ----------
     ball
-        which ball it is, where and when.
+        the ball, its position and the cage angle.
     inner, outer
         its contact with each race.
     reason
-        why no load is known, where none is; else empty.
+        the reason why no load is known; empty if one is.
     """
 
     ball: HeaviestBall
@@ -121,7 +121,7 @@ class ContactPressures:
     reason: str = ""
 
     def table(self) -> ResultTable:
-        """A row a race: load and place of the ball, semi-axes, pressure."""
+        """A row for each race: load and place of the ball, semi-axes, pressure."""
         return table_of(
             ("race", "", "race"),
             ("ball_load", "N", "load", "of the heaviest loaded ball"),
@@ -145,19 +145,18 @@ class ContactPressures:
 
 
 def contact_pressures(scene: Scene, state: Equilibrium | None = None) -> ContactPressures:
-    """Ellipse and pressure at each race, where a ball carries most over all positions.
+    """Compute ellipse and pressure at each race for the heaviest ball of all positions.
 
-    That is over all cage angles, and over all shaft angles where a defect turns with the shaft.
-
-    Of rows that are unlike, that of the row whose heaviest ball presses hardest.
+    The positions are all cage angles, and all shaft angles if a defect turns with the shaft. In a
+    bearing with unlike rows the row with the highest pressure counts.
 
     Parameters
     ----------
     scene
-        what to look at; its bearing needs its groove radii.
+        the scene; its bearing needs its groove radii.
     state
-        its static equilibrium, if it is there already; None computes it at all positions, of balls
-        with mass under their centrifugal load (`static_state`).
+        the static equilibrium of the scene, if it is known; None computes it at all positions, for
+        balls with mass under their centrifugal load (`static_state`).
 
     Raises
     ------
@@ -166,19 +165,19 @@ def contact_pressures(scene: Scene, state: Equilibrium | None = None) -> Contact
     """
     checks.instance("scene", scene, Scene)
     state = state_of(scene, state, static_state)
-    found = [_pressures(scene.bearing.of_row(ball.row), ball) for ball in heaviest_balls(state)]
+    answers = [_pressures(scene.bearing.of_row(ball.row), ball) for ball in heaviest_balls(state)]
     worst = max(
-        found, key=lambda one: max(one.inner.greatest_pressure, one.outer.greatest_pressure)
+        answers, key=lambda one: max(one.inner.greatest_pressure, one.outer.greatest_pressure)
     )
     unknown = math.isnan(worst.ball.load) and state.cage_angles.size
     return dataclasses.replace(worst, reason=state.reason(0)) if unknown else worst
 
 
 def _pressures(bearing: Bearing, ball: HeaviestBall) -> ContactPressures:
-    found = {}
+    races = {}
     for race in RACES:
         contact, load = bearing.race_contact(race), ball.load_on(race)
         a, b = contact.semi_axes(load)
         p = contact.greatest_pressure(load)
-        found[race] = RacePressure(race, load, float(a), float(b), float(p))
-    return ContactPressures(ball, found["inner"], found["outer"])
+        races[race] = RacePressure(race, load, float(a), float(b), float(p))
+    return ContactPressures(ball, races["inner"], races["outer"])

@@ -132,9 +132,9 @@ def race_loads(
         return _with_turning_defects(scene, load_exponent, scatter)
     loads, weights, heaviest = [], [], 0.0
     turned = _rows_turned(scene)
-    for one in turned:
-        places, weight = _panels(one, "outer")
-        state = static_state(one, places)
+    for defect in turned:
+        places, weight = _panels(defect, "outer")
+        state = static_state(defect, places)
         loads.append(carried(state))
         if unknown := _unknown(state, loads[-1]):
             return unknown

@@ -68,14 +68,14 @@ def moved(
     `state` (n, 5) [m] and `leads` (n,) [rad] are those of `Equilibrium`; clearance and drop into
     defects are taken off.
     """
-    one = packing.contacts(scene.bearing)
-    angle = one.angles_at(cage_angles)
+    contacts = packing.contacts(scene.bearing)
+    angle = contacts.angles_at(cage_angles)
     c, s = np.cos(angle), np.sin(angle)
     x, y, z, rx, ry = state.T[..., None]
-    r = (x + one.arm * ry) * c + (y - one.arm * rx) * s - one.clearance
-    a = z + one.reach * (rx * s - ry * c) + one.offset
-    along = r * one.line_r + a * one.line_z - drops_at(scene, cage_angles, leads=leads)
-    return along, a * one.line_r - r * one.line_z
+    r = (x + contacts.arm * ry) * c + (y - contacts.arm * rx) * s - contacts.clearance
+    a = z + contacts.reach * (rx * s - ry * c) + contacts.offset
+    along = r * contacts.line_r + a * contacts.line_z - drops_at(scene, cage_angles, leads=leads)
+    return along, a * contacts.line_r - r * contacts.line_z
 
 
 def _lacks(scene: Scene, cage_angle: float, dofs: tuple[str, ...]) -> str:
@@ -125,28 +125,28 @@ def _thrust(scene: Scene, cage_angle: float, thrust: float) -> str:
 
 def _beyond(scene: Scene, cage_angle: float, state: Array) -> str:
     """The first bound of the contacts' geometry that a state (5,) [m] is beyond."""
-    one = packing.contacts(scene.bearing)
+    contacts = packing.contacts(scene.bearing)
     element = scene.bearing.kind.element
     tilt = float(np.abs(state[3:]).max()) / scene.bearing.groove_center_radius
     if tilt > packing.SMALL_TILT:
         most, tilted = (number(math.degrees(angle)) for angle in (packing.SMALL_TILT, tilt))
         return f"the ring would tilt by {tilted}°, and tilts are small here, up to {most}°"
     along, across = (part[0] for part in moved(scene, np.array([cage_angle]), state[None]))
-    apart = np.hypot(np.maximum(one.distance + along, 0.0), across)
-    pressed = np.where(one.fixed, along, apart - one.distance)
-    deepest = int(np.argmax(pressed - one.room))
-    if pressed[deepest] > one.room[deepest]:
-        by, most = (with_prefix(float(of[deepest]), "m") for of in (pressed, one.room))
+    apart = np.hypot(np.maximum(contacts.distance + along, 0.0), across)
+    pressed = np.where(contacts.fixed, along, apart - contacts.distance)
+    deepest = int(np.argmax(pressed - contacts.room))
+    if pressed[deepest] > contacts.room[deepest]:
+        by, most = (with_prefix(float(of[deepest]), "m") for of in (pressed, contacts.room))
         return f"a {element} would be compressed by {by}, and {most} is more than any can be"
-    left = np.where(one.fixed & (pressed > 0.0), np.abs(across), 0.0)
-    if (left > one.room).any():
+    left = np.where(contacts.fixed & (pressed > 0.0), np.abs(across), 0.0)
+    if (left > contacts.room).any():
         return (
             f"the inner race would move {with_prefix(float(left.max()), 'm')} along the outer one, "
-            f"off a {element} that is {with_prefix(2.0 * float(one.room.max()), 'm')} long"
+            f"off a {element} that is {with_prefix(2.0 * float(contacts.room.max()), 'm')} long"
         )
     return (
         "the inner ring would move out of the outer one, past the "
-        f"{with_prefix(float(one.distance.min()), 'm')} between the groove centres"
+        f"{with_prefix(float(contacts.distance.min()), 'm')} between the groove centres"
     )
 
 

@@ -61,8 +61,8 @@ def induced_thrust(scene: Scene) -> float:
     rows = tuple(dataclasses.replace(row, clearance=0.0, offset=0.0) for row in scene.bearing.rows)
     tight = dataclasses.replace(scene.bearing, radial_clearance=0.0, rows=rows)
     held = dataclasses.replace(scene.healthy(), bearing=tight)
-    found = equilibrium(held, default_cage_angles(held, _ANGLES), ("x", "y"))
-    return float(one_way * found.shares @ _thrusts(found).sum(axis=1))
+    state = equilibrium(held, default_cage_angles(held, _ANGLES), ("x", "y"))
+    return float(one_way * state.shares @ _thrusts(state).sum(axis=1))
 
 
 def _one_way(bearing: Bearing) -> list[int]:

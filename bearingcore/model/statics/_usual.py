@@ -22,16 +22,17 @@ THRUST_SHARE = 1.3
 
 
 def scene_of(bearing: BearingLike) -> Scene:
-    """A scene of a sound bearing under a load and at a speed that are usual for it.
+    """Return a scene of a healthy bearing under a usual load and at a usual speed.
 
     The load is a fifteenth of the dynamic rating, downwards; a bearing that carries thrust one way
-    only has 1.3 times the thrust that this induces. The shaft turns at n d_m = 150,000 mm/min, on
-    two bearings: its tilts are held. Loads [N] and speed [Hz] have three digits.
+    only also has 1.3 times the thrust that this load induces. The shaft turns at n d_m = 150,000
+    mm/min, on two bearings: its tilts are held. Loads [N] and speed [Hz] have three digits.
 
-    Rotor and support are assumed, as no number of a bearing says them: a rotor that weighs the
-    radial load in a housing as heavy, on the springs of the fan rig made as much larger as the
-    bearing is: stiffness grows as lengths do, and damping keeps its ratio. Natural frequencies and
-    vibration are those of such a machine; give the machine's own for those of another.
+    Rotor and support are assumed, as no number of a bearing states them. The rotor weighs the
+    radial load, and the housing is as heavy. Its springs are those of the fan rig, scaled with the
+    size of the bearing: stiffness grows with length, and damping ratios stay. Natural frequencies
+    and vibration are those of this assumed machine; enter the values of the real one to get its
+    own.
 
     Parameters
     ----------
@@ -41,8 +42,8 @@ def scene_of(bearing: BearingLike) -> Scene:
     Raises
     ------
     ValueError
-        for a text that is no designation, and a bearing without a rating that ISO 281 does not
-        rate: give it its `dynamic_load_rating`.
+        for a text that is no designation, and for a bearing that ISO 281 does not rate: give it a
+        `dynamic_load_rating`.
 
     Examples
     --------

@@ -116,38 +116,38 @@ def limits(
     shoulder_height: float | None = None,
     film: Film | None = None,
 ) -> tuple[Limit, ...]:
-    """Limits of the model for `scene`, each with its number, its limit and a sentence.
+    """Check the limits of the model for `scene`, each with its number, its limit and a sentence.
 
     Parameters
     ----------
     scene
-        what to look at.
+        the scene to check.
     state
-        its static equilibrium at cage angles of your own; None takes `state_of_limits`, so that
-        one scene has one verdict. Loads and angles are the greatest over its angles.
+        its static equilibrium at chosen cage angles; None takes `state_of_limits`, so that equal
+        scenes have equal verdicts. Loads and angles are the greatest over the angles.
     dynamic_load
-        greatest load of a ball [N] in a simulated motion, e.g. of `Motion.ball_loads`; None where
-        none was simulated: what depends on it is then not known.
+        greatest load of a ball [N] in a simulated motion, e.g. of `Motion.ball_loads`; None if no
+        motion was simulated: limits that depend on it are then not known.
     step_rate
-        steps a second [Hz] of a simulated motion, e.g. `Motion.step_rate`; None leaves them out.
+        step rate [Hz] of a simulated motion, e.g. `Motion.step_rate`; None leaves its limit out.
     shoulder_height
-        of the grooves, over their bottom, in ball diameters, above 0 and at most 0.5; None:
-        `usual_shoulder_height`.
+        height of the shoulders over the bottom of the groove, in ball diameters, above 0 and at
+        most 0.5; None: `usual_shoulder_height`.
     film
-        of the scene's lubricant, from `film` with a viscosity and roughnesses; None where the oil
-        is not given: whether the surfaces touch is then not known.
+        the film of the scene's lubricant, from `film`; None if no oil is given: contact of the
+        surfaces is then not known.
 
     Returns
     -------
     tuple of Limit
         in the order of the list at the head of the module. Loads in motion and the film appear only
-        where the shaft turns; steps only with a step rate, a defect and a turning shaft.
+        if the shaft turns; steps only with a step rate, a defect and a turning shaft.
 
     Raises
     ------
     ValueError
-        for a shoulder height, step rate or load that is not possible, or a `state` or `film` of
-        another scene.
+        for an impossible shoulder height, step rate or load, or a `state` or `film` of another
+        scene.
     """
     checks.instance("scene", scene, Scene)
     if shoulder_height is not None:
@@ -161,7 +161,7 @@ def limits(
         load = checks.real_number("dynamic_load", dynamic_load, at_least=0.0, unit="N")
         # which row it was is not known: the one on which it matters most counts
         in_motion = [(own, load) for own, _ in bearing.unlike_rows]
-    found: list[Limit | None] = [
+    candidates: list[Limit | None] = [
         _pressure(
             bearing,
             f"contact pressure, {race} race",
@@ -173,26 +173,28 @@ def limits(
     ]
     if turns:
         name = "contact pressure in motion"
-        found.append(_pressure(bearing, name, in_motion, RACES, NO_MOTION))
-    found.append(_shoulder(scene, state, shoulder_height))
-    found.append(_centrifugal_change(scene))
-    found.append(_worst(_centrifugal_share(*row, scene, state) for row in bearing.unlike_rows))
-    found.append(gyroscopic_limit(scene))
+        candidates.append(_pressure(bearing, name, in_motion, RACES, NO_MOTION))
+    candidates.append(_shoulder(scene, state, shoulder_height))
+    candidates.append(_centrifugal_change(scene))
+    candidates.append(_worst(_centrifugal_share(*row, scene, state) for row in bearing.unlike_rows))
+    candidates.append(gyroscopic_limit(scene))
     if not bearing.kind.line_contact:
-        found.append(_compression("compression against groove centre distance", at_rest, NO_STATE))
+        candidates.append(
+            _compression("compression against groove centre distance", at_rest, NO_STATE)
+        )
         if turns:
-            found.append(_compression("compression in motion", in_motion, NO_MOTION))
-        found.append(_stiffness(scene))
-    found += thrust_limits(scene, state)
-    found += [held_tilts(state), free_tilts(state)]
+            candidates.append(_compression("compression in motion", in_motion, NO_MOTION))
+        candidates.append(_stiffness(scene))
+    candidates += thrust_limits(scene, state)
+    candidates += [held_tilts(state), free_tilts(state)]
     film_limit = _film_limit(scene, film)  # refuses the film of another scene
     if turns:
-        found.append(film_limit)
+        candidates.append(film_limit)
     if step_rate is not None:
         rate = checks.real_number("step_rate", step_rate, above=0.0, unit="Hz")
-        found.append(_steps(scene, rate))
-    found.append(_estimate(scene))
-    return tuple(limit for limit in found if limit is not None)
+        candidates.append(_steps(scene, rate))
+    candidates.append(_estimate(scene))
+    return tuple(limit for limit in candidates if limit is not None)
 
 
 def _film_limit(scene: Scene, film: Film | None) -> Limit:
@@ -288,9 +290,9 @@ def _shoulder(scene: Scene, state: Equilibrium, height: float | None) -> Limit:
     )
 
 
-def _worst(found: Iterable[Limit]) -> Limit:
+def _worst(limits: Iterable[Limit]) -> Limit:
     """The one that is nearest to its limit, or farthest beyond it."""
-    return max(found, key=lambda one: float(np.nan_to_num(one.value / one.limit, nan=-1.0)))
+    return max(limits, key=lambda limit: float(np.nan_to_num(limit.value / limit.limit, nan=-1.0)))
 
 
 def _shoulder_of(
@@ -367,9 +369,9 @@ def _centrifugal_change(scene: Scene) -> Limit:
     if words := scene.bearing.kind.mass_unknown:
         return unknown(name, limit, "", f"there is no model with the mass of {words}")
     try:
-        found = positions(scene, _CHANGE_ANGLES)
-        some = slice(None, None, max(found.weights.size // _MOST_CHANGES, 1))
-        effect = centrifugal_effect(scene, found.cage_angles[some], found.shaft_angles[some])
+        grid = positions(scene, _CHANGE_ANGLES)
+        some = slice(None, None, max(grid.weights.size // _MOST_CHANGES, 1))
+        effect = centrifugal_effect(scene, grid.cage_angles[some], grid.shaft_angles[some])
     except ValueError as error:
         return unknown(name, limit, "", str(error))
     if not effect.converged:

@@ -230,11 +230,11 @@ class Grid:
         status = np.zeros(self.shape, dtype=np.int8)
         numbers = {name: np.full(self.shape_of(name), math.nan) for name in self.outputs}
         each = ((at, *self._scene(at)) for at in np.ndindex(*self.shape))
-        for at, codes, found in self._rows() if self.in_rows else each:
+        for at, codes, answers in self._rows() if self.in_rows else each:
             status[at] = codes
             for name in self.outputs:
-                if name in found:
-                    numbers[name][at] = found[name]
+                if name in answers:
+                    numbers[name][at] = answers[name]
         for values in numbers.values():
             values[np.isnan(values)] = math.nan  # one kind of NaN: equal results, equal bytes
         return status, numbers

@@ -226,7 +226,7 @@ def chosen_outputs(names: Iterable[str]) -> tuple[str, ...]:
         for a name or pattern that fits none, or where nothing is asked for.
     """
     patterns = [names] if isinstance(names, str) else list(names)
-    found: set[str] = set()
+    chosen: set[str] = set()
     for pattern in patterns:
         fitting = [
             name
@@ -235,10 +235,10 @@ def chosen_outputs(names: Iterable[str]) -> tuple[str, ...]:
         ]
         if not fitting:
             raise checks.refuse("name in outputs", pattern, _EXAMPLES)
-        found.update(fitting)
-    if not found:
+        chosen.update(fitting)
+    if not chosen:
         raise checks.refuse("outputs", patterns, "at least one of " + _EXAMPLES)
-    return tuple(name for name in OUTPUTS if name in found)
+    return tuple(name for name in OUTPUTS if name in chosen)
 
 
 def mode_labels(dofs: Iterable[str]) -> tuple[str, ...]:
@@ -253,19 +253,20 @@ class Settings:
     Parameters
     ----------
     cage_angles
-        how many in a period, ends included. With an inner-race defect a quarter as many to a ball
-        spacing all around, at each place where a ball meets an edge; then least and greatest are
-        looked for between them too. Else they are those at these angles: where few balls carry,
-        as of a light or tilting load, stiffness may dip or rise by some per cent more in between.
+        number of cage angles in a period, ends included. With an inner-race defect, a quarter as
+        many per ball spacing all around, at each place where a ball meets an edge; least and
+        greatest values are then searched between the angles too. Otherwise they are those at the
+        angles: if few balls carry, as under a light or tilting load, stiffness may vary by some per
+        cent more between the angles.
     duration
-        [s] of simulated motions, whose first half is left out as transient, and of records.
+        [s] of simulated motions and records; the first half of a motion is left out as transient.
     sample_rate
         [Hz] of simulated motions and records.
     dynamic_load_rating
-        C_r [N] that lives are computed with; None: that of each bearing, of the catalogue where its
-        number is known, else by ISO 281.
+        C_r [N] for lives; None: the rating of each bearing, by the catalogue if its number is
+        known, else by ISO 281.
     band_low, band_high
-        [Hz] of the band whose share of the power that mass adds is asked for.
+        [Hz] of the band for the share of the power that mass adds.
     """
 
     cage_angles: int = 121
@@ -308,7 +309,7 @@ def of_scene(
     ended: list[SweepStatus] = []
     numbers: Numbers = {}
     if STATICS in needs or MODES in needs:
-        found = static_ranges(
+        ranges = static_ranges(
             scene,
             [
                 name
@@ -318,13 +319,13 @@ def of_scene(
             settings.cage_angles,
             rounds=ROUNDS if scene.defect_turns else 0,
         )
-        code, numbers = _of_ranges(found)
+        code, numbers = _of_ranges(ranges)
         ended.append(STATUSES[int(code)])
     computations: dict[str, Callable[[], SweepStatus]] = {
         PRESSURE: lambda: _pressure(scene, settings, numbers),
         LIFE: lambda: _life(scene, settings, numbers),
         MODES: lambda: _bands_over_all_positions(
-            found if scene.balls == MASSLESS else _massless_states(scene, settings.cage_angles),
+            ranges if scene.balls == MASSLESS else _massless_states(scene, settings.cage_angles),
             labels,
             settings.cage_angles,
             numbers,
@@ -347,13 +348,13 @@ def of_scene(
     return next((status for status in ended if status is not known), known).code, numbers
 
 
-def _of_ranges(found: StaticRanges) -> tuple[NDArray[np.int8], Numbers]:
+def _of_ranges(ranges: StaticRanges) -> tuple[NDArray[np.int8], Numbers]:
     """`_statics` of one scene, with the ends that were looked for between the positions."""
-    state = found.state
+    state = ranges.state
     terms = stiffness_terms(state)
     greatest_load = state.ball_load.max(axis=1)
     code, numbers = _statics(state.status, terms, state.loaded_balls, greatest_load, state.shares)
-    for which, ends in (("least", found.least), ("greatest", found.greatest)):
+    for which, ends in (("least", ranges.least), ("greatest", ranges.greatest)):
         for name, value in ends.items():
             key = f"{name}_{which}"
             if key in numbers and np.isfinite(numbers[key]):
@@ -367,15 +368,15 @@ def _massless_states(scene: Scene, n: int) -> StaticRanges:
 
 
 def _bands_over_all_positions(
-    found: StaticRanges, labels: tuple[str, ...], n: int, numbers: Numbers
+    ranges: StaticRanges, labels: tuple[str, ...], n: int, numbers: Numbers
 ) -> SweepStatus:
     """Put the edges (len(labels),) of the bands of one scene into `numbers`."""
-    scene, terms = found.state.scene, stiffness_terms(found.state)
+    scene, terms = ranges.state.scene, stiffness_terms(ranges.state)
     if not scene.defect_turns:
         of_one = _bands(scene, terms[:, None], labels)
         numbers |= {name: values[0] for name, values in of_one.items()}
         return SweepStatus.COMPLETE
-    search = BandSearch(scene, terms, found.state.shares)
+    search = BandSearch(scene, terms, ranges.state.shares)
 
     def at(cage_angles: Array, shaft_angles: Array) -> Array:
         state = equilibrium(scene, cage_angles, shaft_angles=shaft_angles)
@@ -399,10 +400,10 @@ def of_row(
 
     `needs` are of IN_ROWS, `labels` the modes that the band edges are given for. No defect turns.
     """
-    found = positions(scene, settings.cage_angles)
-    maps = stiffness_maps(scene, extents, found.cage_angles)
+    grid = positions(scene, settings.cage_angles)
+    maps = stiffness_maps(scene, extents, grid.cage_angles)
     codes, numbers = _statics(
-        maps.status, maps.stiffness, maps.loaded_balls, maps.greatest_load, found.weights
+        maps.status, maps.stiffness, maps.loaded_balls, maps.greatest_load, grid.weights
     )
     if MODES in needs:
         try:
@@ -415,12 +416,12 @@ def of_row(
 
 def _bands(scene: Scene, terms: Array, labels: tuple[str, ...]) -> Numbers:
     """Edges (m, len(labels)) of bands, from stiffness terms (15, m, n) of m scenes."""
-    *found, own = undamped_bands(scene, terms)
+    *ends, own = undamped_bands(scene, terms)
     edges = np.full((2, terms.shape[1], len(labels)), math.nan)
     for i, names in enumerate(own):
         place = [labels.index(name) for name in names if name in labels]
         mine = [k for k, name in enumerate(names) if name in labels]
-        edges[:, i, place] = [each[i, mine] for each in found]
+        edges[:, i, place] = [each[i, mine] for each in ends]
     return {"band_least": edges[0], "band_greatest": edges[1]}
 
 
@@ -467,17 +468,17 @@ def _life(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus:
     """
     own = scene.bearing.dynamic_load_rating
     rating = settings.dynamic_load_rating or own or dynamic_load_rating(scene.bearing)
-    found = life(scene, rating)
-    turns = 1e6 * found.million_revolutions
+    rated = life(scene, rating)
+    turns = 1e6 * rated.million_revolutions
     known = math.isfinite(turns)
     numbers["life_turns"] = np.array(turns if known else math.nan)
-    numbers["life_hours"] = np.array(found.hours if known else math.nan)
-    numbers["life_share_of_healthy"] = np.array(found.share_of_healthy if known else math.nan)
+    numbers["life_hours"] = np.array(rated.hours if known else math.nan)
+    numbers["life_share_of_healthy"] = np.array(rated.share_of_healthy if known else math.nan)
     if math.isinf(turns):
         return SweepStatus.NOTHING_TOUCHES
-    if known and math.isnan(found.hours):
+    if known and math.isnan(rated.hours):
         return SweepStatus.COMPUTATION_REFUSED
-    return OF_STATICS[StaticStatus(found.status)]
+    return OF_STATICS[StaticStatus(rated.status)]
 
 
 def _pressure(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus:

@@ -70,28 +70,28 @@ def sweep(
     scenes_per_task: int | None = None,
     progress: Progress | None = None,
 ) -> xarray.Dataset:
-    """Outputs of all combinations of values of some fields of `scene`.
+    """Compute outputs for all combinations of values of some fields of `scene`.
 
     Parameters
     ----------
     scene
-        what stays the same.
+        the scene; fields that are not in `over` keep its values.
     over
-        fields as `Scene.replace` takes them, each with its values, in SI units; the dimensions of
-        the result, in their order.
+        fields of `Scene.replace`, each with its values in SI units; they become the dimensions of
+        the result, in this order.
     outputs
         names out of `bearingcore.model.sweeps.OUTPUTS`; `*` and `?` stand for any letters.
     client
         a `distributed.Client`, or the address of a scheduler. None computes on this machine.
     store
-        folder for the results, written as Zarr region by region, by the workers: all must see it.
-        Where it holds a part of the same sweep, that is kept and the rest computed. None keeps
-        results in memory.
+        folder for the results, to which the workers write Zarr regions: all workers must see it. If
+        it already holds a part of the same sweep, only the rest is computed. None keeps results
+        in memory.
     settings
-        how finely; see `Settings`.
+        the resolution; see `Settings`.
     workers, processes
-        on this machine: how many (None: one a core), and whether they are processes of their own
-        rather than threads. Processes share nothing and are faster, but take a second or two to
+        on this machine: the number of workers (None: one per core), and True for processes instead
+        of threads. Processes share nothing and are faster, but take a second or two to
         start; a script that asks for them must do so under ``if __name__ == "__main__":``.
     scenes_per_task
         None takes about four seconds of work. A store that is taken up keeps its own.
@@ -101,18 +101,18 @@ def sweep(
     Returns
     -------
     xarray.Dataset
-        a variable for each output with its unit in `attrs`, and `status`, codes of
-        `sweeps.STATUSES`; NaN where there is no answer. Its `attrs` hold the scene as
-        TOML, what was asked for and the version of the program. From a store it is lazy.
+        a variable for each output with its unit in `attrs`, and `status` with codes of
+        `bearingcore.model.sweeps.STATUSES`; NaN where there is no answer. Its `attrs` hold the
+        scene as TOML, the request and the version of the program. From a store it is lazy.
 
     Raises
     ------
     ImportError
-        where xarray, dask, distributed or zarr are missing.
+        if xarray, dask, distributed or zarr are missing.
     ValueError
-        for what cannot be, in a sentence; also where `store` holds anything but this sweep.
+        for impossible arguments, and if `store` holds anything but this sweep.
     ConnectionError
-        where the scheduler cannot be reached or is lost. What is finished is in the store.
+        if the scheduler cannot be reached or is lost. Finished parts are in the store.
     """
     needs_extra()
     grid = Grid.of(scene, over, outputs, settings)
@@ -196,9 +196,9 @@ def _in_memory(
     parts = ((place, grid.part(place)) for place in places)
     done = _Progress(grid.size, progress)
     with cluster as client:
-        for (place, part), (codes, found) in _finished(client, _compute, parts):
+        for (place, part), (codes, part_numbers) in _finished(client, _compute, parts):
             status[place] = codes
-            for name, values in found.items():
+            for name, values in part_numbers.items():
                 numbers[name][place] = values
             done.add(part.size)
     units = stores.coordinate_attributes(grid)

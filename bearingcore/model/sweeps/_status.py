@@ -11,10 +11,10 @@ from bearingcore.model.statics._status import StaticStatus
 
 @unique
 class SweepStatus(Status):
-    """`complete`, or the first thing that kept a number of the scene from being known.
+    """Outcome of a scene of a sweep: `complete`, or the first reason for an unknown number.
 
-    Nothing touches, a free direction and what follows: at some cage angle at least; a free
-    direction still has a stiffness. What is not known is NaN.
+    A static reason holds at one cage angle or more. A free direction still has a stiffness. Unknown
+    numbers are NaN.
     """
 
     NOT_COMPUTED = "not_computed", "not computed"
@@ -46,12 +46,12 @@ class SweepStatus(Status):
 
     @property
     def code(self) -> int:
-        """Its place in `STATUSES`, which results hold; 0, not computed, is what empty files say."""
+        """Place in `STATUSES`, as in results; 0, not computed, is the value of empty files."""
         return STATUSES.index(self)
 
 
 STATUSES = tuple(SweepStatus)
-"""All of them, in the order of their codes."""
+"""All statuses in the order of their codes."""
 
 
 OF_STATICS = {

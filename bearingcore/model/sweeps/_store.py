@@ -152,8 +152,8 @@ def _belonging(path: Path, grid: Grid) -> tuple[int, ...]:
 
     try:
         root: Any = zarr.open_group(path, mode="r", zarr_format=3)
-        found = dict(root.attrs)
-        if found.get("program") != PROGRAM or "request" not in found:
+        stored = dict(root.attrs)
+        if stored.get("program") != PROGRAM or "request" not in stored:
             raise KeyError("request")
     except (OSError, ValueError, KeyError):
         raise _taken(path, "does not hold results of a sweep") from None
@@ -163,12 +163,12 @@ def _belonging(path: Path, grid: Grid) -> tuple[int, ...]:
         ("request", "a sweep over other fields, for other outputs or with other settings"),
         (
             "program_version",
-            f"results of version {found.get('program_version')} of this program, which is "
+            f"results of version {stored.get('program_version')} of this program, which is "
             f"{expected['program_version']} now and may compute other numbers: delete it, or go on "
             "with the version that began it",
         ),
     ):
-        if found.get(name) != expected[name]:
+        if stored.get(name) != expected[name]:
             raise _taken(path, f"holds {words}")
     for axis in grid.axes:
         try:

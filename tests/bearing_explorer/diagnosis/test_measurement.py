@@ -198,11 +198,11 @@ def test_more_numbers_than_a_session_keeps_are_left_out():
     signal = np.tile(NOISE, (rows // len(NOISE) + 1, 1))[:rows].astype(np.float32)
     content = saved(wavfile.write, 8000, signal)
     assert len(content) < MOST_BYTES
-    found = read_file("long.wav", content, Machine())
-    assert found.table.columns.size == MOST_NUMBERS
-    assert "Only the first" in found.cut
-    assert found.asked is None  # two channels: which are x and y is asked
-    asked = read_form(found.table, {**found.form, "columns": "x;y"}, Machine())
+    table = read_file("long.wav", content, Machine())
+    assert table.table.columns.size == MOST_NUMBERS
+    assert "Only the first" in table.cut
+    assert table.asked is None  # two channels: which are x and y is asked
+    asked = read_form(table.table, {**table.form, "columns": "x;y"}, Machine())
     assert asked.recording.sample_rate == 8000.0
 
 
@@ -470,9 +470,9 @@ def test_columns_given_for_one_file_leave_others_as_they_propose_themselves():
     made = brought("rig.zip", zipped(**{name.replace(".", "_"): csv_of(columns, heads[name])
                                         for name, columns in files.items()}))  # fmt: skip
     answer(made, columns="time s;y;")
-    found = made.recordings(made.measured, "y")
-    assert [one.name for one in found.recordings] == ["rig.zip/alone.csv", "rig.zip/two.csv"]
-    assert found.left_out == ()
+    joined = made.recordings(made.measured, "y")
+    assert [one.name for one in joined.recordings] == ["rig.zip/alone.csv", "rig.zip/two.csv"]
+    assert joined.left_out == ()
 
 
 def test_the_files_of_a_zip_are_a_series():
@@ -500,8 +500,10 @@ def test_a_sound_file_is_compared_with_and_the_one_that_is_shown_stays():
         await settled(made)
         assert made.measured is before
         assert [table.name for table in made.series.tables] == ["sound.csv", "now.csv"]
-        found = made.recordings(before, "y").recordings
-        assert found[1].acceleration.std() == pytest.approx(3.0 * found[0].acceleration.std())
+        recordings = made.recordings(before, "y").recordings
+        assert recordings[1].acceleration.std() == pytest.approx(
+            3.0 * recordings[0].acceleration.std()
+        )
 
     run(steps())
 

@@ -68,10 +68,10 @@ def diagnosed(made: Measurement) -> Diagnosis:
     """The answer of now, which the session then has."""
     question = made.question()
     assert question is not None
-    found = answered(question)
-    assert isinstance(found, Diagnosis)
-    made.diagnoses.keep(question, found)
-    return found
+    diagnosis = answered(question)
+    assert isinstance(diagnosis, Diagnosis)
+    made.diagnoses.keep(question, diagnosis)
+    return diagnosis
 
 
 def test_a_file_without_bearing_and_speed_names_no_part() -> None:
@@ -127,9 +127,9 @@ def test_a_bearing_that_is_then_said_has_its_answer_at_once() -> None:
     question = made.question()
     assert question is not None
     assert question.speed is None  # it is looked for
-    found = diagnosed(made)
-    assert found.fault != "ball"
-    facts = dict(part_words.facts(found, question))
+    diagnosis = diagnosed(made)
+    assert diagnosis.fault != "ball"
+    facts = dict(part_words.facts(diagnosis, question))
     assert "given" not in facts["Shaft"].replace("not given", "")
     assert facts["Bearing"].endswith("estimated from the designation, so BPFO ± 1.5 %")
     assert ", 6205-2RS, given, " in facts["Bearing"]
@@ -149,9 +149,9 @@ def test_the_scene_is_followed_at_once_where_it_is_chosen_and_only_there() -> No
     first = made.question()
     assert first is not None
     assert (first.speed, first.bearing) == (MOTOR.shaft_speed, MOTOR.bearing)
-    found = diagnosed(made)
-    assert found.fault == "outer race"
-    facts = dict(part_words.facts(found, first))
+    diagnosis = diagnosed(made)
+    assert diagnosis.fault == "outer race"
+    facts = dict(part_words.facts(diagnosis, first))
     assert "the scene's, as chosen" in facts["Shaft"]
     assert facts["Bearing"].endswith("the scene's, as chosen")
     scene = MOTOR.replace(extent=0.1, fy=-50.0)  # nothing of that counts
@@ -244,14 +244,6 @@ def test_the_status_says_what_is_under_way_until_it_is_done() -> None:
     assert words() == "Ready"
     measurement.begin_upload("signal.csv", 100)
     assert words() == "Reading the signal"
-
-
-def test_a_report_that_is_out_of_date_is_refused_in_a_sentence() -> None:
-    halves = Halves()
-    halves.session.draw = lambda: None  # type: ignore[method-assign]
-    halves.diagnosis.measurement.measured = simulated(MOTOR, 20.0, 1)
-    halves.explorer.change_links({"report": "http://localhost", "measured": True})
-    assert halves.explorer.bookmarks.state()["said"]["words"] == f"No report: {NOT_YET}"
 
 
 def test_frequencies_in_hertz_need_a_speed_and_a_wrong_name_says_so() -> None:

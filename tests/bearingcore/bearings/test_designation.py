@@ -72,10 +72,10 @@ def test_kinds_of_one_dimension_series_have_one_outside() -> None:
     compared = 0
     for series in alike:
         for code in range(21):
-            found = [boundaries().get(f"{one}{code:02d}") for one in series]
-            outside = {one[:3] for one in found if one is not None}
+            members = [boundaries().get(f"{one}{code:02d}") for one in series]
+            outside = {one[:3] for one in members if one is not None}
             assert len(outside) <= 1, (series, code)
-            compared += sum(one is not None for one in found) - 1
+            compared += sum(one is not None for one in members) - 1
     assert compared > 150
 
 
@@ -138,8 +138,8 @@ def test_only_insert_bearings_are_off_by_more_than_a_percent() -> None:
 
     Four have balls a thirty-second of an inch larger, one runs on a circle of an inch.
     """
-    found = [one for one in judged() if "NMB" not in one.source]
-    off = {one.designation: one for one in found if one.is_right and abs(one.frequency) > 0.01}
+    bearings = [one for one in judged() if "NMB" not in one.source]
+    off = {one.designation: one for one in bearings if one.is_right and abs(one.frequency) > 0.01}
     assert set(off) == {"6202", "6204", "6208", "6307", "6308", "6309"}
     assert all("housed unit" in one.source or "UER204" in one.source for one in off.values())
     for name in ("6208", "6307", "6308", "6309"):
@@ -151,10 +151,10 @@ def test_only_insert_bearings_are_off_by_more_than_a_percent() -> None:
 
 @pytest.mark.parametrize("name", OTHER_ANGLES)
 def test_ratings_at_angles_that_the_rule_does_not_see(name: str) -> None:
-    found = read_designation(name)
+    designation = read_designation(name)
     dynamic, static = OTHER_ANGLES[name]
-    assert found.dynamic_load_rating == pytest.approx(1e3 * dynamic, rel=0.01)
-    b = found.bearing
+    assert designation.dynamic_load_rating == pytest.approx(1e3 * dynamic, rel=0.01)
+    b = designation.bearing
     cosine = math.cos(b.contact_angle)
     factor = ratings.static_factor(b.ball_diameter * cosine / b.pitch_diameter)
     C_0 = ratings.static_rating(factor, b.n_balls, b.ball_diameter, cosine)
@@ -164,10 +164,10 @@ def test_ratings_at_angles_that_the_rule_does_not_see(name: str) -> None:
 def test_estimated_bearings_are_rated_as_the_catalogue_rates_them() -> None:
     """Life from the estimated inside is that of the printed rating, of balls within 4 %."""
     for basic in boundaries():
-        found = read_designation(basic)
-        if found.kind in (DEEP_GROOVE, ANGULAR_CONTACT):
-            own = dynamic_load_rating(found.bearing)
-            assert own == pytest.approx(found.dynamic_load_rating, rel=0.04), basic
+        designation = read_designation(basic)
+        if designation.kind in (DEEP_GROOVE, ANGULAR_CONTACT):
+            own = dynamic_load_rating(designation.bearing)
+            assert own == pytest.approx(designation.dynamic_load_rating, rel=0.04), basic
 
 
 def test_balls_are_of_the_sizes_of_iso_3290() -> None:
@@ -183,8 +183,8 @@ def test_rule_finds_balls_again() -> None:
         gamma = ball / (0.5 * (D + d))
         C = ratings.dynamic_rating(ratings.capacity_factor(gamma, 0.52, 0.52), count, ball, 1.0)
         C_0 = ratings.static_rating(ratings.static_factor(gamma), count, ball, 1.0)
-        found = balls_from_ratings(d, D, float(f"{C:.3g}"), float(f"{C_0:.3g}"))
-        assert (found.n_balls, found.ball_diameter) == (count, pytest.approx(ball))
+        balls = balls_from_ratings(d, D, float(f"{C:.3g}"), float(f"{C_0:.3g}"))
+        assert (balls.n_balls, balls.ball_diameter) == (count, pytest.approx(ball))
 
 
 @pytest.mark.parametrize(
@@ -204,12 +204,12 @@ def test_rule_finds_balls_again() -> None:
     ],
 )
 def test_designations(text: str, basic: str, angle: float, clearance_class: str) -> None:
-    found = read_designation(text)
-    assert (found.basic, found.clearance_class) == (basic, clearance_class)
-    assert math.degrees(found.bearing.contact_angle) == pytest.approx(angle, abs=0.1)
-    if clearance_class and found.kind != SELF_ALIGNING_BALLS:
-        least, most = clearance(found.kind, found.bore, clearance_class)
-        assert found.bearing.diametral_play == pytest.approx(0.5 * (least + most))
+    designation = read_designation(text)
+    assert (designation.basic, designation.clearance_class) == (basic, clearance_class)
+    assert math.degrees(designation.bearing.contact_angle) == pytest.approx(angle, abs=0.1)
+    if clearance_class and designation.kind != SELF_ALIGNING_BALLS:
+        least, most = clearance(designation.kind, designation.bore, clearance_class)
+        assert designation.bearing.diametral_play == pytest.approx(0.5 * (least + most))
 
 
 @pytest.mark.parametrize("text", ["", "208", "22208", "6298", "hello", "6208" * 20])
@@ -308,8 +308,8 @@ def test_tapered_sizes_as_other_catalogues_print_them() -> None:
     }
     for name, (*sizes, e, dynamic, static) in printed.items():
         own = boundaries()[name]
-        found = (own.bore, own.outside_diameter, own.width, own.cone_width, own.cup_width)
-        assert [1e3 * one for one in found] == pytest.approx(sizes)
+        lengths = (own.bore, own.outside_diameter, own.width, own.cone_width, own.cup_width)
+        assert [1e3 * one for one in lengths] == pytest.approx(sizes)
         assert own.thrust_limit == pytest.approx(e, abs=0.011)
         assert own.dynamic_rating == pytest.approx(1e3 * dynamic, rel=0.1)
         assert own.static_rating == pytest.approx(1e3 * static, rel=0.1)
@@ -378,14 +378,18 @@ def test_narrow_and_wide_tapered_bearings_of_one_section_have_one_roller_diamete
 )
 def test_tapered_designations(text: str, arrangement: str, centers: float) -> None:
     """Pressure centres of a pair are 2 a apart back to back, 2 (T - a) face to face."""
-    found = read_designation(text)
-    bearing = found.bearing
-    assert (found.basic, found.kind, found.clearance_class) == ("30206", TAPERED_ROLLERS, "")
+    designation = read_designation(text)
+    bearing = designation.bearing
+    assert (designation.basic, designation.kind, designation.clearance_class) == (
+        "30206",
+        TAPERED_ROLLERS,
+        "",
+    )
     assert (bearing.arrangement, bearing.kind.name) == (arrangement, "tapered")
     if bearing.rows:
         assert bearing.pressure_centers_apart == pytest.approx(centers)
     assert bearing.estimated == ("n_balls", "ball_diameter", "pitch_diameter", "roller_length")
-    assert found.dynamic_load_rating == pytest.approx(dynamic_load_rating(bearing))
+    assert designation.dynamic_load_rating == pytest.approx(dynamic_load_rating(bearing))
     assert math.degrees(bearing.contact_angle) == pytest.approx(14.036, abs=0.2)
 
 

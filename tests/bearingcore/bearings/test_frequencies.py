@@ -21,9 +21,9 @@ def orders(bearing: Bearing) -> dict[str, float]:
 def test_frequencies_lead_back_to_the_bearing(bearing: Bearing, known: str, scale: float) -> None:
     """Whatever its size, and whether the spin or twice the spin is printed."""
     given = {name: orders(bearing)[name] for name in known.split()}
-    found = bearing_of_frequencies(given, scale * bearing.pitch_diameter)
-    assert orders(found) == pytest.approx(orders(bearing), rel=2e-3)
-    assert found.n_balls == bearing.n_balls
+    estimate = bearing_of_frequencies(given, scale * bearing.pitch_diameter)
+    assert orders(estimate) == pytest.approx(orders(bearing), rel=2e-3)
+    assert estimate.n_balls == bearing.n_balls
     doubled = bearing_of_frequencies({**given, "bsf": 2.0 * given["bsf"]}, bearing.pitch_diameter)
     assert orders(doubled) == pytest.approx(orders(bearing), rel=2e-3)
-    assert "pitch_diameter" in found.estimated
+    assert "pitch_diameter" in estimate.estimated

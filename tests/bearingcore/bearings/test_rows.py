@@ -63,9 +63,9 @@ def test_rollers_carry_radial_loads_only_and_say_so() -> None:
         scene.replace(fz=10.0)
     words = "x and y, as cylindrical rollers carry radial loads only"
     for ask in (scene.replace, partial(equilibrium, scene)):
-        with pytest.raises(FieldError, match=words) as found:
+        with pytest.raises(FieldError, match=words) as refusal:
             ask(dofs=("x", "y", "z"))
-        assert found.value.field == "dofs"
+        assert refusal.value.field == "dofs"
     assert Scene.from_toml(scene.to_toml()) == scene
 
 

@@ -138,10 +138,10 @@ def test_each_rows_balls_run_on_its_own_raceway(scene: Scene, race: str, edge: s
 @pytest.mark.parametrize("race", ["outer", "inner"])
 def test_balls_enter_and_leave_when_their_own_cage_says(scene: Scene, race: str) -> None:
     scene = scene.replace(race=race, edge="exact", extent=0.2, row=None)
-    found = crossings(scene, 0.0, 1.5)
-    rows = {scene.bearing.row_of_ball(one.ball)[0] for one in found}
+    events = crossings(scene, 0.0, 1.5)
+    rows = {scene.bearing.row_of_ball(one.ball)[0] for one in events}
     assert rows == {0, 1}
-    for one in found:
+    for one in events:
         before, after = (drops_now(scene, one.cage_angle + d)[one.ball] for d in (-1e-4, 1e-4))
         assert (after > 0.0) == one.enters
         assert (before > 0.0) != one.enters
@@ -214,19 +214,19 @@ def test_rows_live_as_they_would_alone_and_fail_as_one_chain(scene: Scene) -> No
     alone = [dynamic_load_rating(one) for one in own]
     C = dynamic_load_rating(bearing)
     assert pytest.approx(sum(alone) * 2.0**-0.3, rel=1e-12) == C
-    found = life(scene, C)
+    rated = life(scene, C)
     state = equilibrium(scene, [0.0])
     pressed = state.ball_load[0] * np.sin(state.contact_angle[0])
     for k, balls in enumerate(bearing.balls_of_rows):
         assert race_ratings(bearing, C, k) == pytest.approx(race_ratings(own[k], alone[k]))
         by_itself = scene.replace(bearing=own[k], fz=float(pressed[balls].sum()))
         expected = life(by_itself, alone[k]).million_revolutions
-        assert found.rows[k] == pytest.approx(expected, rel=1e-6)
-    chain = sum(one ** (-10 / 9) for one in found.rows) ** -0.9
-    assert found.million_revolutions == pytest.approx(chain, rel=1e-9)
-    standard = (found.inner_load / found.inner_rating) ** (10 / 3)
-    standard += (found.outer_load / found.outer_rating) ** (10 / 3)
-    assert found.million_revolutions == pytest.approx(standard**-0.9, rel=1e-9)
+        assert rated.rows[k] == pytest.approx(expected, rel=1e-6)
+    chain = sum(one ** (-10 / 9) for one in rated.rows) ** -0.9
+    assert rated.million_revolutions == pytest.approx(chain, rel=1e-9)
+    standard = (rated.inner_load / rated.inner_rating) ** (10 / 3)
+    standard += (rated.outer_load / rated.outer_rating) ** (10 / 3)
+    assert rated.million_revolutions == pytest.approx(standard**-0.9, rel=1e-9)
     with pytest.raises(ValueError, match='"all" for rows that are not alike'):
         life(scene, C, positions="load line")
 
@@ -266,8 +266,8 @@ def test_life_averages_over_all_that_rows_come_to_be_to_each_other(
         Q_ci, Q_ce = race_ratings(bearing, C, k)
         Q_ei, Q_ee = (total / steps ** len(others)) ** [1 / 3, 0.3]
         failing += (Q_ei / Q_ci) ** (10 / 3) + (Q_ee / Q_ce) ** (10 / 3)
-    found = life(scene, C).million_revolutions
-    assert found == pytest.approx(failing**-0.9, rel=tolerance)
+    actual = life(scene, C).million_revolutions
+    assert actual == pytest.approx(failing**-0.9, rel=tolerance)
 
 
 def test_a_signal_is_diagnosed_for_one_row_at_a_time() -> None:

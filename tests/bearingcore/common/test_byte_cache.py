@@ -11,7 +11,7 @@ from bearingcore.model.scene._defect import path_tables
 def test_results_are_kept_up_to_a_number_of_bytes() -> None:
     asked: list[int] = []
 
-    @lru_cache_by_bytes(1_000_000, lambda found, n: 1000 * n)
+    @lru_cache_by_bytes(1_000_000, lambda result, n: 1000 * n)
     def made(n: int) -> np.ndarray:
         asked.append(n)
         return np.zeros(n)
@@ -26,7 +26,7 @@ def test_results_are_kept_up_to_a_number_of_bytes() -> None:
 
 
 def test_errors_are_not_kept() -> None:
-    @lru_cache_by_bytes(10_000, lambda found, n: 1)
+    @lru_cache_by_bytes(10_000, lambda result, n: 1)
     def refused(n: int) -> int:
         raise ValueError(n)
 

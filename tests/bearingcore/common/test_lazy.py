@@ -37,12 +37,12 @@ def test_one_object_does_not_wait_for_another() -> None:
     thread = threading.Thread(target=lambda: slow.answer)
     thread.start()
     assert slow.begun.wait(60.0)
-    found: list[int] = []
-    other = threading.Thread(target=lambda: found.append(quick.answer))
+    answers: list[int] = []
+    other = threading.Thread(target=lambda: answers.append(quick.answer))
     other.start()
     other.join(10.0)
     try:
-        assert found == [42], "while the other is at work"
+        assert answers == [42], "while the other is at work"
     finally:
         go_on.set()
         thread.join()

@@ -75,9 +75,9 @@ def test_every_number_can_be_read(value: float, digits: int) -> None:
         assert text == "no value"
         return
     assert len(text) <= digits + 12
-    found = re.fullmatch(r"(−?\d+(?:\.\d+)?)(?:·10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+))?", text)
-    assert found, text
+    match = re.fullmatch(r"(−?\d+(?:\.\d+)?)(?:·10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+))?", text)
+    assert match, text
     plain = str.maketrans("−⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "--0123456789")
-    exponent = found[2].translate(plain) if found[2] else "0"
-    read = float(f"{found[1].translate(plain)}e{exponent}")
+    exponent = match[2].translate(plain) if match[2] else "0"
+    read = float(f"{match[1].translate(plain)}e{exponent}")
     assert read == pytest.approx(value, rel=0.5001 * 10.0 ** (1 - digits), abs=1e-320)

@@ -76,8 +76,10 @@ def test_every_unit_has_an_si_unit_that_is_one_itself() -> None:
 
 
 def test_every_result_has_a_table_of_its_own_numbers() -> None:
-    found = modes(FAN_RIG)
-    np.testing.assert_array_equal(found.table()["y1"], found.frequency[:, found.label.index("y1")])
+    vibration = modes(FAN_RIG)
+    np.testing.assert_array_equal(
+        vibration.table()["y1"], vibration.frequency[:, vibration.label.index("y1")]
+    )
     maps = stiffness_maps(FAN_RIG, [0.0, 0.2], [0.0, 0.1, 0.2])
     np.testing.assert_array_equal(maps.table()["k_yy"].reshape(2, 3), maps.term("k_yy"))
     assert maps.table()["extent"].tolist() == [0.0] * 3 + [0.2] * 3
@@ -159,13 +161,13 @@ def test_every_result_with_a_table_is_printed_as_it() -> None:
 
 
 def public_classes() -> Iterator[tuple[str, str, type]]:
-    for found in pkgutil.walk_packages(bearingcore.__path__, "bearingcore."):
-        if not found.name.startswith(
+    for module in pkgutil.walk_packages(bearingcore.__path__, "bearingcore."):
+        if not module.name.startswith(
             ("bearingcore.model._kernels", "bearingcore.measured.files._child_program")
         ):
-            for name, thing in vars(importlib.import_module(found.name)).items():
-                if inspect.isclass(thing) and thing.__module__ == found.name:
-                    yield found.name, name, thing
+            for name, thing in vars(importlib.import_module(module.name)).items():
+                if inspect.isclass(thing) and thing.__module__ == module.name:
+                    yield module.name, name, thing
 
 
 def test_of_a_large_table_the_middle_is_left_out_and_a_frame_holds_all() -> None:

@@ -14,8 +14,10 @@ SIGNAL = np.random.default_rng(5).normal(size=(8192, 2))
 
 @pytest.mark.parametrize("third_octaves", [False, True])
 def test_a_louder_signal_differs_by_its_factor(third_octaves: bool) -> None:
-    found = spectrum_difference(1.1 * SIGNAL, SIGNAL, RATE, 3000.0, third_octaves=third_octaves)
-    assert found == pytest.approx(20.0 * math.log10(1.1))
+    difference = spectrum_difference(
+        1.1 * SIGNAL, SIGNAL, RATE, 3000.0, third_octaves=third_octaves
+    )
+    assert difference == pytest.approx(20.0 * math.log10(1.1))
     lost = np.full_like(SIGNAL, math.nan)
     assert spectrum_difference(lost, SIGNAL, RATE, 3000.0, third_octaves=third_octaves) == math.inf
     nothing = np.zeros_like(SIGNAL)
@@ -34,9 +36,9 @@ def test_third_octaves_forgive_single_lines() -> None:
 
 
 def test_powers_of_bands_add_up() -> None:
-    found = spectrum(SIGNAL, RATE)
+    lines = spectrum(SIGNAL, RATE)
     edges = third_octave_edges(128.0, 4096.0)
     assert edges[1:] / edges[:-1] == pytest.approx(2.0 ** (1.0 / 3.0))
-    inside = (found.frequency >= edges[0]) & (found.frequency < edges[-1])
-    whole = found.density[inside].sum(axis=0) * found.frequency[1]
-    np.testing.assert_allclose(found.powers(edges).sum(axis=0), whole, rtol=1e-12)
+    inside = (lines.frequency >= edges[0]) & (lines.frequency < edges[-1])
+    whole = lines.density[inside].sum(axis=0) * lines.frequency[1]
+    np.testing.assert_allclose(lines.powers(edges).sum(axis=0), whole, rtol=1e-12)

@@ -64,21 +64,21 @@ def spall(race: str = "outer"):
 
 @pytest.mark.parametrize("race", ["outer", "inner"])
 def test_the_time_between_knocks_and_the_offset_are_the_extent(race):
-    found = spall(race)
-    assert found.status == ExtentStatus.MEASURED
-    assert math.degrees(found.separation) == pytest.approx(5.0, abs=0.25)
-    assert found.extent == pytest.approx(found.separation + found.offset)
-    assert found.low < found.extent < found.high
-    assert (found.exit - found.entry) % 1.0 * found.ball_spacing == pytest.approx(
-        found.separation, abs=math.radians(0.3)
+    extent = spall(race)
+    assert extent.status == ExtentStatus.MEASURED
+    assert math.degrees(extent.separation) == pytest.approx(5.0, abs=0.25)
+    assert extent.extent == pytest.approx(extent.separation + extent.offset)
+    assert extent.low < extent.extent < extent.high
+    assert (extent.exit - extent.entry) % 1.0 * extent.ball_spacing == pytest.approx(
+        extent.separation, abs=math.radians(0.3)
     )
-    assert found.race == race
-    assert f"{math.degrees(found.extent):.1f}°" in found.sentence
-    assert found.alternatives[0] == (found.extent, found.low, found.high)
-    other = math.degrees(found.ball_spacing - found.separation + found.offset)
-    assert f"{other:.0f}° would show alike" in found.sentence
-    table = found.table()
-    assert table["extent"][0] == found.extent
+    assert extent.race == race
+    assert f"{math.degrees(extent.extent):.1f}°" in extent.sentence
+    assert extent.alternatives[0] == (extent.extent, extent.low, extent.high)
+    other = math.degrees(extent.ball_spacing - extent.separation + extent.offset)
+    assert f"{other:.0f}° would show alike" in extent.sentence
+    table = extent.table()
+    assert table["extent"][0] == extent.extent
     assert len(table["envelope"]) == len(table["angle"])
 
 
@@ -111,9 +111,9 @@ def test_noise_has_nothing_to_measure_and_names_no_race():
     assert measured(noise).status == ExtentStatus.NOT_VISIBLE
     blow = np.eye(1, len(noise), 999)[0]  # of a sensor that is dead else
     assert measured(blow).status == ExtentStatus.NOT_VISIBLE
-    found = measure_extent(Recording(noise, RATE, ("y",)), MOTOR, SPEED)
-    assert found.status == ExtentStatus.NO_RACE
-    assert len(found.table()["extent"]) == 1
+    extent = measure_extent(Recording(noise, RATE, ("y",)), MOTOR, SPEED)
+    assert extent.status == ExtentStatus.NO_RACE
+    assert len(extent.table()["extent"]) == 1
 
 
 def test_too_few_ball_passes_and_too_few_samples():
@@ -135,16 +135,16 @@ def test_too_few_ball_passes_and_too_few_samples():
 @needs_records
 def test_spalls_of_a_rig_are_measured():
     """Twelve of 5° and 8° within 1°, and none of 2° with an interval that it is not in."""
-    found = [
+    spalls = [
         (one, measure_extent(one.recording, one.bearing, one.shaft_speed, race=one.truth[:5]))
         for one in records(Path(MEASURED, "hitsm"))
         if one.spall_extent_deg
     ]
-    results = [extent_verdict(*pair) for pair in found]
+    results = [extent_verdict(*pair) for pair in spalls]
     assert WRONG not in results
-    for one, answer in found:
+    for one, answer in spalls:
         assert not answer.high < math.radians(one.spall_extent_deg)
-    long = [(one, answer) for one, answer in found if one.spall_extent_deg > 2.0]
+    long = [(one, answer) for one, answer in spalls if one.spall_extent_deg > 2.0]
     assert len(long) == 12
     for one, answer in long:
         assert math.degrees(answer.extent) == pytest.approx(one.spall_extent_deg, abs=1.0)

@@ -31,9 +31,9 @@ def recorded(depth: float, name: str = "", duration: float = 2.0) -> Recording:
 
 
 def test_amplitudes_of_lines_and_only_those_above_noise():
-    found = trend([recorded(0.0), recorded(0.2), recorded(0.5)], BEARING, SPEED, band=BAND)
+    history = trend([recorded(0.0), recorded(0.2), recorded(0.5)], BEARING, SPEED, band=BAND)
     outer = LINES.index("bpfo")
-    lines = found.clear_lines
+    lines = history.clear_lines
     assert lines[1:, outer] == pytest.approx([0.4, 1.0], rel=0.1)
     assert np.isnan(lines[0]).all()
     assert np.isnan(np.delete(lines[1], outer)).all()
@@ -58,9 +58,9 @@ def test_it_ends_where_it_is_cancelled_with_what_it_has():
         return len(seen) < 2
 
     recordings = [recorded(0.1)] * 3
-    found = trend(recordings, BEARING, SPEED, band=BAND, goes_on=goes_on)
+    history = trend(recordings, BEARING, SPEED, band=BAND, goes_on=goes_on)
     assert seen == [(1, 3), (2, 3)]
-    assert len(found.points) == 2
+    assert len(history.points) == 2
 
 
 def test_what_is_not_known_is_not_a_number():
@@ -95,15 +95,15 @@ def test_a_run_to_failure_shows_as_a_trend_and_names_no_part(run, rpm, least):
     recordings, rms = [], []
     for file in files:
         table = read_table(file.name, file.read_bytes())
-        found = table.contents
-        assert found.collection == "FEMTO-ST"
-        recordings.append(table.recording([4, 5], ["x", "y"], found.unit.value))
+        contents = table.contents
+        assert contents.collection == "FEMTO-ST"
+        recordings.append(table.recording([4, 5], ["x", "y"], contents.unit.value))
         assert (recordings[-1].sample_rate, recordings[-1].duration) == (25_600.0, 0.1)
         g = np.loadtxt(file, delimiter=",", usecols=(4, 5))
         rms.append(9.80665 * np.std(g, axis=0))
-    speed = found.shaft_speed.value
+    speed = contents.shaft_speed.value
     assert speed == pytest.approx(rpm * 2.0 * math.pi / 60.0)
-    bearing = catalogue()[found.bearing.value].bearing
+    bearing = catalogue()[contents.bearing.value].bearing
     for k, direction in enumerate("xy"):
         shown = trend(recordings, bearing, speed, direction=direction)
         assert shown.column("rms") == pytest.approx([one[k] for one in rms], rel=1e-9)

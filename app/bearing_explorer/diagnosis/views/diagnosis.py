@@ -209,7 +209,7 @@ class PartDiagnosis(LookView, MeasuredView):
             self.part.outdate(stale)
         else:
             self._shown_of = None if answer is None else measured.recording
-            self.part.show(panel_state(question, answer) | self._extent_state(found))
+            self.part.show(self._with_length(panel_state(question, answer), found))
             if answer is not None and stale:
                 self.part.outdate(stale)
         if question is not None:
@@ -230,12 +230,17 @@ class PartDiagnosis(LookView, MeasuredView):
         else:
             self.candidates.show(OFFER, offer=True)
 
-    def _extent_state(self, found: Diagnosis | None) -> dict[str, Any]:
-        """The length of the spall, once it is known; it is measured for a race alone."""
+    def _with_length(self, state: dict[str, Any], found: Diagnosis | None) -> dict[str, Any]:
+        """The length of the spall in an answer, once it is known; of a race alone."""
         if found is None or found.fault not in RACES_NAMED:
-            return {}
+            return state
         extent = self.measurement.extent()
-        return {"extent": part_words.extent(extent) if extent is not None else MEASURING}
+        if extent is None:
+            return state | {"extent": MEASURING}
+        length = part_words.length(extent, self.measurement.sizing())
+        unknown = length == part_words.LENGTH_HIDDEN
+        said = "" if unknown else f" Its spall is {length}."
+        return state | {"extent": length, "pass_on": f"{state['pass_on']}{said}"}
 
     def _look_in_list(self, about: Question, found: Diagnosis | None) -> None:
         """Listed bearings with which a part would be named, where with this one none is."""

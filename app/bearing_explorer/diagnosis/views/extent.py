@@ -11,6 +11,7 @@ from bokeh.plotting import figure
 
 from bearing_explorer.diagnosis.diagnoses import BUSY, ExtentQuestion, Question, extent_of
 from bearing_explorer.diagnosis.model import Model
+from bearing_explorer.diagnosis.sized_defect import nearest_way_round
 from bearing_explorer.diagnosis.views.measured_view import MEASURED, WITHOUT_BEARING, MeasuredView
 from bearing_explorer.diagnosis.views.measurement import with_head
 from bearing_explorer.kit.plots import style
@@ -41,7 +42,11 @@ FIELDS: list[FieldSpec] = [
     }
 ]
 
-EDGE_WORDS = "return ['ball enters', 'ball leaves', 'enters or leaves'][row.exit]"
+EDGE_WORDS = """
+const short = ['ball enters', 'ball leaves', 'enters or leaves'][row.exit]
+const long = ['ball enters: low frequency', 'ball leaves: high frequency', short][row.exit]
+return narrow || row.shift < 0 ? short : long
+"""
 
 
 def layers() -> list[Layer]:
@@ -66,7 +71,9 @@ class SpallExtent(LookView, MeasuredView):
         "Length of a spall, from entry to exit. Drawn is the mean envelope of a ball pass. A "
         "ball that enters a spall and one that leaves it each give a peak; their distance and the "
         "angle over which a ball carries nothing yet, or no longer, are the extent. Strong: the "
-        "frequency band that shows both best. Faint: other bands."
+        "frequency band that shows both best. Faint: other bands. A ball that enters is released "
+        "gradually, which shows at low frequency; one that leaves strikes the edge, which shows "
+        "at high frequency. The card below simulates the lengths that remain."
     )
     finds_speed = True
     in_report = True
@@ -159,11 +166,18 @@ class SpallExtent(LookView, MeasuredView):
             for number, envelope in enumerate(drawn)
         }
         if math.isfinite(found.entry):
-            sources["extent_edges"] = _edges(found, spacing)
+            sources["extent_edges"] = _edges(found, spacing, self._way_round(found))
         return sources, {
             "extent_angle": (-BEFORE * spacing, (1.0 - BEFORE) * spacing),
             "extent_size": with_head(self._size, drawn, 0.3),
         }
+
+    def _way_round(self, found: MeasuredExtent) -> int | None:
+        """0 where the first peak is the entry, 1 where it is the exit, None: not known."""
+        sizing = self.measurement.sizing()
+        if sizing is None or not sizing.conclusive or sizing.best is None:
+            return 0 if found.measured else None
+        return nearest_way_round(sizing.best.extent, found)
 
     def say(self, model: Model | None, sentence: str) -> None:
         self._show()
@@ -213,13 +227,13 @@ def status(found: MeasuredExtent) -> dict[str, Any]:
     }
 
 
-def _edges(found: MeasuredExtent, spacing: float) -> dict[str, np.ndarray]:
-    """Angles [deg] of entry and exit, 0 being the entry, and places of their names."""
+def _edges(found: MeasuredExtent, spacing: float, way: int | None) -> dict[str, np.ndarray]:
+    """Angles [deg] of entry and exit, the first peak at 0, and places of their names."""
     apart = spacing * ((found.exit - found.entry + BEFORE) % 1.0 - BEFORE)
     angle = np.array([0.0, apart])
     return {
         "angle": angle,
-        "exit": np.array([0.0, 1.0] if found.measured else [2.0, 2.0]),
+        "exit": np.array([2.0, 2.0] if way is None else [float(way), 1.0 - way]),
         "row": np.array([0.93, 0.82]),
         "shift": np.where(angle > (0.8 - BEFORE) * spacing, -66.0, 4.0),
     }

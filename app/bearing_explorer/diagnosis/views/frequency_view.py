@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.views import frequency_lines
+from bearing_explorer.diagnosis.views.frequency_cursor import FrequencyCursor
 from bearing_explorer.diagnosis.views.frequency_lines import FAMILIES, fundamentals, of_rows
 from bearing_explorer.diagnosis.views.measured_view import MEASURED, MeasuredView, shown_unit
 from bearing_explorer.kit.plots import style
-from bearing_explorer.kit.plots.frequency_cursor import FrequencyCursor
 from bearing_explorer.kit.plots.layers import Layer, add_all, curve, sources_of
 from bearing_explorer.kit.plots.levels import FREQUENCY, HIGHEST, LEVEL_FLOOR, SHOWN
 from bearing_explorer.kit.plots.ranges import StickyRange

@@ -15,7 +15,7 @@ from bearing_explorer.diagnosis.signal import Measured, Origin
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, SessionParts, Sources, View
-from bearing_explorer.kit.views.python_lines import code_of, lines_of, short
+from bearing_explorer.kit.views.python_lines import code_of, short
 from bearingcore import Scene, presets
 from bearingcore.common import ResultTable
 from bearingcore.measured.diagnosis import EnvelopeLines
@@ -159,7 +159,7 @@ class MeasuredView(View[Model]):
         measured, model = self.measured, self._results
         if measured is None or model is None:
             return f"# {NOTHING}\n"
-        return lines_of(self, model)
+        return self.lines_of_python(model)
 
     def scene_drawn(self, model: Model) -> Scene:
         measured = self.measured

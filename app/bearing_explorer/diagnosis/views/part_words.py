@@ -8,9 +8,10 @@ from typing import Any
 
 from bearing_explorer.diagnosis.diagnoses import Question
 from bearing_explorer.diagnosis.machine import Machine
+from bearing_explorer.diagnosis.sized_defect import size_in_words
 from bearing_explorer.diagnosis.views.part_lines import COLORS, NAMES, leading
 from bearing_explorer.kit.plots import style
-from bearingcore import Diagnosis, MeasuredExtent, PartEvidence
+from bearingcore import Diagnosis, MeasuredExtent, PartEvidence, Sizing
 from bearingcore.common import percent_off, probability
 from bearingcore.measured.diagnosis import LIKELY, NONE_SEEN, SLIP, ListedBearing, perhaps_a_ball
 
@@ -81,6 +82,14 @@ def extent(found: MeasuredExtent) -> str:
     if found.measured:
         return f"{found.size} long, or that and whole ball spacings"
     return found.size or LENGTH_HIDDEN
+
+
+def length(found: MeasuredExtent, sizing: Sizing | None) -> str:
+    """The length of a spall in a few words, by its simulation where that is conclusive."""
+    if sizing is not None and sizing.conclusive:
+        return f"{size_in_words(sizing)} long, by the frequencies at which the machine rings"
+    known = ", interval of 95 %" if found.measured else ""
+    return f"{extent(found)}{known}"
 
 
 def explained(one: ListedBearing) -> str:

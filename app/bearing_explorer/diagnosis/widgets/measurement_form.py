@@ -23,12 +23,11 @@ from bearing_explorer.diagnosis.measurement_state import MeasurementState
 from bearing_explorer.diagnosis.series import MOST_FILES
 from bearing_explorer.diagnosis.session import Measurement
 from bearing_explorer.diagnosis.upload import MOST_BYTES, PIECE
+from bearing_explorer.diagnosis.widgets.column_table import ColumnTable
+from bearing_explorer.diagnosis.widgets.file_upload import FileUpload, UploadBegins, UploadPiece
 from bearing_explorer.diagnosis.widgets.machine_form import MachineForm, notes_html
 from bearing_explorer.kit.assets import asset_text
-from bearing_explorer.kit.messages import UploadBegins, UploadPiece
 from bearing_explorer.kit.simulated_signals import NOISES
-from bearing_explorer.kit.widgets.column_table import ColumnTable
-from bearing_explorer.kit.widgets.file_upload import FileUpload
 from bearing_explorer.kit.widgets.form import Fields, button, choices, entry, row, select
 from bearingcore.common import number
 from bearingcore.measured.files import PLACES, UNITS
@@ -78,9 +77,10 @@ class MeasurementForm(pn.Column):
             "Cancel", lambda: self._measurement.cancel(), visible=False, align="start"
         )
         self._in_short = row(self._line, self._change, visible=False)
+        self._simulation = self._way("No file at hand?", self._simulation_form(), "9 1 420px")
         self._ways = row(
             self._way("Files of your own", self.upload, "5 1 260px"),
-            self._way("No file at hand?", self._simulation(), "9 1 420px"),
+            self._simulation,
             css_classes=["ways"],
         )
         self._in_full = pn.Column(
@@ -94,6 +94,8 @@ class MeasurementForm(pn.Column):
         self._measurement = measurement
         measurement.show, measurement.want = self.show, self.upload.want
         measurement.more = self.upload.more
+        # without the scene's half nobody has set up the scene that would be simulated
+        self._simulation.visible = measurement.change_scene is not None
         self.show(measurement.state)
 
     def _way(self, title: str, content: pn.viewable.Viewable, flex: str) -> pn.Column:
@@ -103,7 +105,7 @@ class MeasurementForm(pn.Column):
             stylesheets=[asset_text("measurement.css")],
         )  # fmt: skip
 
-    def _simulation(self) -> pn.Column:
+    def _simulation_form(self) -> pn.Column:
         noises = {
             name: "none" if math.isinf(level) else f"{level:.0f} dB"
             for name, level in sorted(NOISES.items(), key=lambda item: item[0] != "20")

@@ -7,8 +7,9 @@ from collections.abc import Callable
 import numpy as np
 from bokeh.plotting import figure
 
+from bearing_explorer.explorer.plots import compared_curves
 from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.kit.plots import compared_curves, style
+from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.layers import Layer, add_all, sources_of
 from bearing_explorer.kit.plots.levels import (
     DEPTH_OF_VIEW,

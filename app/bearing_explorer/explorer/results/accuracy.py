@@ -52,7 +52,7 @@ def compute(job: Work, scene: Scene, name: str) -> str:
     if not set(names) <= set(MEASURED):
         raise ValueError("There is no such experiment.")
     started = time.perf_counter()
-    found = measure(
+    results = measure(
         scene,
         names,
         slow=False,
@@ -61,8 +61,8 @@ def compute(job: Work, scene: Scene, name: str) -> str:
         shown=lambda part: job.show(Found(scene, part)),
         words=words_of,
     )
-    if not found.count:
-        if found.refused:
-            raise ValueError(f"Not for this scene: {'; '.join(found.refused.values())}.")
+    if not results.count:
+        if results.refused:
+            raise ValueError(f"Not for this scene: {'; '.join(results.refused.values())}.")
         return "Nothing was measured yet."
-    return f"{found.count} points after {time.perf_counter() - started:.1f} s."
+    return f"{results.count} points after {time.perf_counter() - started:.1f} s."

@@ -261,15 +261,15 @@ def _strikes(
     slot = int(np.flatnonzero(balls == entry.ball)[0])
     until = float(time[-1]) if leaves is None else LATE * leaves.time
     own = [s for s in ball_strikes(time, loads[:, :, [slot]]) if 0.0 < s.time <= until]
-    found = []
+    strikes = []
     for race in RACES:
         there = sorted((s for s in own if s.race == race), key=lambda s: -s.load)[:MOST_STRIKES]
-        found += [
+        strikes += [
             dataclasses.replace(strike, ball=entry.ball)
             for strike in there
             if strike.load >= HARD * there[0].load
         ]
-    return tuple(sorted(found, key=lambda strike: strike.time))
+    return tuple(sorted(strikes, key=lambda strike: strike.time))
 
 
 def _far_edge(scene: Scene, events: tuple[Event, ...], zero: float) -> float:

@@ -5,18 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bearing_explorer.explorer.results.excerpt import why_ended
-from bearing_explorer.kit.compute.compiling import StillCompiling
+from bearingcore import Equilibrium, Scene, Spectrum
 from bearingcore.common import ResultTable, table_of
-from bearingcore.model.statics import BALL_LOAD, TERM_UNITS
-
-if TYPE_CHECKING:
-    from bearing_explorer.explorer.results.results import Results
-    from bearingcore import Equilibrium, Scene, Spectrum
+from bearingcore.model.statics import BALL_LOAD, TERM_UNITS, StaticRanges
 
 LOWEST_PEAK = 100.0
 """[Hz] from which on the loudest line of a spectrum is looked for, as far as it is known."""
@@ -115,58 +109,50 @@ class Chain:
         )
 
 
-def chain(results: Results) -> Chain:
-    """The chain of the scene that `results` are of."""
-    ranges = results.ranges
-    found = ranges.state
-    bad = np.flatnonzero(~found.converged)
-    bands: dict[str, tuple[float, float]] = {}
-    peaks: dict[str, Peak] = {}
-    silent = ""
-    try:
-        bands = {label: band for label, band in results.bands.items() if math.isfinite(band[0])}
-        turns = results.scene.shaft_speed > 0.0
-        peaks = results.peaks if turns else {}
-        if not (turns and results.late_spectra):
-            silent = why_ended(results.motion) if turns else "nothing turns"
-    except StillCompiling:
-        raise
-    except ValueError as error:
-        silent = str(error)
-    terms = [f"k_{dof}{dof}" for dof in found.dofs]
+def chain_of(
+    ranges: StaticRanges,
+    scene: Scene,
+    bands: Mapping[str, tuple[float, float]],
+    peaks: dict[str, Peak],
+    silent: str,
+) -> Chain:
+    """The chain of a scene; the last three are attributes of it, bands of other modes left out."""
+    state = ranges.state
+    bad = np.flatnonzero(~state.converged)
+    terms = [f"k_{dof}{dof}" for dof in state.dofs]
     return Chain(
-        answered=1.0 - float(found.shares[bad].sum()),
-        reason=found.reason(int(bad[0])) if bad.size else "",
-        off_line=off_line(found, results.scene),
-        direction=direction(results.scene),
+        answered=1.0 - float(state.shares[bad].sum()),
+        reason=state.reason(int(bad[0])) if bad.size else "",
+        off_line=off_line(state, scene),
+        direction=direction(scene),
         greatest_load=ranges.greatest[BALL_LOAD],
-        loaded_balls=ranges.mean(np.where(found.converged, found.loaded_balls, math.nan)),
-        stiffness={term: ranges.mean(found.term(term)) for term in terms},
-        bands=bands,
+        loaded_balls=ranges.mean(np.where(state.converged, state.loaded_balls, math.nan)),
+        stiffness={term: ranges.mean(state.term(term)) for term in terms},
+        bands={label: band for label, band in bands.items() if math.isfinite(band[0])},
         peaks=peaks,
         silent=silent,
-        upright=upright(found),
+        upright=upright(state),
     )
 
 
-def upright(found: Equilibrium) -> float:
+def upright(state: Equilibrium) -> float:
     """Mean cos²α of loaded balls, each by what it carries; NaN where none does."""
-    carried = np.where(found.converged[:, None], found.ball_load, 0.0) * found.shares[:, None]
+    carried = np.where(state.converged[:, None], state.ball_load, 0.0) * state.shares[:, None]
     total = carried.sum()
     if not total > 0.0:
         return math.nan
-    radial = np.where(carried > 0.0, np.cos(found.contact_angle) ** 2, 0.0)
+    radial = np.where(carried > 0.0, np.cos(state.contact_angle) ** 2, 0.0)
     return float((carried * radial).sum() / total)
 
 
-def off_line(found: Equilibrium, scene: Scene) -> float:
+def off_line(state: Equilibrium, scene: Scene) -> float:
     """Mean angle [rad] between the loaded balls and the radial load, each by what it carries."""
     load = scene.load
-    carried = np.where(found.converged[:, None], found.ball_load, 0.0) * found.shares[:, None]
+    carried = np.where(state.converged[:, None], state.ball_load, 0.0) * state.shares[:, None]
     total = carried.sum()
     if not (math.hypot(load.fx, load.fy) > 0.0 and total > 0.0):
         return math.nan
-    apart = found.ball_angle - math.atan2(load.fy, load.fx)
+    apart = state.ball_angle - math.atan2(load.fy, load.fx)
     apart = np.abs((apart + math.pi) % (2.0 * math.pi) - math.pi)
     return float((carried * apart).sum() / total)
 
@@ -186,13 +172,6 @@ def in_same_order(label: str, *bands: Mapping[str, tuple[float, float]]) -> bool
     other = {"x": "y", "y": "x"}.get(label[:-1], "") + label[-1]
     pairs = [(sum(own[label]), sum(own[other])) for own in bands if label in own and other in own]
     return len({a > b for a, b in pairs if max(a, b) > ALIKE * min(a, b)}) <= 1
-
-
-def picture_top(results: Results) -> float:
-    """The frequency [Hz] up to which bands and highest lines are: a picture shows all of them."""
-    ends = [peak.frequency for peak in results.peaks.values()]
-    ends += [high for _, high in results.bands.values() if not math.isnan(high)]
-    return 1.05 * max(ends, default=0.0)
 
 
 def loudest(spectrum: Spectrum) -> Peak:

@@ -71,7 +71,7 @@ def crossings(scene: Scene, first: float, last: float) -> list[tuple[float, int]
 
     Pairs of the cage angle and the number of the element, row after row from 0.
     """
-    bearing, found = scene.bearing, []
+    bearing, events = scene.bearing, []
     angle = ball_angles(bearing, np.array([first]))[0]
     for defect, span in zip(scene.defects, spans(scene, first), strict=True):
         for row, elements in enumerate(bearing.balls_of_rows):
@@ -79,8 +79,8 @@ def crossings(scene: Scene, first: float, last: float) -> list[tuple[float, int]
             for edge in (span.start, span.start + span.extent) if span.meets(row) else ():
                 turn = np.sign(rate) * (edge - angle[elements]) % TWO_PI / abs(rate)
                 here = np.flatnonzero(turn < last - first)
-                found += [(first + float(turn[k]), elements.start + int(k)) for k in here]
-    return found
+                events += [(first + float(turn[k]), elements.start + int(k)) for k in here]
+    return events
 
 
 def race_depth(
@@ -99,20 +99,20 @@ def race_depth(
     return depth
 
 
-def _walls(found: list[Span], race: str, row: int | None = None) -> NDArray[np.float64]:
+def _walls(all_spans: list[Span], race: str, row: int | None = None) -> NDArray[np.float64]:
     """A pair of angles [rad] at every edge of a race, so that walls are drawn upright."""
     ends = [
         at
-        for span in found
+        for span in all_spans
         if span.race == race and span.meets(row)
         for at in (span.start, span.start + span.extent)
     ]
     return np.add.outer(ends, [-1e-9, 1e-9]).ravel()
 
 
-def race_angles(found: list[Span], race: str, n: int = 361) -> NDArray[np.float64]:
+def race_angles(all_spans: list[Span], race: str, n: int = 361) -> NDArray[np.float64]:
     """Angles [rad] from 0 to 2π that draw `race` with upright walls."""
-    return np.sort(np.append(np.linspace(0.0, TWO_PI, n), _walls(found, race) % TWO_PI))
+    return np.sort(np.append(np.linspace(0.0, TWO_PI, n), _walls(all_spans, race) % TWO_PI))
 
 
 @dataclass(frozen=True)
@@ -141,16 +141,16 @@ class Profile:
 def profile(scene: Scene, cage_angle: float, focus: int = 0) -> Profile:
     """Profile around the defect `focus` of `scene` with the cage at `cage_angle` [rad]."""
     compiling.need(compiling.STATICS)
-    found = spans(scene, cage_angle)
-    if not found:
+    all_spans = spans(scene, cage_angle)
+    if not all_spans:
         angle = np.linspace(1.5 * math.pi - LEAST_WIDTH, 1.5 * math.pi + LEAST_WIDTH, 3)
         return Profile("outer", angle, np.zeros(3), np.zeros(3))
-    first = found[focus]
+    first = all_spans[focus]
     middle = first.start + 0.5 * first.extent
     row = first.row or 0
     half = min(max((0.5 + MARGIN) * first.extent, LEAST_WIDTH), math.pi)
     low = middle - half
-    walls = low + (_walls(found, first.race, row) - low) % TWO_PI
+    walls = low + (_walls(all_spans, first.race, row) - low) % TWO_PI
     walls = walls[walls <= low + 2.0 * half]
     angle = np.sort(np.append(np.linspace(low, low + 2.0 * half, POINTS), walls))
     return Profile(

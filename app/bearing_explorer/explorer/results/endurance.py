@@ -187,15 +187,15 @@ def limits(
     oil = None
     if inputs.viscosity is not None and scene.bearing.knows_contacts:
         oil = film_of(scene, inputs, _state_of_contacts(scene))
-    found = limits_of(scene, state, dynamic_load=dynamic_load, step_rate=step_rate, film=oil)
+    answers = limits_of(scene, state, dynamic_load=dynamic_load, step_rate=step_rate, film=oil)
     if with_usual_grooves(scene) is None:
-        return found
-    return tuple(_not_judged(one) for one in found)
+        return answers
+    return tuple(_not_judged(answer) for answer in answers)
 
 
-def _not_judged(one: Limit) -> Limit:
+def _not_judged(limit: Limit) -> Limit:
     """A limit that is not known for want of groove radii, which are assumed on the Life tab."""
-    own = unknown(one.name, one.limit, one.unit, NO_DRAWING)
-    if one.sentence != own.sentence:
-        return one
-    return unknown(one.name, one.limit, one.unit, f"{NO_DRAWING}; {_LIFE_ASSUMES}")
+    own = unknown(limit.name, limit.limit, limit.unit, NO_DRAWING)
+    if limit.sentence != own.sentence:
+        return limit
+    return unknown(limit.name, limit.limit, limit.unit, f"{NO_DRAWING}; {_LIFE_ASSUMES}")

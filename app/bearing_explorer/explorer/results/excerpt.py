@@ -111,8 +111,8 @@ def excerpt_of(scene: Scene, motion: Motion, since: float, n_passes: float = 1.5
     last = max(int(np.searchsorted(time, start + length, side="right")), first + 2)
     cut = slice(first, last)
     events = tuple(
-        Event(_time_at(scene, motion, found.cage_angle) - zero, found.ball, found.enters)
-        for found in crossings(scene, float(cage[cut][0]), float(cage[cut][-1]))
+        Event(_time_at(scene, motion, event.cage_angle) - zero, event.ball, event.enters)
+        for event in crossings(scene, float(cage[cut][0]), float(cage[cut][-1]))
     )
     static_time = np.linspace(time[cut][0], time[cut][-1], STATIC_POINTS)
     static_cage = np.interp(static_time, time, cage)
@@ -158,11 +158,11 @@ def _stretch(
     before = 0.25 * min(one_pass, length)
     latest = end - length + before
     entries = [
-        found
-        for found in crossings(
+        event
+        for event in crossings(
             scene, float(motion.cage_angle[-1]) - settled * speed, float(motion.cage_angle[-1])
         )
-        if found.enters and since + before <= _time_at(scene, motion, found.cage_angle) <= latest
+        if event.enters and since + before <= _time_at(scene, motion, event.cage_angle) <= latest
     ]
     if entries:
         entry = _time_at(scene, motion, _most_telling(scene, entries).cage_angle)

@@ -280,8 +280,8 @@ class Survey:
             left = line[~known]
             most = left.size if self.question.grid.in_rows else few
             for start in range(0, left.size, max(most, 1)):
-                part, one = left[start : start + most], np.array([fixed])
-                yield (part, one) if upright else (one, part)
+                part, fixed_value = left[start : start + most], np.array([fixed])
+                yield (part, fixed_value) if upright else (fixed_value, part)
 
     def _find(self, rows: NDArray[np.intp], columns: NDArray[np.intp]) -> None:
         output = self.question.output
@@ -289,13 +289,13 @@ class Survey:
         x, y = grid.axes
         axes = (Axis(x.name, x.values[columns]), Axis(y.name, y.values[rows]))
         status, numbers = dataclasses.replace(grid, axes=axes).compute()
-        found = numbers[output.in_sweep]
+        values = numbers[output.in_sweep]
         if output.mode in grid.labels:
-            found = found[..., grid.labels.index(output.mode)]
+            values = values[..., grid.labels.index(output.mode)]
         elif output.mode:
-            found = np.full(status.shape, math.nan)
+            values = np.full(status.shape, math.nan)
         for (b, j), (a, i) in itertools.product(enumerate(rows), enumerate(columns)):
-            value = float(found[a, b])
+            value = float(values[a, b])
             why = "" if math.isfinite(value) else self._why(STATUSES[status[a, b]], j, i)
             self._values[j, i] = value if not why else math.nan
             self._reasons[j, i] = why

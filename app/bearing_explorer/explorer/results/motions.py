@@ -158,20 +158,20 @@ def motion(scene: Scene, how: Marching) -> SettledMotion:
         duration = _affordable(scene, duration, rate)
     # the default takes more steps where contacts that let go need them
     chosen = rate if how.coarse else how.step_rate
-    found = core.simulate(
+    run = core.simulate(
         scene, duration, how.sample_rate, step_rate=chosen, most_steps=MOST_STEPS_WITH_MASS
     )
     preview = how.coarse and duration < SHORTEST
-    return SettledMotion(found, (PREVIEW_TRANSIENT_SHARE if preview else 0.5) * duration)
+    return SettledMotion(run, (PREVIEW_TRANSIENT_SHARE if preview else 0.5) * duration)
 
 
 @cached
 def ending(scene: Scene, how: Marching) -> Ending:
     """The end of the motion."""
-    found, since = motion(scene, how)
-    if found.completed:
-        return Ending("", since, found.detail)
-    return Ending(found.reason, since, "")
+    run, since = motion(scene, how)
+    if run.completed:
+        return Ending("", since, run.detail)
+    return Ending(run.reason, since, "")
 
 
 @cached
@@ -187,20 +187,20 @@ def late_spectra(scene: Scene, how: Marching) -> dict[str, Spectrum]:
 
     Empty where it did not stay finite.
     """
-    found, since = motion(scene, how)
-    if not found.completed:
+    run, since = motion(scene, how)
+    if not run.completed:
         return {}
-    frequency, density = found.spectrum(since=since)
-    return {dof: core.Spectrum(frequency, density[:, i]) for i, dof in enumerate(found.dofs)}
+    frequency, density = run.spectrum(since=since)
+    return {dof: core.Spectrum(frequency, density[:, i]) for i, dof in enumerate(run.dofs)}
 
 
 @cached
 def dynamic_load(scene: Scene, how: Marching) -> float:
     """Greatest load of a ball [N] since the motion settled; NaN where it did not stay finite."""
-    found, since = motion(scene, how)
-    if not found.completed:
+    run, since = motion(scene, how)
+    if not run.completed:
         return math.nan
-    loads = found.ball_loads(math.ceil(since * found.sample_rate - 1e-6))
+    loads = run.ball_loads(math.ceil(since * run.sample_rate - 1e-6))
     return float(loads.max(initial=0.0))
 
 
@@ -239,10 +239,10 @@ def orbit(scene: Scene, how: Marching, give_up: Callable[[], bool] | None = None
         given_up = give_up is not None and give_up()
         return given_up
 
-    found = core.orbit(scene, step_rate=_orbit_step_rate(scene, how), give_up=stop)
+    answer = core.orbit(scene, step_rate=_orbit_step_rate(scene, how), give_up=stop)
     if given_up:
         raise Overtaken
-    return found
+    return answer
 
 
 @cached

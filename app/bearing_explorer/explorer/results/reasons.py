@@ -55,14 +55,14 @@ _SQUARE = {"x": "cos²φ", "y": "sin²φ"}
 
 def most_loaded(
     scene: Scene,
-    found: Equilibrium,
+    states: Equilibrium,
     state: int,
     drop: NDArray[np.float64],
     *,
     briefly: bool = False,
 ) -> str:
     """Which ball carries the most in a state, and why; `drop` [m] of each ball into defects."""
-    load, bearing = found.ball_load[state], scene.bearing
+    load, bearing = states.ball_load[state], scene.bearing
     if not (np.isfinite(load).all() and load.max() > 0.0):
         return ""
     most = np.flatnonzero(load >= (1.0 - ALIKE) * load.max())
@@ -77,7 +77,7 @@ def most_loaded(
     nearer = np.zeros(0, dtype=np.int64)
     where = brief = "the rings are pressed together most there"
     if not math.isnan(line):
-        apart = np.abs((found.ball_angle[state] - line + math.pi) % (2.0 * math.pi) - math.pi)
+        apart = np.abs((states.ball_angle[state] - line + math.pi) % (2.0 * math.pi) - math.pi)
         nearer = np.flatnonzero(apart < apart[most].min() - 1e-6)
         if not nearer.size:
             off = style.in_degrees(apart[most].min(), 0)
@@ -122,14 +122,14 @@ def _neighbours(bearing: Bearing, which: NDArray[np.int64]) -> NDArray[np.int64]
 
 def greatest_load(results: Results) -> str:
     """The same at the cage angle where a ball carries the most of all, which it names."""
-    found = results.ranges.state
-    load = np.where(found.converged[:, None], found.ball_load, -1.0).max(axis=1)
+    states = results.ranges.state
+    load = np.where(states.converged[:, None], states.ball_load, -1.0).max(axis=1)
     state = [int(np.argmax(load))]
     if load[state] <= 0.0:
         return ""
-    angle = found.cage_angles[state]
-    drop = drops_at(results.scene, angle, None, found.leads[state])[0]
-    why = most_loaded(results.scene, found, state[0], drop)
+    angle = states.cage_angles[state]
+    drop = drops_at(results.scene, angle, None, states.leads[state])[0]
+    why = most_loaded(results.scene, states, state[0], drop)
     return f"That is with the cage at {style.in_degrees(angle[0])}: {why[0].lower()}{why[1:]}"
 
 
@@ -153,10 +153,10 @@ def _named(bearing: Bearing, which: NDArray[np.int64]) -> str:
 def radial(results: Results) -> tuple[dict[str, float], float]:
     """Mean stiffness [N/m] along x and y over all positions, and mean number of loaded balls."""
     ranges = results.ranges
-    found = ranges.state
-    balls = ranges.mean(np.where(found.converged, found.loaded_balls, math.nan))
-    terms = [f"k_{dof}{dof}" for dof in ("x", "y") if dof in found.dofs]
-    return {term: ranges.mean(found.term(term)) for term in terms}, balls
+    states = ranges.state
+    balls = ranges.mean(np.where(states.converged, states.loaded_balls, math.nan))
+    terms = [f"k_{dof}{dof}" for dof in ("x", "y") if dof in states.dofs]
+    return {term: ranges.mean(states.term(term)) for term in terms}, balls
 
 
 def why_softer(
@@ -260,26 +260,26 @@ _LEVER = {"x": "cosα·cosφ", "y": "cosα·sinφ", "z": "sinα"}
 
 def stiffness_term(results: Results, term: str) -> str:
     """Explain a term of the stiffness by what each contact adds to it; empty of most tilts."""
-    found = results.equilibrium
-    if not found.converged.any():
+    states = results.equilibrium
+    if not states.converged.any():
         return ""
-    one, other = next((a, b) for a in DOF_NAMES for b in DOF_NAMES if term == f"k_{a}{b}")
+    first, other = next((a, b) for a in DOF_NAMES for b in DOF_NAMES if term == f"k_{a}{b}")
     symbol = TERM_SYMBOLS[term].replace(" ", "_", 1)
-    least, most = np.nanmin(found.term(term)), np.nanmax(found.term(term))
+    least, most = np.nanmin(states.term(term)), np.nanmax(states.term(term))
     size = max(abs(least), abs(most))
-    diagonal = (found.term(f"k_{dof}{dof}") for dof in (one, other))
+    diagonal = (states.term(f"k_{dof}{dof}") for dof in (first, other))
     scale = math.sqrt(math.prod(float(np.nanmax(np.abs(values))) for values in diagonal))
     if size <= 1e-6 * scale:
-        return f"{symbol} is zero: {DOF_SYMBOLS[one]} and {DOF_SYMBOLS[other]} are not coupled."
-    if not {one, other} <= _LEVER.keys():
+        return f"{symbol} is zero: {DOF_SYMBOLS[first]} and {DOF_SYMBOLS[other]} are not coupled."
+    if not {first, other} <= _LEVER.keys():
         return ""
-    if one == other:
+    if first == other:
         why = ""
         if term in RADIAL and results.scene.defects and results.reference_label:
             why = why_softer(term, radial(results), radial(results.reference))
         why = f" With the defect {why}." if why else ""
-        return f"Each contact of stiffness k adds k·({_LEVER[one]})² to {symbol}.{why}"
-    text = f"Each contact of stiffness k adds k·({_LEVER[one]})·({_LEVER[other]}) to {symbol}, "
+        return f"Each contact of stiffness k adds k·({_LEVER[first]})² to {symbol}.{why}"
+    text = f"Each contact of stiffness k adds k·({_LEVER[first]})·({_LEVER[other]}) to {symbol}, "
     if least < -ALIKE * size and most > ALIKE * size:
         return (
             f"{text}of either sign: contacts left and right cancel, and the side that "
@@ -352,7 +352,7 @@ def frequencies(results: Results) -> str:
     }
     if not widths:
         return ""
-    label = max(widths, key=lambda one: widths[one])
+    label = max(widths, key=lambda label: widths[label])
     term = f"k_{label[:-1] * 2}"
     ratio = ranges.greatest[term] / ranges.least[term] if ranges.least[term] > 0.0 else math.nan
     if not ratio > 1.0:
@@ -424,7 +424,7 @@ def peak(results: Results, rates: Sequence[float], *, briefly: bool = False) -> 
     peaks = results.peaks
     if not peaks:
         return ""
-    dof = max(peaks, key=lambda one: peaks[one].level)
+    dof = max(peaks, key=lambda name: peaks[name].level)
     most = peaks[dof]
     frequency, density = results.late_spectra[dof]
     is_low = frequency < LOWEST_PEAK
@@ -457,7 +457,7 @@ def peak(results: Results, rates: Sequence[float], *, briefly: bool = False) -> 
         return f"{text} {words}: along {dof} the housing takes part in that swing."
     if not bands:
         return ""
-    label = min(bands, key=lambda one: _off(most, bands[one]))
+    label = min(bands, key=lambda name: _off(most, bands[name]))
     side = "below" if most.frequency < bands[label][0] else "above"
     text += f" lies in no band, {_off(most, bands[label]):.0f} Hz {side} {mode_symbol(label)}"
     moving, still = results.load_in_motion, results.ranges.greatest[BALL_LOAD]

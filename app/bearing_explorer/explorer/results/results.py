@@ -10,19 +10,19 @@ import dataclasses
 import math
 from collections.abc import Callable, Sequence, Set
 from dataclasses import KW_ONLY, dataclass, field
-from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
+from typing import Any, ClassVar, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from bearing_explorer.explorer.results import endurance, motions, statics
+from bearing_explorer.explorer.results import endurance, motions, statics, verdict
 from bearing_explorer.explorer.results.ball_mass import BallMass
-from bearing_explorer.explorer.results.chain import Chain, Peak, chain, loudest
+from bearing_explorer.explorer.results.chain import Chain, Peak, chain_of, loudest
 from bearing_explorer.explorer.results.defect_shape import Profile, profile
 from bearing_explorer.explorer.results.endurance import Endurance, LifeInputs
-from bearing_explorer.explorer.results.excerpt import Excerpt
+from bearing_explorer.explorer.results.excerpt import Excerpt, why_ended
 from bearing_explorer.explorer.results.load_curve import Curve, load_curve
-from bearing_explorer.explorer.results.verdict import status_of
+from bearing_explorer.explorer.results.verdict import Verdict
 from bearing_explorer.explorer.state.field_values import defects_of
 from bearing_explorer.explorer.state.references import (
     HEALTHY,
@@ -33,8 +33,10 @@ from bearing_explorer.explorer.state.references import (
 from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.explorer.state.settings import Marching, Settings
 from bearing_explorer.kit.compute.cache import cached
+from bearing_explorer.kit.compute.compiling import StillCompiling
 from bearing_explorer.kit.compute.executors import PICTURES
-from bearing_explorer.kit.views.content import Content
+from bearing_explorer.kit.sentences import words_of
+from bearing_explorer.kit.views.content import SceneContent, Warnings
 from bearing_explorer.kit.views.python_lines import changed_fields, code_of, scene_code, short
 from bearingcore import Equilibrium, Limit, Maps, Modes, Motion, Orbit, Scene, Spectrum
 from bearingcore.common import cached_property
@@ -46,10 +48,8 @@ from bearingcore.model.statics import (
     default_cage_angles,
     has_long_period,
     ranges_of,
+    summary,
 )
-
-if TYPE_CHECKING:
-    from bearing_explorer.kit.views.base import View
 
 Compute = TypeVar("Compute", bound=Callable[..., object])
 
@@ -86,7 +86,7 @@ def _chain_of(scene: Scene, cage_angle: float, settings: Settings, moving: bool)
 
 
 @dataclass(frozen=True, eq=False)
-class Results(Content):
+class Results(SceneContent):
     """All that the views read. Attributes are computed when first asked for, in any thread.
 
     Parameters
@@ -179,7 +179,7 @@ class Results(Content):
     @cached_property
     def compared_results(self) -> list[Results]:
         """Results of the compared scenes in their order, each over its own period."""
-        return [self.against(one, own_period=True) for one in self.compared]
+        return [self.against(reference, own_period=True) for reference in self.compared]
 
     @cached_property
     def grey(self) -> Reference:
@@ -260,11 +260,11 @@ class Results(Content):
     @cached_property
     def inner_load_curves(self) -> list[Curve]:
         """The same at the inner race, where balls with mass carry less; none of massless ones."""
-        found = self.ranges.state
-        if not isinstance(found, EquilibriumWithMass) or found.positions.centrifugal_load == 0.0:
+        state = self.ranges.state
+        if not isinstance(state, EquilibriumWithMass) or state.positions.centrifugal_load == 0.0:
             return []
-        rows = range(len(found.scene.bearing.all_rows))
-        return [load_curve(found, row, found.inner_load) for row in rows]
+        rows = range(len(state.scene.bearing.all_rows))
+        return [load_curve(state, row, state.inner_load) for row in rows]
 
     @cached_property
     def now(self) -> Equilibrium:
@@ -327,21 +327,50 @@ class Results(Content):
 
     def status(self, seconds: float, needed: frozenset[str] = frozenset()) -> dict[str, Any]:
         """The status line of results that took `seconds` [s], for views that need these."""
-        return status_of(self, seconds, needed)
+        mood, words = self.verdict(needed)
+        details = verdict.details_of(self.equilibrium)
+        if self.is_coarse(needed):
+            details.append(self.coarse_words(needed))
+        details.append(f"{1e3 * seconds:.1f} ms of computing")
+        return {"mood": mood, "words": words, "details": details, "resting": not self.moving}
 
-    def arguments(self, view: View) -> dict[str, str]:
-        """Arguments with which lines of Python make a figure of these, if not as usual."""
+    def verdict(self, shown: frozenset[str]) -> Verdict:
+        """The verdict on what is on screen: `shown` are the attributes that its views read.
+
+        The first failure counts: without a static state there is no motion, and a motion that
+        broke off has no orbit. An orbit that is shown is judged, converged or not: an unstable one
+        is no place where a machine stays.
+        """
+        bad = verdict.of_statics(self.equilibrium)
+        if not bad and "now" in shown:
+            bad = verdict.of_now(self.now)
+        if not bad and "chain" in shown:
+            bad = verdict.of_chain(self.chain)
+        if bad:
+            return Verdict("bad", bad)
+        try:
+            if shown & verdict.BALLS and self.ball_mass.broke_off:
+                return Verdict("bad", f"No motion: {self.ball_mass.broke_off}")
+            if shown & verdict.MOTIONS and self.fault:
+                return Verdict("bad", f"The motion {self.fault}")
+            if shown & verdict.ORBITS:
+                return verdict.of_orbit(self.orbit, self.moving)
+        except StillCompiling as wait:
+            return Verdict("busy", f"Not ready: {wait}")
+        except ValueError as error:  # the view gives the whole sentence
+            return Verdict("bad", f"No motion: {words_of(error)}")
+        return Verdict("good", "Computed without problems")
+
+    def arguments(self, needed: frozenset[str]) -> dict[str, str]:
+        """Arguments of a figure that needs these attributes, where they are not as usual."""
         given: dict[str, str] = {}
         if self.cage_angle:
             given["cage_angle"] = short(self.cage_angle)
         if self.focus:
             given["focus"] = str(self.focus)
-        if self.compared and view.compares:
-            named = (f"{code_of(one.name)}: {scene_code(one.scene)}" for one in self.compared)
-            given["compared"] = "{" + ", ".join(named) + "}"
-        if self.before is not None and "before" in view.needs:
+        if self.before is not None and "before" in needed:
             given["before"] = scene_code(self.before.scene)
-        if self.grey_kind != HEALTHY and "reference" in view.needs:
+        if self.grey_kind != HEALTHY and "reference" in needed:
             given["grey"] = code_of(self.grey_kind)
         for name, value, usual in (
             ("settings", self.settings, Settings()),
@@ -350,6 +379,12 @@ class Results(Content):
             if changed := changed_fields(value, usual):
                 given[name] = code_of(changed)
         return given
+
+    @property
+    def compared_argument(self) -> dict[str, str]:
+        """The argument of a figure that draws compared scenes; none without them."""
+        named = (f"{code_of(one.name)}: {scene_code(one.scene)}" for one in self.compared)
+        return {"compared": "{" + ", ".join(named) + "}"} if self.compared else {}
 
     @property
     def _with_mass(self) -> Scene:
@@ -469,9 +504,9 @@ class Results(Content):
             return None
         # balls without mass, whatever the scene has
         key = self.scene.replace(balls=MASSLESS), self.marching
-        found = motions.quick_orbit(*key)
-        if self.moving or found.status is not OrbitStatus.NOT_CONVERGED:
-            return found
+        answer = motions.quick_orbit(*key)
+        if self.moving or answer.status is not OrbitStatus.NOT_CONVERGED:
+            return answer
         return motions.orbit(*key, give_up=self.give_up)
 
     @cached_property
@@ -493,6 +528,10 @@ class Results(Content):
         return endurance.limits(self.scene, step_rate, self.load_in_motion, self.life_inputs)
 
     @property
+    def warnings(self) -> Warnings:
+        return Warnings(verdict.rows_of(self.limits), summary(self.limits))
+
+    @property
     def endurance(self) -> Endurance:
         """Life, pressure and film of the scene, with the oil and steel of `life_inputs`."""
         return endurance.endurance(self.scene, self.life_inputs)
@@ -511,7 +550,27 @@ class Results(Content):
     @of_kind(SLOW, OF_MOTION, OVER_STRETCH)
     def chain(self) -> Chain:
         """Results from the loads of the balls to the vibration."""
-        return chain(self)
+        bands: dict[str, tuple[float, float]] = {}
+        peaks: dict[str, Peak] = {}
+        silent = ""
+        try:
+            bands = self.bands
+            turns = self.scene.shaft_speed > 0.0
+            peaks = self.peaks if turns else {}
+            if not (turns and self.late_spectra):
+                silent = why_ended(self.motion) if turns else "nothing turns"
+        except StillCompiling:
+            raise
+        except ValueError as error:
+            silent = str(error)
+        return chain_of(self.ranges, self.scene, bands, peaks, silent)
+
+    @property
+    def picture_top(self) -> float:
+        """The frequency [Hz] up to which bands and highest lines are: a picture shows all."""
+        ends = [peak.frequency for peak in self.peaks.values()]
+        ends += [high for _, high in self.bands.values() if not math.isnan(high)]
+        return 1.05 * max(ends, default=0.0)
 
     def chain_of(self, reference: Reference) -> Chain:
         """The same of a reference, looked up while a drag is compared with where it began."""

@@ -1,19 +1,18 @@
-"""Status of the computation, in words and colour: one verdict for all that is on screen."""
+"""Status of the computation and limits of the model, in words, for all that is on screen."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+import math
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from bearing_explorer.kit.compute.compiling import StillCompiling
-from bearing_explorer.kit.sentences import words_of
-from bearingcore.common import count, number, scientific
+from bearing_explorer.explorer.results.chain import Chain
+from bearingcore import Equilibrium, Limit, Orbit
+from bearingcore.common import count, number, scientific, with_prefix
 from bearingcore.model.dynamics import OrbitStatus
 from bearingcore.model.scene import DOF_SYMBOLS
-
-if TYPE_CHECKING:
-    from bearing_explorer.explorer.results.results import Results
+from bearingcore.model.statics import NO_OIL
 
 ORBITS = frozenset({"orbit"})
 """Attributes of the results that are of the steady orbit."""
@@ -43,64 +42,32 @@ class Verdict(NamedTuple):
     words: str
 
 
-def verdict(results: Results, shown: frozenset[str]) -> Verdict:
-    """The verdict on what is on screen: `shown` are the attributes that its views read.
-
-    The first failure counts: without a static state there is no motion, and a motion that broke
-    off has no orbit. An orbit that is shown is judged, converged or not: an unstable one is no
-    place where a machine stays.
-    """
-    bad = of_statics(results)
-    if not bad and "now" in shown:
-        bad = of_now(results)
-    if not bad and "chain" in shown:
-        bad = of_chain(results)
-    if bad:
-        return Verdict("bad", bad)
-    try:
-        if shown & BALLS and results.ball_mass.broke_off:
-            return Verdict("bad", f"No motion: {results.ball_mass.broke_off}")
-        if shown & MOTIONS and results.fault:
-            return Verdict("bad", f"The motion {results.fault}")
-        if shown & ORBITS:
-            return of_orbit(results)
-    except StillCompiling as wait:
-        return Verdict("busy", f"Not ready: {wait}")
-    except ValueError as error:  # the view gives the whole sentence
-        return Verdict("bad", f"No motion: {words_of(error)}")
-    return Verdict("good", "Computed without problems")
-
-
-def of_statics(results: Results) -> str:
+def of_statics(state: Equilibrium) -> str:
     """At which cage angles of the curves no static equilibrium was found; empty for none."""
-    found = results.equilibrium
-    bad = np.flatnonzero(~found.converged)
+    bad = np.flatnonzero(~state.converged)
     if not bad.size:
         return ""
-    reason = found.reason(int(bad[0]))
-    if bad.size == found.converged.size:
+    reason = state.reason(int(bad[0]))
+    if bad.size == state.converged.size:
         return f"No answer: {reason}"
-    return f"No answer at {bad.size} of {found.converged.size} cage angles: {reason}"
+    return f"No answer at {bad.size} of {state.converged.size} cage angles: {reason}"
 
 
-def of_now(results: Results) -> str:
+def of_now(now: Equilibrium) -> str:
     """Why there is no static equilibrium at the cage angle that is drawn; empty where there is."""
-    now = results.now
     return "" if now.converged[0] else f"No answer at this cage angle: {now.reason(0)}"
 
 
-def of_chain(results: Results) -> str:
+def of_chain(chain: Chain) -> str:
     """The same wherever the change is followed: the shaft may turn too."""
-    chain = results.chain
     if chain.answered == 1.0:
         return ""
     share = number(100.0 * (1.0 - chain.answered), 2)
     return f"No answer at {share} % of the cage angles: {chain.reason}"
 
 
-def of_orbit(results: Results) -> Verdict:
+def of_orbit(orbit: Orbit | None, moving: bool) -> Verdict:
     """Whether there is a steady orbit, and whether it is stable."""
-    orbit = results.orbit
     if orbit is None:
         return Verdict("bad", "Orbit not searched")
     if orbit.multipliers.size:
@@ -109,32 +76,54 @@ def of_orbit(results: Results) -> Verdict:
         return Verdict("bad", LOST[orbit.through])
     if orbit.status in _NO_ORBIT:
         return Verdict("bad", _NO_ORBIT[orbit.status])
-    return (
-        Verdict("busy", "No orbit found yet")
-        if results.moving
-        else Verdict("bad", "No orbit found")
-    )
+    return Verdict("busy", "No orbit found yet") if moving else Verdict("bad", "No orbit found")
 
 
-def status_of(
-    results: Results, seconds: float, shown: frozenset[str] = frozenset()
-) -> dict[str, Any]:
-    """The status line of results that took `seconds` [s] to compute.
+def details_of(state: Equilibrium) -> list[str]:
+    """Details of the status line on the static answers of the curves."""
+    finite = state.residual[state.converged & np.isfinite(state.residual)]
+    symbols = " ".join(DOF_SYMBOLS[dof] for dof in state.dofs)
+    freedom = count(len(state.dofs), "degree of freedom", "degrees of freedom")
+    return [
+        *([f"residual at most {scientific(float(finite.max()))}"] if finite.size else []),
+        f"{freedom}: {symbols}",
+        count(state.converged.size, "cage angle"),
+    ]
 
-    `shown`: the attributes of the results that views on screen read.
-    """
-    found = results.equilibrium
-    n_angles = found.converged.size
-    mood, words = verdict(results, shown)
-    details = []
-    finite = found.residual[found.converged & np.isfinite(found.residual)]
-    if finite.size:
-        details.append(f"residual at most {scientific(float(finite.max()))}")
-    symbols = " ".join(DOF_SYMBOLS[dof] for dof in found.dofs)
-    freedom = count(len(found.dofs), "degree of freedom", "degrees of freedom")
-    details.append(f"{freedom}: {symbols}")
-    details.append(count(n_angles, "cage angle"))
-    if results.is_coarse(shown):
-        details.append(results.coarse_words(shown))
-    details = [*details, f"{1e3 * seconds:.1f} ms of computing"]
-    return {"mood": mood, "words": words, "details": details, "resting": not results.moving}
+
+def rows_of(limits: tuple[Limit, ...]) -> tuple[dict[str, Any], ...]:
+    """Limits for the browser, crossed ones first: names, numbers and sentences in words."""
+    rows = [
+        {
+            "name": limit.name,
+            "value": _number(limit.value, limit.unit),
+            "limit": _number(limit.limit, limit.unit),
+            "state": "unknown"
+            if math.isnan(limit.value)
+            else "crossed"
+            if limit.crossed
+            else "kept",
+            "short": f"{limit.name.capitalize()}: {_number(limit.value, limit.unit)} "
+            f"(limit {_number(limit.limit, limit.unit)})",
+            "sentence": limit.sentence + _where(limit),
+        }
+        for limit in limits
+    ]
+    return tuple(sorted(rows, key=lambda row: row["state"] != "crossed"))
+
+
+def _where(limit: Limit) -> str:
+    """The tab with the fields for a number that is missing."""
+    if math.isnan(limit.value) and NO_OIL in limit.sentence:
+        return " Enter them on the Machine tab, under Life."
+    return ""
+
+
+def _number(value: float, unit: str) -> str:
+    if math.isnan(value):
+        return "not known"
+    if unit == "rad":
+        return f"{number(math.degrees(value))}°"
+    if unit:
+        return with_prefix(value, unit)
+    return number(value) if value >= 1e-4 or value == 0.0 else "below 0.0001"

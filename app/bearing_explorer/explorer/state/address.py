@@ -185,8 +185,8 @@ def opened(text: str, editor: SceneEditor) -> Place:
             )
     except ValueError as error:
         why = sentence_of(error)
-        if found := _TAB.search(text[:LONGEST_TEXT]):
-            tab = OTHER_NAMES_OF_TABS.get(found[1], found[1])
+        if match := _TAB.search(text[:LONGEST_TEXT]):
+            tab = OTHER_NAMES_OF_TABS.get(match[1], match[1])
         note = f"The address could not be opened. {why} Showing the default bearing instead."
     return dataclasses.replace(place_of(editor, tab), note=note, compared=compared)
 
@@ -197,10 +197,10 @@ _LESSON = re.compile(r"(?:^|&)lesson=([a-z0-9-]{1,60})(?=&|$)")
 def lesson_in(text: str) -> tuple[str, str]:
     """The lesson that an address names, or "", and the address without it."""
     text = text.removeprefix("?")
-    found = _LESSON.search(text) if len(text) <= LONGEST_TEXT else None
-    if found is None:
+    match = _LESSON.search(text) if len(text) <= LONGEST_TEXT else None
+    if match is None:
         return "", text
-    return found[1], (text[: found.start()] + text[found.end() :]).removeprefix("&")
+    return match[1], (text[: match.start()] + text[match.end() :]).removeprefix("&")
 
 
 def holds_scene(text: str) -> bool:
@@ -224,10 +224,12 @@ def place_of(editor: SceneEditor, tab: str = "") -> Place:
 
 def _written(place: Place, without_floors: bool) -> str:
     pairs = [("v", VERSION), *_scene_pairs(place, without_floors)]
-    for number, one in enumerate(place.compared, 1):
-        preset = min(presets, key=lambda name: len(_scene_pairs(Place(one.scene, name), True)))
-        label = [("label", one.name)] if one.name else []
-        own_place = Place(one.scene, preset, name=one.bearing)
+    for number, reference in enumerate(place.compared, 1):
+        preset = min(
+            presets, key=lambda name: len(_scene_pairs(Place(reference.scene, name), True))
+        )
+        label = [("label", reference.name)] if reference.name else []
+        own_place = Place(reference.scene, preset, name=reference.bearing)
         own = [*label, *_scene_pairs(own_place, without_floors)]
         pairs += [(f"compare{number}.{name}", value) for name, value in own]
     if place.cage_angle:
@@ -289,7 +291,7 @@ def number_text(field: Field, value: float | None) -> str:
     if value is None:
         return "none"
     shown = (float(f"{value / field.factor:.{digits}g}") for digits in (12, 15, 16, 17))
-    exact = [_short(one) for one in shown if field_values.in_si(field, one) == value]
+    exact = [_short(digit) for digit in shown if field_values.in_si(field, digit) == value]
     return min([*exact, _short(value) + "SI"], key=len)
 
 
@@ -343,12 +345,12 @@ def _compared(given: dict[str, str]) -> tuple[Reference, ...]:
     for name in list(given):
         if own := _OF_COMPARED.fullmatch(name):
             parts.setdefault(own[1], {})[own[2]] = given.pop(name)
-    found = []
+    references = []
     for _, part in sorted(parts.items()):
         label = one_line(part.pop("label", ""), LONGEST_NAME)
         place = _read({"v": VERSION, **part})
-        found.append(Reference(place.scene, label, bearing=place.name))
-    return tuple(found)
+        references.append(Reference(place.scene, label, bearing=place.name))
+    return tuple(references)
 
 
 def _read(given: dict[str, str]) -> Place:
@@ -464,11 +466,11 @@ def _usual_limits() -> Mapping[str, Range]:
 
 def _parsed(text: str, name: str) -> tuple[float, bool]:
     """A number and whether it is said to be in SI."""
-    found = _NUMBER.fullmatch(text) if len(text) <= _LONGEST_NUMBER else None
-    value = float(found[1]) if found else math.nan
-    if found is None or not math.isfinite(value):
+    match = _NUMBER.fullmatch(text) if len(text) <= _LONGEST_NUMBER else None
+    value = float(match[1]) if match else math.nan
+    if match is None or not math.isfinite(value):
         raise ValueError(f"“{_shown(text)}” is not a number for {name}.")
-    return value, found[2] is not None
+    return value, match[2] is not None
 
 
 def _count(text: str, name: str) -> int:

@@ -28,9 +28,8 @@ from bearing_explorer.explorer.state.address import (
 from bearing_explorer.explorer.state.difference import distinct_name
 from bearing_explorer.explorer.state.field_values import CAGE_ANGLE
 from bearing_explorer.explorer.state.history import History
-from bearing_explorer.explorer.state.references import Reference, scene_line
+from bearing_explorer.explorer.state.references import MOST_COMPARED, Reference, scene_line
 from bearing_explorer.explorer.state.scene_editor import LONGEST_NAME, SceneEditor, Snapshot
-from bearing_explorer.kit.plots.compared_curves import MOST_COMPARED
 from bearing_explorer.kit.sentences import one_line, sentence_of
 from bearingcore import Scene
 from bearingcore.common import LARGEST_TEXT
@@ -117,7 +116,7 @@ class Bookmarks:
 
     def _usual_name(self, scene: Scene, bearing: str) -> str:
         """A name by what differs from the scene of now and those that are compared."""
-        others = [self._editor.scene, *(one.scene for one in self._compared)]
+        others = [self._editor.scene, *(reference.scene for reference in self._compared)]
         return distinct_name(scene, others, self._editor.selected, bearing)
 
     def say(self, sentence: str) -> None:
@@ -180,23 +179,23 @@ class Bookmarks:
         self.step()
         return tab or FIRST_TAB
 
-    def take(self, request: OpenRequest, found: Place | str) -> bool:
+    def take(self, request: OpenRequest, place: Place | str) -> bool:
         """Open or compare the place that `read_request` found; whether anything changed."""
-        if isinstance(found, str):
-            self.say(found)
+        if isinstance(place, str):
+            self.say(place)
             return False
         if request.what == "compare":
-            self._compare(found.scene, request.name)
+            self._compare(place.scene, request.name)
             return True
         try:
             self._editor.take_scene(
-                found.scene, found.preset, found.selected, found.cage_angle, found.name
+                place.scene, place.preset, place.selected, place.cage_angle, place.name
             )
         except ValueError as error:
             self.say(f"{request.name}: {sentence_of(error)}")
             return False
-        self._compared = found.compared or self._compared
-        self.say(found.note or f"{request.name} is open.")
+        self._compared = place.compared or self._compared
+        self.say(place.note or f"{request.name} is open.")
         self.step()
         return True
 
@@ -242,7 +241,7 @@ class Bookmarks:
             "whole": not leaves_out(address),
             "undo": self._history.can_undo,
             "redo": self._history.can_redo,
-            "compared": [one.name for one in self.compared],
+            "compared": [reference.name for reference in self.compared],
             "scene": scene_line(self._editor.name, self._editor.scene),
             "usual_name": self._usual_name(self._editor.scene, self._editor.name),
             "said": {"number": self._said[0], "words": self._said[1]},

@@ -224,21 +224,26 @@ def lessons_in(folder: Path, tabs: Tabs) -> list[Lesson | Fault]:
         return [_no_lessons(folder, f"cannot be read ({error.strerror or error})")]
     if not files:
         return [_no_lessons(folder, "holds no file that ends in .md")]
-    found: list[Lesson | Fault] = []
+    lessons: list[Lesson | Fault] = []
     for path in files[:MOST_LESSONS]:
         try:
             about = path.stat()
-            found.append(_from_file(path, about.st_mtime_ns, about.st_size, tabs))
+            lessons.append(_from_file(path, about.st_mtime_ns, about.st_size, tabs))
         except OSError as error:
-            found.append(_fault(path.name, f"cannot be read ({error.strerror or error})"))
+            lessons.append(_fault(path.name, f"cannot be read ({error.strerror or error})"))
     if len(files) > MOST_LESSONS:
-        found.append(_fault(folder.name, f"holds {len(files)} lessons; allowed: {MOST_LESSONS}"))
-    return found
+        lessons.append(_fault(folder.name, f"holds {len(files)} lessons; allowed: {MOST_LESSONS}"))
+    return lessons
+
+
+def own_lessons(tabs: Tabs) -> list[Lesson | Fault]:
+    """The lessons that come with the program, without those on a tab that is not there."""
+    return [one for one in lessons_in(own_folder(), tabs) if isinstance(one, Lesson)]
 
 
 def faults_in(folder: Path, tabs: Tabs) -> list[str]:
     """Faults of the lessons of a folder, a sentence for each file."""
-    return [found.sentence for found in lessons_in(folder, tabs) if isinstance(found, Fault)]
+    return [lesson.sentence for lesson in lessons_in(folder, tabs) if isinstance(lesson, Fault)]
 
 
 def _no_lessons(folder: Path, why: str) -> Fault:
@@ -476,14 +481,14 @@ def _parts(text: str, offset: int, checks: _Checks) -> tuple[Part, ...]:
             token.type, token.content = "html_block", _formula(token.content, True, line)
         if token.children:
             _mend(token.children, line, checks)
-    found = []
+    sections = []
     for begin, end in zip(begins, [*begins[1:], len(tokens)], strict=True):
         words = tokens[begin + 1]
         rendered = parser.renderer.render(tokens[begin + 3 : end], parser.options, {})
         if not rendered.strip():
             raise LessonError(offset + 1 + (words.map or [0])[0], "this part is empty")
-        found.append(Part(words.content.strip(), rendered))
-    return tuple(found)
+        sections.append(Part(words.content.strip(), rendered))
+    return tuple(sections)
 
 
 def _lower(token: Token, by: int = 1) -> None:

@@ -6,7 +6,6 @@ import math
 from dataclasses import dataclass
 
 from bearing_explorer.explorer.state.field_values import defects_of
-from bearing_explorer.kit.plots.compared_curves import WITHOUT_DEFECT
 from bearingcore import Scene
 from bearingcore.common import with_prefix
 from bearingcore.model.scene import MASSLESS, WITH_MASS
@@ -37,6 +36,10 @@ class Reference:
 BEFORE = "the scene before the last change"
 """Name of that reference."""
 
+MOST_COMPARED = 4
+"""Greatest number of compared scenes: more colours are hard to distinguish."""
+WITHOUT_DEFECT = "the bearing without its defect"
+"""Name of the usual scene in grey."""
 HEALTHY, OTHER_BALLS = "healthy", "other-balls"
 """Kinds of the scene that is drawn in grey."""
 

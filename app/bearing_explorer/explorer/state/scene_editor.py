@@ -347,9 +347,9 @@ class SceneEditor:
         fields: dict[str, Any] = {}
         parts: dict[str, dict[str, Any]] = {"floor": {}, "pair": {}, "second": {}}
         for name, value in taken.items():
-            one = FIELD_BY_KEY[name]
-            if one.part:
-                parts.get(one.part, fields)[one.name] = in_si(one, value)
+            field = FIELD_BY_KEY[name]
+            if field.part:
+                parts.get(field.part, fields)[field.name] = in_si(field, value)
         rough, bearing = parts["floor"], self.scene.bearing
         if "ball_diameter" in fields:
             # grooves are made for their ball: they keep what they are to it
@@ -384,7 +384,7 @@ class SceneEditor:
         rough = self.floors[self.selected].rough
         fresh = {
             **values_of(self.scene, self.selected),
-            **{one.key: in_shown_unit(one, getattr(rough, one.name)) for one in _OF_FLOOR},
+            **{field.key: in_shown_unit(field, getattr(rough, field.name)) for field in _OF_FLOOR},
             CAGE_ANGLE: turned,
         }
         # a typed number stays as typed, whatever its last digit is in SI
@@ -419,12 +419,12 @@ class SceneEditor:
                 refused |= self._tried(known.name, act, name)
         if "name" in choice:
             self.own_name = one_line(choice["name"], LONGEST_NAME)
-        for one, act in (
+        for key, act in (
             ("defect", self._take_defect),
             ("bearing", self._take_listed),
         ):
-            if one in choice:
-                refused |= self._tried(one, act, choice[one])
+            if key in choice:
+                refused |= self._tried(key, act, choice[key])
         self._scene_of_effects = self.scene
         return refused
 
@@ -449,11 +449,11 @@ class SceneEditor:
         )
 
     def _take_listed(self, name: str) -> None:
-        found = find_bearing(name)
-        origin = origin_words(found)
-        self.take_bearing(found.bearing, found.name, origin)
-        if found.assumed:  # seen where it is chosen; sources are behind the question mark
-            self._effects["preset"] += f" Assumed: {', '.join(found.assumed)}."
+        listed = find_bearing(name)
+        origin = origin_words(listed)
+        self.take_bearing(listed.bearing, listed.name, origin)
+        if listed.assumed:  # seen where it is chosen; sources are behind the question mark
+            self._effects["preset"] += f" Assumed: {', '.join(listed.assumed)}."
 
     def _take_kind(self, kind: str) -> None:
         scene, effect = held(scene_with(self.scene, as_kind(self.scene.bearing, kind)))
@@ -565,7 +565,7 @@ class SceneEditor:
     def _choices_state(self) -> dict[str, Any]:
         scene, floor = self.scene, self.floors[self.selected]
         usual = {k: v for k, v in values_of(presets[self.preset]).items() if not math.isnan(v)}
-        hidden = [] if floor.kind == "rough" else [one.key for one in _OF_FLOOR]
+        hidden = [] if floor.kind == "rough" else [field.key for field in _OF_FLOOR]
         hidden += hidden_of(scene.bearing)
         return {
             "usual": {**usual, **chosen_of(presets[self.preset])},

@@ -45,8 +45,8 @@ class OtherModels(SceneJobView[Alternatives]):
     name = "alternatives"
     title = "Simpler models of this scene"
     about = (
-        "Error against the scene's own model: in the green part it is near enough. Each model is "
-        "computed. Allowed are 0.1 dB of spectra and 1 % of the swing of curves. Errors of "
+        "Errors against the scene's own model. In the green part they are small enough. Each model "
+        "is computed. Allowed are 0.1 dB of spectra and 1 % of the swing of curves. Errors of "
         "stiffness hold at 99 % of the cage angles; those of spectra up to 1.25 times the highest "
         "natural frequency."
     )

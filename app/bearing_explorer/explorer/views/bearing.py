@@ -11,11 +11,13 @@ from bokeh.models import Circle, CustomJS, LayoutDOM, LinearColorMapper, Range1d
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
+from bearing_explorer.explorer.plots import compared_curves
 from bearing_explorer.explorer.results import reasons
 from bearing_explorer.explorer.results.defect_shape import race_angles, race_depth, spans
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.views.bearing_handles import handles, let_grab
-from bearing_explorer.kit.plots import color_scales, compared_curves, style
+from bearing_explorer.explorer.views.comparing_view import ComparingView
+from bearing_explorer.kit.plots import color_scales, style
 from bearing_explorer.kit.plots.element_words import elements
 from bearing_explorer.kit.plots.heat_map import color_bar
 from bearing_explorer.kit.plots.layers import (
@@ -30,7 +32,7 @@ from bearing_explorer.kit.plots.layers import (
 )
 from bearing_explorer.kit.plots.ranges import StickyRange
 from bearing_explorer.kit.serve.packed_source import PackedSource
-from bearing_explorer.kit.views.base import ANSWER, Ranges, Sources, View
+from bearing_explorer.kit.views.base import ANSWER, Ranges, Sources
 from bearingcore import Bearing, Load, Scene
 from bearingcore.common import table_of
 from bearingcore.model.scene import ball_angles
@@ -182,7 +184,7 @@ def layers(prefix: str, colors: LinearColorMapper, inks: LinearColorMapper) -> l
     ]
 
 
-class BearingDrawing(View):
+class BearingDrawing(ComparingView):
     """The bearing seen along the shaft, turning with the cage angle."""
 
     name = "bearing"

@@ -6,14 +6,16 @@ from typing import Any
 
 import numpy as np
 
+from bearing_explorer.explorer.plots import compared_curves
 from bearing_explorer.explorer.results.defect_shape import Profile
 from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.kit.plots import compared_curves, style
+from bearing_explorer.explorer.views.comparing_view import ComparingView
+from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.element_words import extent_words, row_words
 from bearing_explorer.kit.plots.layers import ball_dots, curve, draw
 from bearing_explorer.kit.plots.ranges import StickyRange
 from bearing_explorer.kit.serve.packed_source import PackedSource
-from bearing_explorer.kit.views.base import Ranges, Sources, View
+from bearing_explorer.kit.views.base import Ranges, Sources
 
 DEPTH = style.AxisQuantity("Depth", "d", "m", prefixed=True)
 BRIDGED = 10e-6
@@ -33,7 +35,7 @@ LAYERS = (
 """Over the race."""
 
 
-class DepthProfile(View):
+class DepthProfile(ComparingView):
     """The race around the defect and the way a ball's centre takes over it."""
 
     name = "depth-profile"

@@ -13,6 +13,7 @@ from typing import Any
 
 import numpy as np
 
+from bearing_explorer.explorer.plots.plane import SIDE_BY_SIDE, Field, PlaneFigures
 from bearing_explorer.explorer.results.explore import (
     MAP_OUTPUTS,
     SIZES,
@@ -36,7 +37,6 @@ from bearing_explorer.explorer.views.scene_job_view import SceneJobView
 from bearing_explorer.kit.compute.jobs import COMPUTATION, Jobs, JobState, Work
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.heat_map import Side
-from bearing_explorer.kit.plots.plane import SIDE_BY_SIDE, Field, PlaneFigures
 from bearing_explorer.kit.sentences import sentence_of, with_unit
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources

@@ -9,11 +9,13 @@ from typing import Any
 import numpy as np
 from bokeh.models import HoverTool, Range1d
 
+from bearing_explorer.explorer.plots import compared_curves
 from bearing_explorer.explorer.results import reasons
 from bearing_explorer.explorer.results.defect_shape import pieces, spans
 from bearing_explorer.explorer.results.load_curve import Curve, curves_table, load_curve, row_name
 from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.kit.plots import compared_curves, style
+from bearing_explorer.explorer.views.comparing_view import ComparingView
+from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.element_words import elements
 from bearing_explorer.kit.plots.layers import (
     Layer,
@@ -26,7 +28,7 @@ from bearing_explorer.kit.plots.layers import (
 )
 from bearing_explorer.kit.plots.ranges import ROOM, StickyRange
 from bearing_explorer.kit.serve.packed_source import PackedSource
-from bearing_explorer.kit.views.base import Ranges, Sources, View
+from bearing_explorer.kit.views.base import Ranges, Sources
 from bearingcore import Equilibrium, Scene
 from bearingcore.common import ResultTable, table_of
 from bearingcore.model.statics import EquilibriumWithMass
@@ -59,7 +61,7 @@ LAYERS: tuple[Layer, ...] = (
 """From the lowest to the highest."""
 
 
-class LoadDistribution(View):
+class LoadDistribution(ComparingView):
     """Load of a ball over its angle, the balls of this cage angle on the curve."""
 
     name = "load-distribution"

@@ -9,8 +9,10 @@ from typing import Any
 
 import numpy as np
 
+from bearing_explorer.explorer.plots import compared_curves
 from bearing_explorer.explorer.results.ball_mass import BallMass
 from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.views.folded_view import FoldedView
 from bearing_explorer.explorer.views.passage_view import (
     BALL,
     LABEL_WIDTH,
@@ -25,11 +27,10 @@ from bearing_explorer.explorer.views.passage_view import (
     places_of_labels,
     traces,
 )
-from bearing_explorer.kit.plots import compared_curves, style
+from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.layers import Layer, by_number, curve, strips
 from bearing_explorer.kit.plots.levels import SHOWN
 from bearing_explorer.kit.views.base import Ranges, Sources
-from bearing_explorer.kit.views.folded_view import FoldedView
 from bearingcore.model.dynamics import RACES_OF_LOADS
 
 WORDS = ("enters", "leaves", "strikes inner race", "strikes outer race", "at the far edge")

@@ -10,11 +10,11 @@ from bokeh.models import Quad, Segment, Span
 from bearing_explorer.explorer.plots.spectra import FREQUENCY_WITH_UNITS, in_hertz
 from bearing_explorer.explorer.results.ball_mass import BallMass
 from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.views.folded_view import FoldedView
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.layers import Glyph, Layer, Words, draw
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
-from bearing_explorer.kit.views.folded_view import FoldedView
 from bearingcore.model.dynamics import LOWEST_COMPARED
 
 SHARE = style.AxisQuantity("Share that mass adds", "", "%")

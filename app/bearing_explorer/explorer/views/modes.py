@@ -9,12 +9,14 @@ import numpy as np
 from bokeh.models import CustomJS
 from numpy.typing import NDArray
 
+from bearing_explorer.explorer.plots import compared_curves
+from bearing_explorer.explorer.plots.frequency_bands import BAND_NAME, BAND_SPAN, band_rows, spread
 from bearing_explorer.explorer.results import reasons
 from bearing_explorer.explorer.results.chain import in_same_order
 from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.kit.plots import compared_curves, style
+from bearing_explorer.explorer.views.comparing_view import ComparingView
+from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.element_words import with_elements_of
-from bearing_explorer.kit.plots.frequency_bands import BAND_NAME, BAND_SPAN, band_rows, spread
 from bearing_explorer.kit.plots.layers import (
     Layer,
     Words,
@@ -27,7 +29,7 @@ from bearing_explorer.kit.plots.layers import (
 )
 from bearing_explorer.kit.plots.ranges import ROOM, StickyRange
 from bearing_explorer.kit.serve.packed_source import PackedSource
-from bearing_explorer.kit.views.base import Ranges, Sources, View
+from bearing_explorer.kit.views.base import Ranges, Sources
 from bearingcore.common import span
 from bearingcore.model.sweeps import mode_symbol
 
@@ -77,7 +79,7 @@ def layers(colors: Any) -> Sequence[Layer]:
     )
 
 
-class NaturalFrequencies(View):
+class NaturalFrequencies(ComparingView):
     """Natural frequencies of rotor and housing on the varying stiffness of the bearing."""
 
     name = "modes"

@@ -10,13 +10,15 @@ from bokeh.models import ColumnDataSource, Range1d, Scatter
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
+from bearing_explorer.explorer.plots import compared_curves
 from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.kit.plots import compared_curves, style
+from bearing_explorer.explorer.views.comparing_view import ComparingView
+from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.layers import Glyph, curve, draw, filled
 from bearing_explorer.kit.plots.levels import SHOWN
 from bearing_explorer.kit.plots.ranges import ROOM, StickyRange
 from bearing_explorer.kit.serve.packed_source import PackedSource
-from bearing_explorer.kit.views.base import Ranges, Sources, View
+from bearing_explorer.kit.views.base import Ranges, Sources
 from bearing_explorer.kit.widgets.form import stack
 from bearingcore.common import table_of
 from bearingcore.model.dynamics import OrbitStatus
@@ -57,7 +59,7 @@ _LOST_LONG = {
 }
 
 
-class SteadyOrbit(View):
+class SteadyOrbit(ComparingView):
     """Multipliers of the periodic steady state, and path of the inner ring."""
 
     name = "orbit"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import math
 import re
 from collections.abc import Mapping
 from functools import partial
@@ -11,12 +12,13 @@ from typing import Any
 import numpy as np
 
 from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.state.address import Place, write
 from bearing_explorer.explorer.views.paper_figures import FIGURES, PaperFigure
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import View
 from bearing_explorer.kit.widgets.facts import facts_pane, html_table
 from bearing_explorer.kit.widgets.form import button, row
-from bearingcore import Scene
+from bearingcore import Scene, presets
 
 TAB_TITLES = {
     "load": "Load",
@@ -28,6 +30,11 @@ TAB_TITLES = {
 }
 """Titles of the tabs that show the figures live."""
 
+SIZED = presets["fan-rig"].replace(extent=math.radians(38.6))
+"""The scene of Section 4, "Defect size estimation": entry and exit alone suggest 12.9°."""
+NOISE = "20"
+"""Of its simulated signal, by its name in `NOISES`."""
+
 
 class PaperFigures(View[Results]):
     """One figure of the paper at a time; a button for each."""
@@ -36,7 +43,8 @@ class PaperFigures(View[Results]):
     title = "Figures of the paper"
     about = (
         "Figures 3 to 10 of the paper, computed anew. Petersen, Howard and Prime (2014). The "
-        "scene stays as it is until a figure is opened."
+        "scene stays as it is until a figure or Section 4 is opened, which simulates the signal "
+        "of a spall and finds its length on the Diagnosis tab."
     )
     in_report = False
     computes = True
@@ -50,7 +58,8 @@ class PaperFigures(View[Results]):
         }
         self._live = button("Open it", self._open_live, css_classes=["main"])
         self._numbers = facts_pane(sizing_mode="stretch_width")
-        return [row(*self._buttons.values(), self._live), self._numbers]
+        size = button("Section 4: size a defect", self._size_a_defect)
+        return [row(*self._buttons.values(), self._live, size), self._numbers]
 
     def _show(self, figure: PaperFigure) -> None:
         """Show the numbers of a figure; the scene of the sliders stays."""
@@ -63,6 +72,13 @@ class PaperFigures(View[Results]):
         figure = self._figure
         if self.parts is not None:
             self.parts.open_link(f"Figure {figure.number}", figure.link)
+
+    def _size_a_defect(self) -> None:
+        """Simulate a signal of the defect of Section 4; Diagnosis finds its length."""
+        if self.parts is not None:
+            place = Place(SIZED, "fan-rig", tab="diagnosis")
+            self.parts.open_link("Section 4", write(place))
+            self.parts.simulate(NOISE)
 
     def choices(self) -> dict[str, Any]:
         return {"figure": self._figure.number}

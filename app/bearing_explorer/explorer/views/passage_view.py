@@ -10,8 +10,10 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from bearing_explorer.explorer.plots import compared_curves
 from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.kit.plots import compared_curves, style
+from bearing_explorer.explorer.views.comparing_view import ComparingView
+from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.layers import (
     LIT,
     ON_PAPER,
@@ -26,7 +28,7 @@ from bearing_explorer.kit.plots.layers import (
 from bearing_explorer.kit.plots.levels import SHOWN
 from bearing_explorer.kit.plots.ranges import StickyRange
 from bearing_explorer.kit.serve.packed_source import PackedSource
-from bearing_explorer.kit.views.base import Ranges, Sources, View
+from bearing_explorer.kit.views.base import Ranges, Sources
 from bearingcore import Bearing
 
 Array = NDArray[np.float64]
@@ -43,7 +45,7 @@ BALL = "${row.roller ? 'roller' : 'ball'} ${row.ball}${row.row ? ` of row ${row.
 """The name of a ball in a template of JavaScript."""
 
 
-class PassageView(View):
+class PassageView(ComparingView):
     """A view of acceleration and of ball loads in time; subclasses fill in the layers."""
 
     #: of the names of sources and ranges

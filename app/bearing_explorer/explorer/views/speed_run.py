@@ -15,6 +15,7 @@ from bokeh.models import GlyphRenderer, HSpan, Scatter
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
+from bearing_explorer.explorer.plots.frequency_bands import SHORT_BAND_WORDS, bands_along, highest
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.explorer.state.value_range import (
@@ -29,7 +30,6 @@ from bearing_explorer.explorer.state.value_range import (
 from bearing_explorer.explorer.views.scene_job_view import SceneJobView
 from bearing_explorer.kit.compute.jobs import COMPUTATION, Work
 from bearing_explorer.kit.plots import style
-from bearing_explorer.kit.plots.frequency_bands import SHORT_BAND_WORDS, bands_along, highest
 from bearing_explorer.kit.plots.heat_map import GridImage, Side, bright_image, ends
 from bearing_explorer.kit.plots.layers import (
     Glyph,

@@ -13,16 +13,17 @@ import numpy as np
 from bokeh.models import ColumnDataSource
 from bokeh.plotting import figure
 
-from bearing_explorer.explorer.plots import matrix_cells
+from bearing_explorer.explorer.plots import compared_curves, matrix_cells
 from bearing_explorer.explorer.plots.matrix_cells import PLACES, UNITS, Cell, cleaned, write
 from bearing_explorer.explorer.results import reasons
 from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.kit.plots import compared_curves, layers, style
+from bearing_explorer.explorer.views.comparing_view import ComparingView
+from bearing_explorer.kit.plots import layers, style
 from bearing_explorer.kit.plots.element_words import elements, with_elements_of
 from bearing_explorer.kit.plots.ranges import ROOM, StickyRange
 from bearing_explorer.kit.plots.style import in_degrees, with_prefix
 from bearing_explorer.kit.serve.packed_source import PackedSource
-from bearing_explorer.kit.views.base import Ranges, Sources, View
+from bearing_explorer.kit.views.base import Ranges, Sources
 from bearingcore import STIFFNESS_TERMS, Scene
 from bearingcore.common import prefixed_span
 from bearingcore.model.statics import TERM_UNITS
@@ -48,7 +49,7 @@ _PLACE_COLUMNS = {
 _CELL_COLUMNS = (*_PLACE_COLUMNS, "foot", "low", "high", "now", "zero", "flat")
 
 
-class Stiffness(View):
+class Stiffness(ComparingView):
     """15 stiffness traces, defective against healthy, the current cage angle marked."""
 
     name = "stiffness"

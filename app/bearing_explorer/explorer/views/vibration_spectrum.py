@@ -10,15 +10,16 @@ import numpy as np
 from bokeh.models import LayoutDOM
 from numpy.typing import NDArray
 
+from bearing_explorer.explorer.plots import compared_curves
+from bearing_explorer.explorer.plots.frequency_bands import SHORT_BAND_WORDS, bands_along
 from bearing_explorer.explorer.plots.spectra import SpectrumFigures
 from bearing_explorer.explorer.results import reasons
-from bearing_explorer.explorer.results.chain import picture_top
 from bearing_explorer.explorer.results.excerpt import why_ended
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.references import HEALTHY, OTHER_BALLS
-from bearing_explorer.kit.plots import compared_curves, style
+from bearing_explorer.explorer.views.comparing_view import ComparingView
+from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.element_words import with_elements_of
-from bearing_explorer.kit.plots.frequency_bands import SHORT_BAND_WORDS, bands_along
 from bearing_explorer.kit.plots.layers import (
     CENTERED,
     ON_PAPER,
@@ -128,7 +129,7 @@ PASSES: list[Layer] = [
 """Marks of the ball-pass frequencies."""
 
 
-class VibrationSpectra(LookView):
+class VibrationSpectra(ComparingView, LookView[Results]):
     """Power spectral density of the housing's acceleration along x and y."""
 
     name = "vibration-spectrum"
@@ -216,7 +217,7 @@ class VibrationSpectra(LookView):
         return {"low": low, "high": high, "above": above, "label_at": 0.97 * np.minimum(low, top)}
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
-        top = self._frequency.fit(HIGHEST, picture_top(results))[1]
+        top = self._frequency.fit(HIGHEST, results.picture_top)[1]
         sources, ranges = self._linear.data(results, top)
         if self.wide:
             known = results.motion.bandwidth

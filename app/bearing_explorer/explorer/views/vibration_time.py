@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from bearing_explorer.explorer.plots import compared_curves
 from bearing_explorer.explorer.results import reasons
 from bearing_explorer.explorer.results.excerpt import Event, Excerpt
 from bearing_explorer.explorer.results.results import Results
@@ -23,7 +24,7 @@ from bearing_explorer.explorer.views.passage_view import (
     places_of_labels,
     traces,
 )
-from bearing_explorer.kit.plots import compared_curves, style
+from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.element_words import element_name, with_elements_of
 from bearing_explorer.kit.plots.layers import Layer, curve, with_gaps
 from bearing_explorer.kit.plots.levels import SHOWN

@@ -59,8 +59,8 @@ class Cached(Generic[Result]):
         while True:
             with _lock:
                 if full_key in _results:
-                    found: Result = _results[full_key][0]
-                    return found
+                    result: Result = _results[full_key][0]
+                    return result
                 future = _under_way.get(full_key)
                 mine = future is None
                 if future is None:
@@ -80,23 +80,23 @@ class Cached(Generic[Result]):
         self, full_key: tuple[Hashable, ...], future: Future[Result], more: Mapping[str, Any]
     ) -> Result:
         try:
-            found = self._compute(*full_key[1:], **more)
+            result = self._compute(*full_key[1:], **more)
         except BaseException as error:
             with _lock:
                 del _under_way[full_key]
             future.set_exception(error)
             raise
-        _keep(full_key, found)
+        _keep(full_key, result)
         with _lock:
             del _under_way[full_key]
-        future.set_result(found)
-        return found
+        future.set_result(result)
+        return result
 
 
-def _keep(full_key: tuple[Hashable, ...], found: Any) -> None:
-    size = nbytes((full_key[1:], found)) + _OVERHEAD
+def _keep(full_key: tuple[Hashable, ...], result: Any) -> None:
+    size = nbytes((full_key[1:], result)) + _OVERHEAD
     with _lock, suppress(ValueError):  # too large to be kept
-        _results[full_key] = found, size
+        _results[full_key] = result, size
 
 
 def cached(compute: Callable[..., Result]) -> Cached[Result]:
@@ -122,9 +122,9 @@ def kept_results() -> dict[tuple[Hashable, ...], tuple[Any, int]]:
 
 def keep_results(results: Mapping[tuple[Any, ...], Any]) -> None:
     """Keep results by the function's name and its arguments, as if they had been computed."""
-    for (name, *key), found in results.items():
+    for (name, *key), result in results.items():
         if name in _functions:
-            _keep((_functions[name], *key), found)
+            _keep((_functions[name], *key), result)
 
 
 def clear() -> None:

@@ -1,8 +1,9 @@
 """Kernels are made ready in one thread of the server, part by part, behind pages that are open.
 
 On a first start that compiles, which takes long; later starts read machine code from disk in a
-second. Until then pages draw what comes with the package (`default_results`), their sliders do not
-move, and a progress bar says why. What a part is needed for raises `StillCompiling`.
+second. Until then pages draw results that come with the package, their sliders do not move, and a
+progress bar says why. What a part is needed for raises `StillCompiling`. Where nothing simulates,
+it is not begun, and Numba is not imported.
 
 numba holds the interpreter as it compiles, which a page that is being made needs too: compiling
 begins once the first picture is sent, or after `FIRST_PICTURE` where none is asked for.
@@ -14,12 +15,11 @@ import logging
 import threading
 from collections.abc import Callable
 
-from bearing_explorer.kit.compute import default_results
-from bearingcore import Scene, warm
-from bearingcore.model import BALLS_WITH_MASS, MOTION, ORBITS, PARTS, STATICS, all_on_disk
+from bearingcore import Scene, model, warm
+from bearingcore.model import BALLS_WITH_MASS, MOTION, ORBITS, PARTS, STATICS
 from bearingcore.model.scene import WITH_MASS
 
-__all__ = ["BALLS_WITH_MASS", "MOTION", "ORBITS", "STATICS", "StillCompiling", "all_on_disk"]
+__all__ = ["BALLS_WITH_MASS", "MOTION", "ORBITS", "STATICS", "StillCompiling"]
 
 log = logging.getLogger(__name__)
 
@@ -32,6 +32,11 @@ _WORDS = {
     BALLS_WITH_MASS: "balls with mass",
     ORBITS: "steady orbits",
 }
+
+
+def all_on_disk() -> bool:
+    """Whether machine code of all parts is on disk, so that nothing takes long."""
+    return model.all_on_disk()
 
 
 class StillCompiling(ValueError):  # noqa: N818
@@ -52,10 +57,14 @@ class Compilation:
         self._lock = threading.Lock()
 
     def begin(
-        self, report: Callable[[str], object] = log.info, done: Callable[[], object] = lambda: None
+        self,
+        meanwhile: Callable[[], object] = lambda: None,
+        report: Callable[[str], object] = log.info,
+        done: Callable[[], object] = lambda: None,
     ) -> None:
         """Compile in a thread; does nothing the second time.
 
+        `meanwhile` is called where that will take long, to have something to draw until then.
         `report` gets a line for each part. `done` is called in the thread at the end.
         """
         with self._lock:
@@ -65,7 +74,7 @@ class Compilation:
         if all_on_disk():
             self._drawn.set()
         else:
-            default_results.keep()
+            meanwhile()
         threading.Thread(
             target=self._work, args=(report, done), name="compile", daemon=True
         ).start()

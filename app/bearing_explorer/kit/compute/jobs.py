@@ -56,6 +56,8 @@ COMPUTATION = Kind("computation", JOBS)
 """A map, a sweep or a trend that a person has started."""
 PART, EXTENT, LISTED = (Kind(name, JOBS) for name in ("part", "extent", "listed"))
 """Analyses of a signal: the damaged part, the extent of its spall, other bearings."""
+SIZING = Kind("sizing", JOBS)
+"""Lengths of a spall are simulated and held against a signal."""
 
 _TICK = 0.12  # [s] between two looks at a job
 _ASIDE = 1.0  # [s] that a sentence is shown at least, so that it can be read and read out
@@ -108,16 +110,16 @@ class Work:
             self.timed_out = True
         return self.timed_out or self._stop.is_set()
 
-    def show(self, found: Any) -> None:
+    def show(self, result: Any) -> None:
         """Hand over a result to be drawn; where several wait, the newest wins."""
         with self._lock:
-            self._found = [found]
+            self._found = [result]
 
     def taken(self) -> list[Any]:
         """The result that waits to be drawn, if there is one."""
         with self._lock:
-            found, self._found = self._found, []
-        return found
+            results, self._found = self._found, []
+        return results
 
     @property
     def has_found(self) -> bool:
@@ -264,12 +266,12 @@ class Jobs:
             await self._take_up(job, state)
 
     async def _take_up(self, job: _Job, state: JobState) -> None:
-        found = job.work.taken()
-        if not found and job.report is None:
+        results = job.work.taken()
+        if not results and job.report is None:
             return
 
         def change() -> None:
-            for result in found:
+            for result in results:
                 job.take(result)
             if job.report is not None:
                 job.report(state)

@@ -38,7 +38,7 @@ def with_elements_of(bearing: Bearing, text: str) -> str:
     element = bearing.kind.element
     if element == "ball":
         return text
-    return _BALL.sub(lambda found: element.title() if found[1] == "B" else element, text)
+    return _BALL.sub(lambda match: element.title() if match[1] == "B" else element, text)
 
 
 def extent_words(defect: Defect, bearing: Bearing) -> str:

@@ -372,8 +372,8 @@ def least_and_greatest(
 
 def toggle(label: str, drawn: Sequence[GlyphRenderer], *, shown: bool) -> CheckboxGroup:
     """A box that shows and hides layers that are drawn, in the browser alone."""
-    for one in drawn:
-        one.update(visible=shown, syncable=False)
+    for renderer in drawn:
+        renderer.update(visible=shown, syncable=False)
     # a group of one: its box and its words belong together for screen readers and fingers
     box = CheckboxGroup(
         labels=[label],

@@ -108,7 +108,7 @@ def _is_offered(model: Any, attribute: str, new: Any) -> bool:
         return new in values
     if attribute == "active" and "labels" in offers:
         chosen = new if isinstance(new, list) else [new]
-        return all(type(one) is int and 0 <= one < len(model.labels) for one in chosen)
+        return all(type(name) is int and 0 <= name < len(model.labels) for name in chosen)
     return True
 
 

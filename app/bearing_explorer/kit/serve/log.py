@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import hashlib
 import logging
+from collections.abc import Callable
 from typing import Any
 
 LEVELS = ("warning", "info")
@@ -30,15 +31,15 @@ def session_name(document: Any) -> str:
     return str(getattr(context, "id", "none"))[:8]
 
 
-def scene_name(scene: Any) -> str:
-    """Eight digits that equal scenes share."""
-    return hashlib.blake2b(repr(scene.to_data()).encode(), digest_size=4).hexdigest()
+def short_digest(value: object) -> str:
+    """Eight digits that equal values share."""
+    return hashlib.blake2b(repr(value).encode(), digest_size=4).hexdigest()
 
 
-def update(document: Any, scene: object, view: str, seconds: float) -> None:
-    """A change was drawn; `seconds` is the time that took [s]."""
+def update(document: Any, name: Callable[[], str], view: str, seconds: float) -> None:
+    """Log that content of this name was drawn, which took so long [s]."""
     if log.isEnabledFor(logging.INFO):
-        place = (session_name(document), scene_name(scene), view)
+        place = (session_name(document), name(), view)
         log.info("update session=%s scene=%s view=%s ms=%.1f", *place, 1e3 * seconds)
 
 

@@ -119,10 +119,10 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
         buffers = {buffer.id: buffer.to_bytes() for buffer in message.buffers}
         others = []
         for event in events:
-            if (found := component_message(event, buffers)) is None:
+            if (component := component_message(event, buffers)) is None:
                 others.append(by_id(event))
-            elif (model := session.document.models.get_by_id(found[0])) is not None:
-                await live.hand_on(session, model, found[1])
+            elif (model := session.document.models.get_by_id(component[0])) is not None:
+                await live.hand_on(session, model, component[1])
         message.content["events"] = [e for e in others if is_allowed(e, session.document.models)]
         if message.content["events"]:
             await apply_patch(message, self.connection)

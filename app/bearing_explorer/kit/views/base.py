@@ -1,10 +1,10 @@
 """A view: figures made once, numbers pushed through the packed source, one live sentence.
 
-A view never computes physics. It says in `needs` which attributes of `results.results.Results` it
-reads; only those are computed, and only while the view is on screen.
+A view never computes physics. It says in `needs` which attributes of its results, the content of
+its half, it reads; only those are computed, and only while the view is on screen.
 
 To write one, subclass `View`, set the class attributes (the first sentence of `about` is short: it
-is seen above the figure with the sentences of the key, “Grey: ...”, and the rest opens on a click),
+is seen above the figure with the sentences of the key, “Blue: ...”, and the rest opens on a click),
 and give it
 
 - `build(packed)`: make figures, sources and ranges, once, and return what goes on the page;
@@ -16,9 +16,6 @@ and give it
 
 On the page `parts` is the half of the session that the view is of, with the scene of the controls
 or the measured signal; what a view begins with it, it begins in `attach(parts)`.
-
-The grey curves are of the bearing without its defect, ``{grey}`` in `about`. Those of compared
-scenes are layers of `plots.compared_curves`; the key with their names follows by itself.
 
 `data`, `sentence` and `table` may run in a worker thread: they touch no model.
 """
@@ -36,13 +33,11 @@ from bokeh.models import LayoutDOM, Plot
 
 from bearing_explorer.kit.assets import asset_path, asset_text, scripts
 from bearing_explorer.kit.compute.jobs import Jobs
-from bearing_explorer.kit.plots.compared_curves import WITHOUT_DEFECT, CurveKey
-from bearing_explorer.kit.plots.element_words import with_elements_of
 from bearing_explorer.kit.plots.zoom import zoomable
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.serve.panel_internals import LiveComponent
 from bearing_explorer.kit.views.content import Content
-from bearing_explorer.kit.views.python_lines import lines_of
+from bearing_explorer.kit.views.python_lines import code_of, figure_lines
 from bearing_explorer.kit.widgets.facts import sentence_html, table_to_read
 from bearing_explorer.kit.widgets.form import AS_HIGH_AS_SHOWN, stack
 from bearingcore import Scene
@@ -118,7 +113,7 @@ FADED = "0.2"
 
 
 class View(Generic[C]):
-    """One picture of the scene. The head of this module lists the parts of a subclass."""
+    """One picture of the content. The head of this module lists the parts of a subclass."""
 
     name: ClassVar[str]
     title: ClassVar[str]
@@ -149,9 +144,9 @@ class View(Generic[C]):
         self._results: C | None = None
         self._has_drawn = False
         self._looks: tuple[bool, bool] | None = None  # as `say` had it last
-        #: of the scene, and of the last picture
-        self._bearing: object = None
-        self._drawn_bearing: object = None
+        #: keys of the newest content, and of the last picture
+        self._key: object = None
+        self._drawn_key: object = None
         self._sentence = Sentence(css_classes=["sentence", *self.sentence_looks])
         #: parts of the content that are hidden without numbers
         self._pictures: list[pn.Column] = []
@@ -190,8 +185,6 @@ class View(Generic[C]):
             lead=self.lead,
         )
         self._caption.on_msg(self._answer)
-        #: the names of compared scenes, a key a figure that draws them
-        self._keys = [key for plot in self.figures if (key := CurveKey(plot)).items]
         for plot in self.figures:
             zoomable(plot)
             plot.syncable = False  # how large it is is not asked on the server
@@ -255,13 +248,13 @@ class View(Generic[C]):
         """Show the sentence and keep the results for the table. On the event loop only.
 
         Without results the last ones stay, as the last picture does, which is faded. Before the
-        first picture of a bearing, and where it has no numbers, the sentence stands in its place,
-        and no empty axes.
+        first picture of a `Content.picture_key`, and where it has no numbers, the sentence stands
+        in its place, and no empty axes.
         """
         self._results = results or self._results
         if results is not None:
-            self._has_drawn, self._drawn_bearing = not self.is_empty, self._bearing
-        elif self._drawn_bearing != self._bearing:
+            self._has_drawn, self._drawn_key = not self.is_empty, self._key
+        elif self._drawn_key != self._key:
             self._has_drawn, self._results = False, None
         if self._has_drawn:
             self.bring()
@@ -285,8 +278,6 @@ class View(Generic[C]):
         if results is not None:
             if self.cells and not results.moving:
                 self._caption.put(cell_lines=self.cell_lines(results))
-            for key in self._keys:
-                key.show([one.name for one in results.compared])
             self.show(results)
 
     def cell_lines(self, content: C) -> list[str]:
@@ -297,21 +288,19 @@ class View(Generic[C]):
         """Show what is not in the packed source of this content. On the event loop only."""
 
     def put_head(self, content: C) -> None:
-        """Title and caption in the words of the bearing: its balls may be rollers."""
-        self._bearing = bearing = content.scene.bearing
-        line, rest = parts_of(with_elements_of(bearing, self.caption(content.grey.name)))
-        self._caption.put(
-            title=with_elements_of(bearing, self.title_of(content)), line=line, rest=rest
-        )
+        """Show title and caption in the words of the content."""
+        self._key = content.picture_key
+        line, rest = parts_of(content.in_words(self.caption(content)))
+        self._caption.put(title=content.in_words(self.title_of(content)), line=line, rest=rest)
 
     def title_of(self, content: C) -> str:
         """The title over this content."""
         return self.title
 
     @classmethod
-    def caption(cls, grey: str = WITHOUT_DEFECT) -> str:
-        """The text above the figure; `grey` is the name of what is drawn in grey."""
-        return cls.about.replace("{grey}", grey)
+    def caption(cls, content: C | None = None) -> str:
+        """The text above the figure of this content; before the first, of the usual one."""
+        return cls.about
 
     def put_away(self) -> None:
         """It is off screen: let go of the results, of which a motion alone is megabytes."""
@@ -319,11 +308,6 @@ class View(Generic[C]):
 
     def end(self) -> None:
         """The session is over: cancel timers."""
-
-    @property
-    def compares(self) -> bool:
-        """Whether it draws compared scenes."""
-        return bool(self._keys)
 
     @property
     def is_empty(self) -> bool:
@@ -336,13 +320,30 @@ class View(Generic[C]):
 
     def python(self) -> str:
         """Lines of Python that make the current figure; empty before the first."""
-        return "" if self._results is None else lines_of(self, self._results)
+        return "" if self._results is None else self.lines_of_python(self._results)
 
     # Outside of the page: see `views.still_figure`
 
     def scene_drawn(self, results: C) -> Scene:
         """The scene that is drawn: the result of a job may be of an earlier one."""
-        return results.scene
+        return results.scene_drawn()
+
+    def arguments(self, results: C) -> Mapping[str, str]:
+        """Arguments of the figure of these results, as expressions of Python."""
+        return results.arguments(self.needs)
+
+    def lines_of_python(self, results: C) -> str:
+        """Lines of Python that make the scene, the figure of these results and its numbers."""
+        choices = self.choices()
+        chosen = {"choices": code_of(choices)} if choices else {}
+        return figure_lines(
+            self.scene_drawn(results),
+            self.lines_before(),
+            self.name,
+            {**self.arguments(results), **chosen, **self.more_arguments()},
+            has_numbers=bool(choices) or not self.is_empty,
+            is_shown=bool(self.figures) or self.computes,
+        )
 
     def choices(self) -> dict[str, Any]:
         """Choices made in the view itself, as plain values, for `choose`."""
@@ -387,7 +388,7 @@ _IS_KEY = re.compile(r"[A-Z][^:.]{0,26}: ")
 def parts_of(text: str) -> tuple[str, str]:
     """The part of a caption that is seen, and the part that opens on a click.
 
-    The first sentence and the key are seen: sentences such as “Grey: the healthy bearing.”
+    The first sentence and the key are seen: sentences such as “Shaded: the defect.”
     """
     first, *others = _BETWEEN.split(text)
     key = [sentence for sentence in others if _IS_KEY.match(sentence)]

@@ -1,27 +1,22 @@
-"""The content of a picture, as modules above know it: of a scene, or of a measured signal."""
+"""The content of a picture: all that the views of a half draw at one moment."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence, Set
+from collections.abc import Callable, Mapping, Set
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, ClassVar, Protocol, Self
+from typing import Any, ClassVar, Self
 
-if TYPE_CHECKING:
-    from bearing_explorer.kit.views.base import View
-    from bearingcore import Limit, Scene
-
-
-class Named(Protocol):
-    """Something that a figure draws too, under a name."""
-
-    @property
-    def name(self) -> str:
-        """Its name on the page."""
+from bearing_explorer.kit.plots.element_words import with_elements_of
+from bearing_explorer.kit.serve.log import short_digest
+from bearingcore import Scene
 
 
 @dataclass(frozen=True)
-class _Nothing:
-    name: str = ""
+class Warnings:
+    """The strip of warnings below the page: its rows, crossed limits first, and all in a line."""
+
+    rows: tuple[dict[str, Any], ...] = ()
+    summary: str = ""
 
 
 class Content:
@@ -30,35 +25,39 @@ class Content:
     What it says of itself here is so of content without a model.
     """
 
-    scene: Scene
-    """The scene of the controls."""
     moving: bool
     """Whether a slider moves; at rest it is drawn as finely as can be."""
     mark: int
     """Number of the newest change of the browser that it holds."""
     slow: ClassVar[Set[str]] = frozenset()
     """Attributes that take long: views that need them are drawn after the others."""
-    compared: Sequence[Named] = ()
-    """References that are drawn too, each under a name."""
 
     @property
     def fine_key(self) -> tuple[object, ...]:
         """All that a fine picture depends on: content with the same key needs no other."""
-        return (self.scene,)
+        raise NotImplementedError
+
+    @property
+    def picture_key(self) -> object:
+        """While nothing can be drawn, the last picture stays, if it was of the same key."""
+        return None
+
+    def log_name(self) -> str:
+        """Name of the content in the log; equal content has the same."""
+        return ""
+
+    def in_words(self, text: str) -> str:
+        """Return a title or caption in the words of this content."""
+        return text
 
     def at_rest(self, rested: bool = True, give_up: Callable[[], bool] | None = None) -> Self:
         """The same, as it is once the slider rests; `give_up` may end long searches."""
         return replace(self, moving=not rested)  # type: ignore[type-var]
 
     @property
-    def grey(self) -> Named:
-        """The reference that is drawn in grey."""
-        return _Nothing()
-
-    @property
-    def limits(self) -> tuple[Limit, ...]:
-        """Limits of the model; none where no model is drawn."""
-        return ()
+    def warnings(self) -> Warnings:
+        """Warnings on the content; computed once in a while."""
+        return Warnings()
 
     def prefetch(self, needed: frozenset[str]) -> None:
         """Begin in other threads what views that need these attributes can share."""
@@ -71,6 +70,34 @@ class Content:
         """Whether any of these attributes is computed more finely once the slider rests."""
         return False
 
-    def arguments(self, view: View) -> Mapping[str, str]:
-        """Arguments with which lines of Python make the figure, as expressions."""
+    def scene_drawn(self) -> Scene:
+        """The scene that lines of Python begin with."""
+        raise NotImplementedError
+
+    def arguments(self, needed: frozenset[str]) -> Mapping[str, str]:
+        """Arguments of the figure of a view that needs these, as expressions of Python."""
         return {}
+
+
+class SceneContent(Content):
+    """Content with a scene: that of the controls, or the model of a measured machine."""
+
+    scene: Scene
+
+    @property
+    def fine_key(self) -> tuple[object, ...]:
+        return (self.scene,)
+
+    @property
+    def picture_key(self) -> object:
+        return self.scene.bearing
+
+    def log_name(self) -> str:
+        return short_digest(self.scene.to_data())
+
+    def in_words(self, text: str) -> str:
+        """A text in the words of the bearing: its balls may be rollers."""
+        return with_elements_of(self.scene.bearing, text)
+
+    def scene_drawn(self) -> Scene:
+        return self.scene

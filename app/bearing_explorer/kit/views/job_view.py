@@ -10,7 +10,7 @@ from typing import Any, ClassVar, Generic, Protocol, TypeVar
 import numpy as np
 import panel as pn
 
-from bearing_explorer.kit.compute.jobs import Jobs, JobState, Work
+from bearing_explorer.kit.compute.jobs import COMPUTATION, Jobs, JobState, Kind, Work
 from bearing_explorer.kit.views.base import C, Sentence, SessionParts, View
 from bearing_explorer.kit.widgets.facts import sentence_html
 from bearing_explorer.kit.widgets.form import (
@@ -50,10 +50,10 @@ def last_shown(work: Callable[[Work], str]) -> Any:
     job = Work(math.inf)
     job.started = time.monotonic()
     words = work(job)
-    found = job.taken()
-    if not found:
+    results = job.taken()
+    if not results:
         raise ValueError(words)
-    return found[-1]
+    return results[-1]
 
 
 class JobForm(pn.Column):
@@ -151,6 +151,8 @@ class JobView(View[C], Generic[C, Found, E]):
     """A sentence: how large a job may be."""
     at_once: ClassVar[bool] = False
     """True where a changed field starts the job, without the button."""
+    kind: ClassVar[Kind] = COMPUTATION
+    """The jobs of the session that it takes the place of."""
 
     computes = True
     found: Found | None = None
@@ -219,25 +221,25 @@ class JobView(View[C], Generic[C, Found, E]):
     def cancel_job(self) -> None:
         """End the job; its newest result stays."""
         if self._jobs is not None:
-            self._jobs.cancel()
+            self._jobs.cancel(self.kind)
 
     def begin(self, given: Mapping[str, str]) -> None:
         """Start the job of a form; ValueError with a sentence where there is none."""
         assert self._jobs is not None
         work, asked = self.prepare(given, self._editor), (dict(given), self._editor.scene)
 
-        def take(found: Found) -> None:
+        def take(result: Found) -> None:
             self._found_for = asked
-            self._take(found)
+            self._take(result)
 
-        self._jobs.start(work, take, self.report)
+        self._jobs.start(work, take, self.report, self.kind)
 
     def report(self, state: JobState) -> None:
         """Show the state of the job, on the event loop."""
         self.job.show(state)
 
     def scene_drawn(self, results: C) -> Scene:
-        return results.scene if self._found_for is None else self._found_for[1]
+        return super().scene_drawn(results) if self._found_for is None else self._found_for[1]
 
     def choices(self) -> dict[str, Any]:
         return {} if self._found_for is None else dict(self._found_for[0])
@@ -249,6 +251,6 @@ class JobView(View[C], Generic[C, Found, E]):
         self.found = last_shown(self.prepare(given, editor))
         self._found_for = given, editor.scene
 
-    def _take(self, found: Found) -> None:
-        self.found = found
+    def _take(self, result: Found) -> None:
+        self.found = result
         self._draw()

@@ -5,14 +5,12 @@ from __future__ import annotations
 import dataclasses
 import json
 import math
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from bearingcore import Defect, Scene, presets, scene_of
 from bearingcore.bearings import name_of
-
-if TYPE_CHECKING:
-    from bearing_explorer.kit.views.base import C, View
 
 FILE = "bearing-scene.toml"
 LONGEST_SCENE = 6000
@@ -21,21 +19,31 @@ NOTHING_YET = "# Nothing has been computed in this view yet."
 _DEGREES = frozenset({"extent", "center", "contact_angle"})
 
 
-def lines_of(view: View[C], content: C) -> str:
-    """Lines that make the scene, the figure of a view and its numbers."""
-    scene = view.scene_drawn(content)
-    body = [f"scene = {scene_code(scene)}", *view.lines_before()]
-    choices = {"choices": code_of(chosen)} if (chosen := view.choices()) else {}
-    arguments = {**content.arguments(view), **choices, **view.more_arguments()}
-    if view.is_empty and not choices:
+def figure_lines(
+    scene: Scene, before: Sequence[str], figure: str, arguments: Mapping[str, str], *,
+    has_numbers: bool, is_shown: bool,
+) -> str:  # fmt: skip
+    """Lines that make a scene, one of its figures and its numbers.
+
+    Parameters
+    ----------
+    before
+        lines between those of the scene and of the figure.
+    figure, arguments
+        name of its view, and its parameters with their expressions.
+    has_numbers, is_shown
+        whether there is anything in it yet, and whether there is a picture to show.
+    """
+    body = [f"scene = {scene_code(scene)}", *before]
+    if not has_numbers:
         body.append(NOTHING_YET)
     else:
         given = ["scene", *(f"{name}={code}" for name, code in arguments.items())]
-        call = f"drawn = figures.{view.name.replace('-', '_')}({', '.join(given)})"
+        call = f"drawn = figures.{figure.replace('-', '_')}({', '.join(given)})"
         if len(call) > 88 or "\n" in call:
             call = call.partition("(")[0] + "(\n" + "".join(f"    {one},\n" for one in given) + ")"
         body += [call, "print(drawn.sentence)", "columns = drawn.table()  # as in the CSV file"]
-        if view.figures or view.computes:
+        if is_shown:
             body.append("drawn.show()  # in the browser")
     text = "\n".join(body)
     known = ("Recording", "Scene", "presets", "read_table", "scene_of", "simulate")
@@ -66,14 +74,14 @@ def scene_code(scene: Scene) -> str:
 
     Only where that is the very same; else the whole scene as a file has it.
     """
-    bases = {f"presets[{code_of(one)}]": base for one, base in presets.items()}
+    bases = {f"presets[{code_of(name)}]": base for name, base in presets.items()}
     with suppress(ValueError):  # a bearing without a rating
         if known := name_of(scene.bearing):
             bases = {f"scene_of({code_of(known)})": scene_of(known)} | bases
-    name = min(bases, key=lambda one: len(_differences(scene, bases[one])))
+    name = min(bases, key=lambda base: len(_differences(scene, bases[base])))
     changes = _differences(scene, bases[name])
     plain = all(value is None or isinstance(value, str | int | float) or
-                (isinstance(value, tuple) and all(isinstance(one, str) for one in value))
+                (isinstance(value, tuple) and all(isinstance(item, str) for item in value))
                 for value in changes.values())  # fmt: skip
     try:
         same = plain and bases[name].replace(**changes) == scene
@@ -101,12 +109,12 @@ def _differences(scene: Scene, base: Scene) -> dict[str, Any]:
     ]  # fmt: skip
     if isinstance(scene.defect, Defect) and isinstance(base.defect, Defect):
         parts.append((scene.defect, base.defect))
-    found: dict[str, Any] = {}
+    changes: dict[str, Any] = {}
     for own, other in parts:
-        found |= changed_fields(own, other)
+        changes |= changed_fields(own, other)
     if len(parts) == 5:
-        found.pop("defect", None)
-    return {name: v for name, v in found.items() if name not in ("load", "support", "bearing")}
+        changes.pop("defect", None)
+    return {name: v for name, v in changes.items() if name not in ("load", "support", "bearing")}
 
 
 def _field_code(name: str, value: Any) -> str:

@@ -236,27 +236,27 @@ def find_knocks(recording: Recording, nominal: float, slip: float, turns: float 
     highest = min(20.0 * nominal, widest)
     left = envelopes
     for _ in range(MOST_CUTS):
-        found = average_passes(
+        ball_passes = average_passes(
             left, rate, nominal, slip, nominal, highest, widest, follow=True, turns=turns
         )
-        passes = _mean_passes(found, names)
-        jump = _jump(found)
+        passes = _mean_passes(ball_passes, names)
+        jump = _jump(ball_passes)
         if jump is None:
-            return judged(passes, found.frequency, found.n_passes)
+            return judged(passes, ball_passes.frequency, ball_passes.n_passes)
         place = round(jump * rate)
         left = left[:place] if place > len(left) // 2 else left[place:]
         if len(left) < LEAST_LEFT * len(envelopes):
             break
-    return Knocks(tuple(passes), found.frequency, found.n_passes, Seen.UNCLEAR)
+    return Knocks(tuple(passes), ball_passes.frequency, ball_passes.n_passes, Seen.UNCLEAR)
 
 
-def _jump(found: BallPasses) -> float | None:
+def _jump(passes: BallPasses) -> float | None:
     """When [s] the passes jump most; None where they are steady."""
-    if found.begins is None:
+    if passes.begins is None:
         return None
-    away = np.abs(np.diff(found.begins) * found.frequency - 1.0)
+    away = np.abs(np.diff(passes.begins) * passes.frequency - 1.0)
     worst = int(away.argmax())
-    return float(found.begins[worst]) if away[worst] > STEADY else None
+    return float(passes.begins[worst]) if away[worst] > STEADY else None
 
 
 def _envelopes(recording: Recording, nominal: float) -> tuple[list[tuple[Band, str]], Array, float]:
@@ -285,13 +285,13 @@ def _envelopes(recording: Recording, nominal: float) -> tuple[list[tuple[Band, s
             continue
         dropped = faults.dropped
         left = without_ringing(np.where(dropped, 0.0, samples), PREDICTED_FROM)
-        for found in squared_envelopes(
+        for envelope in squared_envelopes(
             left, sample_rate, bands, HARMONICS * nominal, dropped, loudest=math.inf
         ):
-            values = np.sqrt(np.maximum(found.values, 0.0))
-            values = np.interp(time, np.arange(len(values)) / found.rate, values)
+            values = np.sqrt(np.maximum(envelope.values, 0.0))
+            values = np.interp(time, np.arange(len(values)) / envelope.rate, values)
             columns.append(values / values.mean())
-            names.append((found.band, direction))
+            names.append((envelope.band, direction))
     return names, np.array(columns).T, rate
 
 
@@ -315,9 +315,9 @@ def without_ringing(samples: Array, order: int) -> Array:
     return np.asarray(lfilter(np.concatenate(([1.0], -weights)), [1.0], samples))
 
 
-def _mean_passes(found: BallPasses, names: list[tuple[Band, str]]) -> list[MeanPass]:
-    envelopes = found.waveform(PLACES)
-    errors = np.sqrt(2.0 * found.scatter.sum(axis=0))
+def _mean_passes(passes: BallPasses, names: list[tuple[Band, str]]) -> list[MeanPass]:
+    envelopes = passes.waveform(PLACES)
+    errors = np.sqrt(2.0 * passes.scatter.sum(axis=0))
     return [
         MeanPass(band, direction, envelope - np.quantile(envelope, 0.1), float(error))
         for (band, direction), envelope, error in zip(names, envelopes.T, errors, strict=True)
@@ -336,7 +336,7 @@ def judged(passes: Sequence[MeanPass], frequency: float, n_passes: int) -> Knock
     n_passes
         how many were averaged.
     """
-    passes = tuple(sorted(passes, key=lambda one: -one.contrast))
+    passes = tuple(sorted(passes, key=lambda mean_pass: -mean_pass.contrast))
     if not passes or passes[0].contrast < LEAST_CONTRAST:
         return Knocks(passes, frequency, n_passes, Seen.NOTHING)
     shown = [(one, pair) for one in passes if (pair := two_peaks(one, frequency)) is not None]
@@ -347,9 +347,9 @@ def judged(passes: Sequence[MeanPass], frequency: float, n_passes: int) -> Knock
     height = np.array([pair.height for _, pair in agreeing])
     ratios = np.log([pair.ratio for _, pair in agreeing])
     # a release is soft: above the bands that show it only the exit may be left
-    reached = max(one.band.low for one, _ in agreeing)
-    counted = sum(one.band.low <= reached for one in passes)
-    showing = sum(pair.height for one, pair in shown if one.band.low <= reached)
+    reached = max(mean_pass.band.low for mean_pass, _ in agreeing)
+    counted = sum(mean_pass.band.low <= reached for mean_pass in passes)
+    showing = sum(pair.height for mean_pass, pair in shown if mean_pass.band.low <= reached)
     if len(agreeing) < SHOWING * counted or height.sum() < AGREEING * showing:
         return Knocks(passes, frequency, n_passes, Seen.UNCLEAR, hidden=_hidden(passes))
     if np.ptp(np.quantile(ratios, (0.1, 0.9))) < ALIKE and abs(np.median(ratios)) > UNLIKE:
@@ -374,13 +374,13 @@ def _two_knocks(
     separation = float(np.average(apart, weights=height))
     spread = math.sqrt(float(np.average((apart - separation) ** 2, weights=height)))
     deviation = max(spread, 0.25 / HARMONICS)
-    best, pair = max(agreeing, key=lambda one: one[1].height)
-    trend = _trend([one.band for one, _ in agreeing], ratios, height)
+    best, pair = max(agreeing, key=lambda shown_pair: shown_pair[1].height)
+    trend = _trend([mean_pass.band for mean_pass, _ in agreeing], ratios, height)
     rare = 1.0 - separation > RARE * separation
     if rare and (trend < -FADES or (trend < 0.0 and _fades(passes, reached, ratios))):
         return Knocks(passes, frequency, n_passes, Seen.ALIKE)
     seen = Seen.TWO if rare else Seen.EITHER
-    others = tuple(one for one in passes if one is not best)
+    others = tuple(mean_pass for mean_pass in passes if mean_pass is not best)
     return Knocks(
         (best, *others), frequency, n_passes, seen, separation, deviation, pair.first, pair.second
     )
@@ -394,12 +394,12 @@ def _hidden(passes: Sequence[MeanPass]) -> float:
     """
     from scipy.ndimage import gaussian_filter1d
 
-    clear = [one for one in passes if _is_clear(one)]
+    clear = [mean_pass for mean_pass in passes if _is_clear(mean_pass)]
     if not clear or min(one.band.low for one in clear) > min(one.band.low for one in passes):
         return math.nan
     reached = 0.0
-    for one in clear:
-        smooth = gaussian_filter1d(one.envelope, SMOOTHING[1] * PLACES, mode="wrap")
+    for mean_pass in clear:
+        smooth = gaussian_filter1d(mean_pass.envelope, SMOOTHING[1] * PLACES, mode="wrap")
         above = np.flatnonzero(smooth > FAINTEST * smooth.max()) - int(smooth.argmax())
         away = np.abs((above + PLACES // 2) % PLACES - PLACES // 2)
         reached = max(reached, float(away.max()) / PLACES)
@@ -411,13 +411,13 @@ def _fades(passes: Sequence[MeanPass], reached: float, ratios: Array) -> bool:
 
     An exit is the sharper of the two. A ball that bounces and an echo fade so with frequency.
     """
-    above = any(one.band.low > reached and _is_clear(one) for one in passes)
+    above = any(mean_pass.band.low > reached and _is_clear(mean_pass) for mean_pass in passes)
     return above and float(np.median(ratios)) < 0.0
 
 
-def _is_clear(one: MeanPass) -> bool:
+def _is_clear(mean_pass: MeanPass) -> bool:
     """Whether a second peak of the faintest kind would stand out of a band's noise."""
-    return FAINTEST * one.contrast > LEAST_SEEN
+    return FAINTEST * mean_pass.contrast > LEAST_SEEN
 
 
 def _trend(bands: list[Band], ratios: Array, weights: Array) -> float:
@@ -443,10 +443,10 @@ def two_peaks(mean_pass: MeanPass, frequency: float) -> Pair | None:
     train = None
     for width in SMOOTHING:
         smooth = gaussian_filter1d(mean_pass.envelope, width * PLACES, mode="wrap")
-        found = _two_peaks(smooth, mean_pass.error, lobes)
-        if found is not None and found.third <= THIRD:
-            return found
-        train = train or found
+        pair = _two_peaks(smooth, mean_pass.error, lobes)
+        if pair is not None and pair.third <= THIRD:
+            return pair
+        train = train or pair
     return train
 
 
@@ -483,8 +483,8 @@ def _two_peaks(envelope: Array, error: float, lobes: float) -> Pair | None:
 def _away(pair: Pair, other: Pair) -> float:
     """By how much either peak is elsewhere, as a share of a ball pass."""
     return max(
-        abs((one - two + 0.5) % 1.0 - 0.5)
-        for one, two in ((pair.first, other.first), (pair.second, other.second))
+        abs((here - there + 0.5) % 1.0 - 0.5)
+        for here, there in ((pair.first, other.first), (pair.second, other.second))
     )
 
 
@@ -495,9 +495,9 @@ def _agreeing(shown: list[tuple[MeanPass, Pair]]) -> list[tuple[MeanPass, Pair]]
     """
     best: list[tuple[MeanPass, Pair]] = []
     two = [(m, pair) for m, pair in shown if pair.third <= THIRD]
-    for _, one in two:
-        reach = AGREE[0] * one.apart + AGREE[1]
-        near = [(m, pair) for m, pair in two if _away(pair, one) <= reach]
+    for _, other in two:
+        reach = AGREE[0] * other.apart + AGREE[1]
+        near = [(m, pair) for m, pair in two if _away(pair, other) <= reach]
         if sum(pair.height for _, pair in near) > sum(pair.height for _, pair in best):
             best = near
     bands = [m.band for m, _ in best]

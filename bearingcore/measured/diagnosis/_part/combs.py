@@ -37,9 +37,9 @@ def lines_at(values: NDArray[np.float64], step: float, frequency: NDArray[np.flo
     places = np.arange(1, count + 1)[:, None] * (frequency / step) + away / step
     index = np.rint(places).astype(np.int64)
     beyond = (index >= len(peak)) | (index < 1)
-    found = peak[np.clip(index, 0, len(peak) - 1)]
-    found[beyond] = 0.0
-    return np.asarray(found)
+    level = peak[np.clip(index, 0, len(peak) - 1)]
+    level[beyond] = 0.0
+    return np.asarray(level)
 
 
 def cut(levels: LineLevels, hidden: NDArray[np.bool_]) -> NDArray[np.float64]:

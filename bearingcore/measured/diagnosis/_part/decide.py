@@ -103,13 +103,13 @@ def decide(signal: ListenedSignal, judged: Judged, shaft: float | None, source: 
 def _spectrum(judged: Judged) -> EnvelopeLines:
     """The envelope's spectrum in the band of the best evidence, at the finest resolution."""
     own = judged.own
-    one = next(
-        one
-        for one in judged.resolutions[-1].envelopes
-        if (one.band, one.direction) == (own.band, own.direction)
+    envelope = next(
+        other
+        for other in judged.resolutions[-1].envelopes
+        if (other.band, other.direction) == (own.band, own.direction)
     )
-    frequency = one.levels.step * np.arange(len(one.levels.level), dtype=float)
-    return EnvelopeLines(frequency, one.levels.level, one.band, one.direction)
+    frequency = envelope.levels.step * np.arange(len(envelope.levels.level), dtype=float)
+    return EnvelopeLines(frequency, envelope.levels.level, envelope.band, envelope.direction)
 
 
 def _lines_in_doubt(judged: Judged) -> Reason | None:
@@ -185,7 +185,7 @@ def _nothing_and_why(signal: ListenedSignal, judged: Judged) -> Reason | None:
         return DiagnosisStatus.ROUNDED, say.rounded()
     if judged.detectable > ENOUGH_SWING:
         return DiagnosisStatus.INSENSITIVE, say.weak(SURELY * judged.detectable, signal.duration)
-    broadest = max(judged.evidence, key=lambda one: one.deviations)
+    broadest = max(judged.evidence, key=lambda part: part.deviations)
     if broadest.deviations >= FAINT_RACE:
         return DiagnosisStatus.FAINT, say.faint(broadest)
     return None
@@ -203,7 +203,7 @@ def _impulsiveness(judged: Judged, signal: ListenedSignal) -> float:
         for one in envelopes
         if one.band.high <= 5.05 * sixth and one.band.high - one.band.low >= 0.95 * sixth
     ]
-    return max(broad or [one.kurtosis for one in envelopes])
+    return max(broad or [envelope.kurtosis for envelope in envelopes])
 
 
 def silent(

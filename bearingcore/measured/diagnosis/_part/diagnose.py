@@ -93,8 +93,8 @@ def diagnose(
     bearing = None if bearing is None else bearing_of(bearing)
     for name, said in (("speed_source", speed_source), ("bearing_source", bearing_source)):
         checks.choice(name, said.partition(":")[0], SOURCES)
-    found = _diagnose(recording, bearing, shaft_speed, slip, most_samples, speed_source)
-    return replace(found, bearing_source="unknown" if bearing is None else bearing_source)
+    diagnosis = _diagnose(recording, bearing, shaft_speed, slip, most_samples, speed_source)
+    return replace(diagnosis, bearing_source="unknown" if bearing is None else bearing_source)
 
 
 def _diagnose(
@@ -179,7 +179,7 @@ def _held_against_the_shaft(
         detail=f"{say.against_the_shaft(answer.of(answer.fault))} {words}",
         probability=CONTRADICTED * answer.probability,
         evidence=tuple(
-            replace(one, probability=CONTRADICTED * one.probability) for one in answer.evidence
+            replace(part, probability=CONTRADICTED * part.probability) for part in answer.evidence
         ),
     )
 

@@ -31,41 +31,42 @@ class PartEvidence:
     part
         "outer race", "inner race" or "ball".
     nominal_frequency, nominal_order
-        of its line by the geometry [Hz], [turns of the shaft]; of a ball twice its spin.
+        of its line by the geometry [Hz], [turns of the shaft]; for a ball twice its spin.
     frequency, order
-        where its strongest lines are [Hz], [turns of the shaft].
+        of its strongest lines [Hz], [turns of the shaft].
     slip
-        by how much that differs from nominal, as a fraction.
+        relative deviation of that frequency from the nominal one.
     harmonics : (h,) [dB]
         levels of the line and its harmonics over their surroundings.
     level
-        [dB] of them together: the mean without the loudest, so that no single line decides.
+        [dB] mean of the harmonics without the loudest, so that no single line decides.
     noise
-        [dB] that noise alone reaches in one of a thousand signals.
+        [dB] level that noise alone reaches in one of a thousand signals.
     lead
-        [dB] above noise, above all other lines in the band and above the other race's, and of the
-        sidebands that the part should make; the least of these. Below 0 the lines are not there.
+        [dB] least of four margins: above noise, above all other lines in the band, above the lines
+        of the other race, and of the sidebands that the part should make. Below 0 the lines are
+        absent.
     line_lead
-        [dB] the same of the lines alone, whatever their sidebands.
+        [dB] the same for the lines alone, without sidebands.
     modulation
-        logarithm of how often noise reaches the sidebands that the part's own turning makes,
-        against one signal of a hundred, with its sign changed: above 0 they are there. Infinite for
-        an outer race, which stands still.
+        negative logarithm of the chance that noise reaches the sidebands of the part's own
+        rotation, relative to 1 %: above 0 they are present. Infinite for an outer race, which does
+        not turn.
     foreign_spacing
-        [Hz] of sidebands that neither the shaft nor the cage makes; NaN where there are none. They
-        are looked for at the outer race, which makes no sidebands of its own.
+        [Hz] of sidebands that neither the shaft nor the cage makes; NaN if there are none. They are
+        searched at the outer race, which makes no sidebands of its own.
     depth
-        by how much the envelope swings at these lines, as a share of its mean.
+        swing of the envelope at these lines, as a share of its mean.
     swing
         the same with the first sidebands.
     deviations
-        by how much all bands together show these lines above all others, in short segments, in
-        standard deviations; of a ball above races and shaft sidebands too.
+        height of these lines above all others, over all bands and in short segments, in standard
+        deviations; for a ball also above races and sidebands of the shaft.
     magnetic
-        probability that lines here are magnetic noise at twice the mains' frequency; 0 where they
-        are more than 1 % off 100 and 120 Hz.
+        probability that these lines are magnetic noise at twice the mains frequency; 0 if they are
+        more than 1 % off 100 and 120 Hz.
     probability
-        that this part is damaged; both races may be.
+        probability that this part is damaged; both races may be.
     sidebands : (h, 2) [dB]
         levels below and above each harmonic, `sideband_spacing` away.
     sideband_spacing
@@ -73,9 +74,9 @@ class PartEvidence:
     sideband_source
         "shaft" or "cage".
     band
-        [Hz] in which the lines were seen best.
+        [Hz] in which the lines are clearest.
     direction
-        of the recording in which they were.
+        direction of the recording with these lines.
     kurtosis
         of the signal in that band: 2 for noise, more for knocks.
     """
@@ -107,18 +108,18 @@ class PartEvidence:
 
     @property
     def modulated(self) -> bool:
-        """Whether the sidebands that the part's own turning makes are there."""
+        """True if the sidebands of the part's own rotation are present."""
         return 0.0 <= self.modulation < math.inf
 
     @property
     def without_magnetic(self) -> float:
-        """Its probability if nothing of it were magnetic noise."""
+        """Its probability without the possibility of magnetic noise."""
         return self.probability / (1.0 - self.magnetic)
 
 
-def leading_by(one: PartEvidence) -> tuple[float, float]:
+def leading_by(part: PartEvidence) -> tuple[float, float]:
     """The order of parts: by probability, then by lead."""
-    return one.probability, one.lead
+    return part.probability, part.lead
 
 
 @dataclass(frozen=True)
@@ -169,27 +170,27 @@ class Diagnosis:
     fault
         "outer race", "inner race", "ball", "none seen" or "cannot tell".
     probability
-        that the fault named is the true one, never 1; without a clear result that of the part
-        that leads.
+        probability that the named fault is the true one, always below 1; without a clear result
+        that of the leading part.
     status
-        how it ended.
+        the outcome.
     detail
-        the finding in a sentence, or why nothing is clear.
+        the finding in a sentence, or the reason why nothing is clear.
     evidence
-        of each part: outer race, inner race, ball; empty where nothing could be looked at.
+        of each part: outer race, inner race, ball; empty if the signal could not be analysed.
     shaft_speed
-        [rad/s] on which it rests; None where none was found.
+        [rad/s] used in the diagnosis; None if none was found.
     speed_source
-        where that is from: "given", "from the file", "assumed", "looked for", ...
+        source of the speed: "given", "from the file", "assumed", "looked for", ...
     bearing_source
-        where the bearing is from, likewise.
+        source of the bearing, likewise.
     other
-        the strongest lines that are none of this bearing's, if any are clear.
+        the strongest clear lines of another source, if any.
     detectable_depth
-        the least swing of the squared envelope, the power of the vibration, at each of the lines,
-        as a share of its mean, that would have been seen in nine of ten such records.
+        least detectable swing of the squared envelope (the power of the vibration) at each line, as
+        a share of its mean: it would have been seen in nine of ten such records.
     spectrum
-        that of the envelope in the band of the best evidence; None with no evidence.
+        spectrum of the envelope in the band of the best evidence; None without evidence.
     """
 
     fault: str
@@ -206,7 +207,7 @@ class Diagnosis:
 
     @property
     def sentence(self) -> str:
-        """The answer in sentences, to pass on, with the shaft speed on which it rests."""
+        """The answer in sentences, with the shaft speed that was used."""
         words = self.detail
         if not self.conclusive:
             words = f"No clear result: {words[:1].lower()}{words[1:]}"
@@ -221,22 +222,22 @@ class Diagnosis:
 
     @property
     def conclusive(self) -> bool:
-        """Whether a part is named, or none seen where one would have been."""
+        """True if a part is named, or none is seen although damage would have shown."""
         return self.fault != CANNOT_TELL
 
     @property
     def names_a_part(self) -> bool:
-        """Whether a part is named."""
+        """True if a part is named."""
         return self.fault in PARTS
 
     @property
     def perhaps_a_ball(self) -> bool:
-        """Whether a damaged ball may have made the lines of the race that is named."""
+        """True if a damaged ball may have made the lines of the named race."""
         return self.fault in (OUTER, INNER) and self.probability < LIKELY
 
     @property
     def other_race(self) -> PartEvidence | None:
-        """Evidence of the other race, where one is named and the other is damaged too, probably."""
+        """Evidence of the other race if one is named and the other is probably damaged too."""
         if self.fault not in (OUTER, INNER):
             return None
         other = self.of(INNER if self.fault == OUTER else OUTER)
@@ -244,20 +245,20 @@ class Diagnosis:
 
     @property
     def leading(self) -> PartEvidence | None:
-        """Evidence of the part that leads, be it named or not; None with no evidence."""
+        """Evidence of the most probable part, named or not; None without evidence."""
         return max(self.evidence, key=leading_by, default=None)
 
     def of(self, part: str) -> PartEvidence:
-        """The evidence of a part, by its name; KeyError where nothing could be looked at."""
-        for one in self.evidence:
-            if one.part == part:
-                return one
+        """Return the evidence of a part by its name; KeyError if there is no evidence."""
+        for evidence in self.evidence:
+            if evidence.part == part:
+                return evidence
         raise KeyError(part)
 
     def table(self) -> ResultTable:
-        """A row a part with its evidence; next to them the spectrum of the envelope, if any.
+        """A row for each part with its evidence, and the spectrum of the envelope, if any.
 
-        Without a shaft speed what rests on it is NaN.
+        Without a shaft speed, numbers that depend on it are NaN.
         """
         turns = math.nan if self.shaft_speed is None else 1.0
         parts, spectrum = self.evidence, self.spectrum

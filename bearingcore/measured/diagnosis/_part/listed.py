@@ -58,16 +58,16 @@ def explaining_bearings(
     ValueError
         for a speed that cannot be.
     """
-    found = []
+    answers = []
     distinct = list(_distinct(bearings))
     for done, (name, bearing) in enumerate(distinct):
         if not goes_on(done, len(distinct)):
             break
         answer = diagnose(recording, bearing, shaft_speed, bearing_source="assumed: one of a list")
         if answer.fault in ("outer race", "inner race"):
-            found.append(ListedBearing(name, answer))
+            answers.append(ListedBearing(name, answer))
     # levels within a decibel are alike: then the nearer geometry is the better
-    return tuple(sorted(found, key=lambda one: (-round(one.level), abs(one.slip))))
+    return tuple(sorted(answers, key=lambda bearing: (-round(bearing.level), abs(bearing.slip))))
 
 
 def _distinct(bearings: Mapping[str, Bearing]) -> Iterator[tuple[str, Bearing]]:

@@ -46,7 +46,7 @@ class ListenedSignal:
         self.duration = recording.duration
         columns = recording.acceleration.T
         faults = [signal_faults(column) for column in columns]
-        usable = [index for index, one in enumerate(faults) if one.lost_share <= MOST_DROPPED]
+        usable = [index for index, fault in enumerate(faults) if fault.lost_share <= MOST_DROPPED]
         self.names = [recording.directions[index] for index in usable]
         self._measured = [np.asarray(columns[index]) for index in usable]
         self.columns = [_with_a_floor(samples) for samples in self._measured]
@@ -54,7 +54,7 @@ class ListenedSignal:
         self.whitening: float | None = WHITENING
         self.unusable: Reason | None = None
         if not usable:
-            share = min(one.lost_share for one in faults)
+            share = min(fault.lost_share for fault in faults)
             self.unusable = DiagnosisStatus.DROPPED_OUT, say.dropout_message(share)
 
     def unwhitened(self) -> ListenedSignal:
@@ -66,12 +66,12 @@ class ListenedSignal:
     @property
     def dropped(self) -> float:
         """Share of the samples that dropped out."""
-        return max(one.dropped_share for one in self.faults)
+        return max(fault.dropped_share for fault in self.faults)
 
     @property
     def clipped(self) -> float:
         """Share of the samples that are clipped."""
-        return max(one.clipped_share for one in self.faults)
+        return max(fault.clipped_share for fault in self.faults)
 
     @property
     def only_rounding(self) -> bool:

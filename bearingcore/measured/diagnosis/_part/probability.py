@@ -56,22 +56,22 @@ def probabilities(evidence: Iterable[PartEvidence], chosen: Calibration) -> dict
     is the ball, and races share the rest.
     """
     own = {}
-    for one in evidence:
-        own[one.part] = math.exp(log_probability(one, chosen))
-        if one.part == BALL:
-            above = (one.deviations - DEVIATIONS) / DEVIATIONS_SCALE
+    for seen in evidence:
+        own[seen.part] = math.exp(log_probability(seen, chosen))
+        if seen.part == BALL:
+            above = (seen.deviations - DEVIATIONS) / DEVIATIONS_SCALE
             own[BALL] = 1.0 - (1.0 - own[BALL]) * (1.0 - math.exp(-_doubt(above)))
-        own[one.part] *= 1.0 - one.magnetic
+        own[seen.part] *= 1.0 - seen.magnetic
     no_ball = 1.0 - own[BALL]
     return {
         part: SURE * (value if part == BALL else no_ball * value) for part, value in own.items()
     }
 
 
-def log_probability(one: PartEvidence, chosen: Calibration = CALIBRATION) -> float:
+def log_probability(part: PartEvidence, chosen: Calibration = CALIBRATION) -> float:
     """Logarithm of the probability that a part's lines are there and its own damage makes them."""
-    decibels = 20.0 * math.log10(max(one.swing, 1e-9) / chosen.swing)
-    return -_doubt((one.lead - LEAD) / LEAD_SCALE) - _doubt(decibels / chosen.swing_scale)
+    decibels = 20.0 * math.log10(max(part.swing, 1e-9) / chosen.swing)
+    return -_doubt((part.lead - LEAD) / LEAD_SCALE) - _doubt(decibels / chosen.swing_scale)
 
 
 def _doubt(above: float) -> float:

@@ -99,12 +99,12 @@ def shaft_lines(
         if excess[index] <= best.excess:
             continue
         noise = noise_level(RARE / cells, levels.averages)
-        found = _slowest(levels, float(frequency[index]), low, noise)
+        turn = _slowest(levels, float(frequency[index]), low, noise)
         # without the lines of both mains, where enough are left, as there is but one
-        fits = [_fine(levels, one, found, resolution, noise) for one in (own[0] | own[1], *own)]
-        found, error = fits[0] if np.isfinite(fits[0][1]) else _finest(fits[1:])
-        inside = min(max(found, low), high)
-        if abs(found - inside) > 2.0 * error:  # lines of something beyond
+        fits = [_fine(levels, lines, turn, resolution, noise) for lines in (own[0] | own[1], *own)]
+        turn, error = fits[0] if np.isfinite(fits[0][1]) else _finest(fits[1:])
+        inside = min(max(turn, low), high)
+        if abs(turn - inside) > 2.0 * error:  # lines of something beyond
             error = np.inf
         best = ShaftLines(inside, float(excess[index]), error / inside)
     return best
@@ -170,9 +170,9 @@ def _at(
 
 def _finest(fits: Sequence[tuple[float, float]]) -> tuple[float, float]:
     """The frequency [Hz] of two that has the less error, infinite where they disagree by more."""
-    (found, error), (other, wider) = sorted(fits, key=lambda fit: fit[1])
-    apart = abs(found - other) > 2.0 * (error + wider)
-    return found, np.inf if apart else error
+    (best, error), (other, wider) = sorted(fits, key=lambda fit: fit[1])
+    apart = abs(best - other) > 2.0 * (error + wider)
+    return best, np.inf if apart else error
 
 
 def _fine(
@@ -204,11 +204,11 @@ def _fine(
     # a peak's place is as good as its height over the noise, at most a tenth of the resolution
     spread = resolution * np.maximum(0.1, 0.5 * 10.0 ** (-0.05 * np.array(heights)))
     weight = spread**-2.0
-    found = float((weight * k * place).sum() / (weight * k * k).sum())
-    scatter = float((weight * (place - k * found) ** 2).sum()) / (len(k) - 1)
+    fitted = float((weight * k * place).sum() / (weight * k * k).sum())
+    scatter = float((weight * (place - k * fitted) ** 2).sum()) / (len(k) - 1)
     if scatter > DISAGREE:
-        return found, np.inf
-    return found, float(np.sqrt(max(1.0, scatter) / (weight * k * k).sum()))
+        return fitted, np.inf
+    return fitted, float(np.sqrt(max(1.0, scatter) / (weight * k * k).sum()))
 
 
 def _slowest(levels: LineLevels, frequency: float, low: float, noise: float) -> float:

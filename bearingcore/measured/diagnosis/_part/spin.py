@@ -141,10 +141,10 @@ def _deviations(
     `but_one` leaves out the loudest line of each comb.
     """
     total = np.zeros((SPIN_HARMONICS * len(sidebands), len(combs.frequency)))
-    for one in combs.envelopes:
-        level = np.where(one.hidden, np.nan, one.cleared)
+    for envelope in combs.envelopes:
+        level = np.where(envelope.hidden, np.nan, envelope.cleared)
         total += np.vstack([
-            lines_at(level, one.levels.step, combs.frequency, SPIN_HARMONICS, away)
+            lines_at(level, envelope.levels.step, combs.frequency, SPIN_HARMONICS, away)
             for away in sidebands
         ])  # fmt: skip
     seen = np.isfinite(total)

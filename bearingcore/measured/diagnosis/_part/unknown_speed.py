@@ -103,7 +103,7 @@ def _choose(
 ) -> Diagnosis:
     """The diagnosis of the speed at which the shaft shows best, if no other is nearly as good."""
     first = holding[0]
-    rival = next((one for one in holding[1:] if not one.agrees(first, slip)), None)
+    rival = next((guess for guess in holding[1:] if not guess.agrees(first, slip)), None)
     alone = high <= NARROW * low and rival is None
     if not (first.shaft.clear or alone):
         return _undecided_speed(signal, holding, first.judged.own.frequency, source)
@@ -126,12 +126,12 @@ def _undecided_speed(
 ) -> Diagnosis:
     """Knocks that may be of one part or another, as the speed may be."""
     readings: dict[str, float] = {}
-    for one in hypotheses:
-        readings.setdefault(one.judged.own.part, one.judged.shaft)
+    for guess in hypotheses:
+        readings.setdefault(guess.judged.own.part, guess.judged.shaft)
     decided = decide(signal, hypotheses[0].judged, None, source)
     # each reading is as probable as the others: what holds at one speed counts by its share
     share = SURE / max(2, len(readings))
-    evidence = [replace(one, probability=share * one.probability) for one in decided.evidence]
+    evidence = [replace(part, probability=share * part.probability) for part in decided.evidence]
     return replace(
         decided,
         fault=CANNOT_TELL,

@@ -26,6 +26,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.model._kernels.balls.structs import INNER, OUTER, Races
+from bearingcore.model._kernels.codes import (
+    CONVERGED,
+    FREE_DIRECTION,
+    NOT_CARRIED,
+    NOT_CONVERGED,
+    NOTHING_TOUCHES,
+)
 from bearingcore.model._kernels.compiling import called, compiled, inlined
 from bearingcore.model._kernels.contact import (
     components,
@@ -37,12 +44,7 @@ from bearingcore.model._kernels.contact import (
 )
 from bearingcore.model._kernels.path import lay_out_drops, place_balls
 from bearingcore.model._kernels.statics import (
-    CONVERGED,
-    FREE_DIRECTION,
     NO_PIVOT,
-    NOT_CARRIED,
-    NOT_CONVERGED,
-    NOTHING_TOUCHES,
     RESIDUAL_AIM,
     RESIDUAL_LIMIT,
     ROUNDING,
@@ -396,7 +398,7 @@ def settle_ring(q, load, balls, places, work):
         for a in active:
             slope += g[a] * work.p[a]
         step = 1.0
-        found = False
+        accepted = False
         for _ in range(50):
             for a in range(5):
                 work.trial[a] = q[a]
@@ -409,11 +411,11 @@ def settle_ring(q, load, balls, places, work):
             for a in active:
                 slope1 += work.g[1 - now, a] * work.p[a]
             if has_descended(V, V1, slope, slope1, step, 1e-13 * max(scale, scale1)):
-                found = True
+                accepted = True
                 break
             rise = slope1 - slope  # 0 where rounding has left no descent in the direction
             step *= min(max(-slope / rise, 0.05), 0.6) if rise > 0.0 else 0.3
-        if not found:
+        if not accepted:
             _, _, settled = ring_energy(q, F, balls, places, work.g[now], work.H[now])
             status = CONVERGED if settled and residual <= limit else NOT_CONVERGED
             return now, status, residual, iteration
@@ -451,7 +453,7 @@ def ball_positions(cage_angles, leads, start, balls, load):
     """
     n = cage_angles.size
     n_balls = balls.contacts.angle.size
-    found = PositionAnswers(
+    answers = PositionAnswers(
         start.copy(),
         np.zeros((2, n, n_balls)),
         np.full((2, n, n_balls), math.nan),
@@ -462,8 +464,8 @@ def ball_positions(cage_angles, leads, start, balls, load):
         np.zeros(n, dtype=np.int64),
     )
     work = new_map_work(balls.contacts.angle), new_places(n_balls)
-    find_positions(cage_angles, leads, start, balls, load, found, work)
-    return found
+    find_positions(cage_angles, leads, start, balls, load, answers, work)
+    return answers
 
 
 class PositionAnswers(NamedTuple):
@@ -480,12 +482,12 @@ class PositionAnswers(NamedTuple):
 
 
 @compiled
-def find_positions(cage_angles, leads, start, balls, load, found, work):
+def find_positions(cage_angles, leads, start, balls, load, answers, work):
     """Body of `ball_positions`, with work space."""
     turning, places = work
     descent = turning.descent
-    q = found.q
-    status = found.status
+    q = answers.q
+    status = answers.status
     n_balls = places.c.size
     for k in range(cage_angles.size):
         cage = cage_angles[k]
@@ -502,17 +504,17 @@ def find_positions(cage_angles, leads, start, balls, load, found, work):
         else:
             for j in range(n_balls):
                 places.known[j] = 0.0
-        now, status[k], found.residual[k], found.iterations[k] = settle_ring(
+        now, status[k], answers.residual[k], answers.iterations[k] = settle_ring(
             q[k], load, balls, places, descent
         )
         for a in range(5):
             for b in range(a + 1):
-                found.stiffness[k, a, b] = descent.H[now, a, b]
-                found.stiffness[k, b, a] = descent.H[now, a, b]
+                answers.stiffness[k, a, b] = descent.H[now, a, b]
+                answers.stiffness[k, b, a] = descent.H[now, a, b]
         for j in range(n_balls):
             for race in range(2):
-                found.where[k, race, j] = places.place[race, j]
-                found.loads[race, k, j] = places.load[race, j]
+                answers.where[k, race, j] = places.place[race, j]
+                answers.loads[race, k, j] = places.load[race, j]
                 if status[k] < NOT_CARRIED and places.load[race, j] > 0.0:
                     angle = math.atan2(places.ez[race, j], places.er[race, j])
-                    found.angles[race, k, j] = angle
+                    answers.angles[race, k, j] = angle

@@ -22,10 +22,8 @@ from bearing_explorer.diagnosis.views.part_lines import (
     window,
 )
 from bearing_explorer.diagnosis.widgets.part_panel import evidence_html
-from bearing_explorer.explorer.messages import LessonChange
-from bearing_explorer.kit.messages import take
 from bearing_explorer.kit.serve.packed_source import PackedSource
-from bearing_explorer.page import SECTIONS, Halves
+from bearing_explorer.page import SECTIONS
 
 from bearingcore import Diagnosis, Recording, presets
 from tests.helpers.measuring import at, measuring
@@ -46,9 +44,9 @@ def heard(truth: str, noise_db: float = 20.0) -> Measured:
 
 @cache
 def diagnosed(truth: str, noise_db: float = 20.0) -> Diagnosis:
-    found = answered(Question.about(heard(truth, noise_db)))
-    assert isinstance(found, Diagnosis)
-    return found
+    diagnosis = answered(Question.about(heard(truth, noise_db)))
+    assert isinstance(diagnosis, Diagnosis)
+    return diagnosis
 
 
 def asked(truth: str) -> Question:
@@ -102,7 +100,7 @@ def test_the_part_is_named_and_marked(truth, mood, headline):
 def test_a_step_is_on_the_page_once_there_is_a_signal():
     form, *steps = next(one for one in SECTIONS if one.name == "diagnosis").views
     waiting = [kind for kind in steps if issubclass(kind, MeasuredView)]
-    assert len(waiting) == 8
+    assert len(waiting) == 9
     for kind in (form, *waiting):
         view = kind(PackedSource())
         view.measure(measuring(None))
@@ -130,21 +128,21 @@ def test_words_have_sensible_digits_and_nothing_is_certain(truth):
 
 
 def test_a_counted_bearing_is_cleared_without_a_word_and_an_estimated_one_is_not():
-    question, found = asked("none"), diagnosed("none")
+    question, diagnosis = asked("none"), diagnosed("none")
     bearing = dataclasses.replace(question.bearing, estimated=("n_balls", "ball_diameter"))
     machine = dataclasses.replace(question.measured.machine, bearing=bearing)
     estimated = Question.about(dataclasses.replace(question.measured, machine=machine))
-    state = panel_state(estimated, found)
+    state = panel_state(estimated, diagnosis)
     assert part_words.COUNTED.format("balls") in state["plain"]
     assert part_words.COUNTED.format("balls") in state["pass_on"]
     assert "estimated from the designation, so BPFO ± " in dict(state["facts"])["Bearing"]
-    counted = panel_state(question, found)
+    counted = panel_state(question, diagnosis)
     assert "estimate" not in str([counted[key] for key in ("plain", "pass_on", "facts")])
 
 
 def test_a_part_that_is_hardly_told_is_only_probably_damaged():
-    found = dataclasses.replace(diagnosed("inner race"), probability=0.8)
-    assert part_words.headline(found) == "The inner race is probably damaged"
+    diagnosis = dataclasses.replace(diagnosed("inner race"), probability=0.8)
+    assert part_words.headline(diagnosis) == "The inner race is probably damaged"
     ball = dataclasses.replace(diagnosed("inner race"), fault="ball")
     assert part_words.headline(ball) == "A ball is damaged"
     assert "ball-spin frequency" in part_words.plain(ball, asked("inner race"))
@@ -153,9 +151,9 @@ def test_a_part_that_is_hardly_told_is_only_probably_damaged():
 
 def test_nothing_is_marked_where_it_cannot_be_told():
     short = Measured(Recording(heard("none").recording.acceleration[:1200], 25_600.0), at(MOTOR))
-    found = answered(Question.about(short))
-    assert isinstance(found, Diagnosis)
-    view = view_of(short, found)
+    diagnosis = answered(Question.about(short))
+    assert isinstance(diagnosis, Diagnosis)
+    view = view_of(short, diagnosis)
     sources, ranges = view.all_data(MODEL)
     assert not ranges
     assert all(not column.size for columns in sources.values() for column in columns.values())
@@ -183,9 +181,9 @@ def test_a_refusal_is_a_sentence():
 
 @pytest.mark.parametrize("truth", ["outer race", "inner race"])
 def test_lines_that_count_are_strong_where_found_and_others_faint_where_geometry_has_them(truth):
-    found = diagnosed(truth)
-    sources, ranges = view_of(heard(truth), found).all_data(MODEL)
-    for one in found.evidence:
+    diagnosis = diagnosed(truth)
+    sources, ranges = view_of(heard(truth), diagnosis).all_data(MODEL)
+    for one in diagnosis.evidence:
         key = one.part.replace(" ", "_")
         lines = sources[f"diagnosis_{key}_lines"]
         own = one.part == truth
@@ -195,27 +193,27 @@ def test_lines_that_count_are_strong_where_found_and_others_faint_where_geometry
         assert bool(sources[f"diagnosis_{key}_points"]["frequency"].size) == own
         beside = sources[f"diagnosis_{key}_sidebands"]["frequency"]
         assert bool(beside.size) == (own and truth == "inner race")
-    own = found.of(truth)
+    own = diagnosis.of(truth)
     points = sources[f"diagnosis_{truth.replace(' ', '_')}_points"]
     np.testing.assert_allclose(points["level"], own.harmonics)
     spectrum = sources["diagnosis_spectrum"]
     at = np.abs(spectrum["frequency"] - own.frequency).argmin()
     assert spectrum["level"][at - 2 : at + 3].max() > own.noise + 5.0
     low, high = ranges["diagnosis_frequency"]
-    assert (low, high > 6.0 * found.of("inner race").nominal_frequency) == (0.0, True)
+    assert (low, high > 6.0 * diagnosis.of("inner race").nominal_frequency) == (0.0, True)
     orders = ranges["diagnosis_order"]
     assert orders[1] == pytest.approx(high / 29.95, rel=0.01)
     assert ranges["diagnosis_level"][1] > spectrum["level"][spectrum["frequency"] > 20.0].max()
 
 
 def test_a_zoom_shows_a_line_with_what_stands_beside_it():
-    found = diagnosed("inner race")
-    one = found.of("inner race")
-    low, high = window(found, Zoom("inner race", 2))
+    diagnosis = diagnosed("inner race")
+    one = diagnosis.of("inner race")
+    low, high = window(diagnosis, Zoom("inner race", 2))
     assert low < 2.0 * one.frequency - one.sideband_spacing
     assert high > 2.0 * one.frequency + one.sideband_spacing
     assert high - low < one.frequency
-    view = view_of(heard("inner race"), found)
+    view = view_of(heard("inner race"), diagnosis)
     view.look_changed("zoom", "inner race 2")
     assert view.all_data(MODEL)[1]["diagnosis_frequency"] == (low, high)
 
@@ -272,9 +270,9 @@ def test_the_part_does_not_depend_on_the_unit_and_it_is_said_where_it_is_not_kno
     velocity = dataclasses.replace(truth.recording, acceleration=velocity - velocity.mean(axis=0))
     unknown = Measured(velocity, truth.machine, in_si=False)
     question = Question.about(unknown)
-    found = answered(question)
-    assert found.fault == known.fault
-    rests = dict(panel_state(question, found)["facts"])
+    diagnosis = answered(question)
+    assert diagnosis.fault == known.fault
+    rests = dict(panel_state(question, diagnosis)["facts"])
     assert rests["Unit"] == "not known; the part does not depend on it"
     assert "Unit" not in dict(panel_state(asked("inner race"), known)["facts"])
 
@@ -283,19 +281,3 @@ def test_the_part_does_not_depend_on_the_unit_and_it_is_said_where_it_is_not_kno
 
 
 # -- the tab ---------------------------------------------------------------------------------------
-
-
-def test_a_button_of_a_lesson_simulates_the_scene_that_it_sets():
-    halves = Halves()
-    explorer = halves.explorer
-    halves.session.draw = lambda: None  # type: ignore[method-assign]
-    wishes = []
-    halves.diagnosis.measurement.simulate = lambda *wish: wishes.append(  # type: ignore[method-assign]
-        (wish, explorer.scene.defects[0].race)
-    )
-    wish = {"noise": "20"}
-    change = explorer.change_lesson
-    for junk in ("now", None, 3):
-        take(change, LessonChange, {"mark": 1, "simulate": junk})
-    take(change, LessonChange, {"mark": 2, "choose": {"race": "inner"}, "simulate": wish})
-    assert wishes == [(("20",), "inner")]

@@ -42,21 +42,21 @@ def view_of(entry: float = 1.0) -> SpallExtent:
 
 def test_the_answer_is_one_line_with_entry_and_exit_marked():
     view = view_of()
-    found = view.answer()
-    assert found.measured
-    assert view.status.line == {**view.status.line, "mood": "good", "words": found.answer}
-    assert found.answer in view.sentence(MODEL)
+    extent = view.answer()
+    assert extent.measured
+    assert view.status.line == {**view.status.line, "mood": "good", "words": extent.answer}
+    assert extent.answer in view.sentence(MODEL)
     sources, ranges = view.all_data(MODEL)
     spacing = math.degrees(MOTOR.ball_spacing)
     assert ranges["extent_angle"] == pytest.approx((-BEFORE * spacing, (1 - BEFORE) * spacing))
     entry, leave = sources["extent_edges"]["angle"]
     assert entry == 0.0
-    assert leave == pytest.approx(math.degrees(found.separation), abs=0.3)
+    assert leave == pytest.approx(math.degrees(extent.separation), abs=0.3)
     best = sources["extent_pass_0"]
     highest = best["angle"][best["envelope"].argmax()]
     assert min(abs(highest - entry), abs(highest - leave)) < 0.3
     assert view.csv().startswith("race,status,extent_deg")
-    assert view.found is found
+    assert view.found is extent
 
 
 @pytest.mark.proof

@@ -50,10 +50,10 @@ def test_a_line_follows_the_speed_in_the_spectrogram():
 
 def test_the_kurtogram_is_drawn_where_its_bands_are():
     measured = run_up()
-    found = measured.kurtogram("y")
-    cells = picture(found, 0.5 * RATE)
+    kurtogram = measured.kurtogram("y")
+    cells = picture(kurtogram, 0.5 * RATE)
     middles = (np.arange(CELLS) + 0.5) * 0.5 * RATE / CELLS
-    for band, kurtosis in zip(found.bands, found.kurtosis, strict=True):
+    for band, kurtosis in zip(kurtogram.bands, kurtogram.kurtosis, strict=True):
         inside = (middles > band.low) & (middles < band.high)
         assert (cells[:, inside] == kurtosis).all(axis=1).any()
     view = view_of(MeasuredKurtogram, measured)

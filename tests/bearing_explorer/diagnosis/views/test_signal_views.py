@@ -99,12 +99,12 @@ def test_envelopes_are_taken_in_the_band_of_the_diagnosis():
     view = view_of(MeasuredEnvelope, measured)
     assert "where the kurtogram is highest" in view.sentence(MODEL)
     question = view.measurement.question()
-    found = answered(question)
-    view.measurement.diagnoses.keep(question, found)
+    diagnosis = answered(question)
+    view.measurement.diagnoses.keep(question, diagnosis)
     assert "the band of the diagnosis" in view.sentence(MODEL)
     shown = view.shown(MODEL, measured)
-    assert shown.band[0] == found.spectrum.band.low
-    assert shown.direction == found.spectrum.direction
+    assert shown.band[0] == diagnosis.spectrum.band.low
+    assert shown.direction == diagnosis.spectrum.direction
     view.say(MODEL, "")
     again = view_of(MeasuredEnvelope, measured)
     again.choose(view.choices(), MODEL)  # as exported lines do, without a diagnosis
@@ -134,7 +134,7 @@ BALL = SimpleNamespace(
 
 
 @pytest.mark.parametrize(
-    ("peak", "step", "found", "said"),
+    ("peak", "step", "diagnosis", "said"),
     [
         (139.0, 0.6, BALL, r"is 2×BSF: step 2 has 138\.7 Hz for the first"),
         (139.0, 0.6, None, r"is 2×BSF, 1\.6 % above"),
@@ -144,13 +144,13 @@ BALL = SimpleNamespace(
         (150.0, 26.0, None, "may be BPFI or 2×BSF: lines here are 26 Hz apart"),
     ],
 )
-def test_the_highest_line_is_named_only_as_far_as_it_is_known(peak, step, found, said):
+def test_the_highest_line_is_named_only_as_far_as_it_is_known(peak, step, diagnosis, said):
     frequency = np.arange(0.0, 900.0, step)
     density = np.random.default_rng(2).exponential(size=frequency.size)
     if peak is not None:
         density[np.abs(frequency - peak).argmin()] = 1e4
     shown = Shown("y", 900.0, Spectrum(frequency, density), step, (2000.0, 4000.0))
-    sentence = highest_line(shown, [AT_29_5_HZ], "g", 1.0, found)
+    sentence = highest_line(shown, [AT_29_5_HZ], "g", 1.0, diagnosis)
     assert re.search(said, sentence), sentence
 
 

@@ -124,19 +124,19 @@ def test_losses_of_stability_are_named() -> None:
 
 
 def test_pictures_of_stability_show_each_measured_number_and_a_cross_for_each_failure() -> None:
-    found = shipped("fan-rig")
-    marks, stable, now, _ = orbit_marks(found.orbits, RIG.shaft_speed)
-    assert [mark.y for mark in marks] == [orbit.size for orbit in found.orbits]
-    assert [mark.slot == 1 for mark in marks] == [orbit.size > 1.0 for orbit in found.orbits]
+    measured = shipped("fan-rig")
+    marks, stable, now, _ = orbit_marks(measured.orbits, RIG.shaft_speed)
+    assert [mark.y for mark in marks] == [orbit.size for orbit in measured.orbits]
+    assert [mark.slot == 1 for mark in marks] == [orbit.size > 1.0 for orbit in measured.orbits]
     assert stable == {"top": 1.0}
     assert now[0] == pytest.approx(7.0)
     (lost,) = orbit_marks((OrbitAtSpeed(30.0, "not converged"),), 1.0)[0]
     assert math.isinf(lost.y)
     assert "not converged" in lost.why
-    assert found.stability is not None
-    marks, stable, _, _ = step_marks(found.stability, 32768.0)
+    assert measured.stability is not None
+    marks, stable, _, _ = step_marks(measured.stability, 32768.0)
     broken = [mark for mark in marks if math.isinf(mark.y)]
-    assert len(marks) == len(found.stability.trials)
+    assert len(marks) == len(measured.stability.trials)
     assert broken
     assert all(mark.x < stable["left"] and "diverged" in mark.why for mark in broken)
 
@@ -148,19 +148,19 @@ def test_an_experiment_is_shown_point_by_point_and_read_from_its_file(
     job = Work()
     job.started = time.monotonic()
     shown: list[Measurements] = []
-    job.show = lambda found: shown.append(found.result)  # type: ignore[method-assign]
+    job.show = lambda measured: shown.append(measured.result)  # type: ignore[method-assign]
     assert "points after" in compute(job, RIG, "statics")
     assert [one.count for one in shown[:3]] == [1, 2, 3]
-    found = shown[-1]
-    again = measurements_from(charts.as_json(found))
-    assert again.count == found.count
-    ours, theirs = (one.experiments["statics"].points for one in (found, again))
+    measured = shown[-1]
+    again = measurements_from(charts.as_json(measured))
+    assert again.count == measured.count
+    ours, theirs = (one.experiments["statics"].points for one in (measured, again))
     for one, other in zip(ours, theirs, strict=True):
         assert other.errors == pytest.approx(one.errors, rel=1e-3)
         assert other.in_use == one.in_use
     view = Accuracy(PackedSource())
-    view.found = Found(RIG, found)
-    assert f"Measured on this machine: {found.count} points" in view.sentence(Results(RIG))
+    view.found = Found(RIG, measured)
+    assert f"Measured on this machine: {measured.count} points" in view.sentence(Results(RIG))
     assert set(view.table(Results(RIG))["experiment"]) == {"statics"}
 
 

@@ -26,14 +26,14 @@ def test_the_first_picture_is_short_and_shows_a_ball_on_its_way_through(name: st
     how = moving.settings.coarse_marching
     if moving.is_coarse(frozenset({"ball_mass"})):
         duration = quick_duration(scene, how)
-        found = moving.ball_mass
-        assert found.samples == round(duration * how.sample_rate)
-        cost = duration * found.step_rates["with mass"] * scene.bearing.total_balls
+        ball_mass = moving.ball_mass
+        assert ball_mass.samples == round(duration * how.sample_rate)
+        cost = duration * ball_mass.step_rates["with mass"] * scene.bearing.total_balls
         assert cost * (1.0 if is_planar(scene) else 4.0) < 2.1e6
-        assert found.entry is not None
+        assert ball_mass.entry is not None
         if all(one.extent < 0.35 * scene.bearing.ball_spacing for one in scene.defects):
-            assert found.exit is not None  # else it is a longer way than is shown
-        assert not found.broke_off
+            assert ball_mass.exit is not None  # else it is a longer way than is shown
+        assert not ball_mass.broke_off
 
 
 def test_a_bearing_whose_balls_have_no_mass_says_so() -> None:

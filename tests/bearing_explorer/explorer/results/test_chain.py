@@ -14,11 +14,11 @@ LONGER = FAN_RIG.replace(extent=FAN_RIG.defect.extent + FAN_RIG.bearing.ball_spa
 def test_the_numbers_are_those_of_the_core(scene) -> None:
     chain = Results(scene).chain
     angles = np.linspace(0.0, scene.bearing.ball_spacing, 20_001)[:-1]  # a mean of its own
-    found = equilibrium(scene, angles)
-    assert chain.stiffness["k_yy"] == pytest.approx(found.term("k_yy").mean(), rel=5e-3)
-    assert chain.stiffness["k_xx"] == pytest.approx(found.term("k_xx").mean(), rel=5e-3)
-    assert chain.loaded_balls == pytest.approx(found.loaded_balls.mean(), rel=5e-3)
-    assert chain.greatest_load == pytest.approx(found.ball_load.max(), rel=5e-3)
+    state = equilibrium(scene, angles)
+    assert chain.stiffness["k_yy"] == pytest.approx(state.term("k_yy").mean(), rel=5e-3)
+    assert chain.stiffness["k_xx"] == pytest.approx(state.term("k_xx").mean(), rel=5e-3)
+    assert chain.loaded_balls == pytest.approx(state.loaded_balls.mean(), rel=5e-3)
+    assert chain.greatest_load == pytest.approx(state.ball_load.max(), rel=5e-3)
     for label, band in modes(scene, angles).bands().items():
         assert chain.bands[label] == pytest.approx(band, rel=5e-3)
     motion = simulate(scene, 1.4, 65536.0, step_rate=2 * 65536.0)  # finer than the page's own

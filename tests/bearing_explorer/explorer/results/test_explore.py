@@ -53,8 +53,8 @@ class Recorder(Work):
         self.shown: list[Plane] = []
         self.stop_after = stop_after
 
-    def show(self, found: Plane) -> None:
-        self.shown.append(found)
+    def show(self, plane: Plane) -> None:
+        self.shown.append(plane)
         if len(self.shown) >= self.stop_after:
             self.stop()
 
@@ -71,23 +71,23 @@ def test_a_point_says_what_the_solvers_say(turned: bool) -> None:
     }
     for name, of_scene in expected.items():
         asked = question(name, x, y)
-        found = coarse(asked)
-        assert found.values.shape == (7, 9)
+        plane = coarse(asked)
+        assert plane.values.shape == (7, 9)
         for j, i in ((0, 0), (1, 7), (6, 3)):
             scene = RIG.replace(
-                **{asked.x.field.name: found.x.in_si[1][i]},
-                **{asked.y.field.name: found.y.in_si[1][j]},
+                **{asked.x.field.name: plane.x.in_si[1][i]},
+                **{asked.y.field.name: plane.y.in_si[1][j]},
             )
-            assert found.values[j, i] == pytest.approx(of_scene(scene), rel=1e-9)
+            assert plane.values[j, i] == pytest.approx(of_scene(scene), rel=1e-9)
 
 
 def test_a_band_of_a_mode_is_that_of_the_core() -> None:
     band = Survey(question("band_greatest:y1", ("shaft_speed_hz", "10", "20"), shape=(2, 2)))
     assert band.compute(1)
-    found = modes(RIG.replace(shaft_speed=2.0 * math.pi * 20.0, fy=240.0))  # lifted
-    undamped = found.undamped_frequency[:, found.label.index("y1")].max()
+    vibration = modes(RIG.replace(shaft_speed=2.0 * math.pi * 20.0, fy=240.0))  # lifted
+    undamped = vibration.undamped_frequency[:, vibration.label.index("y1")].max()
     assert band.plane(1).values[0, 1] == pytest.approx(undamped)
-    assert undamped == pytest.approx(found.bands()["y1"][1], rel=1e-5)
+    assert undamped == pytest.approx(vibration.bands()["y1"][1], rel=1e-5)
 
 
 def test_levels_hold_those_before() -> None:
@@ -122,9 +122,9 @@ def test_motions_that_take_too_many_steps_are_not_begun() -> None:
     fast = Question(RIG.replace(shaft_speed=600.0), short.x, short.y, short.output)
     survey = Survey(fast)
     survey.compute(1)
-    found = survey.plane(1)
-    assert "too many steps" in found.reasons[0, 0]
-    assert found.reasons[0, 1] == ""
+    plane = survey.plane(1)
+    assert "too many steps" in plane.reasons[0, 0]
+    assert plane.reasons[0, 1] == ""
 
 
 def test_a_cancelled_refinement_keeps_the_last_whole_picture() -> None:

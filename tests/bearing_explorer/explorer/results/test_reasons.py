@@ -63,9 +63,9 @@ def test_all_that_carry_the_most_are_named(name: str) -> None:
     """Halfway between two balls as many of each row carry alike, by symmetry."""
     scene = presets[name].healthy().replace(fx=0.0, fy=-1000.0, fz=0.0)
     at = 1.5 * math.pi - scene.bearing.ball_spacing * 10.5
-    found = equilibrium(scene, [at])
-    most = np.flatnonzero(found.ball_load[0] > 0.99 * found.ball_load.max())
-    said = reasons.most_loaded(scene, found, 0, np.zeros(found.ball_load.shape[1]))
+    state = equilibrium(scene, [at])
+    most = np.flatnonzero(state.ball_load[0] > 0.99 * state.ball_load.max())
+    said = reasons.most_loaded(scene, state, 0, np.zeros(state.ball_load.shape[1]))
     head, rest = said.split(" carry most")
     assert (
         len(most)
@@ -77,12 +77,12 @@ def test_all_that_carry_the_most_are_named(name: str) -> None:
 
 def test_stiffness_falls_as_balls_push_back_sideways_or_as_fewer_carry() -> None:
     text = reasons.stiffness(of(RIG))
-    found, healthy = (equilibrium(s, np.linspace(0, s.bearing.ball_spacing, 721)[:-1])
+    damaged, healthy = (equilibrium(s, np.linspace(0, s.bearing.ball_spacing, 721)[:-1])
                       for s in (RIG, RIG.healthy()))  # fmt: skip
     share = [float((e.term("k_yy")).mean() / (e.term("k_xx") + e.term("k_yy")).mean())
-             for e in (healthy, found)]  # fmt: skip
+             for e in (healthy, damaged)]  # fmt: skip
     # of contacts alone: what each pushes back with goes with the cube root of its load (Hertz)
-    for e, expected in zip((healthy, found), share, strict=True):
+    for e, expected in zip((healthy, damaged), share, strict=True):
         k = np.cbrt(e.ball_load)
         angles = float((k * np.sin(e.ball_angle) ** 2).sum() / k.sum())
         assert angles == pytest.approx(expected, abs=0.01)

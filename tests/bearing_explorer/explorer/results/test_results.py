@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from bearing_explorer.explorer.plots import compared_curves
 from bearing_explorer.explorer.plots.spectra import levels_of_compared
 from bearing_explorer.explorer.results import motions
 from bearing_explorer.explorer.results.motions import MOST_STEPS, SHORTEST
@@ -14,7 +15,6 @@ from bearing_explorer.explorer.views.orbit import SteadyOrbit
 from bearing_explorer.explorer.views.overview.spectrum import OverviewSpectrum
 from bearing_explorer.explorer.views.vibration_time import VibrationInTime
 from bearing_explorer.kit.compute.cache import Overtaken
-from bearing_explorer.kit.plots import compared_curves
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import View
 
@@ -45,8 +45,8 @@ def test_compared_scenes_have_results_of_their_own() -> None:
     results = Results(scene, 0.1, compared=[Reference(other, "mine")])
     first, last, n = results.stretch
     angles = np.linspace(first, last, n)
-    found = results.against(results.compared[0]).equilibrium
-    np.testing.assert_array_equal(found.term("k_yy"), equilibrium(other, angles).term("k_yy"))
+    state = results.against(results.compared[0]).equilibrium
+    np.testing.assert_array_equal(state.term("k_yy"), equilibrium(other, angles).term("k_yy"))
     (own,) = results.compared_results
     assert own.equilibrium.cage_angles[-1] == pytest.approx(2.0 * np.pi / 9)
     assert Results(scene, 0.1).compared_results == []
@@ -97,12 +97,12 @@ def test_a_long_search_for_an_orbit_can_be_given_up_and_is_not_made_twice(
     with pytest.raises(Overtaken):
         _ = Results(hopeless, give_up=overtaken).orbit
     assert len(looks) == 41
-    found = Results(hopeless).orbit
-    assert found is not None
-    assert found.status == OrbitStatus.NOT_CONVERGED
-    assert found.right_hand_side_calls > 100 * len(looks)
+    cycle = Results(hopeless).orbit
+    assert cycle is not None
+    assert cycle.status == OrbitStatus.NOT_CONVERGED
+    assert cycle.right_hand_side_calls > 100 * len(looks)
     monkeypatch.setattr(motions.core, "orbit", None)
-    assert Results(hopeless).orbit is found
+    assert Results(hopeless).orbit is cycle
 
 
 @pytest.mark.parametrize("name", ["fan-rig", "liew-lim", "6205"])

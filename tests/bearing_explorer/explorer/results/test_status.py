@@ -4,18 +4,18 @@ import math
 
 import pytest
 from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.explorer.results.verdict import status_of
+from bearing_explorer.explorer.results.verdict import rows_of
 from bearing_explorer.explorer.state.settings import Settings
 from bearing_explorer.explorer.views.modes import NaturalFrequencies
 from bearing_explorer.explorer.views.orbit import SteadyOrbit
-from bearing_explorer.kit.widgets.limits import judged, rows_of
+from bearing_explorer.kit.widgets.limits import judged
 
 import bearingcore
 from bearingcore import presets, simulate
 
 
 def test_the_status_line_says_what_happened() -> None:
-    good = status_of(Results(presets["fan-rig"]), 0.0123)
+    good = Results(presets["fan-rig"]).status(0.0123)
     assert (good["mood"], good["words"]) == ("good", "Computed without problems")
     assert good["details"][1:] == [
         "2 degrees of freedom: x y",
@@ -23,7 +23,7 @@ def test_the_status_line_says_what_happened() -> None:
         "12.3 ms of computing",
     ]
     assert "residual at most" in good["details"][0]
-    bad = status_of(Results(presets["fan-rig"].replace(fy=0.0)), 0.001)
+    bad = Results(presets["fan-rig"].replace(fy=0.0)).status(0.001)
     assert bad["mood"] == "bad"
     assert "nothing touches" in bad["words"]
     kept, crossed = (
@@ -43,15 +43,15 @@ def test_the_status_line_is_of_what_is_on_screen(hertz: float, mood: str, words:
     """An orbit that no machine stays on is a problem, though its static states are none."""
     rig = presets["fan-rig"].replace(contact_damping=130.0, shaft_speed=2.0 * math.pi * hertz)
     results = Results(rig)
-    line = status_of(results, 0.0, SteadyOrbit.needs)
+    line = results.status(0.0, SteadyOrbit.needs)
     assert (line["mood"], line["words"]) == (mood, words)
-    assert status_of(results, 0.0, NaturalFrequencies.needs)["words"] == "Computed without problems"
+    assert results.status(0.0, NaturalFrequencies.needs)["words"] == "Computed without problems"
 
 
 def test_a_motion_that_breaks_off_is_not_converged(monkeypatch: pytest.MonkeyPatch) -> None:
     broken = simulate(presets["fan-rig"], 0.2, step_rate=1024.0)
     monkeypatch.setattr(bearingcore, "simulate", lambda *_, **__: broken)
     results = Results(presets["fan-rig"], settings=Settings(duration=0.2))
-    line = status_of(results, 0.0, frozenset({"motion"}))
+    line = results.status(0.0, frozenset({"motion"}))
     assert line["mood"] == "bad"
     assert "diverged after" in line["words"]

@@ -4,13 +4,12 @@ from dataclasses import replace
 
 import pytest
 from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.explorer.results.verdict import status_of, verdict
+from bearing_explorer.explorer.results.verdict import rows_of
 from bearing_explorer.explorer.views.life import LifeOfBearing, groups_of
 from bearing_explorer.explorer.views.load_distribution import LoadDistribution
 from bearing_explorer.explorer.views.modes import NaturalFrequencies
 from bearing_explorer.kit.pictures import picture_of
 from bearing_explorer.kit.serve.packed_source import PackedSource
-from bearing_explorer.kit.widgets.limits import rows_of
 
 from bearingcore import Load, Scene, limits, presets
 
@@ -37,7 +36,7 @@ def test_nothing_is_called_converged_where_a_cone_leaves_its_cup(
 ) -> None:
     results = cone(fy, fz, dofs)
     for shown in (frozenset({"equilibrium"}), SHOWN):
-        line = status_of(results, 0.01, shown)
+        line = results.status(0.01, shown)
         assert line["mood"] == "bad"
         assert line["words"].startswith("No answer: no contact can carry this load")
         assert missing in line["words"]
@@ -53,10 +52,10 @@ def test_nothing_is_called_converged_where_a_cone_leaves_its_cup(
 
 def test_no_equilibrium_between_the_cage_angles_of_the_curves_is_seen_too() -> None:
     results = cone(-4000.0, 4000.0, ("x", "y", "z"))
-    assert verdict(results, SHOWN - {"orbit", "motion"}).words == "Computed without problems"
+    assert results.verdict(SHOWN - {"orbit", "motion"}).words == "Computed without problems"
     lost = cone(-4000.0, 500.0, ("x", "y", "z"))
     results.__dict__["now"] = lost.now
-    said = verdict(results, frozenset({"now"}))
+    said = results.verdict(frozenset({"now"}))
     assert said.mood == "bad"
     assert said.words.startswith("No answer at this cage angle: no contact")
 
@@ -70,7 +69,7 @@ def test_too_little_thrust_stands_first_among_the_limits() -> None:
 def test_no_equilibrium_at_a_place_that_only_the_change_looks_at_is_seen_too() -> None:
     results = cone(-4000.0, 4000.0, ("x", "y", "z"))
     results.__dict__["chain"] = replace(results.chain, answered=0.75, reason="nothing touches")
-    said = verdict(results, frozenset({"chain"}))
+    said = results.verdict(frozenset({"chain"}))
     assert said == ("bad", "No answer at 25 % of the cage angles: nothing touches")
 
 

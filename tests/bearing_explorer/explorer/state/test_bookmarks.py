@@ -8,8 +8,8 @@ from bearing_explorer.explorer.state.bookmarks import (
     open_request_of,
     read_request,
 )
+from bearing_explorer.explorer.state.references import MOST_COMPARED
 from bearing_explorer.explorer.state.scene_editor import SceneEditor
-from bearing_explorer.kit.plots.compared_curves import MOST_COMPARED
 
 from bearingcore import Scene, presets
 

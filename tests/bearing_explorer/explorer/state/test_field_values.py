@@ -42,9 +42,9 @@ def test_numbers_are_read_as_people_write_them(given: object, value: float) -> N
     ],
 )
 def test_what_is_refused_gets_a_sentence(given: object, sentence: str) -> None:
-    with pytest.raises(ValueError, match=r"length of the defect goes from") as found:
+    with pytest.raises(ValueError, match=r"length of the defect goes from") as refusal:
         read("extent_deg", given, limits_of(presets["fan-rig"]))
-    assert str(found.value) == sentence
+    assert str(refusal.value) == sentence
 
 
 def test_turns_a_minute_typed_as_hertz_are_asked_about() -> None:

@@ -27,12 +27,12 @@ def test_as_a_list_and_a_place_in_it(acts: list) -> None:
     history, states, at = History(0), [0], 0
     for act in acts:
         if act == "undo":
-            found = history.undo()
-            assert found == (states[at - 1] if at else None)
+            entry = history.undo()
+            assert entry == (states[at - 1] if at else None)
             at = max(at - 1, 0)
         elif act == "redo":
-            found = history.redo()
-            assert found == (states[at + 1] if at + 1 < len(states) else None)
+            entry = history.redo()
+            assert entry == (states[at + 1] if at + 1 < len(states) else None)
             at = min(at + 1, len(states) - 1)
         else:
             history.step(act)

@@ -54,8 +54,8 @@ def test_every_kind_can_be_made_of_every_bearing(start: str, kind: str) -> None:
     assert ("row" in state["hidden"]) == (not scene.bearing.rows)
     assert ("roller_length_mm" in state["hidden"]) == (scene.bearing.roller_length is None)
     thrust = 500.0 if kind == "tapered" else scene.load.fz  # without it the cone leaves its cup
-    found = equilibrium(scene.replace(fy=-500.0, fz=thrust), [0.1])
-    assert found.converged.all(), found.reason(0)
+    answer = equilibrium(scene.replace(fy=-500.0, fz=thrust), [0.1])
+    assert answer.converged.all(), answer.reason(0)
     place = read(write(place_of(editor)))
     assert place is not None
     assert place.scene == scene

@@ -29,8 +29,8 @@ def test_curves_are_over_a_ball_spacing_or_over_the_turn_that_is_shown() -> None
 def test_the_mark_stands_on_the_curve(cage_angle: float) -> None:
     """Also in later turns, in which the defect meets the balls elsewhere."""
     results = Results(INNER, cage_angle)
-    found = results.equilibrium
-    at_now = np.interp(cage_angle, found.cage_angles, found.term("k_yy"))
+    state = results.equilibrium
+    at_now = np.interp(cage_angle, state.cage_angles, state.term("k_yy"))
     assert at_now == pytest.approx(results.now.term("k_yy")[0], rel=2e-3)
     sources, _ = Stiffness(PackedSource()).data(results)
     share = results.along([cage_angle])[0] / 360.0

@@ -142,12 +142,12 @@ def test_rows_of_unlike_balls_are_drawn_to_one_scale() -> None:
 def test_handles_stand_at_the_ends_of_the_defect_and_at_the_tip_of_the_arrow(race: str) -> None:
     scene = FAN_RIG.replace(race=race, fx=30.0)
     drawn = Shapes(scene, 0.4)
-    found, arrow = drawn.handles(), drawn.load_arrow()
-    assert found["kind"].tolist() == [0.0, 1.0, 2.0, 3.0]
-    start, end, middle, tip = np.unwrap(np.arctan2(found["y"], found["x"]))
+    handles, arrow = drawn.handles(), drawn.load_arrow()
+    assert handles["kind"].tolist() == [0.0, 1.0, 2.0, 3.0]
+    start, end, middle, tip = np.unwrap(np.arctan2(handles["y"], handles["x"]))
     assert end - start == pytest.approx(scene.defect.extent)
     assert middle - start == pytest.approx(0.5 * scene.defect.extent)
-    assert math.hypot(*(found[axis][3] for axis in "xy")) == pytest.approx(
+    assert math.hypot(*(handles[axis][3] for axis in "xy")) == pytest.approx(
         np.nanmax(np.hypot(arrow["x"], arrow["y"]))
     )
     assert math.cos(tip - math.atan2(-100.0, 30.0)) == pytest.approx(1.0)

@@ -39,14 +39,14 @@ def test_displacement_and_stiffness_are_those_of_the_force_balance() -> None:
     moved = Displacement(PackedSource()).table(results)
     assert moved["y_um"][0] == pytest.approx(-1e6 * drop(100.0), rel=1e-6)
     assert moved["y_um"][1] <= moved["y_um"][2] <= moved["y_um"][3]
-    found = OperatingPoint(PackedSource()).table(results)
-    now = (found["when"] == "at this cage angle") & (found["load"] == "fy [N]")
+    table = OperatingPoint(PackedSource()).table(results)
+    now = (table["when"] == "at this cage angle") & (table["load"] == "fy [N]")
     shown = Displacement(PackedSource()).html(results)
     assert shown.count(">0<") >= 12
     assert "·10" not in shown, "beyond the digits of the largest"
     slope = 0.02 / (drop(100.01) - drop(99.99))
-    assert found["per_m_y"][now] == pytest.approx(slope, rel=1e-4)
-    assert found["displacement_in_si"][now] == pytest.approx(-drop(100.0), rel=1e-6)
+    assert table["per_m_y"][now] == pytest.approx(slope, rel=1e-4)
+    assert table["displacement_in_si"][now] == pytest.approx(-drop(100.0), rel=1e-6)
 
 
 def test_two_bearings_stand_side_by_side_and_directions_are_said() -> None:

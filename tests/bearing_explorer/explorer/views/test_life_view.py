@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from bearing_explorer.explorer.results.endurance import LifeInputs, endurance, with_usual_grooves
 from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.results.verdict import rows_of
 from bearing_explorer.explorer.state.references import Reference
 from bearing_explorer.explorer.views.life import LifeOfBearing, groups_of
 from bearing_explorer.kit.serve.packed_source import PackedSource
-from bearing_explorer.kit.widgets.limits import rows_of
 
 from bearingcore import Limit, contact_pressures, dynamic_load_rating, life, presets
 from bearingcore.model.statics import state_of_limits
@@ -44,9 +44,9 @@ def test_the_numbers_are_those_of_the_core() -> None:
 def test_the_default_bearing_has_an_answer_that_says_what_it_assumes() -> None:
     scene = presets["fan-rig"]
     assert not scene.bearing.knows_contacts
-    found = endurance(scene, LifeInputs())
-    assert found.healthy is not None
-    assert found.pressures is not None
+    answer = endurance(scene, LifeInputs())
+    assert answer.healthy is not None
+    assert answer.pressures is not None
     assert "Assumed" in facts("fan-rig")["Life of the healthy bearing"]["words"]
     usual = with_usual_grooves(scene)
     assert usual is not None
@@ -80,11 +80,11 @@ def test_the_limit_is_judged_by_an_oil_that_was_given_and_by_no_assumed_one() ->
 
 @pytest.mark.parametrize("name", list(presets))
 def test_every_preset_has_an_answer_or_a_sentence(name: str) -> None:
-    found = endurance(presets[name], LifeInputs())
+    unrated = endurance(presets[name], LifeInputs())
     for answer, words in (
-        (found.life, found.no_life),
-        (found.pressures, found.no_pressures),
-        (found.film, found.no_film),
+        (unrated.life, unrated.no_life),
+        (unrated.pressures, unrated.no_pressures),
+        (unrated.film, unrated.no_film),
     ):
         assert (answer is None) == bool(words)
         assert words == "" or words.endswith(".")

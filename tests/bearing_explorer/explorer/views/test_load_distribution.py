@@ -59,12 +59,12 @@ def test_the_curve_goes_once_round_and_closes() -> None:
     angle, load = load_curve(inner)
     assert np.all(np.diff(angle) > 0.0)
     assert np.nanmax(load) == np.max(inner.ball_load)
-    found = Results(FAN_RIG).equilibrium
-    angle, load = load_curve(found)
+    state = Results(FAN_RIG).equilibrium
+    angle, load = load_curve(state)
     assert angle[0] < 0.0 <= angle[1]
     assert angle[-2] < 2.0 * math.pi <= angle[-1]
     assert np.all(np.diff(angle) > 0.0)
-    assert angle.size == 14 * (found.cage_angles.size - 1) + 2
+    assert angle.size == 14 * (state.cage_angles.size - 1) + 2
     assert load[0] == load[-2]
     assert load[-1] == load[1]
 
@@ -82,9 +82,9 @@ def test_a_defect_across_0_is_shaded_as_two_pieces(
     center_deg: float, extent_deg: float, expected: list[tuple[float, float]]
 ) -> None:
     scene = FAN_RIG.replace(center=math.radians(center_deg), extent=math.radians(extent_deg))
-    found = shaded(scene, 0.3)
-    assert found["start"] == pytest.approx([start for start, _ in expected], abs=1e-9)
-    assert found["end"] == pytest.approx([end for _, end in expected], abs=1e-9)
+    pieces = shaded(scene, 0.3)
+    assert pieces["start"] == pytest.approx([start for start, _ in expected], abs=1e-9)
+    assert pieces["end"] == pytest.approx([end for _, end in expected], abs=1e-9)
 
 
 def test_an_inner_race_defect_is_shaded_where_the_shaft_has_turned_it() -> None:

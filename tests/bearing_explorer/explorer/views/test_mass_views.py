@@ -22,7 +22,7 @@ MOTOR = presets["6205"]
 
 
 @pytest.fixture(scope="module")
-def found() -> BallMass:
+def ball_mass() -> BallMass:
     return Results(FAN_RIG).ball_mass
 
 
@@ -40,34 +40,34 @@ def test_a_ball_over_a_small_pit_meets_its_far_edge_half_way() -> None:
     assert in_words(small).startswith("Stiffness that varies gives most of the power in every")
 
 
-def test_shares_are_those_of_the_core(found: BallMass) -> None:
+def test_shares_are_those_of_the_core(ball_mass: BallMass) -> None:
     """Another way to the same number: two motions of the sweep's, and their band."""
-    low, high = found.octaves[-3], found.octaves[-2]
-    theirs = mass_share(FAN_RIG, low, high, 1.4, found.sample_rate)
-    assert found.share[-2] == pytest.approx(theirs, abs=0.02)
-    assert found.share[-1] > 0.9
-    loud = ~found.quiet
-    assert np.abs(found.share[loud & (found.octaves[1:] <= 1000.0)]).max() < 0.1
-    assert (found.spread[loud] < 0.1).all()
+    low, high = ball_mass.octaves[-3], ball_mass.octaves[-2]
+    theirs = mass_share(FAN_RIG, low, high, 1.4, ball_mass.sample_rate)
+    assert ball_mass.share[-2] == pytest.approx(theirs, abs=0.02)
+    assert ball_mass.share[-1] > 0.9
+    loud = ~ball_mass.quiet
+    assert np.abs(ball_mass.share[loud & (ball_mass.octaves[1:] <= 1000.0)]).max() < 0.1
+    assert (ball_mass.spread[loud] < 0.1).all()
 
 
-def test_what_is_drawn_is_what_was_found(results: Results, found: BallMass) -> None:
+def test_what_is_drawn_is_what_was_found(results: Results, ball_mass: BallMass) -> None:
     packed = PackedSource()
     time, octaves = (kind(packed) for kind in (MassInTime, WhichMechanism))
     sources, ranges = time.data(results)
-    assert np.nanmax(sources["mass_motion"]["y"]) == np.max(found.with_mass["y"])
-    assert np.nanmax(sources["mass_motion"]["y_massless"]) == np.max(found.massless["y"])
+    assert np.nanmax(sources["mass_motion"]["y"]) == np.max(ball_mass.with_mass["y"])
+    assert np.nanmax(sources["mass_motion"]["y_massless"]) == np.max(ball_mass.massless["y"])
     assert sources["mass_flights"]["from"].size >= 1
-    assert ranges["mass_time"] == (found.time[0], found.time[-1])
+    assert ranges["mass_time"] == (ball_mass.time[0], ball_mass.time[-1])
     sources, ranges = octaves.data(results)
     bars = sources["mechanism_bars"]
-    np.testing.assert_allclose(bars["top"], 100.0 * found.share)
+    np.testing.assert_allclose(bars["top"], 100.0 * ball_mass.share)
     assert (bars["right"][:-1] < bars["left"][1:]).all()
-    words = in_words(found)
+    words = in_words(ball_mass)
     assert words.startswith("From 4 kHz up the mass of the balls gives most of the power")
 
 
-def test_balls_with_mass_are_a_reference_of_the_spectrum(found: BallMass) -> None:
+def test_balls_with_mass_are_a_reference_of_the_spectrum(ball_mass: BallMass) -> None:
     """In grey, with the band of the contact resonances, named in the caption and the table."""
     packed = PackedSource()
     spectra = VibrationSpectra(packed)
@@ -80,7 +80,7 @@ def test_balls_with_mass_are_a_reference_of_the_spectrum(found: BallMass) -> Non
     own, other = sources["spectrum_wide_lines"], sources["spectrum_wide_grey"]
     high = own["frequency"] > 9e3
     assert np.median(other["y"][high] - own["y"][high]) > 10.0, "mass adds above 8 kHz"
-    assert "with the mass of its balls" in spectra.caption(results.grey.name)
+    assert "with the mass of its balls" in spectra.caption(results)
     assert any(name.startswith("other_balls_") for name in spectra.table(results))
 
 

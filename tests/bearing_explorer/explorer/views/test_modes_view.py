@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
+from bearing_explorer.explorer.plots.frequency_bands import spread
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.views.modes import NaturalFrequencies
 from bearing_explorer.kit.plots import style
-from bearing_explorer.kit.plots.frequency_bands import spread
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from hypothesis import given
 from hypothesis import strategies as st

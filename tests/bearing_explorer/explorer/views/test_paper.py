@@ -1,10 +1,14 @@
 """The paper's figures: what is printed against what comes out, their layout and their links."""
 
+import math
+from types import SimpleNamespace
+
 import pytest
 from bearing_explorer import figures
 from bearing_explorer.explorer.state.address import read
-from bearing_explorer.explorer.views.paper import TAB_TITLES
+from bearing_explorer.explorer.views.paper import TAB_TITLES, PaperFigures
 from bearing_explorer.explorer.views.paper_figures import FIGURES, PaperFigure
+from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.page import SECTIONS
 
 from bearingcore import presets
@@ -48,3 +52,17 @@ def test_the_numbers_of_a_figure_are_had_outside_of_the_page() -> None:
 
 def test_every_tab_of_a_figure_has_its_title() -> None:
     assert {one.tab for one in FIGURES} == set(TAB_TITLES)
+
+
+def test_section_4_opens_the_signal_of_its_defect_on_the_diagnosis_tab() -> None:
+    view = PaperFigures(PackedSource())
+    opened: list[str] = []
+    view.parts = SimpleNamespace(
+        open_link=lambda _, link: opened.append(link), simulate=opened.append
+    )
+    view._size_a_defect()
+    link, noise = opened
+    place = read(link)
+    assert place is not None
+    assert (place.tab, noise) == ("diagnosis", "20")
+    assert place.scene == presets["fan-rig"].replace(extent=math.radians(38.6))

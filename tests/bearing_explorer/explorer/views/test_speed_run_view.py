@@ -28,31 +28,31 @@ SPEEDS = Sweep(SWEEPABLE[SPEED], np.array([20.0, 30.0, 40.0]))
 
 
 @pytest.fixture(scope="module")
-def found() -> FoundRun:
+def run() -> FoundRun:
     return FoundRun(speed_run(RIG, SPEEDS.in_si[1], resolution=16.0), SPEEDS)
 
 
-def test_rows_are_speeds_and_columns_frequencies(found: FoundRun) -> None:
+def test_rows_are_speeds_and_columns_frequencies(run: FoundRun) -> None:
     view = SpeedRunSpectra(PackedSource())
-    view.found = found
+    view.found = run
     sources, ranges = view.data(Results(RIG))
     packed = sources["speed_run_cells_y"]["packed"]
     n, m = int(packed[1]), int(packed[0])
     assert n == 3
     drawn = packed[9:].reshape(n, m)
-    np.testing.assert_allclose(drawn, levels_of(found.run, "y")[:, :m])
+    np.testing.assert_allclose(drawn, levels_of(run.run, "y")[:, :m])
     assert packed[2:6].tolist() == pytest.approx([-8.0, 16.0 * m, 15.0, 30.0])
     assert ranges["speed_run_speed"] == (15.0, 45.0)
     low, high = ranges["speed_run_level_y"]
-    loudest = np.nanmax(drawn[:, found.run.frequency[:m] >= 100.0])
+    loudest = np.nanmax(drawn[:, run.run.frequency[:m] >= 100.0])
     assert low < loudest <= high
     assert sources["speed_run_now"]["speed"] == pytest.approx([7.0])
 
 
-def test_marched_speeds_are_marked_and_told(found: FoundRun) -> None:
+def test_marched_speeds_are_marked_and_told(run: FoundRun) -> None:
     view = SpeedRunSpectra(PackedSource())
-    view.found = found
-    assert found.run.from_orbit.tolist() == [True, False, True]
+    view.found = run
+    assert run.run.from_orbit.tolist() == [True, False, True]
     results = Results(RIG)
     assert view.data(results)[0]["speed_run_marched"]["speed"].tolist() == [30.0]
     assert "At 1 of 3 speeds" in view.sentence(results)

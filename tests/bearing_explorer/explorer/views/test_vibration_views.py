@@ -1,18 +1,13 @@
 """Vibration in time and in frequency."""
 
-import dataclasses
-
 import numpy as np
 import pytest
-from bearing_explorer.diagnosis.views import frequency_lines
-from bearing_explorer.diagnosis.views.frequency_lines import of_rows
 from bearing_explorer.explorer.results.excerpt import Event
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.views.passage_view import EVENT_ROWS, LABEL_WIDTH
 from bearing_explorer.explorer.views.vibration_spectrum import (
     VibrationSpectra,
     pass_frequencies,
-    passed,
 )
 from bearing_explorer.explorer.views.vibration_time import VibrationInTime, event_rows
 from bearing_explorer.kit.serve.packed_source import PackedSource
@@ -20,7 +15,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from bearingcore import Defect, presets
-from bearingcore.bearings import read_designation
 
 FAN_RIG = presets["fan-rig"]
 
@@ -65,33 +59,6 @@ def test_pass_frequencies_are_all_harmonics_of_the_race_with_the_defect() -> Non
     assert still["frequency"].size == 0
 
 
-def test_lines_of_an_estimated_inside_have_their_error() -> None:
-    assert not pass_frequencies(FAN_RIG, 2500.0)["spread"].any()
-    bearing = read_designation("6208").bearing
-    scene = presets["6205"].replace(bearing=bearing)
-    spread = pass_frequencies(scene, 2500.0)["spread"]
-    assert spread[0] == pytest.approx(bearing.bpfo(scene.shaft_speed) * 0.0146, rel=0.02)
-    inner = bearing.bpfi(scene.shaft_speed) * bearing.frequency_spread("bpfi")
-    assert of_rows(scene)[0]["bpfi_spread"] == pytest.approx(inner)
-    columns = frequency_lines.columns("lines", of_rows(scene), ("bpfi",), 1000.0, 200.0)
-    assert columns["lines_bpfi_names"]["spread"][0] == pytest.approx(inner)
-
-
-def test_rows_that_are_not_alike_have_pass_frequencies_of_their_own() -> None:
-    pair = presets["7208-back-to-back"]
-    assert len(passed(pair)) == 1
-    low, high = pair.bearing.rows
-    rows = (low, dataclasses.replace(high, n_balls=11))
-    scene = pair.replace(bearing=pair.bearing.replace(rows=rows), row=None)
-    rates = [scene.bearing.of_row(k).bpfo(scene.shaft_speed) for k in range(2)]
-    assert passed(scene) == [("outer", 1, rates[0]), ("outer", 2, rates[1])]
-    assert passed(scene.replace(row=1)) == [("outer", 2, rates[1])]
-    columns = frequency_lines.columns("own", of_rows(scene), ("bpfo",), 3000.0, 400.0)
-    names = columns["own_bpfo_names"]
-    assert set(names["of"]) == {1.0, 2.0}
-    assert np.unique(names["row"]).size == 2, "each row has its names at a height of their own"
-
-
 def test_defects_of_both_races_are_both_marked_and_named() -> None:
     both = FAN_RIG.replace(defect=(FAN_RIG.defect, Defect(0.1, 50e-6, 1.0, "inner")))
     results = Results(both)
@@ -113,13 +80,13 @@ def test_balls_that_carry_nothing_are_drawn_on_the_scale_of_those_that_do() -> N
 @pytest.mark.parametrize("speed", [7.0, 1000.0])
 def test_the_largest_peak_is_that_of_the_whole_spectrum_and_is_in_the_picture(speed: float) -> None:
     """At 1000 Hz balls pass at 5755 Hz, and the housing moves most as often as that."""
-    found = Results(FAN_RIG.replace(shaft_speed=2.0 * np.pi * speed))
+    results = Results(FAN_RIG.replace(shaft_speed=2.0 * np.pi * speed))
     view = VibrationSpectra(PackedSource())
-    frequency, density = found.late_spectra["y"]
+    frequency, density = results.late_spectra["y"]
     above = frequency >= 100.0
     largest = frequency[above][np.argmax(density[above])]
-    assert f"{largest:.0f} Hz along y" in view.sentence(found)
-    assert view.data(found)[1]["spectrum_frequency"][1] >= max(largest, 2500.0)
+    assert f"{largest:.0f} Hz along y" in view.sentence(results)
+    assert view.data(results)[1]["spectrum_frequency"][1] >= max(largest, 2500.0)
     assert (largest > 5000.0) == (speed > 7.0)
 
 

@@ -20,20 +20,20 @@ def small(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
 
 
 def in_threads(*acts: Callable[[], object]) -> list[object]:
-    found: list[object] = [None] * len(acts)
+    values: list[object] = [None] * len(acts)
 
     def run(k: int) -> None:
         try:
-            found[k] = acts[k]()
+            values[k] = acts[k]()
         except Exception as error:
-            found[k] = error
+            values[k] = error
 
     threads = [threading.Thread(target=run, args=(k,)) for k in range(len(acts))]
     for thread in threads:
         thread.start()
     for thread in threads:
         thread.join(30.0)
-    return found
+    return values
 
 
 def test_each_key_is_computed_once_by_several_threads() -> None:

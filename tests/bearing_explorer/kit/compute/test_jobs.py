@@ -18,11 +18,11 @@ class Page:
 
     def __init__(self) -> None:
         self.states: list[JobState] = []
-        self.found: list[object] = []
+        self.results: list[object] = []
         self.threads: set[str] = set()
 
-    def take(self, found: object) -> None:
-        self.found.append(found)
+    def take(self, result: object) -> None:
+        self.results.append(result)
         self.threads.add(threading.current_thread().name)
 
     def report(self, state: JobState) -> None:
@@ -83,9 +83,9 @@ def test_a_job_tells_how_it_goes_and_shows_what_it_finds() -> None:
     parts = [state.part for state in page.states]
     assert parts == sorted(parts)
     assert any(0.0 < part < 1.0 for part in parts)
-    assert page.found[-1] == 29
-    assert page.found == sorted(page.found)  # type: ignore[type-var]
-    assert len(page.found) < 30, "what was overtaken before a look at it is not drawn"
+    assert page.results[-1] == 29
+    assert page.results == sorted(page.results)  # type: ignore[type-var]
+    assert len(page.results) < 30, "what was overtaken before a look at it is not drawn"
 
 
 def test_a_new_request_replaces_the_old_one() -> None:
@@ -114,7 +114,7 @@ def test_a_new_request_replaces_the_old_one() -> None:
 
     run(session())
     assert first.states[-1].mood == "stopped"
-    assert first.found[-1] != 499, "it went on to its end"
+    assert first.results[-1] != 499, "it went on to its end"
     assert second.states[-1] == JobState("done", 1.0, "All 3 steps.")
     assert [state.mood for state in second.states].count("done") == 1
 

@@ -42,13 +42,13 @@ TIME = np.arange(len(SIGNAL)) / RATE
 
 def test_a_file_that_says_all_needs_its_bearing_alone(tmp_path: Path) -> None:
     path = write(tmp_path / "de_1800rpm.csv", "time (s),vertical (m/s²)", TIME, SIGNAL)
-    found = diagnose(path, "6205")
-    assert found.fault == "outer race"
-    assert found.speed_source.startswith("assumed: “1800rpm” in the file's name")
-    assert found.shaft_speed == pytest.approx(SPEED, rel=0.01)
-    assert diagnose(str(path), bearing="6205").sentence == found.sentence
+    diagnosis = diagnose(path, "6205")
+    assert diagnosis.fault == "outer race"
+    assert diagnosis.speed_source.startswith("assumed: “1800rpm” in the file's name")
+    assert diagnosis.shaft_speed == pytest.approx(SPEED, rel=0.01)
+    assert diagnose(str(path), bearing="6205").sentence == diagnosis.sentence
     same = diagnose(Recording(SIGNAL[:, None], RATE, ("y",)), "6205", SPEED)
-    assert same.fault == found.fault
+    assert same.fault == diagnosis.fault
     assert diagnose(path, "6205", 2.0 * SPEED).shaft_speed != pytest.approx(SPEED, rel=0.1)
 
 
@@ -59,8 +59,8 @@ def test_what_a_file_does_not_say_is_asked_by_name_and_can_be_given(tmp_path: Pa
         diagnose(path, "6205", SPEED)
     with pytest.raises(ValueError, match=r"sample_rate is missing: pass sample_rate=..., a number"):
         diagnose(path, "6205", SPEED, columns=("b",))
-    found = diagnose(path, "6205", SPEED, columns=("b",), sample_rate=RATE)
-    assert found.fault == "outer race"
+    diagnosis = diagnose(path, "6205", SPEED, columns=("b",), sample_rate=RATE)
+    assert diagnosis.fault == "outer race"
     in_g = diagnose(path, "6205", SPEED, columns=(0, 1), sample_rate=RATE, unit="g")
     assert in_g.fault == "outer race"
 
@@ -71,20 +71,20 @@ def test_a_folder_is_a_table_of_answers_and_says_what_was_not_read(tmp_path: Pat
     write(tmp_path / "a_1800rpm.csv", "time (s),vertical (m/s²)", TIME, noise)
     for name in ("notes.txt", ".hidden", "README.md", "readme.txt", "rig.png"):
         (tmp_path / name).write_text("Measured on a Monday.\n", encoding="utf-8")
-    found = diagnose(tmp_path, "6205")
-    table = found.table()
+    folder = diagnose(tmp_path, "6205")
+    table = folder.table()
     assert list(table["file"]) == ["a_1800rpm.csv", "b_1800rpm.csv", "notes.txt"]
     assert table["fault"][1] == "outer race"
     assert table["fault"][0] != "outer race"
     assert table["fault"][2] == "not read"
-    assert found.answers[2] is None
-    assert "notes.txt" in found.sentences[2]
-    assert repr(found).startswith("FolderDiagnosis(names")
+    assert folder.answers[2] is None
+    assert "notes.txt" in folder.sentences[2]
+    assert repr(folder).startswith("FolderDiagnosis(names")
     assert np.isnan(table["probability"][2])
-    assert table["sentence"][1] == found.answers[1].sentence
-    printed = " ".join(str(found).split())
+    assert table["sentence"][1] == folder.answers[1].sentence
+    printed = " ".join(str(folder).split())
     assert all(f"{name}: {' '.join(words.split())}" in printed
-               for name, words in zip(found.names, found.sentences, strict=True))  # fmt: skip
+               for name, words in zip(folder.names, folder.sentences, strict=True))  # fmt: skip
 
 
 def test_an_empty_folder_is_refused(tmp_path: Path) -> None:

@@ -27,31 +27,31 @@ def rpm(speed: float) -> float:
 def test_case_western_variables_are_of_several_places() -> None:
     sides = {f"X130_{side}_time": NOISE[:5000, :1] for side in ("DE", "FE", "BA")}
     table = read_table("130.mat", matlab(**sides, X130RPM=np.array([[1796]], dtype="u2")))
-    found: Any = table.contents
-    assert [column.place for column in found.columns] == ["drive end", "fan end", "base"]
-    assert found.choice.columns == {"y": 0}  # the faults of this number are at the drive end
-    assert not found.choice.question
-    assert found.bearing.value == "6205-2RS, CWRU drive end"
-    assert (found.unit.value, found.unit.stated, found.unit.taken) == ("g", False, True)
-    assert (found.sample_rate.value, found.sample_rate.stated) == (12_000.0, False)
-    assert rpm(found.shaft_speed.value) == pytest.approx(1796.0)
+    contents: Any = table.contents
+    assert [column.place for column in contents.columns] == ["drive end", "fan end", "base"]
+    assert contents.choice.columns == {"y": 0}  # the faults of this number are at the drive end
+    assert not contents.choice.question
+    assert contents.bearing.value == "6205-2RS, CWRU drive end"
+    assert (contents.unit.value, contents.unit.stated, contents.unit.taken) == ("g", False, True)
+    assert (contents.sample_rate.value, contents.sample_rate.stated) == (12_000.0, False)
+    assert rpm(contents.shaft_speed.value) == pytest.approx(1796.0)
     with pytest.raises(ValueError, match="sensors at two places"):
         table.recording(["X130_DE_time", "X130_FE_time"], ["x", "y"], "g", 12e3)
     with pytest.raises(ValueError, match="12000 is likely"):
         table.recording(["X130_DE_time"], ["y"], "g")
     got = table.recording(["X130_DE_time"], ["y"], "g", 12e3)
-    assert got.shaft_speed == found.shaft_speed.value
+    assert got.shaft_speed == contents.shaft_speed.value
 
 
 def test_mfpt_structs_tell_rate_speed_and_load() -> None:
     run = {"gs": NOISE[:, :1], "sr": 48_828, "rate": 25, "load": "150"}
     table = read_table("run.mat", matlab(bearing=run, BPFO=81.125))
-    found: Any = table.contents
-    assert found.unit.stated
-    assert found.unit.value == "g"
-    assert found.load.value == pytest.approx(667.23, abs=0.01)
-    assert not found.load.stated  # pounds are what the collection says, not the file
-    assert found.said["BPFO"] == "81.125"
+    contents: Any = table.contents
+    assert contents.unit.stated
+    assert contents.unit.value == "g"
+    assert contents.load.value == pytest.approx(667.23, abs=0.01)
+    assert not contents.load.stated  # pounds are what the collection says, not the file
+    assert contents.said["BPFO"] == "81.125"
     got = table.recording([0], ["y"])
     assert got.sample_rate == 48_828.0
     assert got.shaft_speed == pytest.approx(2.0 * math.pi * 25.0)
@@ -74,11 +74,11 @@ def test_femto_columns_of_clock_and_signals(delimiter: str, rounding: int, begin
         for row in rows
     ]
     table = read_table("acc_00001.csv", "\n".join(told).encode())
-    found: Any = table.contents
-    assert [column.role for column in found.columns] == ["time"] * 4 + ["signal"] * 2
-    assert found.choice.columns == {"x": 4, "y": 5}
-    assert "FEMTO" in found.choice.reason
-    assert found.unit.value == "g"
+    contents: Any = table.contents
+    assert [column.role for column in contents.columns] == ["time"] * 4 + ["signal"] * 2
+    assert contents.choice.columns == {"x": 4, "y": 5}
+    assert "FEMTO" in contents.choice.reason
+    assert contents.unit.value == "g"
     got = table.recording([4, 5], ["x", "y"], "g")
     assert got.sample_rate == 25_600.0
     assert got.duration == pytest.approx(0.1)
@@ -87,10 +87,10 @@ def test_femto_columns_of_clock_and_signals(delimiter: str, rounding: int, begin
 @pytest.mark.parametrize(("columns", "places"), [(4, [1, 2, 3, 4]), (8, [1, 1, 2, 2, 3, 3, 4, 4])])
 def test_ims_tables_without_headings_or_extension(columns: int, places: list[int]) -> None:
     table = read_table("2003.10.22.12.06.24", lines(NOISE[:, :columns], "\t"))
-    found: Any = table.contents
-    assert [column.place for column in found.columns] == [f"bearing {n}" for n in places]
-    assert "several places" in found.choice.question
-    assert (found.sample_rate.value, found.sample_rate.stated) == (20_480.0, False)
+    contents: Any = table.contents
+    assert [column.place for column in contents.columns] == [f"bearing {n}" for n in places]
+    assert "several places" in contents.choice.question
+    assert (contents.sample_rate.value, contents.sample_rate.stated) == (20_480.0, False)
 
 
 def paderborn() -> dict[str, object]:
@@ -147,15 +147,15 @@ def test_files_of_public_collections_are_recognised(
         clock = [np.full(2560, 9.0), np.full(2560, 39.0), np.full(2560, 39.0), micro]
         held = lines(np.column_stack([*clock, NOISE[:2560, :2]]))
     table = read_table(file, matlab(**held) if isinstance(held, dict) else held)
-    found: Any = table.contents
-    assert found.collection == collection
-    assert table.names[found.choice.columns["y"]] == column
-    assert not found.choice.question
-    assert found.sample_rate.taken
-    assert found.sample_rate.value == pytest.approx(rate)
-    speed = found.shaft_speed
+    contents: Any = table.contents
+    assert contents.collection == collection
+    assert table.names[contents.choice.columns["y"]] == column
+    assert not contents.choice.question
+    assert contents.sample_rate.taken
+    assert contents.sample_rate.value == pytest.approx(rate)
+    speed = contents.shaft_speed
     assert (None if speed is None else round(rpm(speed.value))) == turns
-    assert (None if found.bearing is None else found.bearing.value) == bearing
+    assert (None if contents.bearing is None else contents.bearing.value) == bearing
 
 
 def test_lines_above_the_numbers_are_listened_to() -> None:
@@ -164,10 +164,10 @@ def test_lines_above_the_numbers_are_listened_to() -> None:
         "vertical"
     )
     table = read_table("a.txt", lines(NOISE[:600, :1], heading=heading))
-    found: Any = table.contents
+    contents: Any = table.contents
     assert table.names == ("vertical",)
-    assert found.sample_rate.value == 25_600.0
-    assert found.load.value == 2500.0
+    assert contents.sample_rate.value == 25_600.0
+    assert contents.load.value == 2500.0
     got = table.recording([0], ["y"])
     assert got.shaft_speed == pytest.approx(50.0 * math.pi)
     np.testing.assert_allclose(got.acceleration[:, 0], NOISE[:600, 0], rtol=1e-8)
@@ -201,9 +201,9 @@ def test_a_velocity_is_differentiated_with_a_note() -> None:
 def test_a_column_of_speed_is_the_shafts() -> None:
     speed = np.full(600, 1480.0)
     content = lines(np.column_stack([NOISE[:600, 0], speed]), heading="acc [g],speed [rpm]")
-    found: Any = read_table("a.csv", content).contents
-    assert found.shaft_speed.stated
-    assert rpm(found.shaft_speed.value) == pytest.approx(1480.0)
+    contents: Any = read_table("a.csv", content).contents
+    assert contents.shaft_speed.stated
+    assert rpm(contents.shaft_speed.value) == pytest.approx(1480.0)
     content = lines(
         np.column_stack([NOISE[:600, 0], speed + np.arange(600)]), heading="acc [g],speed [rpm]"
     )

@@ -46,9 +46,9 @@ def check_one_signal(read_one: Any, rate: float | None = RATE) -> None:
     contents = read_one.contents
     (index,) = contents.choice.columns.values()
     np.testing.assert_allclose(read_one.columns[:, index], SIGNAL[:, 0], atol=1e-6)
-    found = contents.sample_rate
-    assert (found is None) if rate is None else found.stated
-    assert rate is None or found.value == pytest.approx(rate, rel=1e-5)
+    actual = contents.sample_rate
+    assert (actual is None) if rate is None else actual.stated
+    assert rate is None or actual.value == pytest.approx(rate, rel=1e-5)
 
 
 @pytest.mark.parametrize(("unit", "a_second"), [("ms", 1e3), ("µs", 1e6), ("ns", 1e9)])
@@ -424,8 +424,8 @@ def test_rows_of_sensors_that_do_not_fit_together_are_refused() -> None:
 def test_numbers_above_a_column_are_no_samples(begin: str, rate: float | None) -> None:
     made = read(begin + rows(SIGNAL[:, 0]).decode())
     np.testing.assert_array_equal(made.columns[:, 0], SIGNAL[:, 0])
-    found = made.contents.sample_rate
-    assert (found and (found.value, found.stated)) == (rate and (rate, False))
+    actual = made.contents.sample_rate
+    assert (actual and (actual.value, actual.stated)) == (rate and (rate, False))
     assert "are no samples" in made.notes[0]
 
 
@@ -836,7 +836,7 @@ FILES: list[tuple[bytes | str, dict[str, Any]]] = [
        {"names": ("column 1", "column 2"), "question": "Which is at this bearing?"})
       for remark in REMARKS),
     # directions and places in headings; V is no volt there
-    *((two(heading), {"columns": found, "unit": None}) for heading, found in (
+    *((two(heading), {"columns": columns, "unit": None}) for heading, columns in (
         ("t,DE H,DE V", {"x": 1, "y": 2}), ("t,H,V", {"x": 1, "y": 2}),
         ("t,accelX,accelY", {"x": 1, "y": 2}), ("t,DE x,NDE y", {}), ("t,Lager A,Lager B", {}),
         ("t,axial DE,axial NDE", {}), ("t,DE,NDE\n,x,x", {}), ("t,DE,DE\n,x,y", {"x": 1, "y": 2}))),
@@ -939,10 +939,10 @@ def test_what_a_file_says(content: bytes | str, said: dict[str, Any]) -> None:
     assert missing in (0, 3)
     assert any(np.allclose(one, SIGNAL[missing:, 0], atol=1e-6) for one in made.columns.T)
     for name, expected in said.items():
-        found = FACTS[name](made)
+        fact = FACTS[name](made)
         if name in ("question", "choice", "reason", "trouble", "why", "note"):
-            assert expected in found, name
+            assert expected in fact, name
         elif isinstance(expected, float):
-            assert found == pytest.approx(expected, rel=1e-4), name
+            assert fact == pytest.approx(expected, rel=1e-4), name
         else:
-            assert found == expected, name
+            assert fact == expected, name

@@ -57,12 +57,12 @@ CLOCKS: list[tuple[np.ndarray, bool, float | None, tuple[int, int] | None, str]]
 def test_what_times_say(
     time: np.ndarray, stated: bool, rate: float | None, rows: tuple[int, int] | None, words: str
 ) -> None:
-    found = sampling_of(time)
-    assert found.stated == stated
-    assert found.sample_rate == (rate and pytest.approx(rate, rel=1e-6))
-    assert rows is None or (found.first, found.last) == rows
-    assert words in found.trouble
-    assert bool(found.trouble) == bool(words) or rows is None
+    sampling = sampling_of(time)
+    assert sampling.stated == stated
+    assert sampling.sample_rate == (rate and pytest.approx(rate, rel=1e-6))
+    assert rows is None or (sampling.first, sampling.last) == rows
+    assert words in sampling.trouble
+    assert bool(sampling.trouble) == bool(words) or rows is None
 
 
 def test_a_time_that_stands_still_after_a_jump_is_no_error() -> None:

@@ -29,6 +29,6 @@ def test_a_velocity_is_differentiated_far_from_its_ends(frequency: float) -> Non
     """A tenth of the error that differences of neighbours make, even near half the rate."""
     rate, time = 1000.0, np.arange(3000) / 1000.0
     omega = 2.0 * np.pi * frequency
-    found = differentiated(np.sin(omega * time + 1.0)[:, None], rate)[:, 0]
+    actual = differentiated(np.sin(omega * time + 1.0)[:, None], rate)[:, 0]
     exact = omega * np.cos(omega * time + 1.0)
-    np.testing.assert_allclose(found[100:-100], exact[100:-100], atol=1e-3 * omega)
+    np.testing.assert_allclose(actual[100:-100], exact[100:-100], atol=1e-3 * omega)

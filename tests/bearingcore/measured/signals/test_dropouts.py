@@ -35,9 +35,9 @@ def test_gaps_are_found_however_a_recorder_fills_them(noise, fill, step, least):
     for begin in (500, 1000, 3500):
         filled[begin : begin + least] = fill(whole, begin, begin + least)
         expected[begin : begin + least] = True
-    found = signal_faults(filled)
-    assert np.count_nonzero(found.dropped != expected) <= 3  # neighbours, by chance
-    assert found.dropped_share == found.dropped.mean()
+    faults = signal_faults(filled)
+    assert np.count_nonzero(faults.dropped != expected) <= 3  # neighbours, by chance
+    assert faults.dropped_share == faults.dropped.mean()
 
 
 def test_signals_that_were_resampled_or_are_periodic_have_no_gaps(noise):
@@ -49,9 +49,9 @@ def test_signals_that_were_resampled_or_are_periodic_have_no_gaps(noise):
 
 def test_a_sensor_that_stays_at_its_rail_has_dropped_out(noise):
     noise[1000:1400] = 9.0
-    found = signal_faults(noise)
-    assert found.dropped_share == 0.1
-    assert found.clipped_share == 0.0
+    faults = signal_faults(noise)
+    assert faults.dropped_share == 0.1
+    assert faults.clipped_share == 0.0
 
 
 @witness(

@@ -19,25 +19,25 @@ def test_dropouts_neither_knock_nor_lower_the_mean():
         dropped[begin : begin + 800] = True
     signal[dropped] = 0.0
     (envelope,) = squared_envelopes(signal, RATE, [Band(LOWEST, 8000.0)], 300.0, dropped)
-    found = line_levels(envelope.values, envelope.rate, 2.0, 300.0, 60.0)
-    fives = np.rint(5.0 * np.arange(1, 40) / found.step).astype(int)
-    assert found.level[fives].mean() < 3.0
+    levels = line_levels(envelope.values, envelope.rate, 2.0, 300.0, 60.0)
+    fives = np.rint(5.0 * np.arange(1, 40) / levels.step).astype(int)
+    assert levels.level[fives].mean() < 3.0
     (bare,) = squared_envelopes(signal, RATE, [Band(LOWEST, 8000.0)], 300.0)
-    found = line_levels(bare.values, bare.rate, 2.0, 300.0, 60.0)
-    assert found.level[fives[:10]].mean() > 15.0
+    levels = line_levels(bare.values, bare.rate, 2.0, 300.0, 60.0)
+    assert levels.level[fives[:10]].mean() > 15.0
 
 
 def test_a_line_has_its_depth_and_stands_above_its_surroundings():
     rng = np.random.default_rng(7)
     time = np.arange(20_000) / 1000.0
     values = 1.0 + 0.1 * np.cos(2.0 * np.pi * 40.0 * time) + 0.3 * rng.standard_normal(20_000)
-    found = line_levels(values, 1000.0, 4.0, 200.0, 20.0)
-    index = round(40.0 / found.step)
-    assert found.depth[index] == pytest.approx(0.1, rel=0.05)
-    assert found.level[index] > 17.0
-    away = np.abs(found.step * np.arange(len(found.level)) - 40.0) > 2.0
-    assert np.mean(10.0 ** (0.1 * found.level[away])) == pytest.approx(1.0, abs=0.1)
-    assert found.averages == pytest.approx(9.0 / (1.0 + 2.0 / 36.0 * 8.0 / 9.0), rel=0.02)
+    levels = line_levels(values, 1000.0, 4.0, 200.0, 20.0)
+    index = round(40.0 / levels.step)
+    assert levels.depth[index] == pytest.approx(0.1, rel=0.05)
+    assert levels.level[index] > 17.0
+    away = np.abs(levels.step * np.arange(len(levels.level)) - 40.0) > 2.0
+    assert np.mean(10.0 ** (0.1 * levels.level[away])) == pytest.approx(1.0, abs=0.1)
+    assert levels.averages == pytest.approx(9.0 / (1.0 + 2.0 / 36.0 * 8.0 / 9.0), rel=0.02)
 
 
 def test_bands_cover_the_range_without_gap_and_none_is_too_narrow():

@@ -22,10 +22,10 @@ def recorded(*columns: np.ndarray, rate: float = RATE) -> Recording:
     ],
 )
 def test_where_there_is_no_velocity_it_says_why(recording, why):
-    found = indicators(recording)
-    assert np.isnan(found.velocity_rms).all()
-    assert why in found.velocity_reason
-    assert np.isfinite(found.rms).all()
+    levels = indicators(recording)
+    assert np.isnan(levels.velocity_rms).all()
+    assert why in levels.velocity_reason
+    assert np.isfinite(levels.rms).all()
 
 
 @pytest.mark.parametrize("machine", ZONES)

@@ -21,8 +21,8 @@ def made(depth: float, noise: float, turns: float = TURNS) -> tuple[np.ndarray, 
 @pytest.mark.parametrize("slip", [-0.015, 0.0, 0.015])
 def test_loudness_of_passes_is_found_whatever_the_slip(slip):
     loudness, passes = made(0.9, 2.0, TURNS * (1.0 + slip))
-    found = load_zone_weights(passes, TURNS, 0.02)
-    np.testing.assert_allclose(found, loudness / loudness.mean(), atol=0.12)
+    weights = load_zone_weights(passes, TURNS, 0.02)
+    np.testing.assert_allclose(weights, loudness / loudness.mean(), atol=0.12)
 
 
 def test_passes_that_are_equally_loud_count_alike():

@@ -37,16 +37,16 @@ def repeating(passes: BallPasses) -> float:
 @pytest.mark.parametrize("wander", [0.002, 0.004, 0.008])
 def test_a_wandering_cage_is_followed(wander: float) -> None:
     signal, passed = passing(wander, 20.0)
-    lost, found = averaged(signal, False), averaged(signal, True)
+    lost, followed = averaged(signal, False), averaged(signal, True)
     assert repeating(lost) < 0.7
-    assert repeating(found) > 0.97
+    assert repeating(followed) > 0.97
     # the passes begin when the balls pass, but for a constant
-    assert found.begins is not None
-    at = np.interp(found.begins, np.arange(len(passed)) / RATE, passed)
+    assert followed.begins is not None
+    at = np.interp(followed.begins, np.arange(len(passed)) / RATE, passed)
     away = (at - at.round() + 0.5) % 1.0
     assert np.ptp(at - np.arange(len(at))) < 0.012, away
-    mean = (at[-1] - at[0]) / (found.begins[-1] - found.begins[0])
-    assert found.frequency == pytest.approx(mean, rel=2e-4)
+    mean = (at[-1] - at[0]) / (followed.begins[-1] - followed.begins[0])
+    assert followed.frequency == pytest.approx(mean, rel=2e-4)
 
 
 @pytest.mark.parametrize("decibels", [40.0, 20.0, 5.0])

@@ -23,10 +23,10 @@ def test_a_diagnosis_of_too_many_samples_is_not_begun_and_says_so(
         raise AssertionError("it was begun")
 
     monkeypatch.setattr("bearingcore.measured.diagnosis._part.diagnose.ListenedSignal", begun)
-    found = diagnose(signal, RIG.bearing, 260.0, most_samples=39_999)
-    assert found.fault == CANNOT_TELL
-    assert found.status == DiagnosisStatus.TOO_LONG
-    assert found.sentence == (
+    diagnosis = diagnose(signal, RIG.bearing, 260.0, most_samples=39_999)
+    assert diagnosis.fault == CANNOT_TELL
+    assert diagnosis.status == DiagnosisStatus.TOO_LONG
+    assert diagnosis.sentence == (
         f"No clear result: too many samples: {thousands(40_000)}, allowed are most_samples = "
         f"{thousands(39_999)}."
     )

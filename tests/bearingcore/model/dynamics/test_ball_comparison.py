@@ -20,12 +20,12 @@ def both(scene: Scene) -> tuple[Motion, Motion]:
 def test_up_to_where_massless_balls_will_do() -> None:
     """Fan rig at 7 Hz: mass adds tenths of a decibel below 5 kHz and 10 dB above."""
     motions = both(FAN_RIG)
-    found = compare_motions(*motions, budget=1.0)
-    assert found.added[found.edges[:-1] > 8e3].min() > 3.0
-    assert 2e3 < found.massless_up_to < 8e3
-    inside = found.edges[1:] <= found.massless_up_to
-    assert abs(found.added[inside]).max() <= 1.0
-    assert "massless: within 1 dB up to" in found.sentence
+    comparison = compare_motions(*motions, budget=1.0)
+    assert comparison.added[comparison.edges[:-1] > 8e3].min() > 3.0
+    assert 2e3 < comparison.massless_up_to < 8e3
+    inside = comparison.edges[1:] <= comparison.massless_up_to
+    assert abs(comparison.added[inside]).max() <= 1.0
+    assert "massless: within 1 dB up to" in comparison.sentence
     assert "0.1 dB" in compare_motions(*motions).sentence  # as everywhere else
     strict = compare_motions(*motions, budget=1e-6)
     assert math.isnan(strict.massless_up_to)
@@ -35,9 +35,9 @@ def test_up_to_where_massless_balls_will_do() -> None:
 def test_bands_without_power_do_not_count() -> None:
     """A pit under load: sideways next to nothing moves, and below 500 Hz up and down neither."""
     motor = presets["6205"]
-    found = compare_motions(*both(motor.replace(defect=pit(motor, 5e-4))), budget=1.0)
-    assert abs(found.added).max() > 1.0
-    assert found.massless_up_to > 15e3
+    comparison = compare_motions(*both(motor.replace(defect=pit(motor, 5e-4))), budget=1.0)
+    assert abs(comparison.added).max() > 1.0
+    assert comparison.massless_up_to > 15e3
 
 
 def test_a_speed_run_marches_balls_with_mass() -> None:

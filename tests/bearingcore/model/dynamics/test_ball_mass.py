@@ -72,17 +72,17 @@ def test_ever_lighter_balls_move_as_massless_ones() -> None:
 def ball_motion_rates(times, states, start_angle, system):
     """dy/dt (m, size) at times (m,) [s] and states (m, size) of a system in VELOCITIES."""
     work = new_ball_steps(states.shape[1], 1, system.contacts.angle)
-    found = np.zeros(states.shape)
-    fill_rates(start_angle + system.rotor.cage_speed * times, states, system, found, work)
-    return found
+    rates = np.zeros(states.shape)
+    fill_rates(start_angle + system.rotor.cage_speed * times, states, system, rates, work)
+    return rates
 
 
 @compiled
-def fill_rates(angles, states, system, found, work):
+def fill_rates(angles, states, system, result, work):
     """Body of `ball_motion_rates`."""
     for i in range(angles.size):
         lay_out(angles[i], 0.0, 1, system, work)
-        rates(states[i], 0.0, found[i], found[i], 0, system, work)
+        rates(states[i], 0.0, result[i], result[i], 0, system, work)
 
 
 @pytest.mark.parametrize("scene", [FAN_RIG, GENERAL, presets["liew-lim"]], ids=lambda s: s.dofs)
@@ -92,11 +92,11 @@ def test_the_start_at_rest_stays_at_rest(scene: Scene) -> None:
     start = ball_start(packed_motion(scene), equilibrium(scene, [0.0]), 2)
     assert start is not None
     system = ball_system(packed_motion(scene), velocities=True)
-    found = ball_motion_rates(np.zeros(1), start[None], 0.0, system)[0]
+    rates = ball_motion_rates(np.zeros(1), start[None], 0.0, system)[0]
     rings = 4 * len(scene.active_dofs)
     force = np.linalg.norm(scene.load.vector[:3])
-    assert np.abs(found[:rings]).max() < 1e-9 * force
-    assert np.abs(found[rings:]).max() * scene.bearing.ball_mass < 1e-9 * force
+    assert np.abs(rates[:rings]).max() < 1e-9 * force
+    assert np.abs(rates[rings:]).max() * scene.bearing.ball_mass < 1e-9 * force
 
 
 @pytest.mark.parametrize("scene", [FAN_RIG, GENERAL], ids=["planar", "general"])

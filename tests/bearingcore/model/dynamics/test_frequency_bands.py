@@ -31,11 +31,15 @@ def terms_of(scene: Scene, n: int = 121) -> np.ndarray:
 
 @pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
 def test_they_are_those_of_the_modes_one_matrix_after_the_other(scene: Scene) -> None:
-    found = modes_at(equilibrium(scene, default_cage_angles(scene, 121)))
+    vibration = modes_at(equilibrium(scene, default_cage_angles(scene, 121)))
     least, greatest, [labels] = undamped_bands(scene, terms_of(scene))
-    assert labels == found.label
-    np.testing.assert_allclose(least[0], np.nanmin(found.undamped_frequency, axis=0), rtol=1e-10)
-    np.testing.assert_allclose(greatest[0], np.nanmax(found.undamped_frequency, axis=0), rtol=1e-10)
+    assert labels == vibration.label
+    np.testing.assert_allclose(
+        least[0], np.nanmin(vibration.undamped_frequency, axis=0), rtol=1e-10
+    )
+    np.testing.assert_allclose(
+        greatest[0], np.nanmax(vibration.undamped_frequency, axis=0), rtol=1e-10
+    )
 
 
 @pytest.mark.parametrize("extent", [0.0, 0.35, 1.1])
@@ -78,8 +82,8 @@ def test_coarse_bands_of_a_turning_defect_are_within_a_hundredth(name: str) -> N
 
 
 def test_without_an_answer_there_is_no_band() -> None:
-    found = frequency_bands(RIG.replace(fy=0.0))
-    assert list(found) == list(frequency_bands(RIG))
-    assert np.isnan(list(found.values())).all()
+    bands = frequency_bands(RIG.replace(fy=0.0))
+    assert list(bands) == list(frequency_bands(RIG))
+    assert np.isnan(list(bands.values())).all()
     refused = frequency_bands(RIG, most_contacts=10)
     assert np.isnan(list(refused.values())).all()

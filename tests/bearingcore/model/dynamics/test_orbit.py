@@ -34,9 +34,9 @@ def marched_period(scene: Scene, passes: int = 600, longest: int = 12) -> int | 
 
 
 def test_at_30_hz_the_orbit_doubles_its_period() -> None:
-    found = orbit(at(30.0, 12.9))
-    assert (found.status, found.through) == (OrbitStatus.UNSTABLE, "-1")
-    assert found.largest_multiplier == pytest.approx(1.33, abs=0.01)
+    cycle = orbit(at(30.0, 12.9))
+    assert (cycle.status, cycle.through) == (OrbitStatus.UNSTABLE, "-1")
+    assert cycle.largest_multiplier == pytest.approx(1.33, abs=0.01)
     assert marched_period(at(30.0, 12.9)) == 2
     doubled = orbit(at(30.0, 12.9), ball_passes=2, start=None)
     assert doubled.status in (OrbitStatus.STABLE, OrbitStatus.UNSTABLE)
@@ -56,9 +56,9 @@ def test_at_30_hz_the_orbit_doubles_its_period() -> None:
 def test_marching_settles_where_multipliers_say_it_does(shaft_hz: float, extent_deg: float) -> None:
     """600 ball passes of marching repeat after one pass just where the orbit is stable."""
     scene = at(shaft_hz, extent_deg)
-    found = orbit(scene)
-    assert found.status in (OrbitStatus.STABLE, OrbitStatus.UNSTABLE)
-    assert (marched_period(scene) == 1) == found.stable
+    cycle = orbit(scene)
+    assert cycle.status in (OrbitStatus.STABLE, OrbitStatus.UNSTABLE)
+    assert (marched_period(scene) == 1) == cycle.stable
 
 
 @pytest.mark.parametrize(
@@ -77,15 +77,15 @@ def test_multipliers_are_of_the_derivative_of_a_period(
 ) -> None:
     """By differences of the motion over the orbit's period, from states beside it."""
     scene = presets[name].replace(contact_damping=130.0, **changes)
-    found = orbit(scene, step_rate=2.0**20 if apart > 1e-9 else None)
-    shooting = _Shooting(packed_motion(scene), found.period, len(found.history) - 1)
-    y = shooting.own(_state_at_start(found, found.dofs))
+    cycle = orbit(scene, step_rate=2.0**20 if apart > 1e-9 else None)
+    shooting = _Shooting(packed_motion(scene), cycle.period, len(cycle.history) - 1)
+    y = shooting.own(_state_at_start(cycle, cycle.dofs))
     slopes = np.empty((y.size, y.size))
     for column, h in zip(slopes.T, np.diag(apart / shooting.scale), strict=True):
         column[:] = (shooting.marched(y + h) - shooting.marched(y - h)) / (2.0 * h.max())
     wrong = (slopes - shooting.with_tangent(y)[1]) * np.divide.outer(shooting.scale, shooting.scale)
     assert np.abs(wrong).max() < off
-    assert found.largest_multiplier == pytest.approx(
+    assert cycle.largest_multiplier == pytest.approx(
         np.abs(np.linalg.eigvals(slopes)).max(), rel=1e-3
     )
 
@@ -99,14 +99,14 @@ def test_where_no_orbit_is_found_none_is_claimed() -> None:
 
 @pytest.mark.parametrize("scene", [at(7.0, 12.9), at(60.0, 12.9), at(7.0, 38.6)])
 def test_the_spectrum_of_lines_is_that_of_the_tiled_record(scene: Scene) -> None:
-    found = orbit(scene)
+    cycle = orbit(scene)
     n = round(1.4 * 65536.0)
-    signal = found.outer_acceleration(np.arange(n) / 65536.0)
-    assert len(found.spectrum().frequency) > 150, "to 0.15 of 32,768 steps a second"
+    signal = cycle.outer_acceleration(np.arange(n) / 65536.0)
+    assert len(cycle.spectrum().frequency) > 150, "to 0.15 of 32,768 steps a second"
     # at 60 Hz lines stand eleven bins apart: between them there is only the window's side lobes,
     # and what samples of the jumps as balls touch fold back, which lines do not
     for resolution, highest, least, off in ((32.0, 2100.0, 30, 0.02), (256.0, math.inf, 20, 0.1)):
-        lines = found.spectrum(resolution=resolution)
+        lines = cycle.spectrum(resolution=resolution)
         tiled = spectrum(signal, 65536.0, resolution).up_to(lines.frequency[-1])
         np.testing.assert_array_equal(lines.frequency, tiled.frequency)
         band = (tiled.frequency >= 300.0) & (tiled.frequency <= highest)

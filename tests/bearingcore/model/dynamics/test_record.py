@@ -67,16 +67,16 @@ def test_such_a_record_is_diagnosed_as_what_it_is(race: str) -> None:
 def test_a_sweep_keeps_records_with_their_times(tmp_path: Path) -> None:
     settings = Settings(duration=0.1, sample_rate=8192.0)
     over = {"race": ["outer", "inner"], "extent": [0.0, 0.03]}
-    found = sweep(SCENE, over, ["record_*"], settings=settings)
-    assert found["record_y"].dims == ("race", "extent", "sample")
-    np.testing.assert_array_equal(found["sample"], np.arange(819) / 8192.0)
-    assert found["sample"].attrs["units"] == "s"
+    dataset = sweep(SCENE, over, ["record_*"], settings=settings)
+    assert dataset["record_y"].dims == ("race", "extent", "sample")
+    np.testing.assert_array_equal(dataset["sample"], np.arange(819) / 8192.0)
+    assert dataset["sample"].attrs["units"] == "s"
     alone = simulated_record(
         SCENE.replace(race="inner", extent=0.03), duration=0.1, sample_rate=8192.0
     )
-    np.testing.assert_array_equal(found["record_x"][1, 1], alone.acceleration[:, 0])
+    np.testing.assert_array_equal(dataset["record_x"][1, 1], alone.acceleration[:, 0])
     kept = sweep(SCENE, over, ["record_*"], settings=settings, store=tmp_path / "r.zarr")
-    np.testing.assert_array_equal(kept["record_y"].values, found["record_y"].values)
+    np.testing.assert_array_equal(kept["record_y"].values, dataset["record_y"].values)
 
 
 def test_records_are_no_part_of_all_outputs_unless_they_are_asked_for() -> None:

@@ -20,11 +20,11 @@ def decibels_off(case: str, acceleration: np.ndarray) -> float:
     frequency, density = spectrum(acceleration, RATE)
     assert frequency == pytest.approx(PAPER["frequency"])
     band = (frequency >= 300.0) & (frequency <= 2100.0)
-    found, reference = density[band], PAPER[f"{case}/density"][band]
+    actual, reference = density[band], PAPER[f"{case}/density"][band]
     counts = reference > 1e-4 * reference.max(axis=0)
     if case != "sound":
         assert counts.all()
-    return float(np.abs(10.0 * np.log10(found / reference))[counts].max())
+    return float(np.abs(10.0 * np.log10(actual / reference))[counts].max())
 
 
 @pytest.mark.parametrize("step_rate", [None, RATE])

@@ -25,16 +25,16 @@ def element(monkeypatch: pytest.MonkeyPatch) -> Any:
 
 
 def test_stiffness_is_the_mean_of_the_static_states_at_each_speed(element: Any) -> None:
-    found = element(SCENE, SPEEDS, node=3, tag="drive end")
-    assert (found.n, found.tag, list(found.frequency)) == (3, "drive end", list(SPEEDS))
+    bearing = element(SCENE, SPEEDS, node=3, tag="drive end")
+    assert (bearing.n, bearing.tag, list(bearing.frequency)) == (3, "drive end", list(SPEEDS))
     angles = default_cage_angles(SCENE)[:-1]
-    assert found.kyy[0] == pytest.approx(equilibrium(SCENE, angles).term("k_yy").mean(), rel=1e-6)
+    assert bearing.kyy[0] == pytest.approx(equilibrium(SCENE, angles).term("k_yy").mean(), rel=1e-6)
     fast = static_state(SCENE.replace(shaft_speed=3000.0, balls="with mass"), angles)
     for name in ("xx", "yy", "zz", "xy"):
-        term = getattr(found, f"k{name}")
+        term = getattr(bearing, f"k{name}")
         assert term[3] == pytest.approx(fast.term(f"k_{name}").mean(), rel=1e-12)
-    assert found.kyy[3] > 1.01 * found.kyy[0], "centrifugal load counts"
-    assert abs(found.kxy[3]) > 1e6
+    assert bearing.kyy[3] > 1.01 * bearing.kyy[0], "centrifugal load counts"
+    assert abs(bearing.kxy[3]) > 1e6
 
 
 def test_cross_terms_turn_with_the_load(element: Any) -> None:
@@ -54,15 +54,15 @@ def test_cross_terms_turn_with_the_load(element: Any) -> None:
 
 
 def test_damping_is_that_of_the_loaded_contacts(element: Any) -> None:
-    found = element(SCENE.healthy(), [0.0])
+    bearing = element(SCENE.healthy(), [0.0])
     loaded = equilibrium(SCENE.healthy(), default_cage_angles(SCENE)[:-1]).loaded_balls.mean()
-    whole = found.cxx[0] + found.cyy[0] + found.czz[0]
+    whole = bearing.cxx[0] + bearing.cyy[0] + bearing.czz[0]
     assert whole == pytest.approx(contact_damping(SCENE) * loaded, rel=1e-3)
 
 
 def test_rollers_without_known_mass_are_the_same_at_all_speeds(element: Any) -> None:
-    found = element(presets["30206-back-to-back"], [0.0, 300.0])
-    assert found.kxx[0] == found.kxx[1] > 0.0
+    bearing = element(presets["30206-back-to-back"], [0.0, 300.0])
+    assert bearing.kxx[0] == bearing.kxx[1] > 0.0
 
 
 def test_what_cannot_be_had_is_refused(element: Any, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -84,10 +84,10 @@ def test_a_rotor_in_ross_rings_at_the_frequencies_of_its_mass_on_these_bearings(
     disc = ross.DiskElement(n=2, m=20.0, Id=0.02, Ip=0.04)
     bearings = [to_ross(SCENE, SPEEDS, node=node) for node in (0, 4)]
     rotor = ross.Rotor(shaft, [disc], bearings)
-    found = rotor.run_modal(speed=0.0, num_modes=24).wn
+    actual = rotor.run_modal(speed=0.0, num_modes=24).wn
     for term in np.linalg.eigvalsh(bearings[0].K(0.0)[:2, :2]):
         expected = math.sqrt(2.0 * term / rotor.m)
-        assert np.abs(found / expected - 1.0).min() < 3e-3
+        assert np.abs(actual / expected - 1.0).min() < 3e-3
 
 
 def test_balls_that_only_the_outer_race_holds_damp_nothing() -> None:

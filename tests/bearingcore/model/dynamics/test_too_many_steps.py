@@ -40,13 +40,13 @@ def _no_marching(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.usefixtures("_no_marching")
 def test_orbits_and_motions_of_too_many_steps_are_not_begun_and_say_what_it_would_cost() -> None:
-    found = orbit(STIFF)
-    assert found.status == OrbitStatus.TOO_MANY_STEPS
-    assert found.cost.startswith(f"{thousands(725688)} steps a period")
-    assert f"most_steps = {thousands(1e6)}" in found.cost
-    assert not found.stable
-    assert math.isnan(found.largest_multiplier)
-    assert found.right_hand_side_calls == 0
+    cycle = orbit(STIFF)
+    assert cycle.status == OrbitStatus.TOO_MANY_STEPS
+    assert cycle.cost.startswith(f"{thousands(725688)} steps a period")
+    assert f"most_steps = {thousands(1e6)}" in cycle.cost
+    assert not cycle.stable
+    assert math.isnan(cycle.largest_multiplier)
+    assert cycle.right_hand_side_calls == 0
 
     motion = simulate(STIFF, 0.02, 4e7, ball_loads=True)
     assert not motion.completed
@@ -117,10 +117,10 @@ def test_too_many_contacts_are_not_begun_and_say_what_they_would_cost() -> None:
     assert not state.converged.any()
     assert np.isnan(state.stiffness[7]).all()
     assert state.stiffness.base is not None, "and take no memory"
-    found = modes(rig, many)
-    assert found.cost == words
-    assert set(found.label) == {"x1", "x2", "y1", "y2"}
-    assert np.isnan(found.bands()["x1"]).all()
+    vibration = modes(rig, many)
+    assert vibration.cost == words
+    assert set(vibration.label) == {"x1", "x2", "y1", "y2"}
+    assert np.isnan(vibration.bands()["x1"]).all()
     places = ball_positions(rig.replace(balls="with mass"), many)
     assert places.reason(0) == places.cost == words
     assert np.isnan(places.load[1, 5]).all()

@@ -39,11 +39,11 @@ def linear_response(scene: Scene) -> complex:
 def test_a_small_unbalance_moves_the_housing_as_a_linear_oscillator(balls: str) -> None:
     scene = pushed_along_the_shaft().replace(unbalance=2e-6, balls=balls)
     duration = 0.25
-    found, still = (
+    shaken, still = (
         simulate(scene.replace(unbalance=unbalance), duration, SAMPLE_RATE)
         for unbalance in (scene.unbalance, 0.0)
     )
-    x, y = (found.outer_displacement - still.outer_displacement)[:, :2].T
-    late = found.time >= duration - 10.0 * 2.0 * math.pi / SPEED  # whole turns
-    amplitude = np.mean(((x + 1j * y) * np.exp(-1j * SPEED * found.time))[late])
+    x, y = (shaken.outer_displacement - still.outer_displacement)[:, :2].T
+    late = shaken.time >= duration - 10.0 * 2.0 * math.pi / SPEED  # whole turns
+    amplitude = np.mean(((x + 1j * y) * np.exp(-1j * SPEED * shaken.time))[late])
     assert amplitude == pytest.approx(linear_response(scene), rel=1e-2 if "with" in balls else 1e-3)

@@ -54,11 +54,11 @@ def rows_of(name: str) -> dict[tuple[str, str], Alternative]:
 @pytest.mark.proof
 def test_what_it_costs_is_bounded(name: str) -> None:
     """About a second: counted in evaluations of all contacts, as clocks depend on the machine."""
-    found = alternatives(presets[name])
-    assert 0 < found.right_hand_side_calls < 4 * MOST_CALLS
-    assert len(found.rows) >= 6
-    assert any(math.isfinite(row.error) for row in found.rows if row.quantity == SPECTRUM)
-    assert len(found.table()["model"]) == len(found.rows)
+    result = alternatives(presets[name])
+    assert 0 < result.right_hand_side_calls < 4 * MOST_CALLS
+    assert len(result.rows) >= 6
+    assert any(math.isfinite(row.error) for row in result.rows if row.quantity == SPECTRUM)
+    assert len(result.table()["model"]) == len(result.rows)
 
 
 def test_the_fan_rig_needs_two_directions_and_its_balls_have_mass_to_be_heard() -> None:

@@ -42,10 +42,10 @@ def test_the_reference_meets_the_one_that_was_stored() -> None:
     assert reference.reference.trusted
     assert reference.reference.agreement["displacement"] < 1e-8
     assert reference.reference.agreement["spectrum"] < 1e-5
-    found = np.hstack([reference.history[::64, 0], reference.history[::64, 3]])
-    expected = STORED["12.9deg/displacement"][: len(found)]
+    history = np.hstack([reference.history[::64, 0], reference.history[::64, 3]])
+    expected = STORED["12.9deg/displacement"][: len(history)]
     swing = np.abs(expected - expected.mean(axis=0)).max()
-    assert np.abs(found - expected).max() / swing < 1e-8
+    assert np.abs(history - expected).max() / swing < 1e-8
 
 
 @pytest.mark.proof
@@ -101,16 +101,18 @@ def test_statics_have_trusted_references(preset: str) -> None:
     scene = presets[preset]
     for problem in (static_problem(scene, default_cage_angles(scene, 7)),
                     hard_cases(scene)["all balls just touching"]):  # fmt: skip
-        found = static_reference(problem)
-        assert found.known.all()
-        assert found.reference.trusted
-        assert found.reference.agreement["stiffness"] < 1e-7
+        reference = static_reference(problem)
+        assert reference.known.all()
+        assert reference.reference.trusted
+        assert reference.reference.agreement["stiffness"] < 1e-7
 
 
 def test_rollers_that_touch_by_rounding_alone_are_left_out() -> None:
-    found = static_reference(hard_cases(presets["nu208"])["clearance closed"])
-    assert found.reference.trusted
-    assert found.known.sum() >= 11, "where a roller carries rounding alone depends on the processor"
+    reference = static_reference(hard_cases(presets["nu208"])["clearance closed"])
+    assert reference.reference.trusted
+    assert reference.known.sum() >= 11, (
+        "where a roller carries rounding alone depends on the processor"
+    )
     touching = static_reference(hard_cases(presets["nu208"])["all balls just touching"])
     assert touching.reference.trusted
     assert touching.known.all()
@@ -137,14 +139,16 @@ def test_motion() -> None:
 
 def test_an_experiment_reports_its_progress_and_can_be_cancelled() -> None:
     shares: list[float] = []
-    found: list[Experiment] = []
+    experiments: list[Experiment] = []
     answers = iter([*[False] * 7, True])  # five of them within the references
     experiment = statics_experiment(
         FAN_RIG,
         n_angles=5,
-        watch=Watch(lambda part, doing: shares.append(part), lambda: next(answers), found.append),
+        watch=Watch(
+            lambda part, doing: shares.append(part), lambda: next(answers), experiments.append
+        ),
     )
-    assert [len(one.points) for one in found] == [1, 2]
+    assert [len(one.points) for one in experiments] == [1, 2]
     assert len(experiment.points) == 2
     assert not experiment.completed
     assert shares == sorted(shares)
@@ -155,6 +159,6 @@ def test_an_experiment_reports_its_progress_and_can_be_cancelled() -> None:
 def test_references_end_as_soon_as_they_are_cancelled(calls: int) -> None:
     """LSODA, DOP853 and CVODE: within one evaluation of the forces."""
     asked = itertools.count()
-    found = measure(FAN_RIG, ["motion"], cancelled=lambda: next(asked) > calls)
-    assert found.count == 0
+    results = measure(FAN_RIG, ["motion"], cancelled=lambda: next(asked) > calls)
+    assert results.count == 0
     assert next(asked) <= calls + 3

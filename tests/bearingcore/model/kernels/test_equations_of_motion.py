@@ -48,10 +48,10 @@ def test_rates_are_those_of_the_law(scene: Scene) -> None:
     pushed = 0
     for t in np.linspace(0.0, 0.03, 12):
         y = np.concatenate([random.normal(0.0, size, n) for size in (2e-5, 1e-3, 2e-6, 1e-3)])
-        found = kernels.motion_rates(np.array([t]), y[None], 0.0, system)[0]
+        rates = kernels.motion_rates(np.array([t]), y[None], 0.0, system)[0]
         expected = motion_rates(scene, DAMPING, float(t), y)
         free = system.rotor.force * system.rotor.inverse_inner
         pushed += bool(np.any(expected[n : 2 * n] != free))
         scale = np.abs(expected).reshape(4, n).max(axis=1).repeat(n)
-        assert np.abs((found - expected) / scale).max() < 1e-6
+        assert np.abs((rates - expected) / scale).max() < 1e-6
     assert pushed > 6

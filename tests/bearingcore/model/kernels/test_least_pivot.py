@@ -21,5 +21,5 @@ def test_it_is_that_of_lapack_and_zero_without_full_rank(rank: int) -> None:
         factor, _, known, _ = dpstrf(own, lower=1, tol=1e-13 * own.diagonal().max())
         pivots = np.diag(factor) ** 2
         expected = pivots[-1] / pivots[0] if known == active.size else 0.0
-        found = least_pivot.py_func(whole, active, np.empty((5, 5)))
-        assert found == pytest.approx(expected, rel=1e-6, abs=1e-12)
+        pivot = least_pivot.py_func(whole, active, np.empty((5, 5)))
+        assert pivot == pytest.approx(expected, rel=1e-6, abs=1e-12)

@@ -26,20 +26,20 @@ SCENES = pytest.mark.parametrize(
 
 def entries(call: Callable[[], object]) -> list[str]:
     """Functions of `packing` that are called from another file."""
-    found: list[str] = []
+    names: list[str] = []
 
     def watch(frame: FrameType, event: str, _: object) -> None:
         here, caller = frame.f_code, frame.f_back
         entered = event == "call" and here.co_filename == packing.__file__
         if entered and caller is not None and caller.f_code.co_filename != here.co_filename:
-            found.append(here.co_name)
+            names.append(here.co_name)
 
     sys.setprofile(watch)
     try:
         call()
     finally:
         sys.setprofile(None)
-    return found
+    return names
 
 
 @SCENES

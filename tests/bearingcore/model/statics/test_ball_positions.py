@@ -27,9 +27,9 @@ def test_without_centrifugal_load_it_is_the_massless_state(name: str) -> None:
     """Both contacts lie on one line: displacement, loads and stiffness to 1e-12."""
     scene = presets[name]
     massless = equilibrium(scene)
-    found = ball_positions(scene, centrifugal_load=0.0)
+    positions = ball_positions(scene, centrifugal_load=0.0)
     standing = ball_positions(scene.replace(shaft_speed=0.0))
-    for one in (found, standing):
+    for one in (positions, standing):
         assert one.converged.all()
         size = np.abs(massless.displacement).max()
         assert np.abs(one.displacement - massless.displacement).max() <= 1e-12 * size
@@ -46,23 +46,23 @@ def test_without_centrifugal_load_it_is_the_massless_state(name: str) -> None:
 def test_balls_and_ring_balance_at_speed(name: str) -> None:
     """15,000 rpm: each ball's two loads and F_c cancel, the inner loads carry the ring's load."""
     scene = presets[name].replace(shaft_speed=15_000 * math.pi / 30.0)
-    found = ball_positions(scene)
-    assert found.converged.all()
-    free = [("x", "y", "z", "rx", "ry").index(dof) for dof in found.dofs]
+    positions = ball_positions(scene)
+    assert positions.converged.all()
+    free = [("x", "y", "z", "rx", "ry").index(dof) for dof in positions.dofs]
     for i in (0, 17, 60):
         sums = TwoContacts(
             scene,
-            found.cage_angles[i],
-            found.displacement[i],
+            positions.cage_angles[i],
+            positions.displacement[i],
             np.zeros(5),
-            found.position[i],
+            positions.position[i],
         )
-        left = sums.on_balls(centrifugal=found.centrifugal_load, weight=False)
-        assert np.abs(left).max() <= 1e-9 * found.load.max()
+        left = sums.on_balls(centrifugal=positions.centrifugal_load, weight=False)
+        assert np.abs(left).max() <= 1e-9 * positions.load.max()
         lever = np.array([1.0, 1.0, 1.0, *[scene.bearing.groove_center_radius] * 2])
         ring = (sums.force(0) - scene.load.vector) / lever
         assert np.abs(ring[free]).max() <= 1e-9 * np.linalg.norm(scene.load.vector)
-        assert np.abs(sums.load - found.load[:, i]).max() <= 1e-9 * found.load.max()
+        assert np.abs(sums.load - positions.load[:, i]).max() <= 1e-9 * positions.load.max()
 
 
 def test_centrifugal_loads_as_published() -> None:
@@ -107,9 +107,9 @@ def test_force_balance_of_harris_and_mindel() -> None:
     angle = brentq(
         lambda a: at(a).contact_angle[0, 0, 0] - printed, math.radians(5.0), math.radians(35.0)
     )
-    found = at(angle)
-    Q_i, Q_e = found.load[:, 0, 0] / POUND
-    alpha_i, alpha_e = found.contact_angle[:, 0, 0]
+    positions = at(angle)
+    Q_i, Q_e = positions.load[:, 0, 0] / POUND
+    alpha_i, alpha_e = positions.contact_angle[:, 0, 0]
     assert Q_i == pytest.approx(287.76, rel=1e-3)
     assert Q_e == pytest.approx(571.07, rel=1e-3)
     assert math.degrees(alpha_e) == pytest.approx(14.475, rel=1e-3)
@@ -122,9 +122,9 @@ def test_random_scenes_are_right_or_say_that_they_are_not() -> None:
     solved = 0
     for _ in range(150):
         scene, weight = random_scene(rng), bool(rng.integers(2))
-        found = ball_positions(scene, [rng.uniform(0.0, 6.3)], weight=weight)
-        solved += int(found.converged[0])
-        assert faults(found, 0, weight) == ""
+        positions = ball_positions(scene, [rng.uniform(0.0, 6.3)], weight=weight)
+        solved += int(positions.converged[0])
+        assert faults(positions, 0, weight) == ""
     assert solved >= 140
 
 
@@ -137,18 +137,18 @@ def test_the_static_state_is_what_the_scene_asks_for() -> None:
     plain = static_state(massless, [0.1])
     assert not isinstance(plain, EquilibriumWithMass)
     assert np.array_equal(plain.ball_load, equilibrium(massless, [0.1]).ball_load)
-    found = static_state(FAST)
-    assert isinstance(found, EquilibriumWithMass)
-    assert found.converged.all()
+    state = static_state(FAST)
+    assert isinstance(state, EquilibriumWithMass)
+    assert state.converged.all()
     F_c = FAST.bearing.centrifugal_load(1500.0)
-    inner, outer = found.inner_load, found.ball_load
+    inner, outer = state.inner_load, state.ball_load
     carries = inner > 0.0
-    alpha_i, alpha_o = found.inner_contact_angle[carries], found.contact_angle[carries]
+    alpha_i, alpha_o = state.inner_contact_angle[carries], state.contact_angle[carries]
     Q_i, Q_o = inner[carries], outer[carries]
     size = Q_o.max()
     assert Q_o * np.cos(alpha_o) - Q_i * np.cos(alpha_i) == pytest.approx(F_c, abs=1e-7 * size)
     assert Q_o * np.sin(alpha_o) == pytest.approx(Q_i * np.sin(alpha_i), abs=1e-7 * size)
     assert outer[~carries] == pytest.approx(F_c, rel=1e-6), "the others ride on the outer race"
-    assert np.array_equal(found.loaded_balls, carries.sum(axis=1))
-    changed = np.abs(found.term("k_yy") / static_state(massless).term("k_yy") - 1.0)
+    assert np.array_equal(state.loaded_balls, carries.sum(axis=1))
+    changed = np.abs(state.term("k_yy") / static_state(massless).term("k_yy") - 1.0)
     assert changed.max() > 1e-3

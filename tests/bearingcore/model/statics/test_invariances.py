@@ -42,13 +42,13 @@ def lengths(scene: Scene) -> np.ndarray:
     return np.array([1.0, 1.0, 1.0, lever, lever])
 
 
-def assert_close(found: np.ndarray, expected: np.ndarray, scene: Scene, tolerance: float) -> None:
+def assert_close(actual: np.ndarray, expected: np.ndarray, scene: Scene, tolerance: float) -> None:
     """Equal as displacements (n, 5) or stiffness (n, 5, 5), relative to the greatest number."""
     scale = lengths(scene)
-    if found.ndim == 3:
+    if actual.ndim == 3:
         scale = 1.0 / (scale[:, None] * scale)
     size = np.abs(expected * scale).max()
-    assert np.abs((found - expected) * scale).max() <= tolerance * size
+    assert np.abs((actual - expected) * scale).max() <= tolerance * size
 
 
 def transformed(scene: Scene, matrix: np.ndarray, defect_center: float) -> Scene:

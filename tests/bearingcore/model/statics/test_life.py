@@ -49,9 +49,9 @@ def test_commercial_code(
     clearance: float, load: dict[str, float], printed: float, tolerance: float
 ) -> None:
     """Printed in GitHub, minzhun/ISO16281, `Test_BallBearing.py`: C_r 23,400 N."""
-    found = life(seven_balls(clearance, **load), RATING, positions="load line")
-    assert found.million_revolutions == pytest.approx(printed, rel=tolerance)
-    assert found.known
+    rated = life(seven_balls(clearance, **load), RATING, positions="load line")
+    assert rated.million_revolutions == pytest.approx(printed, rel=tolerance)
+    assert rated.known
 
 
 def damaged(race: str, **changes: float) -> Scene:
@@ -97,10 +97,10 @@ def test_defects_of_both_races_by_counting() -> None:
     assert isinstance(scene.defect, Defect)
     other = dataclasses.replace(scene.defect, race="outer", center=math.radians(260.0))
     scene = dataclasses.replace(scene, defect=(scene.defect, other))
-    found = race_loads(scene, P, E)
+    loads = race_loads(scene, P, E)
     inner, outer = by_counting(scene, places=48, every=4)
-    assert found.inner[0] == pytest.approx(inner, rel=2e-3)
-    assert found.outer[0] == pytest.approx(outer, rel=2e-3)
+    assert loads.inner[0] == pytest.approx(inner, rel=2e-3)
+    assert loads.outer[0] == pytest.approx(outer, rel=2e-3)
 
 
 def test_both_means_of_the_standard_change_places_with_the_turning_race() -> None:
@@ -115,13 +115,13 @@ def test_both_means_of_the_standard_change_places_with_the_turning_race() -> Non
 
 
 def test_hours() -> None:
-    found = life(presets["6206"], 19_500.0)
-    assert found.hours == pytest.approx(found.million_revolutions * 1e6 / (1470.0 * 60.0))
+    rated = life(presets["6206"], 19_500.0)
+    assert rated.hours == pytest.approx(rated.million_revolutions * 1e6 / (1470.0 * 60.0))
     sound = life(presets["6206"].healthy(), 19_500.0)
-    assert sound.million_revolutions == found.healthy_million_revolutions, "the same cage angles"
+    assert sound.million_revolutions == rated.healthy_million_revolutions, "the same cage angles"
     standing = life(presets["6206"].replace(shaft_speed=0.0), 19_500.0)
     assert math.isnan(standing.hours)
-    assert standing.million_revolutions == found.million_revolutions
+    assert standing.million_revolutions == rated.million_revolutions
     assert "the shaft is at rest" in standing.sentence
 
 
@@ -136,20 +136,20 @@ def test_no_equilibrium_no_life(race: str) -> None:
     """Two balls let a ring go sideways: no cage angle but those under the load carries it."""
     scene = presets["6205"].replace(n_balls=2, race=race)
     for looked_at in (scene, scene.healthy()):
-        found = life(looked_at, 14e3)
-        assert not found.known
-        assert math.isnan(found.hours)
-        assert math.isnan(found.equivalent_load)
-        assert math.isnan(found.share_of_healthy)
-        assert "not known" in found.sentence
+        rated = life(looked_at, 14e3)
+        assert not rated.known
+        assert math.isnan(rated.hours)
+        assert math.isnan(rated.equivalent_load)
+        assert math.isnan(rated.share_of_healthy)
+        assert "not known" in rated.sentence
 
 
 def test_no_load_no_fatigue() -> None:
-    found = life(presets["6205"].replace(fy=0.0), 14e3)
-    assert math.isinf(found.million_revolutions)
-    assert found.equivalent_load == 0.0
-    assert found.share_of_healthy == 1.0
-    assert "there is no fatigue" in found.sentence
+    rated = life(presets["6205"].replace(fy=0.0), 14e3)
+    assert math.isinf(rated.million_revolutions)
+    assert rated.equivalent_load == 0.0
+    assert rated.share_of_healthy == 1.0
+    assert "there is no fatigue" in rated.sentence
 
 
 def test_wider_grooves_carry_less_and_closer_ones_count_as_usual() -> None:

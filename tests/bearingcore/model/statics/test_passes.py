@@ -15,19 +15,19 @@ TURN = 2.0 * math.pi
 
 
 def test_in_a_cage_turn_every_ball_enters_and_leaves_an_outer_race_defect_once() -> None:
-    found = crossings(FAN_RIG, 0.05, 0.05 + TURN)
-    assert sorted(c.ball for c in found if c.enters) == list(range(14))
-    assert sorted(c.ball for c in found if not c.enters) == list(range(14))
-    assert [c.cage_angle for c in found] == sorted(c.cage_angle for c in found)
+    events = crossings(FAN_RIG, 0.05, 0.05 + TURN)
+    assert sorted(c.ball for c in events if c.enters) == list(range(14))
+    assert sorted(c.ball for c in events if not c.enters) == list(range(14))
+    assert [c.cage_angle for c in events] == sorted(c.cage_angle for c in events)
 
 
 @pytest.mark.parametrize("race", ["outer", "inner"])
 @pytest.mark.parametrize("center_deg", [270.0, 1.0])
 def test_between_entry_and_exit_a_ball_sinks_and_nowhere_else(race: str, center_deg: float) -> None:
     scene = FAN_RIG.replace(race=race, center=math.radians(center_deg))
-    found = crossings(scene, 0.0, TURN)
-    assert found
-    for crossing in found:
+    events = crossings(scene, 0.0, TURN)
+    assert events
+    for crossing in events:
         offset = crossing.ball * scene.bearing.ball_spacing
         before, after = (
             float(ball_drop(scene, cage + offset, cage))
@@ -53,10 +53,10 @@ def test_a_path_has_its_corners_where_edge_and_floor_begin(edge: str) -> None:
     corners = (-0.5 * own.extent, s_floor - 0.5 * own.extent)
     balls = own.center - scene.bearing.ball_spacing * np.arange(14)
     known = [balls + side * corner for corner in corners for side in (1.0, -1.0)]
-    found = path_kinks(scene, 0.0, scene.bearing.ball_spacing)
+    kinks = path_kinks(scene, 0.0, scene.bearing.ball_spacing)
     inside = np.sort(np.concatenate(known) % TURN)
     inside = inside[inside < scene.bearing.ball_spacing]
-    assert found == pytest.approx(inside, abs=1e-6)
+    assert kinks == pytest.approx(inside, abs=1e-6)
 
 
 def test_a_healthy_bearing_and_a_worn_race_have_no_edges_to_pass() -> None:

@@ -21,10 +21,10 @@ def test_a_scene_of_a_number_is_usual_for_its_kind(name: str) -> None:
     assert rotor.inner_mass * 9.81 == pytest.approx(-scene.load.fy, rel=5e-3)
     state = equilibrium(scene)
     assert state.converged.all()
-    found = life(scene)
-    assert found.rating_source.startswith("of a catalogue")
-    assert 10.0 < found.dynamic_load_rating / found.equivalent_load < 21.0
-    assert 5e3 < found.hours < 2e5
+    rated = life(scene)
+    assert rated.rating_source.startswith("of a catalogue")
+    assert 10.0 < rated.dynamic_load_rating / rated.equivalent_load < 21.0
+    assert 5e3 < rated.hours < 2e5
     assert [one.name for one in limits(scene, state) if one.crossed] == []
 
 

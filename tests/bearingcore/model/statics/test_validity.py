@@ -22,7 +22,7 @@ from bearingcore.model.statics._positions import over_all_positions
 HEALTHY_6205 = presets["6205"].healthy()
 
 
-def found(scene: Scene, name: str, **choices: float) -> Limit:
+def limit_named(scene: Scene, name: str, **choices: float) -> Limit:
     by_name = {limit.name: limit for limit in limits(scene, **choices)}  # type: ignore[arg-type]
     assert len(by_name) == len(limits(scene, **choices))  # type: ignore[arg-type]
     return by_name[name]
@@ -34,7 +34,7 @@ INNER, OUTER = "contact pressure, inner race", "contact pressure, outer race"
 @pytest.mark.parametrize("name", ["liew-lim", "fan-rig"])
 def test_without_groove_radii_pressure_is_not_known_and_not_invented(name: str) -> None:
     for race in (INNER, OUTER):
-        limit = found(presets[name], race)
+        limit = limit_named(presets[name], race)
         assert math.isnan(limit.value)
         assert not limit.crossed
         assert "not known" in limit.sentence
@@ -44,16 +44,16 @@ def test_a_thrust_climbs_the_shoulder_of_a_deep_groove() -> None:
     gentle = HEALTHY_6205.replace(fy=-300.0, fz=500.0)
     harsh = HEALTHY_6205.replace(fy=-300.0, fz=40e3)
     name = "contact angle at the shoulder"
-    assert not found(gentle, name).crossed
-    limit = found(harsh, name)
+    assert not limit_named(gentle, name).crossed
+    limit = limit_named(harsh, name)
     assert limit.crossed
     assert "rides over its edge" in limit.sentence
     # 0.2 ball diameters high, at 40° 0.3, seen from the middle of the groove's curve
     assert limit.limit == pytest.approx(math.acos(0.6))
-    assert found(presets["7208-40deg"], name).limit == pytest.approx(math.acos(0.4))
+    assert limit_named(presets["7208-40deg"], name).limit == pytest.approx(math.acos(0.4))
     # a higher shoulder holds it, and a lower one does not hold even the gentle thrust
-    assert not found(harsh, name, shoulder_height=0.5).crossed
-    assert found(gentle, name, shoulder_height=0.02).crossed
+    assert not limit_named(harsh, name, shoulder_height=0.5).crossed
+    assert limit_named(gentle, name, shoulder_height=0.02).crossed
 
 
 CHANGE = "change by centrifugal force"
@@ -62,18 +62,18 @@ CHANGE = "change by centrifugal force"
 def test_what_centrifugal_force_changes_is_measured() -> None:
     """By two solutions, one with it and one without, here at angles of its own."""
     fast = HEALTHY_6205.replace(shaft_speed=10.0 * HEALTHY_6205.shaft_speed)
-    values = [found(scene, CHANGE).value for scene in (HEALTHY_6205, fast)]
+    values = [limit_named(scene, CHANGE).value for scene in (HEALTHY_6205, fast)]
     angles = np.linspace(0.0, fast.bearing.ball_spacing, 121)
     for value, scene in zip(values, (HEALTHY_6205, fast), strict=True):
         effect = centrifugal_effect(scene, angles)
         assert value == pytest.approx(max(effect.load, effect.stiffness), rel=0.3)
     assert values[0] < 0.01 < 0.04 < values[1]
-    assert "separates the contact angles" not in found(fast, CHANGE).sentence  # radial: by 0°
-    assert "separates the contact angles" in found(presets["7208-25deg"], CHANGE).sentence
-    said = found(HEALTHY_6205, CHANGE).sentence
+    assert "separates the contact angles" not in limit_named(fast, CHANGE).sentence  # radial: by 0°
+    assert "separates the contact angles" in limit_named(presets["7208-25deg"], CHANGE).sentence
+    said = limit_named(HEALTHY_6205, CHANGE).sentence
     assert "of a ball, 224 mN," in said
     assert said.endswith("up to 10 % it may be left out.")
-    said = found(HEALTHY_6205, "compression against groove centre distance").sentence
+    said = limit_named(HEALTHY_6205, "compression against groove centre distance").sentence
     assert "up to 20 % the contact is small" in said
 
 
@@ -105,26 +105,26 @@ def test_loads_in_motion_count_where_they_are_known() -> None:
     names = ("contact pressure in motion", "compression in motion")
     scene = presets["6205"]
     for name in names:
-        unknown = found(scene, name)
+        unknown = limit_named(scene, name)
         assert math.isnan(unknown.value)
         assert "no motion of this scene has been simulated" in unknown.sentence
     still = scene.replace(shaft_speed=0.0)
     assert not {one.name for one in limits(still)} & set(names)
     motion = simulate(scene, duration=0.1)
     load = float(motion.ball_loads().max())
-    moving = found(scene, names[0], dynamic_load=load)
+    moving = limit_named(scene, names[0], dynamic_load=load)
     expected = float(scene.bearing.race_contact("inner").greatest_pressure(load))
     assert moving.value == pytest.approx(expected)
-    assert found(scene, names[0], dynamic_load=50e3).crossed
-    assert found(scene, names[1], dynamic_load=50e3).crossed
+    assert limit_named(scene, names[0], dynamic_load=50e3).crossed
+    assert limit_named(scene, names[1], dynamic_load=50e3).crossed
 
 
 def test_the_film_counts_where_the_oil_is_given() -> None:
     scene, name = presets["6205"], "film parameter"
-    assert math.isnan(found(scene, name).value)
+    assert math.isnan(limit_named(scene, name).value)
     for viscosity, crossed in ((2e-3, True), (0.1, False)):
         oil = film(scene, viscosity=viscosity)
-        limit = found(scene, name, film=oil)  # type: ignore[arg-type]
+        limit = limit_named(scene, name, film=oil)  # type: ignore[arg-type]
         assert limit == oil.limit
         assert limit.value == min(oil.inner.film_parameter, oil.outer.film_parameter)
         assert limit.crossed == (limit.value < 1.0) == crossed
@@ -135,14 +135,14 @@ def test_the_film_counts_where_the_oil_is_given() -> None:
 
 def test_a_stiffness_that_does_not_go_with_the_drawing_is_told() -> None:
     name = "load-deflection factor against the drawing"
-    assert found(HEALTHY_6205, name).value == 0.0
+    assert limit_named(HEALTHY_6205, name).value == 0.0
     K = HEALTHY_6205.bearing.load_deflection_factor
-    softer = found(HEALTHY_6205.replace(load_deflection_factor=0.9 * K), name)
+    softer = limit_named(HEALTHY_6205.replace(load_deflection_factor=0.9 * K), name)
     assert softer.value == pytest.approx(0.1)
     assert softer.crossed
-    assert not found(HEALTHY_6205.replace(contact_angle=0.6), name).crossed  # drawn anew
+    assert not limit_named(HEALTHY_6205.replace(contact_angle=0.6), name).crossed  # drawn anew
     seated = HEALTHY_6205.replace(bearing=HEALTHY_6205.bearing.seated())
-    assert not found(seated, name).crossed
+    assert not limit_named(seated, name).crossed
     assert name not in {limit.name for limit in limits(presets["fan-rig"])}
 
 
@@ -152,18 +152,18 @@ def test_steps_in_a_defect_by_hand() -> None:
     On the inner race, at 188.1 − 74.95 rad/s, 26.3.
     """
     scene = presets["6205"]
-    limit = found(scene, "time steps in a defect", step_rate=131072.0)
+    limit = limit_named(scene, "time steps in a defect", step_rate=131072.0)
     assert limit.value == pytest.approx(39.7, abs=0.05)
     assert not limit.crossed
-    assert found(scene, "time steps in a defect", step_rate=65536.0).crossed
-    inner = found(scene.replace(race="inner"), "time steps in a defect", step_rate=131072.0)
+    assert limit_named(scene, "time steps in a defect", step_rate=65536.0).crossed
+    inner = limit_named(scene.replace(race="inner"), "time steps in a defect", step_rate=131072.0)
     assert inner.value == pytest.approx(26.3, abs=0.05)
 
 
 def test_the_default_steps_of_a_motion_are_enough() -> None:
     for name in presets:
         step_rate = simulate(presets[name], duration=0.01).step_rate
-        assert not found(presets[name], "time steps in a defect", step_rate=step_rate).crossed
+        assert not limit_named(presets[name], "time steps in a defect", step_rate=step_rate).crossed
 
 
 def test_an_unloaded_bearing_has_no_numbers_and_crosses_nothing() -> None:

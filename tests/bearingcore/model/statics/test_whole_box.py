@@ -198,8 +198,8 @@ def test_random_pairs_self_aligning_and_roller_bearings_have_right_answers(kind:
     rng = np.random.default_rng([20_261_122, KINDS.index(kind)])
     converged = 0
     for number in range(200):
-        found = equilibrium(random_scene(rng, kind), [float(rng.uniform(0.0, 6.28))])
-        fault = verdict(found, 0)
+        state = equilibrium(random_scene(rng, kind), [float(rng.uniform(0.0, 6.28))])
+        fault = verdict(state, 0)
         assert not fault, f"scene {number}: {fault}"
-        converged += found.status[0] == kernels.CONVERGED
+        converged += state.status[0] == kernels.CONVERGED
     assert converged > 150

@@ -105,11 +105,11 @@ def test_a_defect_that_turns_is_taken_over_all_turns_of_the_shaft() -> None:
 def test_bands_motions_and_orbits_are_those_of_single_scenes() -> None:
     over = {"extent": [0.2, 0.4], "shaft_speed": [40.0, 60.0]}
     outputs = ("band_*", "acceleration_*_y", "floquet_*")
-    found = sweep(RIG, over, outputs, settings=Settings(duration=0.1))
+    dataset = sweep(RIG, over, outputs, settings=Settings(duration=0.1))
     for extent in over["extent"]:
         for speed in over["shaft_speed"]:
             scene = RIG.replace(extent=extent, shaft_speed=speed)
-            at = found.sel(extent=extent, shaft_speed=speed)
+            at = dataset.sel(extent=extent, shaft_speed=speed)
             found_modes = modes(scene)
             for label, undamped in zip(
                 found_modes.label, found_modes.undamped_frequency.T, strict=True
@@ -123,18 +123,18 @@ def test_bands_motions_and_orbits_are_those_of_single_scenes() -> None:
             assert at["acceleration_greatest_y"] == np.abs(late).max()
             multiplier = orbit(scene).largest_multiplier
             assert at["floquet_multiplier_greatest"] == pytest.approx(multiplier, rel=1e-9)
-    assert (found["status"] == code("complete")).all()
+    assert (dataset["status"] == code("complete")).all()
 
 
 def test_what_of_a_life_is_not_known_is_no_number() -> None:
     over = {"fy": [-1000.0, 0.0], "shaft_speed": [0.0, 50.0]}
     settings = Settings(dynamic_load_rating=19_500.0)
-    found = sweep(presets["6206"], over, ("life_*", "contact_pressure_*"), settings=settings)
-    stands = found.sel(fy=-1000.0, shaft_speed=0.0)
+    dataset = sweep(presets["6206"], over, ("life_*", "contact_pressure_*"), settings=settings)
+    stands = dataset.sel(fy=-1000.0, shaft_speed=0.0)
     assert np.isnan(stands["life_hours"])
     assert np.isfinite(stands["life_turns"])
     assert stands["status"] == code("computation_refused")
-    floats = found.sel(fy=0.0, shaft_speed=50.0)
+    floats = dataset.sel(fy=0.0, shaft_speed=50.0)
     assert np.isnan(floats["life_turns"])
     assert floats["status"] == code("nothing_touches")
 
@@ -143,25 +143,25 @@ def test_failures_are_data() -> None:
     assert set(OF_STATICS) == set(StaticStatus) - {StaticStatus.NOT_COMPUTED}
     assert STATUSES[0] is SweepStatus.NOT_COMPUTED, "what an empty file says"
     over = {"shaft_speed": [0.0, 50.0], "extent": [0.2, 7.0], "fy": [-100.0, 0.0]}
-    found = sweep(RIG, over, ["k_yy_mean", "acceleration_rms_y"], settings=COARSE)
-    status = found["status"].sel(extent=0.2, fy=-100.0)
+    dataset = sweep(RIG, over, ["k_yy_mean", "acceleration_rms_y"], settings=COARSE)
+    status = dataset["status"].sel(extent=0.2, fy=-100.0)
     assert status.values.tolist() == [code("computation_refused"), code("complete")]
-    stands = found.sel(shaft_speed=0.0, extent=0.2, fy=-100.0)
+    stands = dataset.sel(shaft_speed=0.0, extent=0.2, fy=-100.0)
     assert np.isfinite(stands["k_yy_mean"])
     assert np.isnan(stands["acceleration_rms_y"])
-    assert (found["status"].sel(extent=7.0) == code("scene_refused")).all()
-    assert np.isnan(found["k_yy_mean"].sel(extent=7.0)).all()
-    floats = found.sel(shaft_speed=50.0, extent=0.2, fy=0.0)
+    assert (dataset["status"].sel(extent=7.0) == code("scene_refused")).all()
+    assert np.isnan(dataset["k_yy_mean"].sel(extent=7.0)).all()
+    floats = dataset.sel(shaft_speed=50.0, extent=0.2, fy=0.0)
     assert floats["status"] == code("nothing_touches")
     assert np.isnan(floats["k_yy_mean"])
 
 
 def test_directions_appear_where_some_scene_needs_them() -> None:
     rig = RIG.replace(dofs="tilt free")
-    found = sweep(rig, {"fz": [0.0, 40.0]}, ["band_least"], settings=COARSE)
-    flat, pushed = found["band_least"].sel(fz=0.0), found["band_least"].sel(fz=40.0)
-    assert found["mode"].values.tolist()[:2] == ["x1", "x2"]
-    assert found.sizes["mode"] == 10
+    dataset = sweep(rig, {"fz": [0.0, 40.0]}, ["band_least"], settings=COARSE)
+    flat, pushed = dataset["band_least"].sel(fz=0.0), dataset["band_least"].sel(fz=40.0)
+    assert dataset["mode"].values.tolist()[:2] == ["x1", "x2"]
+    assert dataset.sizes["mode"] == 10
     known = [str(label) for label in flat["mode"].values[np.isfinite(flat)]]
     assert sorted(known) == sorted(modes(RIG).label)
     assert np.isfinite(pushed).sum() > 4
@@ -171,12 +171,12 @@ def test_directions_appear_where_some_scene_needs_them() -> None:
 
 
 def test_the_dataset_says_what_it_is() -> None:
-    found = sweep(RIG, {"extent": [0.1, 0.2], "n_balls": [10, 14]}, STATIC)
-    assert Scene.from_toml(found.attrs["scene"]) == RIG
-    assert found["extent"].attrs["units"] == "rad"
-    assert found["n_balls"].dtype.kind == "i"
-    assert found["k_rxry_greatest"].attrs["units"] == "N·m/rad"
-    assert found["status"].attrs["flag_meanings"].split() == list(STATUSES)
+    dataset = sweep(RIG, {"extent": [0.1, 0.2], "n_balls": [10, 14]}, STATIC)
+    assert Scene.from_toml(dataset.attrs["scene"]) == RIG
+    assert dataset["extent"].attrs["units"] == "rad"
+    assert dataset["n_balls"].dtype.kind == "i"
+    assert dataset["k_rxry_greatest"].attrs["units"] == "N·m/rad"
+    assert dataset["status"].attrs["flag_meanings"].split() == list(STATUSES)
 
 
 @given(
@@ -235,14 +235,14 @@ def test_impossible_sweeps_are_refused(over: Any, outputs: Any, words: str) -> N
 
 def files_of(store: Path) -> dict[Path, tuple[int, int]]:
     """The chunks of all finished regions, with what changes when they are written again."""
-    found = {}
+    files = {}
     for mark in marks_of(store):
         index = mark.relative_to(store / "regions/finished/c")
         for chunk in store.glob("*/c"):
             file = chunk / index
             if file.is_file():
-                found[file] = (file.stat().st_mtime_ns, file.stat().st_ino)
-    return found
+                files[file] = (file.stat().st_mtime_ns, file.stat().st_ino)
+    return files
 
 
 def marks_of(store: Path) -> list[Path]:
@@ -281,14 +281,14 @@ def copied(finished_store: Path, tmp_path: Path) -> Path:
 def test_a_store_holds_what_memory_would(reference: xarray.Dataset, tmp_path: Path) -> None:
     path = tmp_path / "results.zarr"
     told: list[tuple[float, str]] = []
-    found = sweep(
+    dataset = sweep(
         RIG, OVER, FEW, store=path, settings=COARSE, scenes_per_task=TASK,
         progress=lambda part, words: told.append((part, words)),
     )  # fmt: skip
-    xarray.testing.assert_equal(found.load(), reference)
-    assert found.attrs == reference.attrs
+    xarray.testing.assert_equal(dataset.load(), reference)
+    assert dataset.attrs == reference.attrs
     for name in reference.variables:
-        assert found[name].attrs == reference[name].attrs
+        assert dataset[name].attrs == reference[name].attrs
     assert [part for part, _ in told] == sorted(part for part, _ in told)
     assert told[-1] == (1.0, "1,200 of 1,200 scenes")
     assert len(told) == 60
@@ -297,10 +297,10 @@ def test_a_store_holds_what_memory_would(reference: xarray.Dataset, tmp_path: Pa
 
 def test_words_and_modes_go_to_a_store_and_back(tmp_path: Path) -> None:
     over = {"edge": ["published", "exact"], "extent": [0.1, 0.2]}
-    found = sweep(RIG, over, ["band_*"], store=tmp_path / "words.zarr", settings=COARSE)
-    assert found["edge"].values.tolist() == ["published", "exact"]
-    assert sorted(found["mode"].values.tolist()) == sorted(modes(RIG).label)
-    xarray.testing.assert_allclose(found.load(), sweep(RIG, over, ["band_*"], settings=COARSE))
+    dataset = sweep(RIG, over, ["band_*"], store=tmp_path / "words.zarr", settings=COARSE)
+    assert dataset["edge"].values.tolist() == ["published", "exact"]
+    assert sorted(dataset["mode"].values.tolist()) == sorted(modes(RIG).label)
+    xarray.testing.assert_allclose(dataset.load(), sweep(RIG, over, ["band_*"], settings=COARSE))
 
 
 def test_nothing_finished_is_computed_again(copied: Path) -> None:
@@ -501,16 +501,16 @@ def test_killed_workers_and_schedulers_lose_nothing(
         assert "is lost" in str(running.error)
     done = files_of(second)
     assert 5 * 5 <= len(done) < 60 * 5
-    found = sweep(RIG, OVER, FEW, store=second, settings=COARSE)
+    dataset = sweep(RIG, OVER, FEW, store=second, settings=COARSE)
     assert done.items() <= files_of(second).items()
-    xarray.testing.assert_equal(found.load(), reference)
+    xarray.testing.assert_equal(dataset.load(), reference)
 
 
 SCRIPT = f"""
 import sys
 import numpy as np
 from bearingcore import presets
-from bearingcore.sweep import Settings, sweep
+from bearingcore.model.sweeps import Settings, sweep
 if __name__ == "__main__":
     sweep(
         presets["fan-rig"],
@@ -574,7 +574,7 @@ def test_a_worker_of_another_version_is_refused(monkeypatch: pytest.MonkeyPatch)
 _WITHOUT = """
 import sys
 from bearingcore import presets, equilibrium
-from bearingcore.sweep import sweep
+from bearingcore.model.sweeps import sweep
 for name in ("xarray", "dask", "distributed", "zarr", "pandas"):
     assert name not in sys.modules, name
     sys.modules[name] = None
@@ -599,9 +599,9 @@ def test_a_full_disk_is_said_in_one_sentence(
         raise OSError(errno.ENOSPC, "No space left on device")
 
     monkeypatch.setattr(stores, "finish", full)
-    with pytest.raises(OSError, match=r"the disk is full\. What is finished is kept") as found:
+    with pytest.raises(OSError, match=r"the disk is full\. What is finished is kept") as refusal:
         sweep(presets["fan-rig"], {"fy": [-50.0, -100.0]}, ["k_xx_mean"], store=tmp_path / "r")
-    assert found.value.filename == str(tmp_path / "r")
+    assert refusal.value.filename == str(tmp_path / "r")
     said = capfd.readouterr()
     assert "Traceback" not in said.err + said.out
     assert "Compute Failed" not in said.err + said.out
@@ -610,9 +610,9 @@ def test_a_full_disk_is_said_in_one_sentence(
 @pytest.mark.parametrize("over", [{"extent": [0.1, 0.2]}, {"fx": [0.0]}], ids=["row", "single"])
 def test_what_nothing_carries_has_no_numbers(over: dict[str, list[float]]) -> None:
     two_balls = RIG.replace(n_balls=2)  # the ring slips off sideways
-    found = sweep(two_balls, over, STATIC, settings=COARSE)
-    assert (found["status"] == code("load_not_carried")).all()
-    assert (found["converged_share"] == 0.0).all()
-    for name in found.data_vars:
+    dataset = sweep(two_balls, over, STATIC, settings=COARSE)
+    assert (dataset["status"] == code("load_not_carried")).all()
+    assert (dataset["converged_share"] == 0.0).all()
+    for name in dataset.data_vars:
         if name not in ("status", "converged_share"):
-            assert np.isnan(found[name]).all(), name
+            assert np.isnan(dataset[name]).all(), name

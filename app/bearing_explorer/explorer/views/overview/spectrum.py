@@ -7,21 +7,22 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bearing_explorer.explorer.plots.spectra import levels_of_compared
-from bearing_explorer.explorer.results.chain import picture_top
-from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.explorer.views.vibration_spectrum import (
-    VibrationSpectra,
-    loudest_words,
-    why_words,
-)
-from bearing_explorer.kit.plots import compared_curves, style
-from bearing_explorer.kit.plots.frequency_bands import (
+from bearing_explorer.explorer.plots import compared_curves
+from bearing_explorer.explorer.plots.frequency_bands import (
     BAND_NAME,
     BAND_SPAN,
     band_rows,
     spread,
 )
+from bearing_explorer.explorer.plots.spectra import levels_of_compared
+from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.views.comparing_view import ComparingView
+from bearing_explorer.explorer.views.vibration_spectrum import (
+    VibrationSpectra,
+    loudest_words,
+    why_words,
+)
+from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.layers import ON_PAPER, Layer, Words, by_number, curve, draw, strips
 from bearing_explorer.kit.plots.levels import (
     FREQUENCY,
@@ -32,7 +33,7 @@ from bearing_explorer.kit.plots.levels import (
 )
 from bearing_explorer.kit.plots.ranges import StickyRange
 from bearing_explorer.kit.serve.packed_source import PackedSource
-from bearing_explorer.kit.views.base import Ranges, Sources, View
+from bearing_explorer.kit.views.base import Ranges, Sources
 
 LEFT = 68
 """[px] left of the frame: the widest numbers fit, so that no drag moves it."""
@@ -93,7 +94,7 @@ def layers() -> list[Layer]:
     ]
 
 
-class OverviewSpectrum(View):
+class OverviewSpectrum(ComparingView):
     """Along x and y in one figure, with the bands in which the natural frequencies move."""
 
     name = "overview-spectrum"
@@ -125,7 +126,7 @@ class OverviewSpectrum(View):
         return plot
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
-        top = self._frequency.fit(HIGHEST, picture_top(results))[1]
+        top = self._frequency.fit(HIGHEST, results.picture_top)[1]
         drawn = drawn_levels(results.late_spectra, top)
         healthy = drawn_levels(results.reference.late_spectra, top)
         compared = levels_of_compared("overview_spectrum", results, top)

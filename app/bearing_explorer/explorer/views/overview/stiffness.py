@@ -11,6 +11,7 @@ from bokeh.core.properties import value
 from bokeh.models import Quad, Range1d, Scatter
 from numpy.typing import NDArray
 
+from bearing_explorer.explorer.plots import compared_curves
 from bearing_explorer.explorer.plots.matrix_cells import (
     SERIF,
     SYMBOLS,
@@ -25,12 +26,13 @@ from bearing_explorer.explorer.plots.matrix_cells import (
 )
 from bearing_explorer.explorer.results import reasons
 from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.kit.plots import compared_curves, style
+from bearing_explorer.explorer.views.comparing_view import ComparingView
+from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.element_words import with_elements_of
 from bearing_explorer.kit.plots.layers import Glyph, Layer, Words, curve, draw, with_gaps
 from bearing_explorer.kit.plots.ranges import ROOM, StickyRange
 from bearing_explorer.kit.serve.packed_source import PackedSource
-from bearing_explorer.kit.views.base import Ranges, Sources, View
+from bearing_explorer.kit.views.base import Ranges, Sources
 from bearingcore import STIFFNESS_TERMS, Equilibrium
 from bearingcore.model.statics import TERM_UNITS
 
@@ -90,7 +92,7 @@ def cells_for(count: int) -> list[Cell]:
     ]
 
 
-class OverviewStiffness(View):
+class OverviewStiffness(ComparingView):
     """The terms that matter over the cage angle, large; a click goes to all of them."""
 
     name = "overview-stiffness"

@@ -27,9 +27,9 @@ def seen(*passes: MeanPass):
 
 
 def test_two_knocks_are_where_bands_show_them_at_the_same_places():
-    found = seen(*(mean_pass(band, (0.3, 1.0), (0.4, 1.0)) for band in BANDS))
-    assert found.seen == Seen.TWO
-    assert found.separation == pytest.approx(0.1, abs=0.002)
+    knocks = seen(*(mean_pass(band, (0.3, 1.0), (0.4, 1.0)) for band in BANDS))
+    assert knocks.seen == Seen.TWO
+    assert knocks.separation == pytest.approx(0.1, abs=0.002)
     # as far apart, but elsewhere in half of the bands: three lumps of which each shows two
     train = [mean_pass(band, (0.3, 1.0), (0.4, 1.0)) for band in BANDS[:2]]
     train += [mean_pass(band, (0.4, 1.0), (0.5, 1.0)) for band in BANDS[2:]]
@@ -72,17 +72,17 @@ def test_which_peak_is_the_entry_is_open_but_of_a_spall_that_nearly_reaches_the_
         return seen(*(mean_pass(band, (0.3, h), (0.3 + apart, 1.0)) for band, h in heights))
 
     for power in (-1.0, 0.5, 1.0):
-        found = growing(0.3, power)
-        assert found.seen == Seen.EITHER
-        assert found.separation == pytest.approx(0.3, abs=0.01)
+        knocks = growing(0.3, power)
+        assert knocks.seen == Seen.EITHER
+        assert knocks.separation == pytest.approx(0.3, abs=0.01)
     assert growing(0.1, -1.0).seen == Seen.TWO
     assert growing(0.1, 1.0).seen == Seen.ALIKE  # an echo
 
 
 def test_one_knock_hides_another_only_where_it_rings():
-    found = seen(*(mean_pass(band, (0.3, 1.0)) for band in BANDS))
-    assert found.seen == Seen.ONE
-    assert 0.01 < found.hidden < 0.05
+    knocks = seen(*(mean_pass(band, (0.3, 1.0)) for band in BANDS))
+    assert knocks.seen == Seen.ONE
+    assert 0.01 < knocks.hidden < 0.05
     # a lowest band in noise shows nothing, and where a release shows best it would not
     noisy = [mean_pass(BANDS[0], (0.3, 1.0), error=0.05)]
     noisy += [mean_pass(band, (0.3, 1.0)) for band in BANDS[1:3]]

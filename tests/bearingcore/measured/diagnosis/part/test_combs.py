@@ -26,11 +26,11 @@ def test_noise_reaches_a_level_as_often_as_told(averages):
     seen, actual = [], 0.0
     for _ in range(25):
         values = rng.standard_normal(int(rate * length * (1 if averages == 1 else 2.5)))
-        found = line_levels(values, rate, length, 250.0, 120.0)
-        actual = found.averages
+        lines = line_levels(values, rate, length, 250.0, 120.0)
+        actual = lines.averages
         frequency = np.arange(8.0, 40.0, 0.0625)
-        level = np.clip(found.level, -3.0, 40.0)
-        seen.append(comb_level(lines_at(level, found.step, frequency)))
+        level = np.clip(lines.level, -3.0, 40.0)
+        seen.append(comb_level(lines_at(level, lines.step, frequency)))
     levels = np.concatenate(seen)
     for chance in (0.3, 0.1, 0.02):
         share = (levels >= noise_level(chance, actual)).mean()

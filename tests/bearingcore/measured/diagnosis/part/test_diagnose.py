@@ -66,22 +66,22 @@ def healthy() -> np.ndarray:
 
 @pytest.mark.parametrize("part", PARTS)
 def test_the_damaged_part_is_named_with_its_lines(damaged, part):
-    found = answer(damaged[part])
-    assert found.fault == part
-    assert 0.5 < found.probability < 1.0
-    assert part in found.sentence
-    own = found.of(part)
+    diagnosis = answer(damaged[part])
+    assert diagnosis.fault == part
+    assert 0.5 < diagnosis.probability < 1.0
+    assert part in diagnosis.sentence
+    own = diagnosis.of(part)
     assert own.level > own.noise + 2.0
     assert own.nominal_frequency == pytest.approx(MOTOR.lines[part], rel=3e-3)
     assert own.slip == pytest.approx(own.frequency / own.nominal_frequency - 1.0)
     assert abs(own.slip) <= 0.02
-    assert own.order == pytest.approx(own.frequency / (found.shaft_speed / TURN))
+    assert own.order == pytest.approx(own.frequency / (diagnosis.shaft_speed / TURN))
     assert own.lead > 5.0
     # what turns through the load zone has sidebands
     weaker = own.level - own.sidebands[:3].mean()
     assert weaker > 8.0 if part == "outer race" else weaker < 12.0
     for other in set(PARTS) - {part}:
-        assert found.of(other).level < own.level - 3.0
+        assert diagnosis.of(other).level < own.level - 3.0
 
 
 def test_a_ball_that_slips_and_wanders_is_named_by_its_broad_lines():
@@ -94,10 +94,10 @@ def test_a_ball_that_slips_and_wanders_is_named_by_its_broad_lines():
     hits = carried * rng.uniform(0.3, 1.0, len(times))
     np.add.at(train, (times * machine.rate).astype(int), hits)
     ringing = fftconvolve(train, resonances(machine.rate, rng))[: len(train) - 1]
-    found = answer(ringing / ringing.std() + rng.standard_normal(len(ringing)), machine)
-    assert found.fault == "ball"
-    assert found.of("ball").slip == pytest.approx(-0.04, abs=0.012)
-    assert found.of("ball").lead < 3.0 < 9.0 < found.of("ball").deviations
+    diagnosis = answer(ringing / ringing.std() + rng.standard_normal(len(ringing)), machine)
+    assert diagnosis.fault == "ball"
+    assert diagnosis.of("ball").slip == pytest.approx(-0.04, abs=0.012)
+    assert diagnosis.of("ball").lead < 3.0 < 9.0 < diagnosis.of("ball").deviations
 
 
 @pytest.mark.parametrize(
@@ -107,21 +107,21 @@ def test_a_race_is_no_ball_of_a_bearing_whose_ball_lines_are_there(damaged, part
     """2 BSF of the other bearing is where the race has its line; no cage carries what makes it."""
     bearing = presets[preset].bearing
     assert part_lines(bearing)[2].order == pytest.approx(MOTOR.lines[part] / MOTOR.turns, rel=0.025)
-    found = diagnose(Recording(damaged[part], MOTOR.rate, ("y",)), bearing, MOTOR.shaft_speed)
-    assert (found.fault, found.status) == (CANNOT_TELL, DiagnosisStatus.UNMODULATED)
-    assert found.of("ball").level > found.of("ball").noise + 2.0
-    assert "Check the bearing's geometry" in found.sentence
+    diagnosis = diagnose(Recording(damaged[part], MOTOR.rate, ("y",)), bearing, MOTOR.shaft_speed)
+    assert (diagnosis.fault, diagnosis.status) == (CANNOT_TELL, DiagnosisStatus.UNMODULATED)
+    assert diagnosis.of("ball").level > diagnosis.of("ball").noise + 2.0
+    assert "Check the bearing's geometry" in diagnosis.sentence
 
 
 def test_listed_bearings_that_explain_a_signal_are_named_the_strongest_lines_first(damaged):
     recording = Recording(damaged["inner race"], MOTOR.rate, ("y",))
     names = ("fan-rig", "6205", "6206", "liew-lim", "6203")
     listed = {name: presets[name].bearing for name in names}
-    found = explaining_bearings(recording, listed, MOTOR.shaft_speed)
-    assert {one.name for one in found} == {"6205", "6206"}
-    assert all(one.diagnosis.fault == "inner race" for one in found)
-    assert abs(found[0].slip) < 0.02
-    assert found[0].level > 5.0
+    bearings = explaining_bearings(recording, listed, MOTOR.shaft_speed)
+    assert {one.name for one in bearings} == {"6205", "6206"}
+    assert all(one.diagnosis.fault == "inner race" for one in bearings)
+    assert abs(bearings[0].slip) < 0.02
+    assert bearings[0].level > 5.0
     cancelled = explaining_bearings(
         recording, listed, MOTOR.shaft_speed, goes_on=lambda done, of: False
     )
@@ -129,24 +129,24 @@ def test_listed_bearings_that_explain_a_signal_are_named_the_strongest_lines_fir
 
 
 def test_faint_lines_of_a_race_name_none_and_the_sentence_says_what_may_make_them():
-    found = answer(made("outer race", -17.0, 3))
-    own = found.of("outer race")
+    diagnosis = answer(made("outer race", -17.0, 3))
+    own = diagnosis.of("outer race")
     assert own.lead > 1.2
     assert own.swing < 0.137
-    assert (found.fault, found.status) == (CANNOT_TELL, DiagnosisStatus.PERHAPS_A_BALL)
-    assert "A damaged ball or a healthy bearing may make them" in found.sentence
+    assert (diagnosis.fault, diagnosis.status) == (CANNOT_TELL, DiagnosisStatus.PERHAPS_A_BALL)
+    assert "A damaged ball or a healthy bearing may make them" in diagnosis.sentence
     stronger = answer(made("outer race", -14.0, 3))
     assert stronger.perhaps_a_ball
     assert "inspect the balls too" in stronger.sentence
 
 
 def test_a_healthy_machine_is_told_so_in_words(healthy):
-    found = answer(healthy)
-    assert found.fault == NONE_SEEN
-    assert found.conclusive
-    assert not found.names_a_part
-    assert "No damage seen" in found.sentence
-    assert found.detectable_depth < 0.12
+    diagnosis = answer(healthy)
+    assert diagnosis.fault == NONE_SEEN
+    assert diagnosis.conclusive
+    assert not diagnosis.names_a_part
+    assert "No damage seen" in diagnosis.sentence
+    assert diagnosis.detectable_depth < 0.12
 
 
 def test_a_speed_in_the_wrong_unit_is_asked_about_where_the_shaft_shows_at_60_times_it():
@@ -181,10 +181,10 @@ def test_signals_of_any_machine_are_named_rightly_or_not_at_all(kind):
     for number in range(2):
         rng = np.random.default_rng([5, (*PARTS, HEALTHY).index(kind), number, 0])
         machine, recording = draw_signal(kind, rng, 0.0)
-        found = diagnose(recording, machine.bearing, machine.shaft_speed)
+        diagnosis = diagnose(recording, machine.bearing, machine.shaft_speed)
         truth = NONE_SEEN if kind == HEALTHY else kind
-        assert found.fault in (truth, CANNOT_TELL)
-        right += found.fault == truth
+        assert diagnosis.fault in (truth, CANNOT_TELL)
+        right += diagnosis.fault == truth
     assert right >= 1
 
 
@@ -220,10 +220,12 @@ def test_blows_of_the_shaft_are_none_of_a_race_that_has_its_line_there():
 def test_another_bearings_damage_is_not_laid_to_this_one(damaged, part):
     """8 balls of 6.75 mm on 28.5 mm, the motor's other end: none of its lines lies near."""
     other = dataclasses.replace(MOTOR, n_balls=8, ratio=6.7462 / 28.4988)
-    found = answer(damaged[part], other)
-    assert found.fault == CANNOT_TELL
-    assert found.other is not None
-    share = found.other.frequency / MOTOR.lines[part]  # a ball's lines are also seen at parts of it
+    diagnosis = answer(damaged[part], other)
+    assert diagnosis.fault == CANNOT_TELL
+    assert diagnosis.other is not None
+    share = (
+        diagnosis.other.frequency / MOTOR.lines[part]
+    )  # a ball's lines are also seen at parts of it
     assert min(abs(share - one) for one in (0.25, 0.5, 1.0)) < 0.012
 
 
@@ -237,27 +239,27 @@ def with_shaft_lines(signal: np.ndarray) -> np.ndarray:
 @pytest.mark.parametrize("part", PARTS)
 def test_a_rough_speed_is_made_fine_by_the_shaft(damaged, part):
     speed = MOTOR.shaft_speed
-    found = answer(with_shaft_lines(damaged[part]), speed=(0.9 * speed, 1.12 * speed))
-    assert found.fault == part
-    assert found.shaft_speed == pytest.approx(speed, rel=2e-3)
-    assert "shaft's own lines" in found.speed_source
-    assert "turns a minute" in found.sentence
+    diagnosis = answer(with_shaft_lines(damaged[part]), speed=(0.9 * speed, 1.12 * speed))
+    assert diagnosis.fault == part
+    assert diagnosis.shaft_speed == pytest.approx(speed, rel=2e-3)
+    assert "shaft's own lines" in diagnosis.speed_source
+    assert "turns a minute" in diagnosis.sentence
 
 
 def test_an_unknown_speed_is_looked_for(damaged):
     recording = Recording(with_shaft_lines(damaged["outer race"]), MOTOR.rate, ("y",))
-    found = diagnose(recording, MOTOR.bearing, None)
-    assert found.fault == "outer race"
-    assert found.shaft_speed == pytest.approx(MOTOR.shaft_speed, rel=2e-3)
+    diagnosis = diagnose(recording, MOTOR.bearing, None)
+    assert diagnosis.fault == "outer race"
+    assert diagnosis.shaft_speed == pytest.approx(MOTOR.shaft_speed, rel=2e-3)
 
 
 def test_a_short_record_without_a_speed_asks_for_the_speed_and_not_for_a_longer_one(damaged):
     """At 300 rpm half a second holds 8 ball passes, at the machine's own speed it holds enough."""
     half = Recording(damaged["outer race"][:6000], MOTOR.rate, ("y",))
-    found = diagnose(half, MOTOR.bearing, None)
-    assert found.status == DiagnosisStatus.SPEED_OPEN
-    assert found.sentence.startswith("No clear result: the shaft speed is not known.")
-    assert "slowest speed looked for, 300 rpm: 0.5 s hold 8 ball passes" in found.sentence
+    diagnosis = diagnose(half, MOTOR.bearing, None)
+    assert diagnosis.status == DiagnosisStatus.SPEED_OPEN
+    assert diagnosis.sentence.startswith("No clear result: the shaft speed is not known.")
+    assert "slowest speed looked for, 300 rpm: 0.5 s hold 8 ball passes" in diagnosis.sentence
     assert diagnose(half, MOTOR.bearing, MOTOR.shaft_speed).fault == "outer race"
     hopeless = Recording(damaged["outer race"][:300], MOTOR.rate, ("y",))  # 9 at 6000 rpm, too
     assert diagnose(hopeless, MOTOR.bearing, None).status == DiagnosisStatus.TOO_SHORT
@@ -279,14 +281,14 @@ def test_without_lines_of_the_shaft_a_wide_range_leaves_the_part_open():
     rng = np.random.default_rng(16)
     signal = knocks(MOTOR, "outer race", rng)
     signal = signal / signal.std() + 0.5 * rng.standard_normal(len(signal))
-    found = answer(signal, speed=(0.5 * MOTOR.shaft_speed, 2.0 * MOTOR.shaft_speed))
-    assert found.fault == CANNOT_TELL
-    assert "the shaft speed decides" in found.sentence
+    diagnosis = answer(signal, speed=(0.5 * MOTOR.shaft_speed, 2.0 * MOTOR.shaft_speed))
+    assert diagnosis.fault == CANNOT_TELL
+    assert "the shaft speed decides" in diagnosis.sentence
     # what holds at one of the speeds only is no verdict
-    assert 0.0 < found.probability < 0.5
-    assert max(one.probability for one in found.evidence) < 0.5
-    found = answer(signal)
-    assert found.fault == "outer race"
+    assert 0.0 < diagnosis.probability < 0.5
+    assert max(one.probability for one in diagnosis.evidence) < 0.5
+    diagnosis = answer(signal)
+    assert diagnosis.fault == "outer race"
 
 
 @pytest.mark.parametrize(("noise", "fault"), [(0.0, CANNOT_TELL), (1e-3, NONE_SEEN)])
@@ -294,17 +296,17 @@ def test_a_tone_alone_does_not_show_that_nothing_is_damaged(noise, fault):
     """Rounded to 1e-4, a tone of 1 holds nothing else; noise of 1e-3 is what a bearing may make."""
     t = np.arange(round(4.0 * MOTOR.rate)) / MOTOR.rate
     rest = noise * np.random.default_rng(4).standard_normal(t.size)
-    found = answer(np.round(np.sin(TURN * 30.0 * t) + rest, 4))
-    assert found.fault == fault
-    assert (found.status == DiagnosisStatus.ROUNDED) == (fault == CANNOT_TELL)
+    diagnosis = answer(np.round(np.sin(TURN * 30.0 * t) + rest, 4))
+    assert diagnosis.fault == fault
+    assert (diagnosis.status == DiagnosisStatus.ROUNDED) == (fault == CANNOT_TELL)
 
 
 def test_a_speed_the_recording_carries_is_taken(damaged):
     recording = Recording(damaged["outer race"], MOTOR.rate, ("y",))
     object.__setattr__(recording, "shaft_speed", MOTOR.shaft_speed)
-    found = diagnose(recording, MOTOR.bearing, None)
-    assert found.fault == "outer race"
-    assert found.speed_source.startswith("given by the recording")
+    diagnosis = diagnose(recording, MOTOR.bearing, None)
+    assert diagnosis.fault == "outer race"
+    assert diagnosis.speed_source.startswith("given by the recording")
 
 
 def test_scale_sign_and_offset_change_nothing(damaged):
@@ -317,26 +319,26 @@ def test_scale_sign_and_offset_change_nothing(damaged):
 
 
 def test_two_directions_are_both_heard(damaged, healthy):
-    found = answer(np.stack([healthy, damaged["outer race"]], axis=1))
-    assert found.fault == "outer race"
-    assert found.of("outer race").direction == "y"
+    diagnosis = answer(np.stack([healthy, damaged["outer race"]], axis=1))
+    assert diagnosis.fault == "outer race"
+    assert diagnosis.of("outer race").direction == "y"
 
 
 def test_a_tenth_of_a_second_tells_nothing_of_health(healthy):
-    found = answer(healthy[:1200])
-    assert found.fault == CANNOT_TELL
-    found = answer(healthy[: 1200 * 6])
-    assert found.fault == CANNOT_TELL
-    assert "longer recording" in found.sentence
+    diagnosis = answer(healthy[:1200])
+    assert diagnosis.fault == CANNOT_TELL
+    diagnosis = answer(healthy[: 1200 * 6])
+    assert diagnosis.fault == CANNOT_TELL
+    assert "longer recording" in diagnosis.sentence
 
 
 def test_clipped_and_coarse_signals_still_tell(damaged, healthy):
     signal = damaged["outer race"]
     assert answer(np.clip(signal, -signal.std(), signal.std())).fault == "outer race"
     assert answer(np.round(signal / signal.std() * 4.0)).fault == "outer race"
-    found = answer(np.clip(healthy, -0.5 * healthy.std(), 0.5 * healthy.std()))
-    assert found.fault == CANNOT_TELL
-    assert "clipped" in found.sentence
+    diagnosis = answer(np.clip(healthy, -0.5 * healthy.std(), 0.5 * healthy.std()))
+    assert diagnosis.fault == CANNOT_TELL
+    assert "clipped" in diagnosis.sentence
 
 
 def test_dropouts_are_left_out(damaged, healthy):
@@ -352,12 +354,12 @@ def test_dropouts_are_left_out(damaged, healthy):
     assert answer(gaps(healthy, 15)).fault == CANNOT_TELL
     mostly = healthy.copy()
     mostly[5000:] = 0.0
-    found = answer(mostly)
-    assert found.fault == CANNOT_TELL
-    assert "dropped out" in found.sentence
-    assert found.evidence == ()
+    diagnosis = answer(mostly)
+    assert diagnosis.fault == CANNOT_TELL
+    assert "dropped out" in diagnosis.sentence
+    assert diagnosis.evidence == ()
     with pytest.raises(KeyError):
-        found.of("ball")
+        diagnosis.of("ball")
 
 
 def test_gaps_at_every_pass_are_no_damage(damaged, healthy):
@@ -373,9 +375,9 @@ def test_gaps_at_every_pass_are_no_damage(damaged, healthy):
     held, again = (answer(torn(healthy, back)) for back in (1, 10))
     assert not held.names_a_part
     assert not again.names_a_part
-    found = answer(torn(damaged["inner race"], 1))
-    assert found.fault == "inner race"
-    assert "were not measured but held" in found.sentence
+    diagnosis = answer(torn(damaged["inner race"], 1))
+    assert diagnosis.fault == "inner race"
+    assert "were not measured but held" in diagnosis.sentence
 
 
 def test_beats_of_an_inverter_are_no_race():
@@ -396,16 +398,16 @@ def test_a_few_great_blows_hide_no_damage_and_make_none(damaged, healthy):
         return signal
 
     assert answer(hit(damaged["outer race"])).fault == "outer race"
-    found = answer(hit(healthy))
-    assert found.fault == CANNOT_TELL
-    assert "not at the rate of any part" in found.sentence
+    diagnosis = answer(hit(healthy))
+    assert diagnosis.fault == CANNOT_TELL
+    assert "not at the rate of any part" in diagnosis.sentence
 
 
 def test_too_low_a_rate_is_said():
     slow = dataclasses.replace(MOTOR, rate=1000.0)
-    found = answer(np.random.default_rng(18).standard_normal(4000), slow)
-    assert found.fault == CANNOT_TELL
-    assert "1000 Hz" in found.sentence
+    diagnosis = answer(np.random.default_rng(18).standard_normal(4000), slow)
+    assert diagnosis.fault == CANNOT_TELL
+    assert "1000 Hz" in diagnosis.sentence
 
 
 @witness(
@@ -416,10 +418,10 @@ def test_too_low_a_rate_is_said():
 @pytest.mark.skipif(not MEASURED, reason="MEASURED_RECORDS names no folder")
 def test_measured_records_are_answered_as_the_scoreboard_says_and_none_wrongly():
     board = {one["record"]: one["answer"] for one in json.loads(FILE.read_text("utf-8"))["records"]}
-    found = [
+    answers = [
         (record, diagnose(record.recording, record.bearing, record.shaft_speed))
         for record in records(Path(MEASURED))
     ]
-    assert found
-    assert [record.name for record, one in found if verdict(record, one) == WRONG] == []
-    assert {record.name: one.fault for record, one in found if record.name in board} == board
+    assert answers
+    assert [record.name for record, one in answers if verdict(record, one) == WRONG] == []
+    assert {record.name: one.fault for record, one in answers if record.name in board} == board

@@ -37,19 +37,21 @@ def answer(part: str, strength: float, jitter: float, seed: int, swing: float = 
 def test_impacts_of_one_size_name_no_part_that_turns_and_are_said(part, strength, jitter):
     """A load that stands still would modulate them; whitening hides those that are regular."""
     for seed in range(3):
-        found = answer(part, strength, jitter, seed)
-        assert (found.fault, found.status) == (CANNOT_TELL, DiagnosisStatus.UNMODULATED)
-        assert not found.of(part).modulated
-        assert found.of(part).frequency == pytest.approx(MOTOR.lines[part], rel=0.005)
-        assert found.detail.startswith(f"Impacts at {number(found.of(part).frequency, 4)} Hz")
-        assert f"not modulated once per {CARRIES[part][0]} turn" in found.sentence
+        diagnosis = answer(part, strength, jitter, seed)
+        assert (diagnosis.fault, diagnosis.status) == (CANNOT_TELL, DiagnosisStatus.UNMODULATED)
+        assert not diagnosis.of(part).modulated
+        assert diagnosis.of(part).frequency == pytest.approx(MOTOR.lines[part], rel=0.005)
+        assert diagnosis.detail.startswith(
+            f"Impacts at {number(diagnosis.of(part).frequency, 4)} Hz"
+        )
+        assert f"not modulated once per {CARRIES[part][0]} turn" in diagnosis.sentence
 
 
 @pytest.mark.parametrize("part", CARRIES)
 def test_the_same_impacts_name_the_part_where_its_turning_modulates_them(part):
     for seed in range(3):
-        found = answer(part, 1.0, 0.01, seed, 0.8)
-        assert found.fault == part
-        assert found.probability > 0.9
-        assert found.of(part).modulated
-        assert f"modulated once per {CARRIES[part][0]} turn" in plain(found, None)
+        diagnosis = answer(part, 1.0, 0.01, seed, 0.8)
+        assert diagnosis.fault == part
+        assert diagnosis.probability > 0.9
+        assert diagnosis.of(part).modulated
+        assert f"modulated once per {CARRIES[part][0]} turn" in plain(diagnosis, None)

@@ -40,10 +40,10 @@ def hidden() -> np.ndarray:
 
 
 def test_a_part_that_fills_a_band_is_named_whatever_knocks_elsewhere(hidden):
-    found = answer(hidden)
-    assert found.fault == "inner race"
-    assert found.probability < 0.99
-    assert found.of("inner race").band.low > 2000.0
+    diagnosis = answer(hidden)
+    assert diagnosis.fault == "inner race"
+    assert diagnosis.probability < 0.99
+    assert diagnosis.of("inner race").band.low > 2000.0
 
 
 def test_the_other_source_alone_names_no_part():

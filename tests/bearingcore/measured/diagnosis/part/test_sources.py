@@ -12,27 +12,27 @@ NOISE = Recording(np.random.default_rng(8).standard_normal(24_000), 12_000.0, ("
 
 
 def test_origins_are_said_and_given_is_only_what_is_given():
-    found = diagnose(NOISE, BEARING, 150.0)
-    assert (found.speed_source, found.bearing_source) == ("given", "given")
-    assert "assumed" not in found.sentence
-    found = diagnose(
+    diagnosis = diagnose(NOISE, BEARING, 150.0)
+    assert (diagnosis.speed_source, diagnosis.bearing_source) == ("given", "given")
+    assert "assumed" not in diagnosis.sentence
+    diagnosis = diagnose(
         NOISE, BEARING, 150.0,
         speed_source="assumed: the scene's", bearing_source="assumed: the scene's",
     )  # fmt: skip
-    assert "turns a minute (assumed: the scene's)" in found.sentence
-    assert "Bearing assumed: the scene's." in found.sentence
-    assert "given" not in found.sentence
-    found = diagnose(NOISE, BEARING, (149.0, 151.0), speed_source="from the file")
-    assert found.speed_source == "from the file as a range, its middle"
-    assert found.shaft_speed == pytest.approx(150.0)
+    assert "turns a minute (assumed: the scene's)" in diagnosis.sentence
+    assert "Bearing assumed: the scene's." in diagnosis.sentence
+    assert "given" not in diagnosis.sentence
+    diagnosis = diagnose(NOISE, BEARING, (149.0, 151.0), speed_source="from the file")
+    assert diagnosis.speed_source == "from the file as a range, its middle"
+    assert diagnosis.shaft_speed == pytest.approx(150.0)
 
 
 def test_without_a_bearing_no_part_is_named_and_it_is_asked_for():
-    found = diagnose(NOISE, None, 150.0)
-    assert found.status == DiagnosisStatus.BEARING_OPEN
-    assert not found.conclusive
-    assert found.bearing_source == "unknown"
-    assert "depends on the bearing, which is not known" in found.sentence
+    diagnosis = diagnose(NOISE, None, 150.0)
+    assert diagnosis.status == DiagnosisStatus.BEARING_OPEN
+    assert not diagnosis.conclusive
+    assert diagnosis.bearing_source == "unknown"
+    assert "depends on the bearing, which is not known" in diagnosis.sentence
 
 
 def test_the_share_of_magnetic_noise_falls_with_the_distance_from_twice_the_mains():

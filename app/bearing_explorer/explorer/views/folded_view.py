@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-from bearing_explorer.kit.plots.element_words import with_elements_of
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import C, Ranges, SessionParts, Sources, View
 from bearing_explorer.kit.widgets.form import button
@@ -53,7 +52,7 @@ class FoldedView(View[C]):
         self._show_fold()
 
     def put_head(self, content: C) -> None:
-        self._named = with_elements_of(content.scene.bearing, self.title)
+        self._named = content.in_words(self.title)
         super().put_head(content)
 
     def words(self, results: C) -> str:

@@ -87,7 +87,7 @@ class Field:
     reasons: NDArray[np.object_]
 
     @classmethod
-    def of_sweep(cls, found: DataArray) -> Field:
+    def of_sweep(cls, output: DataArray) -> Field:
         """One output of a sweep over two fields, angles in degrees.
 
         Raises
@@ -95,10 +95,10 @@ class Field:
         ValueError
             for another number of fields.
         """
-        if found.ndim != 2:
-            raise ValueError(f"dimensions are {found.dims}; allowed: two, choose with .sel(...)")
-        y, x = ((Side("", *of), at) for of, at in (_in_page_units(found[d]) for d in found.dims))
-        (words, _, unit), values = _in_page_units(found)
+        if output.ndim != 2:
+            raise ValueError(f"dimensions are {output.dims}; allowed: two, choose with .sel(...)")
+        y, x = ((Side("", *of), at) for of, at in (_in_page_units(output[d]) for d in output.dims))
+        (words, _, unit), values = _in_page_units(output)
         reasons = np.where(np.isfinite(values), "", "see the status of the sweep").astype(object)
         return cls(x, y, words, unit, values, reasons)
 
@@ -194,7 +194,7 @@ class PlaneFigures:
         (x, _), (y, _) = field.x, field.y
         said = {
             "words": [field.words, x.words, y.words],
-            "unit": [one if one in ("", "°") else f" {one}" for one in (unit, x.unit, y.unit)],
+            "unit": [part if part in ("", "°") else f" {part}" for part in (unit, x.unit, y.unit)],
         }
         if (reasons := _reasons_of(field)[0]) != self._reasons.data["text"]:
             self._reasons.data = {"text": reasons}

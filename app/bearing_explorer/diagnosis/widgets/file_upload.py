@@ -9,11 +9,34 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, ClassVar
 
+import msgspec
 import param
 from panel.custom import JSComponent
 
 from bearing_explorer.kit.assets import asset_text, scripts
-from bearing_explorer.kit.messages import UploadBegins, UploadPiece, read
+from bearing_explorer.kit.messages import read
+
+
+class UploadBegins(msgspec.Struct, tag="begin"):
+    """A file was chosen: its name and its size [bytes].
+
+    It is the `number`th of `count` that come, from 1, out of so many that were `chosen`; or the
+    `baseline` with which the file that is there is to be compared.
+    """
+
+    name: str
+    size: int
+    number: int = 1
+    count: int = 1
+    chosen: int = 1
+    baseline: bool = False
+
+
+class UploadPiece(msgspec.Struct, tag="piece"):
+    """A piece of a file; `of` is the number of the upload, as the server gave it."""
+
+    content: bytes
+    of: int
 
 
 class FileUpload(JSComponent):

@@ -7,7 +7,8 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 from bearing_explorer.default_results import TABS, draw_all
-from bearing_explorer.kit.compute import cache, compiling, default_results
+from bearing_explorer.explorer.results import default_results
+from bearing_explorer.kit.compute import cache, compiling
 from bearing_explorer.kit.compute.compiling import Compilation, StillCompiling
 from bearing_explorer.page import SECTIONS
 
@@ -102,7 +103,7 @@ def test_pictures_of_the_default_scene_need_no_kernel(compilation: Compilation) 
     pictures = draw_all()
     assert len(pictures) == 2 * len(TABS)
     for picture in pictures:
-        assert picture.limits is not None
+        assert picture.warnings is not None
         for drawing in picture.drawings:
             assert drawing.data is not None, f"{drawing.view.name}: {drawing.sentence}"
         assert picture.status["mood"] == "good", picture.status
@@ -134,8 +135,8 @@ def test_what_comes_along_is_what_is_computed() -> None:
     draw_all()
     shipped, computed = default_results.read(), default_results.collected()
     assert set(shipped) == set(computed)
-    for key, found in computed.items():
-        for path, (one, other) in numbers_of(shipped[key], found):
+    for key, types in computed.items():
+        for path, (one, other) in numbers_of(shipped[key], types):
             size = np.nanmax(np.abs(other), initial=1e-300)
             np.testing.assert_allclose(
                 one, other, rtol=0.0, atol=1e-6 * size, err_msg=f"{key[0]}{path}"

@@ -6,8 +6,8 @@ import holoviews as hv
 import numpy as np
 import pytest
 from bearing_explorer import figures
+from bearing_explorer.explorer.plots.plane import Field, PlaneFigures, color_limits
 from bearing_explorer.kit.plots.heat_map import Side
-from bearing_explorer.kit.plots.plane import Field, PlaneFigures, color_limits
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bokeh.models import LayoutDOM
 

@@ -7,14 +7,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 from bearing_explorer.diagnosis.views.frequency_lines import FAMILIES
+from bearing_explorer.explorer.plots import compared_curves
 from bearing_explorer.explorer.views import work_precision
 from bearing_explorer.kit.assets import asset_text
-from bearing_explorer.kit.plots import compared_curves, style
+from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.theme import DARK_COLORS, DARK_PALETTES, dark_properties
 
 from bearingcore.model.experiments import METHODS
 
-FIGURES = [Path(style.__file__).parent, Path(work_precision.__file__).parent]
+FIGURES = [Path(module.__file__).parent for module in (style, compared_curves, work_precision)]
 #: what lies on top of pictures
 FIXED = {style.LIGHT.upper(), style.SHADE.upper(), "#00000000"}
 

@@ -20,7 +20,7 @@ def test_a_published_bearing_is_put_into_the_scene() -> None:
     assert "Assumed here: an inner groove of 0.52 ball diameters" in editor.note
 
 
-def found(text: str) -> list[tuple[str, str]]:
+def matches(text: str) -> list[tuple[str, str]]:
     return [(one["label"], one["mark"]) for one in search_bearings(text)["entries"]]
 
 
@@ -45,7 +45,7 @@ def found(text: str) -> list[tuple[str, str]]:
     ],
 )
 def test_one_search_finds_everything(text: str, first: tuple[str, str]) -> None:
-    assert found(text)[0] == first
+    assert matches(text)[0] == first
 
 
 def test_a_search_without_a_match_says_what_is_known() -> None:

@@ -5,11 +5,21 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, ClassVar
 
+import msgspec
 import param
 from panel.custom import JSComponent
 
 from bearing_explorer.kit.assets import asset_text, scripts
-from bearing_explorer.kit.messages import RoleOfColumn, read
+from bearing_explorer.kit.messages import read
+
+
+class RoleOfColumn(msgspec.Struct):
+    """The role of a column of a file, from 0, was chosen, or the unit or place of a signal."""
+
+    column: int
+    role: str
+    unit: str = ""
+    place: str = ""
 
 
 class ColumnTable(JSComponent):

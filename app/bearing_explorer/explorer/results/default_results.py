@@ -24,7 +24,7 @@ LARGEST = 500_000
 
 def collected() -> dict[tuple[Hashable, ...], Any]:
     """All results in the cache, but the largest."""
-    return {key: found for key, (found, size) in kept_results().items() if size <= LARGEST}
+    return {key: result for key, (result, size) in kept_results().items() if size <= LARGEST}
 
 
 def write(path: Path) -> None:
@@ -34,10 +34,10 @@ def write(path: Path) -> None:
 
 def read() -> dict[tuple[Hashable, ...], Any]:
     """The results that come along."""
-    found: dict[tuple[Hashable, ...], Any] = pickle.loads(
+    results: dict[tuple[Hashable, ...], Any] = pickle.loads(
         lzma.decompress(asset_path(NAME).read_bytes())
     )
-    return found
+    return results
 
 
 def keep() -> None:

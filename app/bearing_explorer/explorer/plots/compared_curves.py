@@ -8,6 +8,7 @@ from typing import TypeVar
 import numpy as np
 from bokeh.models import GlyphRenderer, Legend, LegendItem, Plot
 
+from bearing_explorer.explorer.state.references import MOST_COMPARED
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.layers import Glyph, curve, strips
 
@@ -15,10 +16,6 @@ Other = TypeVar("Other")
 
 COLORS = ("#009E73", "#AA3377", "#661100", "#56B4E9")
 DASHES: tuple[tuple[int, ...], ...] = ((8, 3), (3, 2), (9, 3, 2, 3), (14, 4))
-MOST_COMPARED = len(COLORS)
-"""Greatest number of compared scenes: more colours are hard to distinguish."""
-WITHOUT_DEFECT = "the bearing without its defect"
-"""The scene that is drawn in grey."""
 
 THIN = "thin: x, horizontal"
 """Tag of a figure that has two curves a scene, with the horizontal one thin; its key says so."""
@@ -55,20 +52,20 @@ def sources(
 ) -> dict[str, dict[str, np.ndarray]]:
     """Their sources, with `columns` by `compute`; empty where a scene has no such curve."""
     nothing = dict.fromkeys(columns, np.zeros(0))
-    found: list[dict[str, np.ndarray]] = []
+    curves: list[dict[str, np.ndarray]] = []
     for other in compared:
         try:
             computed = compute(other)
-            found.append({column: computed[column] for column in columns})
+            curves.append({column: computed[column] for column in columns})
         except ValueError:
-            found.append(nothing)
-    found += [nothing] * (MOST_COMPARED - len(found))
-    return {f"{name}{_SLOT}{slot}": one for slot, one in enumerate(found)}
+            curves.append(nothing)
+    curves += [nothing] * (MOST_COMPARED - len(curves))
+    return {f"{name}{_SLOT}{slot}": values for slot, values in enumerate(curves)}
 
 
 def numbers(drawn: Mapping[str, Mapping[str, np.ndarray]], column: str) -> np.ndarray:
     """A column of all compared scenes, for the range of an axis."""
-    return np.concatenate([one[column] for one in drawn.values()])
+    return np.concatenate([curve[column] for curve in drawn.values()])
 
 
 class CurveKey:

@@ -1,0 +1,33 @@
+"""Views that draw the scene beside others: the reference in grey, compared scenes dashed."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from bearing_explorer.explorer.plots.compared_curves import CurveKey
+from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.state.references import WITHOUT_DEFECT
+from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.kit.views.base import View
+
+
+class ComparingView(View[Results]):
+    """A view with layers of `compared_curves`; ``{grey}`` in `about` is the reference's name."""
+
+    def __init__(self, packed: PackedSource) -> None:
+        super().__init__(packed)
+        #: the names of compared scenes, a key a figure that draws them
+        self._keys = [key for plot in self.figures if (key := CurveKey(plot)).items]
+
+    @classmethod
+    def caption(cls, content: Results | None = None) -> str:
+        return cls.about.replace("{grey}", content.grey.name if content else WITHOUT_DEFECT)
+
+    def say(self, results: Results | None, sentence: str) -> None:
+        super().say(results, sentence)
+        if results is not None:
+            for key in self._keys:
+                key.show([reference.name for reference in results.compared])
+
+    def arguments(self, results: Results) -> Mapping[str, str]:
+        return {**super().arguments(results), **results.compared_argument}

@@ -147,7 +147,7 @@ def test_the_first_picture_of_a_change_has_the_limits_of_its_scene() -> None:
     moving = explorer.content
     assert moving.moving
     explorer._moved_at -= 2.0
-    assert [explorer._limits_due(moving) for _ in range(3)] == [True, False, False]
+    assert [explorer._warnings_due(moving) for _ in range(3)] == [True, False, False]
 
 
 def test_a_typed_number_is_confirmed_and_a_bad_one_refused(news: list[dict]) -> None:

@@ -26,10 +26,10 @@ from bearingcore.model.dynamics import (
     Flight,
     Strike,
     ball_strikes,
+    compare_motions as compare_bands,
     compared_directions,
     flights,
 )
-from bearingcore.model.dynamics import compare_motions as compare_bands
 from bearingcore.model.statics import path_kinks
 
 Array = NDArray[np.float64]

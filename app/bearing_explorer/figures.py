@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
 from bearing_explorer.kit.views.base import View
 from bearing_explorer.kit.views.still_figure import Figure
@@ -49,20 +49,11 @@ def of_sweep(swept: DataArray | Dataset) -> hv.Layout:
         layout_of,
     )
 
-<<<<<<< HEAD
-    if (outputs := getattr(swept, "data_vars", None)) is not None:
-        names = [str(name) for name in outputs if name != "status"]
-        if len(names) != 1:
-            raise ValueError(f"outputs are {names}; allowed: one, choose with [name]")
-        swept = outputs[names[0]]
-    return layout_of(Field.of_sweep(cast("DataArray", swept)))
-=======
     outputs = getattr(swept, "data_vars", {"": swept})
     names = [name for name in outputs if name != "status"]
     if len(names) != 1:
         raise ValueError(f"outputs are {names}; allowed: one, choose with [name]")
     return layout_of(Field.of_sweep(outputs[names[0]]))
->>>>>>> 3d0eabbda6a7adf8c99220de24fe17fc3eb3b2d3
 
 
 def __getattr__(name: str) -> Callable[..., Figure]:

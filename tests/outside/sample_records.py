@@ -5,8 +5,6 @@ python -m tests.outside.sample_records
 
 from pathlib import Path
 
-import numpy as np
-
 from tests.outside.motor_signals import Motor
 
 FOLDER = Path(__file__).resolve().parents[2] / "assets" / "samples"

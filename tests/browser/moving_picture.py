@@ -17,8 +17,8 @@ from tests.browser.explorer_page import can_be_used, rest, slider
 from tests.browser.helpers import ROOT, chromium, explorer_server, move, serving
 
 FILE = ROOT / "assets" / "figures" / "explorer.webp"
-EXTENTS = np.linspace(10.0, 58.0, 33)  # [deg]; a ball spacing of the fan rig is 25.7
-STEP, HOLD = 140, 1600  # [ms] that a picture stands, and the first and last
+EXTENTS = np.linspace(10.0, 58.0, 25)  # [deg]; a ball spacing of the fan rig is 25.7
+STEP, HOLD = 180, 1600  # [ms] that a picture stands, and the first and last
 MOST_BYTES = 1_500_000
 
 
@@ -48,7 +48,7 @@ def main(file: Path) -> None:
     times = [STEP] * len(frames)
     times[0] = times[len(there) - 1] = HOLD
     frames[0].save(
-        file, save_all=True, append_images=frames[1:], duration=times, loop=0, quality=60, method=6
+        file, save_all=True, append_images=frames[1:], duration=times, loop=0, quality=60, method=4
     )
     size = file.stat().st_size
     print(f"{file}: {len(frames)} pictures, {size / 1e6:.2f} MB")

@@ -677,6 +677,8 @@ def solve_maps(cage_angles, contacts, paths, load, rows, memory, answers, work):
             most = 0.0
             settled = status[e, k] == CONVERGED
             x = components(state)
+            # the formulas balance loads also where no bearing could: tilted beyond small angles, a
+            # ball compressed beyond its room, a ring that has left the other
             beyond = settled and max(abs(x[3]), abs(x[4])) > contacts.most_tilt
             for j in range(n_contacts):
                 delta, _, _, bend = touch(x, place.c[j], place.s[j], d[j], j, contacts)

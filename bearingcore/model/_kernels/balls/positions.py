@@ -382,6 +382,7 @@ def settle_ring(q, load, balls, places, work):
         whole = math.sqrt(max(whole, 0.0))
         if norm == 0.0 and whole == 0.0:
             return now, NOTHING_TOUCHES, math.nan, iteration
+        # balls press the ring from both sides where it is preloaded: no load says how hard
         for j in range(places.c.size):
             whole = max(whole, places.load[INNER, j])
         before = residual
@@ -392,6 +393,7 @@ def settle_ring(q, load, balls, places, work):
             least = least_pivot(H, active, work.L)
             return now, CONVERGED if least > NO_PIVOT else FREE_DIRECTION, residual, iteration
         if not newton_direction(H, g, active, 0.0, work.L, work.p) > 1e-12:
+            # too few balls touch: a small spring to ground replaces the missing stiffness
             newton_direction(H, g, active, shift * max(stiffest, 1.0), work.L, work.p)
             shift = max(0.1 * shift, 1e-12)
         slope = 0.0

@@ -52,7 +52,7 @@ def test_a_changing_speed_is_followed(bearing: str, part: str, change: str) -> N
 @pytest.mark.parametrize(("a_turn", "given"), [(1, 1450.0), (2, 1450.0), (1, None)])
 def test_a_tachometer_is_followed(a_turn: int, given: float | None) -> None:
     time, signal, turns = machine("6309", "inner race", "rising by half", 2)
-    recording = read_recording("a.csv", file_of(time, signal, pulses(turns, a_turn), "tacho"))
+    recording = read_recording("a.csv", file_of(time, signal, pulses(turns, a_turn), "tacho [V]"))
     assert recording.shaft_angle is not None
     np.testing.assert_allclose(
         recording.shaft_angle, TURN * a_turn * turns, atol=0.05 * TURN * a_turn

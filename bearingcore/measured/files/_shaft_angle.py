@@ -9,7 +9,7 @@ import numpy as np
 
 from bearingcore.common import Array
 from bearingcore.measured.files._channels import OTHER, PULSES, SPEED, Column, words_of
-from bearingcore.measured.files._units import PULSE_TRAIN, SPEEDS
+from bearingcore.measured.files._units import SPEEDS
 
 FEWEST_PULSES = 8
 """Of a tachometer that are a speed."""
@@ -41,9 +41,9 @@ def shaft_angle(values: Array, unit: str | None, sample_rate: float) -> Array | 
     Parameters
     ----------
     unit
-        of speeds; None or `PULSE_TRAIN` for a tachometer, of which each pulse counts as a turn.
+        of speeds; any other is that of a tachometer, of which each pulse counts as a turn.
     """
-    if unit in (None, PULSE_TRAIN):
+    if unit is None or unit not in SPEEDS:
         begins = pulse_begins(values)
         if len(begins) < FEWEST_PULSES:
             return None
@@ -55,7 +55,7 @@ def shaft_angle(values: Array, unit: str | None, sample_rate: float) -> Array | 
     known = np.flatnonzero(np.isfinite(values))
     if not known.size or known[-1] - known[0] < LEAST_SHARE * len(values):
         return None
-    speeds = np.interp(np.arange(len(values)), known, values[known]) * SPEEDS[unit or ""]
+    speeds = np.interp(np.arange(len(values)), known, values[known]) * SPEEDS[unit]
     if speeds.min() < 0.0 or speeds.max() <= 0.0:  # a gyroscope swings about zero
         return None
     return np.concatenate(([0.0], np.cumsum(0.5 * (speeds[1:] + speeds[:-1])))) / sample_rate

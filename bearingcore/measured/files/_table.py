@@ -238,7 +238,11 @@ class Table(FileColumns):
                 why = column.place or along
             left.append(f"“{column.name}” ({why})")
         more = f" and {len(left) - MOST_NAMED} more" if len(left) > MOST_NAMED else ""
-        return f"Not used: {', '.join(left[:MOST_NAMED])}{more}." if left else ""
+        words = f"Not used: {', '.join(left[:MOST_NAMED])}{more}." if left else ""
+        if angle_from is not None and self.contents.columns[angle_from].role != SPEED:
+            name = self.names[angle_from]
+            words = f"{words} The shaft's angle is taken from the pulses in “{name}”.".strip()
+        return words
 
     def _to_acceleration(
         self, signal: Array, units: Sequence[str], rate: float, sensitivity: float | None

@@ -357,8 +357,8 @@ def test_the_roles_that_a_person_gives_go_before_all_guesses(heading, scale, rol
     answer(made, sample_rate="5000")
     answer(made, columns=f"time µs;{roles[-1]}")
     assert made.state.values["sample_rate"] == "5000"
-    answer(made, columns=f"speed rpm;{roles[-1]}")  # which varies: it is not taken unsaid
-    assert any(words.startswith("a guess from the file:") for _, words in made.state.speeds)
+    answer(made, columns=f"speed rpm;{roles[-1]}")  # which varies: it is followed
+    assert any(words.startswith("from the file:") for _, words in made.state.speeds)
 
 
 def test_a_rate_that_could_not_be_is_a_question_and_agreeing_settles_it():
@@ -453,7 +453,8 @@ def test_one_of_several_recordings_in_a_file_is_chosen_and_columns_that_are_not_
     assert [value for value, _ in made.state.recordings] == ["", "1", "2"]
     assert "holds 2 recordings" in made.state.remarks
     assert made.state.line.startswith("two.csv, recording 1 of 2 · ")
-    assert "“a z [g]” (along the shaft), “tacho [V]” (a guess at the shaft" in made.state.remarks
+    assert "“a z [g]” (along the shaft). The shaft's angle is" in made.state.remarks
+    assert "from the pulses in “tacho [V]”" in made.state.remarks
     assert ["file", "a guess from the file: 100 Hz"] in made.state.speeds
     answer(made, part="2")
     assert made.measured.recording.acceleration.shape == (800, 2)

@@ -246,6 +246,7 @@
     act.textContent = scene ? "Open the scene" : "Diagnose it"
     act.onclick = () => {
       brought.hidden = true
+      unfold_scene(scene)
       if (scene) return announce("scene-file", file)
       kept_file = file
       announce("show", "diagnosis")

@@ -83,9 +83,10 @@ class BorrowedMethods(Extension):
 
 
 class NamesOfStubs(Extension):
-    """Makes names that the stub of a package imports its public names."""
+    """Makes the names that a stub imports the public names of its package."""
 
     def on_package(self, *, pkg: Module, **_: Any) -> None:
         """Export them, unless the package says what it exports."""
+        pkg.members.pop("lazy_loader", None)
         if not isinstance(pkg.exports, list) or not pkg.exports:
             pkg.exports = [name for name, member in pkg.members.items() if member.is_alias]

@@ -1,6 +1,6 @@
 """The physics of a damaged ball bearing, after Petersen, Howard & Prime (2014). SI units, rad.
 
-What is public is listed in the stub beside this file, and is imported when it is first used.
+The stub beside this file lists the public names; each is imported when it is first used.
 """
 
 import lazy_loader

@@ -1,7 +1,7 @@
-"""Refusals and statuses as data: a field, its value and what is allowed; a name and its sentence.
+"""Refusals and statuses as data: field, value and allowed values; a name and its sentence.
 
-Nothing reads a message to find out what was wrong: `FieldError` has it as attributes, and a solver
-says how it ended with a member of a `Status`.
+No code reads a message to find the reason: `FieldError` has it as attributes, and the outcome of a
+solver is a member of a `Status`.
 """
 
 from __future__ import annotations
@@ -120,9 +120,9 @@ class FieldError(ValueError):
         Parameters
         ----------
         name
-            called with the name of a field: what it is called.
+            called with the name of a field: returns its label.
         amount
-            called with a number and its SI unit: both as text.
+            called with a number and its SI unit: returns both as text.
         """
         if isinstance(self.allowed, Interval):
             return self.allowed.words(lambda bound: amount(bound, self.unit))

@@ -1,7 +1,7 @@
 """The registry of fields: each number of a scene with its symbol, unit, label, range and meaning.
 
-Sliders, links, drafts, sweeps, tables and sentences about a field come from here; a field is said
-nowhere else. A new one needs an entry in `FIELDS` and its attribute in the dataclass of its part.
+Sliders, links, drafts, sweeps, tables and sentences about a field take their data from here only. A
+new field needs an entry in `FIELDS` and its attribute in the dataclass of its part.
 """
 
 from __future__ import annotations
@@ -207,7 +207,7 @@ _SUFFIXES = {
 }  # fmt: skip
 """Units that stand in the keys of fields; keys are in links that people have kept."""
 
-_FIRST = " Left empty it is that of the first row."
+_FIRST = " Empty: the value of the first row."
 
 # fmt: off
 _SCENE = (
@@ -215,13 +215,14 @@ _SCENE = (
           Range(0.0, 120.0, 0.1, 0.0, 360.0),
           "Length of the defect along the race, as an angle.", sweep_range=(2.0, 62.0)),
     Field("depth", "defect", "Depth", "h", "µm", "Defect", Range(0.0, 500.0, 1.0, 0.0, 5000.0),
-          "Depth of its floor. A ball reaches it only where the defect is long enough."),
+          "Depth of the defect's floor. A ball reaches it only if the defect is long enough."),
     Field("center", "defect", "Centre", "φ_f", "°", "Defect", Range(0.0, 360.0, 0.5),
-          "Where its middle is: 0° is right, 90° up, 270° down, where the weight of a rotor acts. "
-          "A defect of the inner race is there at cage angle 0 and turns with the shaft."),
+          "Angle of the defect's middle: 0° is right, 90° up, 270° down, the direction of a "
+          "weight. A defect of the inner race has this angle at cage angle 0 and turns with the "
+          "shaft."),
     Field("rms_height", "floor", "Roughness, RMS", "R_q", "µm", "Defect",
           Range(0.0, 20.0, 0.1, 0.0, 500.0),
-          "Root mean square height of the rough floor about its depth."),
+          "Root mean square height of the rough floor about its mean depth."),
     Field("correlation_length", "floor", "Correlation length", "l", "µm", "Defect",
           Range(20.0, 2000.0, 10.0, 1.0, 20000.0),
           "Distance along the race over which the correlation of the heights falls to 1/e."),
@@ -230,10 +231,10 @@ _SCENE = (
           whole=True),
     Field("shaft_speed", "scene", "Shaft speed", "f_s", "Hz", "Turning",
           Range(1.0, 100.0, 0.1, 0.0, 1000.0),
-          "Turns of the shaft a second. Static answers do not depend on it.",
+          "Turns of the shaft per second. Static answers do not depend on it.",
           sweep_range=(4.0, 60.0)),
     Field("cage_angle", "", "Position of the balls (cage angle)", "φ_c", "°", "Turning",
-          Range(0.0, 360.0, 0.1), "Where the first ball is. Play turns the bearing."),
+          Range(0.0, 360.0, 0.1), "Angle of the first ball. Play turns the bearing."),
     Field("fx", "load", "Load, sideways", "F_x", "N", "Load", _force,
           "Force on the inner ring towards 0°."),
     Field("fy", "load", "Load, upwards", "F_y", "N", "Load", _force,
@@ -242,8 +243,8 @@ _SCENE = (
     Field("fz", "load", "Load, along the shaft", "F_z", "N", "Load", _force,
           "Force on the inner ring along the shaft."),
     Field("unbalance", "scene", "Unbalance", "U", "g·mm", "Load", Range(0.0, 2000.0, 5.0, 0.0, 1e6),
-          "Mass of the rotor times the distance of its centre from the shaft's axis: a force U·ω² "
-          "turns with the shaft. It changes the vibration; static answers leave it out."),
+          "Mass of the rotor times the distance of its centre from the shaft's axis. The force "
+          "U·ω² turns with the shaft and changes the vibration; static answers leave it out."),
     Field("mx", "load", "Moment about x", "M_x", "N·m", "Load", _moment,
           "Moment on the inner ring that tilts the shaft up or down."),
     Field("my", "load", "Moment about y", "M_y", "N·m", "Load", _moment,
@@ -255,15 +256,15 @@ _BEARING = (
           Range(3.0, 30.0, 1.0, 1.0, 100.0),
           "Balls in a row, equally spaced by the cage.", whole=True),
     Field("ball_diameter", "bearing", "Ball diameter", "D_b", "mm", "Balls", _near,
-          "Diameter of a ball. With the pitch diameter it decides how fast the cage turns."),
+          "Diameter of a ball. With the pitch diameter it sets the speed of the cage."),
     Field("pitch_diameter", "bearing", "Pitch diameter", "D_p", "mm", "Balls", _near,
           "Diameter of the circle on which the centres of the balls run."),
     Field("roller_length", "bearing", "Roller length", "l", "mm", "Balls",
           Range(1.0, 100.0, 0.1, 0.0, 1000.0),
-          "Length of a roller that lies on the races: the longer, the stiffer."),
+          "Length of a roller in contact with the races: longer rollers are stiffer."),
     Field("row_distance", "pair", "Distance of the rows", "a", "mm", "Rows",
           Range(0.0, 100.0, 0.1, 0.0, 10_000.0),
-          "From the centre of one row of balls to that of the other, along the shaft."),
+          "Distance between the centres of the two rows of balls, along the shaft."),
     Field("preload", "pair", "Axial preload", "", "µm", "Rows", Range(0.0, 50.0, 0.1, 0.0, 1000.0),
           "Distance by which the inner grooves of both rows are pushed together along the shaft."),
     Field("n_balls", "second", "Number of balls, row 2", "N_b2", "", "Second row",
@@ -285,70 +286,70 @@ _BEARING = (
           "Radius of the outer groove's cross-section; a little more than half a ball's diameter."),
     Field("inner_groove_radius", "bearing", "Inner groove radius", "r_i", "mm", "Drawing",
           groove_range,
-          "Radius of the inner groove's cross-section; the closer to the ball, the stiffer."),
+          "Radius of the inner groove's cross-section; a closer fit to the ball is stiffer."),
     Field("youngs_modulus", "bearing", "Young's modulus", "E", "GPa", "Drawing",
           Range(60.0, 400.0, 1.0, 1.0, 1000.0),
-          "Stiffness of the material of rings, and of balls that have none of their own; steel has "
+          "Young's modulus of the rings, and of balls without a value of their own; steel has "
           "about 207 GPa."),
     Field("poisson", "bearing", "Poisson's ratio", "ν", "", "Drawing",
           Range(0.1, 0.45, 0.005, 0.0, 0.49),
-          "Narrowing of the material over its stretching; 0.3 for steel."),
+          "Ratio of the material's transverse contraction to its extension; 0.3 for steel."),
     Field("ball_youngs_modulus", "bearing", "Young's modulus of the balls", "E_b", "GPa", "Drawing",
           Range(60.0, 400.0, 1.0, 1.0, 1000.0),
-          "Of balls of another material than the rings; 310 GPa for silicon nitride. Left empty "
-          "they are as the rings.", optional=True),
+          "For balls of another material than the rings; 310 GPa for silicon nitride. Empty: the "
+          "value of the rings.", optional=True),
     Field("ball_poisson", "bearing", "Poisson's ratio of the balls", "ν_b", "", "Drawing",
           Range(0.1, 0.45, 0.005, 0.0, 0.49),
-          "Of balls of another material than the rings; 0.26 for silicon nitride. Left empty they "
-          "are as the rings.", optional=True),
+          "For balls of another material than the rings; 0.26 for silicon nitride. Empty: the "
+          "value of the rings.", optional=True),
     Field("contact_angle", "bearing", "Contact angle", "α_0", "°", "Contact",
           Range(0.0, 45.0, 0.5, 0.0, 80.0),
           "Angle between the line through both contacts of an unloaded ball and the plane of the "
-          "balls. A bearing with one carries loads along the shaft."),
+          "balls. A bearing with a contact angle carries loads along the shaft."),
     Field("groove_center_distance", "bearing", "Groove centre distance", "A_0", "µm", "Contact",
           _near,
           "Distance between the centres of curvature of the two grooves around an unloaded ball: "
-          "both groove radii together less a ball diameter."),
+          "the sum of both groove radii minus a ball diameter."),
     Field("groove_center_radius", "bearing", "Groove centre radius", "r_d", "mm", "Contact", _near,
           "Radius of the circle on which the centres of the inner groove lie: the lever with which "
           "a tilt of the ring moves a contact."),
     Field("radial_clearance", "bearing", "Radial clearance", "r_L", "µm", "Contact",
           Range(-50.0, 50.0, 0.1, -100.0, 1000.0),
-          "Distance that the inner ring can move from the middle before a ball touches, on top of "
-          "what the contact angle gives: half the diametral clearance of a drawing. Below 0 it is "
-          "an interference: all balls are compressed by it without a load.",
+          "Distance that the inner ring can move from the middle before a ball touches, in "
+          "addition to the play by the contact angle: half the diametral clearance of a drawing. A "
+          "negative value is an interference, which compresses all balls without a load.",
           sweep_range=(0.0, 50.0)),
     Field("load_deflection_factor", "bearing", "Load-deflection factor", "K", "MN/m¹·⁵", "Contact",
           _near,
           "Stiffness of both contacts of a ball in series: the load is K times the compression to "
           "the power of 1.5 (Hertz)."),
     Field("outer_raceway_radius", "bearing", "Outer raceway radius", "R_o", "mm", "Races", _near,
-          "From the shaft's middle to the bottom of the outer groove, where defects are cut."),
+          "Distance from the shaft's axis to the bottom of the outer groove; defects lie there."),
     Field("inner_raceway_radius", "bearing", "Inner raceway radius", "R_i", "mm", "Races", _near,
-          "From the shaft's middle to the bottom of the inner groove."),
+          "Distance from the shaft's axis to the bottom of the inner groove."),
     Field("density", "bearing", "Density of the balls", "ρ", "kg/m³", "Balls", _near,
           "Mass of a ball over its volume; 7800 kg/m³ for steel, 3200 for silicon nitride. It "
-          "counts where balls have mass."),
+          "matters only for balls with mass."),
 )
 
 _BODIES = (
     Field("inner_mass", "support", "Mass of the rotor", "m_i", "kg", "Bodies", _near,
-          "Inner ring with the shaft and what sits on it."),
+          "Mass of the inner ring with the shaft and all parts on it."),
     Field("outer_mass", "support", "Mass of the housing", "m_o", "kg", "Bodies", _near,
-          "Outer ring with the housing, on which a sensor sits."),
+          "Mass of the outer ring with the housing, which carries the sensor."),
     Field("inner_inertia", "support", "Inertia of the rotor", "I_i", "g·m²", "Bodies", _near,
-          "Moment of inertia of the rotor against tilt. Needed only where the ring tilts.",
+          "Moment of inertia of the rotor against tilt. Needed only if the ring tilts.",
           optional=True),
     Field("outer_inertia", "support", "Inertia of the housing", "I_o", "g·m²", "Bodies", _near,
-          "Moment of inertia of the housing against tilt. Needed only where the ring tilts.",
+          "Moment of inertia of the housing against tilt. Needed only if the ring tilts.",
           optional=True),
 )
 
 _CONTACT_DAMPING = (
     Field("contact_damping", "scene", "Contact damping", "c", "N·s/m", "Contacts in motion",
           _near,
-          "Viscous damping of each loaded contact. Left empty it follows from the stiffness of the "
-          "healthy bearing: 10 µs times its radial stiffness a ball.", optional=True),
+          "Viscous damping of each loaded contact. Empty: 10 µs times the radial stiffness per "
+          "loaded ball of the healthy bearing.", optional=True),
 )
 # fmt: on
 
@@ -368,7 +369,7 @@ def _support(name: str, symbol: str, unit: str, tilt_unit: str, meaning: str) ->
                 tilt_unit if tilts else unit,
                 f"Support, {name}",
                 _near,
-                meaning + (" Against tilt." if tilts else ""),
+                meaning + (" It acts against tilt." if tilts else ""),
                 optional=dof not in ("x", "y"),
             )
         )

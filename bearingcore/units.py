@@ -1,4 +1,4 @@
-"""Units: the one table of what sliders, files, plots, tables and sweeps turn numbers into."""
+"""Units: the single table of units for sliders, files, plots, tables and sweeps."""
 
 from __future__ import annotations
 

@@ -8,8 +8,9 @@ def as_markdown() -> str:
     lines = [
         "# Fields",
         "",
-        "Numbers of a scene, from `bearingcore.fields.FIELDS`. The name is that of `Scene.replace` "
-        "and of sweeps, in SI units; the name in links has the unit of the page.",
+        "All numbers of a scene, printed from `bearingcore.fields.FIELDS`. `Scene.replace` and "
+        "sweeps use the name, with a value in SI units; links use the name with the unit of the "
+        "page.",
         "",
         "| name | of | symbol | SI unit | in links | unit there | meaning |",
         "| --- | --- | --- | --- | --- | --- | --- |",

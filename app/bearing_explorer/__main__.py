@@ -10,6 +10,7 @@ import signal
 import sys
 import time
 from collections.abc import Callable, Sequence
+from importlib import import_module
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -28,6 +29,8 @@ NOT_KEPT = (
 
 READ_FROM_DISK = 5.0
 """[s] after which machine code on disk has turned out to be of no use."""
+LOADS_HOLOVIEWS = 10.0
+"""[s] after the start, when the first picture is drawn; then no tab waits for it."""
 
 
 def options(arguments: Sequence[str] | None = None) -> argparse.Namespace:
@@ -211,6 +214,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         compiling.wait(READ_FROM_DISK if compiled else 0.0)
     server.start()
     _say(f"Ready after {time.perf_counter() - started:.1f} s: {url} (Ctrl+C ends)")
+    holoviews = "bearing_explorer.explorer.plots.plane"
+    loop.call_later(LOADS_HOLOVIEWS, loop.run_in_executor, None, import_module, holoviews)
     if not chosen.no_browser:
         loop.add_callback(lambda: server.show("/"))
     try:

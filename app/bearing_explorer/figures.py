@@ -17,14 +17,13 @@ from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING
 
-from bearing_explorer.kit.plots.color_scales import DIVERGING, SEQUENTIAL, hex_colors
 from bearing_explorer.kit.views.base import View
 from bearing_explorer.kit.views.still_figure import Figure
 from bearing_explorer.page import SECTIONS, figure_of
 
 if TYPE_CHECKING:
     import holoviews as hv
-    from xarray import DataArray
+    from xarray import DataArray, Dataset
 
 _VIEWS: dict[str, type[View]] = {
     view.name.replace("-", "_"): view for section in SECTIONS for view in section.views
@@ -34,39 +33,27 @@ names = tuple(_VIEWS)
 """The functions that there are."""
 
 
-def of_sweep(found: DataArray) -> hv.AdjointLayout:
-    """One output of a sweep over two fields as HoloViews: a map and its histogram.
+def of_sweep(swept: DataArray | Dataset) -> hv.Layout:
+    """Return an output of a sweep over two fields as HoloViews: a map, and curves across it.
 
-    Angles are in degrees; HoloViews and hvPlot go on from there: slices, overlays, selections.
+    They are those that Explore shows; on a server (`panel.panel(...).show()`) and in a live
+    notebook the curves follow the pointer. Angles are in degrees.
 
     Raises
     ------
     ValueError
-        for another number of fields.
+        for another number of fields, or of outputs.
     """
-    import holoviews as hv
-    import holoviews.plotting.bokeh  # what `opts` may say; hv.extension asks other computers
-
-    from bearing_explorer.explorer.plots.plane import Field, color_limits
-
-    hv.Store.set_current_backend("bokeh")
-    field = Field.of_sweep(found)
-    values, unit = field.scaled
-    sides = [hv.Dimension(side.words, unit=side.unit or None) for side, _ in (field.x, field.y)]
-    number = hv.Dimension(field.words, unit=unit or None)
-    image = hv.Image((field.x[1], field.y[1], values), sides, number)
-    limits = color_limits(values)
-    image = image.opts(
-        hv.opts.Image(
-            cmap=hex_colors(DIVERGING if limits[0] == -limits[1] else SEQUENTIAL),
-            clim=limits,
-            colorbar=True,
-            tools=["hover"],
-            frame_width=420,
-            frame_height=320,
-        )
+    from bearing_explorer.explorer.plots.plane import (  # HoloViews: not at the start
+        Field,
+        layout_of,
     )
-    return image.hist()
+
+    outputs = getattr(swept, "data_vars", {"": swept})
+    names = [name for name in outputs if name != "status"]
+    if len(names) != 1:
+        raise ValueError(f"outputs are {names}; allowed: one, choose with [name]")
+    return layout_of(Field.of_sweep(outputs[names[0]]))
 
 
 def __getattr__(name: str) -> Callable[..., Figure]:

@@ -1,5 +1,5 @@
 // What stands under the pointer on a heat map: `wanted` is "x", "y" or "value". `say` is put in
-// front of this file: it makes words of the numbers of all `layers` in a cell; `rounded` of the house
+// front of this file: it makes words of the number in a `cell`; `rounded` of the house
 // style writes them.
 const at = place_on(image, stands, count, special_vars.x, special_vars.y)
 if (!at) return ""
@@ -10,5 +10,4 @@ const words_of = (side) => {
 }
 if (wanted == "x") return words_of(at.x)
 if (wanted == "y") return words_of(at.y)
-const cell = layers.map((layer) => layer.data.image[at.map][at.row*at.columns + at.column])
-return say(cell, at)
+return say(image.data.image[at.map][at.row*at.columns + at.column], at)

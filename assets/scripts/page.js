@@ -93,7 +93,8 @@
     }
     // on a phone there is room for the question, or for them
     if (innerWidth <= NARROW) show_choices(main, !root.hasAttribute("data-asks"))
-    return missing.size === 0
+    // those of another tab come when that is opened
+    return veiled.every((name) => !missing.has(name)) && (!marked.length || marked.some((name) => !missing.has(name)))
   }
   const figures_in = (view) => [...Bokeh.index.query(({ model, el }) => {
     if (model.type !== "Figure") return false
@@ -117,8 +118,7 @@
   })
   // The first of the marked figures is brought into view: its head, where there is no room for all.
   const show_marked = () => {
-    const [first] = marked
-    const view = first && [...inside(main)].find((found) => found.classList.contains(`view-${first}`))
+    const view = [...inside(main)].find((one) => one.matches(".view.watched") && one.getClientRects().length)
     if (!view) return
     if (view !== followed) {
       growth.disconnect()
@@ -161,11 +161,24 @@
     return spaces.length ? `${words.slice(0, spaces[0])}\n${words.slice(spaces[0] + 1)}` : words
   }
   const own_size = new Map()  // of figures that are fitted
+  const resize = (model, height) => {
+    const { sizing_mode, height: own, min_height } = model
+    if (!own_size.has(model)) own_size.set(model, { sizing_mode, height: own, min_height })
+    model.setv({ sizing_mode: "stretch_width", height, min_height: null }, { sync: false })
+  }
+  // Without a lesson: the head of a view and its first figure on the screen at once.
+  const LEAST = 240  // px
+  const fit_first_row = (view, plots, room) => {
+    const least = Math.min(...plots.map(([, { top }]) => top)) - view.getBoundingClientRect().top
+    const high = Math.max(LEAST, Math.floor(room - least - 8))
+    for (const [model, { height }] of plots) if (height > high + 1) resize(model, high)
+  }
   const fit = () => {
-    if (!root.hasAttribute("data-projector") || !root.hasAttribute("data-lesson")) return
+    if (!root.hasAttribute("data-projector")) return
     const views = [...inside(main)].filter((one) => one.matches(".view") && one.getClientRects().length)
     const drawn_in = (view) => figures_in(view).map(({ model, el }) => [model, el.getBoundingClientRect()]).filter(([, { height }]) => height)
     const room = main.clientHeight - 2 * parseFloat(getComputedStyle(main).paddingTop)
+    if (!root.hasAttribute("data-lesson")) return views.forEach((view) => fit_first_row(view, drawn_in(view), room))
     for (const view of views) {  // what waits to be opened stands beside the figure
       view.classList.toggle("folded", view.matches(".watched") && !drawn_in(view).length)
       if (view.matches(".watched")) view.getRootNode().host.classList.toggle("beside", views.some((one) => one.matches(".folded")))
@@ -181,10 +194,8 @@
       const end = Math.max(...plots.map(([, { bottom }]) => bottom))
       const more = Math.floor((box.top + room - parseFloat(getComputedStyle(view).paddingBottom) - 2 - end) / rows)
       for (const [model, { height }] of more ? plots : []) {
-        const { sizing_mode, height: own, min_height } = model
-        if (!own_size.has(model)) own_size.set(model, { sizing_mode, height: own, min_height })
         const high = Math.max(60, Math.round(height) + more)
-        model.setv({ sizing_mode: "stretch_width", height: high, min_height: null }, { sync: false })
+        resize(model, high)
         for (const axis of model.left)  // in two lines, where large type is longer than the figure is high
           if (axis.axis_label?.length * WIDTH_OF_SIGN > high && !axis.axis_label.includes("\n")) axis.setv({ axis_label: in_two_lines(axis.axis_label) }, { sync: false })
       }

@@ -230,7 +230,7 @@ def _bearing(at: str, texts: Mapping[str, str], decimal_comma: bool) -> Catalogu
     angle, clearance, rating = map(
         number, ("contact_angle_deg", "diametral_clearance_um", "dynamic_load_rating_kn")
     )
-    if rating is not None and not rating > 0.0:
+    if not (rating is None or rating > 0.0):
         raise refused("dynamic_load_rating_kn", "a number above 0 [kN], or nothing")
     if angle is None:
         angle = 0.0

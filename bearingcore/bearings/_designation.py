@@ -57,8 +57,7 @@ from bearingcore.bearings._suffix import (
     read_suffix,
     unknown_letters,
 )
-from bearingcore.common import _checks as checks
-from bearingcore.common import number
+from bearingcore.common import _checks as checks, number
 
 SERIES: Mapping[str, str] = {
     **dict.fromkeys(("60", "62", "63", "64", "160", "618", "619"), DEEP_GROOVE),

@@ -14,8 +14,7 @@ from collections.abc import Mapping
 
 from bearingcore.bearings._bearing import Bearing
 from bearingcore.bearings._drawing import USUAL_GROOVES
-from bearingcore.common import _checks as checks
-from bearingcore.common import number
+from bearingcore.common import _checks as checks, number
 
 FREQUENCIES = ("bpfo", "bpfi", "ftf", "bsf")
 """Outer race, inner race, cage, and one turn of a ball."""

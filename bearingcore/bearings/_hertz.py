@@ -31,8 +31,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike
 
-from bearingcore.common import Array
-from bearingcore.common import _checks as checks
+from bearingcore.common import Array, _checks as checks
 
 GREATEST_LOG_RATIO = 40.0
 """ln χ up to which the ellipse is sought. A groove wider than the ball by one part in 10^15 of

@@ -1,4 +1,4 @@
-"""Bearings as rows: the numbers of each, places of its balls among all, speed of its cage."""
+"""Rows of a bearing: their numbers, their balls among all balls, and the speeds of their cages."""
 
 from __future__ import annotations
 
@@ -20,24 +20,24 @@ class InRows(Numbers):
     """Rows of a bearing of any kind; methods of a `Kind` take these."""
 
     def replace(self, **changes: Any) -> Self:
-        """A bearing with fields changed; see `Bearing.replace`."""
+        """Return the bearing with changed fields; see `Bearing.replace`."""
         raise NotImplementedError
 
     @property
     def all_rows(self) -> tuple[Row, ...]:
-        """The rows, also where there is but one."""
+        """The rows; a single row is included."""
         return self.rows or _ONE_ROW
 
     def of_row(self, row: int) -> Self:
-        """The bearing with the numbers of a row and what follows from them, without rows.
+        """Return the bearing with the numbers of a row and derived fields, without rows.
 
-        The bearing itself where all rows are alike.
+        If all rows are alike, this is the bearing itself.
 
         Raises
         ------
         ValueError
-            for dimensions of the row that do not fit each other, or that nothing follows from as
-            the bearing does not carry its drawing.
+            for dimensions of the row that do not fit each other, or if derived fields are unknown
+            because the bearing does not carry its drawing.
         """
         if self.rows_are_alike:
             return self
@@ -48,18 +48,18 @@ class InRows(Numbers):
 
     @property
     def rows_are_alike(self) -> bool:
-        """True where no row has balls or dimensions of its own; places and turns may differ."""
+        """True if no row has its own balls or dimensions; places and turns may differ."""
         return not any(row.own and self.unlike(row) for row in self.rows)
 
     def unlike(self, row: Row) -> dict[str, float]:
-        """Numbers of a row that differ from the bearing's."""
+        """Return the numbers of a row that differ from the bearing's."""
         return {name: held for name, held in row.own.items() if held != getattr(self, name)}
 
     @property
     def unlike_rows(self) -> tuple[tuple[Self, slice], ...]:
-        """The bearing of each row, see `of_row`, and the places of its balls among all of them.
+        """The bearing of each row, see `of_row`, and the indices of its balls among all balls.
 
-        Rows that are alike are listed once: the bearing with all balls.
+        Rows that are alike are one entry: the bearing with all balls.
         """
         if self.rows_are_alike:
             return ((self, slice(0, self.total_balls)),)
@@ -67,33 +67,33 @@ class InRows(Numbers):
 
     @property
     def balls_of_rows(self) -> tuple[slice, ...]:
-        """Places of the balls of each row among all of them: row after row."""
+        """Indices of the balls of each row among all balls, row after row."""
         ends = list(accumulate(row.n_balls or self.n_balls for row in self.all_rows))
         return tuple(slice(a, b) for a, b in zip([0, *ends[:-1]], ends, strict=True))
 
     def row_of_ball(self, ball: int) -> tuple[int, int]:
-        """Row of a ball out of all of them, and its number in the row, both counted from 0."""
+        """Return the row of a ball, and its number in that row, both counted from 0."""
         for row, own in enumerate(self.balls_of_rows):
             if own.start <= ball < own.stop:
                 return row, ball - own.start
         raise checks.refuse("ball", ball, f"0 to {self.total_balls - 1}")
 
     def pace(self, row: int) -> float:
-        """Speed of a row's cage, over that of the bearing's own numbers."""
+        """Return the speed of a row's cage over that by the bearing's own numbers."""
         own = self.of_row(row)
         return 1.0 if own.size_ratio == self.size_ratio else own.cage_ratio / self.cage_ratio
 
     @property
     def has_one_cage_speed(self) -> bool:
-        """True where the cages of all rows turn at one speed."""
+        """True if the cages of all rows turn at one speed."""
         return len({self.pace(k) for k in range(len(self.all_rows))}) == 1
 
     @property
     def period(self) -> float:
-        """Cage angle [rad] after which balls are again where balls were.
+        """Cage angle [rad] after which the pattern of balls repeats.
 
-        A ball spacing where all rows have as many balls; else what the spacings of the rows have in
-        common. Cages that turn at speeds of their own come back at no angle: then a whole turn.
+        It is a ball spacing if all rows have equally many balls, and else the common multiple of
+        their spacings. Cages with different speeds have no period: it is then a whole turn.
         """
         if not self.has_one_cage_speed:
             return 2.0 * math.pi
@@ -102,7 +102,7 @@ class InRows(Numbers):
 
     @property
     def total_balls(self) -> int:
-        """Balls or rollers of all rows."""
+        """Number of balls or rollers in all rows."""
         return self.balls_of_rows[-1].stop
 
 

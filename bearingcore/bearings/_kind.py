@@ -1,7 +1,7 @@
-"""Data of a kind of bearing; each kind is a file that fills this in.
+"""Base class of the kinds of bearings; each kind is a file with a subclass.
 
 A `Bearing` uses its kind, and everything else reads data of `bearing.kind`: a flag, a sentence, a
-tuple of names. Nothing outside this package compares numbers to find out what a bearing is.
+tuple of names. No code outside this package infers the kind of a bearing from its numbers.
 """
 
 from __future__ import annotations
@@ -14,8 +14,7 @@ from bearingcore.bearings._drawing import Derived
 from bearingcore.bearings._hertz import RaceContact
 from bearingcore.bearings._in_rows import InRows
 from bearingcore.bearings._line_contact import RollerContact
-from bearingcore.common import Array
-from bearingcore.common import _checks as checks
+from bearingcore.common import Array, _checks as checks
 
 DIRECTIONS = ("x", "y", "z", "rx", "ry")
 """Displacements of the inner ring against the outer one: along x, y, z, rotations about x, y."""
@@ -25,7 +24,7 @@ ISO_76_BALLS, ISO_76_SELF_ALIGNING, ISO_76_ROLLERS = 4.2e9, 4.6e9, 4.0e9
 
 
 class Variant(NamedTuple):
-    """A way in which a kind of bearing is offered: its name, its label and what it is."""
+    """A variant of a kind in a list of choices: its name, its label and a description."""
 
     name: str
     label: str
@@ -36,8 +35,8 @@ class Picture(NamedTuple):
     """The cross-section of a kind: shapes of the rolling element and of both races.
 
     `element` is "ball" or "roller", `outer` "groove", "sphere" or "cylinder", `inner` "groove" or
-    "flat" (no shoulders); `dimensions` the fields of a `Bearing` that are drawn as arrows besides
-    those that all kinds have, `notes` the lines below the enlarged contact.
+    "flat" (no shoulders). `dimensions` are fields of a `Bearing` that are drawn as arrows, in
+    addition to those of all kinds; `notes` are the lines below the enlarged contact.
     """
 
     element: str
@@ -48,46 +47,46 @@ class Picture(NamedTuple):
 
 
 class Kind:
-    """A kind of bearing; the functions of its file are methods of a subclass.
+    """A kind of bearing: its words, numbers and rules.
 
     Attributes
     ----------
     name
-        as files have it.
+        name of the kind in files.
     element
-        what a rolling element is called: "ball" or "roller".
+        word for a rolling element: "ball" or "roller".
     variants
-        how the kind is offered, the usual one first.
+        variants in lists of choices, the usual one first.
     exponent, exponent_text
-        of load over compression, as a number and raised in print.
+        exponent of load over compression, as a number and as superscript text.
     line_contact
-        True where elements touch straight races along a line, which is fixed (see `Contact`): life,
-        film and ratings differ, and there are no groove centres.
+        True if elements touch straight races along a fixed line (see `Contact`): life, film and
+        ratings differ, and there are no groove centres.
     directions
-        out of DIRECTIONS in which the inner ring can move.
+        directions, out of DIRECTIONS, in which the inner ring can move.
     needed_directions
-        those which a load in general moves, where nothing but this bearing holds the shaft.
+        directions that a general load moves if this bearing alone holds the shaft.
     carries
-        a sentence on what the others would need; empty where there are none.
+        a sentence on the requirements of the other directions; empty if all five are possible.
     left_out
-        why fewer directions than five are all there is; empty where all five are.
+        the reason why fewer than five directions are possible; empty if all five are.
     shoulders
-        races that have shoulders which a contact may climb.
+        races with shoulders that a contact may climb.
     tilt_unknown
-        a sentence where elements do not follow a tilt; else empty.
+        a sentence if elements do not follow a tilt; else empty.
     rating_unknown
-        the words in which a dynamic load rating is refused; empty where one is computed.
+        the words that refuse a dynamic load rating; empty if one is computed.
     static_pressure
-        [Pa] that ISO 76 allows in a contact at rest.
+        pressure [Pa] that ISO 76 allows in a contact at rest.
     mass_unknown
-        elements whose mass cannot be reckoned with, and why; empty where it can.
+        words for elements whose mass is not modelled, with the reason; empty if it is modelled.
     estimate_spread
-        of insides that are estimated: the relative error of element over pitch diameter that 19 of
-        20 stay below, and how many elements there may be more or less. None: as measured of balls.
+        for estimated insides: the relative error of element over pitch diameter that 19 of 20 stay
+        below, and the possible error of the number of elements. None: as measured for balls.
     has_drawing
-        True where a bearing is given either by a drawing or by the numbers of its contacts.
+        True if a bearing can be given by a drawing or by the numbers of its contacts.
     picture
-        how its cross-section is drawn.
+        description of the drawn cross-section.
     """
 
     name: str
@@ -110,7 +109,7 @@ class Kind:
     has_drawing: bool = True
 
     def __reduce__(self) -> str:
-        """A kind sent to another process is the one of its file there, named in capitals."""
+        """Pickle a kind as the module constant of its name, in capitals."""
         return self.name.replace("-", "_").upper()
 
     def __repr__(self) -> str:
@@ -122,31 +121,31 @@ class Kind:
         return f"{self.element}s"
 
     def recognizes(self, bearing: InRows) -> bool:
-        """True where numbers without the name of a kind, as in old files, are of this one."""
+        """Return True if numbers without a named kind, as in old files, belong to this kind."""
         raise NotImplementedError
 
     def check(self, bearing: InRows) -> None:
-        """ValueError where a bearing has numbers that this kind cannot have."""
+        """Raise ValueError if a bearing has numbers that this kind cannot have."""
         raise NotImplementedError
 
     def variant(self, bearing: InRows) -> str:
-        """Which of `variants` a bearing is; empty where it is none of them."""
+        """Return the name of a bearing's variant; empty if it is none of `variants`."""
         return self.variants[0].name
 
     def arrangement(self, bearing: InRows) -> str:
-        """Arrangement of a pair, out of ARRANGEMENTS; empty of one row and of any other rows."""
+        """Return the arrangement of a pair, out of ARRANGEMENTS; empty without a pair."""
         return ""
 
     def inputs(self, bearing: InRows) -> tuple[str, ...]:
-        """Names of the fields that a bearing is given by; all others follow."""
+        """Return the names of the fields that define a bearing; all others follow."""
         raise NotImplementedError
 
     def facts(self, bearing: InRows) -> tuple[str, ...]:
-        """Names of the numbers worth showing that follow from the fields."""
+        """Return the names of derived numbers that are worth showing."""
         raise NotImplementedError
 
     def derived(self, bearing: InRows) -> Derived | None:
-        """The fields that follow from others, or None where nothing follows."""
+        """Return the derived fields, or None if there are none."""
         return None
 
     def completed(self, bearing: InRows, changes: dict[str, Any]) -> dict[str, Any]:
@@ -155,34 +154,34 @@ class Kind:
         return {"kind": ""} | changes if "rows" in changes else changes
 
     def race_contact(self, bearing: InRows, race: str) -> RaceContact | RollerContact:
-        """Contact of a rolling element with a race, "outer" or "inner"; see `Bearing`."""
+        """Return the contact of an element with a race, "outer" or "inner"; see `Bearing`."""
         raise NotImplementedError
 
     def knows_contacts(self, bearing: InRows) -> bool:
-        """True where `race_contact` has an answer."""
+        """Return True if `race_contact` has an answer."""
         return True
 
     def carries_thrust_one_way(self, bearing: InRows) -> bool:
-        """True where one of its rows has a shoulder on one side of each race alone.
+        """Return True if a row has a shoulder on only one side of each race.
 
-        Contacts at an angle have; at 0 they carry thrust both ways, or not at all.
+        This holds at a contact angle; at angle 0 a row carries thrust both ways or not at all.
         """
         return bearing.contact_angle > 0.0
 
     def groove_radius(self, bearing: InRows, race: str) -> float | None:
-        """Radius [m] of a race across the rolling; None where it is not known, or no groove."""
+        """Return the radius [m] of a race across the rolling direction; None if unknown."""
         return None
 
     def profile_drop(self, bearing: InRows, place: Array) -> Array:
-        """Drop P [m] of a roller's profile at places [m] from its middle; see `statics.laminae`."""
+        """Return the drop P [m] of a roller's profile at distances [m] from its middle."""
         raise NotImplementedError
 
     def volume(self, bearing: InRows) -> float:
-        """Volume [m³] of a rolling element; a ball's, π D_b³/6."""
+        """Return the volume [m³] of a rolling element; π D_b³/6 for a ball."""
         return math.pi / 6.0 * bearing.ball_diameter**3
 
     def contact(self, bearing: InRows) -> Contact:
-        """The contact of each element of a bearing, or of one of its rows."""
+        """Return the contact of each element of a bearing, or of one of its rows."""
         return Contact(
             angle=bearing.contact_angle,
             lever=bearing.groove_center_radius,
@@ -194,10 +193,10 @@ class Kind:
         )
 
     def race_factors(self, bearing: InRows) -> tuple[float, float]:
-        """Load-deflection factors [N/m^n] of an element's contacts with inner and outer race.
+        """Return the load-deflection factors [N/m^n] of contacts with inner and outer race.
 
-        Their ratio is that of Hertz's contacts where the drawing is known and 1 elsewhere, and in
-        series they are `load_deflection_factor`: of both contacts alike each is 2^n of it.
+        Their ratio is that of Hertzian contacts if the drawing is known, and else 1. In series they
+        make `load_deflection_factor`: two equal contacts have 2^n times that factor each.
         """
         inner, outer = (
             (self.race_contact(bearing, race).load_deflection_factor for race in ("inner", "outer"))
@@ -209,10 +208,10 @@ class Kind:
         return scale * inner, scale * outer
 
     def race_distances(self, bearing: InRows) -> tuple[float, float]:
-        """Unloaded distances [m] of a ball's centre from the inner and outer groove's centre.
+        """Return the unloaded distances [m] of a ball's centre from both groove centres.
 
-        r_i − D_b/2 and r_o − D_b/2, in proportion to make A0; halves of it without a drawing. 0
-        and 0 where there are no such centres.
+        They are r_i − D_b/2 and r_o − D_b/2, scaled so that their sum is A0; without a drawing each
+        is half of A0. Both are 0 without groove centres.
         """
         if bearing.groove_center_distance is None:
             return 0.0, 0.0
@@ -224,12 +223,12 @@ class Kind:
         return scale * inner, scale * outer
 
     def check_mass(self) -> None:
-        """ValueError where the mass of the elements cannot be reckoned with."""
+        """Raise ValueError if the mass of the elements is not modelled."""
         if self.mass_unknown:
             raise checks.refuse("balls", "with mass", f'"massless" of {self.mass_unknown}')
 
     def check_directions(self, dofs: tuple[str, ...]) -> None:
-        """ValueError for directions in which a bearing of this kind cannot move."""
+        """Raise ValueError for directions in which a bearing of this kind cannot move."""
         if not set(dofs) <= set(self.directions):
             allowed = f"{' and '.join(self.directions)}, as {self.carries}"
             raise checks.refuse("dofs", " ".join(dofs), allowed)

@@ -5,15 +5,14 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from bearingcore.common import _checks as checks
-from bearingcore.common import cached_property
+from bearingcore.common import _checks as checks, cached_property
 
 GREATEST_CONTACT_ANGLE = math.radians(80.0)
-"""Beyond this a bearing is a thrust bearing, for which the radial clearance loses its meaning."""
+"""Beyond this angle a bearing is a thrust bearing, and a radial clearance has no meaning."""
 
 
 def check_contact_angle(angle: float, name: str = "contact_angle") -> float:
-    """Unloaded contact angle [rad] as a float, else ValueError."""
+    """Return the unloaded contact angle [rad] as a float, else raise ValueError."""
     most, note = GREATEST_CONTACT_ANGLE, "0 to 80 degrees"
     return checks.real_number(name, angle, at_least=0.0, at_most=most, unit="rad", note=note)
 
@@ -48,7 +47,7 @@ class Kinematics:
     def ball_spacing(self) -> float:
         """Angle between neighbouring balls, 2π/N_b [rad] (Eq. 4).
 
-        Of the rows that have no number of balls of their own: see `Bearing.period`.
+        It holds for rows without their own number of balls: see `Bearing.period`.
         """
         return 2.0 * math.pi / self.n_balls
 
@@ -56,29 +55,32 @@ class Kinematics:
     def cage_ratio(self) -> float:
         """Cage speed over shaft speed, (1 − D_b cos α0 / D_p)/2 (Eq. 3).
 
-        Of the bearing's own numbers, as all speeds and frequencies: those of a row that has numbers
-        of its own are `of_row(k)`'s.
+        Like all speeds and frequencies it follows from the bearing's own numbers; for a row with
+        other numbers use `of_row(k)`.
         """
         return 0.5 * (1.0 - self.size_ratio)
 
     def cage_speed(self, shaft_speed: float) -> float:
-        """Cage speed ω_c [rad/s] at a shaft speed ω_s [rad/s] (Eq. 3)."""
+        """Return the cage speed ω_c [rad/s] at a shaft speed ω_s [rad/s] (Eq. 3)."""
         return self.cage_ratio * shaft_speed
 
     def ftf(self, shaft_speed: float) -> float:
-        """Fundamental train (cage) frequency f_c [Hz] at a shaft speed [rad/s]."""
+        """Return the fundamental train (cage) frequency f_c [Hz] at a shaft speed [rad/s]."""
         return self.cage_speed(shaft_speed) / (2.0 * math.pi)
 
     def bpfo(self, shaft_speed: float) -> float:
-        """Ball-pass frequency of the outer race, N_b f_c [Hz], shaft speed in rad/s (Eq. 5)."""
+        """Return the outer ball-pass frequency N_b f_c [Hz] at a shaft speed [rad/s] (Eq. 5)."""
         return self.n_balls * self.ftf(shaft_speed)
 
     def bpfi(self, shaft_speed: float) -> float:
-        """Ball-pass frequency of the inner race, N_b (f_s − f_c) [Hz], shaft speed in rad/s."""
+        """Return the inner ball-pass frequency N_b (f_s − f_c) [Hz] at a shaft speed [rad/s]."""
         return self.n_balls * (shaft_speed / (2.0 * math.pi) - self.ftf(shaft_speed))
 
     def bsf(self, shaft_speed: float) -> float:
-        """Ball spin frequency, f_s D_p/(2 D_b) (1 − (D_b cos α0/D_p)²) [Hz], speed in rad/s."""
+        """Return the ball spin frequency [Hz] at a shaft speed [rad/s].
+
+        It is f_s D_p/(2 D_b) (1 − (D_b cos α0/D_p)²).
+        """
         shaft_frequency = shaft_speed / (2.0 * math.pi)
         lever = self.pitch_diameter / (2.0 * self.ball_diameter)
         return lever * shaft_frequency * (1.0 - self.size_ratio**2)

@@ -24,8 +24,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from bearingcore.common import Array
-from bearingcore.common import _checks as checks
+from bearingcore.common import Array, _checks as checks
 
 STEEL_MODULUS, STEEL_POISSON = 210e9, 0.3
 """E [Pa] and ν of rollers and rings: the factor is for steel."""

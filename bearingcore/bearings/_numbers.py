@@ -8,8 +8,7 @@ from bearingcore.bearings import _drawing as drawing
 from bearingcore.bearings._kinematics import Kinematics
 from bearingcore.bearings._material import STEEL_DENSITY
 from bearingcore.bearings._row import MOST_ROWS, Row
-from bearingcore.common import _checks as checks
-from bearingcore.common import _scene_file as scene_file
+from bearingcore.common import _checks as checks, _scene_file as scene_file
 
 ESTIMATES = ("n_balls", "ball_diameter", "pitch_diameter", "roller_length")
 """Fields that may be estimates."""

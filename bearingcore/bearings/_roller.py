@@ -14,8 +14,7 @@ from bearingcore.bearings._line_contact import (
     roller_contact,
     series_factor,
 )
-from bearingcore.common import Array
-from bearingcore.common import _checks as checks
+from bearingcore.common import Array, _checks as checks
 
 
 def roller_numbers(

@@ -31,8 +31,7 @@ from bearingcore.bearings._kind import DIRECTIONS, Picture, Variant
 from bearingcore.bearings._line_contact import RollerContact, roller_contact, tapered_profile_drop
 from bearingcore.bearings._roller import Roller, length_of
 from bearingcore.bearings._row import arrangement_of
-from bearingcore.common import Array
-from bearingcore.common import _checks as checks
+from bearingcore.common import Array, _checks as checks
 
 USUAL_ANGLE = math.radians(14.0361)
 """14°02′10″, the angle of most bearings of the series 302 and 322 (ISO 355)."""

@@ -1,56 +1,38 @@
-"""Used by every layer: checks of input, progress of long work."""
+"""Helpers of every layer: checks of input, tables, numbers in text, progress of long work."""
 
-from bearingcore.common._arrays import Array, runs, summit, weighted_quantile
-from bearingcore.common._checks import choice, refuse
-from bearingcore.common._lazy import cached_property
-from bearingcore.common._numbers import (
-    PREFIXES,
-    count,
-    decibels,
-    level_difference,
-    number,
-    percent,
-    percent_off,
-    prefix_power,
-    prefixed_span,
-    probability,
-    scientific,
-    span,
-    thousands,
-    with_deviation,
-    with_prefix,
+from bearingcore.common._arrays import (
+    Array as Array,
+    runs as runs,
+    summit as summit,
+    weighted_quantile as weighted_quantile,
 )
-from bearingcore.common._progress import Progress
-from bearingcore.common._scene_file import LARGEST_TEXT
-from bearingcore.common._table import ResultTable, as_csv, shown_as_table, table_of
-
-__all__ = [
-    "LARGEST_TEXT",
-    "PREFIXES",
-    "Array",
-    "Progress",
-    "ResultTable",
-    "as_csv",
-    "cached_property",
-    "choice",
-    "count",
-    "decibels",
-    "level_difference",
-    "number",
-    "percent",
-    "percent_off",
-    "prefix_power",
-    "prefixed_span",
-    "probability",
-    "refuse",
-    "runs",
-    "scientific",
-    "shown_as_table",
-    "span",
-    "summit",
-    "table_of",
-    "thousands",
-    "weighted_quantile",
-    "with_deviation",
-    "with_prefix",
-]
+from bearingcore.common._checks import (
+    choice as choice,
+    refuse as refuse,
+)
+from bearingcore.common._lazy import cached_property as cached_property
+from bearingcore.common._numbers import (
+    PREFIXES as PREFIXES,
+    count as count,
+    decibels as decibels,
+    level_difference as level_difference,
+    number as number,
+    percent as percent,
+    percent_off as percent_off,
+    prefix_power as prefix_power,
+    prefixed_span as prefixed_span,
+    probability as probability,
+    scientific as scientific,
+    span as span,
+    thousands as thousands,
+    with_deviation as with_deviation,
+    with_prefix as with_prefix,
+)
+from bearingcore.common._progress import Progress as Progress
+from bearingcore.common._scene_file import LARGEST_TEXT as LARGEST_TEXT
+from bearingcore.common._table import (
+    ResultTable as ResultTable,
+    as_csv as as_csv,
+    shown_as_table as shown_as_table,
+    table_of as table_of,
+)

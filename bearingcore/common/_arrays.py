@@ -1,4 +1,4 @@
-"""Arrays of numbers: their type, and runs in them."""
+"""Arrays of numbers: their type, and helpers for runs, quantiles and peaks."""
 
 from __future__ import annotations
 
@@ -6,17 +6,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
-"""Floats; docstrings say of which shape."""
+"""Floats; docstrings give the shape."""
 
 
 def runs(which: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """First index of each run that is true, and the one after its last."""
+    """Return the first index of each run of True, and the index after its last."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], which, [False]]).astype(np.int8)))
     return edges[::2], edges[1::2]
 
 
 def weighted_quantile(values: Array, weights: Array, share: float) -> float:
-    """Number below which a share of the weight of numbers (n,) lies, interpolated; NaN of none."""
+    """Return the weighted quantile of numbers (n,), interpolated; NaN without numbers."""
     if not values.size:
         return np.nan
     order = np.argsort(values)
@@ -25,14 +25,14 @@ def weighted_quantile(values: Array, weights: Array, share: float) -> float:
 
 
 def summit(left: Array, middle: Array, right: Array) -> Array:
-    """Place of the top of a parabola through three neighbours, from the middle one: -1 to 1."""
+    """Return the offset, -1 to 1, of a parabola's top from the middle of three neighbours."""
     bend = left - 2.0 * middle + right
     shift = np.where(bend < 0.0, 0.5 * (left - right) / np.where(bend < 0.0, bend, 1.0), 0.0)
     return np.clip(shift, -1.0, 1.0)
 
 
 def least_and_greatest(values: Array, axis: int) -> tuple[Array, Array]:
-    """The ends of what is known of numbers along an axis; NaN of nothing."""
+    """Return the least and greatest finite numbers along an axis; NaN where there are none."""
     known = np.isfinite(values)
     least = values.min(axis=axis, initial=np.inf, where=known)
     greatest = values.max(axis=axis, initial=-np.inf, where=known)

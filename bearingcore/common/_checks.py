@@ -1,6 +1,6 @@
-"""Checks of what comes in: each returns the value, or raises a `FieldError`.
+"""Checks of input: each returns the value, or raises a `FieldError`.
 
-Of a value of a wrong type it is a `FieldTypeError`, which is a `TypeError` too.
+A value of a wrong type raises a `FieldTypeError`, which is a `TypeError` too.
 """
 
 from __future__ import annotations
@@ -19,19 +19,19 @@ T = TypeVar("T")
 
 
 def refuse(field: str, value: object, allowed: str, unit: str = "", **numbers: float) -> FieldError:
-    """The error to raise for `field`; `allowed` may hold ``{name:unit}`` for each of `numbers`."""
+    """Return the error to raise for `field`; `allowed` may hold ``{name:unit}`` of `numbers`."""
     return FieldError(field, value, allowed, unit, numbers)
 
 
 def missing(field: str, wanted: str) -> MissingError:
-    """The error to raise for an argument that has to be given."""
+    """Return the error to raise for a missing argument."""
     return MissingError(field, None, wanted)
 
 
 def instance(field: str, value: object, kind: type[T], wanted: str = "") -> T:
-    """`value` if it is of a type, else FieldTypeError; `wanted` says so in other words.
+    """Return `value` if it is of a type, else raise FieldTypeError with the words `wanted`.
 
-    Without them the words are the type's own `WANTED`, where it has them.
+    Without `wanted` the words are the type's own `WANTED`, if it has them.
     """
     if isinstance(value, kind):
         return value
@@ -41,12 +41,12 @@ def instance(field: str, value: object, kind: type[T], wanted: str = "") -> T:
 
 
 def _is_number(value: object) -> bool:
-    """False of text and truth values too, which Python turns into numbers."""
+    """Return False also for text and truth values, which Python would convert to numbers."""
     return isinstance(value, SupportsFloat) and not isinstance(value, bool | np.bool_ | str)
 
 
 def _error(value: object) -> type[FieldError]:
-    """The error for what is no number: of words, None or a truth value it is their type."""
+    """Return the type of error for a value: FieldTypeError if it is no number."""
     return FieldError if _is_number(value) else FieldTypeError
 
 
@@ -61,7 +61,7 @@ def real_number(
     unit: str = "",
     note: str = "",
 ) -> float:
-    """`value` as a finite float inside the given limits [unit]; `note` says why they are there.
+    """Return `value` as a finite float inside the limits [unit]; `note` gives their reason.
 
     Raises
     ------
@@ -80,7 +80,7 @@ def real_number(
 
 
 def keep(part: object, **values: object) -> None:
-    """Set fields of a frozen dataclass, as its `__post_init__` does with what it has checked."""
+    """Set fields of a frozen dataclass to checked values, in its `__post_init__`."""
     for name, value in values.items():
         object.__setattr__(part, name, value)
 
@@ -88,9 +88,9 @@ def keep(part: object, **values: object) -> None:
 def keep_number(
     part: object, name: str, *, optional: bool = False, of: str = "", **limits: Any
 ) -> None:
-    """Check a number of a frozen dataclass, see `real_number`, and keep it there as a float.
+    """Check a number of a frozen dataclass with `real_number`, and keep it as a float.
 
-    An `optional` one may be None; `of` stands behind the name in a refusal.
+    An `optional` number may be None; a refusal appends `of` to the name.
     """
     value = getattr(part, name)
     if value is not None or not optional:
@@ -98,7 +98,7 @@ def keep_number(
 
 
 def choice(field: str, value: object, options: tuple[str, ...]) -> str:
-    """`value` if it is one of `options`, else ValueError."""
+    """Return `value` if it is one of `options`, else raise ValueError."""
     if not (isinstance(value, str) and value in options):
         error = FieldError if isinstance(value, str) else FieldTypeError
         raise error(field, value, ", ".join(options))
@@ -106,12 +106,12 @@ def choice(field: str, value: object, options: tuple[str, ...]) -> str:
 
 
 def whole_number(field: str, value: object, *, at_least: int, at_most: int) -> int:
-    """`value` as an int inside the limits, else ValueError. 14.0 counts as 14, True does not."""
+    """Return `value`, such as 14 or 14.0, as an int inside the limits, else raise ValueError."""
     allowed = f"a whole number from {at_least} to {at_most}"
     if not _is_number(value):
         raise FieldTypeError(field, value, allowed)
     try:
-        x = float(value)  # type: ignore[arg-type]  # what it cannot take is refused
+        x = float(value)  # type: ignore[arg-type]  # TypeError is a refusal
     except (TypeError, ValueError, OverflowError):
         raise refuse(field, value, allowed) from None
     if not at_least <= x <= at_most or x != round(x):
@@ -120,7 +120,7 @@ def whole_number(field: str, value: object, *, at_least: int, at_most: int) -> i
 
 
 def finite(field: str, values: ArrayLike, unit: str) -> Array:
-    """`values`, one or a row, as a row of finite floats (n,), a copy; else ValueError."""
+    """Return a number or array as a copy (n,) of finite floats, else raise ValueError."""
     allowed = f"finite numbers [{unit}]"
     try:
         row = np.array(values, dtype=float, ndmin=1)

@@ -1,6 +1,6 @@
 """The physics: scenes, statics, dynamics, sweeps of scenes and experiments on methods.
 
-It knows no file and no verdict. Its packages are imported when they are used.
+It reads no files and diagnoses nothing. Its packages are imported when they are used.
 """
 
 import lazy_loader

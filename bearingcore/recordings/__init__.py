@@ -1,13 +1,12 @@
-"""Signals over time and their spectra: what the model gives and a sensor measures."""
+"""Signals over time and their spectra, simulated or measured."""
 
-from bearingcore.recordings._recording import FEWEST_SAMPLES, Recording
-from bearingcore.recordings._spectrum import Spectrum, check_samples, envelope_spectrum, spectrum
-
-__all__ = [
-    "FEWEST_SAMPLES",
-    "Recording",
-    "Spectrum",
-    "check_samples",
-    "envelope_spectrum",
-    "spectrum",
-]
+from bearingcore.recordings._recording import (
+    FEWEST_SAMPLES as FEWEST_SAMPLES,
+    Recording as Recording,
+)
+from bearingcore.recordings._spectrum import (
+    Spectrum as Spectrum,
+    check_samples as check_samples,
+    envelope_spectrum as envelope_spectrum,
+    spectrum as spectrum,
+)

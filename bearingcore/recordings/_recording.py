@@ -7,8 +7,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from bearingcore.common import Array, count
-from bearingcore.common import _checks as checks
+from bearingcore.common import Array, _checks as checks, count
 
 DIRECTIONS = ("x", "y")
 
@@ -36,6 +35,9 @@ class Recording:
         [rad/s] at the measurement; None if it is not known.
     notes
         sentences on changes of the signal, and on omissions.
+    shaft_angle : (n,) [rad]
+        angle of the shaft at each sample, if it was measured beside the signal; the speed may then
+        change. For a tachometer with several pulses a turn, one turn from pulse to pulse.
 
     Raises
     ------
@@ -49,6 +51,7 @@ class Recording:
     name: str = ""
     shaft_speed: float | None = None
     notes: tuple[str, ...] = ()
+    shaft_angle: Array | None = field(default=None, repr=False)
 
     def __post_init__(self) -> None:
         checks.keep_number(self, "sample_rate", above=0.0, unit="Hz")
@@ -85,11 +88,25 @@ class Recording:
                 raise checks.refuse("acceleration", what, "from {:g} to {:g}".format(*SWINGS))
         signal.setflags(write=False)
         checks.keep(self, acceleration=signal)
+        if self.shaft_angle is not None:
+            checks.keep(self, shaft_angle=_rising(self.shaft_angle, len(signal)))
 
     @property
     def duration(self) -> float:
         """[s]"""
         return len(self.acceleration) / self.sample_rate
+
+
+def _rising(angle: Array, samples: int) -> Array:
+    """The angle of the shaft (samples,), which never falls; `FieldError` for any other."""
+    kept = np.array(angle, dtype=float)
+    if kept.shape != (samples,) or not (np.isfinite(kept).all() and np.ptp(kept) > 0.0):
+        allowed = f"a finite number for each of {samples} samples, rising"
+        raise checks.refuse("shaft_angle", f"of shape {kept.shape}", allowed)
+    if (np.diff(kept) < 0.0).any():
+        raise checks.refuse("shaft_angle", "falling", "an angle that never falls")
+    kept.setflags(write=False)
+    return kept
 
 
 def check_directions(directions: Sequence[str]) -> tuple[str, ...]:

@@ -9,8 +9,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from bearingcore.common import Array, ResultTable, shown_as_table, table_of, thousands
-from bearingcore.common import _checks as checks
+from bearingcore.common import (
+    Array,
+    ResultTable,
+    _checks as checks,
+    shown_as_table,
+    table_of,
+    thousands,
+)
 
 MOST_SAMPLES = 100_000_000
 """Samples of all signals that are taken at most by default: some seconds of one core,

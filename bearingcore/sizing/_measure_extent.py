@@ -8,8 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from bearingcore.bearings import Bearing, BearingLike, bearing_of
-from bearingcore.common import ResultTable, shown_as_table, table_of
-from bearingcore.common import _checks as checks
+from bearingcore.common import ResultTable, _checks as checks, shown_as_table, table_of
 from bearingcore.errors import Status
 from bearingcore.measured.diagnosis import (
     INNER,

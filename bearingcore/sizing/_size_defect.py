@@ -16,8 +16,16 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from bearingcore.common import Array, Progress, ResultTable, runs, shown_as_table, summit, table_of
-from bearingcore.common import _checks as checks
+from bearingcore.common import (
+    Array,
+    Progress,
+    ResultTable,
+    _checks as checks,
+    runs,
+    shown_as_table,
+    summit,
+    table_of,
+)
 from bearingcore.errors import Status
 from bearingcore.measured.diagnosis import MOST_SAMPLES, SLIP
 from bearingcore.measured.signals import BallPasses, average_passes, coefficients, least_passes

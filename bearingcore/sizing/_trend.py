@@ -9,8 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from bearingcore.bearings import Bearing, BearingLike, bearing_of
-from bearingcore.common import Array, ResultTable, shown_as_table, table_of
-from bearingcore.common import _checks as checks
+from bearingcore.common import Array, ResultTable, _checks as checks, shown_as_table, table_of
 from bearingcore.measured.diagnosis import CANNOT_TELL, NARROWEST, PARTS, SLIP, diagnose, part_lines
 from bearingcore.measured.files import time_in
 from bearingcore.measured.signals import indicators, kurtogram, local_median

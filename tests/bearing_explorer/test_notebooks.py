@@ -1,4 +1,4 @@
-"""The notebooks run as they stand, and are kept without what they put out."""
+"""The notebooks run without changes, and are stored without outputs."""
 
 import re
 from pathlib import Path
@@ -23,7 +23,7 @@ def test_there_are_notebooks() -> None:
 
 @pytest.mark.proof
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
-def test_a_notebook_runs_and_shows_what_it_says(path: Path) -> None:
+def test_a_notebook_runs_and_shows_its_figures(path: Path) -> None:
     notebook = nbformat.read(path, as_version=4)
     needed = {"rotor-in-ross": "ross", "learning": "sklearn"}.get(path.stem)
     if needed is not None:

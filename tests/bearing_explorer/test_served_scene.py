@@ -10,8 +10,7 @@ from typing import Any
 import pytest
 
 from tests.bearing_explorer.kit.serve.test_serving import NEW_MODEL, changed
-from tests.browser.helpers import explorer_server
-from tests.browser.helpers import serving as server_up
+from tests.browser.helpers import explorer_server, serving as server_up
 from tests.helpers.loops import run
 from tests.helpers.page_client import PageClient
 from tests.helpers.proxies import Proxy

@@ -545,6 +545,23 @@ def test_a_signal_is_simulated_where_there_is_no_file(visitor: Visitor) -> None:
 
 
 @pytest.mark.proof
+def test_section_4_of_the_paper_entry_and_exit_leave_it_open_and_the_ringing_decides(
+    visitor: Visitor,
+) -> None:
+    visitor.open(FAN_RIG + "paper")
+    visitor.press("Section 4: size a defect")
+    visitor.is_at("Diagnosis")
+    visitor.reads(re.compile("about 13° or 16°, outer race"))
+    visitor.reads(re.compile(r"^38\.6° \(38\.\d to 38\.\d°\)\. As balls pass, mode"))
+    visitor.reads(re.compile(r"38\.6° \(38\.\d to 38\.\d°\), 17\.\d mm long"))  # the verdict
+    visitor.steady()
+    before = visitor.figures()
+    visitor.choose("The machine's support is", "not known")
+    visitor.reads(re.compile("that needs the mass and the stiffness of its support"))
+    visitor.wait(lambda: visitor.figures() != before)
+
+
+@pytest.mark.proof
 def test_accuracy_is_measured_and_what_less_would_do_is_said_with_its_error(
     desk: Visitor,
 ) -> None:

@@ -1,4 +1,4 @@
-"""Files read in this process: quick, for tests of what is made of them."""
+"""Read files in the process of the tests, which is quicker than a child process."""
 
 import warnings
 from typing import Any
@@ -20,13 +20,13 @@ def read_here(
     most_columns: int = MOST_COLUMNS,
     give_up: object = None,
 ) -> tuple[dict[str, Any], NDArray[np.float64]]:
-    """`child.read_file` without the process, which takes a third of a second each time."""
+    """Do the work of `read_file` without its child process, which takes a third of a second."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         return formats.read(name, content, most_numbers, most_columns, text_only=text_only)
 
 
 def read_in_this_process(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Let tables and floors be read by `read_here` during a test."""
+    """Read tables and floors by `read_here` during a test."""
     for module in ("bearingcore.measured.files._table", "bearingcore.sizing._read_floor"):
         monkeypatch.setattr(f"{module}.read_file", read_here)

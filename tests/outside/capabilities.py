@@ -41,8 +41,9 @@ LISTED_BY_RESULT = {
 PARTS = {
     *("check_samples", "check_directions", "hann", "split", "thinned", "coefficients"),
     *("least_passes", "lines_that_count", "third_octave_edges", "smooth_lag", "oversampled"),
+    "resample_over_turns",
     *("followed", "load_zone_weights", "local_median", "line_levels", "squared_envelopes"),
-    *("whiten", "density_difference"),
+    *("whiten", "density_difference", "resample_over_turns"),
 }
 """Functions of `signals` whose results are shown nowhere by themselves: they serve others there and
 the diagnosis, which are listed."""

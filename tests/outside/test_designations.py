@@ -7,9 +7,7 @@ import math
 import pytest
 
 from bearingcore import contact_pressures, life, scene_of
-from bearingcore.bearings import _inside as inside
-from bearingcore.bearings import _ratings as ratings
-from bearingcore.bearings import read_designation
+from bearingcore.bearings import _inside as inside, _ratings as ratings, read_designation
 from bearingcore.bearings._designation_tables import boundaries
 from bearingcore.errors import FieldError
 from tests.outside.witness import witness

@@ -8,8 +8,7 @@ import pytest
 from bearingcore import Defect, equilibrium, presets, read_floor
 from bearingcore.model.scene import MeasuredFloor, RoughFloor
 from bearingcore.model.scene._defect import drop_into
-from tests.outside.elements import Defect as Slot
-from tests.outside.elements import Rows
+from tests.outside.elements import Defect as Slot, Rows
 from tests.outside.witness import witness
 
 R, r = 23.49e-3, 3.97e-3

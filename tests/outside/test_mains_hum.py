@@ -10,6 +10,7 @@ import pytest
 from bearingcore import Bearing, Recording, diagnose
 from bearingcore.measured.diagnosis import CANNOT_TELL, DiagnosisStatus
 from tests.outside.motor_signals import INNER_ORDER, OUTER_ORDER, RATIO, TURN, Motor
+from tests.outside.sample_records import FOLDER, MOTORS
 from tests.outside.witness import witness
 
 BALL = 7.94e-3
@@ -152,3 +153,13 @@ def test_damage_near_twice_the_mains_is_less_sure_and_says_so(frequency, least, 
     assert diagnosis.fault == "outer race"
     assert least <= diagnosis.probability <= most
     assert ("looks alike" in diagnosis.sentence) == (frequency < 101.0)
+
+
+@pytest.mark.parametrize(("name", "faults"), [("motor-a.csv", ["inner race"]),
+                                              ("motor-b.csv", [CANNOT_TELL, "none"])])  # fmt: skip
+def test_the_records_to_try_are_of_the_closed_forms_and_are_judged_so(name, faults):
+    text = (FOLDER / name).read_text(encoding="utf-8")
+    assert "not measured" in text
+    values = np.array(text.splitlines()[5:], dtype=float)
+    np.testing.assert_allclose(values, MOTORS[name].signal(1), atol=0.011)
+    assert diagnose(FOLDER / name).fault in faults

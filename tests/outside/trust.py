@@ -10,12 +10,13 @@ from tests.outside.witness import CLAIMS, Claim
 
 HEAD = """# What it is checked against
 
-A row a capability: what from outside holds it, what was compared, how closely, and the test that \
-repeats it. From outside is a published table or example, a program of other people, a measured \
-record, or a computation from first principles that shares no code and no constant with this \
-program. The list is made by `python -m tests.outside.trust` from the tests and from what the \
-program offers, so that nothing new is without a row: a capability without a witness fails a test, \
-unless it stands below as not checked.
+A witness is something outside this program with which a capability was compared: a published \
+table or example, another program, a measured record, or a computation from first principles \
+that shares no code and no constant with this program. The first table lists the witnesses, the \
+compared quantities, the accuracy that a test demands, and the test that repeats the comparison. \
+The tables after it list every capability with its witnesses. `python -m tests.outside.trust` \
+prints this page from the tests and from the capabilities of the program. A capability without a \
+witness fails a test, unless it is listed as not checked.
 """
 
 NOT_CHECKED: dict[str, str] = {}

@@ -80,7 +80,7 @@ class Findings:
     def stop(self) -> None:
         """The session is over."""
         self._ended = True
-        self._table = None
+        self._table = self.sized = None
         self.diagnoses.stop()
         self.extents.stop()
         self.listed.stop()

@@ -445,23 +445,12 @@ def read_form(
     """
     texts = as_texts(form, FIELDS)
     table = with_roles(table, texts["columns"])
-    refused: dict[str, str] = {}
-    numbers: dict[str, float] = {}
     stated = table.contents.unit.stated
     in_si = not size_questions(table, texts) or (texts["unit"] == NOT_KNOWN and stated)
-    for name in _WORDS:
-        if name == "sensitivity" and not (in_si and is_voltage(table, texts)):
-            continue
-        try:
-            numbers[name] = _read(name, texts)
-        except ValueError as error:
-            refused[name] = f"{_trouble(table) if name == 'sample_rate' else ''} {error}".strip()
-    roles, _ = roles_and_units(texts["columns"])
-    chosen = {role: index for index, role in enumerate(roles) if role in DIRECTIONS}
-    if not chosen:
-        refused["columns"] = _which_column(table)
-    elif len(chosen) < sum(role in DIRECTIONS for role in roles):
-        refused["columns"] = "Two columns are the signal along one direction: choose one of them."
+    numbers, refused = _numbers_of(table, texts, in_si and is_voltage(table, texts))
+    chosen, trouble = _signal_columns(table, texts)
+    if trouble:
+        refused["columns"] = trouble
     if texts["unit"] not in (*UNITS, AS_HEADED) and in_si:
         refused["unit"] = f"The unit is one of {', '.join(UNITS)}."
     try:
@@ -498,6 +487,33 @@ def read_form(
     return Measured(
         sized if in_si else _without_size(sized), found_machine, origin=origin, in_si=in_si
     )
+
+
+def _signal_columns(table: Table, texts: Mapping[str, str]) -> tuple[dict[str, int], str]:
+    """Columns of the signal by direction, and a sentence where they are none."""
+    roles, _ = roles_and_units(texts["columns"])
+    chosen = {role: index for index, role in enumerate(roles) if role in DIRECTIONS}
+    if not chosen:
+        return chosen, _which_column(table)
+    if len(chosen) < sum(role in DIRECTIONS for role in roles):
+        return chosen, "Two columns are the signal along one direction: choose one of them."
+    return chosen, ""
+
+
+def _numbers_of(
+    table: Table, texts: Mapping[str, str], by_sensitivity: bool
+) -> tuple[dict[str, float], dict[str, str]]:
+    """Numbers that were typed, by field, and sentences on those that are none."""
+    numbers: dict[str, float] = {}
+    refused: dict[str, str] = {}
+    for name in _WORDS:
+        if name == "sensitivity" and not by_sensitivity:
+            continue
+        try:
+            numbers[name] = _read(name, texts)
+        except ValueError as error:
+            refused[name] = f"{_trouble(table) if name == 'sample_rate' else ''} {error}".strip()
+    return numbers, refused
 
 
 def as_texts(form: Mapping[str, Any], names: Sequence[str]) -> dict[str, str]:

@@ -242,53 +242,60 @@ def read_machine(
     scene
         bearing and speed of the scene, see `of_scene`: used only where the form says so.
     """
-    guessed, refused = set(), {}
-    speed, source = None, texts["speed"]
-    found = contents.shaft_speed
-    try:
-        if source == FILE and found is not None:
-            speed = found.value
-            if not found.stated:
-                guessed.add("speed")
-        elif source in (GIVEN, ROUGH):
-            if texts["shaft_speed"]:  # until then it is not known
-                speed = 2.0 * math.pi * read_speed(texts["shaft_speed"])
-        elif source == SCENE:
-            speed = scene.shaft_speed
-        elif source != NOT_KNOWN:
-            refused["speed"] = "There is no such answer on the shaft speed."
-    except ValueError as error:
-        refused["shaft_speed"] = str(error)
-    bearing, name, by, unread = None, texts["bearing"], GIVEN, ""
-    try:
-        if name == SCENE:
-            bearing, by, name = scene.bearing, SCENE, ""
-        elif name == BY_FREQUENCIES:
-            turns = None if speed is None else speed / (2.0 * math.pi)
-            bearing = _of_frequencies(texts, turns)
-            name = "frequencies " + ", ".join(texts[one] for one in FREQUENCIES if texts[one])
-        elif name == BY_DESIGNATION:
-            name = texts["designation"]
-            if name:  # else it is not typed yet
-                bearing, unread = (entry := find_bearing(name)).bearing, entry.unread
-        elif name != NOT_KNOWN:
-            bearing = find_bearing(name).bearing
-    except ValueError as error:
-        if not {"speed", "shaft_speed"} & set(refused):  # which says it already
-            field = "designation" if texts["bearing"] == BY_DESIGNATION else "bearing"
-            refused[field] = sentence_of(error) + OWN_FREQUENCIES * (field == "designation")
-    if refused:
-        raise FormError(refused)
+    speed = _speed_in(texts, contents, scene)
+    bearing, name, by, unread = _bearing_in(texts, speed, scene)
+    guessed = set()
+    stated = contents.shaft_speed
+    if texts["speed"] == FILE and stated is not None and not stated.stated:
+        guessed.add("speed")
     if by == GIVEN and all(texts[one] == first[one] for one in GROUPS["bearing"]):
         by = FILE
-        if (
-            not contents.frequencies and not texts["designation"]
-        ):  # known from the collection the file seems to be of
-            guessed.add("bearing")
+        if not contents.frequencies and not texts["designation"]:
+            guessed.add("bearing")  # known from the collection the file seems to be of
     return Machine(
-        speed, bearing, source, by, name, frozenset(guessed),
+        speed, bearing, texts["speed"], by, name, frozenset(guessed),
         by_frequencies=texts["bearing"] == BY_FREQUENCIES, unread=unread,
     )  # fmt: skip
+
+
+def _speed_in(texts: Mapping[str, str], contents: FileContents, scene: Machine) -> float | None:
+    """The shaft speed [rad/s] of a form; None where it is not known, or not typed yet."""
+    source, text = texts["speed"], texts["shaft_speed"]
+    if source == FILE and contents.shaft_speed is not None:
+        return contents.shaft_speed.value
+    if source in (GIVEN, ROUGH):
+        try:
+            return 2.0 * math.pi * read_speed(text) if text else None
+        except ValueError as error:
+            raise FormError({"shaft_speed": str(error)}) from None
+    if source not in (SCENE, NOT_KNOWN):
+        raise FormError({"speed": "There is no such answer on the shaft speed."})
+    return scene.shaft_speed if source == SCENE else None
+
+
+def _bearing_in(
+    texts: Mapping[str, str], speed: float | None, scene: Machine
+) -> tuple[Bearing | None, str, str, str]:
+    """The bearing of a form, its name, who says it, and what of the name was not read."""
+    name = texts["bearing"]
+    try:
+        if name == SCENE:
+            return scene.bearing, "", SCENE, ""
+        if name == BY_FREQUENCIES:
+            turns = None if speed is None else speed / (2.0 * math.pi)
+            typed = ", ".join(texts[one] for one in FREQUENCIES if texts[one])
+            return _of_frequencies(texts, turns), f"frequencies {typed}", GIVEN, ""
+        if name == BY_DESIGNATION:
+            name = texts["designation"]
+            if not name:  # it is not typed yet
+                return None, "", GIVEN, ""
+            entry = find_bearing(name)
+            return entry.bearing, name, GIVEN, entry.unread
+        return None if name == NOT_KNOWN else find_bearing(name).bearing, name, GIVEN, ""
+    except ValueError as error:
+        field = "designation" if texts["bearing"] == BY_DESIGNATION else "bearing"
+        words = sentence_of(error) + OWN_FREQUENCIES * (field == "designation")
+        raise FormError({field: words}) from None
 
 
 def _of_frequencies(texts: Mapping[str, str], turns: float | None) -> Bearing | None:

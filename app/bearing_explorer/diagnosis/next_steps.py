@@ -36,6 +36,8 @@ CLOSER = (
 WHAT_HELPS = {
     DiagnosisStatus.SPEED_OPEN: "Read the shaft speed from a tachometer, a stroboscope or the "
     "drive: with it this record may be enough.",
+    DiagnosisStatus.SPEED_CHANGES: "Measure again at a steady speed, or record a tachometer's "
+    "pulses or the speed beside the vibration.",
     DiagnosisStatus.BEARING_OPEN: "Find out which bearing it is: with it this record may be "
     "enough.",
     DiagnosisStatus.DROPPED_OUT: "Check sensor, cable and recorder, and measure again: this record "

@@ -17,8 +17,8 @@ from bearing_explorer.diagnosis.form import (
     size_questions,
     usable,
 )
-from bearing_explorer.diagnosis.machine import FIELDS as MACHINE_FIELDS
 from bearing_explorer.diagnosis.machine import (
+    FIELDS as MACHINE_FIELDS,
     NOT_KNOWN,
     FormError,
     Machine,

@@ -67,6 +67,49 @@ NOT_FORESEEN = (
 NO_SIZE = "The level of the vibration is not known, as the unit of the signal is not."
 
 
+def _trend(measurement: Measurement, found: Mapping[str, Any]) -> FoundTrend | None:
+    """The trend that was computed of the files there are; None where it is of others."""
+    trend = found.get(TrendOfFiles.name)
+    if isinstance(trend, FoundTrend) and trend.series is measurement.series:
+        return trend
+    return None
+
+
+def _drawings(
+    model: Model, measurement: Measurement, found: Mapping[str, Any], with_extent: bool
+) -> tuple[list[str], list[Any], list[str]]:
+    """Figures that show something: names in the page, what the browser draws, and HTML."""
+    drawn: list[str] = []
+    items: list[Any] = []
+    figures: list[str] = []
+    for view, title in FIGURES.items():
+        figure = Figure(
+            view,
+            model,
+            prepare=lambda view: view.measure(measurement),  # type: ignore[attr-defined]
+            found=found.get(view.name),
+            computed=False,
+        )
+        data, _ = figure.view.data(model)
+        first, *_ = figure.view.figures
+        if view is SpallExtent and not with_extent:
+            continue
+        if not any(column.size for columns in data.values() for column in columns.values()):
+            continue
+        # the trend is in words above
+        caption = "" if view is TrendOfFiles else html_text(figure.sentence)
+        first.height = first.min_height = first.max_height = HEIGHT
+        drawn.append(first.id)
+        items.append(json_item(figure.layout))
+        figures.append(
+            f"<figure><h2>{html_text(title)}</h2><div class='drawing'>{mark_of(first.id)}</div>"
+            f"<figcaption>{caption}</figcaption></figure>"
+        )
+        if len(drawn) == MOST_FIGURES:
+            break
+    return drawn, items, figures
+
+
 def measured_report(
     model: Model,
     measurement: Measurement,
@@ -97,43 +140,16 @@ def measured_report(
     if question is None or answer is None:
         raise ValueError("nothing is diagnosed yet")
     extent = measurement.extent() if answer.fault in RACES_NAMED else None
-    drawn: list[str] = []
-    items: list[Any] = []
-    figures: list[str] = []
-    for view, title in FIGURES.items():
-        figure = Figure(
-            view,
-            model,
-            prepare=lambda view: view.measure(measurement),  # type: ignore[attr-defined]
-            found=found.get(view.name),
-            computed=False,
-        )
-        data, _ = figure.view.data(model)
-        first, *_ = figure.view.figures
-        if view is SpallExtent and (extent is None or not extent.passes):
-            continue
-        if not any(column.size for columns in data.values() for column in columns.values()):
-            continue
-        # the trend is in words above
-        caption = "" if view is TrendOfFiles else html_text(figure.sentence)
-        first.height = first.min_height = first.max_height = HEIGHT
-        drawn.append(first.id)
-        items.append(json_item(figure.layout))
-        figures.append(
-            f"<figure><h2>{html_text(title)}</h2><div class='drawing'>{mark_of(first.id)}</div>"
-            f"<figcaption>{caption}</figcaption></figure>"
-        )
-        if len(drawn) == MOST_FIGURES:
-            break
+    with_extent = extent is not None and bool(extent.passes)
+    drawn, items, figures = _drawings(model, measurement, found, with_extent)
     state = panel_state(question, answer)
     state |= {"pass_on": "", "facts": ()}
     if extent is not None:
         state["extent"] = part_words.length(extent, measurement.sizing())
     machine = question.measured.machine
-    of = machine.bearing_name
-    if not of:
-        of = about.bearing if model.scene.bearing == machine.bearing else "Bearing"
-    title = about.title.strip() or f"{of}: {question.measured.recording.name}"
+    bearing = about.bearing if model.scene.bearing == machine.bearing else "Bearing"
+    title = f"{machine.bearing_name or bearing}: {question.measured.recording.name}"
+    title = about.title.strip() or title
     said = measurement.about
     place = "" if (origin := question.measured.origin) is None else origin.place
     about = replace(about, machine=said.machine or about.machine)
@@ -142,9 +158,7 @@ def measured_report(
         and not question.measured.true_part
     ):
         about = replace(about, link="")  # of a scene that has nothing to do with the signal
-    trend = found.get(TrendOfFiles.name)
-    if not isinstance(trend, FoundTrend) or trend.series is not measurement.series:
-        trend = None
+    trend = _trend(measurement, found)
     zone = zone_of(question.measured, kind)
     whole = trend.trend if trend is not None and trend.complete else None
     steps = next_steps(answer, question, zone, whole, question.measured.shaft_share)

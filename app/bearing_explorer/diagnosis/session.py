@@ -20,9 +20,13 @@ from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.signal_form import SignalForm
 from bearing_explorer.diagnosis.simulated import simulated
 from bearing_explorer.diagnosis.upload import Upload, first_lines
+from bearing_explorer.kit.assets import asset_path
 from bearing_explorer.kit.compute.jobs import READING, Change, Jobs, Work
 from bearing_explorer.kit.simulated_signals import NOISES
 from bearingcore import Scene
+
+RECORDS = {"motor-a.csv": "Motor A", "motor-b.csv": "Motor B"}
+"""Records that come along, and their names. Another program made them, by closed forms."""
 
 
 class Measurement(SignalForm):
@@ -109,14 +113,23 @@ class Measurement(SignalForm):
             self.want(len(upload.content), self._uploads)
             return
         self._upload = None
-        words = f"Reading {arrival.words}{upload.name} …"
-        self._tell(words=words, bad=False, busy=True)
+        self._read_content(upload.name, bytes(upload.content), arrival)
+
+    def open_record(self, name: str) -> None:
+        """Read one of RECORDS, as if it had been uploaded."""
+        if self._ended or name not in RECORDS:
+            return
+        self.cancel()
+        self._arrival = Arrival(1, 1, replace(self.series, together=False), number=1)
+        self._read_content(name, asset_path(f"samples/{name}").read_bytes(), self._arrival)
+
+    def _read_content(self, file: str, content: bytes, arrival: Arrival) -> None:
+        self._tell(words=f"Reading {arrival.words}{file} …", bad=False, busy=True)
         scene, kept = self._scene, self._given_machine
-        content = bytes(upload.content)
         arrival.lines = first_lines(content) if arrival.count == 1 else ""
 
         def read(work: Work) -> Generator[None, None, str]:
-            for name, found, count in read_files(upload.name, content, scene, kept, work.cancelled):
+            for name, found, count in read_files(file, content, scene, kept, work.cancelled):
                 arrival.take(name, found, count)
                 yield
             work.show(arrival)

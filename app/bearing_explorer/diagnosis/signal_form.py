@@ -225,10 +225,7 @@ class SignalForm(Findings):
             texts, table = answers.form, answers.table
             self._table, self._first = table, {**answers.first, "columns": self._first["columns"]}
         asks, sizes = questions(table), size_questions(table, texts)
-        left = [
-            name for name in asks
-            if texts[name] == self._first[name] and texts[name] != self._agreed.get(name)
-        ]  # fmt: skip
+        left = [name for name in asks if self._is_left(name, texts[name])]
         refused = found.sentences if isinstance(found, FormError) else {}
         news = {
             "values": texts,
@@ -268,6 +265,10 @@ class SignalForm(Findings):
         )  # fmt: skip
         self._follow()  # the scene may have changed while the form was read
         self._draw()
+
+    def _is_left(self, name: str, text: str) -> bool:
+        """True where a question still has its first answer, and nobody has agreed to that."""
+        return text == self._first[name] and text != self._agreed.get(name)
 
     def _measured(self, asked: Measured, form: Mapping[str, str]) -> Measured:
         return replace(asked, machine=replace(asked.machine, kept=self._kept_of(form)))

@@ -79,6 +79,7 @@ class Explorer(Requests):
             before=None if before is None else Reference(before, BEFORE),
             grey_kind=self._grey,
             life_inputs=self._life_inputs,
+            lesson_term=self.lesson.term if self.bookmarks.lesson else "",
             mark=self.mark,
         )
 

@@ -52,19 +52,7 @@ def search_bearings(text: str) -> dict[str, Any]:
 def _found(text: str) -> Iterator[dict[str, Any]]:
     by_number = _designation(text)
     wanted = text.lower() if by_number is None else by_number.basic.lower()
-    length = _length(text)
-    ranked: list[tuple[int, dict[str, Any]]] = []
-    for name, label in preset_labels.items():
-        rank = _rank(wanted, label, preset_notes[name])
-        if length and _has_length(presets[name].bearing, length):
-            rank = 0
-        ranked.append((rank, _entry({"preset": name}, label, "", "")))
-    for bearing in catalogue().values():
-        words = entry_words(bearing)
-        rank = _rank(wanted, bearing.name, f"{words} {bearing.note}")
-        if length and _has_length(bearing.bearing, length):
-            rank = 0
-        ranked.append((rank, _entry({"bearing": bearing.name}, bearing.name, words, "")))
+    ranked = _ranked(wanted, _length(text))
     best = [entry for rank, entry in ranked if rank == 0]
     # the first one is taken by Enter: the bearing of that very name, then the designation,
     # which may be the first word of longer names; what only has its number comes last
@@ -80,6 +68,23 @@ def _found(text: str) -> Iterator[dict[str, Any]]:
         for basic in islice(designations(text), MOST_NUMBERS):
             yield _estimated(read_designation(basic))
     yield from (entry for rank, entry in ranked if rank == 1)
+
+
+def _ranked(wanted: str, length: float | None) -> list[tuple[int, dict[str, Any]]]:
+    """Presets and bearings of the catalogue, each with its rank; 0 is the best."""
+    ranked: list[tuple[int, dict[str, Any]]] = []
+    for name, label in preset_labels.items():
+        rank = _rank(wanted, label, preset_notes[name])
+        if length and _has_length(presets[name].bearing, length):
+            rank = 0
+        ranked.append((rank, _entry({"preset": name}, label, "", "")))
+    for bearing in catalogue().values():
+        words = entry_words(bearing)
+        rank = _rank(wanted, bearing.name, f"{words} {bearing.note}")
+        if length and _has_length(bearing.bearing, length):
+            rank = 0
+        ranked.append((rank, _entry({"bearing": bearing.name}, bearing.name, words, "")))
+    return ranked
 
 
 def _no_match(text: str) -> str:

@@ -292,17 +292,7 @@ class Session:
 
     async def _draw_following(self, content: Content) -> Content:
         """Draw what follows a slider, what takes long after the others."""
-        started = time.perf_counter()
-        views = [view for view in self._views[self._on_screen] if not view.at_rest]
-        slow = [view for view in views if view.needs & content.slow]
-        quick = [view for view in views if view not in slow]
-        # where nothing else follows the slider there is nothing to delay
-        heavy = self._slow_cost > _HEAVY and any(view.needs for view in quick)
-        if slow and not heavy and math.isfinite(self._slow_cost) and content.moving:
-            quick, slow = [], views
-        if heavy and self._loop.waiting:
-            slow = slow if started - self._slow_at > _PATIENCE else []
-
+        quick, slow = self._quick_and_slow(content)
         if quick or not slow:
             run = in_turn if self._quick_cost < _AT_ONCE else in_thread
             content, picture = await run(self._newest_picture, content, quick)
@@ -316,6 +306,20 @@ class Session:
             self._slow_cost = self._slow_at - before
             await self._assign(picture, content.mark)
         return content
+
+    def _quick_and_slow(self, content: Content) -> tuple[list[View], list[View]]:
+        """Views that follow a slider, and those that are drawn after them, if now at all."""
+        started = time.perf_counter()
+        views = [view for view in self._views[self._on_screen] if not view.at_rest]
+        slow = [view for view in views if view.needs & content.slow]
+        quick = [view for view in views if view not in slow]
+        # where nothing else follows the slider there is nothing to delay
+        heavy = self._slow_cost > _HEAVY and any(view.needs for view in quick)
+        if slow and not heavy and math.isfinite(self._slow_cost) and content.moving:
+            quick, slow = [], views
+        if heavy and self._loop.waiting:
+            slow = slow if started - self._slow_at > _PATIENCE else []
+        return quick, slow
 
     def _is_for_screen(self, content: Content) -> bool:
         """Whether this is content of the half whose tab is on screen."""

@@ -11,8 +11,7 @@ from textwrap import fill
 from typing import Any, overload
 
 from bearingcore.bearings import BearingLike, read_designation
-from bearingcore.common import ResultTable, shown_as_table, table_of
-from bearingcore.common import _checks as checks
+from bearingcore.common import ResultTable, _checks as checks, shown_as_table, table_of
 from bearingcore.measured.diagnosis._part.diagnose import diagnose as diagnose_recording
 from bearingcore.measured.diagnosis._part.evidence import Diagnosis
 from bearingcore.measured.files import Finding, Table, kind_of, read_table

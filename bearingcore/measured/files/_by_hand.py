@@ -10,7 +10,7 @@ from typing import Any
 from bearingcore.common import _checks as checks
 from bearingcore.measured.files._channels import OTHER, SIGNAL, SPEED, TIME, Column
 from bearingcore.measured.files._table import Table, path_in, read_table
-from bearingcore.measured.files._units import SPEEDS
+from bearingcore.measured.files._units import PULSE_TRAIN, SPEEDS
 from bearingcore.recordings import Recording
 
 OneOrMore = int | str | Sequence[int | str] | None
@@ -46,7 +46,8 @@ def read_recording(
     directions
         "x" or "y" of each signal; "xy" is both.
     time_unit, unit, speed_unit
-        of these columns: one of `units.TIMES`, `units.UNITS`, `units.SPEEDS`.
+        of these columns: one of `units.TIMES`, `units.UNITS`, `units.SPEEDS`; a speed may be in
+        "pulses" too, those of a tachometer or an encoder.
     sample_rate
         [Hz]
     shaft_speed
@@ -107,7 +108,7 @@ def _with_roles(
     for role in columns:
         checks.choice("columns", role, ("signal", "time", "speed", "nothing"))
     if columns.get("speed") is not None and speed_unit is None:
-        raise checks.missing("speed_unit", "one of " + ", ".join(SPEEDS))
+        raise checks.missing("speed_unit", "one of " + ", ".join((*SPEEDS, PULSE_TRAIN)))
     guessed = table.contents.columns
     given: dict[int | str, Column] = {}
     for role, key, of_role in (

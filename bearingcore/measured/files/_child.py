@@ -21,8 +21,7 @@ from typing import IO, Any
 
 import numpy as np
 
-from bearingcore.common import Array
-from bearingcore.common import _checks as checks
+from bearingcore.common import Array, _checks as checks
 
 PROCESSOR_SECONDS = 10
 """[s] of computing that reading a file may take."""

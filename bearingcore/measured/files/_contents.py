@@ -12,13 +12,10 @@ from types import MappingProxyType
 
 import numpy as np
 
-from bearingcore.common import Array, number
-from bearingcore.common import _checks as checks
-from bearingcore.measured.files import _dates as dates
-from bearingcore.measured.files import _facts as facts
+from bearingcore.common import Array, _checks as checks, number
+from bearingcore.measured.files import _dates as dates, _facts as facts
 from bearingcore.measured.files._channels import (
     OTHER,
-    PULSES,
     SIGNAL,
     SPEED,
     TIME,
@@ -28,7 +25,6 @@ from bearingcore.measured.files._channels import (
     column_of,
     names_a_frequency,
     only_signal,
-    words_of,
 )
 from bearingcore.measured.files._collections import Known, recognize
 from bearingcore.measured.files._facts import Finding, Named, is_steady
@@ -41,6 +37,7 @@ from bearingcore.measured.files._sampling import (
     since_1970,
     times_of,
 )
+from bearingcore.measured.files._shaft_angle import FEWEST_PULSES, angle_columns, pulse_begins
 from bearingcore.measured.files._units import ACCELERATIONS, SPEEDS, TIMES, UNITS
 from bearingcore.recordings import FEWEST_SAMPLES
 from bearingcore.units import STANDARD_GRAVITY
@@ -51,9 +48,6 @@ deviation of its logarithm."""
 
 LIKELY = math.log(0.9 / 0.1)
 """Logarithm of the odds from which one of two units is called likely."""
-
-FEWEST_PULSES = 8
-"""Of a tachometer that are a speed."""
 
 TWO_RATES = 0.01
 """Relative difference from which on a column of times and a remark give two sample rates."""
@@ -504,7 +498,7 @@ def _speed(
     table: FileColumns, columns: Sequence[Column], named: Sequence[Named]
 ) -> Finding[float] | None:
     for index, column in enumerate(columns):
-        if column.role == SPEED and column.unit is not None:
+        if column.role == SPEED and column.unit in SPEEDS:
             speeds = table.columns[:, index]
             speeds = speeds[np.isfinite(speeds)]
             mean = float(speeds.mean()) if speeds.size else 0.0
@@ -515,7 +509,10 @@ def _speed(
                     if steady
                     else f", which goes from {number(speeds.min(), 4)} to {number(speeds.max(), 4)}"
                 )
-                return Finding(mean * SPEEDS[column.unit], words, steady, file_unit=column.unit)
+                # a run-up or coast-down is followed, see `Recording.shaft_angle`
+                stated = steady or bool(speeds.min() >= 0.0)
+                unit = column.unit or ""
+                return Finding(mean * SPEEDS[unit], words, stated, file_unit=unit)
     return facts.shaft_speed_in([*named, *_constants(table)], table.name)
 
 
@@ -525,19 +522,16 @@ def _speed_of_pulses(
     rate: Finding[float] | None,
     sampling: Sampling | None,
 ) -> Finding[float] | None:
-    """A guess at the shaft speed from a tachometer's even pulses, as if each were a turn."""
-    for index, column in enumerate(columns):
-        if rate is None or column.role != OTHER or not words_of(column.name) & PULSES:
+    """A guess at the shaft speed from a tachometer's pulses, as if each were a turn."""
+    for index in angle_columns(columns):
+        column = columns[index]
+        if rate is None or column.unit in SPEEDS:
             continue
         first, last = (None, None) if sampling is None else (sampling.first, sampling.last)
-        values = table.columns[first:last, index]
-        if not np.isfinite(values).all():
+        begins = pulse_begins(table.columns[first:last, index])
+        if len(begins) < FEWEST_PULSES:
             continue
-        low, high = np.quantile(values, (0.001, 0.999))
-        begins = np.flatnonzero(np.diff((values > 0.5 * (low + high)).astype(int)) == 1)
-        if len(begins) < FEWEST_PULSES or np.ptp(turns := np.diff(begins)) > 0.1 * turns.mean() + 2:
-            continue
-        pulses = rate.value / float(turns.mean())
+        pulses = rate.value * (len(begins) - 1) / float(begins[-1] - begins[0])
         words = f"{number(pulses, 4)} pulses a second in “{column.name}”, if one is a turn"
         return Finding(pulses * SPEEDS["Hz"], words, False, False, file_unit="Hz")
     return None

@@ -20,8 +20,7 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from bearingcore.common import Array
-from bearingcore.common import _checks as checks
+from bearingcore.common import Array, _checks as checks
 from bearingcore.errors import FieldError
 from bearingcore.measured.files import _libraries as libraries
 from bearingcore.measured.files._text import are_sensors, read_text

@@ -16,13 +16,14 @@ from itertools import pairwise
 
 import numpy as np
 
-from bearingcore.common import Array, cached_property, count, number, runs
-from bearingcore.common import _checks as checks
+from bearingcore.common import Array, _checks as checks, cached_property, count, number, runs
 from bearingcore.measured.files._channels import OTHER, ROLES, SIGNAL, SPEED, TIME, Column
 from bearingcore.measured.files._child import MOST_NUMBERS, read_file
 from bearingcore.measured.files._contents import FileColumns, FileContents, contents_of
 from bearingcore.measured.files._sampling import long_parts, longest_run, single_gaps, skipped_rows
+from bearingcore.measured.files._shaft_angle import angle_columns, shaft_angle
 from bearingcore.measured.files._units import (
+    PULSE_TRAIN,
     SPEEDS,
     TIMES,
     UNITS,
@@ -46,7 +47,7 @@ RATE_DOUBT = 0.005
 
 
 _UNITS_OF: Mapping[str, Mapping[str, float]] = {
-    SIGNAL: UNITS, TIME: TIMES, SPEED: SPEEDS, OTHER: {}
+    SIGNAL: UNITS, TIME: TIMES, SPEED: {**SPEEDS, PULSE_TRAIN: 1.0}, OTHER: {}
 }  # fmt: skip
 
 
@@ -187,10 +188,11 @@ class Table(FileColumns):
         units = [self._unit(index, unit) for index in picked]
         scale = checks.real_number("full_scale", full_scale, above=0.0, unit=unit or "")
         rate, notes = self._rate(sample_rate)
-        signal, gaps = self._without_gaps(picked)
+        signal, begin, gaps = self._without_gaps(picked)
         cut = dict.fromkeys(cut_off(column[np.isfinite(column)]) for column in signal.T)
         only = contents.choice.note if picked == [*contents.choice.columns.values()] else ""
-        notes += [gaps, *cut, self._not_used(picked), only]
+        angle, angle_from = self._angle(slice(begin, begin + len(signal)), rate)
+        notes += [gaps, *cut, self._not_used(picked, angle_from), only]
         notes, signal = [*self.notes, *notes], signal * scale
         if sensitivity is None and contents.sensitivity is not None:
             sensitivity = contents.sensitivity.value
@@ -200,21 +202,32 @@ class Table(FileColumns):
         if shaft_speed is None and speed is not None and speed.stated:
             shaft_speed = speed.value
         made = Recording(
-            signal, rate, tuple(directions), self.name, shaft_speed, tuple(filter(None, notes))
-        )
+            signal, rate, tuple(directions), self.name, shaft_speed, tuple(filter(None, notes)),
+            angle,
+        )  # fmt: skip
         with np.errstate(over="ignore"):
             levels = made.acceleration.std(axis=0)
         doubts = tuple(filter(None, (level_doubt(float(level)) for level in levels)))
         return dataclasses.replace(made, notes=(*made.notes, *doubts[:1]))
 
-    def _not_used(self, picked: Sequence[int]) -> str:
+    def _angle(self, rows: slice, rate: float) -> tuple[Array | None, int | None]:
+        """The shaft's angle (n,) [rad] in some rows, and the column it is from, where there is."""
+        for index in angle_columns(self.contents.columns):
+            unit = self.contents.columns[index].unit
+            angle = shaft_angle(self.columns[rows, index], unit, rate)
+            if angle is not None:
+                return angle, index
+        return None, None
+
+    def _not_used(self, picked: Sequence[int], angle_from: int | None) -> str:
         """Sentence on the columns that hold something that is not read, and why."""
         speed, left = self.contents.shaft_speed, []
         for index, column in enumerate(self.contents.columns):
             steps = np.diff(self.columns[:, index])
             steps = steps[np.isfinite(steps)]
             counts = not steps.size or np.ptp(steps) == 0.0
-            if counts or index in (*picked, *self.given) or column.role in (TIME, SPEED):
+            used = index in (*picked, *self.given, angle_from)
+            if counts or used or column.role in (TIME, SPEED):
                 continue
             if speed is not None and f"“{column.name}”" in speed.reason:
                 why = f"a guess at the shaft speed: {speed.reason}"
@@ -298,8 +311,8 @@ class Table(FileColumns):
             notes.append(f"{typed}; {stated.reason} {says} {number(stated.value, 6)} Hz.")
         return rate, notes
 
-    def _without_gaps(self, picked: Sequence[int]) -> tuple[Array, str]:
-        """The longest part without a jump of the time or a gap; what is bridged and left out."""
+    def _without_gaps(self, picked: Sequence[int]) -> tuple[Array, int, str]:
+        """The longest part without a jump or gap, its first row; what is bridged and left out."""
         sampling = self.contents.sampling
         first, last = (
             (0, len(self.columns)) if sampling is None else (sampling.first, sampling.last)
@@ -327,8 +340,8 @@ class Table(FileColumns):
                 f"Numbers are missing in {count(missing, 'row')}. Only the longest whole part is "
                 f"used: rows {first + begin + 1} to {first + end} of {len(self.columns)}."
             )
-            signal = signal[begin:end]
-        return signal, " ".join(said)
+            signal, first = signal[begin:end], first + begin
+        return signal, first, " ".join(said)
 
     def index_of(self, column: int | str) -> int:
         """Return the number from 0 of a column, by number or name; `FieldError` if missing."""

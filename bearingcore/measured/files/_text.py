@@ -21,8 +21,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bearingcore.common import Array, thousands
-from bearingcore.common import _checks as checks
+from bearingcore.common import Array, _checks as checks, thousands
 from bearingcore.measured.files._channels import TIME, column_of
 from bearingcore.measured.files._facts import GREATEST_STATED, named_in, names_a_fact, units_said
 from bearingcore.measured.files._units import UNITS, unit_in, unit_named

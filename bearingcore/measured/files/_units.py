@@ -56,6 +56,9 @@ SPEEDS: Mapping[str, float] = MappingProxyType(
 )
 """[rad/s]"""
 
+PULSE_TRAIN = "pulses"
+"""The unit, given by hand, of a column that holds a tachometer's signal."""
+
 _OTHERS = (
     "µm", "mm", "mil", "°C", "A", "%", "Pa", "bar", "Nm", "deg", "deg/s", "µT", "kHz", "dB", "km/h",
     "W", "kW", "l/min", "mA", "kA", "gE",

@@ -18,8 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from bearingcore.common import Array
-from bearingcore.common import _checks as checks
+from bearingcore.common import Array, _checks as checks
 from bearingcore.measured.signals._order_tracking import followed, smooth_lag
 from bearingcore.measured.signals._resampling import oversampled
 from bearingcore.measured.signals._shaft_tones import without_shaft_tones

@@ -12,8 +12,14 @@ import numpy as np
 from numpy.polynomial import legendre
 from numpy.typing import ArrayLike
 
-from bearingcore.common import Array, ResultTable, number, shown_as_table, table_of
-from bearingcore.common import _checks as checks
+from bearingcore.common import (
+    Array,
+    ResultTable,
+    _checks as checks,
+    number,
+    shown_as_table,
+    table_of,
+)
 from bearingcore.recordings import Recording
 
 SEVERITY_BAND = (10.0, 1000.0)

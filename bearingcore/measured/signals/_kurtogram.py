@@ -13,8 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from bearingcore.common import Array, ResultTable, shown_as_table, table_of
-from bearingcore.common import _checks as checks
+from bearingcore.common import Array, ResultTable, _checks as checks, shown_as_table, table_of
 from bearingcore.measured.signals._filter_bank import BAND_COUNTS, Band, split, squared_envelopes
 
 MOST_JUDGED = 2**18

@@ -8,9 +8,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from bearingcore.common import Array
-from bearingcore.common import _checks as checks
-from bearingcore.measured.signals._resampling import oversampled
+from bearingcore.common import Array, _checks as checks
+from bearingcore.measured.signals._resampling import resample_over_turns
 
 OVERLAP = 0.75
 """Of neighbouring segments."""
@@ -21,9 +20,6 @@ FEWEST_SEGMENTS = 4
 
 MOST_IN_ANGLE = 20_000_000
 """Samples equally far apart in angle that are made at most: some gigabytes."""
-
-OVERSAMPLED = 4
-"""Times as many samples through which a spline is laid: then it is right within 0.1 % of power."""
 
 
 class Spectrogram(NamedTuple):
@@ -103,7 +99,6 @@ def order_map(
         rise, fewer turns than four segments need, or samples that are not finite.
     """
     from scipy.fft import next_fast_len  # imported late: see `spectrum`
-    from scipy.interpolate import CubicSpline
 
     rate = checks.real_number("sample_rate", sample_rate, above=0.0, unit="Hz")
     speeds, times = checks.finite("speed", speed, "Hz"), checks.finite("time", time, "s")
@@ -121,12 +116,7 @@ def order_map(
         allowed = f"at least {least:.2g} Hz in so long a signal: leave out where it turns slower"
         raise checks.refuse("speed", f"{slowest:.2g} Hz", allowed)
     per_turn = next_fast_len(math.ceil(rate / slowest), real=True)
-    places = np.arange(0.0, turns[-1], 1.0 / per_turn)
-    # a spline through the samples themselves would damp what has few of them a period
-    fine = oversampled(samples, OVERSAMPLED)
-    between = CubicSpline(np.arange(len(fine)) / (OVERSAMPLED * rate), fine)
-    resampled = between(np.interp(places, turns, at))
-    return spectrogram(resampled, per_turn, resolution)
+    return spectrogram(resample_over_turns(samples, turns, per_turn), per_turn, resolution)
 
 
 def _row(signal: ArrayLike, least: int) -> Array:

@@ -1,50 +1,52 @@
 """The names that the rest of the model takes of compiled code."""
 
 from .balls.motion import march_balls as march_balls
-from .balls.positions import StaticBalls as StaticBalls
-from .balls.positions import ball_positions as ball_positions
-from .balls.structs import BallSystem as BallSystem
-from .balls.structs import Races as Races
-from .codes import BEYOND as BEYOND
-from .codes import CONVERGED as CONVERGED
-from .codes import EVERY_ROW as EVERY_ROW
-from .codes import FREE_DIRECTION as FREE_DIRECTION
-from .codes import INNER_EXACT as INNER_EXACT
-from .codes import NOT_CARRIED as NOT_CARRIED
-from .codes import NOT_CONVERGED as NOT_CONVERGED
-from .codes import NOTHING_TOUCHES as NOTHING_TOUCHES
-from .codes import OPEN as OPEN
-from .codes import PATH_COLUMNS as PATH_COLUMNS
-from .codes import REFUSED as REFUSED
-from .codes import TABLE as TABLE
-from .codes import TOO_MANY as TOO_MANY
-from .compiling import all_on_disk as all_on_disk
-from .compiling import kept_on_disk as kept_on_disk
-from .modes import DOUBTFUL as DOUBTFUL
-from .modes import modes_like as modes_like
-from .motion.march import between_steps as between_steps
-from .motion.march import elastic_loads as elastic_loads
-from .motion.march import march as march
-from .motion.march import motion_rates as motion_rates
-from .motion.march import side_by_side as side_by_side
-from .motion.march import sliding_sums as sliding_sums
-from .motion.march import turn_smooth as turn_smooth
-from .path import ball_path as ball_path
-from .path import drops_of as drops_of
-from .path import roll_over as roll_over
-from .statics import NO_PIVOT as NO_PIVOT
-from .statics import RESIDUAL_AIM as RESIDUAL_AIM
-from .statics import RESIDUAL_LIMIT as RESIDUAL_LIMIT
-from .statics import new_answers as new_answers
-from .statics import new_memory as new_memory
-from .statics import static_maps as static_maps
-from .statics import static_states as static_states
-from .structs import PLANAR as PLANAR
-from .structs import SMOOTH as SMOOTH
-from .structs import VELOCITIES as VELOCITIES
-from .structs import Contacts as Contacts
-from .structs import MapPaths as MapPaths
-from .structs import Path as Path
-from .structs import Rotor as Rotor
-from .structs import StaticLoad as StaticLoad
-from .structs import System as System
+from .balls.positions import StaticBalls as StaticBalls, ball_positions as ball_positions
+from .balls.structs import BallSystem as BallSystem, Races as Races
+from .codes import (
+    BEYOND as BEYOND,
+    CONVERGED as CONVERGED,
+    EVERY_ROW as EVERY_ROW,
+    FREE_DIRECTION as FREE_DIRECTION,
+    INNER_EXACT as INNER_EXACT,
+    NOT_CARRIED as NOT_CARRIED,
+    NOT_CONVERGED as NOT_CONVERGED,
+    NOTHING_TOUCHES as NOTHING_TOUCHES,
+    OPEN as OPEN,
+    PATH_COLUMNS as PATH_COLUMNS,
+    REFUSED as REFUSED,
+    TABLE as TABLE,
+    TOO_MANY as TOO_MANY,
+)
+from .compiling import all_on_disk as all_on_disk, kept_on_disk as kept_on_disk
+from .modes import DOUBTFUL as DOUBTFUL, modes_like as modes_like
+from .motion.march import (
+    between_steps as between_steps,
+    elastic_loads as elastic_loads,
+    march as march,
+    motion_rates as motion_rates,
+    side_by_side as side_by_side,
+    sliding_sums as sliding_sums,
+    turn_smooth as turn_smooth,
+)
+from .path import ball_path as ball_path, drops_of as drops_of, roll_over as roll_over
+from .statics import (
+    NO_PIVOT as NO_PIVOT,
+    RESIDUAL_AIM as RESIDUAL_AIM,
+    RESIDUAL_LIMIT as RESIDUAL_LIMIT,
+    new_answers as new_answers,
+    new_memory as new_memory,
+    static_maps as static_maps,
+    static_states as static_states,
+)
+from .structs import (
+    PLANAR as PLANAR,
+    SMOOTH as SMOOTH,
+    VELOCITIES as VELOCITIES,
+    Contacts as Contacts,
+    MapPaths as MapPaths,
+    Path as Path,
+    Rotor as Rotor,
+    StaticLoad as StaticLoad,
+    System as System,
+)

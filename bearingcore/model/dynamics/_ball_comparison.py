@@ -10,13 +10,13 @@ import numpy as np
 from bearingcore.common import (
     Array,
     ResultTable,
+    _checks as checks,
     level_difference,
     number,
     shown_as_table,
     table_of,
     with_prefix,
 )
-from bearingcore.common import _checks as checks
 from bearingcore.model.dynamics._motion import SETTLING, Motion, simulate
 from bearingcore.model.dynamics._step_rate import fine_step_rate
 from bearingcore.model.scene import MASSLESS, WITH_MASS, Scene

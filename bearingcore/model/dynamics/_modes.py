@@ -8,8 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from bearingcore.common import Array, ResultTable, shown_as_table, table_of
-from bearingcore.common import _checks as checks
+from bearingcore.common import Array, ResultTable, _checks as checks, shown_as_table, table_of
 from bearingcore.common._arrays import least_and_greatest
 from bearingcore.common._byte_cache import lru_cache_by_bytes
 from bearingcore.model import _kernels as kernels

@@ -11,6 +11,7 @@ import numpy as np
 from bearingcore.common import (
     Array,
     ResultTable,
+    _checks as checks,
     cached_property,
     decibels,
     number,
@@ -19,7 +20,6 @@ from bearingcore.common import (
     thousands,
     with_prefix,
 )
-from bearingcore.common import _checks as checks
 from bearingcore.model import _kernels as kernels
 from bearingcore.model.dynamics._ball_motion import (
     least_step_rate,
@@ -39,8 +39,8 @@ from bearingcore.model.scene import (
     PackedMotion,
     PackedScene,
     Scene,
+    _packing as packing,
 )
-from bearingcore.model.scene import _packing as packing
 from bearingcore.model.statics import Equilibrium
 from bearingcore.model.statics._equilibrium import equilibrium_of
 from bearingcore.model.statics._status import StaticStatus

@@ -18,8 +18,14 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from bearingcore.common import Array, ResultTable, shown_as_table, table_of, thousands
-from bearingcore.common import _checks as checks
+from bearingcore.common import (
+    Array,
+    ResultTable,
+    _checks as checks,
+    shown_as_table,
+    table_of,
+    thousands,
+)
 from bearingcore.model import _kernels as kernels
 from bearingcore.model.dynamics._damping import packed_motion
 from bearingcore.model.dynamics._low_pass import (
@@ -32,8 +38,7 @@ from bearingcore.model.dynamics._modes import highest_frequency_of
 from bearingcore.model.dynamics._motion import MOST_SAMPLES, MOST_STEPS, moving_system, static_start
 from bearingcore.model.dynamics._status import OrbitStatus
 from bearingcore.model.dynamics._step_rate import step_rate_of
-from bearingcore.model.scene import PackedMotion, Scene
-from bearingcore.model.scene import _packing as packing
+from bearingcore.model.scene import PackedMotion, Scene, _packing as packing
 from bearingcore.model.statics._equilibrium import equilibrium_of
 from bearingcore.recordings import Spectrum
 

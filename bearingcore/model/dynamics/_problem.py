@@ -7,8 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bearingcore.common import Array
-from bearingcore.common import _checks as checks
+from bearingcore.common import Array, _checks as checks
 from bearingcore.model import _kernels as kernels
 from bearingcore.model.dynamics._damping import packed_motion
 from bearingcore.model.dynamics._modes import highest_frequency_of

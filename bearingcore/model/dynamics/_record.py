@@ -16,8 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bearingcore.common import Array
-from bearingcore.common import _checks as checks
+from bearingcore.common import Array, _checks as checks
 from bearingcore.model.dynamics._motion import SETTLING, simulate
 from bearingcore.model.scene import Scene
 from bearingcore.model.statics import crossings, equilibrium

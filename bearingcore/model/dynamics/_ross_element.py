@@ -7,8 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from bearingcore.common import Array
-from bearingcore.common import _checks as checks
+from bearingcore.common import Array, _checks as checks
 from bearingcore.model.dynamics._damping import contact_damping
 from bearingcore.model.dynamics._modes import loaded_directions
 from bearingcore.model.scene import WITH_MASS, Scene

@@ -9,8 +9,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from bearingcore.common import Array, Progress, ResultTable, shown_as_table, table_of, thousands
-from bearingcore.common import _checks as checks
+from bearingcore.common import (
+    Array,
+    Progress,
+    ResultTable,
+    _checks as checks,
+    shown_as_table,
+    table_of,
+    thousands,
+)
 from bearingcore.common._progress import Cancelled
 from bearingcore.model.dynamics._low_pass import PASSED
 from bearingcore.model.dynamics._modes import frequency_bands

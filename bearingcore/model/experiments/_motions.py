@@ -7,8 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from bearingcore.common import _checks as checks
-from bearingcore.common import scientific
+from bearingcore.common import _checks as checks, scientific
 from bearingcore.model import _kernels as kernels
 from bearingcore.model.dynamics import default_step_rate, highest_natural_frequency
 from bearingcore.model.dynamics._low_pass import hermite_weights

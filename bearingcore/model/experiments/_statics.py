@@ -15,8 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from bearingcore.common import Array, scientific
-from bearingcore.common import _checks as checks
+from bearingcore.common import Array, _checks as checks, scientific
 from bearingcore.model import _kernels as kernels
 from bearingcore.model.experiments._points import (
     NOT_WATCHED,
@@ -28,8 +27,7 @@ from bearingcore.model.experiments._points import (
     least_time,
     measured_in_turn,
 )
-from bearingcore.model.scene import Scene
-from bearingcore.model.scene import _packing as packing
+from bearingcore.model.scene import Scene, _packing as packing
 from bearingcore.model.statics import default_cage_angles, drops_at, equilibrium, path_kinks
 
 STATIC_ERRORS = {

@@ -1,66 +1,42 @@
 """Scenes: bearing, defects, load, support. Values only; nothing is solved here."""
 
-from bearingcore.model.scene._defect import EDGES, RACES, Defect
-from bearingcore.model.scene._floor import MOST_ROWS, MeasuredFloor, RoughFloor, measured_floor
-from bearingcore.model.scene._load import Load
+from bearingcore.model.scene._defect import (
+    EDGES as EDGES,
+    RACES as RACES,
+    Defect as Defect,
+)
+from bearingcore.model.scene._floor import (
+    MOST_ROWS as MOST_ROWS,
+    MeasuredFloor as MeasuredFloor,
+    RoughFloor as RoughFloor,
+    measured_floor as measured_floor,
+)
+from bearingcore.model.scene._load import Load as Load
 from bearingcore.model.scene._packing import (
-    BodyNumbers,
-    PackedMotion,
-    PackedScene,
-    ball_angles,
-    is_planar,
+    BodyNumbers as BodyNumbers,
+    PackedMotion as PackedMotion,
+    PackedScene as PackedScene,
+    ball_angles as ball_angles,
+    is_planar as is_planar,
 )
 from bearingcore.model.scene._presets import (
-    FAN_RIG_SUPPORT,
-    Preset,
-    UnknownPresetError,
-    preset_labels,
-    preset_notes,
-    presets,
+    FAN_RIG_SUPPORT as FAN_RIG_SUPPORT,
+    Preset as Preset,
+    UnknownPresetError as UnknownPresetError,
+    preset_labels as preset_labels,
+    preset_notes as preset_notes,
+    presets as presets,
 )
 from bearingcore.model.scene._scene import (
-    CONTACT_LAWS,
-    DOF_NAMES,
-    DOF_SYMBOLS,
-    FREE_TILT_WORDS,
-    LOAD_ALONG,
-    MASSLESS,
-    TILT_FREE,
-    TILT_HELD,
-    WITH_MASS,
-    Scene,
+    CONTACT_LAWS as CONTACT_LAWS,
+    DOF_NAMES as DOF_NAMES,
+    DOF_SYMBOLS as DOF_SYMBOLS,
+    FREE_TILT_WORDS as FREE_TILT_WORDS,
+    LOAD_ALONG as LOAD_ALONG,
+    MASSLESS as MASSLESS,
+    TILT_FREE as TILT_FREE,
+    TILT_HELD as TILT_HELD,
+    WITH_MASS as WITH_MASS,
+    Scene as Scene,
 )
-from bearingcore.model.scene._support import Support
-
-__all__ = [
-    "CONTACT_LAWS",
-    "DOF_NAMES",
-    "DOF_SYMBOLS",
-    "EDGES",
-    "FAN_RIG_SUPPORT",
-    "FREE_TILT_WORDS",
-    "LOAD_ALONG",
-    "MASSLESS",
-    "MOST_ROWS",
-    "RACES",
-    "TILT_FREE",
-    "TILT_HELD",
-    "WITH_MASS",
-    "BodyNumbers",
-    "Defect",
-    "Load",
-    "MeasuredFloor",
-    "PackedMotion",
-    "PackedScene",
-    "Preset",
-    "RoughFloor",
-    "Scene",
-    "Support",
-    "UnknownPresetError",
-    "ball_angles",
-    "is_planar",
-    "measured_floor",
-    "preset_labels",
-    "preset_notes",
-    "presets",
-]
+from bearingcore.model.scene._support import Support as Support

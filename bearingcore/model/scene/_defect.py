@@ -22,8 +22,7 @@ from numpy.typing import ArrayLike
 
 from bearingcore.bearings import Bearing
 from bearingcore.bearings._row import MOST_ROWS
-from bearingcore.common import Array
-from bearingcore.common import _checks as checks
+from bearingcore.common import Array, _checks as checks
 from bearingcore.common._byte_cache import lru_cache_by_bytes
 from bearingcore.model import _kernels as kernels
 from bearingcore.model.scene._floor import MeasuredFloor, RoughFloor, measured_floor

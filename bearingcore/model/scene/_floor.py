@@ -17,8 +17,7 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from bearingcore.common import Array
-from bearingcore.common import _checks as checks
+from bearingcore.common import Array, _checks as checks
 from bearingcore.common._byte_cache import lru_cache_by_bytes
 
 SAMPLES_A_LENGTH = 10

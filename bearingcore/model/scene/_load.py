@@ -7,8 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bearingcore.common import Array
-from bearingcore.common import _checks as checks
+from bearingcore.common import Array, _checks as checks
 
 
 @dataclass(frozen=True)

@@ -417,4 +417,4 @@ preset_labels: Mapping[str, str] = MappingProxyType(
 preset_notes: Mapping[str, str] = MappingProxyType(
     {name: preset.note for name, preset in _PRESETS.items()}
 )
-"""Where each preset's numbers come from, and which of them are assumed."""
+"""Sources of each preset's numbers, and its assumptions."""

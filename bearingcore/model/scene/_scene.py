@@ -12,8 +12,7 @@ from bearingcore.bearings import Bearing, bearing_of
 from bearingcore.bearings._kind import DIRECTIONS
 from bearingcore.bearings._kinds import recognized
 from bearingcore.bearings._line_contact import mended_factor
-from bearingcore.common import _checks as checks
-from bearingcore.common import _scene_file as scene_file
+from bearingcore.common import _checks as checks, _scene_file as scene_file
 from bearingcore.model.scene._defect import Defect, path_tables
 from bearingcore.model.scene._load import Load
 from bearingcore.model.scene._support import Support
@@ -236,10 +235,10 @@ class Scene:
         return self.dofs is None and self.active_dofs != self.needed_dofs
 
     def with_tilts_as(self, said: object) -> Self:
-        """The scene of a file or link in which `dofs` is `said`, read with None for "tilt held".
+        """Return the scene of a file or link whose text of `dofs` is `said`.
 
-        Where they say nothing tilts are free, as they were before there was a choice; held ones
-        are the default but where the load has a moment.
+        A file without `dofs` has free tilts, as before held tilts became the default; newer files
+        state that tilts are held.
         """
         if said is None and self.holds_tilt_unasked:
             return dataclasses.replace(self, dofs=TILT_FREE)

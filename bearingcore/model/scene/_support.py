@@ -9,8 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from bearingcore.common import Array
-from bearingcore.common import _checks as checks
+from bearingcore.common import Array, _checks as checks
 
 BODIES = ("inner", "outer")
 

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from bearingcore.common import (
     Array,
     ResultTable,
+    _checks as checks,
     cached_property,
     number,
     percent,
@@ -20,10 +21,8 @@ from bearingcore.common import (
     table_of,
     with_prefix,
 )
-from bearingcore.common import _checks as checks
 from bearingcore.model import _kernels as kernels
-from bearingcore.model.scene import DOF_NAMES, WITH_MASS, Scene
-from bearingcore.model.scene import _packing as packing
+from bearingcore.model.scene import DOF_NAMES, WITH_MASS, Scene, _packing as packing
 from bearingcore.model.statics._equilibrium import (
     MOST_CONTACTS,
     TERM_INDICES,

@@ -14,16 +14,22 @@ from numpy.typing import ArrayLike, NDArray
 from bearingcore.common import (
     Array,
     ResultTable,
+    _checks as checks,
     cached_property,
     shown_as_table,
     table_of,
     thousands,
 )
-from bearingcore.common import _checks as checks
 from bearingcore.common._arrays import least_and_greatest
 from bearingcore.model import _kernels as kernels
-from bearingcore.model.scene import DOF_NAMES, DOF_SYMBOLS, LOAD_ALONG, PackedScene, Scene
-from bearingcore.model.scene import _packing as packing
+from bearingcore.model.scene import (
+    DOF_NAMES,
+    DOF_SYMBOLS,
+    LOAD_ALONG,
+    PackedScene,
+    Scene,
+    _packing as packing,
+)
 from bearingcore.model.statics._shortage import explanation, is_unbounded, moved
 from bearingcore.model.statics._status import StaticStatus
 

@@ -45,8 +45,14 @@ import numpy as np
 
 from bearingcore.bearings import Bearing
 from bearingcore.bearings._line_contact import RollerContact
-from bearingcore.common import ResultTable, number, shown_as_table, table_of, with_prefix
-from bearingcore.common import _checks as checks
+from bearingcore.common import (
+    ResultTable,
+    _checks as checks,
+    number,
+    shown_as_table,
+    table_of,
+    with_prefix,
+)
 from bearingcore.model.scene import Scene
 from bearingcore.model.statics._ball_positions import static_state
 from bearingcore.model.statics._equilibrium import Equilibrium

@@ -54,8 +54,7 @@ from numpy.typing import ArrayLike
 
 from bearingcore.bearings import Bearing
 from bearingcore.bearings._ratings import groove_ratio
-from bearingcore.common import ResultTable, shown_as_table, table_of
-from bearingcore.common import _checks as checks
+from bearingcore.common import ResultTable, _checks as checks, shown_as_table, table_of
 from bearingcore.model.scene import Scene
 from bearingcore.model.statics._life_words import life_sentence, long_number
 from bearingcore.model.statics._load_rating import (

@@ -12,12 +12,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bearingcore.bearings import Bearing
-from bearingcore.common import Array, ResultTable, cached_property, shown_as_table, table_of
-from bearingcore.common import _checks as checks
+from bearingcore.common import (
+    Array,
+    ResultTable,
+    _checks as checks,
+    cached_property,
+    shown_as_table,
+    table_of,
+)
 from bearingcore.common._byte_cache import lru_cache_by_bytes
 from bearingcore.model import _kernels as kernels
-from bearingcore.model.scene import Defect, Scene
-from bearingcore.model.scene import _packing as packing
+from bearingcore.model.scene import Defect, Scene, _packing as packing
 from bearingcore.model.scene._defect import TWO_PI, floor_bytes, path_tables
 from bearingcore.model.statics._equilibrium import (
     MOST_CONTACTS,

@@ -9,8 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from bearingcore.common import Array
-from bearingcore.common import _checks as checks
+from bearingcore.common import Array, _checks as checks
 from bearingcore.model import _kernels as kernels
 from bearingcore.model.scene import RACES, Defect, Scene
 from bearingcore.model.scene._defect import drop_into

@@ -33,8 +33,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.bearings import Bearing
-from bearingcore.common import Array
-from bearingcore.common import _checks as checks
+from bearingcore.common import Array, _checks as checks
 from bearingcore.common._byte_cache import lru_cache_by_bytes
 from bearingcore.model import _kernels as kernels
 from bearingcore.model.scene import Defect, PackedScene, Scene

@@ -19,8 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from bearingcore.bearings import Bearing
-from bearingcore.common import ResultTable, shown_as_table, table_of
-from bearingcore.common import _checks as checks
+from bearingcore.common import ResultTable, _checks as checks, shown_as_table, table_of
 from bearingcore.model.scene import Scene
 from bearingcore.model.statics._ball_positions import static_state
 from bearingcore.model.statics._equilibrium import Equilibrium

@@ -52,8 +52,7 @@ from typing import NamedTuple
 import numpy as np
 
 from bearingcore.bearings import Bearing
-from bearingcore.common import Array
-from bearingcore.common import _checks as checks
+from bearingcore.common import Array, _checks as checks
 from bearingcore.model.scene import Defect, Scene
 from bearingcore.model.statics._ball_positions import static_state
 from bearingcore.model.statics._equilibrium import Equilibrium

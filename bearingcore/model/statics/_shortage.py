@@ -17,8 +17,7 @@ from numpy.typing import NDArray
 
 from bearingcore.common import Array, number, with_prefix
 from bearingcore.model import _kernels as kernels
-from bearingcore.model.scene import Scene
-from bearingcore.model.scene import _packing as packing
+from bearingcore.model.scene import Scene, _packing as packing
 from bearingcore.model.statics._passes import drops_at
 from bearingcore.model.statics._status import StaticStatus
 

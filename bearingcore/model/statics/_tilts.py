@@ -7,8 +7,7 @@ import math
 import numpy as np
 
 from bearingcore.common import with_prefix
-from bearingcore.model.scene import FREE_TILT_WORDS
-from bearingcore.model.scene import _packing as packing
+from bearingcore.model.scene import FREE_TILT_WORDS, _packing as packing
 from bearingcore.model.statics._equilibrium import Equilibrium
 from bearingcore.model.statics._limit import Limit
 

@@ -45,8 +45,14 @@ from numpy.typing import NDArray
 from bearingcore.bearings import Bearing, center_distance
 from bearingcore.bearings._hertz import in_series
 from bearingcore.bearings._inside import accuracy
-from bearingcore.common import Array, number, percent, weighted_quantile, with_prefix
-from bearingcore.common import _checks as checks
+from bearingcore.common import (
+    Array,
+    _checks as checks,
+    number,
+    percent,
+    weighted_quantile,
+    with_prefix,
+)
 from bearingcore.model.scene import WITH_MASS, Scene
 from bearingcore.model.scene._packing import contacts
 from bearingcore.model.statics._ball_positions import centrifugal_effect

@@ -16,8 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bearingcore.common import _checks as checks
-from bearingcore.common import cached_property
+from bearingcore.common import _checks as checks, cached_property
 from bearingcore.errors import FieldError
 from bearingcore.fields import FIELD_OF, FIELDS, SCENE_PARTS
 from bearingcore.model.scene import DOF_NAMES, MASSLESS, Defect, Scene

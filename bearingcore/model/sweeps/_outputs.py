@@ -14,8 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from bearingcore.common import Array
-from bearingcore.common import _checks as checks
+from bearingcore.common import Array, _checks as checks
 from bearingcore.model.dynamics import BandSearch, orbit, simulate, simulated_record
 from bearingcore.model.dynamics._ball_comparison import mass_share
 from bearingcore.model.dynamics._low_pass import PASSED

@@ -15,8 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from bearingcore.common import Progress
-from bearingcore.common import _checks as checks
+from bearingcore.common import Progress, _checks as checks
 from bearingcore.model.scene import Scene
 from bearingcore.model.sweeps import _store as stores
 from bearingcore.model.sweeps._grid import Grid, program_version

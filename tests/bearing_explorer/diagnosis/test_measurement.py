@@ -13,7 +13,7 @@ from bearing_explorer.diagnosis.form import AS_HEADED, read_form, with_role
 from bearing_explorer.diagnosis.machine import Machine
 from bearing_explorer.diagnosis.model import NOT_TAKEN, WANTED
 from bearing_explorer.diagnosis.reading import MOST_NUMBERS, read_file
-from bearing_explorer.diagnosis.session import Measurement
+from bearing_explorer.diagnosis.session import RECORDS, Measurement
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.signal_form import AS_GIVEN
 from bearing_explorer.diagnosis.simulated import simulated
@@ -573,6 +573,24 @@ def test_what_is_not_offered_changes_nothing():
     assert "has no size" in made.state.words
     assert made.measured is signal()
     assert not made._jobs.busy()
+
+
+@pytest.mark.parametrize("name", RECORDS)
+def test_a_record_that_comes_along_is_read_without_a_question(name):
+    async def opened() -> Measurement:
+        made = measuring()
+        made.open_record("elsewhere.csv")
+        assert made.measured is None
+        made.open_record(name)
+        await settled(made)
+        return made
+
+    made = run(opened())
+    assert made.measured is not None
+    assert made.measured.recording.sample_rate == pytest.approx(12_000.0)
+    assert made.measured.bearing is not None
+    assert "1772" in made.state.line + made.state.words
+    assert not made.state.open
 
 
 def test_names_of_files_are_shown_in_short_and_without_tricks():

@@ -10,8 +10,7 @@ import numpy as np
 import pytest
 
 from bearingcore import Scene, dynamic_load_rating, presets
-from bearingcore.bearings import _ratings as ratings
-from bearingcore.bearings import designations, read_designation
+from bearingcore.bearings import _ratings as ratings, designations, read_designation
 from bearingcore.bearings._designation import CATALOGUE_ANGLE, SERIES, inside_of
 from bearingcore.bearings._designation_tables import boundaries, clearance, series_of
 from bearingcore.bearings._inside import (

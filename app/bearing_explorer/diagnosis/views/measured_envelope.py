@@ -25,6 +25,7 @@ from bearing_explorer.diagnosis.views.measured_view import HIGHEST_SHARE, Demodu
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.widgets.form import FieldSpec
 from bearingcore import Diagnosis
+from bearingcore.measured.diagnosis import PartEvidence
 
 
 def _edge(name: str, label: str, words: str) -> FieldSpec:
@@ -155,6 +156,44 @@ _CLEAR = 4.0
 """Times the median from which on a line stands out: of 1600 of noise the highest has 3.3 times."""
 
 
+def _of_named_part(part: PartEvidence, at: float, resolution: float) -> str:
+    """The line at a frequency [Hz] as one of the part that is named; empty where it is none."""
+    multiple = round(at / part.frequency)
+    off = abs(at - multiple * part.frequency)
+    if not multiple or off > max(_SAME * at, 1.5 * resolution):
+        return ""
+    title, each = _OF_PARTS[part.part]
+    first, apart = (f"{style.number(value, 4)} Hz" for value in (part.frequency, resolution))
+    return (
+        f"{_times(each * multiple)}{title}: step 2 has {first} for the first, from all harmonics; "
+        f"lines here are {apart} apart."
+    )
+
+
+def _lines_near(
+    at: float, sets: Sequence[Mapping[str, float]], resolution: float
+) -> list[tuple[float, float, float, str]]:
+    """Lines of the bearing about a frequency [Hz], the nearest first.
+
+    Of each how far off it is, its frequency, how far the geometry may be off, and its name.
+    """
+    lines = sorted(
+        (
+            abs(at / (multiple * first[name]) - 1.0),
+            multiple * first[name],
+            first.get(f"{name}_spread", 0.0) / first[name],
+            _times(multiple) + (title if len(sets) == 1 else f"{title} of row {row + 1}"),
+        )
+        for row, first in enumerate(sets)
+        for title, (name, multiples) in _PLACES.items()
+        for multiple in multiples
+        if first[name] > 0.0
+    )
+    return [
+        line for line in lines if abs(at - line[1]) <= max((_NEAR + line[2]) * line[1], resolution)
+    ]
+
+
 def highest_line(
     shown: Shown,
     sets: Sequence[Mapping[str, float]],
@@ -180,32 +219,12 @@ def highest_line(
         return f"No line stands out: the highest, {place} is as high as noise gives."
     words = f"Its highest line, {place}"
     if found is not None and found.names_a_part:
-        one = found.of(found.fault)
-        multiple = round(at / one.frequency)
-        off = abs(at - multiple * one.frequency)
-        if multiple and off <= max(_SAME * at, 1.5 * shown.resolution):
-            title, each = _OF_PARTS[one.part]
-            said = (f"{style.number(value, 4)} Hz" for value in (one.frequency, shown.resolution))
-            return f"{words} is {_times(each * multiple)}{title}: " + (
-                "step 2 has {} for the first, from all harmonics; lines here are {} apart."
-            ).format(*said)
+        of_part = _of_named_part(found.of(found.fault), at, shown.resolution)
+        if of_part:
+            return f"{words} is {of_part}"
     if not sets:
         return f"{words[:-1]}. Which part that is follows from bearing and shaft speed."
-    lines = sorted(
-        (
-            abs(at / (multiple * first[name]) - 1.0),
-            multiple * first[name],
-            first.get(f"{name}_spread", 0.0) / first[name],
-            _times(multiple) + (title if len(sets) == 1 else f"{title} of row {row + 1}"),
-        )
-        for row, first in enumerate(sets)
-        for title, (name, multiples) in _PLACES.items()
-        for multiple in multiples
-        if first[name] > 0.0
-    )
-    near = [
-        one for one in lines if abs(at - one[1]) <= max((_NEAR + one[2]) * one[1], shown.resolution)
-    ]
+    near = _lines_near(at, sets, shown.resolution)
     if not near:
         return (
             f"{words} is at none of the bearing's frequencies: another part of the machine, or "

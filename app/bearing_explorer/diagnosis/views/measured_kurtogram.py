@@ -12,7 +12,7 @@ from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.views.measured_view import MeasuredView
 from bearing_explorer.kit.plots import style
-from bearing_explorer.kit.plots.heat_map import Side, bright_image, ends
+from bearing_explorer.kit.plots.heat_map import GridImage, Side, ends
 from bearing_explorer.kit.plots.layers import draw, strips
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
@@ -23,7 +23,7 @@ from bearingcore.measured.signals import BAND_COUNTS
 CELLS = 48
 """Across the picture: the least common multiple of the parts into which the range is split."""
 _SIDES = (Side("", "Frequency", "f", "kHz"), Side("", "Bands in the range", "", ""))
-_SAY = "return isNaN(cell[0]) ? 'too narrow for this signal' : `kurtosis ${rounded(cell[0], 3)}`"
+_SAY = "return isNaN(cell) ? 'too narrow for this signal' : `kurtosis ${rounded(cell, 3)}`"
 _BAND = strips(
     "kurtogram_band", style.LIGHT, 0.0, line_color=style.LIGHT, line_width=2.0, line_dash="dashed"
 )
@@ -54,7 +54,7 @@ class MeasuredKurtogram(MeasuredView):
         plot.yaxis[0].ticker = FixedTicker(ticks=list(range(len(BAND_COUNTS))), minor_ticks=[])
         plot.yaxis[0].major_label_overrides = {k: str(parts) for k, parts in enumerate(BAND_COUNTS)}
         shown = packed.range("kurtogram_kurtosis", 0.0, 1.0)
-        self._image = bright_image(plot, packed, "kurtogram_cells", shown, _SIDES, _SAY, "Kurtosis")
+        self._image = GridImage(plot, packed, "kurtogram_cells", shown, _SIDES, _SAY, "Kurtosis")
         draw(plot, packed, [_BAND])
         self.hidden = stack(plot, visible=False)
         return self.hidden
@@ -67,7 +67,7 @@ class MeasuredKurtogram(MeasuredView):
         low, high = self.demodulation(measured, direction).band
         middles = np.asarray((np.arange(CELLS) + 0.5) * (1e-3 * nyquist / CELLS))
         levels = np.arange(len(cells), dtype=float)
-        columns = self._image.columns((_SIDES[0], middles), (_SIDES[1], levels), [cells])
+        columns = self._image.columns(middles, levels, cells)
         top = max(float(found.kurtosis.max()), 1.0)
         return {
             "kurtogram_cells": columns,

@@ -12,7 +12,7 @@ from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.views.measured_view import MeasuredView
 from bearing_explorer.kit.plots import style
-from bearing_explorer.kit.plots.heat_map import Side, bright_image, ends
+from bearing_explorer.kit.plots.heat_map import GridImage, Side, ends
 from bearing_explorer.kit.plots.levels import decibels
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
@@ -28,7 +28,7 @@ SEGMENTS = 60.0
 """Of a spectrogram, one after the other."""
 SEGMENT_LENGTHS = (64, 8192)
 _SIDES = (Side("", "Time", "t", "s"), Side("", "Frequency", "f", "Hz"))
-_SAY = "return `${rounded(cell[0], 3)} dB`"
+_SAY = "return `${rounded(cell, 3)} dB`"
 
 
 class MeasuredSpectrogram(MeasuredView):
@@ -54,7 +54,7 @@ class MeasuredSpectrogram(MeasuredView):
         )
         level = packed.range("spectrogram_level", -DEPTH_OF_VIEW, 0.0)
         title = "dB below the highest"
-        self._image = bright_image(plot, packed, "spectrogram_cells", level, _SIDES, _SAY, title)
+        self._image = GridImage(plot, packed, "spectrogram_cells", level, _SIDES, _SAY, title)
         self.hidden = stack(plot, visible=False)
         return self.hidden
 
@@ -76,7 +76,7 @@ class MeasuredSpectrogram(MeasuredView):
 
     def data_of(self, model: Model, measured: Measured) -> tuple[Sources, Ranges]:
         time, frequency, level = self.shown(measured)
-        cells = self._image.columns((_SIDES[0], time), (_SIDES[1], frequency), [level.T])
+        cells = self._image.columns(time, frequency, level.T)
         return {"spectrogram_cells": cells}, {
             "spectrogram_x": ends(time),
             "spectrogram_y": (0.0, 0.5 * measured.recording.sample_rate),

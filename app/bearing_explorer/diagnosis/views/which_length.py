@@ -55,7 +55,7 @@ KNOWN = "scene"
 
 NOT_COMPARED = "The possible lengths have not been compared with this signal yet."
 SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
-BAND_WORDS = "return row.extent.toFixed(1) + '°'"
+BAND_WORDS = "return row.extent > 0 ? row.extent.toFixed(1) + '°' : ''"
 
 
 class Cancelled(Exception):  # noqa: N818
@@ -261,12 +261,12 @@ def _layers(dof: str) -> list[Layer]:
 
 
 def _bands(candidate: Candidate, dof: str, number: int, top: float) -> dict[str, np.ndarray]:
-    """The natural frequencies of a candidate along a direction, in its row of the frame."""
+    """The natural frequencies of a candidate along a direction, in its row; the lowest is named."""
     ends = [span for label, span in candidate.bands.items() if label[:-1] == dof and span[0] < top]
     low, high = np.array(ends).reshape(-1, 2).T
-    row, extent = 1.0 - BAND_ROW * (number + 0.6), math.degrees(candidate.extent)
-    columns = {"low": low, "high": np.minimum(high, top)}
-    return columns | {"row": np.full_like(low, row), "extent": np.full_like(low, extent)}
+    place = np.full_like(low, 1.0 - BAND_ROW * (number + 0.6))
+    extent = np.where(low == low.min(initial=np.inf), math.degrees(candidate.extent), np.nan)
+    return {"low": low, "high": np.minimum(high, top), "row": place, "extent": extent}
 
 
 def candidates_html(sizing: Sizing) -> str:
@@ -276,7 +276,10 @@ def candidates_html(sizing: Sizing) -> str:
     rows = []
     for candidate, color in zip(sizing.candidates, COLORS, strict=False):
         swatch = f'<span style="color: {style.css_color(color)}">━</span>'
-        spans = (f"{low:.0f} to {high:.0f} Hz" for low, high in (candidate.bands[m] for m in modes))
+        spans = (
+            f"{low:.0f} to {high:.0f} Hz" if math.isfinite(low) else "–"
+            for low, high in (candidate.bands[mode] for mode in modes)
+        )  # fmt: skip
         extent = f"{swatch} {math.degrees(candidate.extent):.1f}°"
         rows.append([extent, f"{candidate.misfit:.2f}", *spans])
     return html_table(heads, rows, named=True)

@@ -113,15 +113,22 @@ class MachineForm(pn.Column):
             marks = {"refused": name in state.refused, "open": name in missing}
             widget.css_classes = ["field", f"field-{name}", *(c for c, on in marks.items() if on)]
             widget.visible = shown[name]
-        likely = [value for value, _, heading in state.bearings if heading == LIKELY]
-        of_file = {"bearing": by in (*likely, BY_FREQUENCIES), "speed": speed == FILE}
-        named = [name for name in LABELS if shown[name] and of_file.get(name, True)]
-        named += [name for name in state.refused if shown.get(name) and name not in named]
+        named = _fields_with_notes(state, by, speed, shown)
         words = {name: label.partition(" (")[0] for name, label in LABELS.items()}
         kept = kept_html(state)
         self._kept.visible = bool(kept)
         self._notes.object = kept + notes_html(state, named, words | {"shaft_speed": "Shaft speed"})
         self._notes.visible = bool(self._notes.object)
+
+
+def _fields_with_notes(
+    state: MeasurementState, by: str, speed: str, shown: Mapping[str, bool]
+) -> list[str]:
+    """Shown fields whose values are of the file, or refused."""
+    likely = [value for value, _, heading in state.bearings if heading == LIKELY]
+    of_file = {"bearing": by in (*likely, BY_FREQUENCIES), "speed": speed == FILE}
+    named = [name for name in LABELS if shown[name] and of_file.get(name, True)]
+    return named + [name for name in state.refused if shown.get(name) and name not in named]
 
 
 def notes_html(state: MeasurementState, fields: list[str], labels: Mapping[str, str]) -> str:

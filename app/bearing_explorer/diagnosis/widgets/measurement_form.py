@@ -6,6 +6,7 @@ import html
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import asdict
+from functools import partial
 from typing import Any
 
 import panel as pn
@@ -21,7 +22,7 @@ from bearing_explorer.diagnosis.form import (
 )
 from bearing_explorer.diagnosis.measurement_state import MeasurementState
 from bearing_explorer.diagnosis.series import MOST_FILES
-from bearing_explorer.diagnosis.session import Measurement
+from bearing_explorer.diagnosis.session import RECORDS, Measurement
 from bearing_explorer.diagnosis.upload import MOST_BYTES, PIECE
 from bearing_explorer.diagnosis.widgets.column_table import ColumnTable
 from bearing_explorer.diagnosis.widgets.file_upload import FileUpload, UploadBegins, UploadPiece
@@ -116,13 +117,23 @@ class MeasurementForm(pn.Column):
             css_classes=["simulate"],
         )  # fmt: skip
         note = "Uses the current scene; the true size is shown for comparison."
+        records = [
+            button(words, partial(self._open_record, name), css_classes=["record"])
+            for name, words in RECORDS.items()
+        ]
+        about = "Or open the record of a motor on a 6205, simulated by another program."
         return pn.Column(
             row(act, noise),
             _text(note, css_classes=["note"]),
+            row(*records),
+            _text(about, css_classes=["note"]),
             **_WIDE,
         )
 
     # What is chosen here
+
+    def _open_record(self, name: str) -> None:
+        self._measurement.open_record(name)
 
     def _uploaded(self, message: UploadBegins | UploadPiece) -> None:
         if isinstance(message, UploadBegins):

@@ -1,66 +1,46 @@
-"""A map over two quantities, with the lines across it.
+"""A map over two quantities, with a curve across it each way, as HoloViews.
 
-The lines follow the pointer without asking Python: so they do in a saved page too.
+`layout_of` returns the objects, for a notebook. `PlaneFigures` is the same on a page: HoloViews
+makes its plots once and tells it where the pointer is; later maps go into the sources of these
+plots, as elements that a stream makes anew take twice as long as all else until they are painted.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import asyncio
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
-from typing import TYPE_CHECKING
+from functools import cached_property, partial
+from typing import TYPE_CHECKING, Any
 
+import holoviews as hv
+import holoviews.plotting.bokeh  # what `opts` may say
 import numpy as np
-from bokeh.models import ColumnDataSource, LinearColorMapper
+from bokeh.models import CustomJSHover, HoverTool, Range1d
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.color_scales import DIVERGING, SEQUENTIAL, hex_colors
-from bearing_explorer.kit.plots.heat_map import (
-    CLEAR,
-    GridImage,
-    Side,
-    color_bar,
-    ends,
-    ring_at,
-    scale_by,
-    sections,
-)
-from bearing_explorer.kit.plots.layers import draw
-from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.kit.plots.heat_map import BAR_LOOK, CLEAR, Side, ends
+from bearing_explorer.kit.sentences import with_unit
+from bearing_explorer.kit.serve.live import on_loop, one_message
 from bearingcore.common import PREFIXES, prefix_power
 from bearingcore.fields import FIELD_OF
 
 if TYPE_CHECKING:
     from xarray import DataArray
 
-_HATCHED = {
-    "fill_color": "#B9BEC4",
-    "line_color": None,
-    "hatch_pattern": "/",
-    "hatch_color": "white",
-    "hatch_alpha": 0.6,
-    "hatch_scale": 8,
-}
-"""Look of points without an answer."""
-HEIGHTS = {"map": 340, "up": 340, "across": 200}
-"""[px] of the figures."""
+hv.Store.set_current_backend("bokeh")  # hv.extension would ask other computers
+SECOND_CLICK = 0.32
+"""For which a click on a map that is zoomed waits for another one [s]."""
+WAYS = ("up", "across")
+"""Of the sections of a map."""
 _NO_PREFIX = ("", "°", "kg", "kg·m²")
 _PALETTES = {True: hex_colors(DIVERGING), False: hex_colors(SEQUENTIAL)}
-_NO_WORDS: dict[str, list[str]] = {"words": [], "unit": []}
 
-_SAY = """
-const {words, unit} = said.data
-if (isNaN(cell[0])) return `no answer: ${reasons.data.text[cell[1]]}`
-return `${words[0]}: ${rounded(cell[0], 4)}${unit[0]}`
-"""
-SIDE_BY_SIDE = """
-:host { display: grid !important; gap: 8px 16px;
-        min-height: auto !important;
-        grid-template-columns: repeat(auto-fit, minmax(min(100%, max(380px, 40%)), 1fr)); }
-"""
-"""Style of a layout of the figures: two in a row where there is room."""
+_ROUNDED = f"{style.JS_PREFIX}return isNaN(value) ? 'no answer' : rounded(value, 4)"
+_TOOLTIP = f'<div style="{style.HTML_FONT}">{{}}</div>'
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,18 +67,22 @@ class Field:
     reasons: NDArray[np.object_]
 
     @classmethod
-    def of_sweep(cls, output: DataArray) -> Field:
+    def of_sweep(cls, found: DataArray) -> Field:
         """One output of a sweep over two fields, angles in degrees.
 
         Raises
         ------
         ValueError
-            for another number of fields.
+            for another number of fields, or values that are not evenly spaced.
         """
-        if output.ndim != 2:
-            raise ValueError(f"dimensions are {output.dims}; allowed: two, choose with .sel(...)")
-        y, x = ((Side("", *of), at) for of, at in (_in_page_units(output[d]) for d in output.dims))
-        (words, _, unit), values = _in_page_units(output)
+        if found.ndim != 2:
+            raise ValueError(f"dimensions are {found.dims}; allowed: two, choose with .sel(...)")
+        found = found.sortby(list(found.dims))
+        y, x = ((Side("", *of), at) for of, at in (_in_page_units(found[d]) for d in found.dims))
+        for side, at in (x, y):
+            if np.ptp(np.diff(at)) > 1e-3 * (at[1] - at[0]):
+                raise ValueError(f"{side.words} is {at}; allowed: evenly spaced values")
+        (words, _, unit), values = _in_page_units(found)
         reasons = np.where(np.isfinite(values), "", "see the status of the sweep").astype(object)
         return cls(x, y, words, unit, values, reasons)
 
@@ -109,6 +93,49 @@ class Field:
             return self.values, self.unit
         power = prefix_power(float(np.nanmax(np.abs(self.values), initial=0.0)))
         return self.values / 10.0**power, PREFIXES[power] + self.unit
+
+    @property
+    def label(self) -> str:
+        """The words with the unit."""
+        return style.AxisQuantity(self.words, "", self.scaled[1]).label()
+
+    @property
+    def bounds(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Where the cells around its points begin and end, to the right and upwards."""
+        return ends(self.x[1]), ends(self.y[1])
+
+    @property
+    def missing(self) -> dict[str, NDArray[Any]]:
+        """The cells without an answer, with the reasons."""
+        rows, columns = np.nonzero(np.isnan(self.values))
+        (left, right), (bottom, top) = self.bounds
+        width, height = (right - left) / self.x[1].size, (top - bottom) / self.y[1].size
+        x, y = left + width * columns, bottom + height * rows
+        reasons = self.reasons[rows, columns].astype(str)
+        ends_of_cells = {"left": x, "bottom": y, "right": x + width, "top": y + height}
+        return {**ends_of_cells, "reason": reasons}
+
+    def cell_at(self, x: float | None, y: float | None) -> tuple[int, int] | None:
+        """Row and column of the cell at a place; None where that is beside the map or nowhere."""
+        if x is None or y is None:
+            return None
+        (left, right), (bottom, top) = self.bounds
+        rows, columns = self.values.shape
+        row, column = rows * (y - bottom) / (top - bottom), columns * (x - left) / (right - left)
+        if not (0.0 <= row <= rows and 0.0 <= column <= columns):
+            return None
+        return min(int(row), rows - 1), min(int(column), columns - 1)
+
+    def section(
+        self, way: str, cell: tuple[int, int] | None
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64], str]:
+        """Places, numbers and title of the section through a cell, or through the middle."""
+        rows, columns = self.values.shape
+        row, column = cell or (rows // 2, columns // 2)
+        (side, at), (_, places) = (self.x, self.y) if way == "up" else (self.y, self.x)
+        values = self.scaled[0][:, column] if way == "up" else self.scaled[0][row]
+        fixed = with_unit(at[column if way == "up" else row], side.unit, 4)
+        return places, values, f"{self.words} at {side.words} {fixed}"
 
 
 def _in_page_units(given: DataArray) -> tuple[tuple[str, str, str], NDArray[np.float64]]:
@@ -123,124 +150,190 @@ def _in_page_units(given: DataArray) -> tuple[tuple[str, str, str], NDArray[np.f
     return (words, "", "" if unit == "1" else unit), values
 
 
-class PlaneFigures:
-    """The map, and a line across it each way.
+def tooltip(field: Field) -> str:
+    """The text under the pointer: both places and the number."""
+    places = f"{field.x[0].label}: $x{{custom}}<br>{field.y[0].label}: $y{{custom}}"
+    return _TOOLTIP.format(f"{places}<br><b>{field.label}: @image{{custom}}</b>")
 
-    Parameters
-    ----------
-    packed
-        sends the numbers.
-    name
-        of the sources and ranges.
-    sides
-        all quantities that a side may have.
+
+def dimensions(field: Field) -> list[hv.Dimension]:
+    """The sides and the numbers for HoloViews: `x`, `y` and `value`, with their labels."""
+    (x, _), (y, _) = field.x, field.y
+    labels = ("x", x.words, x.unit), ("y", y.words, y.unit), ("value", field.words, field.scaled[1])
+    return [hv.Dimension((name, words or name), unit=unit or None) for name, words, unit in labels]
+
+
+def map_of(field: Field) -> hv.Overlay:
+    """The map, hatched where there is no answer, and rings for a mark, which is nowhere."""
+    x, y, value = dimensions(field)
+    low, high = color_limits(field.scaled[0])
+    image = hv.Image((field.x[1], field.y[1], field.scaled[0]), [x, y], value).opts(
+        cmap=_PALETTES[low == -high], clim=(low, high), clipping_colors={"NaN": CLEAR},
+        colorbar=True, colorbar_opts={**BAR_LOOK, "bar_line_color": style.STEEL_EDGE},
+        default_tools=[],
+        tools=[
+            HoverTool(
+                visible=False, point_policy="follow_mouse", tooltips=tooltip(field),
+                formatters=dict.fromkeys(("$x", "$y", "@image"), CustomJSHover(code=_ROUNDED)),
+            )
+        ],
+    )  # fmt: skip
+    missing = hv.Rectangles(tuple(field.missing.values()), [x, y, "x1", "y1"], "reason").opts(
+        fill_color="#B9BEC4", line_color=None, hooks=[_hatch],
+        default_tools=[], tools=[HoverTool(visible=False, tooltips=_TOOLTIP.format("@reason"))],
+    )  # fmt: skip
+    rings = [  # dark on light, so that it shows on every colour
+        hv.Points([], [x, y]).opts(
+            size=15, fill_color=None, line_color=color, line_width=width, default_tools=[]
+        )
+        for color, width in ((style.LIGHT, 5.0), (style.SHADE, 2.0))
+    ]
+    return hv.Overlay([image, missing, *rings])
+
+
+def _hatch(plot: Any, _: hv.Rectangles) -> None:
+    plot.handles["glyph"].update(
+        hatch_pattern="/", hatch_color="white", hatch_alpha=0.6, hatch_scale=8
+    )
+
+
+def section_of(field: Field, way: str, x: float | None = None, y: float | None = None) -> hv.Curve:
+    """The curve through a place, "up" or "across"; through the middle where that is nowhere."""
+    places, values, title = field.section(way, field.cell_at(x, y))
+    side, value = dimensions(field)[way == "up"], dimensions(field)[2]
+    return hv.Curve((places, values), side, value).opts(
+        color=style.DEFECTIVE, line_width=2.0, title=title, default_tools=[], framewise=True
+    )
+
+
+def layout_of(field: Field) -> hv.Layout:
+    """The map, and its sections, which follow the pointer."""
+    plane = map_of(field)
+    pointer = hv.streams.PointerXY(source=plane.Image.I)
+    sections = [hv.DynamicMap(partial(section_of, field, way), streams=[pointer]) for way in WAYS]
+    frames = {"frame_width": 420, "frame_height": 320}
+    return (
+        hv.Layout([plane, *sections]).cols(2).opts(hv.opts.Image(**frames), hv.opts.Curve(**frames))
+    )
+
+
+class PlaneFigures:
+    """The map and its sections on a page; a click there calls `go` with the place.
+
+    `plots` are those of HoloViews, for its pane.
     """
 
-    def __init__(self, packed: PackedSource, name: str, sides: Sequence[Side]) -> None:
-        self._name = name
-        # the words that go with the numbers: of the values, of x and of y
-        self._said = ColumnDataSource(_NO_WORDS)
-        self._reasons = ColumnDataSource({"text": []})
-        x, y = packed.range(f"{name}_x", 0.0, 1.0), packed.range(f"{name}_y", 0.0, 1.0)
-        value = packed.range(f"{name}_value", 0.0, 1.0)
-        self.map, self.up, self.across = (
-            style.make_figure(
-                _NAMELESS, _NAMELESS, *ranges, height=height, name=f"{name}_{which}", title=""
+    def __init__(self, name: str, go: Callable[[float, float], None]) -> None:
+        self._field, self._mark, self._go = _BLANK, (0.0, 0.0), go
+        self._going: asyncio.TimerHandle | None = None
+        plane, renderer = map_of(_BLANK), hv.renderer("bokeh")
+        self._streams = [
+            stream(source=plane.Image.I, subscribers=[subscriber])
+            for stream, subscriber in (
+                (hv.streams.PointerXY, self._point),
+                (hv.streams.MouseLeave, lambda **_: self._send_sections(*self._mark)),
+                (hv.streams.SingleTap, self._tap),
+                (hv.streams.DoubleTap, lambda **_: self._going and self._going.cancel()),
             )
-            for ranges, (which, height) in zip(
-                ((x, y), (y, value), (x, value)), HEIGHTS.items(), strict=True
-            )
+        ]
+        elements = [plane, *(section_of(_BLANK, way) for way in WAYS)]
+        self.plots = [renderer.get_plot(element) for element in elements]
+        self._image, self._missing, *self._rings = (
+            plot.handles for plot in self.plots[0].subplots.values()
         )
-        self.plots = [self.map, self.up, self.across]
+        self.map, self.up, self.across = figures = [plot.state for plot in self.plots]
+        for plot, what in zip(figures, ("map", *WAYS), strict=True):
+            _house_style(plot, f"{name}_{what}")
+        self.up.x_range, self.across.x_range = self.map.y_range, self.map.x_range
+        self.across.y_range = self.up.y_range
+        self.map.grid.visible = False
+        self.map.toolbar_inner = False  # it would lie on the picture
+        self.map.stylesheets = [":host { cursor: crosshair; }"]
         self.up.frame_align = False  # it needs no colour bar's room
-        self._add_map(packed, sides)
-        for line, sideways in ((self.across, True), (self.up, False)):
-            self._add_line(line, sideways)
 
-    def _add_map(self, packed: PackedSource, sides: Sequence[Side]) -> None:
-        plot, name = self.map, self._name
-        plot.grid.visible = False
-        plot.stylesheets = [":host { cursor: crosshair; }"]
-        self._colors = LinearColorMapper(palette=_PALETTES[False], nan_color=CLEAR)
-        scale_by(packed.range(f"{name}_colors", 0.0, 1.0), self._colors)
-        codes = LinearColorMapper(palette=[CLEAR])  # of the reasons, which are read and not seen
-        known = {"said": self._said, "reasons": self._reasons}
-        self._image = GridImage(
-            plot, packed, f"{name}_cells", [self._colors, codes], sides, _SAY, _HATCHED, **known
-        )
-        draw(plot, packed, ring_at(f"{name}_mark"))
-        self._mark = plot.renderers[-1].data_source
-        self._bar = color_bar(self._colors, bar_line_color=style.STEEL_EDGE)
-        plot.add_layout(self._bar, "right")
-
-    def _add_line(self, plot: figure, sideways: bool) -> None:
-        """The line across the map at the pointer, or at the scene."""
-        # or the server would hear of each movement
-        line = ColumnDataSource({"place": [], "value": []}, syncable=False)
-        plot.title.syncable = False
-        plot.line("place", "value", source=line, line_color=style.DEFECTIVE, line_width=2.0)
-        follow = sections(
-            self._image.source, line=line, title=plot.title, mark=self._mark, said=self._said,
-            sideways=sideways,
-        )  # fmt: skip
-        for event in ("mousemove", "mouseleave"):
-            self.map.js_on_event(event, follow)
-        for source in (self._mark, self._said, self._image.source):
-            source.js_on_change("data", follow)
-
-    def write(self, field: Field) -> None:
-        """Set the words of a field. On the event loop only."""
-        unit = field.scaled[1]
-        (x, _), (y, _) = field.x, field.y
-        said = {
-            "words": [field.words, x.words, y.words],
-            "unit": [part if part in ("", "°") else f" {part}" for part in (unit, x.unit, y.unit)],
-        }
-        if (reasons := _reasons_of(field)[0]) != self._reasons.data["text"]:
-            self._reasons.data = {"text": reasons}
-        least, greatest = (
-            float(find(field.values, initial=0.0)) for find in (np.nanmin, np.nanmax)
-        )
-        palette = _PALETTES[least < 0.0 < greatest]
-        if palette != self._colors.palette:
-            self._colors.palette = palette
-        if said == self._said.data:
-            return
-        self._said.data = said
-        label = f"{field.words} ({unit})" if unit else field.words
-        self._bar.title = label
-        self.up.xaxis[0].axis_label, self.across.xaxis[0].axis_label = y.label, x.label
-        self.up.yaxis[0].axis_label = self.across.yaxis[0].axis_label = f"({unit})" if unit else ""
-
-    def data(
-        self, field: Field, mark: tuple[float, float] | None = None, alpha: float = 1.0
-    ) -> tuple[dict[str, dict[str, np.ndarray]], dict[str, tuple[float, float]]]:
-        """Sources and ranges for a field; the lines are drawn across it at the `mark`."""
-        name, values = self._name, field.scaled[0]
+    def show(self, field: Field, mark: tuple[float, float], alpha: float = 1.0) -> None:
+        """Draw a field, and the sections at the `mark`. On the event loop only."""
+        self._field, self._mark = field, mark
+        values, unit = field.scaled
+        (left, right), (bottom, top) = field.bounds
+        self._image["source"].data = {
+            "image": [values.astype(np.float32)],
+            "x": [left], "y": [bottom], "dw": [right - left], "dh": [top - bottom],
+        }  # fmt: skip
+        self._image["glyph"].global_alpha = alpha
+        low, high = color_limits(values)
+        self._image["color_mapper"].update(low=low, high=high, palette=_PALETTES[low == -high])
+        self._missing["source"].data = field.missing
+        for ring in self._rings:
+            ring["source"].data = {"x": [mark[0]], "y": [mark[1]]}
         known = values[np.isfinite(values)]
-        low, high = (float(known.min()), float(known.max())) if known.size else (0.0, 1.0)
-        room = 0.06 * (high - low) or 0.06 * abs(high) or 1.0
-        codes = _reasons_of(field)[1]
-        x, y = np.reshape(mark if mark is not None else (), (2, -1))
-        sources: dict[str, dict[str, np.ndarray]] = {
-            f"{name}_cells": self._image.columns(field.x, field.y, [values, codes], alpha),
-            f"{name}_mark": {"x": x, "y": y},
-        }
-        return sources, {
-            f"{name}_x": ends(field.x[1]),
-            f"{name}_y": ends(field.y[1]),
-            f"{name}_value": (low - room, high + room),
-            f"{name}_colors": color_limits(values),
-        }
+        least, most = (float(known.min()), float(known.max())) if known.size else (0.0, 1.0)
+        room = 0.06 * (most - least) or 0.06 * abs(most) or 1.0
+        _move(self.map.x_range, left, right)
+        _move(self.map.y_range, bottom, top)
+        _move(self.up.y_range, least - room, most + room)
+        (x, _), (y, _), in_unit = field.x, field.y, f"({unit})" if unit else ""
+        self._image["colorbar"].title = field.label
+        self.map.xaxis[0].axis_label = self.across.xaxis[0].axis_label = x.label
+        self.map.yaxis[0].axis_label = self.up.xaxis[0].axis_label = y.label
+        self.up.yaxis[0].axis_label = self.across.yaxis[0].axis_label = in_unit
+        self._image["hover"].tooltips = tooltip(field)
+        self._draw_sections(*mark)
+
+    def _draw_sections(self, x: float, y: float) -> None:
+        self._cell = self._field.cell_at(x, y)
+        for way, plot in zip(WAYS, self.plots[1:], strict=True):
+            places, values, title = self._field.section(way, self._cell)
+            side = "y" if way == "up" else "x"
+            plot.handles["source"].data = {side: places, "value": values}
+            plot.state.title.text = title
+
+    def _send_sections(self, x: float, y: float) -> None:
+        """Draw the sections through a place: streams act while the document is not locked."""
+        change = one_message(self.map.document, partial(self._draw_sections, x, y))
+        self._sent = asyncio.get_running_loop().create_task(change)
+
+    def _point(self, x: float, y: float) -> None:
+        if self._field.cell_at(x, y) not in (None, self._cell):  # most moves stay in a cell
+            self._send_sections(x, y)
+
+    def _tap(self, x: float | None, y: float | None) -> None:
+        """Go to a cell; a second click on a map that is zoomed brings all of it back instead."""
+        if (cell := self._field.cell_at(x, y)) is not None:
+            place = float(self._field.x[1][cell[1]]), float(self._field.y[1][cell[0]])
+            wait = SECOND_CLICK * any(map(_is_zoomed, (self.map.x_range, self.map.y_range)))
+            go, loop = partial(self._go, *place), asyncio.get_running_loop()
+            self._going = loop.call_later(wait, on_loop, self.map.document, go)
 
 
-_NAMELESS = style.AxisQuantity("", "", "")
+_NO_SIDE = Side("", "", "", "")
+_BLANK = Field(
+    (_NO_SIDE, np.arange(2.0)), (_NO_SIDE, np.arange(2.0)), "", "", np.zeros((2, 2)),
+    np.full((2, 2), "", dtype=object),
+)  # fmt: skip
 
 
-def _reasons_of(field: Field) -> tuple[list[str], NDArray[np.float64]]:
-    """The different reasons of a field, and which of them each of its points has."""
-    texts, codes = np.unique(field.reasons.astype(str), return_inverse=True)
-    return texts.tolist(), codes.astype(float)
+def _house_style(plot: figure, name: str) -> None:
+    """Make a figure of HoloViews look as the others do."""
+    style.style_figure(plot)
+    for axis in plot.axis:
+        style.style_axis(axis)
+    plot.update(
+        name=name, sizing_mode="stretch_both", width=None, height=None, min_width=280,
+        min_height=200 if name.endswith("across") else 340, min_border_left=64,
+        min_border_right=14, min_border_top=10, output_backend="canvas",
+    )  # fmt: skip
+    plot.toolbar_location, plot.toolbar_inner = "right", True
+
+
+def _move(shown: Range1d, start: float, end: float) -> None:
+    """Move a range, and what a reset goes back to; where it is zoomed the latter alone."""
+    home = {"reset_start": start, "reset_end": end}
+    shown.update(**home, **({} if _is_zoomed(shown) else {"start": start, "end": end}))
+
+
+def _is_zoomed(shown: Range1d) -> bool:
+    return (shown.start, shown.end) != (shown.reset_start, shown.reset_end)
 
 
 def color_limits(values: NDArray[np.float64]) -> tuple[float, float]:

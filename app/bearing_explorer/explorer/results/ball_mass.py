@@ -26,10 +26,10 @@ from bearingcore.model.dynamics import (
     Flight,
     Strike,
     ball_strikes,
+    compare_motions as compare_bands,
     compared_directions,
     flights,
 )
-from bearingcore.model.dynamics import compare_motions as compare_bands
 from bearingcore.model.statics import path_kinks
 
 Array = NDArray[np.float64]
@@ -181,10 +181,8 @@ def compare_motions(massless: Motion, heavy: Motion, since: float) -> BallMass:
     finite = all(np.isfinite(signal).all() for signal in late)
     bandwidth = min(massless.bandwidth, heavy.bandwidth)
     octaves = _octaves(bandwidth)
-    both = [core.spectrum(s, rate).up_to(bandwidth) for s in late] if finite and dofs else []
-    power = [lines.powers(octaves).sum(axis=1) for lines in both] or [
-        np.full(len(octaves) - 1, math.nan)
-    ] * 2
+    known = finite and bool(dofs)
+    power = [_powers(s, rate, bandwidth, octaves, known) for s in late]
     added = level_difference(power[1], power[0])
     with np.errstate(divide="ignore", invalid="ignore"):
         share = 1.0 - power[0] / power[1]
@@ -208,11 +206,18 @@ def compare_motions(massless: Motion, heavy: Motion, since: float) -> BallMass:
         far_edge=math.nan if struck else _far_edge(scene, events, whole.motion_time),
         octaves=octaves,
         share=share,
-        spread=_spread(late, rate, octaves) if finite and dofs else np.full_like(share, math.nan),
+        spread=_spread(late, rate, octaves) if known else np.full_like(share, math.nan),
         added=added,
         quiet=power[1] < QUIETEST_COMPARED * np.max(power[1], initial=0.0),
         comparison=_comparison(massless, heavy),
     )
+
+
+def _powers(signal: Array, rate: float, bandwidth: float, octaves: Array, known: bool) -> Array:
+    """Power in each octave, of all directions; NaN where it is not known."""
+    if not known:
+        return np.full(len(octaves) - 1, math.nan)
+    return core.spectrum(signal, rate).up_to(bandwidth).powers(octaves).sum(axis=1)
 
 
 def _comparison(massless: Motion, heavy: Motion) -> BallComparison | None:

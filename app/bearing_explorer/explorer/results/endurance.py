@@ -18,8 +18,8 @@ from bearingcore import (
     dynamic_load_rating,
     film,
     life,
+    limits as limits_of,
 )
-from bearingcore import limits as limits_of
 from bearingcore.bearings import STEEL_MODULUS, STEEL_POISSON, USUAL_GROOVES
 from bearingcore.model.scene import WITH_MASS
 from bearingcore.model.statics import GIVEN, NO_DRAWING, OF_A_CATALOGUE, state_of_limits, unknown

@@ -74,19 +74,9 @@ def most_loaded(
     names = _named(bearing, most)
     text = f"{names[0].upper()}{names[1:]} {'carry' if several else 'carries'} most"
     text += "" if briefly else f", {what}"
-    nearer = np.zeros(0, dtype=np.int64)
-    where = brief = "the rings are pressed together most there"
-    if not math.isnan(line):
-        apart = np.abs((states.ball_angle[state] - line + math.pi) % (2.0 * math.pi) - math.pi)
-        nearer = np.flatnonzero(apart < apart[most].min() - 1e-6)
-        if not nearer.size:
-            off = style.in_degrees(apart[most].min(), 0)
-            near = (
-                "on the line of the load"
-                if off == "0°"
-                else f"nearest the line of the load ({off})"
-            )
-            where, brief = f"{near}, where the rings are pressed together most", "nearest the load"
+    apart = np.abs((states.ball_angle[state] - line + math.pi) % (2.0 * math.pi) - math.pi)
+    nearer = np.flatnonzero(apart < apart[most].min() - 1e-6)  # none without a line, which is NaN
+    where, brief = _place_words(float(apart[most].min()), bool(nearer.size))
     # in a defect, farther than those that carry most, and with less load
     lost = (drop > drop[most].max()) & (load < (1.0 - ALIKE) * load.max())
     inside, adjacent = nearer[lost[nearer]], _neighbours(bearing, most)
@@ -98,14 +88,33 @@ def most_loaded(
         return f"{text}: {brief}."
     if not gone.size:
         return f"{text}: {where}."
-    carry = f"{'only' if single else 'at most'} {style.with_prefix(load[gone].max(), 'N')}"
-    carry = f"{carry}{'' if single else ' each'}" if load[gone].max() > 0.0 else "nothing"
+    carry = _carried_at_most(float(load[gone].max()), single)
     place = (
         "nearer the line of the load" if inside.size else f"beside {'them' if several else 'it'}"
     )
     verbs = ("lies", "carries") if single else ("lie", "carry")
     why = f"{said}, {place}, {verbs[0]} in the defect and {verbs[1]} {carry}"
     return f"{text}: {why}." if inside.size or math.isnan(line) else f"{text}: {where}; {why}."
+
+
+def _carried_at_most(load: float, single: bool) -> str:
+    if load <= 0.0:
+        return "nothing"
+    text = style.with_prefix(load, "N")
+    return f"only {text}" if single else f"at most {text} each"
+
+
+def _place_words(apart: float, is_off: bool) -> tuple[str, str]:
+    """Where the elements are that carry most, `apart` [rad] from the load's line, also in short.
+
+    `is_off`: others are nearer to it. NaN where there is no line.
+    """
+    if math.isnan(apart) or is_off:
+        return ("the rings are pressed together most there",) * 2
+    off = style.in_degrees(apart, 0)
+    on = "on the line of the load"
+    near = on if off == "0°" else f"nearest the line of the load ({off})"
+    return f"{near}, where the rings are pressed together most", "nearest the load"
 
 
 def _neighbours(bearing: Bearing, which: NDArray[np.int64]) -> NDArray[np.int64]:
@@ -215,26 +224,9 @@ def stiffness(results: Results, *, briefly: bool = False) -> str:
     if len(means) < 2 or not all(map(math.isfinite, means.values())):
         return ""
     if results.scene.defects and results.reference_label:
-        before = radial(results.reference)
-        grown = {term: means[term] / before[0][term] - 1.0 for term in means}
-        most = max(grown, key=lambda term: abs(grown[term]))
-        along = direction(results.scene)  # the stiffness that carries the load first
-        term = "k_yy" if math.isnan(along) or abs(math.sin(along)) > 0.5 else "k_xx"
-        term = term if abs(grown[term]) >= LEAST else most
-        if math.isfinite(grown[term]) and abs(grown[term]) >= LEAST:
-            verb = "rises" if grown[term] > 0.0 else "falls"
-            by = style.number(100.0 * abs(grown[term]), 2)
-            why = why_softer(term, now, before, briefly)
-            if briefly and why:
-                return f"{term} {verb}: {why}."
-            text = f"With the defect {term} {verb} by {by} % on average"
-            return f"{text}: {why}." if why else f"{text}."
-        if math.isfinite(grown[term]) and abs(now[1] - before[1]) < LEAST * before[1]:
-            many = style.number(now[1])
-            return (
-                "The defect hardly changes the mean stiffness: as many balls carry as without it "
-                f"({many} on average), at the same angles."
-            )
+        words = _stiffness_against(results, now, briefly)
+        if words:
+            return words
     share = means["k_yy"] / (means["k_xx"] + means["k_yy"])
     if 0.45 <= share <= 0.55:
         return f"k_xx and k_yy are alike: balls carry all around (mean sin²φ {share:.2f})."
@@ -252,6 +244,33 @@ def stiffness(results: Results, *, briefly: bool = False) -> str:
         f"k_{dof}{dof} is {style.number(large / small, 2)} times k_{other}{other}: loaded balls "
         f"{push} ({_SQUARE[dof]} {large:.2f} on average, {_SQUARE[other]} {small:.2f})."
     )
+
+
+def _stiffness_against(results: Results, now: tuple[dict[str, float], float], briefly: bool) -> str:
+    """Why the radial stiffness is not, or just, that of the healthy bearing; empty if unknown."""
+    means, before = now[0], radial(results.reference)
+    grown = {term: means[term] / before[0][term] - 1.0 for term in means}
+    most = max(grown, key=lambda term: abs(grown[term]))
+    along = direction(results.scene)  # the stiffness that carries the load first
+    term = "k_yy" if math.isnan(along) or abs(math.sin(along)) > 0.5 else "k_xx"
+    term = term if abs(grown[term]) >= LEAST else most
+    if not math.isfinite(grown[term]):
+        return ""
+    if abs(grown[term]) >= LEAST:
+        verb = "rises" if grown[term] > 0.0 else "falls"
+        by = style.number(100.0 * abs(grown[term]), 2)
+        why = why_softer(term, now, before, briefly)
+        if briefly and why:
+            return f"{term} {verb}: {why}."
+        text = f"With the defect {term} {verb} by {by} % on average"
+        return f"{text}: {why}." if why else f"{text}."
+    if abs(now[1] - before[1]) < LEAST * before[1]:
+        many = style.number(now[1])
+        return (
+            "The defect hardly changes the mean stiffness: as many balls carry as without it "
+            f"({many} on average), at the same angles."
+        )
+    return ""
 
 
 _LEVER = {"x": "cosα·cosφ", "y": "cosα·sinφ", "z": "sinα"}
@@ -438,20 +457,13 @@ def peak(results: Results, rates: Sequence[float], *, briefly: bool = False) -> 
             name = mode_symbol(own[0])
             return f"The highest peak{above} is the {name} resonance, struck by every passing ball."
         return f"{text} {_lies(most, own[0], bands)}: balls that pass make this mode swing."
-    for rate in rates:
-        halves = round(2.0 * most.frequency / rate) if rate > 0.0 else 0
-        resolved = rate >= SEPARATE * most.resolution and halves > 0
-        if resolved and abs(most.frequency - 0.5 * halves * rate) <= 0.51 * most.resolution:
-            hertz = f"{style.number(rate, 4)} Hz"
-            times = hertz if halves == 2 else f"{style.number(0.5 * halves)} × {hertz}"
-            why = "as often as balls pass" if halves == 2 else "a multiple of the ball passes"
-            why = "so the motion does not repeat with each ball pass" if halves % 2 else why
-            if briefly:
-                return f"The highest peak{above} is at {times}, {why}."
-            return (
-                f"{text} lies in no band of {dof}. It is the line nearest {times}, {why} (lines "
-                f"are {most.resolution:.0f} Hz apart)."
-            )
+    if times := _in_ball_passes(most, rates):
+        if briefly:
+            return f"The highest peak{above} is at {times}."
+        return (
+            f"{text} lies in no band of {dof}. It is the line nearest {times} (lines "
+            f"are {most.resolution:.0f} Hz apart)."
+        )
     if inside:
         words = _lies(most, inside[0], bands)
         return f"{text} {words}: along {dof} the housing takes part in that swing."
@@ -468,6 +480,21 @@ def peak(results: Results, rates: Sequence[float], *, briefly: bool = False) -> 
             "as at rest."
         )
     return f"{text}; the results here do not show why."
+
+
+def _in_ball_passes(most: Peak, rates: Sequence[float]) -> str:
+    """A peak as a multiple of a rate [Hz] of ball passes, and why it is there; else empty."""
+    for rate in rates:
+        halves = round(2.0 * most.frequency / rate) if rate > 0.0 else 0
+        resolved = rate >= SEPARATE * most.resolution and halves > 0
+        if resolved and abs(most.frequency - 0.5 * halves * rate) <= 0.51 * most.resolution:
+            hertz = f"{style.number(rate, 4)} Hz"
+            if halves == 2:
+                return f"{hertz}, as often as balls pass"
+            why = "a multiple of the ball passes"
+            why = "so the motion does not repeat with each ball pass" if halves % 2 else why
+            return f"{style.number(0.5 * halves)} × {hertz}, {why}"
+    return ""
 
 
 def jolt(shown: Excerpt, bearing: Bearing) -> str:

@@ -111,6 +111,8 @@ class Results(SceneContent):
         kind of the reference that is drawn in grey.
     life_inputs
         steel, oil and surfaces as entered under Life.
+    lesson_term
+        term of the stiffness that the open lesson compares between scenes; empty without one.
     mark
         number of the newest change of the browser that they hold.
     give_up
@@ -132,6 +134,7 @@ class Results(SceneContent):
     before: Reference | None = None
     grey_kind: str = HEALTHY
     life_inputs: LifeInputs = field(default_factory=LifeInputs)
+    lesson_term: str = ""
     mark: int = 0
     give_up: Callable[[], bool] | None = None
     like: Results | None = None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 
 from bearing_explorer.explorer.state.choice_list import OF_DEFECT, OF_SCENE
 from bearing_explorer.explorer.state.field_values import (
@@ -87,32 +87,19 @@ def distinct_name(scene: Scene, others: Iterable[Scene], focus: int = 0, bearing
     By at most MOST_NUMBERS of these, by the size of the defect `focus` where nothing does. Another
     bearing comes first, by its name `bearing` where that is known.
     """
-    defects = defects_of(scene)
-    focus = min(focus, len(defects) - 1)
-    own, changed, words, turned = values_of(scene, focus), set[Field](), dict[str, None](), False
+    focus = min(focus, len(defects_of(scene)) - 1)
+    own, changed, words = values_of(scene, focus), set[Field](), dict[str, None]()
+    others = tuple(others)
     for other in others:
-        theirs = defects_of(other)
-        at = min(focus, len(theirs) - 1)
-        changed |= {
-            field
-            for field, _ in _numbers(own, values_of(other, at))
-            if field.name != "center" or (scene.defects and other.defects)
-        }
-        turned |= not math.isclose(_direction(scene), _direction(other), abs_tol=1e-6)
-        choices = ((OF_SCENE, scene, other), (OF_DEFECT, defects[focus], theirs[at]))
-        for choices_of, now, then in choices:
-            words |= {
-                choice.name_of(now): None
-                for choice in choices_of
-                if choice.name_of(now) != choice.name_of(then)
-            }
+        changed |= _changed_numbers(scene, other, own, focus)
+        words |= dict.fromkeys(_changed_choices(scene, other, focus))
+    turned = any(
+        not math.isclose(_direction(scene), _direction(other), abs_tol=1e-6) for other in others
+    )
     of_bearing = [field for field in changed if field.part in ("bearing", "pair", "second")]
     is_another = len(of_bearing) > MOST_NUMBERS
     numbers: dict[str, None] = {bearing: None} if bearing and is_another else {}
-    for field in SHOWN_FIELDS:
-        if field not in changed:
-            continue
-        value = own[field.key]
+    for field in (field for field in SHOWN_FIELDS if field in changed):
         if field.name in ("extent", "depth"):
             name = usual_name(scene, focus)
         elif field.name in ("fx", "fy"):
@@ -125,10 +112,30 @@ def distinct_name(scene: Scene, others: Iterable[Scene], focus: int = 0, bearing
             name = f"{scene.bearing.total_balls} {scene.bearing.kind.element}s of {size} mm"
         else:
             unit = field.shown_unit if field.shown_unit in ("", "°") else f" {field.shown_unit}"
-            name = f"{_number(field.read_sign * value, 4)}{unit}"
+            name = f"{_number(field.read_sign * own[field.key], 4)}{unit}"
             name = name if field.name == "shaft_speed" else f"{label_inside(field)} {name}"
         numbers[name] = None
     return ", ".join([*numbers, *words][:MOST_NUMBERS]) or usual_name(scene, focus)
+
+
+def _changed_numbers(scene: Scene, other: Scene, own: Values, focus: int) -> set[Field]:
+    """Fields whose numbers differ; places of defects only where both scenes have some."""
+    at = min(focus, len(defects_of(other)) - 1)
+    return {
+        field
+        for field, _ in _numbers(own, values_of(other, at))
+        if field.name != "center" or (scene.defects and other.defects)
+    }
+
+
+def _changed_choices(scene: Scene, other: Scene, focus: int) -> Iterator[str]:
+    """Names of the choices of a scene that another one has not."""
+    theirs = defects_of(other)
+    defect, their_defect = defects_of(scene)[focus], theirs[min(focus, len(theirs) - 1)]
+    for choices, now, then in ((OF_SCENE, scene, other), (OF_DEFECT, defect, their_defect)):
+        for choice in choices:
+            if choice.name_of(now) != choice.name_of(then):
+                yield choice.name_of(now)
 
 
 def _direction(scene: Scene) -> float:

@@ -7,7 +7,7 @@ A lesson is a text file in Markdown with a head in TOML::
     tab = "load"                       # what is on screen: a tab of the page
     preset = "fan-rig"                 # the scene to begin with ...
     drag = ["fy_n", "cage_angle_deg"]  # the controls shown with the words
-    watch = ["load-distribution"]      # the figures to look at; they are marked
+    watch = ["load-distribution"]      # the figures to look at, on whichever tab; they are marked
     term = "k_yy"                      # of the stiffness: alone on a projector; may be left out
 
     [scene]                            # ... and what is changed in it
@@ -351,7 +351,8 @@ class _Checks:
         self._on_list("tab", [head.tab], list(self.tabs), "a tab")
         self._on_list("preset", [head.preset], list(presets), "a preset")
         self._on_list("drag", head.drag, DRAGGED, "a control of the page")
-        self._on_list("watch", head.watch, self.tabs[head.tab], "a figure of this tab")
+        figures = [name for names in self.tabs.values() for name in names]
+        self._on_list("watch", head.watch, figures, "a figure of the page")
         self._on_list("term", [head.term], ["", *TERM_SYMBOLS], "a term of the stiffness")
 
     def _decoded(self) -> _Head:

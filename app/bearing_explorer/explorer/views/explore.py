@@ -9,11 +9,12 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import panel as pn
 
-from bearing_explorer.explorer.plots.plane import SIDE_BY_SIDE, Field, PlaneFigures
+from bearing_explorer.explorer.plots.plane import Field
 from bearing_explorer.explorer.results.explore import (
     MAP_OUTPUTS,
     SIZES,
@@ -39,10 +40,12 @@ from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.heat_map import Side
 from bearing_explorer.kit.sentences import sentence_of, with_unit
 from bearing_explorer.kit.serve.packed_source import PackedSource
-from bearing_explorer.kit.views.base import Ranges, Sources
 from bearing_explorer.kit.views.job_view import last_shown
 from bearing_explorer.kit.widgets.form import FieldSpec, stack
 from bearingcore.fields import Range
+
+if TYPE_CHECKING:
+    from bearing_explorer.explorer.plots.plane import Field
 
 _FIRST = {"x": "extent_deg", "y": "fy_n", "output": "k_yy_mean", "grid": "2"}
 _GRIDS = [[str(stride), f"{n} × {m}"] for stride, (n, m) in SIZES.items() if stride < 16]
@@ -86,9 +89,13 @@ class ExplorePlane(SceneJobView[Plane]):
     _refining: tuple[Question, int] | None = None
 
     def build(self, packed: PackedSource) -> Any:
-        sides = [Side.of(field) for field in SWEEPABLE.values()]
-        self._plane = PlaneFigures(packed, "explore", sides)
-        maps = stack(*self._plane.plots, stylesheets=[SIDE_BY_SIDE])
+        from bearing_explorer.explorer.plots.plane import (
+            PlaneFigures,  # HoloViews: not at the start
+        )
+
+        self._plane = PlaneFigures("explore", self._go)
+        panes = [pn.pane.HoloViews(plot, margin=0) for plot in self._plane.plots]
+        maps = stack(*panes, stylesheets=[style.SIDE_BY_SIDE])
         return [self.job, self.only_with_numbers(maps)]
 
     @property
@@ -152,15 +159,6 @@ class ExplorePlane(SceneJobView[Plane]):
 
     # The picture
 
-    def data(self, results: Results) -> tuple[Sources, Ranges]:
-        plane = self._newest(results)[0]
-        shown = plane or self.found
-        if shown is None:
-            return {}, {}
-        scene = focused(results.scene, results.focus)
-        x, y = (value_of(scene, sweep.field) for sweep in (shown.x, shown.y))
-        return self._plane.data(field_of(shown), (x, y), _FADED if plane is None else 1.0)
-
     def sentence(self, results: Results) -> str:
         plane = self._newest(results)[0]
         if plane is not None:
@@ -176,7 +174,9 @@ class ExplorePlane(SceneJobView[Plane]):
         self.found = plane or self.found
         super().say(results, sentence)
         if self.found is not None:
-            self._plane.write(field_of(self.found))
+            scene = focused(results.scene, results.focus)
+            x, y = (value_of(scene, sweep.field) for sweep in (self.found.x, self.found.y))
+            self._plane.show(field_of(self.found), (x, y), _FADED if plane is None else 1.0)
         if self._jobs is None or self._refining == (question, self._request.stride):
             return
         if self._refining is not None:
@@ -186,6 +186,17 @@ class ExplorePlane(SceneJobView[Plane]):
             self.job.show(JobState("failed", 0.0, why))
         elif not results.moving:
             self._refine(self._jobs, question, plane)
+
+    def _go(self, x: float, y: float) -> None:
+        """Set both quantities to those of a place of the map, as if they had been typed."""
+        if self.found is None or self.parts is None:
+            return
+        fields = self.found.x.field, self.found.y.field
+        typed = {
+            field.key: float(f"{field.read_sign * value:.6g}")
+            for field, value in zip(fields, (x, y), strict=True)
+        }
+        self.parts.change_scene({"typed": typed})
 
     def columns(self, found: Plane) -> dict[str, np.ndarray]:
         up, across = np.meshgrid(found.y.own_values, found.x.own_values, indexing="ij")
@@ -277,6 +288,8 @@ def plane_sweeps(
 
 def field_of(plane: Plane) -> Field:
     """A map as the figures take it."""
+    from bearing_explorer.explorer.plots.plane import Field
+
     output = plane.question.output
     words = output.label[0].upper() + output.label[1:] if output.label[:2] != "k " else output.label
     x, y = ((Side.of(sweep.field), sweep.values) for sweep in (plane.x, plane.y))

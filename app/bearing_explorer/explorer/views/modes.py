@@ -34,7 +34,7 @@ from bearingcore.common import span
 from bearingcore.model.sweeps import mode_symbol
 
 FREQUENCY = style.AxisQuantity("Natural frequency", "f", "Hz")
-HEIGHT = 440
+HEIGHT = 330
 LABEL_PIXELS = 16.0  # height that a label needs
 NAMES_WIDTH = 148
 """[px] right of the frame, for the names of bands."""

@@ -40,14 +40,6 @@ from bearingcore import Bearing
 from bearingcore.common import table_of
 from bearingcore.model.scene import ball_angles
 
-SIDE_BY_SIDE = """
-:host {
-  display: grid;
-  grid-template-columns: repeat(auto-fit, minmax(min(max(400px, 40%), 100%), 1fr));
-}
-"""
-"""Style of two figures that stand below one another where there is little room."""
-
 
 class SlowMotion(LiveComponent):
     """Play, speed, place and volume. It moves the figures in the browser alone."""
@@ -100,7 +92,7 @@ class SlowPassage(BearingDrawing):
         )
         cursor = uprights("slow_cursor", "now", style.DEFECT, 2.5, 1.0)
         draw(motion, packed, [*motion_layers("slow"), cursor])
-        figures = stack(bearing, motion, stylesheets=[SIDE_BY_SIDE])
+        figures = stack(bearing, motion, stylesheets=[style.SIDE_BY_SIDE])
         return self.only_with_numbers(SlowMotion(), figures)
 
     def _figure(self, x: Range1d, y: Range1d) -> figure:

@@ -30,7 +30,7 @@ from bearing_explorer.explorer.state.value_range import (
 from bearing_explorer.explorer.views.scene_job_view import SceneJobView
 from bearing_explorer.kit.compute.jobs import COMPUTATION, Work
 from bearing_explorer.kit.plots import style
-from bearing_explorer.kit.plots.heat_map import GridImage, Side, bright_image, ends
+from bearing_explorer.kit.plots.heat_map import GridImage, Side, ends
 from bearing_explorer.kit.plots.layers import (
     Glyph,
     Layer,
@@ -60,10 +60,10 @@ FAINT = 0.35
 RESOLUTION = 16.0  # [Hz] half a ball pass at 7 Hz on the fan rig is 20 Hz
 DEPTH_OF_VIEW = 60.0  # [dB] below the loudest point
 HARMONICS = 8
-HEIGHT = 520
+HEIGHT = 330
 
 _SIDES = {"frequency": Side("", "Frequency", "f", "Hz"), SPEED: Side.of(SWEEPABLE[SPEED])}
-_SAY = "return isNaN(cell[0]) ? 'not computed' : `${cell[0].toFixed(1).replace('-', '\\u2212')} dB`"
+_SAY = "return isNaN(cell) ? 'not computed' : `${cell.toFixed(1).replace('-', '\\u2212')} dB`"
 _HARMONIC_WORDS = "if (narrow && row.number % 2 == 0) return ''\n"
 _HARMONIC_WORDS += "return row.number == 1 ? (row.inner ? 'BPFI' : 'BPFO') : `${row.number}×`"
 _ON_PICTURE = {
@@ -168,14 +168,14 @@ class SpeedRunSpectra(SceneJobView[FoundRun]):
             plot.syncable = False  # which of them is seen is the browser's business
             shown = packed.range(f"speed_run_level_{dof}", -80.0, -20.0)
             name, title = f"speed_run_cells_{dof}", f"S{dof} (dB re 1 (m/s²)²/Hz)"
-            self._images[dof] = bright_image(plot, packed, name, shown, sides, _SAY, title)
+            self._images[dof] = GridImage(plot, packed, name, shown, sides, _SAY, title)
             marks += add_all(plot, sources, expected(dof))
             add_all(plot, sources, SCENE)
             plots.append(plot)
         along = switch([f"Along {dof}" for dof in SHOWN], plots, active=1)
         box = toggle("Mark bands and ball-pass harmonics", marks, shown=True)
         choices = pn.Row(along, box, margin=0, stylesheets=[style.WRAPPED])
-        return [self.job, self.only_with_numbers(choices, *plots)]
+        return [self.only_with_numbers(*plots, choices), self.job]
 
     # The job
 
@@ -214,7 +214,7 @@ class SpeedRunSpectra(SceneJobView[FoundRun]):
             level = levels_of(run, dof)[:, seen]
             level_ranges[f"speed_run_level_{dof}"] = level_range(level, frequency)
             sources[f"speed_run_cells_{dof}"] = self._images[dof].columns(
-                (_SIDES["frequency"], frequency), (_SIDES[SPEED], speeds.values), [level], alpha
+                frequency, speeds.values, level, alpha
             )
             sources[f"speed_run_bands_{dof}"] = bands_along(run.bands, dof, top)
         limits = ends(speeds.values)

@@ -67,8 +67,9 @@ class Stiffness(ComparingView):
         """One canvas for all traces."""
         self._limits = [StickyRange(0.0, 1.0, room=ROOM) for _ in _CELLS]
         self._ball_limits = StickyRange(0.0, 1.0, shrink_below=0.0)
+        self._lesson_term, self._lesson_limits = "", StickyRange(0.0, 1.0)
         plot = matrix_cells.matrix_figure(
-            (-0.05, 5.03), (-5.08, 0.0), height=524, name="stiffness_drawing"
+            (-0.05, 5.03), (-5.08, 0.0), height=350, name="stiffness_drawing"
         )
         self._legend = _static_parts(plot)
         cells = packed.source("stiffness_cells", *_CELL_COLUMNS)
@@ -121,6 +122,8 @@ class Stiffness(ComparingView):
             terms = [cleaned(e.term(term), scale) for e in answers]
             at_now = float(cleaned(now.term(term), scale)[0])
             limits = matrix_cells.trace_limits(sticky, scale, *terms)
+            if term == results.lesson_term:
+                limits = self._limits_of_lesson(term).fit(*terms)
             put(cell, limits, shares, *terms)
             at = float(cell.y(np.array(at_now), limits))
             marks.append((float(cell.x(np.array(now_share))), at, cell.bottom, cell.top))
@@ -157,6 +160,13 @@ class Stiffness(ComparingView):
             "stiffness_crossings": matrix_cells.crossing_lines(results, _FRAMES),
             "stiffness_axis": {"shaft": np.array([float(results.over_shaft)])},
         }, {}
+
+    def _limits_of_lesson(self, term: str) -> StickyRange:
+        """Limits from zero that only grow: a lesson compares its scenes on one axis."""
+        if term != self._lesson_term:
+            self._lesson_term = term
+            self._lesson_limits = StickyRange(0.0, 1e-9, anchor="zero", shrink_below=0.0, room=0.2)
+        return self._lesson_limits
 
     def sentence(self, results: Results) -> str:
         """The range of the radial stiffness and of the number of loaded balls."""
@@ -231,7 +241,7 @@ def _static_parts(plot: figure) -> ColumnDataSource:
     sides = {side: side for side in matrix_cells.SIDES}
     plot.quad(**sides, source=frames, fill_color="#FAFBFC", line_color=style.GRID)
     matrix_cells.write_names(plot, _FRAMES)
-    y = [-2.36, -2.52, -2.68]
+    y = [-2.36, -2.6, -2.84]
     colors = [style.DEFECTIVE, style.HEALTHY]
     ends = {"x0": [LEFT] * 2, "x1": [LEFT + 0.15] * 2, "y0": y[:2], "y1": y[:2]}
     plot.segment(**ends, line_color=colors, line_width=[2.4, 2.0])

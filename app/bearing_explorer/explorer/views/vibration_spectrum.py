@@ -37,7 +37,7 @@ from bearing_explorer.kit.plots.ranges import StickyRange
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, SessionParts, Sources
 from bearing_explorer.kit.views.look_view import LookView
-from bearing_explorer.kit.widgets.form import FieldSpec
+from bearing_explorer.kit.widgets.form import AS_HIGH_AS_SHOWN, FieldSpec, stack
 from bearingcore import Scene
 from bearingcore.model.dynamics import contact_resonance_band
 from bearingcore.model.scene import WITH_MASS
@@ -159,16 +159,14 @@ class VibrationSpectra(ComparingView, LookView[Results]):
         sources = sources_of(packed, PASSES)
         passes = [one for plot in linear.plots for one in add_all(plot, sources, PASSES)]
         box = toggle("Mark the ball-pass frequency and its harmonics", passes, shown=False)
-        self._narrow = [box, *linear.plots]
+        self._narrow = [*linear.plots, box]
+        self._broad = stack(*self._wide.plots, visible=False, stylesheets=[AS_HIGH_AS_SHOWN])
         high = {"min-height": "calc(var(--room) - 170px)"}
-        self._all = self.only_with_numbers(
-            self.panel_of_look, *self._narrow, *self._wide.plots, styles=high
-        )
-        return self._all
+        return self.only_with_numbers(*self._narrow, self._broad, self.panel_of_look, styles=high)
 
     def attach(self, parts: SessionParts) -> None:
         super().attach(parts)
-        self.withhold(self._all, but=1 + len(self._narrow))
+        self.withhold(self._broad)
 
     def bring(self) -> None:
         if self.wide:
@@ -185,7 +183,7 @@ class VibrationSpectra(ComparingView, LookView[Results]):
         return bool(self.look["axis"] == "logarithmic")
 
     def still_figures(self) -> Sequence[LayoutDOM]:
-        return self._wide.plots if self.wide else self._narrow[1:]
+        return self._wide.plots if self.wide else self._linear.plots
 
     def look_changed(self, name: str, value: Any) -> None:
         if name == "grey" and self.parts is not None:
@@ -205,8 +203,7 @@ class VibrationSpectra(ComparingView, LookView[Results]):
         super().show_look()
         for part in self._narrow:
             part.visible = not self.wide
-        for plot in self._wide.plots:
-            plot.visible = self.wide
+        self._broad.visible = self.wide
 
     def _resonance(self, results: Results, top: float) -> dict[str, np.ndarray]:
         """The band of the contact resonances, where balls have mass; `top` [Hz] is the axis's."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import html
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import panel as pn
@@ -194,15 +195,39 @@ class WorkPrecision:
         def place(point: Point) -> tuple[float, float]:
             return getattr(point, cost), point.errors.get(error, math.nan)
 
-        def is_placed(point: Point) -> bool:
-            return not point.failed and all(math.isfinite(v) and v > 0.0 for v in place(point))
-
         known = [p for p in shown.points if p.failed or not math.isnan(place(p)[1])]
-        good = [point for point in known if is_placed(point)]
-        costs = [place(p)[0] for p in known]
-        left, right = _around([c for c in costs if math.isfinite(c) and c > 0.0], 1.8)
+        good = [p for p in known if not p.failed and _are_logarithmic(place(p))]
+        left, right, top = self._scale(shown, error, cost, [place(p) for p in known], good)
+        frontier = [p for p in shown.frontier(error, cost) if p in good]
+        rows, lines, names = [], [], []
+        for slot, method in enumerate(shown.methods):
+            color, marker = look(slot)
+            names.append((left, top, color, method, "", 0.0, 0.0))
+            line = [place(p) for p in good if p.method == method]
+            lines.append((*columns_of(("cost", "error"), line).values(), color))
+            for p in (p for p in known if p.method == method):
+                at = _shown_place(place(p), p in good, right / 1.3, top / 2.0)
+                rows.append(_row_of(p, at, p in good, p in frontier, color, marker))
+        self._best.data = columns_of(("cost", "error"), [place(p) for p in frontier])
+        self._used.data = columns_of(("cost", "error"), [place(p) for p in good if p.in_use])
+        # Bokeh reads colours of a text that has become longer before it has them
+        names += [(left, top, 0, "", "", 0.0, 0.0)] * (len(COLORS) - len(names))
+        self._names.data = columns_of(_NAMES, names)
+        self._points.data = columns_of(_POINTS, rows)
+        self._lines.data = columns_of(("costs", "errors", "slot"), lines)
+
+    def _scale(
+        self,
+        shown: Experiment,
+        error: str,
+        cost: str,
+        places: Sequence[tuple[float, float]],
+        good: Sequence[Point],
+    ) -> tuple[float, float, float]:
+        """Set the axes, and return where they begin and end across, and end upwards."""
+        left, right = _around([c for c, _ in places if _are_logarithmic((c,))], 1.8)
         allowed = ALLOWED[shown.unit(error)]
-        bottom, top = _around([*(place(p)[1] for p in good), allowed], 2.5)
+        bottom, top = _around([*(p.errors[error] for p in good), allowed], 2.5)
         top *= 6.0
         set_range(self.plot.x_range, left, right)
         set_range(self.plot.y_range, bottom, top)
@@ -216,32 +241,38 @@ class WorkPrecision:
         self.plot.yaxis.axis_label = f"Error of {error}{unit}"
         self._allowed.location = self._limit.y = allowed
         self._limit.text = f"allowed: {with_unit(shown, error, allowed)}"
-        frontier = [p for p in shown.frontier(error, cost) if is_placed(p)]
-        rows, lines, names = [], [], []
-        for slot, method in enumerate(shown.methods):
-            color, marker = look(slot)
-            names.append((left, top, color, method, "", 0.0, 0.0))
-            line = [place(p) for p in good if p.method == method]
-            lines.append(([c for c, _ in line], [e for _, e in line], color))
-            for p in (p for p in known if p.method == method):
-                across, up = place(p)
-                across = across if math.isfinite(across) and across > 0.0 else right / 1.3
-                label = p.label if p in frontier else ""
-                placed = is_placed(p)
-                rows.append((
-                    across, up if placed else top / 2.0, color, marker if placed else "x",
-                    f"in use: {p.label}" if p.in_use else label, method, p.setting,
-                    style.with_prefix(p.seconds, "s"), p.evaluations,
-                    p.status if p.failed or placed else BEYOND, 8 if placed else 11,
-                    (p in frontier) + p.in_use, "", 0.0, 0.0,
-                ))  # fmt: skip
-        self._best.data = columns_of(("cost", "error"), [place(p) for p in frontier])
-        self._used.data = columns_of(("cost", "error"), [place(p) for p in good if p.in_use])
-        # Bokeh reads colours of a text that has become longer before it has them
-        names += [(left, top, 0, "", "", 0.0, 0.0)] * (len(COLORS) - len(names))
-        self._names.data = columns_of(_NAMES, names)
-        self._points.data = columns_of(_POINTS, rows)
-        self._lines.data = columns_of(("costs", "errors", "slot"), lines)
+        return left, right, top
+
+
+def _shown_place(
+    at: tuple[float, float], is_placed: bool, right: float, top: float
+) -> tuple[float, float]:
+    """Where a point is drawn: as high as `top` without an error, at the `right` without a cost."""
+    across, up = at
+    return across if _are_logarithmic((across,)) else right, up if is_placed else top
+
+
+def _row_of(
+    point: Point,
+    at: tuple[float, float],
+    is_placed: bool,
+    is_best: bool,
+    color: int,
+    marker: str,
+) -> tuple[Any, ...]:
+    """The cells of a point in `_POINTS`; one that has no place is a cross at the edge."""
+    label = f"in use: {point.label}" if point.in_use else point.label if is_best else ""
+    return (
+        *at, color, marker if is_placed else "x", label, point.method, point.setting,
+        style.with_prefix(point.seconds, "s"), point.evaluations,
+        point.status if point.failed or is_placed else BEYOND, 8 if is_placed else 11,
+        is_best + point.in_use, "", 0.0, 0.0,
+    )  # fmt: skip
+
+
+def _are_logarithmic(values: Sequence[float]) -> bool:
+    """True where all have a place on a logarithmic axis."""
+    return all(math.isfinite(value) and value > 0.0 for value in values)
 
 
 def with_unit(one: Experiment, error: str, value: float) -> str:

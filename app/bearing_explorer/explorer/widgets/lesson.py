@@ -46,6 +46,8 @@ class LessonPanel(JSComponent):
         super().__init__(titles=titles, margin=0, sizing_mode="stretch_width", **params)
         self._lessons = lessons
         self._begun = 0
+        #: term of the stiffness that the last lesson is about; empty without one
+        self.term = ""
         self.on_msg(lambda event: take(asked, LessonChange, event.data))
 
     def begin(self, which: object, *, again: bool = True) -> Lesson | None:
@@ -59,6 +61,7 @@ class LessonPanel(JSComponent):
         lesson = self._lessons[number]
         if isinstance(lesson, Fault):
             return None
+        self.term = lesson.term
         if again or self.lesson.get("number") != number:
             # counted, or the same lesson begun again would be no news to the browser
             self._begun += 1

@@ -4,8 +4,7 @@ Every heat map of the page is read and clicked by the same scripts, see `let_poi
 is a `GridImage`, or a canvas of sixteen maps.
 
 The packed source carries columns of floats, so a picture travels as one column: a head that says
-where the grid lies and which quantities its sides are, then the values of each layer, row by row
-from below.
+where the grid lies, then the values, row by row from below.
 """
 
 from __future__ import annotations
@@ -27,7 +26,6 @@ from bokeh.models import (
     LinearColorMapper,
     Plot,
     Range1d,
-    Scatter,
 )
 from bokeh.palettes import Viridis256
 from bokeh.plotting import figure
@@ -35,17 +33,12 @@ from numpy.typing import NDArray
 
 from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.plots import style
-from bearing_explorer.kit.plots.layers import Glyph
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearingcore.fields import Field
-
-_NO_SIDES: dict[str, list[float]] = {"across": [], "up": []}
-"""Sides of a grid before the first numbers."""
 
 CLEAR = "#00000000"
 """Transparent."""
 
-_HEAD = 9
 _PLACE = asset_text("heat_map_place.js")
 TOOLTIP = (
     f'<div style="font: 12px {style.FONT.replace(chr(34), "")}; line-height: 1.45">'
@@ -92,11 +85,6 @@ class Side:
         return {"name": self.name, "words": self.words, "unit": unit, "sign": self.sign}
 
 
-def sections(image: Any, **args: Any) -> CustomJS:
-    """Draws the line across a map at the pointer, see heat_map_sections.js."""
-    return CustomJS(args={"image": image, **args}, code=_PLACE + asset_text("heat_map_sections.js"))
-
-
 def scale_by(shown: Range1d, mapper: LinearColorMapper) -> None:
     """Have the ends of a range be those of a colour scale."""
     mapper.update(low=shown.start, high=shown.end, syncable=False)
@@ -112,7 +100,6 @@ def let_point(
     sides: Sequence[Side],
     renderers: Sequence[GlyphRenderer],
     say: str,
-    layers: Sequence[Any] = (),
     *,
     stands: ColumnDataSource | None = None,
     count: int = 1,
@@ -136,8 +123,8 @@ def let_point(
     renderers
         that are pointed at.
     say
-        JavaScript: body of a function of `cell`, the numbers of all `layers` there, and `at`, the
-        place; it returns their meaning as text.
+        JavaScript: body of a function of `cell`, the number there, and `at`, the place; it returns
+        its meaning as text.
     stands
         the source that says so, and the values at the ends (``x_first``, ``x_last``, ``y_first``,
         ``y_last``) where these are not the ends of the picture.
@@ -164,7 +151,6 @@ def let_point(
     code = f"{style.JS_PREFIX}{_PLACE}const say = (cell, at) => {{{say}}}\n" + asset_text(
         "heat_map_read.js"
     )
-    known = {**places, "layers": list(layers), **args}
     plot.add_tools(
         HoverTool(
             renderers=list(renderers),
@@ -172,7 +158,7 @@ def let_point(
             point_policy="follow_mouse",
             tooltips=tooltip,
             formatters={
-                field: CustomJSHover(args={**known, "wanted": wanted}, code=code)
+                field: CustomJSHover(args={**places, **args, "wanted": wanted}, code=code)
                 for field, wanted in fields.items()
             },
         )
@@ -199,37 +185,8 @@ def color_bar(mapper: ColorMapper, title: str = "", **options: Any) -> ColorBar:
     return ColorBar(color_mapper=mapper, title=title, **{**BAR_LOOK, **options})
 
 
-def bright_image(
-    plot: figure,
-    packed: PackedSource,
-    name: str,
-    shown: Range1d,
-    sides: Sequence[Side],
-    say: str,
-    title: str,
-) -> GridImage:
-    """Numbers on a grid from dark to bright, with their scale, whose ends are those of `shown`.
-
-    `name`, `sides` and `say` are those of `GridImage`; `title` is that of the scale.
-    """
-    plot.grid.visible = False
-    mapper = LinearColorMapper(palette=list(Viridis256), nan_color=CLEAR)
-    scale_by(shown, mapper)
-    plot.add_layout(color_bar(mapper, title, bar_line_color=None), "right")
-    return GridImage(plot, packed, name, [mapper], sides, say)
-
-
-def ring_at(source: str) -> list[Glyph]:
-    """A ring at the place of the scene: dark on light, so that it shows on every colour."""
-    ring = {"size": 15, "fill_color": None, "level": "annotation"}
-    return [
-        Glyph(Scatter, source, ("x", "y"), {**ring, "line_color": color, "line_width": width})
-        for color, width in ((style.LIGHT, 5.0), (style.SHADE, 2.0))
-    ]
-
-
 class GridImage:
-    """Layers of one grid in a figure, drawn one over the other.
+    """Numbers on a grid from dark to bright, with their scale, whose ends are those of `shown`.
 
     Parameters
     ----------
@@ -237,22 +194,13 @@ class GridImage:
         the figure they are drawn in.
     name
         of the source, one per session.
-    mappers
-        colour of each layer's numbers; NaN should be transparent.
     sides
-        all quantities that a side of the grid may have.
+        the quantities to the right and upwards.
     say
-        JavaScript: body of a function of `cell`, the numbers of all layers under the pointer,
-        which returns their meaning as text.
-    empty
-        look of what is seen through cells that are transparent.
-    known
-        models that `say` knows besides.
-
-    Attributes
-    ----------
-    source
-        Bokeh's source of the lowest layer: image, x, y, dw, dh.
+        JavaScript: body of a function of `cell`, the number under the pointer, which returns its
+        meaning as text.
+    title
+        of the scale.
     """
 
     def __init__(
@@ -260,63 +208,37 @@ class GridImage:
         plot: figure,
         packed: PackedSource,
         name: str,
-        mappers: Sequence[ColorMapper],
+        shown: Range1d,
         sides: Sequence[Side],
         say: str,
-        empty: Mapping[str, Any] | None = None,
-        **known: Any,
+        title: str,
     ) -> None:
-        self.name = name
-        self._sides = list(sides)
-        self._n_layers = len(mappers)
+        plot.grid.visible = False
+        plot.toolbar_inner = False  # it would lie on the picture
+        mapper = LinearColorMapper(palette=list(Viridis256), nan_color=CLEAR)
+        scale_by(shown, mapper)
+        plot.add_layout(color_bar(mapper, title, bar_line_color=None), "right")
         cells = packed.source(name, "packed")
         blank = {"x": [0.0], "y": [0.0], "dw": [1.0], "dh": [1.0], "alpha": [0.0]}
-        layers = [
-            ColumnDataSource({"image": [np.zeros((1, 1), np.float32)], **blank}, syncable=False)
-            for _ in mappers
-        ]
-        self.source = layers[0]
-        if empty is not None:
-            plot.block("x", "y", "dw", "dh", source=self.source, level="image", **empty)
-        drawn = [
-            plot.image(
-                "image", "x", "y", "dw", "dh", source=layer, color_mapper=mapper,
-                global_alpha="alpha", level="image",
-            )
-            for layer, mapper in zip(layers, mappers, strict=True)
-        ]  # fmt: skip
-        plot.toolbar_inner = False  # it would lie on the picture
-        axes = {"x_axis": plot.xaxis[0], "y_axis": plot.yaxis[0]}
-        for axis in axes.values():
-            axis.syncable = False  # or the server would hear of each change of its label
-        stands = ColumnDataSource(_NO_SIDES, syncable=False)
-        args = {**axes, "layers": layers, "stands": stands, "head": _HEAD}
-        labels = [side.label for side in self._sides]
-        cells.js_on_change(
-            "data", CustomJS(args={**args, "labels": labels}, code=asset_text("heat_map.js"))
-        )
-        let_point(plot, self.source, self._sides, drawn[:1], say, layers, stands=stands, **known)
+        image = ColumnDataSource({"image": [np.zeros((1, 1), np.float32)], **blank}, syncable=False)
+        drawn = plot.image(
+            "image", "x", "y", "dw", "dh", source=image, color_mapper=mapper,
+            global_alpha="alpha", level="image",
+        )  # fmt: skip
+        cells.js_on_change("data", CustomJS(args={"image": image}, code=asset_text("heat_map.js")))
+        let_point(plot, image, sides, [drawn], say)
 
     def columns(
         self,
-        x: tuple[Side, NDArray[np.float64]],
-        y: tuple[Side, NDArray[np.float64]],
-        layers: Sequence[NDArray[np.float64]],
+        x: NDArray[np.float64],
+        y: NDArray[np.float64],
+        values: NDArray[np.float64],
         alpha: float = 1.0,
     ) -> dict[str, np.ndarray]:
-        """The source's columns: values (ny, nx) of each layer at evenly spaced places x, y.
-
-        The places are in the units of their sides.
-        """
-        (x_side, x_values), (y_side, y_values) = x, y
-        left, right = ends(x_values)
-        bottom, top = ends(y_values)
-        head = [
-            x_values.size, y_values.size, left, right - left, bottom, top - bottom, alpha,
-            self._sides.index(x_side), self._sides.index(y_side),
-        ]  # fmt: skip
-        assert len(layers) == self._n_layers
-        return {"packed": np.concatenate([head, *(np.ravel(layer) for layer in layers)])}
+        """The source's columns: values (ny, nx) at evenly spaced places x, y in their units."""
+        (left, right), (bottom, top) = ends(x), ends(y)
+        head = [x.size, y.size, left, right - left, bottom, top - bottom, alpha]
+        return {"packed": np.concatenate([head, np.ravel(values)])}
 
 
 def ends(values: NDArray[np.float64]) -> tuple[float, float]:

@@ -27,9 +27,7 @@ from bokeh.models import (
 )
 from bokeh.plotting import figure
 
-from bearingcore.common import PREFIXES, prefix_power
-from bearingcore.common import number as number
-from bearingcore.common import with_prefix as with_prefix
+from bearingcore.common import PREFIXES, number as number, prefix_power, with_prefix as with_prefix
 
 DEFECTIVE = "#0072B2"
 """The bearing as the sliders have it."""
@@ -59,6 +57,12 @@ HTML_FONT = f"font:12.5px/1.45 {FONT}".replace('"', "'")
 TEXT_SIZE = "12px"
 WRAPPED = ":host { flex-wrap: wrap; min-width: 0 !important; }"
 """Style of rows that stand below one another where there is little room."""
+SIDE_BY_SIDE = """
+:host { display: grid !important; gap: 8px 16px;
+        min-height: auto !important;
+        grid-template-columns: repeat(auto-fit, minmax(min(100%, max(380px, 40%)), 1fr)); }
+"""
+"""Style of figures of which two stand in a row where there is room."""
 BUTTONS = f"""
 :host {{
   --default: var(--card); --default-hover: var(--track-soft); --default-active: var(--accent-paper);

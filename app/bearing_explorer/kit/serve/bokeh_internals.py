@@ -37,8 +37,7 @@ from bokeh.core.property.wrappers import PropertyValueContainer
 from bokeh.core.serialization import Serializer
 from bokeh.document import Document
 from bokeh.document.events import DocumentPatchedEvent
-from bokeh.model import Model
-from bokeh.model import util as model_util
+from bokeh.model import Model, util as model_util
 from bokeh.protocol.message import Message
 from bokeh.protocol.messages.patch_doc import patch_doc
 from bokeh.server import session as bokeh_session

@@ -1,13 +1,15 @@
-"""Private names of Panel, and what is quicker by them; no other file uses any.
+"""Private names of Panel, and their gain in speed; no other file uses any.
 
 * `_models`, `_msg__callbacks`, `_process_bokeh_event`, and param's `no_instance_params`: a message
-  of a component takes a tenth of the time (`LiveComponent`). Without: Panel's own ways.
-* `_linked_properties`, `_bundle_path`: nothing is looked for that is not there. Without: it is.
-* `_render_items`: the page is not written for each of its parts (`PageTemplate`). Without: it is.
+  of a component takes a tenth of the time (`LiveComponent`). Without them Panel handles it.
+* `_linked_properties`, `_bundle_path`: Panel skips a search for links and bundles that do not
+  exist. Without them it searches.
+* `_render_items`: the page is written once (`PageTemplate`). Without it the page is written once
+  per part.
 
-They may go with any release, and are looked for as they are used. Panel's documents name `_esm`,
-`_stylesheets` and `_send_msg`, which `send` calls. ``BEARING_EXPLORER_PLAIN=1`` does without the
-others (`bokeh_internals`).
+Any release may remove them, so each use checks that they exist. Panel documents `_esm`,
+`_stylesheets` and `_send_msg`, which `send` calls. ``BEARING_EXPLORER_PLAIN=1`` avoids the others
+(`bokeh_internals`).
 """
 
 from __future__ import annotations
@@ -27,20 +29,20 @@ from bearing_explorer.kit.serve.live import on_loop
 
 
 class LiveComponent(JSComponent):
-    """A component that takes and sends many messages.
+    """A component that receives and sends many messages.
 
-    Panel counts a session as busy while it handles a message, and sets a property of all of its
-    models then; and it compares, links and walks models at each change of a parameter. Here
-    messages are simply handed on, and `put` writes to the browser's models.
+    While Panel handles a message it marks the session as busy, by a property of all models. At each
+    change of a parameter it also compares, links and walks models. This class hands messages on
+    directly, and `put` writes to the browser's models.
     """
 
     margin = param.Parameter(default=0)
     sizing_mode = param.Selector(default="stretch_width")
 
     if not PLAIN:
-        #: scripts answer with messages: nothing comes back by a property
+        #: scripts answer with messages: no property is synchronised back
         _linked_properties = ()
-        #: no script lies in a bundle, which Panel would look for whenever one is shown
+        #: Panel looks for a bundle whenever a component is shown; this one has none
         _bundle_path = None
 
     def __init__(self, **params: Any) -> None:
@@ -49,7 +51,7 @@ class LiveComponent(JSComponent):
         super().__init__(**params)
 
     def put(self, **values: Any) -> None:
-        """Give parameters new values. They show in the browser; before it is there they wait.
+        """Set parameters, and show them in the browser as soon as it has the component.
 
         Call it on the event loop of the session, inside `one_message`.
         """
@@ -62,11 +64,11 @@ class LiveComponent(JSComponent):
                 model.data.update(**changed)
 
     def send(self, message: Any) -> None:
-        """Send something to the component's script."""
+        """Send a message to the component's script."""
         self._send_msg(message)
 
     def _process_bokeh_event(self, doc: Document, event: Any) -> None:
-        """Hand a message of the browser on to the callbacks of `on_msg`."""
+        """Pass a message of the browser to the callbacks of `on_msg`."""
         callbacks = None if PLAIN else getattr(self, "_msg__callbacks", None)
         if not isinstance(event, DataEvent) or callbacks is None:
             super()._process_bokeh_event(doc, event)
@@ -80,18 +82,18 @@ class LiveComponent(JSComponent):
 
 
 class PageTemplate(pn.Template):
-    """Panel's template with its models counted once a page instead of once a part.
+    """Panel's template, with its models counted once per page instead of once per part.
 
-    Each root that is added makes Bokeh walk all models of the document, and each part that is
-    named makes Panel write out the whole template as text.
+    Otherwise Bokeh walks all models of the document for each added root, and Panel writes the whole
+    template as text for each named part.
     """
 
     def server_doc(self, doc: Document | None = None, *arguments: Any, **named: Any) -> Document:
-        """The document of a session."""
+        """Return the document of a session."""
         if doc is None:
             return super().server_doc(doc, *arguments, **named)
-        # Panel sets this when it writes the page, which may be in another process than the session
-        # of its websocket: style sheets would come from Panel's public site then, or not at all.
+        # Panel sets this when it writes the page. The session of the websocket may be in another
+        # process; its style sheets would then come from Panel's public site, or not at all.
         doc.template_variables["dist_url"] = LOCAL_DIST
         with doc.models.freeze():
             return super().server_doc(doc, *arguments, **named)

@@ -162,7 +162,9 @@ class View(Generic[C]):
         body = stack(*body) if isinstance(body, list) else pn.panel(body, margin=0)
         #: Bokeh's figures, in the order of the page
         self.figures = [
-            plot for pane in body.select(pn.pane.Bokeh) for plot in figures_in(pane.object)
+            plot
+            for pane in body.select(_holds_figures)
+            for plot in figures_in(getattr(pane.object, "state", pane.object))
         ]
         if self.figures and _only_figures(body):
             # whether a figure's own pane is visible is taken back from the figure
@@ -373,6 +375,11 @@ class View(Generic[C]):
             self._caption.send({"table": table, "count": count})
         if event.data == "python":
             self._caption.send({"python": self.python()})
+
+
+def _holds_figures(part: Any) -> bool:
+    """Whether a part shows figures, Bokeh's own or those of a plot of HoloViews."""
+    return isinstance(part, pn.pane.Bokeh | pn.pane.HoloViews)
 
 
 def _only_figures(body: pn.viewable.Viewable) -> bool:

@@ -12,7 +12,7 @@ from bearing_explorer.kit.widgets.look import LookPanel, checked
 
 
 class LookView(View[C]):
-    """A view with choices above its figures; `build` puts `self.panel_of_look` among its parts."""
+    """A view with choices below its figures; `build` puts `self.panel_of_look` among its parts."""
 
     look_fields: ClassVar[Sequence[FieldSpec]]
     first_look: ClassVar[Mapping[str, Any]]

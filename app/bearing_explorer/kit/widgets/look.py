@@ -1,4 +1,4 @@
-"""Choices above a figure: one of several, some of several, or a number."""
+"""Choices beside a figure: one of several, some of several, or a number."""
 
 from __future__ import annotations
 

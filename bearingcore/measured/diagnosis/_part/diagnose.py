@@ -23,6 +23,7 @@ from bearingcore.measured.diagnosis._part.decide import ENOUGH_SWING, decide, si
 from bearingcore.measured.diagnosis._part.evidence import CANNOT_TELL, NONE_SEEN, Diagnosis
 from bearingcore.measured.diagnosis._part.judged import judge
 from bearingcore.measured.diagnosis._part.listened_signal import ListenedSignal, unfit
+from bearingcore.measured.diagnosis._part.over_turns import at_steady_speed, followed_change
 from bearingcore.measured.diagnosis._part.parts import BALL, INNER, OUTER, PartLines, part_lines
 from bearingcore.measured.diagnosis._part.status import DiagnosisStatus
 from bearingcore.measured.diagnosis._part.unknown_speed import NARROW, in_range
@@ -111,6 +112,8 @@ def _diagnose(
     if recording.acceleration.size > most:
         words = say.too_many(recording.acceleration.size, most)
         return silent(DiagnosisStatus.TOO_LONG, words, source)
+    measured = recording.shaft_angle is not None
+    recording, low, high, source = at_steady_speed(recording, low, high, source)
     signal = ListenedSignal(recording)
     if signal.unusable is not None:
         return silent(*signal.unusable, source)
@@ -120,8 +123,20 @@ def _diagnose(
     # sidebands of an inner race or a ball confirm the speed, an outer race has none
     if high > NARROW * low or answer.fault in (INNER, BALL):
         return answer
-    reach = (high - low) / (high + low) + slip
-    return _held_against_the_shaft(signal, answer, 0.5 * (low + high), reach)
+    speed, reach = 0.5 * (low + high), (high - low) / (high + low) + slip
+    held = _held_against_the_shaft(signal, answer, speed, reach)
+    if measured or held.names_a_part or not held.evidence:
+        return held
+    return _where_it_changes(held, followed_change(signal.columns, signal.rate, speed))
+
+
+def _where_it_changes(answer: Diagnosis, change: float) -> Diagnosis:
+    """The answer, naming no part, where the speed changes by a fraction, which blurs all lines."""
+    if not change:
+        return answer
+    leading = max(one.probability for one in answer.evidence)
+    status, words = DiagnosisStatus.SPEED_CHANGES, say.speed_changes(change)
+    return replace(answer, fault=CANNOT_TELL, status=status, detail=words, probability=leading)
 
 
 def _between(

@@ -78,6 +78,14 @@ def other_unit(speed: float, other: float) -> str:
     )
 
 
+def speed_changes(change: float) -> str:
+    """Lines of all parts are blurred, as the speed changes by a fraction."""
+    return (
+        f"The speed changes by {percent(change, 2)} or more, which blurs the lines of all parts. "
+        "Take a steadier part, or record the speed beside the signal."
+    )
+
+
 def other_shaft(own: PartEvidence, shaft: float) -> str:
     """The lines of a part have sidebands of another shaft than the stated one [Hz]."""
     spacing = own.foreign_spacing

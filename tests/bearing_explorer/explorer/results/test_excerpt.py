@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.kit.plots.layers import least_and_greatest
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from bearingcore import presets
 

@@ -164,10 +164,11 @@ def test_the_view_marks_the_scene_and_says_what_is_to_be_seen() -> None:
     view, editor = ExplorePlane(PackedSource()), SceneEditor("fan-rig")
     view._request = view.request_of(FORM, editor)
     results = Results(RIG)
-    sources, _ = view.data(results)
-    assert sources["explore_mark"]["x"] == pytest.approx([20.0])
-    assert sources["explore_cells"]["packed"][6] == 1.0  # as opaque as can be
     words = view.sentence(results)
+    view.say(results, words)
+    image, _, ring, _ = (renderer for renderer in view.figures[0].renderers)
+    assert ring.data_source.data["x"] == pytest.approx([20.0])
+    assert image.glyph.global_alpha == 1.0  # as opaque as can be
     assert words.startswith("9 × 7 points. k_yy, mean: least")
     assert "9 points have no answer, most often: nothing touches" in words
     view.found = coarse(view._request.of(results))
@@ -188,7 +189,8 @@ def test_the_view_marks_the_scene_and_says_what_is_to_be_seen() -> None:
     np.testing.assert_allclose(table["k_yy_mean_n_per_m"][order], swept.ravel(), rtol=1e-9)
     # an output that takes a while: what is drawn is faint until its map is there
     view._request = view.request_of({**FORM, "output": "acceleration_rms_y"}, editor)
-    assert view.data(results)[0]["explore_cells"]["packed"][6] == 0.35
+    view.say(results, "")
+    assert image.glyph.global_alpha == 0.35
     assert view.sentence(results).startswith("Faint: an earlier map.")
 
 

@@ -27,8 +27,7 @@ from bearing_explorer.explorer.state.address import (
 )
 from bearing_explorer.explorer.state.scene_editor import SceneEditor, drawn
 from bearing_explorer.page import TABS
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from bearingcore import (
     CONTACT_LAWS,

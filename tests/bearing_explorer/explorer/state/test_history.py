@@ -1,8 +1,7 @@
 """Steps back and forth, by hand and against a plain list."""
 
 from bearing_explorer.explorer.state.history import History
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 
 def test_what_ends_where_it_began_is_no_step() -> None:

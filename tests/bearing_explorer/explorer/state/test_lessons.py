@@ -30,8 +30,7 @@ from bearing_explorer.explorer.state.lessons import (
 )
 from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.page import SECTIONS, TABS
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from hypothesis import given, settings, strategies as st
 
 from bearingcore import (
     DOF_NAMES,
@@ -386,7 +385,6 @@ CLAIMS: dict[str, Callable[[], list[tuple[str, tuple[float, ...]]]]] = {
     "10": lambda: [
         ("noise 20 dB below the signal", (20,)),
         ("has 9 balls; its cage turns 0.4 times as fast", (9, MOTOR.bearing.ftf(TURN))),
-        ("Step 2, the spectrum", (2,)),
         ("the cage makes 0.398 turns", (MOTOR.bearing.ftf(TURN),)),
         ("the 9 balls", (MOTOR.bearing.n_balls,)),
         ("or 3.58 times", (MOTOR.bearing.bpfo(TURN),)),

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 from bearing_explorer.explorer.state.field_values import limits_of
 from bearing_explorer.explorer.state.value_range import SWEEPABLE, sweep, usual_range
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from bearingcore import presets
 

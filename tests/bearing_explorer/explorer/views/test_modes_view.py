@@ -7,8 +7,7 @@ from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.views.modes import NaturalFrequencies
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.serve.packed_source import PackedSource
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from bearingcore import presets
 

@@ -26,6 +26,7 @@ from bearing_explorer.kit.serve.packed_source import PackedSource
 
 from bearingcore import Scene, equilibrium, presets, scene_of
 from bearingcore.model.scene import FREE_TILT_WORDS
+from bearingcore.model.statics import STIFFNESS_TERMS
 
 FAN_RIG = presets["fan-rig"]
 LONGER = FAN_RIG.replace(extent=FAN_RIG.defect.extent + FAN_RIG.bearing.ball_spacing)
@@ -284,3 +285,17 @@ def test_names_of_bands_in_a_line_are_apart(name: str) -> None:
         own = named["line"] == line
         assert np.all(np.diff(named["name_at"][own]) >= 0.999 * BAND_NAME_WIDTH * top)
         assert np.all(np.abs(named["name_at"][own] - named["low"][own]) < 0.05 * top)
+
+
+def test_a_lesson_compares_its_term_on_one_axis_from_zero():
+    """Back to back and face to face: 13 times softer against tilt (lesson 12)."""
+    view, k = Stiffness(PackedSource()), list(STIFFNESS_TERMS).index("k_rxrx")
+
+    def limits(preset: str) -> tuple[float, float]:
+        scene = presets[preset].replace(extent=0.0)
+        cells = view.data(Results(scene, 0.0, lesson_term="k_rxrx"))[0]["stiffness_cells"]
+        return float(cells["low"][k]), float(cells["high"][k])
+
+    first = limits("7208-back-to-back")
+    assert first[0] == 0.0 < 220e3 < first[1]
+    assert limits("7208-face-to-face") == first

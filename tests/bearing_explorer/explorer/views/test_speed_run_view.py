@@ -39,7 +39,7 @@ def test_rows_are_speeds_and_columns_frequencies(run: FoundRun) -> None:
     packed = sources["speed_run_cells_y"]["packed"]
     n, m = int(packed[1]), int(packed[0])
     assert n == 3
-    drawn = packed[9:].reshape(n, m)
+    drawn = packed[7:].reshape(n, m)
     np.testing.assert_allclose(drawn, levels_of(run.run, "y")[:, :m])
     assert packed[2:6].tolist() == pytest.approx([-8.0, 16.0 * m, 15.0, 30.0])
     assert ranges["speed_run_speed"] == (15.0, 45.0)

@@ -11,8 +11,7 @@ from bearing_explorer.explorer.views.vibration_spectrum import (
 )
 from bearing_explorer.explorer.views.vibration_time import VibrationInTime, event_rows
 from bearing_explorer.kit.serve.packed_source import PackedSource
-from hypothesis import given
-from hypothesis import strategies as st
+from hypothesis import given, strategies as st
 
 from bearingcore import Defect, presets
 

@@ -10,9 +10,12 @@ import h5py
 import numpy as np
 import pytest
 
-from bearingcore.measured.files import _child as child
-from bearingcore.measured.files import _libraries as libraries
-from bearingcore.measured.files import read_file, read_table
+from bearingcore.measured.files import (
+    _child as child,
+    _libraries as libraries,
+    read_file,
+    read_table,
+)
 from tests.helpers.saved import zipped
 
 TIME, MEMORY = r"read within \d+ s", r"read in \d+ MB"

@@ -208,7 +208,7 @@ def test_a_column_of_speed_is_the_shafts() -> None:
         np.column_stack([NOISE[:600, 0], speed + np.arange(600)]), heading="acc [g],speed [rpm]"
     )
     varying: Any = read_table("a.csv", content).contents.shaft_speed
-    assert not varying.stated
+    assert varying.stated  # it is followed
     assert "goes from 1480 to 2079" in varying.reason
 
 

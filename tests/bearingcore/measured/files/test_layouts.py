@@ -14,8 +14,7 @@ import pandas as pd
 import pytest
 
 from bearingcore import join_tables, read_recording, read_table
-from bearingcore.measured.files import Column
-from bearingcore.measured.files import _table as table
+from bearingcore.measured.files import Column, _table as table
 from tests.helpers.saved import matlab, saved, zipped
 
 pytestmark = pytest.mark.usefixtures("files_read_here")

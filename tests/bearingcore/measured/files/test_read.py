@@ -7,9 +7,7 @@ import numpy as np
 import pytest
 from scipy.io import savemat, wavfile
 
-from bearingcore.measured.files import _child as child
-from bearingcore.measured.files import _table as table
-from bearingcore.measured.files import read_table
+from bearingcore.measured.files import _child as child, _table as table, read_table
 from tests.helpers.reading import read_in_this_process
 from tests.helpers.saved import matlab, saved
 

@@ -1,4 +1,4 @@
-"""Bands of natural frequencies, wherever samples lie; without damping whatever the matrices."""
+"""Bands of natural frequencies: independent of the samples, and the same without damping."""
 
 import math
 
@@ -24,35 +24,32 @@ SCENES = {
 
 
 def terms_of(scene: Scene, n: int = 121) -> np.ndarray:
-    """(15, 1, n)"""
+    """Return the 15 stiffness terms at n cage angles, (15, 1, n)."""
     state = equilibrium(scene, default_cage_angles(scene, n))
     return np.stack([state.term(name) for name in STIFFNESS_TERMS])[:, None]
 
 
 @pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
-def test_they_are_those_of_the_modes_one_matrix_after_the_other(scene: Scene) -> None:
-    vibration = modes_at(equilibrium(scene, default_cage_angles(scene, 121)))
+def test_bands_of_many_matrices_are_those_of_single_modes(scene: Scene) -> None:
+    single = modes_at(equilibrium(scene, default_cage_angles(scene, 121)))
     least, greatest, [labels] = undamped_bands(scene, terms_of(scene))
-    assert labels == vibration.label
-    np.testing.assert_allclose(
-        least[0], np.nanmin(vibration.undamped_frequency, axis=0), rtol=1e-10
-    )
-    np.testing.assert_allclose(
-        greatest[0], np.nanmax(vibration.undamped_frequency, axis=0), rtol=1e-10
-    )
+    frequency = single.undamped_frequency
+    assert labels == single.label
+    np.testing.assert_allclose(least[0], np.nanmin(frequency, axis=0), rtol=1e-10)
+    np.testing.assert_allclose(greatest[0], np.nanmax(frequency, axis=0), rtol=1e-10)
 
 
 @pytest.mark.parametrize("extent", [0.0, 0.35, 1.1])
-def test_damping_nearly_is_damping_where_modes_meet_and_balls_come_in(extent: float) -> None:
+def test_approximate_damping_holds_where_modes_meet_and_balls_enter(extent: float) -> None:
     scene = ANGULAR.replace(extent=extent)
     state = equilibrium(scene, np.linspace(0.0, scene.bearing.period, 1001))
-    exact, nearly = modes_at(state), modes_at(state, nearly=True)
+    exact, approximate = modes_at(state), modes_at(state, nearly=True)
     assert np.abs(exact.frequency / exact.undamped_frequency - 1.0).max() > 1e-3
-    np.testing.assert_allclose(nearly.frequency, exact.frequency, rtol=1e-4)
-    np.testing.assert_allclose(nearly.damping_ratio, exact.damping_ratio, atol=2e-3)
+    np.testing.assert_allclose(approximate.frequency, exact.frequency, rtol=1e-4)
+    np.testing.assert_allclose(approximate.damping_ratio, exact.damping_ratio, atol=2e-3)
 
 
-def test_what_is_not_known_is_left_out_and_nothing_known_is_not_a_number() -> None:
+def test_unknown_terms_are_left_out_and_bands_without_any_are_nan() -> None:
     terms = terms_of(RIG)
     gone = terms.copy()
     gone[:, 0, 30:60] = math.nan

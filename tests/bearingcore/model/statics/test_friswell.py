@@ -1,4 +1,4 @@
-"""Stiffness against the closed form of rotor dynamics: no clearance, and a law of its own."""
+"""Stiffness against the closed form of rotor dynamics, without clearance, by Palmgren's law."""
 
 import math
 
@@ -11,11 +11,11 @@ from tests.benchmarks.rotor_bearings import RATIOS, friswell, mean_stiffness, ra
 from tests.outside.witness import witness
 
 PALMGREN = 4.36e-8
-"""[m (m/N²)^(1/3)] A. Palmgren: a ball of d [m] yields 4.36e-8 Q^(2/3) / d^(1/3) between races."""
+"""[m (m/N²)^(1/3)] Palmgren: between races a ball of d [m] yields by 4.36e-8 Q^(2/3) / d^(1/3)."""
 
 
 def without_clearance(n_balls: int, diameter: float, load: float, angle: float) -> Scene:
-    """The scene the closed form is of: Palmgren's balls, no clearance, grooves far apart."""
+    """Return a scene of the closed form: Palmgren's balls, no clearance, distant grooves."""
     return radially_loaded("fan-rig", load).replace(
         n_balls=n_balls,
         ball_diameter=diameter,
@@ -41,7 +41,7 @@ def without_clearance(n_balls: int, diameter: float, load: float, angle: float) 
 def test_along_the_load_it_is_the_closed_form(
     n_balls: int, diameter: float, load: float, angle: float
 ) -> None:
-    """13e6 is 12.87e6 rounded: of Palmgren's law and Stribeck's 4.37 for no clearance."""
+    """13e6 is 12.87e6 rounded: Palmgren's law, and Stribeck's 4.37 without clearance."""
     _, along, _ = mean_stiffness(without_clearance(n_balls, diameter, load, angle))
     assert along == pytest.approx(friswell(n_balls, diameter, load, angle)[1], rel=0.02)
 
@@ -53,13 +53,13 @@ def test_across_the_load_eight_balls_with_one_below_are_the_printed_ratio() -> N
 
 
 def test_across_the_load_many_balls_are_two_thirds() -> None:
-    """Integrals of cos^(1/2) sin² and cos^(5/2) over the half circle."""
+    """2/3 is the ratio of the integrals of cos^(1/2) sin² and cos^(5/2) over the half circle."""
     across, along, loaded = mean_stiffness(without_clearance(60, 4e-3, 1000.0, 0.0))
     assert across / along == pytest.approx(2.0 / 3.0, rel=1e-3)
     assert loaded == pytest.approx(30.0, abs=0.6)
 
 
-def test_the_table_of_the_document_is_what_is_computed() -> None:
+def test_the_table_of_the_document_has_the_computed_numbers() -> None:
     text = charts.DOCUMENT.read_text(encoding="utf-8")
     assert rotor_bearings.document(text) == text
     assert presets["6205"].bearing.n_balls == 9

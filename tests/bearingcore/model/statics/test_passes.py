@@ -1,4 +1,4 @@
-"""Balls entering and leaving defects, and how deep they sink."""
+"""Balls that enter and leave defects, and their depth inside."""
 
 import math
 
@@ -15,19 +15,19 @@ TURN = 2.0 * math.pi
 
 
 def test_in_a_cage_turn_every_ball_enters_and_leaves_an_outer_race_defect_once() -> None:
-    events = crossings(FAN_RIG, 0.05, 0.05 + TURN)
-    assert sorted(c.ball for c in events if c.enters) == list(range(14))
-    assert sorted(c.ball for c in events if not c.enters) == list(range(14))
-    assert [c.cage_angle for c in events] == sorted(c.cage_angle for c in events)
+    passes = crossings(FAN_RIG, 0.05, 0.05 + TURN)
+    assert sorted(c.ball for c in passes if c.enters) == list(range(14))
+    assert sorted(c.ball for c in passes if not c.enters) == list(range(14))
+    assert [c.cage_angle for c in passes] == sorted(c.cage_angle for c in passes)
 
 
 @pytest.mark.parametrize("race", ["outer", "inner"])
 @pytest.mark.parametrize("center_deg", [270.0, 1.0])
 def test_between_entry_and_exit_a_ball_sinks_and_nowhere_else(race: str, center_deg: float) -> None:
     scene = FAN_RIG.replace(race=race, center=math.radians(center_deg))
-    events = crossings(scene, 0.0, TURN)
-    assert events
-    for crossing in events:
+    passes = crossings(scene, 0.0, TURN)
+    assert passes
+    for crossing in passes:
         offset = crossing.ball * scene.bearing.ball_spacing
         before, after = (
             float(ball_drop(scene, cage + offset, cage))
@@ -40,23 +40,23 @@ def test_between_entry_and_exit_a_ball_sinks_and_nowhere_else(race: str, center_
 
 @pytest.mark.parametrize("edge", ["published", "exact"])
 def test_a_path_has_its_corners_where_edge_and_floor_begin(edge: str) -> None:
-    """Four a ball: roots by SciPy of the drop that `elements.py` has of the geometry."""
+    """A ball has four corners: roots, by SciPy, of the drop in `elements.py`."""
     scene = FAN_RIG.replace(edge=edge)
-    hurt = scene.defect
-    own = Defect(hurt.extent, hurt.depth, scene.bearing.outer_raceway_radius, edge)
+    spall = scene.defect
+    slot = Defect(spall.extent, spall.depth, scene.bearing.outer_raceway_radius, edge)
 
-    def short_of_floor(s: float) -> float:
-        phi = np.array([own.center - 0.5 * own.extent + s])
-        return float(own.drop(phi, scene.bearing.ball_radius)[0]) - own.depth * (1.0 - 1e-12)
+    def height_above_floor(s: float) -> float:
+        phi = np.array([slot.center - 0.5 * slot.extent + s])
+        return float(slot.drop(phi, scene.bearing.ball_radius)[0]) - slot.depth * (1.0 - 1e-12)
 
-    s_floor = brentq(short_of_floor, 0.0, 0.5 * own.extent, xtol=1e-15)
-    corners = (-0.5 * own.extent, s_floor - 0.5 * own.extent)
-    balls = own.center - scene.bearing.ball_spacing * np.arange(14)
+    s_floor = brentq(height_above_floor, 0.0, 0.5 * slot.extent, xtol=1e-15)
+    corners = (-0.5 * slot.extent, s_floor - 0.5 * slot.extent)
+    balls = slot.center - scene.bearing.ball_spacing * np.arange(14)
     known = [balls + side * corner for corner in corners for side in (1.0, -1.0)]
     kinks = path_kinks(scene, 0.0, scene.bearing.ball_spacing)
-    inside = np.sort(np.concatenate(known) % TURN)
-    inside = inside[inside < scene.bearing.ball_spacing]
-    assert kinks == pytest.approx(inside, abs=1e-6)
+    expected = np.sort(np.concatenate(known) % TURN)
+    expected = expected[expected < scene.bearing.ball_spacing]
+    assert kinks == pytest.approx(expected, abs=1e-6)
 
 
 def test_a_healthy_bearing_and_a_worn_race_have_no_edges_to_pass() -> None:

@@ -19,9 +19,7 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray
-from hypothesis import given
-from hypothesis import settings as hypothesis_settings
-from hypothesis import strategies as st
+from hypothesis import given, settings as hypothesis_settings, strategies as st
 
 from bearingcore import Scene, modes, orbit, presets, simulate
 from bearingcore.errors import FieldError
@@ -32,11 +30,11 @@ from bearingcore.model.sweeps import (
     Grid,
     Settings,
     SweepStatus,
+    _grid as grid_module,
+    _store as stores,
     program_version,
     sweep,
 )
-from bearingcore.model.sweeps import _grid as grid_module
-from bearingcore.model.sweeps import _store as stores
 from bearingcore.model.sweeps._status import OF_STATICS
 
 RIG = presets["fan-rig"]

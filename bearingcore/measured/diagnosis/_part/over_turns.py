@@ -1,0 +1,152 @@
+"""A signal made steady where the angle of its shaft was measured beside it.
+
+Taken at equal steps of that angle instead of time, the passages of balls are equally far apart
+whatever the shaft does. What is made so is the record of a shaft that turns at the mean speed.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from bearingcore.common import Array, number, runs
+from bearingcore.measured.signals._filter_bank import thinned
+from bearingcore.measured.signals._resampling import resample_over_turns
+from bearingcore.recordings import FEWEST_SAMPLES, Recording
+
+STEADY = 0.05
+"""Turns by which the shaft may be off the angle of a steady one: lines stay sharp so, and the noise
+of a column of speeds adds up to as much."""
+
+SLOWEST = 0.5
+"""Share of the highest speed below which the signal is left out: each turn gets as many samples as
+the slowest one has, and they may be no more than twice those that were measured."""
+
+NARROW = 1.3
+"""A range of given speeds whose ends differ by this factor at most says which turn is meant."""
+
+USUAL = 5.0, 100.0
+"""[Hz] of a shaft whose tachometer is taken to give one pulse a turn where no speed is given."""
+
+LEAST_CHANGE = 0.05
+"""Of an unmeasured speed that is said: resonances and the resolution of short spectra move the
+lines of a steady shaft by up to 0.03."""
+
+WINDOW, NEAR = 8.0, (0.7, 1.4)
+"""Turns in a spectrum in which the shaft's lines are followed, and times the speed between which
+they are looked for."""
+
+JUMP, FOLLOWED = 0.03, 0.9
+"""By how much a speed may be off the mean of its neighbours, and the share of the spectra in which
+it is not: lines of a shaft reach 0.95, those of noise 0.4, of single tones 0.8."""
+
+BESIDE = 0.02
+"""By how much a given speed may be outside those that were measured, as a fraction."""
+
+
+def at_steady_speed(
+    recording: Recording, low: float, high: float, source: str
+) -> tuple[Recording, float, float, str]:
+    """The record at the mean speed, with the speed from, to [Hz], and where that is from.
+
+    Where the shaft is steady, or its angle was not measured, nothing changes.
+
+    Parameters
+    ----------
+    recording
+        whose `shaft_angle` may count several pulses a turn.
+    low, high
+        [Hz] the speed that is given. If the shaft had one of them during the record, in whole
+        pulses a turn, its mean speed is that of the angle; else a given speed is the mean one, as
+        of a shaft behind a gear.
+    source
+        where the given speed is from.
+    """
+    if recording.shaft_angle is None:
+        return recording, low, high, source
+    rate, looked_for = recording.sample_rate, high > NARROW * low
+    turns = recording.shaft_angle / (2.0 * math.pi)
+    mean = _mean_speed(turns, rate)
+    turns /= 1.0 if looked_for else max(1.0, round(mean / math.sqrt(low * high)))
+    speed = _smooth_speed(turns, rate)
+    begins, ends = runs(speed >= SLOWEST * speed.max())
+    longest = int((ends - begins).argmax())
+    part = slice(int(begins[longest]), int(ends[longest]))
+    even = np.linspace(turns[0], turns[-1], len(turns))
+    if np.abs(turns - even).max() <= STEADY or part.stop - part.start < FEWEST_SAMPLES:
+        return recording, low, high, source
+    mean, per_turn = _mean_speed(turns[part], rate), rate / float(speed[part].min())
+    columns = [
+        resample_over_turns(column, turns[part], per_turn)
+        for column in recording.acceleration[part].T
+    ]
+    made = replace(
+        recording,
+        acceleration=np.stack(columns, axis=1),
+        sample_rate=per_turn * mean,
+        shaft_angle=None,
+    )
+    if looked_for and USUAL[0] <= mean <= USUAL[1]:
+        low, high, source = mean, mean, "assumed: a pulse is a turn"
+    near = low <= (1.0 + BESIDE) * speed.max() and high >= (1.0 - BESIDE) * speed.min()
+    if near and not looked_for:
+        low = high = mean
+    change = number(100.0 * float(np.ptp(speed[part])) / mean, 2)
+    words = f"it changes by {change} % as measured, so the signal is taken over the shaft's angle"
+    return made, low, high, f"{source}; {words}"
+
+
+def _mean_speed(turns: Array, rate: float) -> float:
+    """Turns a second [Hz] in the mean."""
+    return float(turns[-1] - turns[0]) / (len(turns) - 1) * rate
+
+
+def _smooth_speed(turns: Array, rate: float) -> Array:
+    """Turns a second (n,) [Hz] in the mean of two turns around each sample."""
+    last = len(turns) - 1
+    reach = max(1, math.ceil(rate / _mean_speed(turns, rate)))
+    index = np.arange(last + 1)
+    before, after = np.maximum(index - reach, 0), np.minimum(index + reach, last)
+    return np.asarray((turns[after] - turns[before]) / (after - before) * rate)
+
+
+def followed_change(columns: Sequence[Array], rate: float, shaft: float) -> float:
+    """Change of a speed that was not measured, as a fraction of it; 0 where none is sure.
+
+    In each short spectrum the three first lines of the shaft together show its speed. Those of
+    noise leap from one spectrum to the next, and those of a shaft do not.
+
+    Parameters
+    ----------
+    columns
+        signals (n,), one a direction, of which one is enough.
+    shaft
+        [Hz] as it is given.
+    """
+    speeds = np.linspace(NEAR[0] * shaft, NEAR[1] * shaft, 141)
+    return max(_change(*thinned(column, rate, 6.0 * shaft), shaft, speeds) for column in columns)
+
+
+def _change(values: Array, rate: float, shaft: float, speeds: Array) -> float:
+    """The same by one signal, whose lines are held against all speeds (k,) [Hz]."""
+    length = round(WINDOW / shaft * rate)
+    if len(values) < 4 * length:
+        return 0.0
+    pieces = np.lib.stride_tricks.sliding_window_view(values - values.mean(), length)
+    pieces = pieces[:: length // 2] * np.hanning(length)
+    step = rate / (32 * length)
+    spectra = np.abs(np.fft.rfft(pieces, 32 * length, axis=1))
+    lines = np.zeros((len(pieces), len(speeds)))
+    for order in (1, 2, 3):
+        around = slice(round(0.5 * order * shaft / step), round(2.0 * order * shaft / step))
+        usual = np.median(spectra[:, around], axis=1, keepdims=True)
+        place = np.round(order * speeds / step).astype(int)
+        lines += np.log(np.maximum(spectra[:, place] / np.maximum(usual, 1e-300), 1.0))
+    shown = speeds[lines.argmax(axis=1)]
+    near = np.abs(2.0 * shown[1:-1] / (shown[2:] + shown[:-2]) - 1.0) < JUMP
+    middle = np.median(np.lib.stride_tricks.sliding_window_view(shown, 3), axis=1)
+    change = float(np.ptp(middle) / middle.mean())
+    return change if near.mean() >= FOLLOWED and change >= LEAST_CHANGE else 0.0

@@ -1,0 +1,82 @@
+"""The angle of the shaft, out of a column of its speed or of a tachometer's pulses."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from bearingcore.common import Array
+from bearingcore.measured.files._channels import OTHER, PULSES, SPEED, Column, words_of
+from bearingcore.measured.files._units import PULSE_TRAIN, SPEEDS
+
+FEWEST_PULSES = 8
+"""Of a tachometer that are a speed."""
+
+LEAST_SHARE = 0.9
+"""Of the rows that speeds must reach over; shorter columns have another sample rate."""
+
+STEP = 0.2
+"""By how much of its length a turn differs at most from the one before; a missed pulse doubles it.
+Noise on a tachometer's signal breaks it too."""
+
+LOW, HIGH = 0.35, 0.65
+"""Shares of its range that a tachometer's signal passes from pulse to pulse."""
+
+
+def angle_columns(columns: Sequence[Column]) -> list[int]:
+    """Columns that may hold the shaft's angle: those of speeds, then those of a tachometer."""
+    speeds = [i for i, one in enumerate(columns) if one.role == SPEED and one.unit is not None]
+    return speeds + [
+        i for i, one in enumerate(columns) if one.role == OTHER and words_of(one.name) & PULSES
+    ]
+
+
+def shaft_angle(values: Array, unit: str | None, sample_rate: float) -> Array | None:
+    """Angle (n,) [rad] of the shaft at each row, from the first one on.
+
+    None where numbers (n,) are no speed that goes one way all along, or no regular pulses.
+
+    Parameters
+    ----------
+    unit
+        of speeds; None or `PULSE_TRAIN` for a tachometer, of which each pulse counts as a turn.
+    """
+    if unit in (None, PULSE_TRAIN):
+        begins = pulse_begins(values)
+        if len(begins) < FEWEST_PULSES:
+            return None
+        rows, last = np.arange(len(values), dtype=float), len(begins) - 1
+        turns = np.interp(rows, begins, np.arange(last + 1.0))
+        turns += np.minimum(rows - begins[0], 0.0) / (begins[1] - begins[0])
+        turns += np.maximum(rows - begins[-1], 0.0) / (begins[-1] - begins[-2])
+        return np.asarray(2.0 * math.pi * (turns - turns[0]))
+    known = np.flatnonzero(np.isfinite(values))
+    if not known.size or known[-1] - known[0] < LEAST_SHARE * len(values):
+        return None
+    speeds = np.interp(np.arange(len(values)), known, values[known]) * SPEEDS[unit or ""]
+    if speeds.min() < 0.0 or speeds.max() <= 0.0:  # a gyroscope swings about zero
+        return None
+    return np.concatenate(([0.0], np.cumsum(0.5 * (speeds[1:] + speeds[:-1])))) / sample_rate
+
+
+def pulse_begins(values: Array) -> Array:
+    """Rows, in parts of one, at which pulses of a tachometer begin; none where they are irregular.
+
+    A turn that is a fifth longer or shorter than the one before is none of a shaft's.
+    """
+    if not np.isfinite(values).all():
+        return np.zeros(0)
+    low, high = np.quantile(values, (0.0005, 0.9995))
+    level = (values - low) / max(high - low, 1e-300)
+    passed = np.flatnonzero((level <= LOW) | (level >= HIGH))
+    up = level[passed] >= HIGH
+    rises = np.flatnonzero(up[1:] & ~up[:-1])
+    before, after = passed[rises], passed[rises + 1]
+    share = (0.5 - level[before]) / np.maximum(level[after] - level[before], 1e-300)
+    begins = before + share * (after - before)
+    turns = np.diff(begins)
+    if turns.size < 2 or (np.abs(np.diff(turns)) > STEP * turns[1:] + 2.0).any():
+        return np.zeros(0)
+    return np.asarray(begins)

@@ -242,15 +242,15 @@ class Bearing(InRows):
         """
         if not self.is_hybrid:
             return "steel"
-        own = (self.ball_youngs_modulus, self.ball_poisson)
-        return next((name for name, material in BALL_MATERIALS.items() if material[:2] == own), "")
+        pair = (self.ball_youngs_modulus, self.ball_poisson)
+        return next((name for name, material in BALL_MATERIALS.items() if material[:2] == pair), "")
 
     @property
     def is_hybrid(self) -> bool:
         """True where the balls are of another material than the rings."""
-        own = (self.ball_youngs_modulus, self.ball_poisson)
+        pair = (self.ball_youngs_modulus, self.ball_poisson)
         rings = (self.youngs_modulus, self.poisson)
-        return any(name not in (None, ring) for name, ring in zip(own, rings, strict=True))
+        return any(name not in (None, ring) for name, ring in zip(pair, rings, strict=True))
 
     @property
     def is_drawn(self) -> bool:

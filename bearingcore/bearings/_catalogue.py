@@ -238,7 +238,7 @@ def _bearing(at: str, texts: Mapping[str, str], decimal_comma: bool) -> Catalogu
     if clearance is None:
         clearance = 0.0 if angle else USUAL_CLEARANCE_UM
         assumed.append(f"a diametral clearance of {clearance:g} µm")
-    given = None if rating is None else rating * 1e3
+    rating_in_newton = None if rating is None else rating * 1e3
     try:
         bearing = Bearing.from_drawing(
             balls,  # type: ignore[arg-type]  # it refuses what is no whole number
@@ -248,12 +248,12 @@ def _bearing(at: str, texts: Mapping[str, str], decimal_comma: bool) -> Catalogu
             outer / 1e3,
             contact_angle=math.radians(angle),
             diametral_clearance=clearance / 1e6,
-        ).replace(dynamic_load_rating=given)
+        ).replace(dynamic_load_rating=rating_in_newton)
     except FieldError as error:
         raise error.inside(
             f"{at}, column {_COLUMN_OF_FIELD.get(error.field, error.field)}"
         ) from None
-    return CatalogueBearing(name, bearing, given, note, tuple(assumed))
+    return CatalogueBearing(name, bearing, rating_in_newton, note, tuple(assumed))
 
 
 _COLUMN_OF_FIELD = {

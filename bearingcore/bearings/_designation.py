@@ -243,8 +243,8 @@ def designations(beginning: str = "") -> Iterator[str]:
     Those of N, NJ and NUP, which the table has as NU, are given with their own letters.
     """
     wanted = beginning.upper().replace(" ", "")
-    own = re.match(r"NUP|NJ|N(?=\d)", wanted)
-    letters = own[0] if own else ""
+    match = re.match(r"NUP|NJ|N(?=\d)", wanted)
+    letters = match[0] if match else ""
     table = f"NU{wanted.removeprefix(letters)}" if letters else wanted
     basics = (basic for basic in boundaries() if basic.startswith(table))
     return (letters + basic.removeprefix("NU") if letters else basic for basic in basics)

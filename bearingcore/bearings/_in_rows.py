@@ -43,8 +43,8 @@ class InRows(Kinematics):
         if self.rows_are_alike:
             return self
         try:
-            own = tuple(self.unlike(self.rows[row]).items())
-            return cast(Self, _with_own(cast("Bearing", self), own))
+            numbers = tuple(self.unlike(self.rows[row]).items())
+            return cast(Self, _with_own(cast("Bearing", self), numbers))
         except FieldError as refused:
             raise refused.inside(f"row {row + 1}") from None
 
@@ -65,7 +65,7 @@ class InRows(Kinematics):
         """
         if self.rows_are_alike:
             return ((self, slice(0, self.total_balls)),)
-        return tuple((self.of_row(k), own) for k, own in enumerate(self.balls_of_rows))
+        return tuple((self.of_row(k), balls) for k, balls in enumerate(self.balls_of_rows))
 
     @property
     def balls_of_rows(self) -> tuple[slice, ...]:
@@ -75,9 +75,9 @@ class InRows(Kinematics):
 
     def row_of_ball(self, ball: int) -> tuple[int, int]:
         """Row of a ball out of all of them, and its number in the row, both counted from 0."""
-        for row, own in enumerate(self.balls_of_rows):
-            if own.start <= ball < own.stop:
-                return row, ball - own.start
+        for row, balls in enumerate(self.balls_of_rows):
+            if balls.start <= ball < balls.stop:
+                return row, ball - balls.start
         raise checks.refuse("ball", ball, f"0 to {self.total_balls - 1}")
 
     def pace(self, row: int) -> float:
@@ -109,9 +109,9 @@ class InRows(Kinematics):
 
 
 @lru_cache(maxsize=256)
-def _with_own(bearing: Bearing, own: tuple[tuple[str, float], ...]) -> Bearing:
+def _with_own(bearing: Bearing, numbers: tuple[tuple[str, float], ...]) -> Bearing:
     """The bearing without rows and with what one of them has of its own."""
-    values: dict[str, Any] = dict(own)
+    values: dict[str, Any] = dict(numbers)
     if not bearing.is_drawn:
         for name in LENGTHS:
             if name in values:

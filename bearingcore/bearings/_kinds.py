@@ -26,10 +26,10 @@ def kind_named(name: str) -> Kind:
 
 def kind_of(bearing: Bearing) -> Kind:
     """The kind that a bearing is made with, by itself, by its name, or by its numbers."""
-    given: object = bearing.kind
-    if isinstance(given, Kind):
-        return given
-    return kind_named(bearing.kind) if given else recognized(bearing)  # type: ignore[arg-type]
+    name: object = bearing.kind
+    if isinstance(name, Kind):
+        return name
+    return kind_named(bearing.kind) if name else recognized(bearing)  # type: ignore[arg-type]
 
 
 def recognized(bearing: Bearing) -> Kind:

@@ -205,8 +205,8 @@ def pressure_centers_apart(bearing: Bearing) -> float | None:
     if bearing.arrangement not in ("back-to-back", "face-to-face"):
         return None
     meets = [
-        row.place - row.facing * 0.5 * own.pitch_diameter * math.tan(own.contact_angle)
-        for row, own in ((row, bearing.of_row(k)) for k, row in enumerate(bearing.rows))
+        row.place - row.facing * 0.5 * alone.pitch_diameter * math.tan(alone.contact_angle)
+        for row, alone in ((row, bearing.of_row(k)) for k, row in enumerate(bearing.rows))
     ]
     return abs(meets[1] - meets[0])
 
@@ -261,13 +261,13 @@ class Rows(Ball):
         )
 
     def inputs(self, bearing: Bearing) -> tuple[str, ...]:
-        given = super().inputs(bearing)
+        names = super().inputs(bearing)
         arrangement = self.variant(bearing)
         if not arrangement:
-            return given
-        own = OWN if bearing.is_drawn else [name for name in OWN if name not in LENGTHS]
-        second = (f"second_{name}" for name in own)
-        return (*given, "row_distance", *(("preload",) if arrangement != "tandem" else ()), *second)
+            return names
+        of_row = OWN if bearing.is_drawn else [name for name in OWN if name not in LENGTHS]
+        second = (f"second_{name}" for name in of_row)
+        return (*names, "row_distance", *(("preload",) if arrangement != "tandem" else ()), *second)
 
     def contact(self, bearing: Bearing) -> Contact:
         """That of a row: its inner groove's centres are where the line of contact meets r_d.

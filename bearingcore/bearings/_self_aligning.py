@@ -190,10 +190,10 @@ class SelfAligning(Kind):
         if "rows" in changes:
             return super().replaced(bearing, changes)
         for name in _FOLLOWS:
-            given, own = changes.pop(name, None), getattr(bearing, name)
-            if given is not None and (own is None or not math.isclose(given, own, rel_tol=1e-9)):
+            asked, held = changes.pop(name, None), getattr(bearing, name)
+            if asked is not None and (held is None or not math.isclose(asked, held, rel_tol=1e-9)):
                 raise checks.refuse(
-                    name, given, "what follows from ball, sphere, groove and contact angle"
+                    name, asked, "what follows from ball, sphere, groove and contact angle"
                 )
         if not any(changes.get(name) is not None for name in _DRAWN_BY):
             return dataclasses.replace(bearing, **changes)
@@ -233,9 +233,9 @@ class SelfAligning(Kind):
         return inner_groove(bearing) if race == "inner" else bearing.outer_raceway_radius
 
 
-def _built(bearing: Bearing, given: dict[str, Any]) -> Bearing:
+def _built(bearing: Bearing, fields: dict[str, Any]) -> Bearing:
     """The bearing drawn anew, with some of what it is drawn by changed."""
-    get = given.get
+    get = fields.get
     return bearing.self_aligning(
         n_balls=get("n_balls", bearing.n_balls),
         ball_diameter=get("ball_diameter", bearing.ball_diameter),

@@ -111,8 +111,8 @@ def _length(text: str) -> float | None:
 
 def _has_length(bearing: Bearing, length: float) -> bool:
     """Whether a bearing has balls or a pitch circle of a diameter [m]."""
-    own = (bearing.ball_diameter, bearing.pitch_diameter)
-    return any(math.isclose(length, number, rel_tol=SAME_LENGTH) for number in own)
+    lengths = (bearing.ball_diameter, bearing.pitch_diameter)
+    return any(math.isclose(length, number, rel_tol=SAME_LENGTH) for number in lengths)
 
 
 def _rank(wanted: str, name: str, note: str) -> int:

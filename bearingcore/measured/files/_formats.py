@@ -272,8 +272,8 @@ def _hdf5(item: Any, path: str, variables: Variables, depth: int) -> None:
     if isinstance(item, h5py.Group):
         for name in item:
             # MATLAB keeps in #refs# what cells point at
-            own = isinstance(item.get(name, getlink=True), h5py.HardLink)
-            if own and not (depth == 0 and name.startswith("#")):
+            is_inside = isinstance(item.get(name, getlink=True), h5py.HardLink)
+            if is_inside and not (depth == 0 and name.startswith("#")):
                 _hdf5(item[name], f"{path}.{name}" if path else name, variables, depth + 1)
     elif not isinstance(item, h5py.Dataset) or item.external or item.is_virtual:
         return

@@ -233,10 +233,10 @@ def _side_by_side(
         if _SENSOR.fullmatch(heading.strip()):
             continue
         times += [len(made)] * (i in stamps)
-        own = [part[:, i] for part in several]
+        signals = [part[:, i] for part in several]
         once = i in stamps or column_of(heading).role == TIME
-        once = once or all(np.array_equal(count, own[0], equal_nan=True) for count in own)
-        made += own[:1] if once else own
+        once = once or all(np.array_equal(count, signals[0], equal_nan=True) for count in signals)
+        made += signals[:1] if once else signals
         heads += [heading] if once else [f"{label}: {heading}" for label in names]
     return np.column_stack(made), heads, times
 
@@ -621,10 +621,10 @@ def _headings(remarks: Sequence[str], style: _Style, columns: Array) -> list[str
         return None
     above = _names(lines[-2], style, columns) if len(lines) > 1 else None
     names = _with_units(names, above)
-    given = [name for name in names if name]
-    if any(re.fullmatch(r"-?\d*[.,]\d+", name) for name in given):
+    headings = [name for name in names if name]
+    if any(re.fullmatch(r"-?\d*[.,]\d+", name) for name in headings):
         return None  # numbers beside the settings of an instrument
-    if not given or all(_row(cell, None) for cell in given):
+    if not headings or all(_row(cell, None) for cell in headings):
         return None
     return [
         name if name and names.count(name) == 1 else f"{name}, column {index + 1}".strip(", ")

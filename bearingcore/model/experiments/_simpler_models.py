@@ -274,37 +274,37 @@ class _Measure:
         return self._spectrum(name, error, seconds, comparison.sentence)
 
     def _orbit(self) -> Alternative:
-        name, own = "periodic orbit", self.own
+        name, motion = "periodic orbit", self.own
         if common_ball_passes(self.scene) is None:
             return self._without(name, "the motion never repeats itself")
         began = time.thread_time()
-        answer = orbit(self.scene, step_rate=own.step_rate, most_steps=MOST_CALLS // 4)
+        answer = orbit(self.scene, step_rate=motion.step_rate, most_steps=MOST_CALLS // 4)
         seconds = time.thread_time() - began
         self.calls += answer.right_hand_side_calls
         if not answer.stable:
             why = "unstable" if answer.multipliers.size else answer.status
             return replace(self._without(name, why), seconds=seconds)
-        half = len(own.time) // 2
-        since, rate = float(own.time[half]), own.sample_rate
-        settled = own.spectrum(since=since)
-        lines = answer.spectrum(rate, duration=(len(own.time) - half) / rate, since=since)
+        half = len(motion.time) // 2
+        since, rate = float(motion.time[half]), motion.sample_rate
+        settled = motion.spectrum(since=since)
+        lines = answer.spectrum(rate, duration=(len(motion.time) - half) / rate, since=since)
         return self._spectrum(name, density_difference(lines, settled, self.band), seconds)
 
     def _quasi_static(self) -> Alternative:
         """The inner ring at rest at every instant, against the ring that moves."""
-        own = self.own
-        half = len(own.time) // 2
-        angles = self.scene.cage_speed * own.time[half:]
+        motion = self.own
+        half = len(motion.time) // 2
+        angles = self.scene.cage_speed * motion.time[half:]
         began = time.thread_time()
         state = self.state
         last = float(state.cage_angles[-1])
-        along = [DOF_NAMES.index(dof) for dof in own.dofs]
+        along = [DOF_NAMES.index(dof) for dof in motion.dofs]
         rest = np.stack(
             [np.interp(angles % last, state.cage_angles, state.displacement[:, i]) for i in along],
             axis=1,
         )
         seconds = self.static_seconds + time.thread_time() - began
-        moving = own.inner_displacement[half:] - own.outer_displacement[half:]
+        moving = motion.inner_displacement[half:] - motion.outer_displacement[half:]
         swing = swings(moving)
         apart = np.abs((rest - rest.mean(axis=0)) - (moving - moving.mean(axis=0))) / swing
         error = float(apart.max()) if np.isfinite(apart).all() else math.nan

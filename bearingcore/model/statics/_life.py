@@ -333,15 +333,15 @@ def race_ratings(bearing: Bearing, dynamic_load_rating: float, row: int = 0) -> 
     Of one row, from the rating of all rows (ISO 16281). ValueError where a ball bearing does not
     carry its groove radii.
     """
-    own = bearing.of_row(row)
-    cosine = math.cos(own.contact_angle)
+    row_bearing = bearing.of_row(row)
+    cosine = math.cos(row_bearing.contact_angle)
     each = [1.0] if bearing.rows_are_alike else _ratings_alone(bearing)
     part = each[row % len(each)] * len(each) / sum(each)  # over the mean of all rows
     return ratings_of_races(
         LINE_CONTACT if bearing.kind.line_contact else POINT_CONTACT,
-        dynamic_load_rating * part / (own.n_balls * cosine),
-        own.ball_diameter * cosine / own.pitch_diameter,
-        1.0 if bearing.kind.line_contact else groove_ratio(*_conformities(own)),
+        dynamic_load_rating * part / (row_bearing.n_balls * cosine),
+        row_bearing.ball_diameter * cosine / row_bearing.pitch_diameter,
+        1.0 if bearing.kind.line_contact else groove_ratio(*_conformities(row_bearing)),
         len(bearing.all_rows),
     )
 

@@ -181,7 +181,7 @@ def _averaged(
             together(
                 [_mean(strip, weights, power) for strip in strips(scene.bearing, row, chain)], chain
             )
-            for row in (carried_there[:, own] for own in scene.bearing.balls_of_rows)
+            for row in (carried_there[:, balls] for balls in scene.bearing.balls_of_rows)
         )
         for carried_there, power in zip(loads, powers, strict=True)
     )
@@ -226,9 +226,9 @@ def _panels(scene: Scene, race: str) -> tuple[Array, Array]:
     even = np.linspace(0.0, period, (PANELS_ON_A_FLOOR if rough else PANELS) * spacings + 1)
     corners = []
     for defect, (k, row) in product(defects, enumerate(bearing.all_rows)):
-        own = bearing.of_row(k)
-        spacing = own.ball_spacing / bearing.pace(k)
-        for corner in _corners(defect, own):
+        row_bearing = bearing.of_row(k)
+        spacing = row_bearing.ball_spacing / bearing.pace(k)
+        for corner in _corners(defect, row_bearing):
             at = (corner - row.turn) / bearing.pace(k) % spacing
             corners += np.arange(at, period, spacing).tolist()
     ends = np.unique(np.concatenate([even, corners]))

@@ -157,17 +157,17 @@ def limits(
         raise checks.refuse("film", "the film of another scene", "that of this scene")
     bearing, turns = scene.bearing, scene.shaft_speed > 0.0
     heaviest = [(bearing.of_row(ball.row), ball) for ball in heaviest_balls(state)]
-    at_rest = [(own, ball.load) for own, ball in heaviest]
+    at_rest = [(row, ball.load) for row, ball in heaviest]
     in_motion = []
     if dynamic_load is not None:
         load = checks.real_number("dynamic_load", dynamic_load, at_least=0.0, unit="N")
         # which row it was is not known: the one on which it matters most counts
-        in_motion = [(own, load) for own, _ in bearing.unlike_rows]
+        in_motion = [(row, load) for row, _ in bearing.unlike_rows]
     candidates: list[Limit | None] = [
         _pressure(
             bearing,
             f"contact pressure, {race} race",
-            [(own, ball.load_on(race)) for own, ball in heaviest],
+            [(row, ball.load_on(race)) for row, ball in heaviest],
             (race,),
             NO_STATE,
         )
@@ -254,8 +254,8 @@ def _pressure(
     if not _are_known(loaded):
         return unknown(name, allowed, "Pa", no_load)
     p, load, race = max(
-        (float(own.race_contact(race).greatest_pressure(load)), load, race)
-        for own, load in loaded
+        (float(row.race_contact(race).greatest_pressure(load)), load, race)
+        for row, load in loaded
         for race in races
     )
     element, carried = bearing.kind.element, with_prefix(load, "N")
@@ -278,8 +278,8 @@ def _shoulder(scene: Scene, state: Equilibrium, height: float | None) -> Limit:
     loads = {"inner": state.inner_load[kept], "outer": state.ball_load[kept]}
     angles = {"inner": state.inner_contact_angle[kept], "outer": state.contact_angle[kept]}
     return _worst(
-        _shoulder_of(own, race, loads[race][:, balls], angles[race][:, balls], height)
-        for own, balls in bearing.unlike_rows
+        _shoulder_of(row, race, loads[race][:, balls], angles[race][:, balls], height)
+        for row, balls in bearing.unlike_rows
         for race in bearing.kind.shoulders
     )
 
@@ -394,7 +394,7 @@ def _compression(name: str, loaded: Loaded, no_load: str) -> Limit:
         return unknown(name, GREATEST_COMPRESSION, "", no_load)
     moving = no_load == NO_MOTION
     who = "In the simulated motion a ball is" if moving else "The most loaded ball is"
-    return _worst(_compressed(own, name, load, who) for own, load in loaded)
+    return _worst(_compressed(row, name, load, who) for row, load in loaded)
 
 
 def _compressed(bearing: Bearing, name: str, load: float, who: str) -> Limit:

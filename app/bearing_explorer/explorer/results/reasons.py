@@ -404,10 +404,10 @@ def passes(
         )
     level = 10.0 * np.log10(np.maximum(density, 1e-20))
     at = round(rate / spacing)
-    own = level[at - 1 : at + 2].max()
+    height = level[at - 1 : at + 2].max()
     valleys = [level[round(share * rate / spacing)] for share in (0.5, 1.5)]
-    below = f"{style.number(float(level.max() - own), 2)} dB below the largest peak"
-    if own - max(valleys) < STANDS_OUT:
+    below = f"{style.number(float(level.max() - height), 2)} dB below the largest peak"
+    if height - max(valleys) < STANDS_OUT:
         text = f"No peak stands out at {hertz}, as often as balls pass: "
         if not rate < lowest_mode:
             return f"{text}there the level is {below}."
@@ -433,11 +433,11 @@ def peak(results: Results, rates: Sequence[float], *, briefly: bool = False) -> 
     text = f"The largest peak{above}, {most.frequency:.0f} Hz along {dof},"
     bands = {label: band for label, band in results.bands.items() if band[0] == band[0]}
     inside = [label for label, band in bands.items() if _off(most, band) <= most.resolution]
-    if own := [label for label in inside if label[:-1] == dof]:
+    if alike := [label for label in inside if label[:-1] == dof]:
         if briefly:
-            name = mode_symbol(own[0])
+            name = mode_symbol(alike[0])
             return f"The highest peak{above} is the {name} resonance, struck by every passing ball."
-        return f"{text} {_lies(most, own[0], bands)}: balls that pass make this mode swing."
+        return f"{text} {_lies(most, alike[0], bands)}: balls that pass make this mode swing."
     for rate in rates:
         halves = round(2.0 * most.frequency / rate) if rate > 0.0 else 0
         resolved = rate >= SEPARATE * most.resolution and halves > 0

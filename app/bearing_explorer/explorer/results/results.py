@@ -331,25 +331,25 @@ class Results(Content):
 
     def arguments(self, view: View) -> dict[str, str]:
         """Arguments with which lines of Python make a figure of these, if not as usual."""
-        given: dict[str, str] = {}
+        arguments: dict[str, str] = {}
         if self.cage_angle:
-            given["cage_angle"] = short(self.cage_angle)
+            arguments["cage_angle"] = short(self.cage_angle)
         if self.focus:
-            given["focus"] = str(self.focus)
+            arguments["focus"] = str(self.focus)
         if self.compared and view.compares:
             named = (f"{code_of(one.name)}: {scene_code(one.scene)}" for one in self.compared)
-            given["compared"] = "{" + ", ".join(named) + "}"
+            arguments["compared"] = "{" + ", ".join(named) + "}"
         if self.before is not None and "before" in view.needs:
-            given["before"] = scene_code(self.before.scene)
+            arguments["before"] = scene_code(self.before.scene)
         if self.grey_kind != HEALTHY and "reference" in view.needs:
-            given["grey"] = code_of(self.grey_kind)
+            arguments["grey"] = code_of(self.grey_kind)
         for name, value, usual in (
             ("settings", self.settings, Settings()),
             ("endurance", self.life_inputs, LifeInputs()),
         ):
             if changed := changed_fields(value, usual):
-                given[name] = code_of(changed)
-        return given
+                arguments[name] = code_of(changed)
+        return arguments
 
     @property
     def _with_mass(self) -> Scene:

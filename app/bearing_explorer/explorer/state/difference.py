@@ -31,16 +31,16 @@ def difference(now: Scene, before: Scene, focus: int = 0) -> str:
     """Changes from one scene to the other; `focus` is the selected defect."""
     if not (now.defects and before.defects) and now.healthy() == before.healthy():
         return "With the defect" if now.defects else "Without the defect"
-    own, earlier = defects_of(now), defects_of(before)
-    if len(own) != len(earlier):
-        return "A defect more" if len(own) > len(earlier) else "A defect less"
-    focus = min(focus, len(own) - 1)
+    defects, earlier = defects_of(now), defects_of(before)
+    if len(defects) != len(earlier):
+        return "A defect more" if len(defects) > len(earlier) else "A defect less"
+    focus = min(focus, len(defects) - 1)
     changed = _numbers(values_of(now, focus), values_of(before, focus))
     if len(changed) > MOST_NUMBERS:
         return "Another bearing" if now.bearing != before.bearing else "Several changes at once"
     words = [
         f"{choice.label} ({choice.name_of(b)} → {choice.name_of(a)})"
-        for choices, a, b in ((OF_SCENE, now, before), (OF_DEFECT, own[focus], earlier[focus]))
+        for choices, a, b in ((OF_SCENE, now, before), (OF_DEFECT, defects[focus], earlier[focus]))
         for choice in choices
         if choice.name_of(a) != choice.name_of(b)
     ]
@@ -48,7 +48,7 @@ def difference(now: Scene, before: Scene, focus: int = 0) -> str:
         words.append("Other free directions")
     words += [_from_to(field, *values, now) for field, values in changed]
     if not words:
-        return "Another defect has changed" if own != earlier else "The scene has changed"
+        return "Another defect has changed" if defects != earlier else "The scene has changed"
     first, *others = words
     return ", ".join([first, *(word[0].lower() + word[1:] for word in others)])
 
@@ -72,11 +72,11 @@ def separated(now: Scene, before: Scene, focus: int = 0) -> dict[str, Scene]:
         name = label_inside(FIELD_OF["extent"] if at_one_end else field)
         name = "load" if field.part == "load" else name
         causes.setdefault(name, {})[field.name] = number_of(now, field, focus)
-    together = {name: value for own in causes.values() for name, value in own.items()}
+    together = {name: value for cause in causes.values() for name, value in cause.items()}
     try:
         if len(causes) < 2 or scene_with_fields(before, together, focus) != now:
             return {}
-        return {name: scene_with_fields(before, own, focus) for name, own in causes.items()}
+        return {name: scene_with_fields(before, cause, focus) for name, cause in causes.items()}
     except ValueError:
         return {}
 
@@ -89,13 +89,13 @@ def distinct_name(scene: Scene, others: Iterable[Scene], focus: int = 0, bearing
     """
     defects = defects_of(scene)
     focus = min(focus, len(defects) - 1)
-    own, changed, words, turned = values_of(scene, focus), set[Field](), dict[str, None](), False
+    values, changed, words, turned = values_of(scene, focus), set[Field](), dict[str, None](), False
     for other in others:
         theirs = defects_of(other)
         at = min(focus, len(theirs) - 1)
         changed |= {
             field
-            for field, _ in _numbers(own, values_of(other, at))
+            for field, _ in _numbers(values, values_of(other, at))
             if field.name != "center" or (scene.defects and other.defects)
         }
         turned |= not math.isclose(_direction(scene), _direction(other), abs_tol=1e-6)
@@ -112,7 +112,7 @@ def distinct_name(scene: Scene, others: Iterable[Scene], focus: int = 0, bearing
     for field in SHOWN_FIELDS:
         if field not in changed:
             continue
-        value = own[field.key]
+        value = values[field.key]
         if field.name in ("extent", "depth"):
             name = usual_name(scene, focus)
         elif field.name in ("fx", "fy"):

@@ -351,21 +351,21 @@ class _Checks:
 
     def _decoded(self) -> _Head:
         try:
-            given = tomli.loads("\n".join(self._lines))
+            table = tomli.loads("\n".join(self._lines))
         except tomli.TOMLDecodeError as error:
             raise LessonError(error.lineno + 1, f"the head is not TOML: {error.msg}") from None
         except RecursionError:
             raise LessonError(1, "the head is not TOML: its lists are too deep") from None
-        return self._entries(given, _Head)
+        return self._entries(table, _Head)
 
-    def _entries(self, given: dict[str, Any], kind: type[_Entries]) -> _Entries:
+    def _entries(self, table: dict[str, Any], kind: type[_Entries]) -> _Entries:
         """A table of the head as `kind`; LessonError naming the entry that is wrong."""
         known = {field.name: field for field in fields(kind)}
         for name, field in known.items():
-            if field.required and name not in given:
+            if field.required and name not in table:
                 raise self.error("", f"{name} is missing")
         values = {}
-        for name, value in given.items():
+        for name, value in table.items():
             if name not in known:
                 raise self.error(
                     name, f"“{name[:40]}” is no entry here; {_near(name, list(known))}"
@@ -396,11 +396,11 @@ class _Checks:
         """The prediction; LessonError where none of its choices is right."""
         if self.head.predict is None:
             return None
-        given = self._entries(self.head.predict, Prediction)
-        if given.choose and given.right not in range(1, len(given.choose) + 1):
+        made = self._entries(self.head.predict, Prediction)
+        if made.choose and made.right not in range(1, len(made.choose) + 1):
             raise self.error("right", "right counts the choices from 1")
-        self._on_list("veil", given.veil or (), self.tabs[self.head.tab], "a figure of this tab")
-        return given
+        self._on_list("veil", made.veil or (), self.tabs[self.head.tab], "a figure of this tab")
+        return made
 
     @cached_property
     def _begun(self) -> tuple[SceneEditor, Snapshot]:

@@ -111,13 +111,13 @@ class Field:
         return self.values / 10.0**power, PREFIXES[power] + self.unit
 
 
-def _in_page_units(given: DataArray) -> tuple[tuple[str, str, str], NDArray[np.float64]]:
+def _in_page_units(output: DataArray) -> tuple[tuple[str, str, str], NDArray[np.float64]]:
     """Words, symbol and unit of numbers, and the numbers: SI, but angles in degrees."""
-    unit = str(given.attrs.get("units", ""))
-    name = str(given.name)
+    unit = str(output.attrs.get("units", ""))
+    name = str(output.name)
     words = FIELD_OF[name].label if name in FIELD_OF else name.replace("_", " ")
     words = words[0].upper() + words[1:]
-    values = np.asarray(given, dtype=float)
+    values = np.asarray(output, dtype=float)
     if unit == "rad":
         return (words, "", "°"), np.degrees(values)
     return (words, "", "" if unit == "1" else unit), values

@@ -190,9 +190,9 @@ def _speeds(
     """The speed from, to [Hz], and where it is from."""
     turn = 2.0 * math.pi
     if shaft_speed is None:
-        given = getattr(recording, "shaft_speed", None)
-        if given is not None:
-            speed = checks.real_number("shaft_speed", given, above=0.0, unit="rad/s") / turn
+        stated = getattr(recording, "shaft_speed", None)
+        if stated is not None:
+            speed = checks.real_number("shaft_speed", stated, above=0.0, unit="rad/s") / turn
             return speed, speed, "given by the recording"
         return SPEEDS[0] / turn, SPEEDS[1] / turn, "looked for"
     if np.ndim(shaft_speed) == 0:

@@ -340,8 +340,8 @@ class _Comparison:
                     also = self.explained(beside.frequency, self._lines_of(beside.part))
                     explained[frequency] = np.maximum(explained[frequency], also)
             others = float((combs.level[place] - explained[frequency]).max())
-            own = self._evidence(lines, combs.envelopes[place], frequency, others)
-            directions.append(own if beside is not None else self._below_rivals(own))
+            evidence = self._evidence(lines, combs.envelopes[place], frequency, others)
+            directions.append(evidence if beside is not None else self._below_rivals(evidence))
         return max(directions, key=log_probability)
 
     def explained(self, frequency: float, lines: PartLines) -> NDArray[np.float64]:
@@ -366,12 +366,12 @@ class _Comparison:
     def _windows_of(self, *names: str) -> NDArray[np.bool_]:
         """Which combs (n,) some parts may have."""
         combs, slip = self.combs, self.slip + 0.005
-        own = [
+        windows = [
             within(combs, lines, slip, self.given, combs.frequency)
             for lines in self.parts
             if lines.part in names
         ]
-        return np.asarray(np.any(own, axis=0))
+        return np.asarray(np.any(windows, axis=0))
 
     def _slower(self, frequency: float) -> NDArray[np.bool_]:
         """Which combs (n,) are those of a frequency [Hz], seen at a half or a third of it.
@@ -395,7 +395,7 @@ class _Comparison:
                 slower[near_it] = True
         return slower
 
-    def _below_rivals(self, own: PartEvidence) -> PartEvidence:
+    def _below_rivals(self, part: PartEvidence) -> PartEvidence:
         """The evidence, its lead no more than the [dB] by which a part's comb is above the races'.
 
         A race has the lines of one that is its multiple for free, and sidebands decide where both
@@ -403,50 +403,50 @@ class _Comparison:
         `probabilities`; its own must be clearly stronger, as races have sidebands and halves of
         their lines where a ball's may be.
         """
-        ball = own.part == BALL
-        same = own.frequency * np.array([1.0] if ball else [1.0, 2.0, 3.0])
+        ball = part.part == BALL
+        same = part.frequency * np.array([1.0] if ball else [1.0, 2.0, 3.0])
         above = [
-            own.level - level - (BALL_MARGIN if ball else 0.0)
+            part.level - level - (BALL_MARGIN if ball else 0.0)
             for lines, (frequency, level) in self.combs.best.items()
-            if lines.part not in (own.part, BALL)
+            if lines.part not in (part.part, BALL)
             and not (np.abs(frequency - same) <= tolerance(self.combs, same)).any()
         ]
-        lead = min([own.lead, *above])
-        return replace(own, lead=lead, line_lead=lead)
+        lead = min([part.lead, *above])
+        return replace(part, lead=lead, line_lead=lead)
 
-    def with_sidebands(self, own: PartEvidence) -> PartEvidence:
+    def with_sidebands(self, part: PartEvidence) -> PartEvidence:
         """The evidence with what its sidebands say: those that the part's own turning makes.
 
         An outer race stands still and needs none. Where a line may be a race's or a ball's, cage
         sidebands speak for the ball.
         """
-        combs, envelope = self.combs, self._envelope_of(own)
-        level = float(comb_level(_lines(envelope, envelope.cleared, own.frequency)[:, None])[0])
+        combs, envelope = self.combs, self._envelope_of(part)
+        level = float(comb_level(_lines(envelope, envelope.cleared, part.frequency)[:, None])[0])
 
         def sides(spacing: float) -> float:
             lines = [
-                _lines(envelope, envelope.cleared, own.frequency, away)[: HARMONICS // 2]
+                _lines(envelope, envelope.cleared, part.frequency, away)[: HARMONICS // 2]
                 for away in (-spacing, spacing)
             ]
             return float(comb_level(np.concatenate(lines)[:, None])[0])
 
         shaft, cage = sides(combs.shaft), sides(self.cage)
         above = modulation = math.inf
-        if own.part in (INNER, BALL):
-            turning, other = (shaft, cage) if own.part == INNER else (cage, shaft)
+        if part.part in (INNER, BALL):
+            turning, other = (shaft, cage) if part.part == INNER else (cage, shaft)
             averages = envelope.levels.averages
             modulation = turning - _sidebands_of_noise(level, averages)
             modulation *= math.sqrt(averages) / SIDEBAND_SCALE
             above = turning - other + SIDEBAND_LEAD + SIDEBAND_MARGIN
-        place = int(np.abs(combs.frequency - own.frequency).argmin())
+        place = int(np.abs(combs.frequency - part.frequency).argmin())
         race = max(level - WEAK_SIDEBANDS, shaft - SIDEBAND_LEAD) - cage
-        if own.part != BALL and may_be(own.frequency, self.ball.order * combs.shaft):
-            above = min(above, race, LEAD + LEAD_SCALE * _race_or_ball(own.slip, self.slip))
-        if own.part == BALL and self._windows_of(OUTER, INNER)[place]:
+        if part.part != BALL and may_be(part.frequency, self.ball.order * combs.shaft):
+            above = min(above, race, LEAD + LEAD_SCALE * _race_or_ball(part.slip, self.slip))
+        if part.part == BALL and self._windows_of(OUTER, INNER)[place]:
             above = min(above, -race)
-        return replace(own, modulation=modulation, lead=min(own.lead, above, modulation + LEAD))
+        return replace(part, modulation=modulation, lead=min(part.lead, above, modulation + LEAD))
 
-    def above_foreign(self, own: PartEvidence) -> tuple[float, float]:
+    def above_foreign(self, part: PartEvidence) -> tuple[float, float]:
         """Lead [dB] of an outer race's lines over sidebands of another shaft; their spacing [Hz].
 
         An outer race stands still: only this shaft and its cage change the size of its blows.
@@ -454,11 +454,11 @@ class _Comparison:
         part that turns with another shaft, or at another speed than the one stated. Infinity where
         noise reaches as far.
         """
-        combs, one = self.combs, self._envelope_of(own)
+        combs, one = self.combs, self._envelope_of(part)
         resolution = (combs.frequency[1] - combs.frequency[0]) * FINENESS
         low, high = (turns * combs.shaft for turns in FOREIGN)
         spacing = np.arange(low, high, resolution / FINENESS)
-        lines = own.frequency * np.arange(1, HARMONICS // 2 + 1)
+        lines = part.frequency * np.arange(1, HARMONICS // 2 + 1)
         sides = [
             [lines_at(one.cleared, one.levels.step, np.abs(line + away), 1)[0]
              for away in (-spacing, spacing)]
@@ -466,18 +466,20 @@ class _Comparison:
         ]  # fmt: skip
         level = np.min(sides, axis=1).mean(axis=0)  # both sidebands of a line, or none
         made = [k * self.cage for k in (1, 2)] + [k * combs.shaft for k in (0.5, 1.0)]
-        made += [own.frequency / k for k in (2, 3, 4)]  # halves of the lines lie between them
+        made += [part.frequency / k for k in (2, 3, 4)]  # halves of the lines lie between them
         for place in made:
             level[np.abs(spacing - place) <= 1.5 * resolution + 0.005 * place] = -np.inf
         best = int(level.argmax())
         if level[best] < noise_level(RARE / len(spacing), one.levels.averages):
             return math.inf, math.nan
-        above = float(comb_level(_lines(one, one.cleared, own.frequency)[:, None])[0]) - level[best]
+        above = (
+            float(comb_level(_lines(one, one.cleared, part.frequency)[:, None])[0]) - level[best]
+        )
         return float(above) - FOREIGN_LEAD + LEAD, float(spacing[best])
 
-    def _envelope_of(self, own: PartEvidence) -> Listened:
+    def _envelope_of(self, part: PartEvidence) -> Listened:
         """The envelope in which the lines of a part were seen."""
-        place = own.band, own.direction
+        place = part.band, part.direction
         return next(one for one in self.combs.envelopes if (one.band, one.direction) == place)
 
     def carried(self, around: float) -> float:
@@ -521,8 +523,8 @@ class _Comparison:
         sources &= ~near(combs, (frequency * factor for factor in (0.5, 1.0, 1.5, 2.0, 3.0)))
         if not sources.any():
             return math.inf
-        own = float(combs.level[self._loudest(frequency)])
-        return own - float(combs.level[:, sources].max()) + SIDEBAND_EXCESS
+        level = float(combs.level[self._loudest(frequency)])
+        return level - float(combs.level[:, sources].max()) + SIDEBAND_EXCESS
 
     def clearness(self, around: float) -> float:
         """By how much [dB] the loudest comb around a frequency [Hz] is above noise."""
@@ -550,7 +552,7 @@ class _Comparison:
         swings = [_lines(one, depth, frequency, away) for away in (0.0, -spacing, spacing)]
         nominal = lines.order * combs.shaft
         level = float(comb_level(levels[:, None])[0])
-        own = PartEvidence(
+        evidence = PartEvidence(
             part=lines.part,
             nominal_frequency=nominal,
             nominal_order=lines.order,
@@ -579,9 +581,9 @@ class _Comparison:
             kurtosis=one.kurtosis,
         )
         if lines.part == BALL:
-            return replace(own, line_lead=own.lead)
-        lead = min(own.lead, _above_gaps(_lines(one, one.levels.depth, frequency)))
-        return replace(own, lead=lead, line_lead=lead)
+            return replace(evidence, line_lead=evidence.lead)
+        lead = min(evidence.lead, _above_gaps(_lines(one, one.levels.depth, frequency)))
+        return replace(evidence, lead=lead, line_lead=lead)
 
     def others(self, evidence: Sequence[PartEvidence]) -> tuple[OtherLines, float, float]:
         """The strongest comb of no part, how far above noise it is [dB], and its swing."""

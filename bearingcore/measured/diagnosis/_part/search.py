@@ -172,5 +172,5 @@ def tolerance(combs: Combs, frequency: NDArray[np.float64] | float) -> NDArray[n
 
 def near(combs: Combs, frequencies: Iterable[float]) -> NDArray[np.bool_]:
     """Which combs (n,) cannot be distinguished from one at any of some frequencies [Hz]."""
-    own = np.array(list(frequencies))[:, None]
-    return np.asarray((np.abs(combs.frequency - own) <= tolerance(combs, own)).any(axis=0))
+    lines = np.array(list(frequencies))[:, None]
+    return np.asarray((np.abs(combs.frequency - lines) <= tolerance(combs, lines)).any(axis=0))

@@ -47,10 +47,10 @@ def in_range(
         words = say.too_far(known, "fastest" if slow is None else "slowest",
                             high if slow is None else low, refused[1])  # fmt: skip
         return silent(DiagnosisStatus.SPEED_OPEN, words, source)
-    own = signal.shaft(low, high)
+    shaft = signal.shaft(low, high)
     hypotheses = []
-    if own.clear:
-        hypotheses.append(_Hypothesis(own, judge(signal, parts, own.frequency, slip)))
+    if shaft.clear:
+        hypotheses.append(_Hypothesis(shaft, judge(signal, parts, shaft.frequency, slip)))
     middle, reach = 0.5 * (low + high), (high - low) / (high + low) + slip
     resolutions = listened(signal, parts, middle, reach, known_speed=False)
     strongest, above = max(
@@ -69,8 +69,8 @@ def in_range(
                 hypotheses.append(_Hypothesis.at(signal, parts, speed, slip, low, high))
     holding = sorted((one for one in hypotheses if one.holds), key=lambda one: -one.shaft.excess)
     if not holding:
-        if own.clear:
-            return decide(signal, hypotheses[0].judged, own.frequency, _FOUND)
+        if shaft.clear:
+            return decide(signal, hypotheses[0].judged, shaft.frequency, _FOUND)
         if not hypotheses:  # no lines, or such as no part has at any of these speeds
             judged = compare(resolutions, parts, reach)
             answer = decide(signal, judged, None, f"{source}, not found")
@@ -79,7 +79,7 @@ def in_range(
             # of a part only at a speed outside the range, or too faint to find one
             best = judged.own
             beyond = replace(judged, shaft=best.frequency / best.nominal_order)
-            return _undecided_speed(signal, [_Hypothesis(own, beyond)], best.frequency, source)
+            return _undecided_speed(signal, [_Hypothesis(shaft, beyond)], best.frequency, source)
         return _undecided_speed(signal, hypotheses, strongest, source)
     first = holding[0]
     rival = next((guess for guess in holding[1:] if not guess.agrees(first, slip)), None)

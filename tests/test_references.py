@@ -73,7 +73,7 @@ def define(body: list[ast.stmt]) -> Definitions:
                 if isinstance(part, ast.Attribute) and isinstance(part.ctx, ast.Store)
             }
         elif isinstance(node, ast.Import | ast.ImportFrom):
-            names.names |= {(one.asname or one.name).split(".")[0] for one in node.names}
+            names.names |= {(alias.asname or alias.name).split(".")[0] for alias in node.names}
         elif isinstance(node, ast.Assign | ast.AnnAssign):
             targets = node.targets if isinstance(node, ast.Assign) else [node.target]
             parts = (part for target in targets for part in ast.walk(target))

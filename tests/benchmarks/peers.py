@@ -78,12 +78,12 @@ def by_iso_16281(folder: Path) -> Iterator[Row]:
 
     def seven() -> Any:
         with contextlib.redirect_stdout(io.StringIO()):
-            one = balls.BallBearing(1, 7, 11.5, 43.5, 0.0, 0.0, 1)
-            one.geometry(0.01)
-            one.stiffness(steel)
-            one.disp(head.Load(1000.0, 0.0, 1000.0, 0.0, 0.0, 0.0))
-            one.rating(head.BasicCapacity(23400.0))
-        return one
+            bearing = balls.BallBearing(1, 7, 11.5, 43.5, 0.0, 0.0, 1)
+            bearing.geometry(0.01)
+            bearing.stiffness(steel)
+            bearing.disp(head.Load(1000.0, 0.0, 1000.0, 0.0, 0.0, 0.0))
+            bearing.rating(head.BasicCapacity(23400.0))
+        return bearing
 
     scene = presets["seven-ball"].healthy()
     scene = scene.replace(radial_clearance=5e-6, load=Load(fx=1000.0, fz=1000.0), dofs="tilt free")
@@ -256,11 +256,11 @@ def table(rows: list[Row]) -> str:
     """Rows as Markdown."""
     head = ["work", "program", "its processor time", "here", "times ours", "difference"]
     lines = [head, ["---", "---", "---:", "---:", "---:", "---:"]]
-    for one in rows:
-        ratio = "" if one.program == "here" else number(one.seconds / one.own_seconds, 2)
-        times = (with_prefix(one.seconds, "s"), with_prefix(one.own_seconds, "s"))
-        difference = f"{scientific(one.difference, 2)} of {one.of}"
-        lines.append([one.work, one.program, *times, ratio, difference])
+    for row in rows:
+        ratio = "" if row.program == "here" else number(row.seconds / row.own_seconds, 2)
+        times = (with_prefix(row.seconds, "s"), with_prefix(row.own_seconds, "s"))
+        difference = f"{scientific(row.difference, 2)} of {row.of}"
+        lines.append([row.work, row.program, *times, ratio, difference])
     return "\n".join(f"| {' | '.join(line)} |" for line in lines)
 
 

@@ -139,7 +139,7 @@ def test_each_rows_balls_run_on_its_own_raceway(scene: Scene, race: str, edge: s
 def test_balls_enter_and_leave_when_their_own_cage_says(scene: Scene, race: str) -> None:
     scene = scene.replace(race=race, edge="exact", extent=0.2, row=None)
     events = crossings(scene, 0.0, 1.5)
-    rows = {scene.bearing.row_of_ball(one.ball)[0] for one in events}
+    rows = {scene.bearing.row_of_ball(event.ball)[0] for event in events}
     assert rows == {0, 1}
     for one in events:
         before, after = (drops_now(scene, one.cage_angle + d)[one.ball] for d in (-1e-4, 1e-4))
@@ -177,7 +177,7 @@ def test_film_pressure_and_limits_are_those_of_the_row_where_they_are_worst(scen
     scene = scene.replace(fz=-1500.0)
     oil = film(scene, viscosity=0.05)
     state = equilibrium(scene)
-    told = {one.name: one for one in limits(scene)}
+    told = {limit.name: limit for limit in limits(scene)}
     rows = [scene.bearing.of_row(k) for k in range(2)]
     heaviest = [float(state.ball_load[:, own].max()) for own in scene.bearing.balls_of_rows]
     speeds = [rolling_speed(own, scene.shaft_speed) for own in rows]
@@ -222,7 +222,7 @@ def test_rows_live_as_they_would_alone_and_fail_as_one_chain(scene: Scene) -> No
         by_itself = scene.replace(bearing=own[k], fz=float(pressed[balls].sum()))
         expected = life(by_itself, alone[k]).million_revolutions
         assert rated.rows[k] == pytest.approx(expected, rel=1e-6)
-    chain = sum(one ** (-10 / 9) for one in rated.rows) ** -0.9
+    chain = sum(row ** (-10 / 9) for row in rated.rows) ** -0.9
     assert rated.million_revolutions == pytest.approx(chain, rel=1e-9)
     standard = (rated.inner_load / rated.inner_rating) ** (10 / 3)
     standard += (rated.outer_load / rated.outer_rating) ** (10 / 3)

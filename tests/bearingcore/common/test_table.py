@@ -61,12 +61,12 @@ def test_units_for_people_stand_in_the_names() -> None:
 
 
 def test_tables_stand_side_by_side_under_prefixes_and_never_mix_names() -> None:
-    one = table_of(("a", "m", [1.0]))
-    both = one | one.prefixed("healthy")
+    table = table_of(("a", "m", [1.0]))
+    both = table | table.prefixed("healthy")
     assert list(both) == ["a", "healthy_a"]
     assert list(both.only("healthy_a")) == ["healthy_a"]
     with pytest.raises(ValueError, match="names of columns"):
-        _ = one | one
+        _ = table | table
 
 
 def test_every_unit_has_an_si_unit_that_is_one_itself() -> None:

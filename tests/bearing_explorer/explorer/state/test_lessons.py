@@ -563,7 +563,7 @@ def test_the_signals_of_the_lesson_on_parts_are_told_apart() -> None:
         assert message["simulate"] == {"noise": "20"}
         made = simulated(editor.scene, 20.0, 1)
         diagnoses[made.true_part] = diagnose(made.recording, MOTOR.bearing, made.shaft_speed)
-    assert {truth: one.fault for truth, one in diagnoses.items()} == {
+    assert {truth: diagnosis.fault for truth, diagnosis in diagnoses.items()} == {
         "outer race": "outer race", "inner race": "inner race", "none": "none seen",
     }  # fmt: skip
     inner, outer = (
@@ -590,7 +590,7 @@ def test_scenes_of_lessons_lie_inside_the_limits_or_the_lesson_says_so(path: Pat
         lesson.begin(editor)
         editor.choose(message["choose"])
         editor.set(message["typed"])
-        crossed = [one.name for one in limits(editor.scene) if one.crossed]
+        crossed = [limit.name for limit in limits(editor.scene) if limit.crossed]
         assert not crossed or "page warns" in before, (message, crossed)
 
 

@@ -148,7 +148,7 @@ def test_an_experiment_reports_its_progress_and_can_be_cancelled() -> None:
             lambda part, doing: shares.append(part), lambda: next(answers), experiments.append
         ),
     )
-    assert [len(one.points) for one in experiments] == [1, 2]
+    assert [len(experiment.points) for experiment in experiments] == [1, 2]
     assert len(experiment.points) == 2
     assert not experiment.completed
     assert shares == sorted(shares)

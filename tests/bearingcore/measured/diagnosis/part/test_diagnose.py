@@ -118,8 +118,8 @@ def test_listed_bearings_that_explain_a_signal_are_named_the_strongest_lines_fir
     names = ("fan-rig", "6205", "6206", "liew-lim", "6203")
     listed = {name: presets[name].bearing for name in names}
     bearings = explaining_bearings(recording, listed, MOTOR.shaft_speed)
-    assert {one.name for one in bearings} == {"6205", "6206"}
-    assert all(one.diagnosis.fault == "inner race" for one in bearings)
+    assert {bearing.name for bearing in bearings} == {"6205", "6206"}
+    assert all(bearing.diagnosis.fault == "inner race" for bearing in bearings)
     assert abs(bearings[0].slip) < 0.02
     assert bearings[0].level > 5.0
     cancelled = explaining_bearings(
@@ -270,7 +270,7 @@ def test_open_speeds_count_as_so_many_chances_for_another_source_to_fit(damaged)
     sure = answer(damaged["outer race"])
     rough = answer(damaged["outer race"], speed=(0.9 * speed, 1.1 * speed))
     assert (sure.fault, rough.fault) == ("outer race", "outer race")
-    odds = [one.probability / (1.0 - one.probability) for one in (sure, rough)]
+    odds = [diagnosis.probability / (1.0 - diagnosis.probability) for diagnosis in (sure, rough)]
     assert odds[0] / odds[1] == pytest.approx(1.0 + math.log(1.1 / 0.9) / 0.04, rel=0.05)
     just_outside = answer(damaged["outer race"], speed=(1.02 * speed, 1.275 * speed))
     assert (just_outside.fault, just_outside.shaft_speed) == (CANNOT_TELL, None)
@@ -286,7 +286,7 @@ def test_without_lines_of_the_shaft_a_wide_range_leaves_the_part_open():
     assert "the shaft speed decides" in diagnosis.sentence
     # what holds at one of the speeds only is no verdict
     assert 0.0 < diagnosis.probability < 0.5
-    assert max(one.probability for one in diagnosis.evidence) < 0.5
+    assert max(part.probability for part in diagnosis.evidence) < 0.5
     diagnosis = answer(signal)
     assert diagnosis.fault == "outer race"
 

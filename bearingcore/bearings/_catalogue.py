@@ -111,7 +111,7 @@ def read_catalogue(table: str | bytes) -> dict[str, CatalogueBearing]:
     entries: dict[str, CatalogueBearing] = {}
     for number, cells in rows[1:]:
         at = f"table of bearings: line {number}"
-        entry = _bearing(at, _by_heading(at, headings, cells, separator), separator != ",")
+        entry = _bearing(at, _label_cells(at, headings, cells, separator), separator != ",")
         if entry.name in entries:
             raise checks.refuse(f"{at}, column name", entry.name, "a name of its own for each")
         entries[entry.name] = entry
@@ -172,7 +172,7 @@ def _headings(number: int, cells: list[str]) -> list[str]:
     return names
 
 
-def _by_heading(at: str, headings: list[str], cells: list[str], separator: str) -> dict[str, str]:
+def _label_cells(at: str, headings: list[str], cells: list[str], separator: str) -> dict[str, str]:
     """The cells of a line by their headings; those at its end may be missing."""
     while len(cells) > len(headings) and not cells[-1]:
         cells.pop()

@@ -44,7 +44,7 @@ class InRows(Kinematics):
             return self
         try:
             numbers = tuple(self.unlike(self.rows[row]).items())
-            return cast(Self, _with_own(cast("Bearing", self), numbers))
+            return cast(Self, _build_row(cast("Bearing", self), numbers))
         except FieldError as refused:
             raise refused.inside(f"row {row + 1}") from None
 
@@ -109,7 +109,7 @@ class InRows(Kinematics):
 
 
 @lru_cache(maxsize=256)
-def _with_own(bearing: Bearing, numbers: tuple[tuple[str, float], ...]) -> Bearing:
+def _build_row(bearing: Bearing, numbers: tuple[tuple[str, float], ...]) -> Bearing:
     """The bearing without rows and with what one of them has of its own."""
     values: dict[str, Any] = dict(numbers)
     if not bearing.is_drawn:

@@ -149,7 +149,7 @@ def unknown_letters(kind: str, text: str) -> str:
     )
 
 
-def in_small_letters(name: str) -> str:
+def lower_arrangement(name: str) -> str:
     """A name in capitals with the words of an arrangement in small letters."""
     return _PAIR.sub(lambda pair: pair[0] if pair["letter"] else pair[0].lower(), name)
 

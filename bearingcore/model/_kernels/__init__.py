@@ -13,8 +13,8 @@ from bearingcore.model._kernels.compiling import all_on_disk as all_on_disk
 from bearingcore.model._kernels.compiling import kept_on_disk as kept_on_disk
 from bearingcore.model._kernels.modes import DOUBTFUL as DOUBTFUL
 from bearingcore.model._kernels.modes import modes_like as modes_like
-from bearingcore.model._kernels.motion.march import between_steps as between_steps
 from bearingcore.model._kernels.motion.march import elastic_loads as elastic_loads
+from bearingcore.model._kernels.motion.march import interpolate_steps as interpolate_steps
 from bearingcore.model._kernels.motion.march import march as march
 from bearingcore.model._kernels.motion.march import motion_rates as motion_rates
 from bearingcore.model._kernels.motion.march import side_by_side as side_by_side

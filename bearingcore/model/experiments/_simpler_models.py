@@ -227,7 +227,7 @@ class _Measure:
     def _spectrum(self, name: str, error: float, seconds: float, note: str = "") -> Alternative:
         return Alternative(name, SPECTRUM, error, seconds, self.own_seconds, note)
 
-    def _without(self, name: str, why: object) -> Alternative:
+    def _refused(self, name: str, why: object) -> Alternative:
         return self._spectrum(name, math.nan, math.nan, f"not computed: {why}")
 
     def _difference(self, other: Motion) -> float:
@@ -245,7 +245,7 @@ class _Measure:
         try:
             motion, seconds = self._march(scene, step_rate)
         except ValueError as refused:
-            return self._without(name, refused)
+            return self._refused(name, refused)
         drawn = with_prefix(self.own.step_rate, "Hz")
         note = f"{with_prefix(motion.step_rate, 'Hz')}, drawn: {drawn}"
         return self._spectrum(name, self._difference(motion), seconds, note)
@@ -267,7 +267,7 @@ class _Measure:
                 self.scene.replace(balls=MASSLESS if heavy else WITH_MASS)
             )
         except ValueError as refused:
-            return self._without(name, refused)
+            return self._refused(name, refused)
         comparison = compare_motions(*((motion, self.own) if heavy else (self.own, motion)))
         added = np.abs(comparison.added[comparison.edges[1:] <= self.band])
         error = float(added.max()) if added.size else math.nan
@@ -276,14 +276,14 @@ class _Measure:
     def _orbit(self) -> Alternative:
         name, motion = "periodic orbit", self.own
         if common_ball_passes(self.scene) is None:
-            return self._without(name, "the motion never repeats itself")
+            return self._refused(name, "the motion never repeats itself")
         began = time.thread_time()
         answer = orbit(self.scene, step_rate=motion.step_rate, most_steps=MOST_CALLS // 4)
         seconds = time.thread_time() - began
         self.calls += answer.right_hand_side_calls
         if not answer.stable:
             why = "unstable" if answer.multipliers.size else answer.status
-            return replace(self._without(name, why), seconds=seconds)
+            return replace(self._refused(name, why), seconds=seconds)
         half = len(motion.time) // 2
         since, rate = float(motion.time[half]), motion.sample_rate
         settled = motion.spectrum(since=since)

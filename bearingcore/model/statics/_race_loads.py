@@ -129,7 +129,7 @@ def race_loads(
     ValueError for a defect of the inner race of a bearing whose rows are not alike.
     """
     if scene.defect_turns:
-        return _with_turning_defects(scene, load_exponent, scatter)
+        return _average_turning_defects(scene, load_exponent, scatter)
     loads, weights, heaviest = [], [], 0.0
     turned = _rows_turned(scene)
     for defect in turned:
@@ -248,7 +248,7 @@ def _corners(defect: Defect, bearing: Bearing) -> list[float]:
     return [defect.center + side * a for side in (-1.0, 1.0) for a in away.tolist()]
 
 
-def _with_turning_defects(scene: Scene, load_exponent: float, scatter: float) -> RaceLoads:
+def _average_turning_defects(scene: Scene, load_exponent: float, scatter: float) -> RaceLoads:
     """`race_loads` where cage and shaft angle matter both, as their ratio is no simple fraction.
 
     Balls are put at fixed places θ of the inner race, where panels can end at its edges, and the

@@ -373,8 +373,8 @@ def _centrifugal_change(scene: Scene) -> Limit:
     value = max(effect.load, effect.stiffness)
     fact = (
         f"The centrifugal force of a {scene.bearing.kind.element}, {with_prefix(force, 'N')}, "
-        f"changes loads by {_up_to(effect.load)} of the heaviest and stiffness by "
-        f"{_up_to(effect.stiffness)}"
+        f"changes loads by {_share_words(effect.load)} of the heaviest and stiffness by "
+        f"{_share_words(effect.stiffness)}"
     )
     if effect.contact_angle > 1e-6:
         parted = number(math.degrees(effect.contact_angle), 2)
@@ -384,7 +384,7 @@ def _centrifugal_change(scene: Scene) -> Limit:
     return upper_limit(name, value, limit, "", fact, f": {left_out}, and here it counts.", within)
 
 
-def _up_to(share: float) -> str:
+def _share_words(share: float) -> str:
     return f"up to {percent(share)}" if share >= 1e-4 else "less than 0.01 %"
 
 

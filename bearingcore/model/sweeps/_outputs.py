@@ -318,7 +318,7 @@ def of_scene(
             settings.cage_angles,
             rounds=ROUNDS if scene.defect_turns else 0,
         )
-        code, numbers = _of_ranges(ranges)
+        code, numbers = _statics_of_ranges(ranges)
         ended.append(STATUSES[int(code)])
     computations: dict[str, Callable[[], SweepStatus]] = {
         PRESSURE: lambda: _pressure(scene, settings, numbers),
@@ -347,7 +347,7 @@ def of_scene(
     return next((status for status in ended if status is not known), known).code, numbers
 
 
-def _of_ranges(ranges: StaticRanges) -> tuple[NDArray[np.int8], Numbers]:
+def _statics_of_ranges(ranges: StaticRanges) -> tuple[NDArray[np.int8], Numbers]:
     """`_statics` of one scene, with the ends that were looked for between the positions."""
     state = ranges.state
     terms = stiffness_terms(state)

@@ -64,7 +64,7 @@ OVER_STRETCH: set[str] = set()
 """Attributes over the cage angles of the curves, fewer while a slider moves."""
 
 
-def of_kind(*kinds: set[str]) -> Callable[[Compute], Compute]:
+def note_kinds(*kinds: set[str]) -> Callable[[Compute], Compute]:
     """Note the name of an attribute in these sets."""
 
     def note(compute: Compute) -> Compute:
@@ -235,13 +235,13 @@ class Results(Content):
         return np.degrees(inside)
 
     @cached_property
-    @of_kind(OVER_STRETCH)
+    @note_kinds(OVER_STRETCH)
     def equilibrium(self) -> Equilibrium:
         """Static answers over the stretch."""
         return statics.curves(self.scene, *self.stretch)
 
     @cached_property
-    @of_kind(OVER_STRETCH)
+    @note_kinds(OVER_STRETCH)
     def ranges(self) -> StaticRanges:
         """Least, greatest and mean of static answers, over all positions of the bearing.
 
@@ -272,13 +272,13 @@ class Results(Content):
         return statics.equilibrium_at(self.scene, self.cage_angle)
 
     @cached_property
-    @of_kind(OVER_STRETCH)
+    @note_kinds(OVER_STRETCH)
     def modes(self) -> Modes:
         """Natural frequencies over the stretch."""
         return statics.modes(self.scene, *self.stretch)
 
     @cached_property
-    @of_kind(OVER_STRETCH)
+    @note_kinds(OVER_STRETCH)
     def bands(self) -> dict[str, tuple[float, float]]:
         """Between which frequencies [Hz] each mode moves, over all positions of the bearing.
 
@@ -352,7 +352,7 @@ class Results(Content):
         return arguments
 
     @property
-    def _with_mass(self) -> Scene:
+    def _scene_with_mass(self) -> Scene:
         """The scene with mass of its balls, where that is known."""
         known = not self.scene.bearing.kind.mass_unknown
         return self.scene.replace(balls=WITH_MASS) if known else self.scene
@@ -363,7 +363,7 @@ class Results(Content):
         if "reference" in shown and scenes:
             scenes.append(self.grey.scene)
         if "ball_mass" in shown:
-            scenes.append(self._with_mass)
+            scenes.append(self._scene_with_mass)
         return any(map(self._is_coarse, scenes))
 
     def is_finer_at_rest(self, shown: frozenset[str]) -> bool:
@@ -379,7 +379,7 @@ class Results(Content):
 
     def coarse_words(self, shown: frozenset[str]) -> str:
         """In which way motions shown are coarse."""
-        scene = self.scene if "ball_mass" not in shown else self._with_mass
+        scene = self.scene if "ball_mass" not in shown else self._scene_with_mass
         if scene.balls == MASSLESS:
             return "coarse while it moves: half the motion in half the steps"
         seconds = motions.quick_duration(scene, self.settings.coarse_marching)
@@ -399,11 +399,11 @@ class Results(Content):
         first = self.like or self
         how = first._marching_of(first.scene, first.grey.scene)
         if first.grey_kind == OTHER_BALLS and self.scene.balls == MASSLESS:
-            return motions.as_far_as_with_mass(self.scene, how)
+            return motions.limit_to_known(self.scene, how)
         return how
 
     @cached_property
-    @of_kind(SLOW, OF_MOTION)
+    @note_kinds(SLOW, OF_MOTION)
     def motion(self) -> Motion:
         """Simulated motion of rotor and housing."""
         return motions.motion(self.scene, self.marching).motion
@@ -424,13 +424,13 @@ class Results(Content):
         return motions.ending(self.scene, self.marching).since
 
     @cached_property
-    @of_kind(SLOW, OF_MOTION)
+    @note_kinds(SLOW, OF_MOTION)
     def excerpt(self) -> Excerpt:
         """Some ball passes of the settled motion, with static loads for comparison."""
         return motions.excerpt(self.scene, self.marching)
 
     @cached_property
-    @of_kind(SLOW, OF_MOTION)
+    @note_kinds(SLOW, OF_MOTION)
     def late_spectra(self) -> dict[str, Spectrum]:
         """Spectrum of the housing's acceleration along each direction, once the motion has settled.
 
@@ -445,7 +445,7 @@ class Results(Content):
         return {dof: loudest(spectra[dof]) for dof in ("x", "y") if dof in spectra}
 
     @cached_property
-    @of_kind(SLOW, OF_MOTION)
+    @note_kinds(SLOW, OF_MOTION)
     def ball_mass(self) -> BallMass:
         """The motions without and with the balls' mass, marched alike; whatever the scene has."""
         if kind := self.scene.bearing.kind.mass_unknown:
@@ -459,7 +459,7 @@ class Results(Content):
         return common_ball_passes(self.scene)
 
     @cached_property
-    @of_kind(SLOW, OF_MOTION)
+    @note_kinds(SLOW, OF_MOTION)
     def orbit(self) -> Orbit | None:
         """The motion that repeats itself; None where it takes too many ball passes to look for.
 
@@ -508,7 +508,7 @@ class Results(Content):
         return load if math.isfinite(load) else None
 
     @cached_property
-    @of_kind(SLOW, OF_MOTION, OVER_STRETCH)
+    @note_kinds(SLOW, OF_MOTION, OVER_STRETCH)
     def chain(self) -> Chain:
         """Results from the loads of the balls to the vibration."""
         return chain(self)

@@ -50,11 +50,11 @@ def verdict(results: Results, shown: frozenset[str]) -> Verdict:
     off has no orbit. An orbit that is shown is judged, converged or not: an unstable one is no
     place where a machine stays.
     """
-    bad = of_statics(results)
+    bad = statics_words(results)
     if not bad and "now" in shown:
-        bad = of_now(results)
+        bad = words_of_now(results)
     if not bad and "chain" in shown:
-        bad = of_chain(results)
+        bad = chain_words(results)
     if bad:
         return Verdict("bad", bad)
     try:
@@ -63,7 +63,7 @@ def verdict(results: Results, shown: frozenset[str]) -> Verdict:
         if shown & MOTIONS and results.fault:
             return Verdict("bad", f"The motion {results.fault}")
         if shown & ORBITS:
-            return of_orbit(results)
+            return orbit_verdict(results)
     except StillCompiling as wait:
         return Verdict("busy", f"Not ready: {wait}")
     except ValueError as error:  # the view gives the whole sentence
@@ -71,7 +71,7 @@ def verdict(results: Results, shown: frozenset[str]) -> Verdict:
     return Verdict("good", "Computed without problems")
 
 
-def of_statics(results: Results) -> str:
+def statics_words(results: Results) -> str:
     """At which cage angles of the curves no static equilibrium was found; empty for none."""
     states = results.equilibrium
     bad = np.flatnonzero(~states.converged)
@@ -83,13 +83,13 @@ def of_statics(results: Results) -> str:
     return f"No answer at {bad.size} of {states.converged.size} cage angles: {reason}"
 
 
-def of_now(results: Results) -> str:
+def words_of_now(results: Results) -> str:
     """Why there is no static equilibrium at the cage angle that is drawn; empty where there is."""
     now = results.now
     return "" if now.converged[0] else f"No answer at this cage angle: {now.reason(0)}"
 
 
-def of_chain(results: Results) -> str:
+def chain_words(results: Results) -> str:
     """The same wherever the change is followed: the shaft may turn too."""
     chain = results.chain
     if chain.answered == 1.0:
@@ -98,7 +98,7 @@ def of_chain(results: Results) -> str:
     return f"No answer at {share} % of the cage angles: {chain.reason}"
 
 
-def of_orbit(results: Results) -> Verdict:
+def orbit_verdict(results: Results) -> Verdict:
     """Whether there is a steady orbit, and whether it is stable."""
     orbit = results.orbit
     if orbit is None:

@@ -248,7 +248,7 @@ def _scene_pairs(place: Place, without_floors: bool) -> list[tuple[str, str]]:
         pairs.append(("defects", str(len(defects))))
     for number, defect in enumerate(defects):
         of_defect = [*_changes(_DEFECT, defect, usual), *_floor_pairs(defect.floor, without_floors)]
-        pairs += [(_behind(number) + name, value) for name, value in of_defect]
+        pairs += [(_prefix(number) + name, value) for name, value in of_defect]
     if place.selected:
         pairs.append(("selected", str(place.selected + 1)))
     for part, entries in _SCENE.items():
@@ -260,7 +260,7 @@ def _scene_pairs(place: Place, without_floors: bool) -> list[tuple[str, str]]:
     return pairs
 
 
-def _behind(number: int) -> str:
+def _prefix(number: int) -> str:
     return f"defect{number + 1}." if number else ""
 
 
@@ -376,7 +376,7 @@ def _read(pairs: dict[str, str]) -> Place:
     note = f"The address names no version; it was read as v={VERSION}."
     note = "" if version or place_alone else note
     for number in range(count):
-        here = {name: _behind(number) + name for name in _DEFECT_NAMES}
+        here = {name: _prefix(number) + name for name in _DEFECT_NAMES}
         defect_pairs = {name: pairs.pop(there) for name, there in here.items() if there in pairs}
         if defect_pairs.get("floor") == "left-out":
             note += " A measured floor was too long for the address; here it is flat."

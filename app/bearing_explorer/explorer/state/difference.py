@@ -46,7 +46,7 @@ def difference(now: Scene, before: Scene, focus: int = 0) -> str:
     ]
     if now.dofs != before.dofs:
         words.append("Other free directions")
-    words += [_from_to(field, *values, now) for field, values in changed]
+    words += [_change_words(field, *values, now) for field, values in changed]
     if not words:
         return "Another defect has changed" if defects != earlier else "The scene has changed"
     first, *others = words
@@ -144,7 +144,7 @@ def _numbers(now: Values, before: Values) -> list[tuple[Field, tuple[float, floa
     ]
 
 
-def _from_to(field: Field, before: float, now: float, scene: Scene) -> str:
+def _change_words(field: Field, before: float, now: float, scene: Scene) -> str:
     unit = field.shown_unit if field.shown_unit in ("", "°") else f" {field.shown_unit}"
     digits = 4 if f"{before:.4g}" != f"{now:.4g}" else 12
     read = [_number(field.read_sign * value, digits) for value in (before, now)]

@@ -289,7 +289,7 @@ class SceneEditor:
         """
         units = second_units(self.scene, self.selected)
 
-        def in_own_unit(name: str, text: str) -> str:
+        def convert(name: str, text: str) -> str:
             word, _, _ = units[name]["unit"].partition(" ")  # of "µm dia."; "× ball" is a ratio
             other = (word.removeprefix("×"), units[name]["factor"])
             ways = [(FIELD_BY_KEY[name].shown_unit, 1.0), other]
@@ -300,7 +300,7 @@ class SceneEditor:
             return text
 
         return {
-            name: in_own_unit(name, text) if name in units and isinstance(text, str) else text
+            name: convert(name, text) if name in units and isinstance(text, str) else text
             for name, text in texts.items()
         }
 
@@ -366,7 +366,7 @@ class SceneEditor:
                 fields["floor"] = floor
         scene = scene_with_fields(self.scene, fields, self.selected)
         if parts["pair"] or parts["second"]:
-            scene = scene.replace(bearing=_with_rows(scene.bearing, **parts))
+            scene = scene.replace(bearing=_change_rows(scene.bearing, **parts))
         if rough:
             self.floors[self.selected] = dataclasses.replace(choice, rough=floor)
         return scene
@@ -444,7 +444,7 @@ class SceneEditor:
         if not choice.all_alike:
             self._change(**fields)
             return
-        self._with_defects(
+        self._change_defects(
             [dataclasses.replace(defect, **fields) for defect in self.defects], self.selected
         )
 
@@ -503,14 +503,14 @@ class SceneEditor:
         new = dataclasses.replace(new, extent=min(new.extent, 0.8 * gap))
         if new.is_none:
             raise ValueError("The defects leave no room on the race: make one shorter first.")
-        self._with_defects([*self.defects, new], len(self.defects))
+        self._change_defects([*self.defects, new], len(self.defects))
 
     def _remove_defect(self) -> None:
         if len(self.defects) > 1:
             rest = [d for i, d in enumerate(self.defects) if i != self.selected]
-            self._with_defects(rest, min(self.selected, len(rest) - 1), removed=self.selected)
+            self._change_defects(rest, min(self.selected, len(rest) - 1), removed=self.selected)
 
-    def _with_defects(
+    def _change_defects(
         self, defects: list[Defect], selected: int, removed: int | None = None
     ) -> None:
         scene = self.scene.replace(defect=defects[0] if len(defects) == 1 else tuple(defects))
@@ -585,7 +585,7 @@ class SceneEditor:
         }
 
 
-def _with_rows(
+def _change_rows(
     bearing: Bearing, pair: Mapping[str, Any], second: Mapping[str, Any], **_: object
 ) -> Bearing:
     """A bearing of two rows with numbers of both, and of the second row alone, changed."""

@@ -97,8 +97,8 @@ class Field:
         """
         if output.ndim != 2:
             raise ValueError(f"dimensions are {output.dims}; allowed: two, choose with .sel(...)")
-        y, x = ((Side("", *of), at) for of, at in (_in_page_units(output[d]) for d in output.dims))
-        (words, _, unit), values = _in_page_units(output)
+        y, x = ((Side("", *of), at) for of, at in (_page_numbers(output[d]) for d in output.dims))
+        (words, _, unit), values = _page_numbers(output)
         reasons = np.where(np.isfinite(values), "", "see the status of the sweep").astype(object)
         return cls(x, y, words, unit, values, reasons)
 
@@ -111,7 +111,7 @@ class Field:
         return self.values / 10.0**power, PREFIXES[power] + self.unit
 
 
-def _in_page_units(output: DataArray) -> tuple[tuple[str, str, str], NDArray[np.float64]]:
+def _page_numbers(output: DataArray) -> tuple[tuple[str, str, str], NDArray[np.float64]]:
     """Words, symbol and unit of numbers, and the numbers: SI, but angles in degrees."""
     unit = str(output.attrs.get("units", ""))
     name = str(output.name)

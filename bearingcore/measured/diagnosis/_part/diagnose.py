@@ -25,7 +25,7 @@ from bearingcore.measured.diagnosis._part.judged import judge
 from bearingcore.measured.diagnosis._part.listened_signal import ListenedSignal, unfit
 from bearingcore.measured.diagnosis._part.parts import BALL, INNER, OUTER, PartLines, part_lines
 from bearingcore.measured.diagnosis._part.status import DiagnosisStatus
-from bearingcore.measured.diagnosis._part.unknown_speed import NARROW, in_range
+from bearingcore.measured.diagnosis._part.unknown_speed import NARROW, diagnose_in_range
 from bearingcore.recordings import Recording
 
 SLIP = 0.02
@@ -116,7 +116,7 @@ def _diagnose(
         return silent(*signal.unusable, source)
     if bearing is None:
         return silent(DiagnosisStatus.BEARING_OPEN, say.which_bearing(), source)
-    answer = _between(signal, bearing, low, high, slip, source, speed_source)
+    answer = _diagnose_between(signal, bearing, low, high, slip, source, speed_source)
     # sidebands of an inner race or a ball confirm the speed, an outer race has none
     if high > NARROW * low or answer.fault in (INNER, BALL):
         return answer
@@ -124,7 +124,7 @@ def _diagnose(
     return _held_against_the_shaft(signal, answer, 0.5 * (low + high), reach)
 
 
-def _between(
+def _diagnose_between(
     signal: ListenedSignal,
     bearing: Bearing,
     low: float,
@@ -135,11 +135,11 @@ def _between(
 ) -> Diagnosis:
     """The diagnosis at a speed between two [Hz], which may be one and the same."""
     if high <= low * (1.0 + 1e-9):
-        return _at_speed(signal, bearing, low * (1.0 - slip), low * (1.0 + slip), slip, source)
+        return _diagnose_at(signal, bearing, low * (1.0 - slip), low * (1.0 + slip), slip, source)
     if high <= low * (1.0 + 2.0 * slip):  # lines of a part, which slips, give a speed no better
         source = f"{speed_source} as a range"
-        return _at_speed(signal, bearing, low, high, slip, source, 0.5 * (high / low - 1.0))
-    answer = in_range(signal, bearing, low, high, slip, source)
+        return _diagnose_at(signal, bearing, low, high, slip, source, 0.5 * (high / low - 1.0))
+    answer = diagnose_in_range(signal, bearing, low, high, slip, source)
     if answer.shaft_speed is None or answer.fault in (OUTER, INNER):
         return answer
     shaft = answer.shaft_speed / (2.0 * math.pi)
@@ -209,7 +209,7 @@ def _speeds(
     return first / turn, last / turn, "looked for"
 
 
-def _at_speed(
+def _diagnose_at(
     signal: ListenedSignal,
     bearing: Bearing,
     low: float,

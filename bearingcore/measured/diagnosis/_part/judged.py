@@ -220,7 +220,7 @@ def compare(
     )
     return Judged(
         shaft=shaft,
-        evidence=_with_the_other_race(compared, _weighed(evidence)),
+        evidence=_judge_other_race(compared, _weighed(evidence)),
         other=other,
         other_above_noise=above,
         other_swing=swing,
@@ -238,7 +238,7 @@ def _clearest(
     """The evidence of a part at the resolution that speaks most for it."""
     # the band is chosen by the lines alone: chosen by the sidebands, it is where noise has some
     best = max((one.clearest(lines, around, beside) for one in compared), key=log_probability)
-    return max((comparison.with_sidebands(best) for comparison in compared), key=log_probability)
+    return max((comparison.weigh_sidebands(best) for comparison in compared), key=log_probability)
 
 
 def _race(
@@ -246,17 +246,17 @@ def _race(
 ) -> PartEvidence:
     """The evidence of a race; `beside` another race that is damaged, which is no rival then."""
     best = _clearest(compared, lines, beside=beside)
-    source = compared[-1].above_source(best.frequency)
+    source = compared[-1].lead_over_source(best.frequency)
     best = replace(best, lead=min(best.lead, source), line_lead=min(best.line_lead, source))
     if lines.part == INNER:
         return best
     # short segments do not resolve what lies beside the cage's lines
-    foreign, spacing = min(one.above_foreign(best) for one in compared[1:] or compared)
+    foreign, spacing = min(one.lead_over_foreign(best) for one in compared[1:] or compared)
     spacing = spacing if foreign < LEAD else math.nan
     return replace(best, lead=min(best.lead, foreign), foreign_spacing=spacing)
 
 
-def _with_the_other_race(
+def _judge_other_race(
     compared: Sequence[_Comparison], evidence: tuple[PartEvidence, ...]
 ) -> tuple[PartEvidence, ...]:
     """The evidence, where one race is damaged with the other judged as damaged beside it.
@@ -341,7 +341,7 @@ class _Comparison:
                     explained[frequency] = np.maximum(explained[frequency], also)
             others = float((combs.level[place] - explained[frequency]).max())
             evidence = self._evidence(lines, combs.envelopes[place], frequency, others)
-            directions.append(evidence if beside is not None else self._below_rivals(evidence))
+            directions.append(evidence if beside is not None else self._limit_to_rivals(evidence))
         return max(directions, key=log_probability)
 
     def explained(self, frequency: float, lines: PartLines) -> NDArray[np.float64]:
@@ -395,7 +395,7 @@ class _Comparison:
                 slower[near_it] = True
         return slower
 
-    def _below_rivals(self, part: PartEvidence) -> PartEvidence:
+    def _limit_to_rivals(self, part: PartEvidence) -> PartEvidence:
         """The evidence, its lead no more than the [dB] by which a part's comb is above the races'.
 
         A race has the lines of one that is its multiple for free, and sidebands decide where both
@@ -414,7 +414,7 @@ class _Comparison:
         lead = min([part.lead, *above])
         return replace(part, lead=lead, line_lead=lead)
 
-    def with_sidebands(self, part: PartEvidence) -> PartEvidence:
+    def weigh_sidebands(self, part: PartEvidence) -> PartEvidence:
         """The evidence with what its sidebands say: those that the part's own turning makes.
 
         An outer race stands still and needs none. Where a line may be a race's or a ball's, cage
@@ -446,7 +446,7 @@ class _Comparison:
             above = min(above, -race)
         return replace(part, modulation=modulation, lead=min(part.lead, above, modulation + LEAD))
 
-    def above_foreign(self, part: PartEvidence) -> tuple[float, float]:
+    def lead_over_foreign(self, part: PartEvidence) -> tuple[float, float]:
         """Lead [dB] of an outer race's lines over sidebands of another shaft; their spacing [Hz].
 
         An outer race stands still: only this shaft and its cage change the size of its blows.
@@ -511,7 +511,7 @@ class _Comparison:
         noise = noise_level(SIDEBAND_CHANCE, envelope.levels.averages)
         return min(cage - shaft, cage - level + CARRIED_REACH, cage - noise)
 
-    def above_source(self, frequency: float) -> float:
+    def lead_over_source(self, frequency: float) -> float:
         """By how much [dB] lines of a race are too loud for sidebands of others.
 
         In whatever band shows them best, lines that are whole turns of the shaft away are at most a
@@ -565,8 +565,8 @@ class _Comparison:
             lead=level - max(others, combs.noise),
             line_lead=0.0,
             modulation=math.inf,
-            depth=_without_greatest(swings[0]),
-            swing=_without_greatest(np.sqrt(np.square(swings).sum(axis=0))),
+            depth=_trimmed_mean(swings[0]),
+            swing=_trimmed_mean(np.sqrt(np.square(swings).sum(axis=0))),
             deviations=0.0,
             # the highest line of a comb resolves the most
             magnetic=magnetic_share(frequency, tolerance(combs, 0.0).item() / HARMONICS, self.slip),
@@ -582,7 +582,7 @@ class _Comparison:
         )
         if lines.part == BALL:
             return replace(evidence, line_lead=evidence.lead)
-        lead = min(evidence.lead, _above_gaps(_lines(one, one.levels.depth, frequency)))
+        lead = min(evidence.lead, _lead_over_gaps(_lines(one, one.levels.depth, frequency)))
         return replace(evidence, lead=lead, line_lead=lead)
 
     def others(self, evidence: Sequence[PartEvidence]) -> tuple[OtherLines, float, float]:
@@ -597,7 +597,7 @@ class _Comparison:
         frequency, envelope = float(combs.frequency[column]), combs.envelopes[int(place)]
         depths = _lines(envelope, envelope.levels.depth, frequency)
         rival = OtherLines(frequency, frequency / combs.shaft, float(level[place, column]))
-        return rival, rival.level - combs.noise, _without_greatest(depths)
+        return rival, rival.level - combs.noise, _trimmed_mean(depths)
 
 
 def _carried(compared: Iterable[_Comparison], frequency: float) -> float:
@@ -638,7 +638,7 @@ def _race_or_ball(away: float, slip: float) -> float:
     return math.log(race * (LAG + AHEAD) / SELDOM)
 
 
-def _above_gaps(depth: NDArray[np.float64]) -> float:
+def _lead_over_gaps(depth: NDArray[np.float64]) -> float:
     """By how much [dB] lines (HARMONICS,) are above gaps between those of a multiple's comb.
 
     Blows show in their first line; beats of tones, as of an inverter, at twice or three times it
@@ -667,6 +667,6 @@ def _or_sidebands(
     return np.maximum(line, np.minimum(below, above))
 
 
-def _without_greatest(values: NDArray[np.float64]) -> float:
+def _trimmed_mean(values: NDArray[np.float64]) -> float:
     """Mean of all values but the greatest: no single line decides."""
     return float(np.sort(values)[:-1].mean())

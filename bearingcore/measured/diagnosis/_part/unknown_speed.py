@@ -30,7 +30,7 @@ SHAFT_MARGIN = 6.0
 """[dB] by which the shaft's lines at one speed must be above those at another."""
 
 
-def in_range(
+def diagnose_in_range(
     signal: ListenedSignal, bearing: Bearing, low: float, high: float, slip: float, source: str
 ) -> Diagnosis:
     """The diagnosis at a speed between two [Hz], which is looked for.

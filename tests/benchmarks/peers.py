@@ -167,9 +167,9 @@ def by_integrators() -> Iterator[Row]:
     work = "0.1 s of the fan rig's motion"
     yield Row(work, "here", own_seconds, own_seconds, own, "housing's displacement")
     for method in ("DOP853", "LSODA"):
-        answer, seconds = processor_time(lambda method=method: solved(method))
+        trace, seconds = processor_time(lambda method=method: solved(method))
         program = f"SciPy {version('scipy')}, {method} to 1e-9"
-        yield Row("", program, seconds, own_seconds, swings(answer, true), "the same")
+        yield Row("", program, seconds, own_seconds, swings(trace, true), "the same")
 
     def push(
         mbs: Any, t: float, item: int, q: NDArray[np.float64], v: NDArray[np.float64]
@@ -210,10 +210,8 @@ def by_integrators() -> Iterator[Row]:
         ("RK44", kinds.RK44, 1),
         ("generalised α", kinds.GeneralizedAlpha, 1),
     ):
-        answer, seconds = processor_time(
-            lambda solver=solver, steps=steps: multibody(solver, steps)
-        )
-        difference = swings(answer[: len(true)], true)
+        trace, seconds = processor_time(lambda solver=solver, steps=steps: multibody(solver, steps))
+        difference = swings(trace[: len(true)], true)
         yield Row("", f"{program}, {name}", seconds, own_seconds, difference, "the same")
 
 

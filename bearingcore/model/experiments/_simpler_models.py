@@ -263,12 +263,10 @@ class _Measure:
         heavy = self.scene.balls == WITH_MASS
         name = "massless balls" if heavy else "balls with mass"
         try:
-            motion, seconds = self._march(
-                self.scene.replace(balls=MASSLESS if heavy else WITH_MASS)
-            )
+            run, seconds = self._march(self.scene.replace(balls=MASSLESS if heavy else WITH_MASS))
         except ValueError as refused:
             return self._refused(name, refused)
-        comparison = compare_motions(*((motion, self.own) if heavy else (self.own, motion)))
+        comparison = compare_motions(*((run, self.own) if heavy else (self.own, run)))
         added = np.abs(comparison.added[comparison.edges[1:] <= self.band])
         error = float(added.max()) if added.size else math.nan
         return self._spectrum(name, error, seconds, comparison.sentence)

@@ -500,10 +500,8 @@ def test_a_sound_file_is_compared_with_and_the_one_that_is_shown_stays():
         await settled(made)
         assert made.measured is before
         assert [table.name for table in made.series.tables] == ["sound.csv", "now.csv"]
-        recordings = made.recordings(before, "y").recordings
-        assert recordings[1].acceleration.std() == pytest.approx(
-            3.0 * recordings[0].acceleration.std()
-        )
+        first, second = made.recordings(before, "y").recordings
+        assert second.acceleration.std() == pytest.approx(3.0 * first.acceleration.std())
 
     run(steps())
 

@@ -378,18 +378,14 @@ def test_narrow_and_wide_tapered_bearings_of_one_section_have_one_roller_diamete
 )
 def test_tapered_designations(text: str, arrangement: str, centers: float) -> None:
     """Pressure centres of a pair are 2 a apart back to back, 2 (T - a) face to face."""
-    designation = read_designation(text)
-    bearing = designation.bearing
-    assert (designation.basic, designation.kind, designation.clearance_class) == (
-        "30206",
-        TAPERED_ROLLERS,
-        "",
-    )
+    named = read_designation(text)
+    bearing = named.bearing
+    assert (named.basic, named.kind, named.clearance_class) == ("30206", TAPERED_ROLLERS, "")
     assert (bearing.arrangement, bearing.kind.name) == (arrangement, "tapered")
     if bearing.rows:
         assert bearing.pressure_centers_apart == pytest.approx(centers)
     assert bearing.estimated == ("n_balls", "ball_diameter", "pitch_diameter", "roller_length")
-    assert designation.dynamic_load_rating == pytest.approx(dynamic_load_rating(bearing))
+    assert named.dynamic_load_rating == pytest.approx(dynamic_load_rating(bearing))
     assert math.degrees(bearing.contact_angle) == pytest.approx(14.036, abs=0.2)
 
 

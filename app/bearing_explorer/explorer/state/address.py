@@ -224,12 +224,10 @@ def place_of(editor: SceneEditor, tab: str = "") -> Place:
 
 def _written(place: Place, without_floors: bool) -> str:
     pairs = [("v", VERSION), *_scene_pairs(place, without_floors)]
-    for number, reference in enumerate(place.compared, 1):
-        preset = min(
-            presets, key=lambda name: len(_scene_pairs(Place(reference.scene, name), True))
-        )
-        label = [("label", reference.name)] if reference.name else []
-        own_place = Place(reference.scene, preset, name=reference.bearing)
+    for number, other in enumerate(place.compared, 1):
+        preset = min(presets, key=lambda name: len(_scene_pairs(Place(other.scene, name), True)))
+        label = [("label", other.name)] if other.name else []
+        own_place = Place(other.scene, preset, name=other.bearing)
         of_place = [*label, *_scene_pairs(own_place, without_floors)]
         pairs += [(f"compare{number}.{name}", value) for name, value in of_place]
     if place.cage_angle:

@@ -554,7 +554,7 @@ def test_the_signals_of_the_lesson_on_parts_are_told_apart() -> None:
     every = [json.loads(button.attrib["data-ask"]) for button in buttons]
     asked = [message for message in every if "simulate" in message]
     assert {message["show"] for message in every} == {"diagnosis"}
-    diagnoses = {}
+    parts = {}
     for message in asked:
         editor = SceneEditor("liew-lim")
         lesson.begin(editor)
@@ -562,14 +562,11 @@ def test_the_signals_of_the_lesson_on_parts_are_told_apart() -> None:
         editor.set(message["typed"])
         assert message["simulate"] == {"noise": "20"}
         made = simulated(editor.scene, 20.0, 1)
-        diagnoses[made.true_part] = diagnose(made.recording, MOTOR.bearing, made.shaft_speed)
-    assert {truth: diagnosis.fault for truth, diagnosis in diagnoses.items()} == {
+        parts[made.true_part] = diagnose(made.recording, MOTOR.bearing, made.shaft_speed)
+    assert {truth: diagnosis.fault for truth, diagnosis in parts.items()} == {
         "outer race": "outer race", "inner race": "inner race", "none": "none seen",
     }  # fmt: skip
-    inner, outer = (
-        diagnoses["inner race"].of("inner race"),
-        diagnoses["outer race"].of("outer race"),
-    )
+    inner, outer = parts["inner race"].of("inner race"), parts["outer race"].of("outer race")
     assert inner.sideband_spacing == pytest.approx(29.95, abs=0.1)
     assert inner.sidebands[:3].mean() > 6.0
     assert outer.sidebands[:3].mean() < 3.0

@@ -31,15 +31,11 @@ def terms_of(scene: Scene, n: int = 121) -> np.ndarray:
 
 @pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
 def test_they_are_those_of_the_modes_one_matrix_after_the_other(scene: Scene) -> None:
-    vibration = modes_at(equilibrium(scene, default_cage_angles(scene, 121)))
+    modal = modes_at(equilibrium(scene, default_cage_angles(scene, 121)))
     least, greatest, [labels] = undamped_bands(scene, terms_of(scene))
-    assert labels == vibration.label
-    np.testing.assert_allclose(
-        least[0], np.nanmin(vibration.undamped_frequency, axis=0), rtol=1e-10
-    )
-    np.testing.assert_allclose(
-        greatest[0], np.nanmax(vibration.undamped_frequency, axis=0), rtol=1e-10
-    )
+    assert labels == modal.label
+    np.testing.assert_allclose(least[0], np.nanmin(modal.undamped_frequency, axis=0), rtol=1e-10)
+    np.testing.assert_allclose(greatest[0], np.nanmax(modal.undamped_frequency, axis=0), rtol=1e-10)
 
 
 @pytest.mark.parametrize("extent", [0.0, 0.35, 1.1])

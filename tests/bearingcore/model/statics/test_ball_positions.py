@@ -29,18 +29,16 @@ def test_without_centrifugal_load_it_is_the_massless_state(name: str) -> None:
     massless = equilibrium(scene)
     positions = ball_positions(scene, centrifugal_load=0.0)
     standing = ball_positions(scene.replace(shaft_speed=0.0))
-    for answer in (positions, standing):
-        assert answer.converged.all()
+    for one in (positions, standing):
+        assert one.converged.all()
         size = np.abs(massless.displacement).max()
-        assert np.abs(answer.displacement - massless.displacement).max() <= 1e-12 * size
-        assert np.abs(answer.load - massless.ball_load).max() <= 1e-12 * massless.ball_load.max()
+        assert np.abs(one.displacement - massless.displacement).max() <= 1e-12 * size
+        assert np.abs(one.load - massless.ball_load).max() <= 1e-12 * massless.ball_load.max()
         terms = np.abs(massless.stiffness).max(axis=0)
-        assert np.all(
-            np.abs(answer.stiffness - massless.stiffness).max(axis=0) <= 1e-12 * terms.max()
-        )
+        assert np.all(np.abs(one.stiffness - massless.stiffness).max(axis=0) <= 1e-12 * terms.max())
         loaded = massless.ball_load > 1e-6 * massless.ball_load.max()
         for race in range(2):
-            angle = answer.contact_angle[race][loaded]
+            angle = one.contact_angle[race][loaded]
             assert angle == pytest.approx(massless.contact_angle[loaded], abs=1e-9)
 
 

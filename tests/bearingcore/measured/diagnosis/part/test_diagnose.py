@@ -223,9 +223,7 @@ def test_another_bearings_damage_is_not_laid_to_this_one(damaged, part):
     diagnosis = answer(damaged[part], other)
     assert diagnosis.fault == CANNOT_TELL
     assert diagnosis.other is not None
-    share = (
-        diagnosis.other.frequency / MOTOR.lines[part]
-    )  # a ball's lines are also seen at parts of it
+    share = diagnosis.other.frequency / MOTOR.lines[part]  # a ball's lines show at parts of it too
     assert min(abs(share - one) for one in (0.25, 0.5, 1.0)) < 0.012
 
 

@@ -67,7 +67,7 @@ def apart(ours: float, own: float) -> float:
     return abs(ours / own - 1.0)
 
 
-def by_iso_16281(folder: Path) -> Iterator[Row]:
+def compare_iso_16281(folder: Path) -> Iterator[Row]:
     """Loads of seven balls with 10 µm of clearance and their life, and 14 rollers with 30 µm."""
     sys.path.insert(0, str(folder))
     balls, rollers, head = (
@@ -117,7 +117,7 @@ def by_iso_16281(folder: Path) -> Iterator[Row]:
     yield Row(work, program, seconds, own_seconds, shift, "displacement")
 
 
-def by_ross() -> Iterator[Row]:
+def compare_ross() -> Iterator[Row]:
     """Stiffness of ROSS's own test case: 8 balls of 30 mm at 30° under 500 N, one ball below."""
     import ross
 
@@ -146,7 +146,7 @@ def swings(housing: NDArray[np.float64], true: NDArray[np.float64]) -> float:
     return math.sqrt(np.sum((housing - true) ** 2) / np.sum(swing**2))
 
 
-def by_integrators() -> Iterator[Row]:
+def compare_integrators() -> Iterator[Row]:
     """0.1 s of the fan rig from rest."""
     import exudyn
     from exudyn.itemInterface import NodeGenericODE2, ObjectGenericODE2, SensorNode
@@ -215,7 +215,7 @@ def by_integrators() -> Iterator[Row]:
         yield Row("", f"{program}, {name}", seconds, own_seconds, difference, "the same")
 
 
-def by_root_finder() -> Iterator[Row]:
+def compare_root_finder() -> Iterator[Row]:
     """31 cage angles of the fan rig with its defect, forces of numpy, each from the last."""
     cage = np.linspace(0.0, 2.0 * math.pi / 14, 31)
     hurt, spacing = math.radians(12.9), 2.0 * math.pi / 14 * np.arange(14)
@@ -268,8 +268,8 @@ def main() -> None:
     asked.add_argument("--iso16281", type=Path, required=True)
     folder = asked.parse_args().iso16281
     warm()  # compiling is no part of the work
-    rows = [*by_iso_16281(folder), *by_ross()]
-    rows += [*by_root_finder(), *by_integrators()]
+    rows = [*compare_iso_16281(folder), *compare_ross()]
+    rows += [*compare_root_finder(), *compare_integrators()]
     made = table(rows)
     print(made)
     DOCUMENT.write_text(put(DOCUMENT.read_text(encoding="utf-8"), MARK, made), encoding="utf-8")

@@ -38,13 +38,13 @@ ONE = presets["7208-25deg"]
 STEEP = math.radians(40.0)
 
 
-def with_rows(*rows: Row) -> Scene:
+def scene_of_rows(*rows: Row) -> Scene:
     return ONE.replace(bearing=ONE.bearing.replace(rows=rows))
 
 
-UNLIKE = with_rows(Row(-9e-3, -1, turn=0.1), Row(9e-3, 1, contact_angle=STEEP))
+UNLIKE = scene_of_rows(Row(-9e-3, -1, turn=0.1), Row(9e-3, 1, contact_angle=STEEP))
 OWN = {"n_balls": 11, "ball_diameter": 10e-3, "pitch_diameter": 55e-3}
-BALLS = with_rows(Row(-9e-3, -1, turn=0.1), Row(9e-3, 1, contact_angle=STEEP, **OWN))  # type: ignore[arg-type]
+BALLS = scene_of_rows(Row(-9e-3, -1, turn=0.1), Row(9e-3, 1, contact_angle=STEEP, **OWN))  # type: ignore[arg-type]
 SMALL = Bearing.from_drawing(11, 10e-3, 55e-3, 5.2e-3, 5.3e-3, contact_angle=STEEP)
 both = pytest.mark.parametrize("scene", [UNLIKE, BALLS], ids=["angles", "balls"])
 
@@ -52,10 +52,10 @@ both = pytest.mark.parametrize("scene", [UNLIKE, BALLS], ids=["angles", "balls"]
 def test_a_row_of_the_bearings_own_angle_is_as_if_none_were_given() -> None:
     angle = ONE.bearing.contact_angle
     n, ball = ONE.bearing.n_balls, ONE.bearing.ball_diameter
-    told = with_rows(
+    told = scene_of_rows(
         Row(-9e-3, -1, contact_angle=angle, n_balls=n), Row(9e-3, ball_diameter=ball)
     ).replace(extent=0.2)
-    plain = with_rows(Row(-9e-3, -1), Row(9e-3)).replace(extent=0.2)
+    plain = scene_of_rows(Row(-9e-3, -1), Row(9e-3)).replace(extent=0.2)
     assert told.bearing.rows_are_alike
     assert not UNLIKE.bearing.rows_are_alike
     assert told.bearing.of_row(1) is told.bearing
@@ -77,7 +77,7 @@ def test_a_row_of_other_balls_is_a_bearing_of_them() -> None:
     assert bearing.of_row(1).bpfo(10.0) == pytest.approx(SMALL.bpfo(10.0), rel=1e-12)
     assert bearing.pace(1) == pytest.approx(SMALL.cage_ratio / bearing.cage_ratio, rel=1e-12)
     assert bearing.period == 2.0 * math.pi, "its cages never come back together"
-    wider = with_rows(Row(), Row(ball_diameter=10e-3, inner_groove_radius=5.4e-3)).bearing
+    wider = scene_of_rows(Row(), Row(ball_diameter=10e-3, inner_groove_radius=5.4e-3)).bearing
     assert wider.of_row(1).inner_groove_radius == 5.4e-3
     heavier = BALLS.replace(load_deflection_factor=2.0 * bearing.load_deflection_factor).bearing
     assert heavier.of_row(1).load_deflection_factor == pytest.approx(
@@ -197,9 +197,9 @@ def test_film_pressure_and_limits_are_those_of_the_row_where_they_are_worst(scen
 def test_nothing_repeats_where_cages_turn_at_speeds_of_their_own() -> None:
     assert common_ball_passes(UNLIKE) is None
     assert orbit(UNLIKE).status == OrbitStatus.NO_PERIOD
-    assert common_ball_passes(with_rows(Row(-9e-3), Row(9e-3, 1, n_balls=10))) == 7
-    assert common_ball_passes(with_rows(Row(-9e-3), Row(9e-3, 1, n_balls=7))) == 2
-    assert common_ball_passes(with_rows(Row(-9e-3), Row(9e-3, 1, n_balls=9))) == 14
+    assert common_ball_passes(scene_of_rows(Row(-9e-3), Row(9e-3, 1, n_balls=10))) == 7
+    assert common_ball_passes(scene_of_rows(Row(-9e-3), Row(9e-3, 1, n_balls=7))) == 2
+    assert common_ball_passes(scene_of_rows(Row(-9e-3), Row(9e-3, 1, n_balls=9))) == 14
 
 
 @both
@@ -231,7 +231,7 @@ def test_rows_live_as_they_would_alone_and_fail_as_one_chain(scene: Scene) -> No
         life(scene, C, positions="load line")
 
 
-THREE_ROWS = with_rows(
+THREE_ROWS = scene_of_rows(
     Row(-9e-3, 1, n_balls=3),
     Row(9e-3, 1, n_balls=3, contact_angle=STEEP),
     Row(20e-3, -1, n_balls=3, contact_angle=math.radians(15.0)),

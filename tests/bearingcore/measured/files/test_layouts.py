@@ -599,7 +599,7 @@ def written(write: Callable[[float, float], str], heading: str = "Time,acc [g]")
     return "\n".join([*([heading] if heading else []), *rows])
 
 
-def of_a_clock(begin: float) -> Callable[[float, float], str]:
+def clock_line(begin: float) -> Callable[[float, float], str]:
     def write(t: float, a: float) -> str:
         minute, second = divmod(begin * 60.0 + t, 60.0)
         hour, half = int(minute // 60), "AP"[int(minute >= 720.0)]
@@ -619,7 +619,7 @@ def since_1970(size: int) -> str:
     return written(write, "timestamp,acc")
 
 
-def in_row(values: Any, delimiter: str) -> str:
+def join_cells(values: Any, delimiter: str) -> str:
     return delimiter.join(f"{value:.6f}" for value in values)
 
 
@@ -656,15 +656,15 @@ ONE_SIGNAL: list[tuple[Any, ...]] = [
     (written(lambda t, a: f"{t:.6g} sec,{a}"), RATE),
     (written(lambda t, a: f"0 days 00:00:00.{1e6 * t:06.0f},{a}"), RATE),
     (written(lambda t, a: f"01.01.2024 10:00:00.{1e6 * t:06.0f}+01:00,{a}"), RATE),
-    (written(of_a_clock(12 * 60 + 59.999)), RATE),
-    (written(of_a_clock(11 * 60 + 59.999)), RATE),
+    (written(clock_line(12 * 60 + 59.999)), RATE),
+    (written(clock_line(11 * 60 + 59.999)), RATE),
     (written(lambda t, a: f"{int(t * 8e3) // 480_000:02d}:{t % 60.0:09.6f},{a:.4f}"), RATE),
     # a column of words is left out, whichever rows have one
     *((written(lambda t, a, where=where: f"{t:.6f}\t{a}" + "\tok" * bool(t in where),
                "time\tacc\tComment"), RATE) for where in ([0.0], [TIME[700]], TIME)),
     # numbers in one row are a column
-    *((in_row(ALONE, delimiter), None) for delimiter in ",; "),
-    *((f"time{d}{in_row(TIME, d)}\nacc{d}{in_row(ALONE, d)}", RATE) for d in ",; "),
+    *((join_cells(ALONE, delimiter), None) for delimiter in ",; "),
+    *((f"time{d}{join_cells(TIME, d)}\nacc{d}{join_cells(ALONE, d)}", RATE) for d in ",; "),
     # a rate above columns that count
     *((written(lambda t, a: f"{round(t * RATE)},{a}", heading), RATE) for heading in (
         "X,CH1,Start,Increment\nSequence,Volt,-3.0e-3,1.25e-04", "# fs = 8000", "fs,8000")),
@@ -731,8 +731,8 @@ FACTS: dict[str, Callable[[Any], Any]] = {
     "reason": lambda made: made.contents.sample_rate.reason,
     "trouble": lambda made: made.contents.sampling.trouble,
     "unit": lambda made: stated(made.contents.unit),
-    "rpm": lambda made: in_rpm(made.contents.shaft_speed),
-    "guessed": lambda made: in_rpm(made.contents.shaft_speed, False),
+    "rpm": lambda made: rpm_of(made.contents.shaft_speed),
+    "guessed": lambda made: rpm_of(made.contents.shaft_speed, False),
     "why": lambda made: made.contents.shaft_speed.reason,
     "bearing": lambda made: stated(made.contents.designation),
     "machine": lambda made: stated(made.contents.machine),
@@ -748,7 +748,7 @@ def stated(fact: Any, sure: bool = True) -> Any:
     return fact.value if fact is not None and fact.stated == sure else None
 
 
-def in_rpm(fact: Any, sure: bool = True) -> float | None:
+def rpm_of(fact: Any, sure: bool = True) -> float | None:
     speed = stated(fact, sure)
     return speed if speed is None else round(speed * 30.0 / math.pi, 1)
 

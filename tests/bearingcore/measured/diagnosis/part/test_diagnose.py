@@ -227,7 +227,7 @@ def test_another_bearings_damage_is_not_laid_to_this_one(damaged, part):
     assert min(abs(share - one) for one in (0.25, 0.5, 1.0)) < 0.012
 
 
-def with_shaft_lines(signal: np.ndarray) -> np.ndarray:
+def add_shaft_lines(signal: np.ndarray) -> np.ndarray:
     time = np.arange(len(signal)) / MOTOR.rate
     rng = np.random.default_rng(15)
     lines = sum(tone(time, k * MOTOR.turns, rng, 0.5) for k in range(1, 7))
@@ -237,7 +237,7 @@ def with_shaft_lines(signal: np.ndarray) -> np.ndarray:
 @pytest.mark.parametrize("part", PARTS)
 def test_a_rough_speed_is_made_fine_by_the_shaft(damaged, part):
     speed = MOTOR.shaft_speed
-    diagnosis = answer(with_shaft_lines(damaged[part]), speed=(0.9 * speed, 1.12 * speed))
+    diagnosis = answer(add_shaft_lines(damaged[part]), speed=(0.9 * speed, 1.12 * speed))
     assert diagnosis.fault == part
     assert diagnosis.shaft_speed == pytest.approx(speed, rel=2e-3)
     assert "shaft's own lines" in diagnosis.speed_source
@@ -245,7 +245,7 @@ def test_a_rough_speed_is_made_fine_by_the_shaft(damaged, part):
 
 
 def test_an_unknown_speed_is_looked_for(damaged):
-    recording = Recording(with_shaft_lines(damaged["outer race"]), MOTOR.rate, ("y",))
+    recording = Recording(add_shaft_lines(damaged["outer race"]), MOTOR.rate, ("y",))
     diagnosis = diagnose(recording, MOTOR.bearing, None)
     assert diagnosis.fault == "outer race"
     assert diagnosis.shaft_speed == pytest.approx(MOTOR.shaft_speed, rel=2e-3)

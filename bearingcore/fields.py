@@ -72,15 +72,15 @@ RangeOf = Callable[[Any, float], Range]
 """A range that depends on a preset: called with its scene and the field's number there."""
 
 
-def _near(_: Any, value: float) -> Range:
+def _usual(_: Any, value: float) -> Range:
     """From nothing to a few times the preset's number; what is typed may go much further."""
     most = round_up(2.0 * value) if value > 0.0 else 100.0  # NaN too: its size is not known
     return Range(0.0, most, round_up(most / 2000.0), 0.0, 1e9)
 
 
-def _near_first_row(name: str) -> RangeOf:
-    """As `_near`, about the number of the first row [mm]."""
-    return lambda scene, _: _near(scene, getattr(scene.bearing, name) * 1e3)
+def _usual_of_first_row(name: str) -> RangeOf:
+    """As `_usual`, about the number of the first row [mm]."""
+    return lambda scene, _: _usual(scene, getattr(scene.bearing, name) * 1e3)
 
 
 def _largest_force(scene: Any) -> float:
@@ -255,9 +255,9 @@ _BEARING = (
     Field("n_balls", "bearing", "Number of balls", "N_b", "", "Balls",
           Range(3.0, 30.0, 1.0, 1.0, 100.0),
           "Balls in a row, equally spaced by the cage.", whole=True),
-    Field("ball_diameter", "bearing", "Ball diameter", "D_b", "mm", "Balls", _near,
+    Field("ball_diameter", "bearing", "Ball diameter", "D_b", "mm", "Balls", _usual,
           "Diameter of a ball. With the pitch diameter it sets the speed of the cage."),
-    Field("pitch_diameter", "bearing", "Pitch diameter", "D_p", "mm", "Balls", _near,
+    Field("pitch_diameter", "bearing", "Pitch diameter", "D_p", "mm", "Balls", _usual,
           "Diameter of the circle on which the centres of the balls run."),
     Field("roller_length", "bearing", "Roller length", "l", "mm", "Balls",
           Range(1.0, 100.0, 0.1, 0.0, 1000.0),
@@ -271,11 +271,11 @@ _BEARING = (
           Range(3.0, 30.0, 1.0, 1.0, 100.0),
           "Balls in the second row." + _FIRST, optional=True, whole=True),
     Field("ball_diameter", "second", "Ball diameter, row 2", "D_b2", "mm", "Second row",
-          _near_first_row("ball_diameter"),
+          _usual_of_first_row("ball_diameter"),
           "Diameter of a ball of the second row; its grooves go with it." + _FIRST,
           optional=True),
     Field("pitch_diameter", "second", "Pitch diameter, row 2", "D_p2", "mm", "Second row",
-          _near_first_row("pitch_diameter"),
+          _usual_of_first_row("pitch_diameter"),
           "Diameter of the circle on which the balls of the second row run." + _FIRST,
           optional=True),
     Field("contact_angle", "second", "Contact angle, row 2", "α_02", "°", "Second row",
@@ -307,10 +307,10 @@ _BEARING = (
           "Angle between the line through both contacts of an unloaded ball and the plane of the "
           "balls. A bearing with a contact angle carries loads along the shaft."),
     Field("groove_center_distance", "bearing", "Groove centre distance", "A_0", "µm", "Contact",
-          _near,
+          _usual,
           "Distance between the centres of curvature of the two grooves around an unloaded ball: "
           "the sum of both groove radii minus a ball diameter."),
-    Field("groove_center_radius", "bearing", "Groove centre radius", "r_d", "mm", "Contact", _near,
+    Field("groove_center_radius", "bearing", "Groove centre radius", "r_d", "mm", "Contact", _usual,
           "Radius of the circle on which the centres of the inner groove lie: the lever with which "
           "a tilt of the ring moves a contact."),
     Field("radial_clearance", "bearing", "Radial clearance", "r_L", "µm", "Contact",
@@ -320,34 +320,34 @@ _BEARING = (
           "negative value is an interference, which compresses all balls without a load.",
           sweep_range=(0.0, 50.0)),
     Field("load_deflection_factor", "bearing", "Load-deflection factor", "K", "MN/m¹·⁵", "Contact",
-          _near,
+          _usual,
           "Stiffness of both contacts of a ball in series: the load is K times the compression to "
           "the power of 1.5 (Hertz)."),
-    Field("outer_raceway_radius", "bearing", "Outer raceway radius", "R_o", "mm", "Races", _near,
+    Field("outer_raceway_radius", "bearing", "Outer raceway radius", "R_o", "mm", "Races", _usual,
           "Distance from the shaft's axis to the bottom of the outer groove; defects lie there."),
-    Field("inner_raceway_radius", "bearing", "Inner raceway radius", "R_i", "mm", "Races", _near,
+    Field("inner_raceway_radius", "bearing", "Inner raceway radius", "R_i", "mm", "Races", _usual,
           "Distance from the shaft's axis to the bottom of the inner groove."),
-    Field("density", "bearing", "Density of the balls", "ρ", "kg/m³", "Balls", _near,
+    Field("density", "bearing", "Density of the balls", "ρ", "kg/m³", "Balls", _usual,
           "Mass of a ball over its volume; 7800 kg/m³ for steel, 3200 for silicon nitride. It "
           "matters only for balls with mass."),
 )
 
 _BODIES = (
-    Field("inner_mass", "support", "Mass of the rotor", "m_i", "kg", "Bodies", _near,
+    Field("inner_mass", "support", "Mass of the rotor", "m_i", "kg", "Bodies", _usual,
           "Mass of the inner ring with the shaft and all parts on it."),
-    Field("outer_mass", "support", "Mass of the housing", "m_o", "kg", "Bodies", _near,
+    Field("outer_mass", "support", "Mass of the housing", "m_o", "kg", "Bodies", _usual,
           "Mass of the outer ring with the housing, which carries the sensor."),
-    Field("inner_inertia", "support", "Inertia of the rotor", "I_i", "g·m²", "Bodies", _near,
+    Field("inner_inertia", "support", "Inertia of the rotor", "I_i", "g·m²", "Bodies", _usual,
           "Moment of inertia of the rotor against tilt. Needed only if the ring tilts.",
           optional=True),
-    Field("outer_inertia", "support", "Inertia of the housing", "I_o", "g·m²", "Bodies", _near,
+    Field("outer_inertia", "support", "Inertia of the housing", "I_o", "g·m²", "Bodies", _usual,
           "Moment of inertia of the housing against tilt. Needed only if the ring tilts.",
           optional=True),
 )
 
 _CONTACT_DAMPING = (
     Field("contact_damping", "scene", "Contact damping", "c", "N·s/m", "Contacts in motion",
-          _near,
+          _usual,
           "Viscous damping of each loaded contact. Empty: 10 µs times the radial stiffness per "
           "loaded ball of the healthy bearing.", optional=True),
 )
@@ -368,7 +368,7 @@ def _support(name: str, symbol: str, unit: str, tilt_unit: str, meaning: str) ->
                 f"{symbol}_{dof.replace('r', 'θ')}",
                 tilt_unit if tilts else unit,
                 f"Support, {name}",
-                _near,
+                _usual,
                 meaning + (" It acts against tilt." if tilts else ""),
                 optional=dof not in ("x", "y"),
             )

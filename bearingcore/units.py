@@ -120,16 +120,16 @@ _WITH_UNIT = re.compile(
 )
 
 
-def _factor_of(given: str, wanted: str) -> float | None:
+def _factor_of(unit: str, wanted: str) -> float | None:
     """Factor from a unit as it was typed, also with an SI prefix: "kN", "MPa", "N/mm"."""
-    if given == wanted:
+    if unit == wanted:
         return 1.0
-    spelled = given if given in UNITS else _SPELLINGS.get(given.lower(), given)
+    spelled = unit if unit in UNITS else _SPELLINGS.get(unit.lower(), unit)
     times, known = _TYPED.get(spelled, (1.0, spelled))
     factor = factor_between(known, wanted)
     if factor is not None:
         return times * factor
-    for name in (given, spelled):
+    for name in (unit, spelled):
         if name[:1] in _PREFIXES and name[1:] in _WITH_PREFIX:
             factor = _factor_of(name[1:], wanted)
             return None if factor is None else _PREFIXES[name[0]] * factor

@@ -73,7 +73,7 @@ def define(body: list[ast.stmt]) -> Definitions:
                 if isinstance(part, ast.Attribute) and isinstance(part.ctx, ast.Store)
             }
         elif isinstance(node, ast.Import | ast.ImportFrom):
-            names.names |= {(one.asname or one.name).split(".")[0] for one in node.names}
+            names.names |= {(alias.asname or alias.name).split(".")[0] for alias in node.names}
         elif isinstance(node, ast.Assign | ast.AnnAssign):
             targets = node.targets if isinstance(node, ast.Assign) else [node.target]
             parts = (part for target in targets for part in ast.walk(target))
@@ -143,7 +143,7 @@ def has(owner: Definitions, rest: list[str], depth: int = 0) -> bool:
     return outside or (depth < 8 and any(has(base, rest, depth + 1) for base in bases))
 
 
-def in_project(name: str) -> bool:
+def is_in_project(name: str) -> bool:
     """Whether a name leads to a module, a name in one, or an attribute of a class.
 
     Modules may be named by their last parts, objects by their class in lower case.
@@ -152,12 +152,12 @@ def in_project(name: str) -> bool:
     for cut in range(len(parts), 0, -1):
         rest = parts[cut:]
         for own in called(".".join(parts[:cut])):
-            if not rest or (rest[0] in own.names and (len(rest) == 1 or of_class(rest))):
+            if not rest or (rest[0] in own.names and (len(rest) == 1 or is_of_class(rest))):
                 return True
-    return of_class(parts)
+    return is_of_class(parts)
 
 
-def of_class(parts: list[str]) -> bool:
+def is_of_class(parts: list[str]) -> bool:
     """Whether the first part is a class, or an object of one, that has the second."""
     first = parts[0]
     camel = "".join(word.capitalize() for word in first.strip("_").split("_"))
@@ -165,7 +165,7 @@ def of_class(parts: list[str]) -> bool:
     return any(has(own, parts[1:]) for own in owners)
 
 
-def in_library(name: str) -> bool:
+def is_in_library(name: str) -> bool:
     """Whether a name leads to something in an installed package."""
     first, rest = name.split(".", 1)
     if first in NOT_INSTALLED_BY_TESTS:
@@ -199,7 +199,7 @@ def docstrings(file: Path) -> Iterator[tuple[int, str]]:
             yield value.lineno, value.value
 
 
-def of_self(name: str, own: Iterable[Definitions]) -> bool:
+def is_of_self(name: str, own: Iterable[Definitions]) -> bool:
     """Whether a name is that of an attribute of one of the classes beside it."""
     first, *rest = name.split(".")
     return first == "self" and any(has(one, rest) for one in own)
@@ -210,8 +210,8 @@ def wrong(text: str, own: Iterable[Definitions] = ()) -> list[str]:
     return [
         name
         for name in NAME.findall(text)
-        if not (name in KEYS or is_file(name) or of_self(name, own))
-        if not (in_project(name) or in_library(name))
+        if not (name in KEYS or is_file(name) or is_of_self(name, own))
+        if not (is_in_project(name) or is_in_library(name))
     ]
 
 

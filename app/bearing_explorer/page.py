@@ -15,7 +15,7 @@ import panel as pn
 from bearing_explorer.kit.assets import asset_text, scripts
 from bearing_explorer.kit.plots.theme import dark_properties, themes
 from bearing_explorer.kit.serve.bokeh_internals import PLAIN
-from bearing_explorer.kit.serve.live import on_loop
+from bearing_explorer.kit.serve.live import run_on_loop
 from bearing_explorer.kit.serve.panel_internals import PageTemplate
 from bearing_explorer.kit.serve.serving import collect_now_and_then
 from bearing_explorer.kit.session import Half, Section, Session
@@ -162,7 +162,7 @@ def page(lessons: Path | None = None) -> PageTemplate:
     template.add_panel("limits", session.limits)
     template.add_panel("packed", pn.pane.Bokeh(session.packed.anchor, margin=0))
     doc = pn.state.curdoc
-    pn.state.onload(lambda: on_loop(doc, session.start))
+    pn.state.onload(lambda: run_on_loop(doc, session.start))
     pn.state.on_session_destroyed(lambda _: session.stop())
     pn.state.on_session_destroyed(lambda _: collect_now_and_then())
     if doc is not None:

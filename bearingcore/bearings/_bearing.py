@@ -440,8 +440,8 @@ class Bearing(InRows):
         """
         if not self.is_hybrid:
             return "steel"
-        own = (self.ball_youngs_modulus, self.ball_poisson)
-        return next((name for name, material in BALL_MATERIALS.items() if material[:2] == own), "")
+        pair = (self.ball_youngs_modulus, self.ball_poisson)
+        return next((name for name, material in BALL_MATERIALS.items() if material[:2] == pair), "")
 
     @property
     def knows_contacts(self) -> bool:

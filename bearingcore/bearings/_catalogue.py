@@ -111,7 +111,7 @@ def read_catalogue(table: str | bytes) -> dict[str, CatalogueBearing]:
     entries: dict[str, CatalogueBearing] = {}
     for number, cells in rows[1:]:
         at = f"table of bearings: line {number}"
-        entry = _bearing(at, _by_heading(at, headings, cells, separator), separator != ",")
+        entry = _bearing(at, _label_cells(at, headings, cells, separator), separator != ",")
         if entry.name in entries:
             raise checks.refuse(f"{at}, column name", entry.name, "a name of its own for each")
         entries[entry.name] = entry
@@ -172,7 +172,7 @@ def _headings(number: int, cells: list[str]) -> list[str]:
     return names
 
 
-def _by_heading(at: str, headings: list[str], cells: list[str], separator: str) -> dict[str, str]:
+def _label_cells(at: str, headings: list[str], cells: list[str], separator: str) -> dict[str, str]:
     """The cells of a line by their headings; those at its end may be missing."""
     while len(cells) > len(headings) and not cells[-1]:
         cells.pop()
@@ -238,7 +238,7 @@ def _bearing(at: str, texts: Mapping[str, str], decimal_comma: bool) -> Catalogu
     if clearance is None:
         clearance = 0.0 if angle else USUAL_CLEARANCE_UM
         assumed.append(f"a diametral clearance of {clearance:g} µm")
-    given = None if rating is None else rating * 1e3
+    rating_in_newton = None if rating is None else rating * 1e3
     try:
         bearing = Bearing.from_drawing(
             balls,  # type: ignore[arg-type]  # it refuses what is no whole number
@@ -248,12 +248,12 @@ def _bearing(at: str, texts: Mapping[str, str], decimal_comma: bool) -> Catalogu
             outer / 1e3,
             contact_angle=math.radians(angle),
             diametral_clearance=clearance / 1e6,
-        ).replace(dynamic_load_rating=given)
+        ).replace(dynamic_load_rating=rating_in_newton)
     except FieldError as error:
         raise error.inside(
             f"{at}, column {_COLUMN_OF_FIELD.get(error.field, error.field)}"
         ) from None
-    return CatalogueBearing(name, bearing, given, note, tuple(assumed))
+    return CatalogueBearing(name, bearing, rating_in_newton, note, tuple(assumed))
 
 
 _COLUMN_OF_FIELD = {

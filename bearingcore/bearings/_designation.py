@@ -51,9 +51,9 @@ from bearingcore.bearings._suffix import (
     SELF_ALIGNING_BALLS,
     TAPERED_ROLLERS,
     Suffix,
-    in_small_letters,
     is_reinforced,
     is_steep,
+    lower_arrangement,
     read_suffix,
     unknown_letters,
 )
@@ -187,7 +187,7 @@ def read_designation(text: str) -> Designation:
     if unread := unknown_letters(kind, suffix):
         assumed.append(f"that {unread}, which is not known here, changes nothing")
     if kind == ROLLERS:
-        assumed += _of_flanges(letters, basic, suffix)
+        assumed += _flange_words(letters, basic, suffix)
     if said.is_ceramic:
         ceramic = BALL_MATERIALS["silicon nitride"]
         bearing = bearing.with_balls_of(ceramic)
@@ -202,7 +202,7 @@ def read_designation(text: str) -> Designation:
     rating *= len(bearing.all_rows) ** _ROWS_OF[kind]
     known = None if said.is_ceramic or said.has_better_steel else rating
     return Designation(
-        in_small_letters(name),
+        lower_arrangement(name),
         basic,
         kind,
         size.bore,
@@ -254,8 +254,8 @@ def designations(beginning: str = "") -> Iterator[str]:
     Those of N, NJ and NUP, which the table has as NU, are given with their own letters.
     """
     wanted = beginning.upper().replace(" ", "")
-    own = re.match(r"NUP|NJ|N(?=\d)", wanted)
-    letters = own[0] if own else ""
+    match = re.match(r"NUP|NJ|N(?=\d)", wanted)
+    letters = match[0] if match else ""
     table = f"NU{wanted.removeprefix(letters)}" if letters else wanted
     basics = (basic for basic in boundaries() if basic.startswith(table))
     return (letters + basic.removeprefix("NU") if letters else basic for basic in basics)
@@ -395,7 +395,7 @@ def _built(kind: str, inside: Inside, angle: float, play: float, assumed: list[s
     return made.replace(estimated=estimated)
 
 
-def _of_flanges(letters: str, basic: str, suffix: str) -> list[str]:
+def _flange_words(letters: str, basic: str, suffix: str) -> list[str]:
     """Words on the flanges and the inside of cylindrical rollers."""
     assumed = []
     if letters in ("NJ", "NUP"):

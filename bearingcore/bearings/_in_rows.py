@@ -42,7 +42,7 @@ class InRows(Numbers):
         if self.rows_are_alike:
             return self
         try:
-            return _with_own(self, tuple(self.unlike(self.rows[row]).items()))
+            return _build_row(self, tuple(self.unlike(self.rows[row]).items()))
         except FieldError as refused:
             raise refused.inside(f"row {row + 1}") from None
 
@@ -63,7 +63,7 @@ class InRows(Numbers):
         """
         if self.rows_are_alike:
             return ((self, slice(0, self.total_balls)),)
-        return tuple((self.of_row(k), own) for k, own in enumerate(self.balls_of_rows))
+        return tuple((self.of_row(k), balls) for k, balls in enumerate(self.balls_of_rows))
 
     @property
     def balls_of_rows(self) -> tuple[slice, ...]:
@@ -73,9 +73,9 @@ class InRows(Numbers):
 
     def row_of_ball(self, ball: int) -> tuple[int, int]:
         """Return the row of a ball, and its number in that row, both counted from 0."""
-        for row, own in enumerate(self.balls_of_rows):
-            if own.start <= ball < own.stop:
-                return row, ball - own.start
+        for row, balls in enumerate(self.balls_of_rows):
+            if balls.start <= ball < balls.stop:
+                return row, ball - balls.start
         raise checks.refuse("ball", ball, f"0 to {self.total_balls - 1}")
 
     def pace(self, row: int) -> float:
@@ -110,9 +110,9 @@ B = TypeVar("B", bound=InRows)
 
 
 @lru_cache(maxsize=256)
-def _with_own(bearing: B, own: tuple[tuple[str, float], ...]) -> B:
+def _build_row(bearing: B, numbers: tuple[tuple[str, float], ...]) -> B:
     """The bearing without rows and with what one of them has of its own."""
-    values: dict[str, Any] = dict(own)
+    values: dict[str, Any] = dict(numbers)
     if not bearing.is_drawn:
         for name in LENGTHS:
             if name in values:

@@ -46,13 +46,13 @@ class Rows(Ball):
     variant = arrangement
 
     def inputs(self, bearing: InRows) -> tuple[str, ...]:
-        given = super().inputs(bearing)
+        names = super().inputs(bearing)
         arrangement = self.variant(bearing)
         if not arrangement:
-            return given
-        own = OWN if bearing.is_drawn else [name for name in OWN if name not in LENGTHS]
-        second = (f"second_{name}" for name in own)
-        return (*given, "row_distance", *(("preload",) if arrangement != "tandem" else ()), *second)
+            return names
+        of_row = OWN if bearing.is_drawn else [name for name in OWN if name not in LENGTHS]
+        second = (f"second_{name}" for name in of_row)
+        return (*names, "row_distance", *(("preload",) if arrangement != "tandem" else ()), *second)
 
     def contact(self, bearing: InRows) -> Contact:
         """That of a row: its inner groove's centres are where the line of contact meets r_d.

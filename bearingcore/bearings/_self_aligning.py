@@ -155,8 +155,8 @@ class SelfAligning(Kind):
             return super().completed(bearing, changes)
         given = {name: value for name, value in changes.items() if name not in _FOLLOWS}
         for name in _FOLLOWS:
-            value, own = changes.get(name), getattr(bearing, name)
-            if value is not None and (own is None or not math.isclose(value, own, rel_tol=1e-9)):
+            value, held = changes.get(name), getattr(bearing, name)
+            if value is not None and (held is None or not math.isclose(value, held, rel_tol=1e-9)):
                 raise checks.refuse(
                     name, value, "what follows from ball, sphere, groove and contact angle"
                 )
@@ -193,9 +193,9 @@ class SelfAligning(Kind):
         return inner_groove(bearing) if race == "inner" else bearing.outer_raceway_radius
 
 
-def _drawn_anew(bearing: InRows, given: dict[str, Any]) -> dict[str, Any]:
+def _drawn_anew(bearing: InRows, fields: dict[str, Any]) -> dict[str, Any]:
     """Fields of the bearing with some of what it is drawn by changed."""
-    get = given.get
+    get = fields.get
     return self_aligning_numbers(
         n_balls=get("n_balls", bearing.n_balls),
         ball_diameter=get("ball_diameter", bearing.ball_diameter),

@@ -149,7 +149,7 @@ def unknown_letters(kind: str, text: str) -> str:
     )
 
 
-def in_small_letters(name: str) -> str:
+def lower_arrangement(name: str) -> str:
     """A name in capitals with the words of an arrangement in small letters."""
     return _PAIR.sub(lambda pair: pair[0] if pair["letter"] else pair[0].lower(), name)
 
@@ -177,11 +177,11 @@ def read_suffix(name: str, kind: str, text: str, count: str, is_ceramic: bool) -
     rest = _PAIR.sub(" ", text, count=1) if pair else text
     is_ceramic = is_ceramic or _CERAMIC.search(rest) is not None
     rest = _CERAMIC.sub(" ", rest)
-    given = _CLEARANCE.search(rest)
+    match = _CLEARANCE.search(rest)
     said = Suffix(
         arrangement=arrangement,
         axial_play=1e-6 * float(pair["play"]) if pair and pair["play"] else None,
-        clearance_class=f"C{given[1]}" if given else "",
+        clearance_class=f"C{match[1]}" if match else "",
         is_ceramic=is_ceramic,
         has_better_steel=_BETTER_STEEL.search(rest) is not None,
     )

@@ -185,9 +185,9 @@ def _held(kinds: tuple[type, ...], name: str, value: Any) -> Any:
         return tuple(_held(kinds, f"{name} {i + 1}", item) for i, item in enumerate(value))
     if not kinds or dataclasses.is_dataclass(value):
         return tuple(value) if isinstance(value, list) else value
-    given = table(name, value)
+    values = table(name, value)
     kind = kinds[0]
     if len(kinds) > 1:
         known = {k.kind: k for k in kinds}  # type: ignore[attr-defined]
-        kind = known[checks.choice(f"kind of the {name}", given.pop("kind", None), tuple(known))]
-    return from_data(kind, name, given)
+        kind = known[checks.choice(f"kind of the {name}", values.pop("kind", None), tuple(known))]
+    return from_data(kind, name, values)

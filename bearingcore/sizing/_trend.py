@@ -331,7 +331,7 @@ def _line_amplitudes(
         first, last = math.floor(middle - reach), math.ceil(middle + reach) + 1
         if middle < LOWEST_LINE or last > len(density):
             continue
-        if _of_the_shaft(finest, order * turn, turning / (2.0 * math.pi)):
+        if _is_shaft_line(finest, order * turn, turning / (2.0 * math.pi)):
             continue
         limit = float(gammaincinv(averages, 1.0 - CHANCE / (last - first)))
         peak = first + int(density[first:last].argmax())
@@ -343,7 +343,7 @@ def _line_amplitudes(
     return lines, noise
 
 
-def _of_the_shaft(finest: Spectrum, line: float, turn: float) -> bool:
+def _is_shaft_line(finest: Spectrum, line: float, turn: float) -> bool:
     """Whether the highest line next to one of the bearing [Hz] is a multiple of the shaft's turn.
 
     Of gears, vanes and loose parts: what repeats with the shaft is no damage of the bearing.

@@ -231,7 +231,7 @@ def test_every_model_that_would_do_less_is_taken(preset: str, kinds: set[str]) -
     """Each row of the table, in a session: its model becomes that of the scene."""
     section = (Section("accuracy", "Accuracy", (OtherModels,)),)
     simpler = alternatives(presets[preset])
-    models = {one.name: one.changes for one in takeable(simpler.rows)}
+    models = {row.name: row.changes for row in takeable(simpler.rows)}
     assert {kind for changes in models.values() for kind in changes} == kinds
     for name, changes in models.items():
 

@@ -31,7 +31,7 @@ def contrast(a: str, b: str) -> float:
     return (bright + 0.05) / (dim + 0.05)
 
 
-def in_dark(color: str) -> str:
+def dark_color(color: str) -> str:
     return DARK_COLORS.get(color.upper(), color)
 
 
@@ -57,7 +57,7 @@ def test_text_of_the_page_is_readable(theme: str) -> None:
         assert contrast(colors[text], colors[ground]) >= 4.5, (text, ground)
 
 
-@pytest.mark.parametrize("turned", [str, in_dark], ids=["light", "dark"])
+@pytest.mark.parametrize("turned", [str, dark_color], ids=["light", "dark"])
 def test_lines_and_text_of_figures_are_seen(turned: object) -> None:
     assert callable(turned)
     paper = turned(style.PAPER)
@@ -90,7 +90,7 @@ def seen_by(kind: str, color: str) -> np.ndarray:
     return lab @ np.cbrt(cones @ rgb)
 
 
-@pytest.mark.parametrize("turned", [str, in_dark], ids=["light", "dark"])
+@pytest.mark.parametrize("turned", [str, dark_color], ids=["light", "dark"])
 @pytest.mark.parametrize("kind", ["trichromat", "protanope", "deuteranope"])
 def test_colors_that_mean_different_things_are_told_apart(kind: str, turned: object) -> None:
     assert callable(turned)

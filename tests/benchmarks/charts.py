@@ -56,8 +56,8 @@ def as_json(results: Measurements) -> str:
     """The text of a file: numbers with four digits, an experiment to a line."""
     parts = _rounded(asdict(results))
     experiments = ",\n".join(
-        f"{json.dumps(name)}: {json.dumps(one, ensure_ascii=False)}"
-        for name, one in parts.pop("experiments").items()
+        f"{json.dumps(name)}: {json.dumps(experiment, ensure_ascii=False)}"
+        for name, experiment in parts.pop("experiments").items()
     )
     rest = json.dumps(parts, ensure_ascii=False)
     return f'{rest[:-1]},\n"experiments": {{\n{experiments}\n}}}}\n'
@@ -67,17 +67,17 @@ def _rounded(value: Any) -> Any:
     if isinstance(value, float) and not value.is_integer():
         return float(f"{value:.4g}")
     if isinstance(value, dict):
-        return {n: _rounded(one) for n, one in value.items() if (n, one) not in _AS_USUAL}
-    return [_rounded(one) for one in value] if isinstance(value, list | tuple) else value
+        return {n: _rounded(item) for n, item in value.items() if (n, item) not in _AS_USUAL}
+    return [_rounded(item) for item in value] if isinstance(value, list | tuple) else value
 
 
 def tables(results: Measurements) -> str:
     """Every experiment as Markdown: a table for each reference, a row for each method."""
     parts = [results.machine.sentence]
-    for name, one in results.experiments.items():
+    for name, experiment in results.experiments.items():
         parts += [
             f"### {name}: against {case or 'the reference'}\n\n{_table(part)}"
-            for case, part in one.per_reference().items()
+            for case, part in experiment.per_reference().items()
             if part.points
         ]
     return "\n\n".join(parts)
@@ -103,10 +103,10 @@ def _table(one: Experiment) -> str:
     return f"{words}.\n\n{lines}"
 
 
-def _row_of(points: tuple[Point, ...], one: Experiment, error: str) -> list[Point]:
+def _row_of(points: tuple[Point, ...], experiment: Experiment, error: str) -> list[Point]:
     """The first point of a method within the allowed error or else its best, and what is in use."""
     good = [p for p in points if not p.failed and not math.isnan(p.errors.get(error, math.nan))]
-    within = [p for p in good if p.errors[error] <= ALLOWED[one.unit(error)]]
+    within = [p for p in good if p.errors[error] <= ALLOWED[experiment.unit(error)]]
     best = within[:1] or sorted(good, key=lambda p: p.errors[error])[:1] or list(points[:1])
     return [*best, *(p for p in points if p.in_use)]
 

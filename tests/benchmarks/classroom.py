@@ -222,27 +222,27 @@ def main() -> int:
 def show(quiet: Pace, clients: list[Notes], browsers: list[Notes], seconds: float) -> None:
     """Print the table, and what was lost."""
     everyone = [*clients, *browsers]
-    waits = {id(one): one.waits() for one in everyone}
+    waits = {id(pupil): pupil.waits() for pupil in everyone}
     print(f"{'':<12}{'updates':>9}{'a second':>10}{'median':>9}{'95 %':>9}{'99 %':>9}{'most':>9}")
     for name, group, kind in (
         ("clients", clients, 0),
         ("browsers", browsers, 0),
         ("hands", everyone, 1),
     ):
-        times = np.array(list(itertools.chain(*(waits[id(one)][kind] for one in group))))
+        times = np.array(list(itertools.chain(*(waits[id(pupil)][kind] for pupil in group))))
         if not times.size:
             continue
         shares = np.percentile(times, [50.0, 95.0, 99.0, 100.0])
         row = "".join(f"{1000.0 * share:>6.0f} ms" for share in shares)
         ratios = ", ".join(quiet.ratio(share) for share in shares[:2])
         print(f"{name:<12}{times.size:>9}{times.size / seconds:>10.0f}{row}   {ratios}")
-    firsts = [one.first_picture for one in everyone]
+    firsts = [pupil.first_picture for pupil in everyone]
     print(f"first picture after {np.median(firsts):.1f} s (median), {max(firsts):.1f} s (last)")
-    drags, lost = (sum(getattr(one, name) for one in everyone) for name in ("drags", "lost"))
-    leaks = sum(one.leaks for one in clients)
-    pictures = sum(len(one.pictures) for one in clients)
+    drags, lost = (sum(getattr(pupil, name) for pupil in everyone) for name in ("drags", "lost"))
+    leaks = sum(client.leaks for client in clients)
+    pictures = sum(len(client.pictures) for client in clients)
     print(f"drags {drags}, lost {lost}; leaks {leaks} in {pictures} pictures")
-    for trouble in sorted({t for one in everyone for t in one.troubles}):
+    for trouble in sorted({t for pupil in everyone for t in pupil.troubles}):
         print(f"trouble: {trouble}")
 
 

@@ -73,10 +73,10 @@ def drawn(count: int, seed: int, tree: Path = ROOT) -> list[Mutant]:
     return random.Random(seed).sample(mutants, count)
 
 
-def stages(one: Mutant, tree: Path) -> Iterator[list[str]]:
+def stages(mutant: Mutant, tree: Path) -> Iterator[list[str]]:
     """Tests to run, the likeliest to fail first, each file once."""
     tests = tree / "tests"
-    parts = one.file.relative_to(tree / "bearingcore").with_suffix("").parts
+    parts = mutant.file.relative_to(tree / "bearingcore").with_suffix("").parts
     names = re.compile(rf"\b{re.escape('.'.join(parts))}\b|\b{parts[0]} import .*\b{parts[-1]}\b")
     areas = [parts[0], *(("dynamics", "statics") if parts[0] == "kernels" else ())]
     done: set[Path] = set()
@@ -95,16 +95,16 @@ def stages(one: Mutant, tree: Path) -> Iterator[list[str]]:
             yield [str(file.relative_to(tree)) for file in sorted(new)]
 
 
-def failing(one: Mutant, tree: Path, tests: list[str], most_seconds: float) -> str:
+def failing(mutant: Mutant, tree: Path, tests: list[str], most_seconds: float) -> str:
     """The first of these tests that fails with a mutant in place; "" where none does.
 
     Raises `subprocess.TimeoutExpired` where that takes longer.
     """
-    whole = one.file.read_bytes()
+    whole = mutant.file.read_bytes()
     lines = whole.split(b"\n")
-    line = lines[one.line - 1]
-    lines[one.line - 1] = line[: one.begin] + one.new.encode() + line[one.end :]
-    one.file.write_bytes(b"\n".join(lines))
+    line = lines[mutant.line - 1]
+    lines[mutant.line - 1] = line[: mutant.begin] + mutant.new.encode() + line[mutant.end :]
+    mutant.file.write_bytes(b"\n".join(lines))
     environment = {**os.environ, "PYTHONPATH": f"{tree}:{tree / 'app'}"}
     environment["NUMBA_CACHE_DIR"] = str(tree.parent / "numba")
     command = [sys.executable, "-m", "pytest", "-n", "0", "-x", "-q", "--no-header", *tests]
@@ -114,15 +114,15 @@ def failing(one: Mutant, tree: Path, tests: list[str], most_seconds: float) -> s
             timeout=most_seconds, check=False,
         )  # fmt: skip
     finally:
-        one.file.write_bytes(whole)
+        mutant.file.write_bytes(whole)
     rows = [row for row in run.stdout.splitlines() if row.startswith(("FAILED", "ERROR"))]
     return "" if run.returncode in (0, 5) else rows[0] if rows else "did not start"
 
 
-def said(one: Mutant, tree: Path) -> str:
+def said(mutant: Mutant, tree: Path) -> str:
     """Where a mutant is and what it changes."""
-    old = one.file.read_bytes().split(b"\n")[one.line - 1][one.begin : one.end].decode()
-    return f"{one.file.relative_to(tree)}:{one.line}:{one.begin} {old} → {one.new}"
+    old = mutant.file.read_bytes().split(b"\n")[mutant.line - 1][mutant.begin : mutant.end].decode()
+    return f"{mutant.file.relative_to(tree)}:{mutant.line}:{mutant.begin} {old} → {mutant.new}"
 
 
 def main() -> None:
@@ -141,11 +141,11 @@ def main() -> None:
         left_out = shutil.ignore_patterns(".git", "__pycache__", "build")
         shutil.copytree(ROOT, tree, ignore=left_out)
     known = json.loads(results.read_text("utf-8")) if results.exists() else {}
-    mutants = {said(one, tree): one for one in drawn(given.count, given.seed, tree)}
+    mutants = {said(mutant, tree): mutant for mutant in drawn(given.count, given.seed, tree)}
     end = time.monotonic() + 60.0 * given.minutes
     for stage in range(given.stages):
-        for name, one in mutants.items():
-            all_tests = list(stages(one, tree))
+        for name, mutant in mutants.items():
+            all_tests = list(stages(mutant, tree))
             kept = known.setdefault(name, {"passed": 0, "by": ""})
             if kept["by"] or kept["passed"] != stage or stage >= len(all_tests):
                 continue
@@ -153,7 +153,7 @@ def main() -> None:
             if left < 20.0:
                 break
             try:
-                kept["by"] = failing(one, tree, all_tests[stage], left)
+                kept["by"] = failing(mutant, tree, all_tests[stage], left)
             except subprocess.TimeoutExpired:
                 break
             kept["passed"] += not kept["by"]

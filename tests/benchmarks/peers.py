@@ -67,7 +67,7 @@ def apart(ours: float, own: float) -> float:
     return abs(ours / own - 1.0)
 
 
-def by_iso_16281(folder: Path) -> Iterator[Row]:
+def compare_iso_16281(folder: Path) -> Iterator[Row]:
     """Loads of seven balls with 10 µm of clearance and their life, and 14 rollers with 30 µm."""
     sys.path.insert(0, str(folder))
     balls, rollers, head = (
@@ -78,12 +78,12 @@ def by_iso_16281(folder: Path) -> Iterator[Row]:
 
     def seven() -> Any:
         with contextlib.redirect_stdout(io.StringIO()):
-            one = balls.BallBearing(1, 7, 11.5, 43.5, 0.0, 0.0, 1)
-            one.geometry(0.01)
-            one.stiffness(steel)
-            one.disp(head.Load(1000.0, 0.0, 1000.0, 0.0, 0.0, 0.0))
-            one.rating(head.BasicCapacity(23400.0))
-        return one
+            bearing = balls.BallBearing(1, 7, 11.5, 43.5, 0.0, 0.0, 1)
+            bearing.geometry(0.01)
+            bearing.stiffness(steel)
+            bearing.disp(head.Load(1000.0, 0.0, 1000.0, 0.0, 0.0, 0.0))
+            bearing.rating(head.BasicCapacity(23400.0))
+        return bearing
 
     scene = presets["seven-ball"].healthy()
     scene = scene.replace(radial_clearance=5e-6, load=Load(fx=1000.0, fz=1000.0), dofs="tilt free")
@@ -117,7 +117,7 @@ def by_iso_16281(folder: Path) -> Iterator[Row]:
     yield Row(work, program, seconds, own_seconds, shift, "displacement")
 
 
-def by_ross() -> Iterator[Row]:
+def compare_ross() -> Iterator[Row]:
     """Stiffness of ROSS's own test case: 8 balls of 30 mm at 30° under 500 N, one ball below."""
     import ross
 
@@ -146,7 +146,7 @@ def swings(housing: NDArray[np.float64], true: NDArray[np.float64]) -> float:
     return math.sqrt(np.sum((housing - true) ** 2) / np.sum(swing**2))
 
 
-def by_integrators() -> Iterator[Row]:
+def compare_integrators() -> Iterator[Row]:
     """0.1 s of the fan rig from rest."""
     import exudyn
     from exudyn.itemInterface import NodeGenericODE2, ObjectGenericODE2, SensorNode
@@ -167,9 +167,9 @@ def by_integrators() -> Iterator[Row]:
     work = "0.1 s of the fan rig's motion"
     yield Row(work, "here", own_seconds, own_seconds, own, "housing's displacement")
     for method in ("DOP853", "LSODA"):
-        answer, seconds = processor_time(lambda method=method: solved(method))
+        trace, seconds = processor_time(lambda method=method: solved(method))
         program = f"SciPy {version('scipy')}, {method} to 1e-9"
-        yield Row("", program, seconds, own_seconds, swings(answer, true), "the same")
+        yield Row("", program, seconds, own_seconds, swings(trace, true), "the same")
 
     def push(
         mbs: Any, t: float, item: int, q: NDArray[np.float64], v: NDArray[np.float64]
@@ -210,14 +210,12 @@ def by_integrators() -> Iterator[Row]:
         ("RK44", kinds.RK44, 1),
         ("generalised α", kinds.GeneralizedAlpha, 1),
     ):
-        answer, seconds = processor_time(
-            lambda solver=solver, steps=steps: multibody(solver, steps)
-        )
-        difference = swings(answer[: len(true)], true)
+        trace, seconds = processor_time(lambda solver=solver, steps=steps: multibody(solver, steps))
+        difference = swings(trace[: len(true)], true)
         yield Row("", f"{program}, {name}", seconds, own_seconds, difference, "the same")
 
 
-def by_root_finder() -> Iterator[Row]:
+def compare_root_finder() -> Iterator[Row]:
     """31 cage angles of the fan rig with its defect, forces of numpy, each from the last."""
     cage = np.linspace(0.0, 2.0 * math.pi / 14, 31)
     hurt, spacing = math.radians(12.9), 2.0 * math.pi / 14 * np.arange(14)
@@ -256,11 +254,11 @@ def table(rows: list[Row]) -> str:
     """Rows as Markdown."""
     head = ["work", "program", "its processor time", "here", "times ours", "difference"]
     lines = [head, ["---", "---", "---:", "---:", "---:", "---:"]]
-    for one in rows:
-        ratio = "" if one.program == "here" else number(one.seconds / one.own_seconds, 2)
-        times = (with_prefix(one.seconds, "s"), with_prefix(one.own_seconds, "s"))
-        difference = f"{scientific(one.difference, 2)} of {one.of}"
-        lines.append([one.work, one.program, *times, ratio, difference])
+    for row in rows:
+        ratio = "" if row.program == "here" else number(row.seconds / row.own_seconds, 2)
+        times = (with_prefix(row.seconds, "s"), with_prefix(row.own_seconds, "s"))
+        difference = f"{scientific(row.difference, 2)} of {row.of}"
+        lines.append([row.work, row.program, *times, ratio, difference])
     return "\n".join(f"| {' | '.join(line)} |" for line in lines)
 
 
@@ -270,8 +268,8 @@ def main() -> None:
     asked.add_argument("--iso16281", type=Path, required=True)
     folder = asked.parse_args().iso16281
     warm()  # compiling is no part of the work
-    rows = [*by_iso_16281(folder), *by_ross()]
-    rows += [*by_root_finder(), *by_integrators()]
+    rows = [*compare_iso_16281(folder), *compare_ross()]
+    rows += [*compare_root_finder(), *compare_integrators()]
     made = table(rows)
     print(made)
     DOCUMENT.write_text(put(DOCUMENT.read_text(encoding="utf-8"), MARK, made), encoding="utf-8")

@@ -90,11 +90,11 @@ def row_of(record: Record) -> Row:
         "status": str(diagnosis.status),
         "verdict": verdict(record, diagnosis),
         "evidence": {
-            one.part: {
-                name: round(float(getattr(one, name)), 4)
+            part.part: {
+                name: round(float(getattr(part, name)), 4)
                 for name in ("lead", "swing", "deviations", "magnetic")
             }
-            for one in diagnosis.evidence
+            for part in diagnosis.evidence
         },
         "true_extent_deg": record.spall_extent_deg,
     }

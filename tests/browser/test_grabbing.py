@@ -35,7 +35,7 @@ def place(page: Page, kind: int) -> tuple[float, float]:
     return x, y
 
 
-def by_mouse(page: Page, kind: int, right: float, down: float) -> None:
+def use_mouse(page: Page, kind: int, right: float, down: float) -> None:
     """Drag a handle this far [px]."""
     x, y = place(page, kind)
     page.mouse.move(x, y)
@@ -46,7 +46,7 @@ def by_mouse(page: Page, kind: int, right: float, down: float) -> None:
     settle(page)
 
 
-def by_finger(page: Page, kind: int, right: float, down: float) -> None:
+def use_finger(page: Page, kind: int, right: float, down: float) -> None:
     touches = page.context.new_cdp_session(page)
     x, y = place(page, kind)
 
@@ -61,7 +61,7 @@ def by_finger(page: Page, kind: int, right: float, down: float) -> None:
     settle(page)
 
 
-@pytest.mark.parametrize("drag", [by_mouse, pytest.param(by_finger, marks=pytest.mark.proof)])
+@pytest.mark.parametrize("drag", [use_mouse, pytest.param(use_finger, marks=pytest.mark.proof)])
 def test_the_end_of_a_defect_and_the_arrow_follow_the_hand(page: Page, drag) -> None:
     scrolled = page.evaluate("scrollY")
     extent, center = value(page, "extent_deg"), value(page, "center_deg")

@@ -14,16 +14,16 @@ _SHOWN = """all => all.map(one =>
 
 
 @pytest.fixture(scope="module")
-def in_messages_page() -> Iterator[Server]:
+def messages_page() -> Iterator[Server]:
     with serving(page_server(PAGES / "in_messages.py")) as server:
         yield server
 
 
 @pytest.mark.proof
 def test_children_and_numbers_that_come_in_messages_of_their_own_all_arrive(
-    page: Page, in_messages_page: Server
+    page: Page, messages_page: Server
 ) -> None:
-    page.goto(f"{in_messages_page.url}?boxes=2")
+    page.goto(f"{messages_page.url}?boxes=2")
     children = page.locator(".child")
     expect(page.locator(".third-1").first).to_be_visible()
     painted(page)

@@ -146,7 +146,7 @@ def test_pictures_say_what_they_show(
     assert f"{explorer.url}?v=1&preset=fan-rig&extent_deg=20" in said.replace(" ", "")
     # the words are above and below the figure, not on it
     height = float(svg.attrib["height"])
-    figure = next(one for one in svg if one.tag.endswith("svg"))
+    figure = next(element for element in svg if element.tag.endswith("svg"))
     assert float(figure.attrib["y"]) > 40
     assert float(figure.attrib["y"]) + float(figure.attrib["height"]) < height - 30
     browser.grant_permissions(["clipboard-read", "clipboard-write"])

@@ -59,14 +59,14 @@ class _Client(PageClient):
         if stream is None or self.closed:
             raise StreamClosedError
         for frame in frames:
-            one = frame if isinstance(frame, Raw) else _framed(frame)
-            size = len(one.payload)
-            head = struct.pack("B", 0x80 * one.whole | one.flags | one.opcode)
+            sent = frame if isinstance(frame, Raw) else _framed(frame)
+            size = len(sent.payload)
+            head = struct.pack("B", 0x80 * sent.whole | sent.flags | sent.opcode)
             if size < 126:
                 head += struct.pack("B", 0x80 | size)
             else:
                 head += struct.pack("!BQ", 0x80 | 127, size)
-            await stream.write(head + bytes(4) + one.payload)
+            await stream.write(head + bytes(4) + sent.payload)
 
     async def all_is_taken(self) -> bool:
         """Wait until the server has taken all that was sent: it answers a ping after that."""

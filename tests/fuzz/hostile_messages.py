@@ -24,12 +24,12 @@ LARGEST = 3_500_000
 _FILE = {"name": "a.csv", "text": "0 1\n1 2\n2 3"}
 
 GOOD: tuple[tuple[str, dict[str, Any]], ...] = (
-    *(("Controls", {"mark": 1, "set": {one.key: 1.0}}) for one in SHOWN_FIELDS),
-    *(("Controls", {"mark": 1, "typed": {one.key: "1.5"}}) for one in SHOWN_FIELDS),
+    *(("Controls", {"mark": 1, "set": {field.key: 1.0}}) for field in SHOWN_FIELDS),
+    *(("Controls", {"mark": 1, "typed": {field.key: "1.5"}}) for field in SHOWN_FIELDS),
     *(
-        ("Controls", {"mark": 1, "choose": {one.name: option.name}})
-        for one in CHOICE_LIST
-        for option in one.options
+        ("Controls", {"mark": 1, "choose": {choice.name: option.name}})
+        for choice in CHOICE_LIST
+        for option in choice.options
     ),
     *(("Tabs", {"show": section.name}) for section in SECTIONS),
     ("Controls", {"mark": 1, "choose": {"defect": "add"}}),

@@ -33,10 +33,10 @@ def kinds() -> dict[str, tuple[str, dict[str, Any]]]:
             for component, data in GOOD}  # fmt: skip
 
 
-def with_texts_of(size: int, data: Any) -> Any:
+def lengthen_texts(size: int, data: Any) -> Any:
     """The same message with each of its texts so long."""
     if isinstance(data, dict):
-        return {k: v if k == "type" else with_texts_of(size, v) for k, v in data.items()}
+        return {k: v if k == "type" else lengthen_texts(size, v) for k, v in data.items()}
     return data.ljust(size, "x") if isinstance(data, str) else data
 
 
@@ -86,7 +86,7 @@ def test_another_session_draws_whatever_one_sends_a_hundred_times() -> None:
                 if client.closed:
                     client = await opened(url)
                 sending = asyncio.ensure_future(
-                    send(client, component, with_texts_of(size, data), COUNT)
+                    send(client, component, lengthen_texts(size, data), COUNT)
                 )
                 ends = time.perf_counter() + 1.0
                 took = await other.draw(

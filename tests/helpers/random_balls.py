@@ -56,28 +56,22 @@ def random_scene(rng: np.random.Generator) -> Scene:
     )
 
 
-def faults(positions: BallPositions, i: int, weight: bool) -> str:
+def faults(state: BallPositions, i: int, weight: bool) -> str:
     """What is wrong with a cage angle's answer, "" for nothing: right, or said not to be."""
-    if positions.status[i] not in (kernels.CONVERGED, kernels.FREE_DIRECTION):
-        silent = (
-            np.isfinite(positions.load[:, i]).any() and positions.status[i] >= kernels.NOT_CARRIED
-        )
+    if state.status[i] not in (kernels.CONVERGED, kernels.FREE_DIRECTION):
+        silent = np.isfinite(state.load[:, i]).any() and state.status[i] >= kernels.NOT_CARRIED
         return "numbers without an answer" if silent else ""
-    scene = positions.scene
-    if positions.status[i] == kernels.FREE_DIRECTION:
-        known = np.isfinite(positions.displacement[i]).all()
+    scene = state.scene
+    if state.status[i] == kernels.FREE_DIRECTION:
+        known = np.isfinite(state.displacement[i]).all()
         return "a free direction with a displacement" if known else ""
     sums = TwoContacts(
-        scene,
-        positions.cage_angles[i],
-        positions.displacement[i],
-        np.zeros(5),
-        positions.position[i],
+        scene, state.cage_angles[i], state.displacement[i], np.zeros(5), state.position[i]
     )
-    size = max(float(positions.load[:, i].max()), float(np.linalg.norm(scene.load.vector[:3])))
-    left = np.abs(sums.on_balls(centrifugal=positions.centrifugal_load, weight=weight)).max()
+    size = max(float(state.load[:, i].max()), float(np.linalg.norm(scene.load.vector[:3])))
+    left = np.abs(sums.on_balls(centrifugal=state.centrifugal_load, weight=weight)).max()
     lever = np.array([1.0, 1.0, 1.0, *[scene.bearing.groove_center_radius] * 2])
-    free = [("x", "y", "z", "rx", "ry").index(dof) for dof in positions.dofs]
+    free = [("x", "y", "z", "rx", "ry").index(dof) for dof in state.dofs]
     ring = float(np.abs((sums.force(0) - scene.load.vector) / lever)[free].max())
     if left > TOLERANCE * size:
         return f"{left:.2e} N left on a ball, of {size:.2e} N"

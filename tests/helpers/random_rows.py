@@ -60,37 +60,37 @@ def _bearing(rng: np.random.Generator, kind: str, decades: Any) -> Bearing:
         sphere = 0.5 * pitch / math.cos(angle) + 0.5 * ball
         return Bearing.self_aligning(n, ball, sphere, groove, angle, clearance)
     outer = ball * float(rng.uniform(0.505, 0.56))
-    one = Bearing.from_drawing(n, ball, pitch, groove, outer, contact_angle=angle)
-    one = dataclasses.replace(
-        one,
+    bearing = Bearing.from_drawing(n, ball, pitch, groove, outer, contact_angle=angle)
+    bearing = dataclasses.replace(
+        bearing,
         radial_clearance=clearance,
-        load_deflection_factor=one.load_deflection_factor * decades(0.1, 10.0),
+        load_deflection_factor=bearing.load_deflection_factor * decades(0.1, 10.0),
     )
     arrangement = kind if kind in ARRANGEMENTS else str(rng.choice(ARRANGEMENTS))
     preload = 0.0 if arrangement == "tandem" else float(rng.choice([0.0, decades(1e-7, 3e-5)]))
-    pair = one.paired(pitch * float(rng.uniform(0.0, 2.0)), arrangement, preload)
+    pair = bearing.paired(pitch * float(rng.uniform(0.0, 2.0)), arrangement, preload)
     low, high = pair.rows
     if kind == OWN_ANGLES:
         own = [math.radians(float(rng.uniform(0.0, 60.0))) for _ in "12"]
         low = dataclasses.replace(low, contact_angle=own[0] if rng.random() < 0.5 else None)
         high = dataclasses.replace(high, contact_angle=own[1])
     if kind == UNLIKE:
-        low, high = (_unlike(rng, row, one) for row in (low, high))
+        low, high = (_unlike(rng, row, bearing) for row in (low, high))
     high = dataclasses.replace(high, turn=float(rng.choice([0.0, 0.5 * pair.ball_spacing])))
     return pair.replace(rows=(low, high))
 
 
-def _unlike(rng: np.random.Generator, row: Row, one: Bearing) -> Row:
+def _unlike(rng: np.random.Generator, row: Row, bearing: Bearing) -> Row:
     """A row with some numbers of its own, near those of the bearing, that fit each other."""
-    assert one.inner_groove_radius is not None
+    assert bearing.inner_groove_radius is not None
     ball, pitch = (
-        d * float(rng.uniform(0.8, 1.2)) for d in (one.ball_diameter, one.pitch_diameter)
+        d * float(rng.uniform(0.8, 1.2)) for d in (bearing.ball_diameter, bearing.pitch_diameter)
     )
     own: dict[str, Any] = {"ball_diameter": ball, "pitch_diameter": pitch}
     most = math.floor(math.pi / math.asin(ball / pitch))
     if most < 2:
         return row
-    own["n_balls"] = int(rng.integers(2, min(most, 2 * one.n_balls) + 1))
+    own["n_balls"] = int(rng.integers(2, min(most, 2 * bearing.n_balls) + 1))
     if rng.random() < 0.5:
         own["contact_angle"] = math.radians(float(rng.uniform(0.0, 60.0)))
     if rng.random() < 0.5:

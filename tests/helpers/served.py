@@ -6,7 +6,7 @@ import time
 from collections.abc import Awaitable, Callable
 from typing import Any
 
-from bearing_explorer.kit.compute.executors import POOL_SIZE, in_thread
+from bearing_explorer.kit.compute.executors import POOL_SIZE, run_in_thread
 from bearing_explorer.kit.serve.serving import Limits, make_server
 from bearing_explorer.kit.serve.websocket import LiveSocket
 from bearing_explorer.page import page
@@ -35,7 +35,7 @@ def served(
             server.stop()
             # a view that is still being made in a thread would disturb the next test
             idle = threading.Barrier(POOL_SIZE)
-            await asyncio.gather(*(in_thread(idle.wait, 60.0) for _ in range(POOL_SIZE)))
+            await asyncio.gather(*(run_in_thread(idle.wait, 60.0) for _ in range(POOL_SIZE)))
 
     run(both())
 

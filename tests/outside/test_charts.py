@@ -233,12 +233,9 @@ def test_points_of_the_statics_charts(preset: str) -> None:
     for method, tolerance in wanted:
         q = np.stack([solved(method, tolerance, at) for at in cage], axis=1)
         slopes = rows.slopes(q, cage) / np.outer(units, units)
-        differences = errors(rows.load(q[:, :, None], cage[:, None]), slopes)
+        gaps = errors(rows.load(q[:, :, None], cage[:, None]), slopes)
         for name, error in points.get((method, tolerance), {}).items():
-            assert error == pytest.approx(differences[name], rel=1e-2, abs=1e-9), (
-                method,
-                tolerance,
-            )
+            assert error == pytest.approx(gaps[name], rel=1e-2, abs=1e-9), (method, tolerance)
 
 
 NOT_YET_OF_ORDER_2 = ("209", "liew-lim")
@@ -278,12 +275,8 @@ def test_levels_of_edge_models(preset: str) -> None:
     for edge in ("exact", "chord", "published"):
         true = exact(preset, 0.2, edge, tolerance=1e-7)[:, :2]
         scene = presets[preset].replace(edge=edge)
-        acceleration = simulate(scene, 0.2, RATE, step_rate=4.0 * RATE).instant_acceleration(
-            "outer"
-        )
-        powers = [
-            np.mean(one[: len(true), :2] ** 2) for one in (acceleration, true[: len(acceleration)])
-        ]
+        ours = simulate(scene, 0.2, RATE, step_rate=4.0 * RATE).instant_acceleration("outer")
+        powers = [np.mean(one[: len(true), :2] ** 2) for one in (ours, true[: len(ours)])]
         assert abs(10.0 * math.log10(powers[0] / powers[1])) < 0.05, edge
 
 

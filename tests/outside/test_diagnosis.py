@@ -160,16 +160,14 @@ def passages(apart_deg: float, rate: float = 25_600.0, seed: int = 3) -> Array:
 )  # fmt: skip
 @pytest.mark.parametrize("apart", [4.0, 6.0, 12.0, 27.0])
 def test_an_extent_known_by_entry_and_exit(apart: float) -> None:
-    extent = measure_extent(
-        recording(passages(apart), 25_600.0), BEARING, TURN * 15.0, race="outer"
-    )
+    spall = measure_extent(recording(passages(apart), 25_600.0), BEARING, TURN * 15.0, race="outer")
     sure = apart < 40.0 / 6.0
-    assert extent.status == (ExtentStatus.MEASURED if sure else ExtentStatus.EITHER)
+    assert spall.status == (ExtentStatus.MEASURED if sure else ExtentStatus.EITHER)
     shorter = min(apart, 40.0 - apart)
-    assert math.degrees(extent.separation) == pytest.approx(shorter, abs=0.3)
-    (one, low, high), (other, _, _) = np.degrees(extent.alternatives)
-    assert one + other == pytest.approx(40.0 + 2.0 * math.degrees(extent.offset))
-    assert low < shorter + math.degrees(extent.offset) < high
+    assert math.degrees(spall.separation) == pytest.approx(shorter, abs=0.3)
+    (one, low, high), (other, _, _) = np.degrees(spall.alternatives)
+    assert one + other == pytest.approx(40.0 + 2.0 * math.degrees(spall.offset))
+    assert low < shorter + math.degrees(spall.offset) < high
 
 
 @witness(

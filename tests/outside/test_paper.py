@@ -28,10 +28,8 @@ def numbers(number: int, name: str) -> list[float]:
         .replace("kg", "")
         .replace("m/s²", "")
     )
-    values, units = (
-        [],
-        re.findall(r"(-?\d+(?:\.\d+)?)\s*([GMkmµn]?)(?=(N|m/s|Hz|kg|s\b|dB))?", text),
-    )
+    values: list[float] = []
+    units = re.findall(r"(-?\d+(?:\.\d+)?)\s*([GMkmµn]?)(?=(N|m/s|Hz|kg|s\b|dB))?", text)
     last = 1.0
     for value, prefix, unit in reversed(units):
         last = PREFIX[prefix] if unit or prefix else last

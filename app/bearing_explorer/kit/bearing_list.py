@@ -116,8 +116,8 @@ def _length(text: str) -> float | None:
 
 def _has_length(bearing: Bearing, length: float) -> bool:
     """Whether a bearing has balls or a pitch circle of a diameter [m]."""
-    own = (bearing.ball_diameter, bearing.pitch_diameter)
-    return any(math.isclose(length, number, rel_tol=SAME_LENGTH) for number in own)
+    lengths = (bearing.ball_diameter, bearing.pitch_diameter)
+    return any(math.isclose(length, number, rel_tol=SAME_LENGTH) for number in lengths)
 
 
 def _rank(wanted: str, name: str, note: str) -> int:
@@ -143,10 +143,8 @@ def _entry(choose: dict[str, str], label: str, words: str, mark: str) -> dict[st
     return {"choose": choose, "label": label, "words": words, "mark": mark}
 
 
-def _estimated(designation: Designation) -> dict[str, Any]:
-    return _entry(
-        {"bearing": designation.name}, designation.name, entry_words(designation.entry), "estimated"
-    )
+def _estimated(made: Designation) -> dict[str, Any]:
+    return _entry({"bearing": made.name}, made.name, entry_words(made.entry), "estimated")
 
 
 def entry_words(entry: CatalogueBearing) -> str:

@@ -18,7 +18,7 @@ import panel as pn
 from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.compute import compiling
 from bearing_explorer.kit.compute.drawing_loop import DrawingLoop
-from bearing_explorer.kit.compute.executors import in_thread, in_turn
+from bearing_explorer.kit.compute.executors import in_turn, run_in_thread
 from bearing_explorer.kit.compute.jobs import Change, Jobs
 from bearing_explorer.kit.pictures import BROKEN, Picture, picture_of
 from bearing_explorer.kit.serve import log as write
@@ -259,7 +259,7 @@ class Session:
         """
         late = threading.Event()
         fine, views = content.at_rest(give_up=late.is_set), self._views[self._on_screen]
-        drawing = asyncio.ensure_future(in_thread(picture_of, fine, views, True))
+        drawing = asyncio.ensure_future(run_in_thread(picture_of, fine, views, True))
         await asyncio.wait({drawing}, timeout=_SOON)
         if not drawing.done():
             late.set()
@@ -294,14 +294,14 @@ class Session:
         """Draw what follows a slider, what takes long after the others."""
         quick, slow = self._quick_and_slow(content)
         if quick or not slow:
-            run = in_turn if self._quick_cost < _AT_ONCE else in_thread
+            run = in_turn if self._quick_cost < _AT_ONCE else run_in_thread
             content, picture = await run(self._newest_picture, content, quick)
             self._quick_cost = picture.work
             await self._assign(picture, None if slow else content.mark)
         if slow:
             before = time.perf_counter()
             warnings = not quick and self._warnings_due(content)
-            picture = await in_thread(picture_of, content, slow, warnings)
+            picture = await run_in_thread(picture_of, content, slow, warnings)
             self._slow_at = time.perf_counter()
             self._slow_cost = self._slow_at - before
             await self._assign(picture, content.mark)

@@ -139,11 +139,11 @@ def diagnose(
         recording = checks.instance("recording", recording, str, FILE_OR_FOLDER)
     path = Path(recording)
     if path.is_dir():
-        return _of_folder(path, bearing, shaft_speed, choices, more)
-    return _of_file(path, bearing, shaft_speed, choices, more)
+        return _diagnose_folder(path, bearing, shaft_speed, choices, more)
+    return _diagnose_file(path, bearing, shaft_speed, choices, more)
 
 
-def _of_folder(
+def _diagnose_folder(
     folder: Path, bearing: BearingLike | None, shaft_speed: Any, choices: Any, more: Any
 ) -> FolderDiagnosis:
     named = [path for path in sorted(folder.iterdir()) if path.name[0] != "." and path.is_file()]
@@ -154,7 +154,7 @@ def _of_folder(
     sentences = []
     for file in files:
         try:
-            answer = _of_file(file, bearing, shaft_speed, choices, more)
+            answer = _diagnose_file(file, bearing, shaft_speed, choices, more)
             answers.append(answer)
             sentences.append(answer.sentence)
         except ValueError as error:
@@ -163,7 +163,7 @@ def _of_folder(
     return FolderDiagnosis(tuple(file.name for file in files), tuple(answers), tuple(sentences))
 
 
-def _of_file(
+def _diagnose_file(
     path: Path, bearing: BearingLike | None, shaft_speed: Any, choices: Any, more: Any
 ) -> Diagnosis:
     if not path.is_file():

@@ -80,7 +80,7 @@ def read_recording(
             ) from None
     path = os.fspath(file)
     table = read_table(path if ".zip/" in path else Path(path).name, content)
-    table = _with_roles(table, columns or {}, time_unit, unit, speed_unit)
+    table = _assign_roles(table, columns or {}, time_unit, unit, speed_unit)
     return _recording(
         table if part is None else table.one_of_recordings(part),
         _listed((columns or {}).get("signal")),
@@ -97,7 +97,7 @@ def _listed(columns: OneOrMore) -> list[int | str]:
     return [columns] if isinstance(columns, int | str) else list(columns or ())
 
 
-def _with_roles(
+def _assign_roles(
     table: Table,
     columns: Mapping[str, OneOrMore],
     time_unit: str | None,

@@ -228,11 +228,11 @@ def choose(
     if not signals:
         return Choice({}, "", "No column looks like a signal of acceleration.")
     if len({columns[index].place for index in signals} - {""}) > 1:
-        return _by_place(columns, signals, why, file_name, place)
-    return _by_direction(columns, signals, why)
+        return _choose_by_place(columns, signals, why, file_name, place)
+    return _choose_by_direction(columns, signals, why)
 
 
-def _by_place(
+def _choose_by_place(
     columns: Sequence[Column], signals: Sequence[int], why: str, file_name: str, place: str
 ) -> Choice:
     """Signals of the one place that the file's name says, or that is known."""
@@ -242,7 +242,7 @@ def _by_place(
     place = said or place
     there = [index for index in signals if place and columns[index].place == place]
     if there:
-        return _by_direction(columns, there, f"the file's name says {said}" if said else why)
+        return _choose_by_direction(columns, there, f"the file's name says {said}" if said else why)
     known = ", ".join(sorted(places))
     question = f"The file holds signals of several places ({known}). Which is at this bearing?"
     return Choice({}, "", question, tuple(signals))
@@ -255,7 +255,7 @@ def only_signal(name: str, index: int, why: str) -> Choice:
     return Choice({"y": index}, reason, note=note)
 
 
-def _by_direction(columns: Sequence[Column], signals: Sequence[int], why: str) -> Choice:
+def _choose_by_direction(columns: Sequence[Column], signals: Sequence[int], why: str) -> Choice:
     """Signals of one place by their directions."""
     named = {axis: [i for i in signals if columns[i].direction == axis] for axis in ("x", "y")}
     if any(len(there) > 1 for there in named.values()):

@@ -28,7 +28,7 @@ from bearingcore.measured.files._channels import (
 )
 from bearingcore.measured.files._collections import Known, recognize
 from bearingcore.measured.files._facts import Finding, Named, is_steady
-from bearingcore.measured.files._other_kinds import kind_in_words, without_spectra
+from bearingcore.measured.files._other_kinds import kind_in_words, leave_out_spectra
 from bearingcore.measured.files._sampling import (
     Sampling,
     clock_columns,
@@ -181,8 +181,8 @@ def contents_of(table: FileColumns) -> FileContents:
     lines = [*table.remarks, *texts]
     named = [
         *(Named(name, value) for name, value in table.scalars.items()),
-        *facts.named_in(map(dates.without_dates, table.remarks)),
-        *facts.named_in(dates.without_dates(text) for text in texts),
+        *facts.named_in(map(dates.remove_dates, table.remarks)),
+        *facts.named_in(dates.remove_dates(text) for text in texts),
     ]
     hours = table.names[0].strip().lower() in ("hour", "hours", "h", "stunde")
     clock = clock_columns(table.columns) if hours or not table.headed else 0
@@ -236,17 +236,17 @@ def _chosen(
         return tuple(columns), choice
     axis = _frequencies(table, columns, timed=sampling is not None)
     if not known.why:
-        columns = without_spectra(columns, table.columns, axis)
+        columns = leave_out_spectra(columns, table.columns, axis)
         name = "" if axis is None or sampling is not None else columns[axis].name
         if words := kind_in_words(columns, table.columns, lines, table.name, name):
             return tuple(columns), Choice({}, "", words)
     choice = choose(columns, moving, why, table.name, known.row.place)
     if choice.columns or choice.options or known.why:
         return tuple(columns), choice
-    return _with_only_signal(columns, table.columns, axis, why) or (tuple(columns), choice)
+    return _choose_only_signal(columns, table.columns, axis, why) or (tuple(columns), choice)
 
 
-def _with_only_signal(
+def _choose_only_signal(
     columns: Sequence[Column], values: Array, axis: int | None, why: str
 ) -> tuple[tuple[Column, ...], Choice] | None:
     """Of no signals by their names, the only column that swings about zero as the signal."""
@@ -273,7 +273,7 @@ def _columns(
     table: FileColumns, clock: int, known: Known
 ) -> tuple[tuple[Column, ...], Sampling | None]:
     """The columns, and what the times say where some of them are times."""
-    columns = _as_in_collection(_with_units(table, _named_columns(table)), known)
+    columns = _apply_collection(_add_units(table, _named_columns(table)), known)
     for index, column in enumerate(columns if len(columns) > 1 else ()):
         if column.role in (SIGNAL, TIME) and _counts(table.columns[:, index], column):
             columns[index] = Column(column.name, OTHER)
@@ -287,7 +287,7 @@ def _columns(
         columns[index] = column
     given_times = [index for index, column in table.given.items() if column.role == TIME]
     if not given_times:
-        return _with_times(table, columns, stamped)
+        return _read_times(table, columns, stamped)
     unit, values = columns[given_times[0]].unit, table.columns[:, given_times[0]]
     if unit is None:
         return tuple(columns), times_of(values)
@@ -307,7 +307,7 @@ def _named_columns(table: FileColumns) -> list[Column]:
     ]
 
 
-def _with_units(table: FileColumns, columns: list[Column]) -> list[Column]:
+def _add_units(table: FileColumns, columns: list[Column]) -> list[Column]:
     """The columns with the units that lines give, each its own; one may be that of no signal."""
     units = facts.units_said(table.remarks, table.texts)
     signals = [index for index, column in enumerate(columns) if column.role == SIGNAL]
@@ -320,7 +320,7 @@ def _with_units(table: FileColumns, columns: list[Column]) -> list[Column]:
     return columns
 
 
-def _as_in_collection(columns: list[Column], known: Known) -> list[Column]:
+def _apply_collection(columns: list[Column], known: Known) -> list[Column]:
     """The columns with what a public collection says of them."""
     row = known.row
     if row.signals:
@@ -335,7 +335,7 @@ def _as_in_collection(columns: list[Column], known: Known) -> list[Column]:
     return columns
 
 
-def _with_times(
+def _read_times(
     table: FileColumns, columns: list[Column], stamped: Sequence[int]
 ) -> tuple[tuple[Column, ...], Sampling | None]:
     """The columns, and what those say that count rows or are times: by name, or as they rise."""
@@ -357,10 +357,10 @@ def _with_times(
                 sampling = times_of(values)
                 reason = f"{sampling.reason} “{column.name}”"
                 samplings[index] = dataclasses.replace(sampling, reason=reason)
-    return tuple(columns), _of_most_certain(samplings, [column.name for column in columns])
+    return tuple(columns), _most_certain(samplings, [column.name for column in columns])
 
 
-def _of_most_certain(samplings: Mapping[int, Sampling], names: Sequence[str]) -> Sampling | None:
+def _most_certain(samplings: Mapping[int, Sampling], names: Sequence[str]) -> Sampling | None:
     """What the columns of times say, each by its index; where they disagree it is not sure."""
     if not samplings:
         return None

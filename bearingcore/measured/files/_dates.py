@@ -91,7 +91,7 @@ def _month_and_day(part: Mapping[str, str], *, is_american: bool) -> tuple[int, 
     return 0 if unclear else month, day
 
 
-def without_dates(line: str) -> str:
+def remove_dates(line: str) -> str:
     """Return a line without its dates, whose numbers are no facts of the recording."""
     return _DATE.sub(lambda match: "" if _is_date(match) else match[0], line)
 

@@ -141,11 +141,11 @@ FASTEST_IN_HZ = 150.0
 def named_in(lines: Iterable[str]) -> list[Named]:
     """The numbers that lines above a table name, such as "Sample rate: 25.6 kHz"."""
     kept = [line.replace('"', "").strip() for line in islice(lines, MOST_REMARKS)]
-    under = [item for pair in pairwise(kept) for item in _under(*pair)]
-    return [*(item for line in kept for item in _in_line(line)), *under]
+    under = [item for pair in pairwise(kept) for item in _read_below(*pair)]
+    return [*(item for line in kept for item in _read_line(line)), *under]
 
 
-def _under(names: str, values: str) -> Iterator[Named]:
+def _read_below(names: str, values: str) -> Iterator[Named]:
     """A rate or an interval under its name, in a cell of an oscilloscope's headings."""
     above, below = ([c.strip(' "') for c in re.split(r"[\t;,]", line)] for line in (names, values))
     for name, text in zip(above, below, strict=False) if min(len(above), len(below)) > 1 else ():
@@ -169,7 +169,7 @@ def _middle(match: re.Match[str]) -> str:
     return f" ({MIDDLE} {low:g} to {high:g}){match[1]} {0.5 * (low + high):g} {match[4]}"
 
 
-def _in_line(line: str) -> Iterator[Named]:
+def _read_line(line: str) -> Iterator[Named]:
     line = _RANGE.sub(_middle, line)
     match = _REMARK.fullmatch(line)
     cells = [cell.strip(' "') for cell in re.split("\t" if "\t" in line else "[;,]", line)]
@@ -183,7 +183,7 @@ def _in_line(line: str) -> Iterator[Named]:
         named = []
     else:
         named = [(pair[1], pair[2], pair[3]) for pair in _SEVERAL.finditer(line)]
-    for name, text, unit in named or _without_marks(line):
+    for name, text, unit in named or _read_unmarked(line):
         value = _number(text)
         if value is not None:
             unit = unit_named(unit) if unit else unit_in(name)
@@ -191,7 +191,7 @@ def _in_line(line: str) -> Iterator[Named]:
             yield Named(name.strip(" :;,=\t"), value, unit, grouped)
 
 
-def _without_marks(line: str) -> Iterator[tuple[str, str, str | None]]:
+def _read_unmarked(line: str) -> Iterator[tuple[str, str, str | None]]:
     """Names, numbers and units of a line without a mark between them, such as "1500 rpm"."""
     for part in dict.fromkeys((line, *re.split(r"[,;]\s", line))):
         match = _WITH_UNIT.fullmatch(part.strip())

@@ -271,8 +271,8 @@ def _hdf5(item: Any, path: str, variables: Variables, depth: int) -> None:
     if isinstance(item, h5py.Group):
         for name in item:
             # MATLAB keeps in #refs# what cells point at
-            own = isinstance(item.get(name, getlink=True), h5py.HardLink)
-            if own and not (depth == 0 and name.startswith("#")):
+            is_inside = isinstance(item.get(name, getlink=True), h5py.HardLink)
+            if is_inside and not (depth == 0 and name.startswith("#")):
                 _hdf5(item[name], f"{path}.{name}" if path else name, variables, depth + 1)
     elif not isinstance(item, h5py.Dataset) or item.external or item.is_virtual:
         return
@@ -287,7 +287,7 @@ def _hdf5(item: Any, path: str, variables: Variables, depth: int) -> None:
                 _hdf5(item.file[reference], inside, variables, depth + 1)
         return
     elif item.shape is not None and "MATLAB_empty" not in item.attrs:
-        variables.add(path, _as_in_matlab(item))
+        variables.add(path, _matlab_values(item))
     _attributes(item, path, variables)
 
 
@@ -303,7 +303,7 @@ _OF_THE_FORMAT = ("MATLAB_", "H5PATH", "CLASS", "DIMENSION")
 """Attributes that say how a thing is stored."""
 
 
-def _as_in_matlab(data: Any) -> NDArray[Any]:
+def _matlab_values(data: Any) -> NDArray[Any]:
     """The values of a data set; MATLAB keeps words as numbers of letters, and truth as numbers."""
     kind = data.attrs.get("MATLAB_class", b"")
     values = np.asarray(data[()])

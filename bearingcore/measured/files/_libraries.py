@@ -240,9 +240,8 @@ def uff(content: bytes, variables: Variables) -> None:
         said = [_word(signal, "id1"), _AXES.get(abs(int(signal.get("rsp_dir", 0))), "")]
         said += [f"point {signal['rsp_node']}"] if len(points) > 1 else []
         path = " ".join(filter(None, said))
-        path = (
-            path if path and path not in variables.numbers else f"{path} signal {index + 1}".strip()
-        )
+        if not path or path in variables.numbers:
+            path = f"{path} signal {index + 1}".strip()
         variables.add(path, np.asarray(signal["data"]))
         if signal["abscissa_spacing"]:
             variables.add(f"{path}.dt", np.array(float(signal["abscissa_inc"])))

@@ -72,7 +72,7 @@ def quantity_of(column: Column) -> str:
     return ""
 
 
-def without_spectra(columns: Sequence[Column], values: Array, axis: int | None) -> list[Column]:
+def leave_out_spectra(columns: Sequence[Column], values: Array, axis: int | None) -> list[Column]:
     """Return the columns of a table with times, where those of a spectrum are no signals.
 
     A spectrum beside its waveform is shorter, follows its own `axis`, or never changes its sign.
@@ -128,10 +128,10 @@ def kind_in_words(
         return SPECTRUM.format(axis, " of an envelope" if enveloped else "")
     if enveloped:
         return ENVELOPE.format(enveloped[0])
-    return "" if signals else _without_signals(columns, values, said)
+    return "" if signals else _no_signal_words(columns, values, said)
 
 
-def _without_signals(columns: Sequence[Column], values: Array, said: Iterable[str]) -> str:
+def _no_signal_words(columns: Sequence[Column], values: Array, said: Iterable[str]) -> str:
     for line in filter(_SPECTRUM.search, said):
         return SPECTRUM.format(f"“{line[:60]}”: this is", "")
     others = [index for index, column in enumerate(columns) if column.role == OTHER]

@@ -190,7 +190,7 @@ def sampling_of(time: Array, unit: float = 1.0) -> Sampling:
     rounded = _rounded(time, steps)
     if rounded is not None:
         return _rounded_times(rounded, time, unit)
-    return _with_jumps(time, steps, unit)
+    return _sample_jumps(time, steps, unit)
 
 
 def _even(time: Array) -> tuple[float, float] | None:
@@ -251,7 +251,7 @@ def _rounded_times(grain: float, time: Array, unit: float) -> Sampling:
     return Sampling(rate / unit, False, 0, n, trouble, "the rounded time column")
 
 
-def _with_jumps(time: Array, steps: Array, unit: float) -> Sampling:
+def _sample_jumps(time: Array, steps: Array, unit: float) -> Sampling:
     """Times that jump: the longest part between two jumps."""
     n = len(time)
     usual = float(np.median(steps[steps > 0.0]))

@@ -188,7 +188,7 @@ class Table(FileColumns):
         units = [self._unit(index, unit) for index in picked]
         scale = checks.real_number("full_scale", full_scale, above=0.0, unit=unit or "")
         rate, notes = self._rate(sample_rate)
-        signal, begin, gaps = self._without_gaps(picked)
+        signal, begin, gaps = self._longest_part(picked)
         cut = dict.fromkeys(cut_off(column[np.isfinite(column)]) for column in signal.T)
         only = contents.choice.note if picked == [*contents.choice.columns.values()] else ""
         angle, angle_from = self._angle(slice(begin, begin + len(signal)), rate)
@@ -197,7 +197,7 @@ class Table(FileColumns):
         if sensitivity is None and contents.sensitivity is not None:
             sensitivity = contents.sensitivity.value
         with np.errstate(over="ignore", invalid="ignore"):  # the recording refuses what comes out
-            notes += self._to_acceleration(signal, units, rate, sensitivity)
+            notes += self._make_acceleration(signal, units, rate, sensitivity)
         speed = contents.shaft_speed
         if shaft_speed is None and speed is not None and speed.stated:
             shaft_speed = speed.value
@@ -244,7 +244,7 @@ class Table(FileColumns):
             words = f"{words} The shaft's angle is taken from the pulses in “{name}”.".strip()
         return words
 
-    def _to_acceleration(
+    def _make_acceleration(
         self, signal: Array, units: Sequence[str], rate: float, sensitivity: float | None
     ) -> list[str]:
         """Make columns in `units` accelerations [m/s²], in place; sentences on how."""
@@ -315,7 +315,7 @@ class Table(FileColumns):
             notes.append(f"{typed}; {stated.reason} {says} {number(stated.value, 6)} Hz.")
         return rate, notes
 
-    def _without_gaps(self, picked: Sequence[int]) -> tuple[Array, int, str]:
+    def _longest_part(self, picked: Sequence[int]) -> tuple[Array, int, str]:
         """The longest part without a jump or gap, its first row; what is bridged and left out."""
         sampling = self.contents.sampling
         first, last = (
@@ -370,12 +370,12 @@ def files_inside(name: str, content: bytes, give_up: Callable[[], bool] | None =
     if content[:4] != b"PK\x03\x04" or ".zip/" in name:
         return [name]
     about, _ = read_file(name, content, give_up=give_up)
-    inside = sorted(about.get("inside", ()), key=_in_order)
+    inside = sorted(about.get("inside", ()), key=_order_key)
     packed = re.sub(r"(?i)\.zip$", "", name) + ".zip"
     return [f"{packed}/{name}" for name in inside] or [name]
 
 
-def _in_order(name: str) -> list[tuple[int, str]]:
+def _order_key(name: str) -> list[tuple[int, str]]:
     """A key by which run2 is before run10."""
     return [(int(part or 0), word) for word, part in re.findall(r"(\D*)(\d{0,18})", name)]
 
@@ -427,10 +427,10 @@ def read_table(name: str, content: bytes, give_up: Callable[[], bool] | None = N
         )
     for words in ("names", "remarks", "stamps", "notes"):
         about[words] = tuple(about.get(words, ()))
-    return _with_skipped_rows(Table(columns=columns, **{"name": name, **about}))
+    return _fill_skipped_rows(Table(columns=columns, **{"name": name, **about}))
 
 
-def _with_skipped_rows(table: Table) -> Table:
+def _fill_skipped_rows(table: Table) -> Table:
     """The table with a row of gaps wherever the times skip exactly one."""
     timed = [i for i, column in enumerate(table.contents.columns) if column.role == TIME]
     rows = skipped_rows(table.columns[:, timed[0]]) if len(timed) == 1 else np.arange(0)

@@ -80,7 +80,7 @@ def read_text(
     FieldError
         saying what is wrong, and in which line.
     """
-    content = _without_labels(_of_one_byte(name, content))
+    content = _tabulate_labels(_decode_to_utf8(name, content))
     # the first lines that are numbers tell how all are written: delimiter, decimal sign, width
     style, begin, remarks = _beginning(name, content)
     if style.width > min(LONG_ROW, most_columns):
@@ -106,7 +106,7 @@ def read_text(
     stamps = [kept.index(i) for i in style.stamps]
     if headings is None:
         # without names the first rows may be no samples but say the start and the rate
-        read, lines, more = _without_start(read)
+        read, lines, more = _split_start(read)
         said, notes = said + lines, notes + more
     elif sensors is None:
         sensors = _numbers_of_sensors(read, headings)
@@ -150,7 +150,7 @@ FAR_ABOVE = 50.0
 """Times all that follows: a number that is no sample among them."""
 
 
-def _without_start(columns: Array) -> tuple[Array, list[str], list[str]]:
+def _split_start(columns: Array) -> tuple[Array, list[str], list[str]]:
     """Numbers without lines at the beginning that say start, count and rate; what they say.
 
     Wristbands of Empatica write the start, in seconds since 1970, and then the rate, in each
@@ -236,15 +236,15 @@ def _side_by_side(
         if _SENSOR.fullmatch(heading.strip()):
             continue
         times += [len(made)] * (i in stamps)
-        own = [part[:, i] for part in several]
+        signals = [part[:, i] for part in several]
         once = i in stamps or column_of(heading).role == TIME
-        once = once or all(np.array_equal(count, own[0], equal_nan=True) for count in own)
-        made += own[:1] if once else own
+        once = once or all(np.array_equal(count, signals[0], equal_nan=True) for count in signals)
+        made += signals[:1] if once else signals
         heads += [heading] if once else [f"{label}: {heading}" for label in names]
     return np.column_stack(made), heads, times
 
 
-def _of_one_byte(name: str, content: bytes) -> bytes:
+def _decode_to_utf8(name: str, content: bytes) -> bytes:
     """A text without marks and with ends of lines, in UTF-8 if it had two bytes a character."""
     start = content[:4096]
     even, odd = (start[i::2].count(0) for i in (0, 1))
@@ -267,7 +267,7 @@ _LABELLED = re.compile(
 """A number with its name before it, as Arduinos write all of a line: "ax: 0.12g, ay: 9.81g"."""
 
 
-def _without_labels(content: bytes) -> bytes:
+def _tabulate_labels(content: bytes) -> bytes:
     """Lines of such numbers as a table with a heading; any other text as it is."""
 
     def labels(line: str) -> list[tuple[str, str, str]]:
@@ -623,11 +623,11 @@ def _headings(remarks: Sequence[str], style: _Style, columns: Array) -> list[str
     if names is None:
         return None
     above = _names(lines[-2], style, columns) if len(lines) > 1 else None
-    names = _with_units(names, above)
-    given = [name for name in names if name]
-    if any(re.fullmatch(r"-?\d*[.,]\d+", name) for name in given):
+    names = _join_units(names, above)
+    headings = [name for name in names if name]
+    if any(re.fullmatch(r"-?\d*[.,]\d+", name) for name in headings):
         return None  # numbers beside the settings of an instrument
-    if not given or all(_row(cell, None) for cell in given):
+    if not headings or all(_row(cell, None) for cell in headings):
         return None
     return [
         name if name and names.count(name) == 1 else f"{name}, column {index + 1}".strip(", ")
@@ -635,7 +635,7 @@ def _headings(remarks: Sequence[str], style: _Style, columns: Array) -> list[str
     ]
 
 
-def _with_units(names: list[str], above: list[str] | None) -> list[str]:
+def _join_units(names: list[str], above: list[str] | None) -> list[str]:
     """The names of a line, or those of the line above with the units, or ends, of this one."""
     if above is not None and _are_units(names):
         units = [unit.strip("[]() ") for unit in names]
@@ -724,7 +724,7 @@ def _names(line: str, style: _Style, columns: Array) -> list[str] | None:
         names = [cell.strip().strip('"').strip() for cell in cells]
         if _is_a_value(names):
             continue
-        names = _with_width(names, style, columns)
+        names = _fit_width(names, style, columns)
         if len(names) == width:
             return names
     names = [cell.strip(' "') for cell in line.split(style.delimiter or "\n")]
@@ -735,7 +735,7 @@ def _names(line: str, style: _Style, columns: Array) -> list[str] | None:
     return None
 
 
-def _with_width(names: list[str], style: _Style, columns: Array) -> list[str]:
+def _fit_width(names: list[str], style: _Style, columns: Array) -> list[str]:
     """The names of a heading without those of no column, and with those that need not be there."""
     width = columns.shape[1]
     while len(names) > width and (
@@ -857,7 +857,7 @@ def _mended(
             break
         if allowed:
             wrong.append((index, text, allowed))
-            cells, missing = _with_gaps(cells, style)
+            cells, missing = _fill_gaps(cells, style)
             words |= missing
             torn += not missing
             most = many if len(words) <= MOST_MISSING_WORDS else few
@@ -871,7 +871,7 @@ def _mended(
     return b"".join(lines), notes + _lacking(lacking), [text for _, text in lacking[:SAMPLE]]
 
 
-def _with_gaps(cells: list[str], style: _Style) -> tuple[list[str], set[str]]:
+def _fill_gaps(cells: list[str], style: _Style) -> tuple[list[str], set[str]]:
     """Cells with gaps in place of words, and these; gaps alone where the line is torn."""
     bad = [i for i, c in enumerate(cells) if i not in style.words and _number(c) is None]
     if len(cells) != style.width or not bad:

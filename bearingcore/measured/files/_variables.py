@@ -41,7 +41,7 @@ class Variables:
         for part in value.dtype.names or ():
             self.add(f"{path}.{part}" if path else part, value[part].ravel())
         if value.dtype.kind in "Mm":
-            value = _in_seconds(value)
+            value = _seconds(value)
         if value.ndim > 2:  # the longest direction is that of the samples
             longest = int(np.argmax(value.shape))
             value = np.moveaxis(value, longest, 0).reshape(value.shape[longest], -1)
@@ -118,7 +118,7 @@ def check_depth(depth: int) -> None:
         raise checks.refuse("structs inside one another", "deeper", f"at most {DEEPEST}")
 
 
-def _in_seconds(values: NDArray[Any]) -> NDArray[Any]:
+def _seconds(values: NDArray[Any]) -> NDArray[Any]:
     """Dates as seconds since the first, and durations."""
     if values.dtype.kind == "M" and values.size:
         values = values - values.ravel()[0]

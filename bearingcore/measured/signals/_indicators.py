@@ -210,8 +210,8 @@ def _rms_of_integral(
     samples = np.asarray(acceleration, dtype=float)
     n = len(samples) if samples.ndim else 1
     if n < 2 or not np.all(np.isfinite(samples)):
-        given = reprlib.repr(acceleration)
-        raise checks.refuse("acceleration", given, "two or more finite numbers")
+        text = reprlib.repr(acceleration)
+        raise checks.refuse("acceleration", text, "two or more finite numbers")
     motion = samples.reshape(n, -1)
     place = np.linspace(-1.0, 1.0, n)
     for degree in range(2, 2 + integrations):

@@ -21,8 +21,8 @@ from .codes import (
 from .compiling import all_on_disk as all_on_disk, kept_on_disk as kept_on_disk
 from .modes import DOUBTFUL as DOUBTFUL, modes_like as modes_like
 from .motion.march import (
-    between_steps as between_steps,
     elastic_loads as elastic_loads,
+    interpolate_steps as interpolate_steps,
     march as march,
     motion_rates as motion_rates,
     side_by_side as side_by_side,

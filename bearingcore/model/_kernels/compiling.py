@@ -167,8 +167,8 @@ def all_on_disk() -> bool:
 @cache
 def _keep_plain() -> bool:
     """Have Numba keep code in a folder of these sources alone; False where it cannot be written."""
-    own = Path(__file__).parent
-    folder = Path(numba.config.CACHE_DIR or own / "__pycache__") / f"plain-{sources(own)}"
+    here = Path(__file__).parent
+    folder = Path(numba.config.CACHE_DIR or here / "__pycache__") / f"plain-{sources(here)}"
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError:
@@ -207,8 +207,8 @@ class KernelCache(FunctionCache):  # type: ignore[misc]
     def __init__(self, function: Callable[..., Any]) -> None:
         super().__init__(function)
         base = Path(self._cache_path) / self._impl.filename_base
-        own = Path(function.__code__.co_filename).parent
-        version = f"{numba.__version__} {sources(Path(__file__).parent)} {sources(own)}"
+        here = Path(function.__code__.co_filename).parent
+        version = f"{numba.__version__} {sources(Path(__file__).parent)} {sources(here)}"
         self._cache_file = KernelFiles(base, version)
 
     def load_overload(self, signature: Any, context: Any) -> Any:

@@ -74,7 +74,7 @@ def find_modes(terms, mixing, offset, squared, order, likeness, work):
                     B[i, j, k] = value
                     B[j, i, k] = value
                 term += 1
-        in_modes(B, mixing, offset, half, A)
+        transform_to_modes(B, mixing, offset, half, A)
         for i in range(m):
             for j in range(m):
                 for k in range(TOGETHER):
@@ -107,7 +107,7 @@ def find_modes(terms, mixing, offset, squared, order, likeness, work):
 
 
 @called
-def in_modes(B, mixing, offset, half, A):
+def transform_to_modes(B, mixing, offset, half, A):
     """A = mixing B mixing' + offset, upper triangle (Eq. 25 in the template's modes)."""
     m, nd = mixing.shape
     for i in range(m):

@@ -127,9 +127,9 @@ def drops_of(contacts, path, cage_angles, turned):
     """
     angles, drops = contacts.angles_at(cage_angles), []
     for row, (first, count) in enumerate(contacts.rows.tolist()):
-        own = angles[:, first : first + count]
-        cage = np.broadcast_to((contacts.relative_speed[first] * turned)[:, None], own.shape)
-        drops.append(ball_path(own.ravel(), cage.ravel(), row, path).reshape(own.shape))
+        phi = angles[:, first : first + count]
+        cage = np.broadcast_to((contacts.relative_speed[first] * turned)[:, None], phi.shape)
+        drops.append(ball_path(phi.ravel(), cage.ravel(), row, path).reshape(phi.shape))
     return np.concatenate(drops, axis=1)
 
 

@@ -235,7 +235,7 @@ def least_pivot(H, active, A):
 
 
 @inlined
-def with_factors(contacts, factor):
+def replace_factors(contacts, factor):
     """The same contacts with other load-deflection factors (n,)."""
     return Contacts(
         contacts.angle,
@@ -269,7 +269,7 @@ def drop_negligible_contacts(q, noise, place, contacts, load, work, other):
     for j in range(factor.size):
         Q, _, _ = carried(x, place, j, contacts)
         factor[j] = contacts.factor[j] if noise < Q else 0.0
-    firm = with_factors(contacts, factor)
+    firm = replace_factors(contacts, factor)
     H = work.H[other]
     energy_gradient_hessian(q, load.force, place, firm, work.g[other], H)
     return least_pivot(H, load.active, work.L)
@@ -528,7 +528,7 @@ def minimise_energy(q, place, contacts, load, work):
             q[i] = start[i]
         for j in range(soft_factor.size):
             soft_factor[j] = softer * contacts.factor[j]
-        softened = with_factors(contacts, soft_factor)
+        softened = replace_factors(contacts, soft_factor)
         now, status, residual, more, calls = descend(
             q, place, softened, load, work, MOST_PATIENT_ITERATIONS
         )

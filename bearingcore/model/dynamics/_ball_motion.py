@@ -123,8 +123,8 @@ def contact_stiffness(bearing: Bearing, load: float) -> tuple[float, float]:
 def resonances(scene: Scene, load: float) -> list[float]:
     """sqrt((k_i + k_e)/m_b)/2π [Hz] of a ball that carries a load [N], of each unlike row."""
     return [
-        math.sqrt(sum(contact_stiffness(own, load)) / own.ball_mass) / (2.0 * math.pi)
-        for own, _ in scene.bearing.unlike_rows
+        math.sqrt(sum(contact_stiffness(row, load)) / row.ball_mass) / (2.0 * math.pi)
+        for row, _ in scene.bearing.unlike_rows
     ]
 
 

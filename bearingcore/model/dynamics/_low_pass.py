@@ -94,7 +94,7 @@ def acceleration_lines(history: Array, body: int, step: float, count: int) -> Ar
     steps = len(history) - 1
     number = np.arange(count)
     turn = 2j * math.pi * number / steps
-    part, weight = _in_a_step()
+    part, weight = _step_quadrature()
     waves = np.exp(-np.outer(turn, part)) * weight
     kept = history[:-1, body : body + 3] - history[0, body : body + 3] * np.array([[1.0], [0], [0]])
     sums = np.fft.fft(kept, axis=0)[number % steps] / steps
@@ -107,7 +107,7 @@ def acceleration_lines(history: Array, body: int, step: float, count: int) -> Ar
     return lines
 
 
-def _in_a_step() -> tuple[Array, Array]:
+def _step_quadrature() -> tuple[Array, Array]:
     """Places in a step of length 1, and their weights in an integral over it."""
     part, weight = np.polynomial.legendre.leggauss(8)
     return 0.5 + 0.5 * part, 0.5 * weight
@@ -131,7 +131,7 @@ def _filter(sample_rate: float, step_rate: float) -> _Filter:
     stride = max(round(step_rate / sample_rate), 1)
     samples = sample_rate / step_rate  # in a step
     before = math.ceil(REACH / samples) + 1
-    part, weight = _in_a_step()
+    part, weight = _step_quadrature()
     step = np.arange(-before, before + 1)
     weights = np.zeros((a_step, len(step) + 1, 3))
     for phase in range(a_step):

@@ -457,20 +457,20 @@ def _nearly_damped(K: Array, C: Array, mass: Array, shape: Array) -> tuple[Array
     by more than MIXED, or one hardly swings, as `_damped` has it.
     """
     c = shape @ C @ np.swapaxes(shape, 1, 2)
-    own = np.diagonal(c, axis1=1, axis2=2)
+    damping = np.diagonal(c, axis1=1, axis2=2)
     squared = np.einsum("nij,nij->ni", shape @ K, shape)
     between = np.where(np.eye(len(mass), dtype=bool), 0.0, c)
     rest = squared
     for _ in range(3):
-        rate = -0.5 * own + 1j * np.sqrt(rest - 0.25 * own**2 + 0j)
+        rate = -0.5 * damping + 1j * np.sqrt(rest - 0.25 * damping**2 + 0j)
         there = rate[:, :, None]
-        D = there**2 + own[:, None] * there + squared[:, None]
+        D = there**2 + damping[:, None] * there + squared[:, None]
         part = between / np.where(between == 0.0, 1.0, D)
         pull = (part * between).sum(axis=2) - rate * ((part @ between) * part).sum(axis=2)
         rest = squared - rate**2 * pull
     size = np.abs(rate)
     frequency, ratio = size / (2.0 * math.pi), -rate.real / np.maximum(size, 1e-300)
-    near = (np.abs(there * part) < MIXED).all(axis=(1, 2)) & (own**2 < squared).all(axis=1)
+    near = (np.abs(there * part) < MIXED).all(axis=(1, 2)) & (damping**2 < squared).all(axis=1)
     if not near.all():
         frequency[~near], ratio[~near] = _damped(K[~near], C[~near], mass, shape[~near])
     return frequency, ratio
@@ -491,6 +491,6 @@ def _labels(
     for d in range(nd):
         for number, i in enumerate(np.flatnonzero(direction == d), start=1):
             label[i] = f"{dofs[d]}{number}"
-    own = np.arange(m)
-    outer = np.abs(template[own, nd + direction]) > np.abs(template[own, direction])
+    mode = np.arange(m)
+    outer = np.abs(template[mode, nd + direction]) > np.abs(template[mode, direction])
     return tuple(label), tuple("outer" if flag else "inner" for flag in outer)

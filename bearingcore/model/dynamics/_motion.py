@@ -295,7 +295,7 @@ class Motion:
             return np.ascontiguousarray(history[rows, first + derivative][::a_sample])
         out = np.empty((n, history.shape[2]))
         weights = hermite_weights(np.arange(a_step) / a_step, derivative, 1.0 / rate)
-        kernels.between_steps(history, first, weights, start, out)
+        kernels.interpolate_steps(history, first, weights, start, out)
         return out
 
 
@@ -375,7 +375,7 @@ def simulate(
     else:
         rate = step_rate_of(packed, sample_rate)
         lets_go = scene.balls != WITH_MASS and scene.contact_law != CONTACT_LAWS[0]
-        motion = _with_enough_steps(at, rate, sample_rate) if lets_go else at(rate)
+        motion = _double_steps(at, rate, sample_rate) if lets_go else at(rate)
     return motion.with_ball_loads(packed) if ball_loads else motion
 
 
@@ -477,7 +477,7 @@ def _refusal(
     return None
 
 
-def _with_enough_steps(at: Callable[[float], Motion], rate: float, sample_rate: float) -> Motion:
+def _double_steps(at: Callable[[float], Motion], rate: float, sample_rate: float) -> Motion:
     """Motion of contacts that let go: steps are doubled until half as many make no difference.
 
     Where they touch and leave their load jumps, so that errors fall with the step itself.

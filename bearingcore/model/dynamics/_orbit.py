@@ -362,9 +362,9 @@ class _Shooting:
 
     def own(self, y: Array) -> Array:
         """A state of displacements and velocities in the variables that are marched."""
-        own = y.copy()
-        kernels.turn_smooth(own, 1.0, 0.0, self._system)
-        return own
+        periodic = y.copy()
+        kernels.turn_smooth(periodic, 1.0, 0.0, self._system)
+        return periodic
 
     def marched(self, y: Array, periods: int = 1) -> Array:
         """P(y), or P of P, or more."""

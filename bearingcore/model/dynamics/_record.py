@@ -154,12 +154,12 @@ def simulated_record(
     count = round(duration * sample_rate)
     time = np.arange(count) / sample_rate
     clock = start + wandering_clock(time, effects.cage_wander, scene, rng)
-    signal = _at(motion.outer_acceleration[:, columns], sample_rate, clock)
+    signal = _sample_at(motion.outer_acceleration[:, columns], sample_rate, clock)
     if effects.knock > 0.0 and scene.defects:
         peak = float(np.abs(signal).max())
         signal = signal + effects.knock * peak * _knocks(scene, effects, clock, time, directions)
     if effects.resonances:
-        signal = _through(signal, sample_rate, effects.resonances)
+        signal = _filter_by_path(signal, sample_rate, effects.resonances)
     if effects.background > 0.0:
         signal = signal + effects.background * pink_noise(count, len(directions), rng)
     level = math.sqrt(float(np.mean(signal**2)))
@@ -198,7 +198,7 @@ def pink_noise(count: int, columns: int, rng: np.random.Generator) -> Array:
     return np.asarray(noise / noise.std(axis=0))
 
 
-def _at(signal: Array, rate: float, clock: Array) -> Array:
+def _sample_at(signal: Array, rate: float, clock: Array) -> Array:
     """The signal (n, d) at other times [s] than those of its samples."""
     from scipy.interpolate import make_interp_spline  # imported late: see `spectrum`
     from scipy.signal import resample_poly
@@ -245,7 +245,7 @@ def _load_at(scene: Scene, places: Array) -> Array:
     return np.interp(places % (2.0 * math.pi), angle[order], share, period=2.0 * math.pi)
 
 
-def _through(signal: Array, rate: float, resonances: tuple[Resonance, ...]) -> Array:
+def _filter_by_path(signal: Array, rate: float, resonances: tuple[Resonance, ...]) -> Array:
     """The signal (n, d) behind a path, each direction by its own gains."""
     from scipy.fft import next_fast_len  # imported late: see `spectrum`
 

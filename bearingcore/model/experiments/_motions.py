@@ -56,13 +56,13 @@ def measured(
     words = f"{setting:.0f} steps/s" if method.fixed_step else f"tolerance {scientific(setting)}"
     if march.failure:
         return failed(method.name, words, setting, march.failure, seconds, march.calls)
-    history = at_rate(march.history, march.step_rate, rate, len(reference.history))
+    history = resample(march.history, march.step_rate, rate, len(reference.history))
     errors = reference.errors(history)
     used = method.name == "RK4" and setting == usual
     return Point(method.name, words, setting, errors, seconds, march.calls, in_use=used)
 
 
-def at_rate(history: np.ndarray, step_rate: float, sample_rate: float, n: int) -> np.ndarray:
+def resample(history: np.ndarray, step_rate: float, sample_rate: float, n: int) -> np.ndarray:
     """A history at n instants of another rate; between steps by quintic interpolation.
 
     Of two rates one must be a whole multiple of the other, as in `simulate`.
@@ -74,7 +74,7 @@ def at_rate(history: np.ndarray, step_rate: float, sample_rate: float, n: int) -
     for derivative in range(3):
         weights = hermite_weights(np.arange(ratio) / ratio, derivative, 1.0 / step_rate)
         for body in (0, 3):
-            kernels.between_steps(history, body, weights, 0, out[:, body + derivative])
+            kernels.interpolate_steps(history, body, weights, 0, out[:, body + derivative])
     return out
 
 

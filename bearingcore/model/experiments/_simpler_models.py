@@ -227,7 +227,7 @@ class _Measure:
     def _spectrum(self, name: str, error: float, seconds: float, note: str = "") -> Alternative:
         return Alternative(name, SPECTRUM, error, seconds, self.own_seconds, note)
 
-    def _without(self, name: str, why: object) -> Alternative:
+    def _refused(self, name: str, why: object) -> Alternative:
         return self._spectrum(name, math.nan, math.nan, f"not computed: {why}")
 
     def _difference(self, other: Motion) -> float:
@@ -245,7 +245,7 @@ class _Measure:
         try:
             motion, seconds = self._march(scene, step_rate)
         except ValueError as refused:
-            return self._without(name, refused)
+            return self._refused(name, refused)
         drawn = with_prefix(self.own.step_rate, "Hz")
         note = f"{with_prefix(motion.step_rate, 'Hz')}, drawn: {drawn}"
         return self._spectrum(name, self._difference(motion), seconds, note)
@@ -263,48 +263,46 @@ class _Measure:
         heavy = self.scene.balls == WITH_MASS
         name = "massless balls" if heavy else "balls with mass"
         try:
-            motion, seconds = self._march(
-                self.scene.replace(balls=MASSLESS if heavy else WITH_MASS)
-            )
+            run, seconds = self._march(self.scene.replace(balls=MASSLESS if heavy else WITH_MASS))
         except ValueError as refused:
-            return self._without(name, refused)
-        comparison = compare_motions(*((motion, self.own) if heavy else (self.own, motion)))
+            return self._refused(name, refused)
+        comparison = compare_motions(*((run, self.own) if heavy else (self.own, run)))
         added = np.abs(comparison.added[comparison.edges[1:] <= self.band])
         error = float(added.max()) if added.size else math.nan
         return self._spectrum(name, error, seconds, comparison.sentence)
 
     def _orbit(self) -> Alternative:
-        name, own = "periodic orbit", self.own
+        name, motion = "periodic orbit", self.own
         if common_ball_passes(self.scene) is None:
-            return self._without(name, "the motion never repeats itself")
+            return self._refused(name, "the motion never repeats itself")
         began = time.thread_time()
-        answer = orbit(self.scene, step_rate=own.step_rate, most_steps=MOST_CALLS // 4)
+        answer = orbit(self.scene, step_rate=motion.step_rate, most_steps=MOST_CALLS // 4)
         seconds = time.thread_time() - began
         self.calls += answer.right_hand_side_calls
         if not answer.stable:
             why = "unstable" if answer.multipliers.size else answer.status
-            return replace(self._without(name, why), seconds=seconds)
-        half = len(own.time) // 2
-        since, rate = float(own.time[half]), own.sample_rate
-        settled = own.spectrum(since=since)
-        lines = answer.spectrum(rate, duration=(len(own.time) - half) / rate, since=since)
+            return replace(self._refused(name, why), seconds=seconds)
+        half = len(motion.time) // 2
+        since, rate = float(motion.time[half]), motion.sample_rate
+        settled = motion.spectrum(since=since)
+        lines = answer.spectrum(rate, duration=(len(motion.time) - half) / rate, since=since)
         return self._spectrum(name, density_difference(lines, settled, self.band), seconds)
 
     def _quasi_static(self) -> Alternative:
         """The inner ring at rest at every instant, against the ring that moves."""
-        own = self.own
-        half = len(own.time) // 2
-        angles = self.scene.cage_speed * own.time[half:]
+        motion = self.own
+        half = len(motion.time) // 2
+        angles = self.scene.cage_speed * motion.time[half:]
         began = time.thread_time()
         state = self.state
         last = float(state.cage_angles[-1])
-        along = [DOF_NAMES.index(dof) for dof in own.dofs]
+        along = [DOF_NAMES.index(dof) for dof in motion.dofs]
         rest = np.stack(
             [np.interp(angles % last, state.cage_angles, state.displacement[:, i]) for i in along],
             axis=1,
         )
         seconds = self.static_seconds + time.thread_time() - began
-        moving = own.inner_displacement[half:] - own.outer_displacement[half:]
+        moving = motion.inner_displacement[half:] - motion.outer_displacement[half:]
         swing = swings(moving)
         apart = np.abs((rest - rest.mean(axis=0)) - (moving - moving.mean(axis=0))) / swing
         error = float(apart.max()) if np.isfinite(apart).all() else math.nan

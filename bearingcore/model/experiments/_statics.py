@@ -168,7 +168,7 @@ def residuals(problem: StaticProblem, q: Any) -> Array:
     return sizes / (problem.load or 1.0)
 
 
-def _by_scipy(
+def _scipy(
     problem: StaticProblem,
     tolerance: float,
     method: str,
@@ -258,11 +258,11 @@ OWN = "compiled energy Newton"
 SOLVERS: dict[str, tuple[Solver, tuple[float, ...]]] = {
     OWN: (_compiled, (kernels.RESIDUAL_AIM,)),
     f"{OWN}, cold start": (partial(_compiled, warm=False), (kernels.RESIDUAL_AIM,)),
-    "scipy hybr": (partial(_by_scipy, method="hybr"), _TOLERANCES),
-    "scipy hybr, warm start": (partial(_by_scipy, method="hybr", warm=True), _TOLERANCES),
-    "scipy lm": (partial(_by_scipy, method="lm"), _TOLERANCES),
-    "scipy trust-exact on the energy": (partial(_by_scipy, method="trust-exact"), _TOLERANCES),
-    "scipy least squares": (partial(_by_scipy, method="least_squares"), _TOLERANCES),
+    "scipy hybr": (partial(_scipy, method="hybr"), _TOLERANCES),
+    "scipy hybr, warm start": (partial(_scipy, method="hybr", warm=True), _TOLERANCES),
+    "scipy lm": (partial(_scipy, method="lm"), _TOLERANCES),
+    "scipy trust-exact on the energy": (partial(_scipy, method="trust-exact"), _TOLERANCES),
+    "scipy least squares": (partial(_scipy, method="least_squares"), _TOLERANCES),
 }
 """Ways to solve, by name, with the tolerances at which each is measured."""
 
@@ -293,12 +293,12 @@ def static_reference(problem: StaticProblem) -> StaticReference:
     rollers, whose stiffness grows as the ninth root of their compression.
     """
     exact = refined(problem, _compiled(problem, 0.0).q)
-    other = _by_scipy(problem, 1e-12, "hybr")
+    other = _scipy(problem, 1e-12, "hybr")
     # it calls answers solved that are none
     other = other._replace(solved=other.solved & (residuals(problem, other.q) <= STRICT))
     alone = int((exact.solved & ~other.solved).sum())
     if alone:
-        near = _by_scipy(problem, 1e-12, "hybr", False, NEARBY * exact.q.astype(float))
+        near = _scipy(problem, 1e-12, "hybr", False, NEARBY * exact.q.astype(float))
         q = np.where(other.solved[:, None], other.q, near.q)
         other = Solved(q, other.solved | near.solved, 0)
     at = contacts(problem, exact.q)

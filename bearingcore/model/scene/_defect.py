@@ -268,12 +268,12 @@ def _paths_of_rows(defects: tuple[Defect, ...], bearing: Bearing) -> kernels.Pat
         there = tuple(
             dataclasses.replace(defect, row=row) for defect in defects if defect.row in (None, row)
         )
-        own = path_tables(there, bearing.of_row(row).replace(rows=()))
-        lines = own.defects.copy()
+        path = path_tables(there, bearing.of_row(row).replace(rows=()))
+        lines = path.defects.copy()
         lines[:, _TABLE_START] += size
         rows.append(lines)
-        tables.append(own.tables)
-        size += own.tables.size
+        tables.append(path.tables)
+        size += path.tables.size
     return kernels.Path(np.concatenate(rows), np.concatenate(tables))
 
 

@@ -97,9 +97,9 @@ def pack(scene: Scene, dofs: tuple[str, ...] | None = None, *, balls: bool = Fal
     whole = path_tables(defects, bearing)
     ways = []
     for race in ("inner", "outer"):
-        own = tuple(defect for defect in defects if defect.race == race)
-        alone = len(own) == len(defects)
-        ways.append(whole if alone else path_tables(own, bearing) if own else HEALTHY_PATH)
+        on_race = tuple(defect for defect in defects if defect.race == race)
+        alone = len(on_race) == len(defects)
+        ways.append(whole if alone else path_tables(on_race, bearing) if on_race else HEALTHY_PATH)
     of_balls = None if both is None else kernels.StaticBalls(every, both, *ways)
     return PackedScene(scene, free, every, whole, ways[0], load, units, rows, of_balls)
 
@@ -165,7 +165,7 @@ def contacts(bearing: Bearing) -> kernels.Contacts:
         room=each(*(part.room for part in made)),
         factor=each(*(part.factor for part in made)),
         exponent=each(*(part.exponent for part in made)),
-        rows=np.array([[own.start, own.stop - own.start] for own in bearing.balls_of_rows]),
+        rows=np.array([[balls.start, balls.stop - balls.start] for balls in bearing.balls_of_rows]),
         most_tilt=SMALL_TILT * lever,
     )
 

@@ -328,28 +328,28 @@ class Scene:
         ValueError
             for an unknown name, or a value that the part refuses.
         """
-        own: dict[str, Any] = {}
+        fields: dict[str, Any] = {}
         inside: dict[str, dict[str, Any]] = {}
         for name, value in changes.items():
             if name in _OWN_FIELDS:
-                own[name] = value
+                fields[name] = value
             elif name in _PART_OF_FIELD:
                 inside.setdefault(_PART_OF_FIELD[name], {})[name] = value
             else:
                 known = ", ".join(sorted({*_OWN_FIELDS, *_PART_OF_FIELD}))
                 raise checks.refuse("name of a field", name, known)
-        if "bearing" in own:
-            own["bearing"] = bearing_of(own["bearing"])
+        if "bearing" in fields:
+            fields["bearing"] = bearing_of(fields["bearing"])
         for part, values in inside.items():
-            old = own.get(part, getattr(self, part))
+            old = fields.get(part, getattr(self, part))
             if part == "defect" and not isinstance(old, Defect):
                 first = dataclasses.replace(old[0] if old else Defect.none(), **values)
-                own[part] = (first, *old[1:])
+                fields[part] = (first, *old[1:])
             elif isinstance(old, Bearing):
-                own[part] = old.replace(**values)
+                fields[part] = old.replace(**values)
             else:
-                own[part] = dataclasses.replace(old, **values)
-        return dataclasses.replace(self, **own)
+                fields[part] = dataclasses.replace(old, **values)
+        return dataclasses.replace(self, **fields)
 
 
 _OWN_FIELDS = {field.name for field in dataclasses.fields(Scene)}

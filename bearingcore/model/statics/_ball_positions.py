@@ -167,7 +167,7 @@ def ball_positions(
     checks.instance("scene", scene, Scene)
     scene.bearing.kind.check_mass()
     active = scene.free_dofs(dofs)
-    with _within_range(scene):
+    with _refuse_overflow(scene):
         packed = packing.pack(scene, active, balls=True)
     if cage_angles is None:
         cage_angles = default_cage_angles(scene)
@@ -186,7 +186,7 @@ def ball_positions(
             massless.status, massless.residual, massless.iterations, massless.leads, massless.cost,
         )  # fmt: skip
     start = np.where(np.isfinite(massless.state), massless.state, 0.0)
-    with _within_range(scene):
+    with _refuse_overflow(scene):
         q, load, angle, place, stiffness, status, residual, iterations = kernels.ball_positions(
             massless.cage_angles,
             massless.leads,
@@ -194,7 +194,7 @@ def ball_positions(
             packed.balls._replace(races=races),
             packed.load,
         )
-    status[_beyond_geometry(packed.balls, q, load, status)] = StaticStatus.BEYOND_GEOMETRY
+    status[_exceeds_geometry(packed.balls, q, load, status)] = StaticStatus.BEYOND_GEOMETRY
     for none in (StaticStatus.NOT_CARRIED, StaticStatus.BEYOND_GEOMETRY):
         status[massless.status == none] = none
     left = _unbalanced(packed.contacts, races, massless.cage_angles, load, angle)
@@ -344,7 +344,7 @@ class CentrifugalEffect:
 
 
 @contextmanager
-def _within_range(scene: Scene) -> Iterator[None]:
+def _refuse_overflow(scene: Scene) -> Iterator[None]:
     """Say by name what leads to numbers that a computer does not have."""
     try:
         yield
@@ -399,7 +399,7 @@ def _unbalanced(
     return np.asarray(left / np.maximum(size, 1e-300) * (left > 0.0))
 
 
-def _beyond_geometry(
+def _exceeds_geometry(
     balls: kernels.StaticBalls, q: Array, load: Array, status: NDArray[np.int8]
 ) -> NDArray[np.bool_]:
     """(n,) True where the formulas have a balance that the contacts' geometry does not allow.

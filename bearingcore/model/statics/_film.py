@@ -281,15 +281,15 @@ def _film_of(
 ) -> Film:
     """Film of one ball; oil: viscosity and pressure-viscosity coefficient."""
     eta, xi = oil
-    own = scene.bearing.of_row(ball.row)
-    contacts = {race: own.race_contact(race) for race in RACES}
-    u = rolling_speed(own, scene.shaft_speed)
+    bearing = scene.bearing.of_row(ball.row)
+    contacts = {race: bearing.race_contact(race) for race in RACES}
+    u = rolling_speed(bearing, scene.shaft_speed)
     films = {}
     for race, contact in contacts.items():
         h, load = math.nan, ball.load_on(race)
         if load > 0.0:
             modulus = contact.modulus
-            radius = rolling_radius(own, race)
+            radius = rolling_radius(bearing, race)
             if isinstance(contact, RollerContact):
                 h = least_thickness_of_line(u, load / contact.length, radius, modulus, eta, xi)
             else:

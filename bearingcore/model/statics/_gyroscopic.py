@@ -133,13 +133,13 @@ def _greatest(scene: Scene) -> _Gyroscopic | None:
     if not state.converged.any():
         return None
     rows = [
-        _of_row(scene.bearing.of_row(k), state, balls)
+        _worst_of_row(scene.bearing.of_row(k), state, balls)
         for k, balls in enumerate(scene.bearing.balls_of_rows)
     ]
     return max(rows)
 
 
-def _of_row(bearing: Bearing, state: BallPositions, balls: slice) -> _Gyroscopic:
+def _worst_of_row(bearing: Bearing, state: BallPositions, balls: slice) -> _Gyroscopic:
     """The greatest of the balls of a row."""
     load = state.load[1][state.converged, balls]
     carries = load > HEAVY * state.load[1][state.converged].max()

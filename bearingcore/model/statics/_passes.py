@@ -87,10 +87,10 @@ def crossings(scene: Scene, first: float, last: float) -> list[Crossing]:
             continue
         # Balls pass the defect with the cage, or, as an inner race overtakes the cage, against it.
         rate = passing_rate(scene, defect, row)
-        own = bearing.balls_of_rows[row]
+        balls = bearing.balls_of_rows[row]
         for enters in (True, False):
             edge = defect.center - math.copysign(0.5 * defect.extent, rate) * (1 if enters else -1)
-            for ball, angle in enumerate(angles[own], own.start):
+            for ball, angle in enumerate(angles[balls], balls.start):
                 # cage_angle·rate + angle of the ball = edge + 2π k
                 start = (edge - angle) / rate
                 period = TWO_PI / abs(rate)
@@ -105,8 +105,8 @@ def passing_rate(scene: Scene, defect: Defect, row: int) -> float:
     """Turning of a ball of a row past a defect for each unit of cage angle; the race may pass it
     instead, which is below 0.
     """
-    own = scene.bearing.of_row(row)
-    return scene.bearing.pace(row) * (1.0 - defect.turn_ratio(own))
+    bearing = scene.bearing.of_row(row)
+    return scene.bearing.pace(row) * (1.0 - defect.turn_ratio(bearing))
 
 
 def shortest_passage(scene: Scene) -> float:
@@ -136,8 +136,8 @@ def path_kinks(scene: Scene, first: float, last: float) -> Array:
         at = crossing.cage_angle
         kinks.append(at)
         # too short for the floor, it turns up again in the middle
-        own = scene.bearing.of_row(row)
-        s_floor = min(float(defect.edge_row(own)[4]), 0.5 * defect.extent)
+        bearing = scene.bearing.of_row(row)
+        s_floor = min(float(defect.edge_row(bearing)[4]), 0.5 * defect.extent)
         kinks.append(at + inwards * s_floor / rate)
     angles = np.array(sorted(kinks))
     angles = angles[(angles > first - SAME_ANGLE) & (angles < last + SAME_ANGLE)]

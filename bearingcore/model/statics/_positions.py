@@ -253,7 +253,7 @@ def _cage_angles(packed: PackedScene, n: int) -> tuple[Array, Array]:
 def _row_places(packed: PackedScene) -> Array:
     """Cage angles (ROW_PLACES,) [rad], whole ball spacings, after which rows are evenly turned."""
     speeds = packed.contacts.relative_speed[packed.contacts.rows[:, 0]]
-    spacings = np.array([own.ball_spacing for own in packed.rows])
+    spacings = np.array([row.ball_spacing for row in packed.rows])
     spacing = spacings[0] / speeds[0]
     others = speeds != speeds[0]
     turned = speeds[others] / spacings[others] * spacing
@@ -272,12 +272,12 @@ def _nodes(packed: PackedScene, race: str) -> Array:
     for defect, (k, row) in product(scene.defects, enumerate(bearing.all_rows)):
         if defect.race != race or defect.row not in (None, k):
             continue
-        own = packed.rows[k]
-        balls = row.turn + own.ball_spacing * np.arange(own.n_balls)
-        places = _places_on_edges(defect, own, _greatest_compression(packed, k))
+        row_bearing = packed.rows[k]
+        balls = row.turn + row_bearing.ball_spacing * np.arange(row_bearing.n_balls)
+        places = _places_on_edges(defect, row_bearing, _greatest_compression(packed, k))
         angles.append((balls[:, None] - places).ravel())
         if defect.floor is not None:
-            spacings = round(period / own.ball_spacing)
+            spacings = round(period / row_bearing.ball_spacing)
             angles.append(np.linspace(0.0, period, ON_A_FLOOR * spacings + 1))
     nodes = np.unique(np.round(np.concatenate(angles) % period, 12))
     return nodes[nodes < period - 1e-11]

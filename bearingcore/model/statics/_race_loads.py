@@ -128,7 +128,7 @@ def race_loads(
     ValueError for a defect of the inner race of a bearing whose rows are not alike.
     """
     if scene.defect_turns:
-        return _with_turning_defects(scene, load_exponent, scatter)
+        return _average_turning_defects(scene, load_exponent, scatter)
     loads, weights, heaviest = [], [], 0.0
     turned = _rows_turned(scene)
     for defect in turned:
@@ -180,7 +180,7 @@ def _averaged(
             together(
                 [_mean(strip, weights, power) for strip in strips(scene.bearing, row, chain)], chain
             )
-            for row in (carried_there[:, own] for own in scene.bearing.balls_of_rows)
+            for row in (carried_there[:, balls] for balls in scene.bearing.balls_of_rows)
         )
         for carried_there, power in zip(loads, powers, strict=True)
     )
@@ -225,9 +225,9 @@ def _panels(scene: Scene, race: str) -> tuple[Array, Array]:
     even = np.linspace(0.0, period, (PANELS_ON_A_FLOOR if rough else PANELS) * spacings + 1)
     corners = []
     for defect, (k, row) in product(defects, enumerate(bearing.all_rows)):
-        own = bearing.of_row(k)
-        spacing = own.ball_spacing / bearing.pace(k)
-        for corner in _corners(defect, own):
+        row_bearing = bearing.of_row(k)
+        spacing = row_bearing.ball_spacing / bearing.pace(k)
+        for corner in _corners(defect, row_bearing):
             at = (corner - row.turn) / bearing.pace(k) % spacing
             corners += np.arange(at, period, spacing).tolist()
     ends = np.unique(np.concatenate([even, corners]))
@@ -247,7 +247,7 @@ def _corners(defect: Defect, bearing: Bearing) -> list[float]:
     return [defect.center + side * a for side in (-1.0, 1.0) for a in away.tolist()]
 
 
-def _with_turning_defects(scene: Scene, load_exponent: float, scatter: float) -> RaceLoads:
+def _average_turning_defects(scene: Scene, load_exponent: float, scatter: float) -> RaceLoads:
     """`race_loads` where cage and shaft angle matter both, as their ratio is no simple fraction.
 
     Balls are put at fixed places θ of the inner race, where panels can end at its edges, and the

@@ -46,7 +46,7 @@ def explanation(
         as of `Equilibrium.state`; None where it was not kept.
     """
     if status == StaticStatus.BEYOND_GEOMETRY:
-        return "" if state is None else f": {_beyond(scene, cage_angle, state)}"
+        return "" if state is None else f": {_bound_exceeded(scene, cage_angle, state)}"
     if status == StaticStatus.NOT_CARRIED:
         lacks = _lacks(scene, cage_angle, dofs)
         return f"; missing is {lacks}" if lacks else ""
@@ -122,7 +122,7 @@ def _thrust(scene: Scene, cage_angle: float, thrust: float) -> str:
     return f"{words}, and over {with_prefix(least, 'N')} must hold it against the radial load"
 
 
-def _beyond(scene: Scene, cage_angle: float, state: Array) -> str:
+def _bound_exceeded(scene: Scene, cage_angle: float, state: Array) -> str:
     """The first bound of the contacts' geometry that a state (5,) [m] is beyond."""
     contacts = packing.contacts(scene.bearing)
     element = scene.bearing.kind.element

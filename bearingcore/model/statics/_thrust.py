@@ -77,7 +77,7 @@ def _thrusts(state: Equilibrium) -> np.ndarray:
     """(n, rows) thrust ΣQ_j sin α_j [N] of each row on the outer ring; NaN where not known."""
     thrust = state.ball_load * np.sin(np.nan_to_num(state.contact_angle))
     rows = state.scene.bearing.balls_of_rows
-    return np.stack([thrust[:, own].sum(axis=1) for own in rows], axis=1)
+    return np.stack([thrust[:, row].sum(axis=1) for row in rows], axis=1)
 
 
 def _wrong_way(scene: Scene, state: Equilibrium) -> Limit:
@@ -85,7 +85,7 @@ def _wrong_way(scene: Scene, state: Equilibrium) -> Limit:
     name, bearing = "thrust the wrong way", scene.bearing
     one_way = np.array(_one_way(bearing))
     wrong = -one_way * _thrusts(state)
-    loads = [state.ball_load[:, own].sum(axis=1) for own in bearing.balls_of_rows]
+    loads = [state.ball_load[:, balls].sum(axis=1) for balls in bearing.balls_of_rows]
     wrong[wrong <= _NOTICED * np.stack(loads, axis=1)] = 0.0
     known = wrong[np.isfinite(wrong)]
     against = -facing(bearing) * scene.load.fz if "z" in scene.active_dofs else 0.0
@@ -109,7 +109,7 @@ def _too_little(scene: Scene, state: Equilibrium, induced: float) -> Limit:
     axial = facing(scene.bearing) * scene.load.fz
     crossed = axial < induced * (1.0 - 1e-9)
     kind = scene.bearing.kind
-    given, least, radial = (
+    thrust, least, radial = (
         with_prefix(load, "N")
         for load in (axial, induced, math.hypot(scene.load.fx, scene.load.fy))
     )
@@ -117,11 +117,11 @@ def _too_little(scene: Scene, state: Equilibrium, induced: float) -> Limit:
     carry = f"{loaded.min()} of {scene.bearing.total_balls} {kind.elements}" if loaded.size else ""
     if crossed:
         sentence = (
-            f"The axial load is below the one it induces ({least}): {given} beside a radial load "
+            f"The axial load is below the one it induces ({least}): {thrust} beside a radial load "
             f"of {radial} let the rings move apart along the shaft"
             + (f", until {carry} carry all of it" if carry else ", and nothing holds them")
             + ". More axial load, or the shaft's other bearing, has to hold them."
         )
     else:
-        sentence = f"The axial load of {given} is at least the {least} that {radial} induce."
+        sentence = f"The axial load of {thrust} is at least the {least} that {radial} induce."
     return Limit("axial load against the induced one", axial, induced, "N", crossed, sentence)

@@ -51,18 +51,18 @@ def scene_of(bearing: BearingLike) -> Scene:
     >>> round(scene.load.fy), round(scene.shaft_speed * 30.0 / math.pi)
     (-933, 3894)
     """
-    own = bearing_of(bearing)
-    rated = own.replace(ball_youngs_modulus=None, ball_poisson=None) if own.is_hybrid else own
-    rating = own.dynamic_load_rating or dynamic_load_rating(rated)
+    known = bearing_of(bearing)
+    rated = known.replace(ball_youngs_modulus=None, ball_poisson=None) if known.is_hybrid else known
+    rating = known.dynamic_load_rating or dynamic_load_rating(rated)
     load = _rounded(LOAD_SHARE * rating)
     scene = Scene(
-        bearing=own,
+        bearing=known,
         defect=Defect.none(),
         load=Load(fy=-load),
-        shaft_speed=2.0 * math.pi * _rounded(SPEED_FACTOR / (60e3 * own.pitch_diameter)),
-        support=_carrying(load, own.pitch_diameter),
+        shaft_speed=2.0 * math.pi * _rounded(SPEED_FACTOR / (60e3 * known.pitch_diameter)),
+        support=_carrying(load, known.pitch_diameter),
     )
-    way = facing(own)
+    way = facing(known)
     if not way:
         return scene
     return scene.replace(fz=way * _rounded(THRUST_SHARE * induced_thrust(scene)))

@@ -161,17 +161,17 @@ def limits(
     state = state_of(scene, state_of_limits(scene) if state is None else state)
     bearing, turns = scene.bearing, scene.shaft_speed > 0.0
     heaviest = [(bearing.of_row(ball.row), ball) for ball in heaviest_balls(state)]
-    at_rest = [(own, ball.load) for own, ball in heaviest]
+    at_rest = [(row, ball.load) for row, ball in heaviest]
     in_motion = []
     if dynamic_load is not None:
         load = checks.real_number("dynamic_load", dynamic_load, at_least=0.0, unit="N")
         # which row it was is not known: the one on which it matters most counts
-        in_motion = [(own, load) for own, _ in bearing.unlike_rows]
-    candidates: list[Limit | None] = [
+        in_motion = [(row, load) for row, _ in bearing.unlike_rows]
+    judged: list[Limit | None] = [
         _pressure(
             bearing,
             f"contact pressure, {race} race",
-            [(own, ball.load_on(race)) for own, ball in heaviest],
+            [(row, ball.load_on(race)) for row, ball in heaviest],
             (race,),
             NO_STATE,
         )
@@ -179,28 +179,26 @@ def limits(
     ]
     if turns:
         name = "contact pressure in motion"
-        candidates.append(_pressure(bearing, name, in_motion, RACES, NO_MOTION))
-    candidates.append(_shoulder(scene, state, shoulder_height))
-    candidates.append(_centrifugal_change(scene))
-    candidates.append(_worst(_centrifugal_share(*row, scene, state) for row in bearing.unlike_rows))
-    candidates.append(gyroscopic_limit(scene))
+        judged.append(_pressure(bearing, name, in_motion, RACES, NO_MOTION))
+    judged.append(_shoulder(scene, state, shoulder_height))
+    judged.append(_centrifugal_change(scene))
+    judged.append(_worst(_centrifugal_share(*row, scene, state) for row in bearing.unlike_rows))
+    judged.append(gyroscopic_limit(scene))
     if not bearing.kind.line_contact:
-        candidates.append(
-            _compression("compression against groove centre distance", at_rest, NO_STATE)
-        )
+        judged.append(_compression("compression against groove centre distance", at_rest, NO_STATE))
         if turns:
-            candidates.append(_compression("compression in motion", in_motion, NO_MOTION))
-        candidates.append(_stiffness(scene))
-    candidates += thrust_limits(scene, state)
-    candidates += [held_tilts(state), free_tilts(state)]
+            judged.append(_compression("compression in motion", in_motion, NO_MOTION))
+        judged.append(_stiffness(scene))
+    judged += thrust_limits(scene, state)
+    judged += [held_tilts(state), free_tilts(state)]
     film_limit = _film_limit(scene, film)  # refuses the film of another scene
     if turns:
-        candidates.append(film_limit)
+        judged.append(film_limit)
     if step_rate is not None:
         rate = checks.real_number("step_rate", step_rate, above=0.0, unit="Hz")
-        candidates.append(_steps(scene, rate))
-    candidates.append(_estimate(scene))
-    return tuple(limit for limit in candidates if limit is not None)
+        judged.append(_steps(scene, rate))
+    judged.append(_estimate(scene))
+    return tuple(limit for limit in judged if limit is not None)
 
 
 def _film_limit(scene: Scene, film: Film | None) -> Limit:
@@ -266,8 +264,8 @@ def _pressure(
     if not _are_known(loaded):
         return unknown(name, allowed, "Pa", no_load)
     p, load, race = max(
-        (float(own.race_contact(race).greatest_pressure(load)), load, race)
-        for own, load in loaded
+        (float(row.race_contact(race).greatest_pressure(load)), load, race)
+        for row, load in loaded
         for race in races
     )
     element, carried = bearing.kind.element, with_prefix(load, "N")
@@ -290,8 +288,8 @@ def _shoulder(scene: Scene, state: Equilibrium, height: float | None) -> Limit:
     loads = {"inner": state.inner_load[kept], "outer": state.ball_load[kept]}
     angles = {"inner": state.inner_contact_angle[kept], "outer": state.contact_angle[kept]}
     return _worst(
-        _shoulder_of(own, race, loads[race][:, balls], angles[race][:, balls], height)
-        for own, balls in bearing.unlike_rows
+        _shoulder_of(row, race, loads[race][:, balls], angles[race][:, balls], height)
+        for row, balls in bearing.unlike_rows
         for race in bearing.kind.shoulders
     )
 
@@ -385,8 +383,8 @@ def _centrifugal_change(scene: Scene) -> Limit:
     value = max(effect.load, effect.stiffness)
     fact = (
         f"The centrifugal force of a {scene.bearing.kind.element}, {with_prefix(force, 'N')}, "
-        f"changes loads by {_up_to(effect.load)} of the heaviest and stiffness by "
-        f"{_up_to(effect.stiffness)}"
+        f"changes loads by {_share_words(effect.load)} of the heaviest and stiffness by "
+        f"{_share_words(effect.stiffness)}"
     )
     if effect.contact_angle > 1e-6:
         parted = number(math.degrees(effect.contact_angle), 2)
@@ -396,7 +394,7 @@ def _centrifugal_change(scene: Scene) -> Limit:
     return upper_limit(name, value, limit, "", fact, f": {left_out}, and here it counts.", within)
 
 
-def _up_to(share: float) -> str:
+def _share_words(share: float) -> str:
     return f"up to {percent(share)}" if share >= 1e-4 else "less than 0.01 %"
 
 
@@ -406,7 +404,7 @@ def _compression(name: str, loaded: Loaded, no_load: str) -> Limit:
         return unknown(name, GREATEST_COMPRESSION, "", no_load)
     moving = no_load == NO_MOTION
     who = "In the simulated motion a ball is" if moving else "The most loaded ball is"
-    return _worst(_compressed(own, name, load, who) for own, load in loaded)
+    return _worst(_compressed(row, name, load, who) for row, load in loaded)
 
 
 def _compressed(bearing: Bearing, name: str, load: float, who: str) -> Limit:

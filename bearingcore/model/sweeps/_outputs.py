@@ -318,7 +318,7 @@ def of_scene(
             settings.cage_angles,
             rounds=ROUNDS if scene.defect_turns else 0,
         )
-        code, numbers = _of_ranges(ranges)
+        code, numbers = _statics_of_ranges(ranges)
         ended.append(STATUSES[int(code)])
     computations: dict[str, Callable[[], SweepStatus]] = {
         PRESSURE: lambda: _pressure(scene, settings, numbers),
@@ -347,7 +347,7 @@ def of_scene(
     return next((status for status in ended if status is not known), known).code, numbers
 
 
-def _of_ranges(ranges: StaticRanges) -> tuple[NDArray[np.int8], Numbers]:
+def _statics_of_ranges(ranges: StaticRanges) -> tuple[NDArray[np.int8], Numbers]:
     """`_statics` of one scene, with the ends that were looked for between the positions."""
     state = ranges.state
     terms = stiffness_terms(state)
@@ -383,8 +383,8 @@ def _bands_over_all_positions(
 
     ends = extremes(positions(scene, n), search.frequencies(terms), at)
     edges = [dict(zip(search.labels, end.tolist(), strict=True)) for end in ends[:2]]
-    for which, own in zip(("least", "greatest"), edges, strict=True):
-        numbers[f"band_{which}"] = np.array([own.get(label, math.nan) for label in labels])
+    for which, edge in zip(("least", "greatest"), edges, strict=True):
+        numbers[f"band_{which}"] = np.array([edge.get(label, math.nan) for label in labels])
     return SweepStatus.COMPLETE
 
 
@@ -415,9 +415,9 @@ def of_row(
 
 def _bands(scene: Scene, terms: Array, labels: tuple[str, ...]) -> Numbers:
     """Edges (m, len(labels)) of bands, from stiffness terms (15, m, n) of m scenes."""
-    *ends, own = undamped_bands(scene, terms)
+    *ends, sets = undamped_bands(scene, terms)
     edges = np.full((2, terms.shape[1], len(labels)), math.nan)
-    for i, names in enumerate(own):
+    for i, names in enumerate(sets):
         place = [labels.index(name) for name in names if name in labels]
         mine = [k for k, name in enumerate(names) if name in labels]
         edges[:, i, place] = [each[i, mine] for each in ends]
@@ -465,8 +465,8 @@ def _life(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus:
     Averaged over all cage angles, so that healthy and damaged bearings can be compared. Infinite
     lives, where nothing is carried, are not known to a map.
     """
-    own = scene.bearing.dynamic_load_rating
-    rating = settings.dynamic_load_rating or own or dynamic_load_rating(scene.bearing)
+    known_rating = scene.bearing.dynamic_load_rating
+    rating = settings.dynamic_load_rating or known_rating or dynamic_load_rating(scene.bearing)
     rated = life(scene, rating)
     turns = 1e6 * rated.million_revolutions
     known = math.isfinite(turns)

@@ -124,10 +124,10 @@ def sweep(
     region_shape = grid.region_shape(scenes_per_task)
     cluster = _cluster(client, workers, processes)
     if store is None:
-        return _in_memory(grid, region_shape, cluster, progress)
+        return _sweep_in_memory(grid, region_shape, cluster, progress)
     path = stores.local_path(store)
     try:
-        return _in_store(path, grid, region_shape, cluster, progress)
+        return _sweep_to_store(path, grid, region_shape, cluster, progress)
     except OSError as error:
         if error.errno in (errno.ENOSPC, errno.EDQUOT):
             raise OSError(error.errno, FULL, str(path)) from None
@@ -140,7 +140,7 @@ def sweep(
 Cluster = AbstractContextManager["Client"]
 
 
-def _in_store(
+def _sweep_to_store(
     path: Path,
     grid: Grid,
     region_shape: tuple[int, ...],
@@ -175,7 +175,7 @@ def open_results(store: str | os.PathLike[str]) -> xarray.Dataset:
     return xarray.open_zarr(stores.local_path(store))
 
 
-def _in_memory(
+def _sweep_in_memory(
     grid: Grid, region_shape: tuple[int, ...], cluster: Cluster, progress: Progress | None
 ) -> xarray.Dataset:
     import xarray

@@ -501,10 +501,8 @@ def test_a_sound_file_is_compared_with_and_the_one_that_is_shown_stays():
         await settled(made)
         assert made.measured is before
         assert [table.name for table in made.series.tables] == ["sound.csv", "now.csv"]
-        recordings = made.recordings(before, "y").recordings
-        assert recordings[1].acceleration.std() == pytest.approx(
-            3.0 * recordings[0].acceleration.std()
-        )
+        first, second = made.recordings(before, "y").recordings
+        assert second.acceleration.std() == pytest.approx(3.0 * first.acceleration.std())
 
     run(steps())
 
@@ -518,7 +516,7 @@ def bomb() -> bytes:
     return b"MATLAB 5.0".ljust(124) + b"\x00\x01IM" + struct.pack("<II", 15, len(packed)) + packed
 
 
-def with_nan() -> bytes:
+def text_of_gaps() -> bytes:
     lines = csv_of(NOISE, "time,x,y").decode().splitlines()
     lines[200::200] = [f"{line.partition(',')[0]},nan,inf" for line in lines[200::200]]
     return "\n".join(lines).encode()
@@ -526,7 +524,7 @@ def with_nan() -> bytes:
 
 BAD = {
     "words": ("w.csv", b"hello world\nhow are you", "a table of numbers"),
-    "not finite": ("n.csv", with_nan(), "is not a finite number in"),
+    "not finite": ("n.csv", text_of_gaps(), "is not a finite number in"),
     "still": ("k.csv", csv_of(np.ones((2000, 2)), "time,x,y"), "same number throughout"),
     "bomb": ("z.mat", bomb(), "damaged or unknown part"),
 }

@@ -71,18 +71,18 @@ def test_kinds_of_one_dimension_series_have_one_outside() -> None:
     compared = 0
     for series in alike:
         for code in range(21):
-            members = [boundaries().get(f"{one}{code:02d}") for one in series]
-            outside = {one[:3] for one in members if one is not None}
+            members = [boundaries().get(f"{letter}{code:02d}") for letter in series]
+            outside = {member[:3] for member in members if member is not None}
             assert len(outside) <= 1, (series, code)
-            compared += sum(one is not None for one in members) - 1
+            compared += sum(member is not None for member in members) - 1
     assert compared > 150
 
 
 def test_bore_follows_from_the_number() -> None:
-    for name, one in boundaries().items():
+    for name, boundary in boundaries().items():
         code = int(name[-2:])
         bore = {0: 10, 1: 12, 2: 15, 3: 17}.get(code, 5 * code)
-        assert 1e3 * one.bore == pytest.approx(int(name[-1]) if len(name) == 3 else bore)
+        assert 1e3 * boundary.bore == pytest.approx(int(name[-1]) if len(name) == 3 else bore)
 
 
 @pytest.mark.parametrize("kind", [DEEP_GROOVE, SELF_ALIGNING_BALLS, ROLLERS])
@@ -115,17 +115,17 @@ def test_rule_on_published_insides() -> None:
     It has no constant that was fitted to these bearings: leaving one out changes nothing.
     """
     all_of_them = judged()
-    right = [one for one in all_of_them if one.is_right]
-    frequencies = [abs(one.frequency) for one in right]
+    right = [bearing for bearing in all_of_them if bearing.is_right]
+    frequencies = [abs(bearing.frequency) for bearing in right]
     assert (MEASURED.right, MEASURED.bearings) == (len(right), len(all_of_them))
     assert MEASURED.right >= 0.85 * MEASURED.bearings
-    assert median(abs(one.ratio) for one in all_of_them) == pytest.approx(
+    assert median(abs(bearing.ratio) for bearing in all_of_them) == pytest.approx(
         MEASURED.diameter, rel=0.02
     )
     assert median(frequencies) == pytest.approx(MEASURED.frequency, rel=0.02)
     nineteen = float(np.quantile(frequencies, 0.95))
     assert nineteen == pytest.approx(MEASURED.frequency_spread, rel=0.02)
-    spread = float(np.quantile([abs(one.ratio) for one in right], 0.95))
+    spread = float(np.quantile([abs(bearing.ratio) for bearing in right], 0.95))
     assert spread == pytest.approx(MEASURED.ratio_spread, rel=0.02)
     assert MEASURED.frequency_spread == pytest.approx(0.018, abs=5e-4)  # as documents say
     assert MEASURED.diameter < 0.04
@@ -137,7 +137,7 @@ def test_only_insert_bearings_are_off_by_more_than_a_percent() -> None:
 
     Four have balls a thirty-second of an inch larger, one runs on a circle of an inch.
     """
-    bearings = [one for one in judged() if "NMB" not in one.source]
+    bearings = [bearing for bearing in judged() if "NMB" not in bearing.source]
     off = {one.designation: one for one in bearings if one.is_right and abs(one.frequency) > 0.01}
     assert set(off) == {"6202", "6204", "6208", "6307", "6308", "6309"}
     assert all("housed unit" in one.source or "UER204" in one.source for one in off.values())
@@ -235,8 +235,8 @@ def test_beginnings_of_designations() -> None:
 
 
 def test_an_angle_that_is_not_said_is_assumed_and_said() -> None:
-    assert any("30°" in one for one in read_designation("7208").assumed)
-    assert not any("contact angle" in one for one in read_designation("7208B").assumed)
+    assert any("30°" in words for words in read_designation("7208").assumed)
+    assert not any("contact angle" in words for words in read_designation("7208B").assumed)
     assert read_designation("7208").bearing.contact_angle == CATALOGUE_ANGLE
 
 
@@ -281,13 +281,13 @@ def test_tapered_rollers_have_the_outside_of_iso_355() -> None:
     """Bore and outside of ISO 15; T above the cone, the cone above the cup; wide ones wider."""
     for narrow, wide, deep_groove in DIAMETER_SERIES:
         for code in range(4, 21):
-            one, wider = (boundaries()[f"{series}{code:02d}"] for series in (narrow, wide))
-            assert one[:2] == wider[:2] == boundaries()[f"{deep_groove}{code:02d}"][:2]
-            for size in (one, wider):
+            narrower, wider = (boundaries()[f"{series}{code:02d}"] for series in (narrow, wide))
+            assert narrower[:2] == wider[:2] == boundaries()[f"{deep_groove}{code:02d}"][:2]
+            for size in (narrower, wider):
                 assert size.width > size.cone_width > size.cup_width
                 assert size.static_rating > 0.9 * size.dynamic_rating
-            assert wider.width > one.width
-            assert wider.dynamic_rating > one.dynamic_rating
+            assert wider.width > narrower.width
+            assert wider.dynamic_rating > narrower.dynamic_rating
     flat = {basic: one for basic, one in boundaries().items() if series_of(basic) == "320"}
     assert len(flat) == 14
     for basic, size in flat.items():
@@ -308,7 +308,7 @@ def test_tapered_sizes_as_other_catalogues_print_them() -> None:
     for name, (*sizes, e, dynamic, static) in printed.items():
         own = boundaries()[name]
         lengths = (own.bore, own.outside_diameter, own.width, own.cone_width, own.cup_width)
-        assert [1e3 * one for one in lengths] == pytest.approx(sizes)
+        assert [1e3 * length for length in lengths] == pytest.approx(sizes)
         assert own.thrust_limit == pytest.approx(e, abs=0.011)
         assert own.dynamic_rating == pytest.approx(1e3 * dynamic, rel=0.1)
         assert own.static_rating == pytest.approx(1e3 * static, rel=0.1)
@@ -332,13 +332,13 @@ def test_tapered_rollers_have_the_ratings_of_the_catalogue_and_fit_in() -> None:
 def test_another_makers_ratings_give_nearly_the_same_tapered_rollers() -> None:
     """What is said of the rule's spread between two makers is what it is."""
     ratios, same = [], 0
-    for one in lines_of(OTHER_MAKER_CSV):
-        size, own = boundaries()[one["designation"]], inside_of(one["designation"])
+    for line in lines_of(OTHER_MAKER_CSV):
+        size, own = boundaries()[line["designation"]], inside_of(line["designation"])
         other = tapered_rollers_from_ratings(
             size.bore,
             size.outside_diameter,
-            1e3 * float(one["dynamic_rating_kn"]),
-            1e3 * float(one["static_rating_kn"]),
+            1e3 * float(line["dynamic_rating_kn"]),
+            1e3 * float(line["static_rating_kn"]),
             ratings.tapered_angle_of(size.thrust_limit),
         )
         assert abs(other.n_balls - own.n_balls) <= 1
@@ -377,18 +377,14 @@ def test_narrow_and_wide_tapered_bearings_of_one_section_have_one_roller_diamete
 )
 def test_tapered_designations(text: str, arrangement: str, centers: float) -> None:
     """Pressure centres of a pair are 2 a apart back to back, 2 (T - a) face to face."""
-    designation = read_designation(text)
-    bearing = designation.bearing
-    assert (designation.basic, designation.kind, designation.clearance_class) == (
-        "30206",
-        TAPERED_ROLLERS,
-        "",
-    )
+    named = read_designation(text)
+    bearing = named.bearing
+    assert (named.basic, named.kind, named.clearance_class) == ("30206", TAPERED_ROLLERS, "")
     assert (bearing.arrangement, bearing.kind.name) == (arrangement, "tapered")
     if bearing.rows:
         assert bearing.pressure_centers_apart == pytest.approx(centers)
     assert bearing.estimated == ("n_balls", "ball_diameter", "pitch_diameter", "roller_length")
-    assert designation.dynamic_load_rating == pytest.approx(dynamic_load_rating(bearing))
+    assert named.dynamic_load_rating == pytest.approx(dynamic_load_rating(bearing))
     assert math.degrees(bearing.contact_angle) == pytest.approx(14.036, abs=0.2)
 
 

@@ -78,21 +78,21 @@ def test_clearance_and_free_angle_are_one_bearing(load: Load, play: float) -> No
     flat = Bearing.from_drawing(**DRAWING, diametral_clearance=play)
     seated = flat.seated()
     assert seated.contact_angle > 0.0
-    one = equilibrium(scene_of(flat, load), ANGLES, ALL)
+    drawn = equilibrium(scene_of(flat, load), ANGLES, ALL)
     other = equilibrium(scene_of(seated, load), ANGLES, ALL)
-    assert one.converged.all()
+    assert drawn.converged.all()
     assert other.converged.all()
-    heaviest = one.ball_load.max()
-    assert np.abs(one.ball_load - other.ball_load).max() < 1e-8 * heaviest
+    heaviest = drawn.ball_load.max()
+    assert np.abs(drawn.ball_load - other.ball_load).max() < 1e-8 * heaviest
     shift = np.array([0.0, 0.0, A0 * math.sin(seated.contact_angle), 0.0, 0.0])
     lever = np.array([1.0, 1.0, 1.0, flat.groove_center_radius, flat.groove_center_radius])
-    off = np.abs((one.displacement - shift - other.displacement) * lever)
+    off = np.abs((drawn.displacement - shift - other.displacement) * lever)
     assert off.max() < 1e-13  # m
-    diagonal = np.abs(np.diagonal(one.stiffness, axis1=1, axis2=2)).max(axis=0)
+    diagonal = np.abs(np.diagonal(drawn.stiffness, axis1=1, axis2=2)).max(axis=0)
     scale = np.sqrt(np.outer(diagonal, diagonal))
-    assert (np.abs(one.stiffness - other.stiffness) / scale).max() < 1e-7
-    same = one.ball_load > 1e-6 * heaviest
-    assert np.abs(one.contact_angle - other.contact_angle)[same].max() < 1e-7
+    assert (np.abs(drawn.stiffness - other.stiffness) / scale).max() < 1e-7
+    same = drawn.ball_load > 1e-6 * heaviest
+    assert np.abs(drawn.contact_angle - other.contact_angle)[same].max() < 1e-7
 
 
 def test_groove_centres_and_races_lie_where_the_drawing_puts_them() -> None:

@@ -8,7 +8,7 @@ from bearingcore import Bearing, catalogue
 from bearingcore.bearings import bearing_of_frequencies
 
 TURN = 2.0 * math.pi
-LISTED = [one.bearing for one in catalogue().values()]
+LISTED = [entry.bearing for entry in catalogue().values()]
 
 
 def orders(bearing: Bearing) -> dict[str, float]:

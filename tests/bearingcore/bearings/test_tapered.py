@@ -24,12 +24,12 @@ def test_next_to_no_angle_makes_cylindrical_rollers() -> None:
     length = ROW.roller_length or 0.0
     straight = Bearing.cylindrical(Z, ROW.ball_diameter, length, ROW.pitch_diameter)
     cylindrical = dataclasses.replace(flat, bearing=straight)
-    loads = [equilibrium(one, [0.1]).ball_load for one in (flat, cylindrical)]
+    loads = [equilibrium(bearing, [0.1]).ball_load for bearing in (flat, cylindrical)]
     assert loads[0] == pytest.approx(loads[1], rel=1e-6, abs=1e-3)
 
 
 def test_what_it_cannot_do_is_said_or_refused() -> None:
-    said = {one.name: one.sentence for one in limits(PAIR)}
+    said = {limit.name: limit.sentence for limit in limits(PAIR)}
     assert "swivelling" in said["tilt of the rollers"]
     assert "friction of the rib" in said["tilt of the rollers"]
     assert "rib" in said["change by centrifugal force"]

@@ -38,13 +38,13 @@ ONE = presets["7208-25deg"]
 STEEP = math.radians(40.0)
 
 
-def with_rows(*rows: Row) -> Scene:
+def scene_of_rows(*rows: Row) -> Scene:
     return ONE.replace(bearing=ONE.bearing.replace(rows=rows))
 
 
-UNLIKE = with_rows(Row(-9e-3, -1, turn=0.1), Row(9e-3, 1, contact_angle=STEEP))
+UNLIKE = scene_of_rows(Row(-9e-3, -1, turn=0.1), Row(9e-3, 1, contact_angle=STEEP))
 OWN = {"n_balls": 11, "ball_diameter": 10e-3, "pitch_diameter": 55e-3}
-BALLS = with_rows(Row(-9e-3, -1, turn=0.1), Row(9e-3, 1, contact_angle=STEEP, **OWN))  # type: ignore[arg-type]
+BALLS = scene_of_rows(Row(-9e-3, -1, turn=0.1), Row(9e-3, 1, contact_angle=STEEP, **OWN))  # type: ignore[arg-type]
 SMALL = Bearing.from_drawing(11, 10e-3, 55e-3, 5.2e-3, 5.3e-3, contact_angle=STEEP)
 both = pytest.mark.parametrize("scene", [UNLIKE, BALLS], ids=["angles", "balls"])
 
@@ -52,10 +52,10 @@ both = pytest.mark.parametrize("scene", [UNLIKE, BALLS], ids=["angles", "balls"]
 def test_a_row_of_the_bearings_own_angle_is_as_if_none_were_given() -> None:
     angle = ONE.bearing.contact_angle
     n, ball = ONE.bearing.n_balls, ONE.bearing.ball_diameter
-    told = with_rows(
+    told = scene_of_rows(
         Row(-9e-3, -1, contact_angle=angle, n_balls=n), Row(9e-3, ball_diameter=ball)
     ).replace(extent=0.2)
-    plain = with_rows(Row(-9e-3, -1), Row(9e-3)).replace(extent=0.2)
+    plain = scene_of_rows(Row(-9e-3, -1), Row(9e-3)).replace(extent=0.2)
     assert told.bearing.rows_are_alike
     assert not UNLIKE.bearing.rows_are_alike
     assert told.bearing.of_row(1) is told.bearing
@@ -77,7 +77,7 @@ def test_a_row_of_other_balls_is_a_bearing_of_them() -> None:
     assert bearing.of_row(1).bpfo(10.0) == pytest.approx(SMALL.bpfo(10.0), rel=1e-12)
     assert bearing.pace(1) == pytest.approx(SMALL.cage_ratio / bearing.cage_ratio, rel=1e-12)
     assert bearing.period == 2.0 * math.pi, "its cages never come back together"
-    wider = with_rows(Row(), Row(ball_diameter=10e-3, inner_groove_radius=5.4e-3)).bearing
+    wider = scene_of_rows(Row(), Row(ball_diameter=10e-3, inner_groove_radius=5.4e-3)).bearing
     assert wider.of_row(1).inner_groove_radius == 5.4e-3
     heavier = BALLS.replace(load_deflection_factor=2.0 * bearing.load_deflection_factor).bearing
     assert heavier.of_row(1).load_deflection_factor == pytest.approx(
@@ -139,7 +139,7 @@ def test_each_rows_balls_run_on_its_own_raceway(scene: Scene, race: str, edge: s
 def test_balls_enter_and_leave_when_their_own_cage_says(scene: Scene, race: str) -> None:
     scene = scene.replace(race=race, edge="exact", extent=0.2, row=None)
     events = crossings(scene, 0.0, 1.5)
-    rows = {scene.bearing.row_of_ball(one.ball)[0] for one in events}
+    rows = {scene.bearing.row_of_ball(event.ball)[0] for event in events}
     assert rows == {0, 1}
     for one in events:
         before, after = (drops_now(scene, one.cage_angle + d)[one.ball] for d in (-1e-4, 1e-4))
@@ -177,7 +177,7 @@ def test_film_pressure_and_limits_are_those_of_the_row_where_they_are_worst(scen
     scene = scene.replace(fz=-1500.0)
     oil = film(scene, viscosity=0.05)
     state = equilibrium(scene)
-    told = {one.name: one for one in limits(scene)}
+    told = {limit.name: limit for limit in limits(scene)}
     rows = [scene.bearing.of_row(k) for k in range(2)]
     heaviest = [float(state.ball_load[:, own].max()) for own in scene.bearing.balls_of_rows]
     speeds = [rolling_speed(own, scene.shaft_speed) for own in rows]
@@ -197,9 +197,9 @@ def test_film_pressure_and_limits_are_those_of_the_row_where_they_are_worst(scen
 def test_nothing_repeats_where_cages_turn_at_speeds_of_their_own() -> None:
     assert common_ball_passes(UNLIKE) is None
     assert orbit(UNLIKE).status == OrbitStatus.NO_PERIOD
-    assert common_ball_passes(with_rows(Row(-9e-3), Row(9e-3, 1, n_balls=10))) == 7
-    assert common_ball_passes(with_rows(Row(-9e-3), Row(9e-3, 1, n_balls=7))) == 2
-    assert common_ball_passes(with_rows(Row(-9e-3), Row(9e-3, 1, n_balls=9))) == 14
+    assert common_ball_passes(scene_of_rows(Row(-9e-3), Row(9e-3, 1, n_balls=10))) == 7
+    assert common_ball_passes(scene_of_rows(Row(-9e-3), Row(9e-3, 1, n_balls=7))) == 2
+    assert common_ball_passes(scene_of_rows(Row(-9e-3), Row(9e-3, 1, n_balls=9))) == 14
 
 
 @both
@@ -222,7 +222,7 @@ def test_rows_live_as_they_would_alone_and_fail_as_one_chain(scene: Scene) -> No
         by_itself = scene.replace(bearing=own[k], fz=float(pressed[balls].sum()))
         expected = life(by_itself, alone[k]).million_revolutions
         assert rated.rows[k] == pytest.approx(expected, rel=1e-6)
-    chain = sum(one ** (-10 / 9) for one in rated.rows) ** -0.9
+    chain = sum(row ** (-10 / 9) for row in rated.rows) ** -0.9
     assert rated.million_revolutions == pytest.approx(chain, rel=1e-9)
     standard = (rated.inner_load / rated.inner_rating) ** (10 / 3)
     standard += (rated.outer_load / rated.outer_rating) ** (10 / 3)
@@ -231,7 +231,7 @@ def test_rows_live_as_they_would_alone_and_fail_as_one_chain(scene: Scene) -> No
         life(scene, C, positions="load line")
 
 
-THREE_ROWS = with_rows(
+THREE_ROWS = scene_of_rows(
     Row(-9e-3, 1, n_balls=3),
     Row(9e-3, 1, n_balls=3, contact_angle=STEEP),
     Row(20e-3, -1, n_balls=3, contact_angle=math.radians(15.0)),

@@ -36,7 +36,7 @@ def _sweep() -> list[np.ndarray]:
 def _diagnosis() -> list[np.ndarray]:
     noise = np.random.default_rng(1).standard_normal((2**15, 1))
     diagnosis = diagnose(Recording(noise, 12_000.0, ("y",)), presets["6205"].bearing, 180.0)
-    return [np.array([one.level for one in diagnosis.evidence])]
+    return [np.array([part.level for part in diagnosis.evidence])]
 
 
 ANSWERS: dict[str, Callable[[], list[np.ndarray]]] = {

@@ -9,24 +9,24 @@ GOOD = presets["fan-rig"].to_toml()
 SPEED = next(line for line in GOOD.splitlines() if line.startswith("shaft_speed"))
 
 
-def with_speed(value: str) -> str:
+def text_with_speed(value: str) -> str:
     """A good scene but for one number."""
     return GOOD.replace(SPEED, f"shaft_speed = {value}")
 
 
 TEXTS = {
-    "digits": with_speed("9" * 1_000_000),
-    "hexadecimal digits": with_speed("0x" + "f" * 1_500_000),
-    "lists in lists": with_speed("[" * 9000 + "]" * 9000),
-    "tables in tables": with_speed("{b=" * 9000 + "1" + "}" * 9000),
+    "digits": text_with_speed("9" * 1_000_000),
+    "hexadecimal digits": text_with_speed("0x" + "f" * 1_500_000),
+    "lists in lists": text_with_speed("[" * 9000 + "]" * 9000),
+    "tables in tables": text_with_speed("{b=" * 9000 + "1" + "}" * 9000),
     "a table many times": GOOD + "[a]\n" * 9000,
     "many tables of many parts": GOOD + "".join(f"[a.{'b.' * 15}c{i}]\n" for i in range(9000)),
     "many names": "".join(f"k{i} = 1\n" for i in range(9900)) + GOOD,
     "a text that does not end": GOOD + 'a = """' + '"' * 1_500_000,
     "a text of escapes": GOOD + 'a = "' + "\\u0041" * 300_000 + '"',
-    "no number": with_speed("nan"),
-    "a sign that is none": with_speed('"\x00"'),
-    "half a sign": with_speed('"\ud800"'),
+    "no number": text_with_speed("nan"),
+    "a sign that is none": text_with_speed('"\x00"'),
+    "half a sign": text_with_speed('"\ud800"'),
     "twice": GOOD + SPEED,
 }
 
@@ -62,4 +62,4 @@ def test_a_hostile_text_is_refused_with_a_sentence(text: str) -> None:
 
 def test_the_good_text_is_taken() -> None:
     assert Scene.from_toml(GOOD) == presets["fan-rig"]
-    assert Scene.from_toml(with_speed("1" + "0" * 30)).shaft_speed == 1e30
+    assert Scene.from_toml(text_with_speed("1" + "0" * 30)).shaft_speed == 1e30

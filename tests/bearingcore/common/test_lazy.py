@@ -24,10 +24,10 @@ class Slow:
 
 
 def test_it_is_computed_once_and_can_be_replaced() -> None:
-    one = Slow()
-    assert (one.answer, one.answer, one.asked) == (42, 42, 1)
-    del one.answer
-    assert (one.answer, one.asked) == (42, 2)
+    slow = Slow()
+    assert (slow.answer, slow.answer, slow.asked) == (42, 42, 1)
+    del slow.answer
+    assert (slow.answer, slow.asked) == (42, 2)
     assert Slow.answer.__doc__ == "The words of it."
 
 

@@ -61,12 +61,12 @@ def test_units_for_people_stand_in_the_names() -> None:
 
 
 def test_tables_stand_side_by_side_under_prefixes_and_never_mix_names() -> None:
-    one = table_of(("a", "m", [1.0]))
-    both = one | one.prefixed("healthy")
+    table = table_of(("a", "m", [1.0]))
+    both = table | table.prefixed("healthy")
     assert list(both) == ["a", "healthy_a"]
     assert list(both.only("healthy_a")) == ["healthy_a"]
     with pytest.raises(ValueError, match="names of columns"):
-        _ = one | one
+        _ = table | table
 
 
 def test_every_unit_has_an_si_unit_that_is_one_itself() -> None:
@@ -76,10 +76,8 @@ def test_every_unit_has_an_si_unit_that_is_one_itself() -> None:
 
 
 def test_every_result_has_a_table_of_its_own_numbers() -> None:
-    vibration = modes(FAN_RIG)
-    np.testing.assert_array_equal(
-        vibration.table()["y1"], vibration.frequency[:, vibration.label.index("y1")]
-    )
+    modal = modes(FAN_RIG)
+    np.testing.assert_array_equal(modal.table()["y1"], modal.frequency[:, modal.label.index("y1")])
     maps = stiffness_maps(FAN_RIG, [0.0, 0.2], [0.0, 0.1, 0.2])
     np.testing.assert_array_equal(maps.table()["k_yy"].reshape(2, 3), maps.term("k_yy"))
     assert maps.table()["extent"].tolist() == [0.0] * 3 + [0.2] * 3

@@ -14,10 +14,8 @@ SIGNAL = np.random.default_rng(5).normal(size=(8192, 2))
 
 @pytest.mark.parametrize("third_octaves", [False, True])
 def test_a_louder_signal_differs_by_its_factor(third_octaves: bool) -> None:
-    difference = spectrum_difference(
-        1.1 * SIGNAL, SIGNAL, RATE, 3000.0, third_octaves=third_octaves
-    )
-    assert difference == pytest.approx(20.0 * math.log10(1.1))
+    level = spectrum_difference(1.1 * SIGNAL, SIGNAL, RATE, 3000.0, third_octaves=third_octaves)
+    assert level == pytest.approx(20.0 * math.log10(1.1))
     lost = np.full_like(SIGNAL, math.nan)
     assert spectrum_difference(lost, SIGNAL, RATE, 3000.0, third_octaves=third_octaves) == math.inf
     nothing = np.zeros_like(SIGNAL)

@@ -142,12 +142,12 @@ def test_spalls_of_a_rig_are_measured():
     ]
     results = [extent_verdict(*pair) for pair in spalls]
     assert WRONG not in results
-    for one, answer in spalls:
-        assert not answer.high < math.radians(one.spall_extent_deg)
-    long = [(one, answer) for one, answer in spalls if one.spall_extent_deg > 2.0]
+    for record, answer in spalls:
+        assert not answer.high < math.radians(record.spall_extent_deg)
+    long = [(record, answer) for record, answer in spalls if record.spall_extent_deg > 2.0]
     assert len(long) == 12
-    for one, answer in long:
-        assert math.degrees(answer.extent) == pytest.approx(one.spall_extent_deg, abs=1.0)
+    for record, answer in long:
+        assert math.degrees(answer.extent) == pytest.approx(record.spall_extent_deg, abs=1.0)
         assert math.degrees(answer.high - answer.low) <= 3.0
     assert results.count(RIGHT) >= 12
 
@@ -155,8 +155,10 @@ def test_spalls_of_a_rig_are_measured():
 @needs_records
 @pytest.mark.parametrize("collection", ["cwru", "mfpt"])
 def test_pits_are_given_no_extent_that_cannot_be(collection):
-    for one in records(Path(MEASURED, collection)):
-        if one.truth in ("inner race", "outer race"):
-            answer = measure_extent(one.recording, one.bearing, one.shaft_speed, race=one.truth[:5])
+    for record in records(Path(MEASURED, collection)):
+        if record.truth in ("inner race", "outer race"):
+            answer = measure_extent(
+                record.recording, record.bearing, record.shaft_speed, race=record.truth[:5]
+            )
             assert not answer.measured or answer.low < math.radians(3.0)
-            assert not answer.high < math.radians(one.spall_extent_deg or 0.0)
+            assert not answer.high < math.radians(record.spall_extent_deg or 0.0)

@@ -106,7 +106,7 @@ def test_a_run_to_failure_shows_as_a_trend_and_names_no_part(run, rpm, least):
     bearing = catalogue()[contents.bearing.value].bearing
     for k, direction in enumerate("xy"):
         shown = trend(recordings, bearing, speed, direction=direction)
-        assert shown.column("rms") == pytest.approx([one[k] for one in rms], rel=1e-9)
+        assert shown.column("rms") == pytest.approx([value[k] for value in rms], rel=1e-9)
         assert shown.rms_change[1] > least
         new, worn = shown.column("kurtosis")
         assert new == pytest.approx(3.0, abs=0.2)

@@ -24,7 +24,7 @@ from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.color_scales import DIVERGING, SEQUENTIAL, hex_colors
 from bearing_explorer.kit.plots.heat_map import BAR_LOOK, CLEAR, Side, ends
 from bearing_explorer.kit.sentences import with_unit
-from bearing_explorer.kit.serve.live import on_loop, one_message
+from bearing_explorer.kit.serve.live import one_message, run_on_loop
 from bearingcore.common import PREFIXES, prefix_power
 from bearingcore.fields import FIELD_OF
 
@@ -67,7 +67,7 @@ class Field:
     reasons: NDArray[np.object_]
 
     @classmethod
-    def of_sweep(cls, found: DataArray) -> Field:
+    def of_sweep(cls, output: DataArray) -> Field:
         """One output of a sweep over two fields, angles in degrees.
 
         Raises
@@ -75,14 +75,14 @@ class Field:
         ValueError
             for another number of fields, or values that are not evenly spaced.
         """
-        if found.ndim != 2:
-            raise ValueError(f"dimensions are {found.dims}; allowed: two, choose with .sel(...)")
-        found = found.sortby(list(found.dims))
-        y, x = ((Side("", *of), at) for of, at in (_in_page_units(found[d]) for d in found.dims))
+        if output.ndim != 2:
+            raise ValueError(f"dimensions are {output.dims}; allowed: two, choose with .sel(...)")
+        output = output.sortby(list(output.dims))
+        y, x = ((Side("", *of), at) for of, at in (_page_numbers(output[d]) for d in output.dims))
         for side, at in (x, y):
             if np.ptp(np.diff(at)) > 1e-3 * (at[1] - at[0]):
                 raise ValueError(f"{side.words} is {at}; allowed: evenly spaced values")
-        (words, _, unit), values = _in_page_units(found)
+        (words, _, unit), values = _page_numbers(output)
         reasons = np.where(np.isfinite(values), "", "see the status of the sweep").astype(object)
         return cls(x, y, words, unit, values, reasons)
 
@@ -138,13 +138,13 @@ class Field:
         return places, values, f"{self.words} at {side.words} {fixed}"
 
 
-def _in_page_units(given: DataArray) -> tuple[tuple[str, str, str], NDArray[np.float64]]:
+def _page_numbers(output: DataArray) -> tuple[tuple[str, str, str], NDArray[np.float64]]:
     """Words, symbol and unit of numbers, and the numbers: SI, but angles in degrees."""
-    unit = str(given.attrs.get("units", ""))
-    name = str(given.name)
+    unit = str(output.attrs.get("units", ""))
+    name = str(output.name)
     words = FIELD_OF[name].label if name in FIELD_OF else name.replace("_", " ")
     words = words[0].upper() + words[1:]
-    values = np.asarray(given, dtype=float)
+    values = np.asarray(output, dtype=float)
     if unit == "rad":
         return (words, "", "°"), np.degrees(values)
     return (words, "", "" if unit == "1" else unit), values
@@ -303,7 +303,7 @@ class PlaneFigures:
             place = float(self._field.x[1][cell[1]]), float(self._field.y[1][cell[0]])
             wait = SECOND_CLICK * any(map(_is_zoomed, (self.map.x_range, self.map.y_range)))
             go, loop = partial(self._go, *place), asyncio.get_running_loop()
-            self._going = loop.call_later(wait, on_loop, self.map.document, go)
+            self._going = loop.call_later(wait, run_on_loop, self.map.document, go)
 
 
 _NO_SIDE = Side("", "", "", "")

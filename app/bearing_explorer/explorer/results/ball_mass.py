@@ -260,10 +260,10 @@ def _strikes(
         return ()
     slot = int(np.flatnonzero(balls == entry.ball)[0])
     until = float(time[-1]) if leaves is None else LATE * leaves.time
-    own = [s for s in ball_strikes(time, loads[:, :, [slot]]) if 0.0 < s.time <= until]
+    hits = [s for s in ball_strikes(time, loads[:, :, [slot]]) if 0.0 < s.time <= until]
     strikes = []
     for race in RACES:
-        there = sorted((s for s in own if s.race == race), key=lambda s: -s.load)[:MOST_STRIKES]
+        there = sorted((s for s in hits if s.race == race), key=lambda s: -s.load)[:MOST_STRIKES]
         strikes += [
             dataclasses.replace(strike, ball=entry.ball)
             for strike in there

@@ -195,7 +195,7 @@ def limits(
 
 def _not_judged(limit: Limit) -> Limit:
     """A limit that is not known for want of groove radii, which are assumed on the Life tab."""
-    own = unknown(limit.name, limit.limit, limit.unit, NO_DRAWING)
-    if limit.sentence != own.sentence:
+    usual = unknown(limit.name, limit.limit, limit.unit, NO_DRAWING)
+    if limit.sentence != usual.sentence:
         return limit
     return unknown(limit.name, limit.limit, limit.unit, f"{NO_DRAWING}; {_LIFE_ASSUMES}")

@@ -74,12 +74,12 @@ class Excerpt:
         return table_of(
             ("time", "s", self.time),
             *acceleration_columns("", self.acceleration),
-            *self._of_balls("load", self.ball_load),
+            *self._ball_columns("load", self.ball_load),
             ("static_time", "s", self.static_time),
-            *self._of_balls("static_load", self.static_load),
+            *self._ball_columns("static_load", self.static_load),
         )
 
-    def _of_balls(
+    def _ball_columns(
         self, what: str, values: NDArray[np.float64]
     ) -> list[tuple[str, str, NDArray[np.float64]]]:
         """Columns of loads (n, k) of the balls."""

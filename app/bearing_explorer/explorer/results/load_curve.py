@@ -30,10 +30,10 @@ def load_curve(
     curve. A defect of the inner race comes by everywhere, and where rows are of unlike balls those
     of the other row do: then the greatest load at each angle, or half degree, is given.
     """
-    own = equilibrium.scene.bearing.balls_of_rows[row]
-    angle = np.mod(equilibrium.ball_angle[:, own], TWO_PI).ravel()
+    balls = equilibrium.scene.bearing.balls_of_rows[row]
+    angle = np.mod(equilibrium.ball_angle[:, balls], TWO_PI).ravel()
     angle[angle > TWO_PI - SAME_PLACE] = 0.0
-    load = (equilibrium.ball_load if loads is None else loads)[:, own].ravel()
+    load = (equilibrium.ball_load if loads is None else loads)[:, balls].ravel()
     if has_long_period(equilibrium.scene):
         angle, load = _greatest(angle, load)
     order = np.argsort(angle, kind="stable")

@@ -204,7 +204,7 @@ def dynamic_load(scene: Scene, how: Marching) -> float:
     return float(loads.max(initial=0.0))
 
 
-def as_far_as_with_mass(light: Scene, how: Marching) -> Marching:
+def limit_to_known(light: Scene, how: Marching) -> Marching:
     """The same for massless balls, with which their motion is known as far as one with mass is."""
     if how.coarse:
         return how
@@ -218,7 +218,7 @@ def ball_mass(scene: Scene, how: Marching) -> BallMass:
     alike = dataclasses.replace(how, duration=quick_duration(heavy, how, MOST_COMPARED))
     moved = motion(heavy, alike)
     light = scene.replace(balls=MASSLESS)
-    massless = motion(light, as_far_as_with_mass(light, alike))
+    massless = motion(light, limit_to_known(light, alike))
     return compare_motions(massless.motion, moved.motion, moved.since)
 
 

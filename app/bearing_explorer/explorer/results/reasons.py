@@ -198,7 +198,7 @@ def why_softer(
         lie = "" if briefly else f"loaded balls lie {how} {_ACROSS[dof]} and "
         said.append(
             f"{lie or 'balls '}push back {push} {_OTHER[dof]} "
-            f"({_SQUARE[dof]} {from_to(share_before, share)})"
+            f"({_SQUARE[dof]} {change_words(share_before, share)})"
         )
     if (grown > 0.0) == rises and abs(grown) >= 0.5 * abs(turned):
         if (more > 0.0) == rises and abs(more) >= 0.5 * abs(grown):
@@ -211,7 +211,7 @@ def why_softer(
     return style.list_words(said)
 
 
-def from_to(before: float, now: float) -> str:
+def change_words(before: float, now: float) -> str:
     """Two numbers with as many places as distinguish them, two at least."""
     places = next((n for n in range(2, 9) if f"{before:.{n}f}" != f"{now:.{n}f}"), 9)
     return f"{before:.{places}f} → {now:.{places}f}"
@@ -423,10 +423,10 @@ def passes(
         )
     level = 10.0 * np.log10(np.maximum(density, 1e-20))
     at = round(rate / spacing)
-    own = level[at - 1 : at + 2].max()
+    height = level[at - 1 : at + 2].max()
     valleys = [level[round(share * rate / spacing)] for share in (0.5, 1.5)]
-    below = f"{style.number(float(level.max() - own), 2)} dB below the largest peak"
-    if own - max(valleys) < STANDS_OUT:
+    below = f"{style.number(float(level.max() - height), 2)} dB below the largest peak"
+    if height - max(valleys) < STANDS_OUT:
         text = f"No peak stands out at {hertz}, as often as balls pass: "
         if not rate < lowest_mode:
             return f"{text}there the level is {below}."
@@ -451,12 +451,12 @@ def peak(results: Results, rates: Sequence[float], *, briefly: bool = False) -> 
     above = f" above {LOWEST_PEAK:.0f} Hz" if lower else ""
     text = f"The largest peak{above}, {most.frequency:.0f} Hz along {dof},"
     bands = {label: band for label, band in results.bands.items() if band[0] == band[0]}
-    inside = [label for label, band in bands.items() if _off(most, band) <= most.resolution]
-    if own := [label for label in inside if label[:-1] == dof]:
+    inside = [label for label, band in bands.items() if _distance(most, band) <= most.resolution]
+    if alike := [label for label in inside if label[:-1] == dof]:
         if briefly:
-            name = mode_symbol(own[0])
+            name = mode_symbol(alike[0])
             return f"The highest peak{above} is the {name} resonance, struck by every passing ball."
-        return f"{text} {_lies(most, own[0], bands)}: balls that pass make this mode swing."
+        return f"{text} {_lies(most, alike[0], bands)}: balls that pass make this mode swing."
     if times := _in_ball_passes(most, rates):
         if briefly:
             return f"The highest peak{above} is at {times}."
@@ -469,9 +469,9 @@ def peak(results: Results, rates: Sequence[float], *, briefly: bool = False) -> 
         return f"{text} {words}: along {dof} the housing takes part in that swing."
     if not bands:
         return ""
-    label = min(bands, key=lambda name: _off(most, bands[name]))
+    label = min(bands, key=lambda name: _distance(most, bands[name]))
     side = "below" if most.frequency < bands[label][0] else "above"
-    text += f" lies in no band, {_off(most, bands[label]):.0f} Hz {side} {mode_symbol(label)}"
+    text += f" lies in no band, {_distance(most, bands[label]):.0f} Hz {side} {mode_symbol(label)}"
     moving, still = results.load_in_motion, results.ranges.greatest[BALL_LOAD]
     if moving is not None and moving > LARGE_SWING * still:
         times = style.number(moving / still, 2)
@@ -527,11 +527,11 @@ def jolt(shown: Excerpt, bearing: Bearing) -> str:
     return f"{text} and {what} its load ({style.with_prefix(load.max(), 'N', 2)} at most)."
 
 
-def _off(peak: Peak, band: tuple[float, float]) -> float:
+def _distance(peak: Peak, band: tuple[float, float]) -> float:
     """Distance [Hz] of a peak from a band."""
     return max(band[0] - peak.frequency, peak.frequency - band[1], 0.0)
 
 
 def _lies(peak: Peak, label: str, bands: Mapping[str, tuple[float, float]]) -> str:
-    where = "in" if _off(peak, bands[label]) == 0.0 else "at the edge of"
+    where = "in" if _distance(peak, bands[label]) == 0.0 else "at the edge of"
     return f"lies {where} the band of {mode_symbol(label)}"

@@ -64,7 +64,7 @@ OVER_STRETCH: set[str] = set()
 """Attributes over the cage angles of the curves, fewer while a slider moves."""
 
 
-def of_kind(*kinds: set[str]) -> Callable[[Compute], Compute]:
+def note_kinds(*kinds: set[str]) -> Callable[[Compute], Compute]:
     """Note the name of an attribute in these sets."""
 
     def note(compute: Compute) -> Compute:
@@ -238,13 +238,13 @@ class Results(SceneContent):
         return np.degrees(inside)
 
     @cached_property
-    @of_kind(OVER_STRETCH)
+    @note_kinds(OVER_STRETCH)
     def equilibrium(self) -> Equilibrium:
         """Static answers over the stretch."""
         return statics.curves(self.scene, *self.stretch)
 
     @cached_property
-    @of_kind(OVER_STRETCH)
+    @note_kinds(OVER_STRETCH)
     def ranges(self) -> StaticRanges:
         """Least, greatest and mean of static answers, over all positions of the bearing.
 
@@ -275,13 +275,13 @@ class Results(SceneContent):
         return statics.equilibrium_at(self.scene, self.cage_angle)
 
     @cached_property
-    @of_kind(OVER_STRETCH)
+    @note_kinds(OVER_STRETCH)
     def modes(self) -> Modes:
         """Natural frequencies over the stretch."""
         return statics.modes(self.scene, *self.stretch)
 
     @cached_property
-    @of_kind(OVER_STRETCH)
+    @note_kinds(OVER_STRETCH)
     def bands(self) -> dict[str, tuple[float, float]]:
         """Between which frequencies [Hz] each mode moves, over all positions of the bearing.
 
@@ -344,11 +344,11 @@ class Results(SceneContent):
         broke off has no orbit. An orbit that is shown is judged, converged or not: an unstable one
         is no place where a machine stays.
         """
-        bad = verdict.of_statics(self.equilibrium)
+        bad = verdict.statics_words(self.equilibrium)
         if not bad and "now" in shown:
-            bad = verdict.of_now(self.now)
+            bad = verdict.words_of_now(self.now)
         if not bad and "chain" in shown:
-            bad = verdict.of_chain(self.chain)
+            bad = verdict.chain_words(self.chain)
         if bad:
             return Verdict("bad", bad)
         try:
@@ -357,7 +357,7 @@ class Results(SceneContent):
             if shown & verdict.MOTIONS and self.fault:
                 return Verdict("bad", f"The motion {self.fault}")
             if shown & verdict.ORBITS:
-                return verdict.of_orbit(self.orbit, self.moving)
+                return verdict.orbit_verdict(self.orbit, self.moving)
         except StillCompiling as wait:
             return Verdict("busy", f"Not ready: {wait}")
         except ValueError as error:  # the view gives the whole sentence
@@ -390,7 +390,7 @@ class Results(SceneContent):
         return {"compared": "{" + ", ".join(named) + "}"} if self.compared else {}
 
     @property
-    def _with_mass(self) -> Scene:
+    def _scene_with_mass(self) -> Scene:
         """The scene with mass of its balls, where that is known."""
         known = not self.scene.bearing.kind.mass_unknown
         return self.scene.replace(balls=WITH_MASS) if known else self.scene
@@ -401,7 +401,7 @@ class Results(SceneContent):
         if "reference" in shown and scenes:
             scenes.append(self.grey.scene)
         if "ball_mass" in shown:
-            scenes.append(self._with_mass)
+            scenes.append(self._scene_with_mass)
         return any(map(self._is_coarse, scenes))
 
     def is_finer_at_rest(self, shown: frozenset[str]) -> bool:
@@ -417,7 +417,7 @@ class Results(SceneContent):
 
     def coarse_words(self, shown: frozenset[str]) -> str:
         """In which way motions shown are coarse."""
-        scene = self.scene if "ball_mass" not in shown else self._with_mass
+        scene = self.scene if "ball_mass" not in shown else self._scene_with_mass
         if scene.balls == MASSLESS:
             return "coarse while it moves: half the motion in half the steps"
         seconds = motions.quick_duration(scene, self.settings.coarse_marching)
@@ -437,11 +437,11 @@ class Results(SceneContent):
         first = self.like or self
         how = first._marching_of(first.scene, first.grey.scene)
         if first.grey_kind == OTHER_BALLS and self.scene.balls == MASSLESS:
-            return motions.as_far_as_with_mass(self.scene, how)
+            return motions.limit_to_known(self.scene, how)
         return how
 
     @cached_property
-    @of_kind(SLOW, OF_MOTION)
+    @note_kinds(SLOW, OF_MOTION)
     def motion(self) -> Motion:
         """Simulated motion of rotor and housing."""
         return motions.motion(self.scene, self.marching).motion
@@ -462,13 +462,13 @@ class Results(SceneContent):
         return motions.ending(self.scene, self.marching).since
 
     @cached_property
-    @of_kind(SLOW, OF_MOTION)
+    @note_kinds(SLOW, OF_MOTION)
     def excerpt(self) -> Excerpt:
         """Some ball passes of the settled motion, with static loads for comparison."""
         return motions.excerpt(self.scene, self.marching)
 
     @cached_property
-    @of_kind(SLOW, OF_MOTION)
+    @note_kinds(SLOW, OF_MOTION)
     def late_spectra(self) -> dict[str, Spectrum]:
         """Spectrum of the housing's acceleration along each direction, once the motion has settled.
 
@@ -483,7 +483,7 @@ class Results(SceneContent):
         return {dof: loudest(spectra[dof]) for dof in ("x", "y") if dof in spectra}
 
     @cached_property
-    @of_kind(SLOW, OF_MOTION)
+    @note_kinds(SLOW, OF_MOTION)
     def ball_mass(self) -> BallMass:
         """The motions without and with the balls' mass, marched alike; whatever the scene has."""
         if kind := self.scene.bearing.kind.mass_unknown:
@@ -497,7 +497,7 @@ class Results(SceneContent):
         return common_ball_passes(self.scene)
 
     @cached_property
-    @of_kind(SLOW, OF_MOTION)
+    @note_kinds(SLOW, OF_MOTION)
     def orbit(self) -> Orbit | None:
         """The motion that repeats itself; None where it takes too many ball passes to look for.
 
@@ -550,7 +550,7 @@ class Results(SceneContent):
         return load if math.isfinite(load) else None
 
     @cached_property
-    @of_kind(SLOW, OF_MOTION, OVER_STRETCH)
+    @note_kinds(SLOW, OF_MOTION, OVER_STRETCH)
     def chain(self) -> Chain:
         """Results from the loads of the balls to the vibration."""
         bands: dict[str, tuple[float, float]] = {}

@@ -42,7 +42,7 @@ class Verdict(NamedTuple):
     words: str
 
 
-def of_statics(state: Equilibrium) -> str:
+def statics_words(state: Equilibrium) -> str:
     """At which cage angles of the curves no static equilibrium was found; empty for none."""
     bad = np.flatnonzero(~state.converged)
     if not bad.size:
@@ -53,12 +53,12 @@ def of_statics(state: Equilibrium) -> str:
     return f"No answer at {bad.size} of {state.converged.size} cage angles: {reason}"
 
 
-def of_now(now: Equilibrium) -> str:
+def words_of_now(now: Equilibrium) -> str:
     """Why there is no static equilibrium at the cage angle that is drawn; empty where there is."""
     return "" if now.converged[0] else f"No answer at this cage angle: {now.reason(0)}"
 
 
-def of_chain(chain: Chain) -> str:
+def chain_words(chain: Chain) -> str:
     """The same wherever the change is followed: the shaft may turn too."""
     if chain.answered == 1.0:
         return ""
@@ -66,7 +66,7 @@ def of_chain(chain: Chain) -> str:
     return f"No answer at {share} % of the cage angles: {chain.reason}"
 
 
-def of_orbit(orbit: Orbit | None, moving: bool) -> Verdict:
+def orbit_verdict(orbit: Orbit | None, moving: bool) -> Verdict:
     """Whether there is a steady orbit, and whether it is stable."""
     if orbit is None:
         return Verdict("bad", "Orbit not searched")

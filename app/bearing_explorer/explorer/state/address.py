@@ -136,10 +136,10 @@ def read(text: str) -> Place | None:
     ValueError
         with a sentence for the page.
     """
-    given, note = _known_pairs(text)
-    if not given:
+    pairs, note = _known_pairs(text)
+    if not pairs:
         return None
-    place = _read(given)
+    place = _read(pairs)
     return dataclasses.replace(place, note=" ".join(filter(None, (place.note, note))))
 
 
@@ -156,16 +156,16 @@ def _known_pairs(text: str) -> tuple[dict[str, str], str]:
             "It has far too many parts, or characters that do not belong in it."
         ) from None
     strange = [name for name, _ in pairs if not _is_known(name)]
-    given: dict[str, str] = {}
+    values: dict[str, str] = {}
     for name, value in pairs:
-        if name in given:
+        if name in values:
             raise ValueError(f"“{_shown(name)}” is given twice.")
         if _is_known(name):
-            given[name] = value
+            values[name] = value
     if not strange:
-        return given, ""
+        return values, ""
     more = f", like {len(strange) - 1} more," if len(strange) > 1 else ""
-    return given, f"“{_shown(strange[0])}” in the address{more} is not known and was ignored."
+    return values, f"“{_shown(strange[0])}” in the address{more} is not known and was ignored."
 
 
 _TAB = re.compile(r"(?:^|[?&])tab=([a-z-]{1,40})(?=&|$)")
@@ -224,14 +224,12 @@ def place_of(editor: SceneEditor, tab: str = "") -> Place:
 
 def _written(place: Place, without_floors: bool) -> str:
     pairs = [("v", VERSION), *_scene_pairs(place, without_floors)]
-    for number, reference in enumerate(place.compared, 1):
-        preset = min(
-            presets, key=lambda name: len(_scene_pairs(Place(reference.scene, name), True))
-        )
-        label = [("label", reference.name)] if reference.name else []
-        own_place = Place(reference.scene, preset, name=reference.bearing)
-        own = [*label, *_scene_pairs(own_place, without_floors)]
-        pairs += [(f"compare{number}.{name}", value) for name, value in own]
+    for number, other in enumerate(place.compared, 1):
+        preset = min(presets, key=lambda name: len(_scene_pairs(Place(other.scene, name), True)))
+        label = [("label", other.name)] if other.name else []
+        own_place = Place(other.scene, preset, name=other.bearing)
+        of_place = [*label, *_scene_pairs(own_place, without_floors)]
+        pairs += [(f"compare{number}.{name}", value) for name, value in of_place]
     if place.cage_angle:
         pairs.append((CAGE_ANGLE, _short(place.cage_angle)))
     if place.tab:
@@ -247,8 +245,8 @@ def _scene_pairs(place: Place, without_floors: bool) -> list[tuple[str, str]]:
     if len(defects) != 1:
         pairs.append(("defects", str(len(defects))))
     for number, defect in enumerate(defects):
-        own = [*_changes(_DEFECT, defect, usual), *_floor_pairs(defect.floor, without_floors)]
-        pairs += [(_behind(number) + name, value) for name, value in own]
+        of_defect = [*_changes(_DEFECT, defect, usual), *_floor_pairs(defect.floor, without_floors)]
+        pairs += [(_prefix(number) + name, value) for name, value in of_defect]
     if place.selected:
         pairs.append(("selected", str(place.selected + 1)))
     for part, entries in _SCENE.items():
@@ -260,7 +258,7 @@ def _scene_pairs(place: Place, without_floors: bool) -> list[tuple[str, str]]:
     return pairs
 
 
-def _behind(number: int) -> str:
+def _prefix(number: int) -> str:
     return f"defect{number + 1}." if number else ""
 
 
@@ -327,8 +325,8 @@ _OF_COMPARED = re.compile(r"compare([1-4])\.(.+)", re.ASCII)
 
 
 def _is_known(name: str) -> bool:
-    if own := _OF_COMPARED.fullmatch(name):
-        return own[2] == "label" or (own[2] not in _PLACE_ONLY and _is_known_of_scene(own[2]))
+    if match := _OF_COMPARED.fullmatch(name):
+        return match[2] == "label" or (match[2] not in _PLACE_ONLY and _is_known_of_scene(match[2]))
     return name in _PLACE_ONLY or _is_known_of_scene(name)
 
 
@@ -339,12 +337,12 @@ def _is_known_of_scene(name: str) -> bool:
     return re.fullmatch(r"defect[1-9]\d?", head, re.ASCII) is not None and tail in _DEFECT_NAMES
 
 
-def _compared(given: dict[str, str]) -> tuple[Reference, ...]:
+def _compared(pairs: dict[str, str]) -> tuple[Reference, ...]:
     """The compared scenes of an address, in the order of their numbers; they are taken out."""
     parts: dict[str, dict[str, str]] = {}
-    for name in list(given):
-        if own := _OF_COMPARED.fullmatch(name):
-            parts.setdefault(own[1], {})[own[2]] = given.pop(name)
+    for name in list(pairs):
+        if match := _OF_COMPARED.fullmatch(name):
+            parts.setdefault(match[1], {})[match[2]] = pairs.pop(name)
     references = []
     for _, part in sorted(parts.items()):
         label = one_line(part.pop("label", ""), LONGEST_NAME)
@@ -353,37 +351,37 @@ def _compared(given: dict[str, str]) -> tuple[Reference, ...]:
     return tuple(references)
 
 
-def _read(given: dict[str, str]) -> Place:
-    compared = _compared(given)
-    version = given.pop("v", "")
+def _read(pairs: dict[str, str]) -> Place:
+    compared = _compared(pairs)
+    version = pairs.pop("v", "")
     if version == TOO_LONG:
         raise ValueError("It is far too long.")
     if version not in ("", VERSION):
         raise ValueError(
             f"It has version “{_shown(version)}”; this program reads version {VERSION} only."
         )
-    place_alone = not given.keys() - {"tab"}
-    preset = given.pop("preset", "fan-rig")
+    place_alone = not pairs.keys() - {"tab"}
+    preset = pairs.pop("preset", "fan-rig")
     if preset not in presets:
         raise ValueError(f"There is no bearing “{_shown(preset)}”.")
     base = presets[preset]
-    count = _count(given.pop("defects", "1"), "defects")
-    selected = _count(given.pop("selected", "1"), "selected") - 1
-    cage_angle, _ = _parsed(given.pop(CAGE_ANGLE, "0"), CAGE_ANGLE)
-    tab = given.pop("tab", "")
-    name = one_line(given.pop("name", ""), LONGEST_NAME)
+    count = _count(pairs.pop("defects", "1"), "defects")
+    selected = _count(pairs.pop("selected", "1"), "selected") - 1
+    cage_angle, _ = _parsed(pairs.pop(CAGE_ANGLE, "0"), CAGE_ANGLE)
+    tab = pairs.pop("tab", "")
+    name = one_line(pairs.pop("name", ""), LONGEST_NAME)
     defects = []
     note = f"The address names no version; it was read as v={VERSION}."
     note = "" if version or place_alone else note
     for number in range(count):
-        here = {name: _behind(number) + name for name in _DEFECT_NAMES}
-        own = {name: given.pop(there) for name, there in here.items() if there in given}
-        if own.get("floor") == "left-out":
+        here = {name: _prefix(number) + name for name in _DEFECT_NAMES}
+        defect_pairs = {name: pairs.pop(there) for name, there in here.items() if there in pairs}
+        if defect_pairs.get("floor") == "left-out":
             note += " A measured floor was too long for the address; here it is flat."
-        defects.append(_defect(own, defects_of(base)[0]))
-    fields = {part: _taken(entries, given) for part, entries in _SCENE.items()}
-    if given:
-        raise ValueError(f"“{_shown(next(iter(given)))}” belongs to a defect that is missing.")
+        defects.append(_defect(defect_pairs, defects_of(base)[0]))
+    fields = {part: _taken(entries, pairs) for part, entries in _SCENE.items()}
+    if pairs:
+        raise ValueError(f"“{_shown(next(iter(pairs)))}” belongs to a defect that is missing.")
     own_fields = fields.pop("scene")
     if fields["bearing"]:
         fields["bearing"]["kind"] = ""  # links do not say it: the numbers do
@@ -400,12 +398,12 @@ def _read(given: dict[str, str]) -> Place:
     return Place(scene, preset, selected, cage_angle, tab, note.strip(), name, compared)
 
 
-def _taken(entries: Iterable[Entry], given: dict[str, str]) -> dict[str, Any]:
+def _taken(entries: Iterable[Entry], pairs: dict[str, str]) -> dict[str, Any]:
     """The values of the entries that are given, by their fields; they are taken out."""
     return {
-        entry.field: entry.value_of(given.pop(entry.name))
+        entry.field: entry.value_of(pairs.pop(entry.name))
         for entry in entries
-        if entry.name in given
+        if entry.name in pairs
     }
 
 
@@ -418,27 +416,27 @@ def _rows(text: str) -> tuple[Row, ...]:
         few = not _ALWAYS_OF_ROW <= len(numbers) <= len(_OF_ROW)
         if few or "" in numbers[:_ALWAYS_OF_ROW] or len(rows) == MOST_SHOWN_ROWS:
             raise ValueError(f"“{_shown(text)}” does not describe the rows of a bearing.")
-        given: dict[str, Any] = {
+        numbers_of_row: dict[str, Any] = {
             name: _parsed(number, "rows")[0]
             for name, number in zip(_OF_ROW, numbers, strict=False)
             if number
         }
         for name in ("facing", "n_balls"):
-            if (number := given.get(name)) is not None and number == int(number):
-                given[name] = int(number)
-        rows.append(Row(**given))
+            if (number := numbers_of_row.get(name)) is not None and number == int(number):
+                numbers_of_row[name] = int(number)
+        rows.append(Row(**numbers_of_row))
     return tuple(rows)
 
 
-def _defect(given: dict[str, str], usual: Defect) -> Defect:
-    fields = _taken(_DEFECT, given)
-    kind = given.get("floor", "flat")
+def _defect(pairs: dict[str, str], usual: Defect) -> Defect:
+    fields = _taken(_DEFECT, pairs)
+    kind = pairs.get("floor", "flat")
     if kind == "rough":
         fields["floor"] = RoughFloor(
-            **{entry.field: entry.value_of(given.get(entry.name, "")) for entry in _FLOOR}
+            **{entry.field: entry.value_of(pairs.get(entry.name, "")) for entry in _FLOOR}
         )
     elif kind == "measured":
-        fields["floor"] = unpacked(given.get("points", ""))
+        fields["floor"] = unpacked(pairs.get("points", ""))
     elif kind in ("flat", "left-out"):
         fields["floor"] = None
     else:

@@ -92,12 +92,12 @@ def _loads_without(bearing: Bearing) -> list[str]:
 
 def hidden_of(bearing: Bearing) -> list[str]:
     """Controls that do not belong to this kind of bearing."""
-    given = bearing.kind.inputs(bearing)
+    inputs = bearing.kind.inputs(bearing)
     without = _loads_without(bearing)
     hidden = [
         field.key
         for field in SHOWN_FIELDS
-        if (field.group in BEARING_GROUPS and field.full_name not in given)
+        if (field.group in BEARING_GROUPS and field.full_name not in inputs)
         or field.full_name in without
     ]
     choices = {

@@ -50,8 +50,8 @@ class OpenRequest:
 def open_request_of(message: Mapping[str, Any]) -> OpenRequest | None:
     """The request of a message to open ("open", "file") or compare a scene, or None."""
     for what in ("open", "file", "compare"):
-        if given := message.get(what):
-            return OpenRequest(what, name_of(given["name"]), given["text"][: LONGEST_TEXT + 1])
+        if sent := message.get(what):
+            return OpenRequest(what, name_of(sent["name"]), sent["text"][: LONGEST_TEXT + 1])
     return None
 
 
@@ -129,15 +129,15 @@ class Bookmarks:
         Play turns the bearing while a hand moves something else: that belongs to the hand's step.
         """
         now = self._editor.snapshot()
-        given = message.get("set")
+        values = message.get("set")
         if message.get("turning") is True:
             self._history.amend(now)
             return message.get("released") is True
-        if given is None or any(name in message for name in _STEPS[1:]):
+        if values is None or any(name in message for name in _STEPS[1:]):
             self._history.step(now)
             return True
-        if given:
-            names = sorted(str(name)[:40] for name in list(given)[:9] if name != CAGE_ANGLE)
+        if values:
+            names = sorted(str(name)[:40] for name in list(values)[:9] if name != CAGE_ANGLE)
             self._history.moved(now, " ".join(names) or self._history.moving or CAGE_ANGLE)
         if message.get("released") is True:
             self._history.settle()

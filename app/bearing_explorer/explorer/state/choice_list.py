@@ -103,8 +103,8 @@ class Choice:
 
     def sentence(self, owner: Any) -> str:
         """The sentence of a report about a scene or a defect; empty without one."""
-        own = {option.name: option.label for option in self.options}[self.name_of(owner)]
-        return self.said.format(own) if self.said else ""
+        labels = {option.name: option.label for option in self.options}[self.name_of(owner)]
+        return self.said.format(labels) if self.said else ""
 
 
 RACE = Choice(

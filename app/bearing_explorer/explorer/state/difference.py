@@ -31,24 +31,24 @@ def difference(now: Scene, before: Scene, focus: int = 0) -> str:
     """Changes from one scene to the other; `focus` is the selected defect."""
     if not (now.defects and before.defects) and now.healthy() == before.healthy():
         return "With the defect" if now.defects else "Without the defect"
-    own, earlier = defects_of(now), defects_of(before)
-    if len(own) != len(earlier):
-        return "A defect more" if len(own) > len(earlier) else "A defect less"
-    focus = min(focus, len(own) - 1)
+    defects, earlier = defects_of(now), defects_of(before)
+    if len(defects) != len(earlier):
+        return "A defect more" if len(defects) > len(earlier) else "A defect less"
+    focus = min(focus, len(defects) - 1)
     changed = _numbers(values_of(now, focus), values_of(before, focus))
     if len(changed) > MOST_NUMBERS:
         return "Another bearing" if now.bearing != before.bearing else "Several changes at once"
     words = [
         f"{choice.label} ({choice.name_of(b)} → {choice.name_of(a)})"
-        for choices, a, b in ((OF_SCENE, now, before), (OF_DEFECT, own[focus], earlier[focus]))
+        for choices, a, b in ((OF_SCENE, now, before), (OF_DEFECT, defects[focus], earlier[focus]))
         for choice in choices
         if choice.name_of(a) != choice.name_of(b)
     ]
     if now.dofs != before.dofs:
         words.append("Other free directions")
-    words += [_from_to(field, *values, now) for field, values in changed]
+    words += [_change_words(field, *values, now) for field, values in changed]
     if not words:
-        return "Another defect has changed" if own != earlier else "The scene has changed"
+        return "Another defect has changed" if defects != earlier else "The scene has changed"
     first, *others = words
     return ", ".join([first, *(word[0].lower() + word[1:] for word in others)])
 
@@ -72,11 +72,11 @@ def separated(now: Scene, before: Scene, focus: int = 0) -> dict[str, Scene]:
         name = label_inside(FIELD_OF["extent"] if at_one_end else field)
         name = "load" if field.part == "load" else name
         causes.setdefault(name, {})[field.name] = number_of(now, field, focus)
-    together = {name: value for own in causes.values() for name, value in own.items()}
+    together = {name: value for cause in causes.values() for name, value in cause.items()}
     try:
         if len(causes) < 2 or scene_with_fields(before, together, focus) != now:
             return {}
-        return {name: scene_with_fields(before, own, focus) for name, own in causes.items()}
+        return {name: scene_with_fields(before, cause, focus) for name, cause in causes.items()}
     except ValueError:
         return {}
 
@@ -88,10 +88,10 @@ def distinct_name(scene: Scene, others: Iterable[Scene], focus: int = 0, bearing
     bearing comes first, by its name `bearing` where that is known.
     """
     focus = min(focus, len(defects_of(scene)) - 1)
-    own, changed, words = values_of(scene, focus), set[Field](), dict[str, None]()
+    values, changed, words = values_of(scene, focus), set[Field](), dict[str, None]()
     others = tuple(others)
     for other in others:
-        changed |= _changed_numbers(scene, other, own, focus)
+        changed |= _changed_numbers(scene, other, values, focus)
         words |= dict.fromkeys(_changed_choices(scene, other, focus))
     turned = any(
         not math.isclose(_direction(scene), _direction(other), abs_tol=1e-6) for other in others
@@ -112,18 +112,18 @@ def distinct_name(scene: Scene, others: Iterable[Scene], focus: int = 0, bearing
             name = f"{scene.bearing.total_balls} {scene.bearing.kind.element}s of {size} mm"
         else:
             unit = field.shown_unit if field.shown_unit in ("", "°") else f" {field.shown_unit}"
-            name = f"{_number(field.read_sign * own[field.key], 4)}{unit}"
+            name = f"{_number(field.read_sign * values[field.key], 4)}{unit}"
             name = name if field.name == "shaft_speed" else f"{label_inside(field)} {name}"
         numbers[name] = None
     return ", ".join([*numbers, *words][:MOST_NUMBERS]) or usual_name(scene, focus)
 
 
-def _changed_numbers(scene: Scene, other: Scene, own: Values, focus: int) -> set[Field]:
+def _changed_numbers(scene: Scene, other: Scene, values: Values, focus: int) -> set[Field]:
     """Fields whose numbers differ; places of defects only where both scenes have some."""
     at = min(focus, len(defects_of(other)) - 1)
     return {
         field
-        for field, _ in _numbers(own, values_of(other, at))
+        for field, _ in _numbers(values, values_of(other, at))
         if field.name != "center" or (scene.defects and other.defects)
     }
 
@@ -151,7 +151,7 @@ def _numbers(now: Values, before: Values) -> list[tuple[Field, tuple[float, floa
     ]
 
 
-def _from_to(field: Field, before: float, now: float, scene: Scene) -> str:
+def _change_words(field: Field, before: float, now: float, scene: Scene) -> str:
     unit = field.shown_unit if field.shown_unit in ("", "°") else f" {field.shown_unit}"
     digits = 4 if f"{before:.4g}" != f"{now:.4g}" else 12
     read = [_number(field.read_sign * value, digits) for value in (before, now)]

@@ -89,11 +89,11 @@ def in_si(field: Field, value: float) -> float | None:
 
 def scene_with_fields(scene: Scene, fields: Mapping[str, Any], selected: int = 0) -> Scene:
     """`scene` with fields changed by their names, those of a defect in the `selected` one."""
-    own = {name: fields[name] for name in fields if name in Defect.__dataclass_fields__}
-    others = {name: fields[name] for name in fields if name not in own}
+    of_defect = {name: fields[name] for name in fields if name in Defect.__dataclass_fields__}
+    others = {name: fields[name] for name in fields if name not in of_defect}
     defects = list(defects_of(scene))
-    if own:
-        single = Scene.replace(scene, defect=defects[selected]).replace(**own)
+    if of_defect:
+        single = Scene.replace(scene, defect=defects[selected]).replace(**of_defect)
         assert isinstance(single.defect, Defect)
         defects[selected] = single.defect
         others["defect"] = defects[0] if len(defects) == 1 else tuple(defects)

@@ -228,7 +228,7 @@ def lessons_in(folder: Path, tabs: Tabs) -> list[Lesson | Fault]:
     for path in files[:MOST_LESSONS]:
         try:
             about = path.stat()
-            lessons.append(_from_file(path, about.st_mtime_ns, about.st_size, tabs))
+            lessons.append(_read_file(path, about.st_mtime_ns, about.st_size, tabs))
         except OSError as error:
             lessons.append(_fault(path.name, f"cannot be read ({error.strerror or error})"))
     if len(files) > MOST_LESSONS:
@@ -255,7 +255,7 @@ def _fault(name: str, why: str) -> Fault:
 
 
 @lru_cache(maxsize=4 * MOST_LESSONS)
-def _from_file(path: Path, changed: int, size: int, tabs: Tabs) -> Lesson | Fault:
+def _read_file(path: Path, changed: int, size: int, tabs: Tabs) -> Lesson | Fault:
     """The lesson in a file; the time and size of its last change are part of the cache's key."""
     try:
         lesson = read_lesson(_text(path, size), tabs)
@@ -279,12 +279,12 @@ def text_for_teachers(tabs: Tabs) -> str:
         if token.type in ("heading_open", "heading_close"):
             _lower(token, by=2)  # below the title of the list of lessons
         if token.children:
-            _without_links_to_files(token.children)
+            _drop_file_links(token.children)
             _mend(token.children, 1, checks)
     return str(_markdown().renderer.render(tokens, _markdown().options, {}))
 
 
-def _without_links_to_files(tokens: list[Token]) -> None:
+def _drop_file_links(tokens: list[Token]) -> None:
     """Links that lead somewhere in the repository only become their words."""
     inside = False
     for token in tokens:
@@ -348,33 +348,33 @@ class _Checks:
         self.head = head = self._decoded()
         head.title = " ".join(head.title.split())
         head.tab = OTHER_NAMES_OF_TABS.get(head.tab, head.tab)
-        self._on_list("tab", [head.tab], list(self.tabs), "a tab")
-        self._on_list("preset", [head.preset], list(presets), "a preset")
-        self._on_list("drag", head.drag, DRAGGED, "a control of the page")
+        self._require("tab", [head.tab], list(self.tabs), "a tab")
+        self._require("preset", [head.preset], list(presets), "a preset")
+        self._require("drag", head.drag, DRAGGED, "a control of the page")
         figures = [name for names in self.tabs.values() for name in names]
-        self._on_list("watch", head.watch, figures, "a figure of the page")
-        self._on_list("term", [head.term], ["", *TERM_SYMBOLS], "a term of the stiffness")
+        self._require("watch", head.watch, figures, "a figure of the page")
+        self._require("term", [head.term], ["", *TERM_SYMBOLS], "a term of the stiffness")
 
     def _decoded(self) -> _Head:
         try:
-            given = tomli.loads("\n".join(self._lines))
+            table = tomli.loads("\n".join(self._lines))
         except tomli.TOMLDecodeError as error:
             raise LessonError(error.lineno + 1, f"the head is not TOML: {error.msg}") from None
         except RecursionError:
             raise LessonError(1, "the head is not TOML: its lists are too deep") from None
-        return self._entries(given, _Head)
+        return self._entries(table, _Head)
 
-    def _entries(self, given: dict[str, Any], kind: type[_Entries]) -> _Entries:
+    def _entries(self, table: dict[str, Any], kind: type[_Entries]) -> _Entries:
         """A table of the head as `kind`; LessonError naming the entry that is wrong."""
         known = {field.name: field for field in fields(kind)}
         for name, field in known.items():
-            if field.required and name not in given:
+            if field.required and name not in table:
                 raise self.error("", f"{name} is missing")
         values = {}
-        for name, value in given.items():
+        for name, value in table.items():
             if name not in known:
                 raise self.error(
-                    name, f"“{name[:40]}” is no entry here; {_near(name, list(known))}"
+                    name, f"“{name[:40]}” is no entry here; {_hint(name, list(known))}"
                 )
             try:
                 values[name] = msgspec.convert(value, known[name].type)
@@ -388,10 +388,10 @@ class _Checks:
         at = next((i for i, line in enumerate(self._lines, 2) if begins.match(line)), 1)
         return LessonError(at if name else 1, words)
 
-    def _on_list(self, entry: str, names: Sequence[str], known: Sequence[str], what: str) -> None:
+    def _require(self, entry: str, names: Sequence[str], known: Sequence[str], what: str) -> None:
         for name in names:
             if name not in known:
-                raise self.error(entry, f"“{name[:40]}” is not {what}; {_near(name, known)}")
+                raise self.error(entry, f"“{name[:40]}” is not {what}; {_hint(name, known)}")
 
     def scene(self) -> tuple[dict[str, float], dict[str, str]]:
         """The numbers and the choices that the scene is changed by."""
@@ -402,11 +402,11 @@ class _Checks:
         """The prediction; LessonError where none of its choices is right."""
         if self.head.predict is None:
             return None
-        given = self._entries(self.head.predict, Prediction)
-        if given.choose and given.right not in range(1, len(given.choose) + 1):
+        made = self._entries(self.head.predict, Prediction)
+        if made.choose and made.right not in range(1, len(made.choose) + 1):
             raise self.error("right", "right counts the choices from 1")
-        self._on_list("veil", given.veil or (), self.tabs[self.head.tab], "a figure of this tab")
-        return given
+        self._require("veil", made.veil or (), self.tabs[self.head.tab], "a figure of this tab")
+        return made
 
     @cached_property
     def _begun(self) -> tuple[SceneEditor, Snapshot]:
@@ -423,7 +423,7 @@ class _Checks:
         return editor
 
 
-def _near(name: str, known: Sequence[str]) -> str:
+def _hint(name: str, known: Sequence[str]) -> str:
     """The nearest known name, or all of them where there are few."""
     if len(known) <= _MOST_LISTED:
         return f"there are {', '.join(known)}"
@@ -442,11 +442,11 @@ def _changes(
     for name, value in choices.items():
         options = CHOICES.get(name, list(presets))
         if value not in options:
-            raise error(name, f"{name} is “{value[:40]}”; {_near(value, options)}")
+            raise error(name, f"{name} is “{value[:40]}”; {_hint(value, options)}")
     numbers = {name: value for name, value in changes.items() if name not in choices}
     for name in numbers:
         if name not in FIELD_BY_KEY:
-            known = _near(name, [*FIELD_BY_KEY, *CHOICES])
+            known = _hint(name, [*FIELD_BY_KEY, *CHOICES])
             raise error(name, f"“{name[:40]}” is no number or choice of the page; {known}")
     refused = editor.choose(choices) or editor.set(numbers)[0]
     for name, sentence in refused.items():
@@ -537,7 +537,7 @@ def _simulate(rest: str, line: int, checks: _Checks) -> dict[str, Any]:
     changes = dict(parse_qsl(rest, keep_blank_values=True))
     noise = changes.pop("noise", "20")
     if noise not in NOISES:
-        raise LessonError(line, f"noise is “{noise[:40]}”; {_near(noise, list(NOISES))}")
+        raise LessonError(line, f"noise is “{noise[:40]}”; {_hint(noise, list(NOISES))}")
     for former in ("machine", "pit"):  # options of former days
         changes.pop(former, None)
     scene = _set(urlencode(changes), line, checks) if changes else {"choose": {}, "typed": {}}
@@ -549,7 +549,7 @@ def _show(rest: str, line: int, checks: _Checks) -> dict[str, Any]:
     """The message of a button that opens a tab."""
     name = OTHER_NAMES_OF_TABS.get(unquote(rest), unquote(rest))
     if name not in checks.tabs:
-        raise LessonError(line, f"“{name[:40]}” is not a tab; {_near(name, list(checks.tabs))}")
+        raise LessonError(line, f"“{name[:40]}” is not a tab; {_hint(name, list(checks.tabs))}")
     return {"show": name}
 
 

@@ -111,7 +111,7 @@ class Snapshot:
     def __init__(self, editor: SceneEditor) -> None:
         #: by the names of the editor's fields, lists and tables as copies
         self.held = {
-            name: own.copy() if isinstance(own := getattr(editor, name), list | dict) else own
+            name: value.copy() if isinstance(value := getattr(editor, name), list | dict) else value
             for name in ("scene", "preset", "selected", "own_name", "origin", "begun",
                          "values", "limits", "usual", "floors")
         }  # fmt: skip
@@ -195,8 +195,8 @@ class SceneEditor:
 
     def restore(self, kept: Snapshot) -> None:
         """All as it was when the snapshot was taken."""
-        for name, own in kept.held.items():
-            setattr(self, name, own.copy() if isinstance(own, list | dict) else own)
+        for name, value in kept.held.items():
+            setattr(self, name, value.copy() if isinstance(value, list | dict) else value)
 
     @property
     def effects(self) -> Mapping[str, str]:
@@ -281,7 +281,7 @@ class SceneEditor:
 
     # Numbers
 
-    def in_own_units(self, given: Mapping[str, Any], second: bool) -> dict[str, Any]:
+    def in_own_units(self, texts: Mapping[str, Any], second: bool) -> dict[str, Any]:
         """Texts as typed, in the units of the fields; in the box of the `second` unit or not.
 
         A number may name either unit in both boxes. What is a number in neither stays as it is, to
@@ -289,7 +289,7 @@ class SceneEditor:
         """
         units = second_units(self.scene, self.selected)
 
-        def in_own_unit(name: str, text: str) -> str:
+        def convert(name: str, text: str) -> str:
             word, _, _ = units[name]["unit"].partition(" ")  # of "µm dia."; "× ball" is a ratio
             other = (word.removeprefix("×"), units[name]["factor"])
             ways = [(FIELD_BY_KEY[name].shown_unit, 1.0), other]
@@ -300,15 +300,15 @@ class SceneEditor:
             return text
 
         return {
-            name: in_own_unit(name, text) if name in units and isinstance(text, str) else text
-            for name, text in given.items()
+            name: convert(name, text) if name in units and isinstance(text, str) else text
+            for name, text in texts.items()
         }
 
-    def set(self, given: Mapping[Any, Any]) -> tuple[Refused, Values]:
+    def set(self, values: Mapping[Any, Any]) -> tuple[Refused, Values]:
         """Take numbers, dragged or typed; returns what was refused and all that changed."""
         refused: Refused = {}
         taken: Values = {}
-        for name, value in list(given.items())[: len(FIELD_BY_KEY)]:
+        for name, value in list(values.items())[: len(FIELD_BY_KEY)]:
             try:
                 taken[str(name)] = read(str(name), value, self.limits)
             except ValueError as error:
@@ -354,10 +354,10 @@ class SceneEditor:
         if "ball_diameter" in fields:
             # grooves are made for their ball: they keep what they are to it
             ratio = fields["ball_diameter"] / bearing.ball_diameter
-            given = bearing.kind.inputs(bearing)
+            inputs = bearing.kind.inputs(bearing)
             for race in ("inner", "outer"):
                 radius, name = bearing.groove_radius(race), f"{race}_groove_radius"
-                if name in given and radius is not None:
+                if name in inputs and radius is not None:
                     fields.setdefault(name, radius * ratio)
         if rough:
             choice = self.floors[self.selected]
@@ -366,7 +366,7 @@ class SceneEditor:
                 fields["floor"] = floor
         scene = scene_with_fields(self.scene, fields, self.selected)
         if parts["pair"] or parts["second"]:
-            scene = scene.replace(bearing=_with_rows(scene.bearing, **parts))
+            scene = scene.replace(bearing=_change_rows(scene.bearing, **parts))
         if rough:
             self.floors[self.selected] = dataclasses.replace(choice, rough=floor)
         return scene
@@ -403,7 +403,7 @@ class SceneEditor:
         """Take choices out of lists; what is not on a list is passed over."""
         refused: Refused = {}
         self._effects = {}
-        own = {
+        takers = {
             "floor": self._take_floor_kind,
             "numbers": self._take_numbers,
             "ball_material": self._take_ball_material,
@@ -415,7 +415,7 @@ class SceneEditor:
         for known in CHOICE_LIST:
             name = choice.get(known.name, "")
             if name in known.names or (name and known is DIRECTIONS):
-                act = own.get(known.name, partial(self._take_option, known))
+                act = takers.get(known.name, partial(self._take_option, known))
                 refused |= self._tried(known.name, act, name)
         if "name" in choice:
             self.own_name = one_line(choice["name"], LONGEST_NAME)
@@ -444,7 +444,7 @@ class SceneEditor:
         if not choice.all_alike:
             self._change(**fields)
             return
-        self._with_defects(
+        self._change_defects(
             [dataclasses.replace(defect, **fields) for defect in self.defects], self.selected
         )
 
@@ -503,14 +503,14 @@ class SceneEditor:
         new = dataclasses.replace(new, extent=min(new.extent, 0.8 * gap))
         if new.is_none:
             raise ValueError("The defects leave no room on the race: make one shorter first.")
-        self._with_defects([*self.defects, new], len(self.defects))
+        self._change_defects([*self.defects, new], len(self.defects))
 
     def _remove_defect(self) -> None:
         if len(self.defects) > 1:
             rest = [d for i, d in enumerate(self.defects) if i != self.selected]
-            self._with_defects(rest, min(self.selected, len(rest) - 1), removed=self.selected)
+            self._change_defects(rest, min(self.selected, len(rest) - 1), removed=self.selected)
 
-    def _with_defects(
+    def _change_defects(
         self, defects: list[Defect], selected: int, removed: int | None = None
     ) -> None:
         scene = self.scene.replace(defect=defects[0] if len(defects) == 1 else tuple(defects))
@@ -585,7 +585,7 @@ class SceneEditor:
         }
 
 
-def _with_rows(
+def _change_rows(
     bearing: Bearing, pair: Mapping[str, Any], second: Mapping[str, Any], **_: object
 ) -> Bearing:
     """A bearing of two rows with numbers of both, and of the second row alone, changed."""

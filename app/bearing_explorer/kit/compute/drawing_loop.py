@@ -7,7 +7,7 @@ import logging
 from collections.abc import Awaitable, Callable
 from typing import Generic, TypeVar
 
-from bearing_explorer.kit.compute.executors import FINE, in_thread
+from bearing_explorer.kit.compute.executors import FINE, run_in_thread
 
 log = logging.getLogger(__name__)
 
@@ -123,7 +123,7 @@ class DrawingLoop(Generic[Inputs, Fine]):
     async def _draw_finely(self, inputs: Inputs) -> None:
         """Unless newer inputs come first: they do not wait for it."""
         fine = asyncio.ensure_future(
-            in_thread(self._refine, inputs, lambda: self.waiting or self._stopped, pool=FINE)
+            run_in_thread(self._refine, inputs, lambda: self.waiting or self._stopped, pool=FINE)
         )
         newer = asyncio.ensure_future(self._submitted.wait())
         try:

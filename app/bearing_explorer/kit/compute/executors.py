@@ -47,7 +47,7 @@ FILES = Pool(2, "file", initializer=return_large_arrays)
 half a gigabyte at most: two at a time are what a small server can bear."""
 
 
-async def in_thread(
+async def run_in_thread(
     function: Callable[..., Result], *args: object, pool: Pool = PICTURES
 ) -> Result:
     """Run `function` off the event loop."""

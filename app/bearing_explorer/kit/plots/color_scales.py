@@ -22,7 +22,7 @@ INKS = [style.INK, style.PAPER]
 """Text on a light colour, and on a dark one."""
 
 
-def _from_oklab(lab: np.ndarray) -> np.ndarray:
+def _oklab_to_rgb(lab: np.ndarray) -> np.ndarray:
     """(n, 3) colours of the even colour space Oklab (Ottosson 2020) as 8-bit sRGB."""
     to_cones = np.array([[1.0, 0.3963377774, 0.2158037573],
                          [1.0, -0.1055613458, -0.0638541728],
@@ -47,7 +47,7 @@ def _diverging(*ends: float) -> np.ndarray:
     share = (np.arange(STEPS // 2) + 0.5) / (STEPS // 2)
     between = (ends[0], ends[1])
     blue, orange = _arm(250.0, 0.13, share, between), _arm(48.0, 0.14, share, between)
-    return _from_oklab(np.concatenate([blue[::-1], orange]))
+    return _oklab_to_rgb(np.concatenate([blue[::-1], orange]))
 
 
 SEQUENTIAL = np.array([list(bytes.fromhex(color[1:])) for color in Viridis256])

@@ -310,7 +310,7 @@ def sources_of(packed: PackedSource, layers: Iterable[Layer]) -> dict[str, Colum
     columns: dict[str, dict[str, None]] = {}
     for layer in layers:
         columns.setdefault(layer.source, {}).update(dict.fromkeys(layer.columns))
-    return {name: packed.source(name, *own) for name, own in columns.items()}
+    return {name: packed.source(name, *column) for name, column in columns.items()}
 
 
 def draw(plot: figure, packed: PackedSource, layers: Sequence[Layer]) -> list[GlyphRenderer]:

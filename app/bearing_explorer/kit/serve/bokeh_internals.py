@@ -73,7 +73,7 @@ def missing() -> list[str]:
 # The document of a session: changed on the event loop, sent as one message
 
 
-def _with_lock(act: Callable[..., Awaitable[None]]) -> Callable[..., Awaitable[None]]:
+def _locked(act: Callable[..., Awaitable[None]]) -> Callable[..., Awaitable[None]]:
     """Bokeh's decorator that locks a document.
 
     Its `with_document_locked` takes, from 3.10 on, a way through a thread each time.
@@ -90,7 +90,7 @@ def _with_lock(act: Callable[..., Awaitable[None]]) -> Callable[..., Awaitable[N
     return locked
 
 
-@_with_lock
+@_locked
 def locked(session: Any, act: Callable[[Document], Awaitable[None]]) -> Awaitable[None]:
     """Let `act` change the document of a session, while nothing else does."""
     return act(session.document)

@@ -40,8 +40,8 @@ class AllowedHosts:
     """
 
     def __init__(self, port: int, address: str, named: Iterable[str] = ()) -> None:
-        own = f"[{address}]" if ":" in address else address
-        names = {"localhost", "127.0.0.1", "[::1]", *([own] if own else ())}
+        host = f"[{address}]" if ":" in address else address
+        names = {"localhost", "127.0.0.1", "[::1]", *([host] if host else ())}
         here = [origins_of(f"http://{name}:{port}") for name in names]
         self._origins = set().union(*here, *map(origins_of, named))
         self._names = {urlsplit(origin).hostname for origin in self._origins}

@@ -23,7 +23,7 @@ _SHORT = 0.01
 """[s] of work on the event loop after which others only have what they have ready."""
 
 
-def on_loop(doc: Document | None, act: Callable[[], None]) -> None:
+def run_on_loop(doc: Document | None, act: Callable[[], None]) -> None:
     """Have `act` happen on the event loop of a session: now where this is it, else soon.
 
     From 3.10 on Bokeh hands over in threads, which have no loop, what a browser sends.
@@ -74,11 +74,11 @@ async def one_message(doc: Document | None, change: Callable[[], None]) -> None:
         return
 
     async def act(document: Document) -> None:
-        def in_document() -> None:
+        def act_in_document() -> None:
             with set_curdoc(document):
                 change()
 
-        await send_changes(session, document, in_document)
+        await send_changes(session, document, act_in_document)
 
     await locked(session, act)
 

@@ -25,7 +25,7 @@ from panel.models.esm import DataEvent
 from param.parameterized import no_instance_params
 
 from bearing_explorer.kit.serve.bokeh_internals import PLAIN
-from bearing_explorer.kit.serve.live import on_loop
+from bearing_explorer.kit.serve.live import run_on_loop
 
 
 class LiveComponent(JSComponent):
@@ -78,7 +78,7 @@ class LiveComponent(JSComponent):
             for callback in list(callbacks):
                 callback(event)
 
-        on_loop(doc, hand_on)
+        run_on_loop(doc, hand_on)
 
 
 class PageTemplate(pn.Template):

@@ -88,11 +88,11 @@ def scene_code(scene: Scene) -> str:
     except ValueError:
         same = False
     if same:
-        given = [f"{field}={_field_code(field, value)}" for field, value in changes.items()]
-        if not given:
+        arguments = [f"{field}={_field_code(field, value)}" for field, value in changes.items()]
+        if not arguments:
             return name
-        line = f"{name}.replace({', '.join(given)})"
-        broken = f"{name}.replace(\n    " + ",\n    ".join(given) + ",\n)"
+        line = f"{name}.replace({', '.join(arguments)})"
+        broken = f"{name}.replace(\n    " + ",\n    ".join(arguments) + ",\n)"
         return line if len(line) <= 80 else broken
     text = scene.to_toml()
     if len(text) > LONGEST_SCENE:
@@ -110,8 +110,8 @@ def _differences(scene: Scene, base: Scene) -> dict[str, Any]:
     if isinstance(scene.defect, Defect) and isinstance(base.defect, Defect):
         parts.append((scene.defect, base.defect))
     changes: dict[str, Any] = {}
-    for own, other in parts:
-        changes |= changed_fields(own, other)
+    for part, other in parts:
+        changes |= changed_fields(part, other)
     if len(parts) == 5:
         changes.pop("defect", None)
     return {name: v for name, v in changes.items() if name not in ("load", "support", "bearing")}

@@ -124,7 +124,7 @@ def table_to_read(columns: Mapping[str, NDArray[Any]]) -> tuple[str, str]:
     first = max(0, min(said, default=0) - 1)
     end = min(size, first + MOST_ROWS)
     shown = [
-        [_cell(value) for value in np.ravel(v)[first:end]] for v in _without_noise(columns).values()
+        [_cell(value) for value in np.ravel(v)[first:end]] for v in _drop_noise(columns).values()
     ]
     table = html_table(map(_heading, columns), zip_longest(*shown, fillvalue=""))
     if end - first == size:
@@ -133,7 +133,7 @@ def table_to_read(columns: Mapping[str, NDArray[Any]]) -> tuple[str, str]:
     return table, f"Rows {first + 1} to {end} of {size}{zero}; the CSV file has all."
 
 
-def _without_noise(columns: Mapping[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
+def _drop_noise(columns: Mapping[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
     """Numbers that are rounding noise of the largest one of their unit as the zero they are."""
     numbers = {name: v for name, v in columns.items() if np.asarray(v).dtype.kind == "f"}
     largest: dict[str, float] = {}

@@ -45,7 +45,7 @@ LOW_PARTS = (12, 24)
 
 PREDICTED_FROM = 50
 """Samples before each from which it is predicted. What rings can be predicted, knocks cannot: what
-is left after the prediction is compact knocks, see `without_ringing`. Two for each of 25
+is left after the prediction is compact knocks, see `remove_ringing`. Two for each of 25
 resonances; from further back one knock would predict the next."""
 
 MOST_PASSES_HEARD = 440.0
@@ -284,7 +284,7 @@ def _envelopes(recording: Recording, nominal: float) -> tuple[list[tuple[Band, s
         if faults.lost_share > MOST_DROPPED:
             continue
         dropped = faults.dropped
-        left = without_ringing(np.where(dropped, 0.0, samples), PREDICTED_FROM)
+        left = remove_ringing(np.where(dropped, 0.0, samples), PREDICTED_FROM)
         for envelope in squared_envelopes(
             left, sample_rate, bands, HARMONICS * nominal, dropped, loudest=math.inf
         ):
@@ -295,7 +295,7 @@ def _envelopes(recording: Recording, nominal: float) -> tuple[list[tuple[Band, s
     return names, np.array(columns).T, rate
 
 
-def without_ringing(samples: Array, order: int) -> Array:
+def remove_ringing(samples: Array, order: int) -> Array:
     """The error of a linear prediction of a signal (n,) from the `order` samples before.
 
     The prediction with the least squared error (Yule and Walker) follows tones and resonances that

@@ -48,7 +48,7 @@ def cut(levels: LineLevels, hidden: NDArray[np.bool_]) -> NDArray[np.float64]:
     return np.asarray(np.where(hidden, np.minimum(level, 0.0), level))
 
 
-def near_multiples(
+def mark_multiples(
     levels: LineLevels, spacing: float, width: float, error: float
 ) -> NDArray[np.bool_]:
     """Which frequencies (m,) are within `width` [Hz] of multiples of a spacing with an `error`."""

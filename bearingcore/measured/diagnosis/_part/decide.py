@@ -58,20 +58,20 @@ healthy."""
 
 def decide(signal: ListenedSignal, judged: Judged, shaft: float | None, source: str) -> Diagnosis:
     """The answer, and its sentence; `shaft` [Hz] is None where no speed was found."""
-    own = judged.own
-    fault, probability = CANNOT_TELL, own.probability
+    part = judged.own
+    fault, probability = CANNOT_TELL, part.probability
     others_stand_out = judged.other_above_noise >= NOISE_MARGIN
-    if own.probability >= NAMED:
-        fault = own.part
-        status, detail = DiagnosisStatus.PART_NAMED, say.damaged(own)
-        if own.part != BALL and own.probability < LIKELY:
+    if part.probability >= NAMED:
+        fault = part.part
+        status, detail = DiagnosisStatus.PART_NAMED, say.damaged(part)
+        if part.part != BALL and part.probability < LIKELY:
             detail += say.perhaps_a_ball()
-        if own.magnetic > 0.0:
-            detail += say.magnetic_alike(own)
+        if part.magnetic > 0.0:
+            detail += say.magnetic_alike(part)
         for other in judged.evidence:
             if (
-                BALL not in (own.part, other.part)
-                and other is not own
+                BALL not in (part.part, other.part)
+                and other is not part
                 and other.probability >= BESIDE
             ):
                 detail += say.beside(other)
@@ -102,11 +102,11 @@ def decide(signal: ListenedSignal, judged: Judged, shaft: float | None, source: 
 
 def _spectrum(judged: Judged) -> EnvelopeLines:
     """The envelope's spectrum in the band of the best evidence, at the finest resolution."""
-    own = judged.own
+    part = judged.own
     envelope = next(
         other
         for other in judged.resolutions[-1].envelopes
-        if (other.band, other.direction) == (own.band, own.direction)
+        if (other.band, other.direction) == (part.band, part.direction)
     )
     frequency = envelope.levels.step * np.arange(len(envelope.levels.level), dtype=float)
     return EnvelopeLines(frequency, envelope.levels.level, envelope.band, envelope.direction)
@@ -145,19 +145,19 @@ def _cause_outside(judged: Judged) -> Reason | None:
 def _parts_in_doubt(judged: Judged) -> Reason | None:
     """Lines of the bearing's own that fit several parts, or none well enough."""
     clear = [part for part in judged.evidence if part.part != BALL and _is_seen(part)]
-    own = max(judged.evidence, key=lambda part: (part in clear, part.lead))
-    needed = LEAST_SWING if own.lead >= LEAD else ENOUGH_SWING
-    if own.part != BALL and own.lead >= 0.0 and own.swing >= needed:
-        return DiagnosisStatus.PERHAPS_A_BALL, say.marked(own)
+    leading = max(judged.evidence, key=lambda part: (part in clear, part.lead))
+    needed = LEAST_SWING if leading.lead >= LEAD else ENOUGH_SWING
+    if leading.part != BALL and leading.lead >= 0.0 and leading.swing >= needed:
+        return DiagnosisStatus.PERHAPS_A_BALL, say.marked(leading)
     ball = next(part for part in judged.evidence if part.part == BALL)
     if ball.deviations >= FAINT:
         return DiagnosisStatus.FAINT, say.faint(ball)
-    if _is_seen(ball) and (own is ball or ball.level > own.level):
+    if _is_seen(ball) and (leading is ball or ball.level > leading.level):
         return DiagnosisStatus.NOT_ALONE, say.not_carried(ball)
     if len(clear) > 1:
         return DiagnosisStatus.ALIKE, say.alike(*clear)
     if clear:
-        return DiagnosisStatus.NOT_ALONE, say.not_alone(own, judged.other)
+        return DiagnosisStatus.NOT_ALONE, say.not_alone(leading, judged.other)
     return None
 
 

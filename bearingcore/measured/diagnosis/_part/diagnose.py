@@ -26,7 +26,7 @@ from bearingcore.measured.diagnosis._part.listened_signal import ListenedSignal,
 from bearingcore.measured.diagnosis._part.over_turns import at_steady_speed, followed_change
 from bearingcore.measured.diagnosis._part.parts import BALL, INNER, OUTER, PartLines, part_lines
 from bearingcore.measured.diagnosis._part.status import DiagnosisStatus
-from bearingcore.measured.diagnosis._part.unknown_speed import NARROW, in_range
+from bearingcore.measured.diagnosis._part.unknown_speed import NARROW, diagnose_in_range
 from bearingcore.recordings import Recording
 
 SLIP = 0.02
@@ -119,7 +119,7 @@ def _diagnose(
         return silent(*signal.unusable, source)
     if bearing is None:
         return silent(DiagnosisStatus.BEARING_OPEN, say.which_bearing(), source)
-    answer = _between(signal, bearing, low, high, slip, source, speed_source)
+    answer = _diagnose_between(signal, bearing, low, high, slip, source, speed_source)
     # sidebands of an inner race or a ball confirm the speed, an outer race has none
     if high > NARROW * low or answer.fault in (INNER, BALL):
         return answer
@@ -139,7 +139,7 @@ def _where_it_changes(answer: Diagnosis, change: float) -> Diagnosis:
     return replace(answer, fault=CANNOT_TELL, status=status, detail=words, probability=leading)
 
 
-def _between(
+def _diagnose_between(
     signal: ListenedSignal,
     bearing: Bearing,
     low: float,
@@ -150,11 +150,11 @@ def _between(
 ) -> Diagnosis:
     """The diagnosis at a speed between two [Hz], which may be one and the same."""
     if high <= low * (1.0 + 1e-9):
-        return _at_speed(signal, bearing, low * (1.0 - slip), low * (1.0 + slip), slip, source)
+        return _diagnose_at(signal, bearing, low * (1.0 - slip), low * (1.0 + slip), slip, source)
     if high <= low * (1.0 + 2.0 * slip):  # lines of a part, which slips, give a speed no better
         source = f"{speed_source} as a range"
-        return _at_speed(signal, bearing, low, high, slip, source, 0.5 * (high / low - 1.0))
-    answer = in_range(signal, bearing, low, high, slip, source)
+        return _diagnose_at(signal, bearing, low, high, slip, source, 0.5 * (high / low - 1.0))
+    answer = diagnose_in_range(signal, bearing, low, high, slip, source)
     if answer.shaft_speed is None or answer.fault in (OUTER, INNER):
         return answer
     shaft = answer.shaft_speed / (2.0 * math.pi)
@@ -205,9 +205,9 @@ def _speeds(
     """The speed from, to [Hz], and where it is from."""
     turn = 2.0 * math.pi
     if shaft_speed is None:
-        given = getattr(recording, "shaft_speed", None)
-        if given is not None:
-            speed = checks.real_number("shaft_speed", given, above=0.0, unit="rad/s") / turn
+        stated = getattr(recording, "shaft_speed", None)
+        if stated is not None:
+            speed = checks.real_number("shaft_speed", stated, above=0.0, unit="rad/s") / turn
             return speed, speed, "given by the recording"
         return SPEEDS[0] / turn, SPEEDS[1] / turn, "looked for"
     if np.ndim(shaft_speed) == 0:
@@ -224,7 +224,7 @@ def _speeds(
     return first / turn, last / turn, "looked for"
 
 
-def _at_speed(
+def _diagnose_at(
     signal: ListenedSignal,
     bearing: Bearing,
     low: float,

@@ -224,7 +224,7 @@ def compare(
     )
     return Judged(
         shaft=shaft,
-        evidence=_with_the_other_race(compared, _weighed(evidence)),
+        evidence=_judge_other_race(compared, _weighed(evidence)),
         other=other,
         other_above_noise=above,
         other_swing=swing,
@@ -242,7 +242,7 @@ def _clearest(
     """The evidence of a part at the resolution that speaks most for it."""
     # the band is chosen by the lines alone: chosen by the sidebands, it is where noise has some
     best = max((one.clearest(lines, around, beside) for one in compared), key=log_probability)
-    return max((comparison.with_sidebands(best) for comparison in compared), key=log_probability)
+    return max((comparison.weigh_sidebands(best) for comparison in compared), key=log_probability)
 
 
 def _race(
@@ -250,17 +250,17 @@ def _race(
 ) -> PartEvidence:
     """The evidence of a race; `beside` another race that is damaged, which is no rival then."""
     best = _clearest(compared, lines, beside=beside)
-    source = compared[-1].above_source(best.frequency)
+    source = compared[-1].lead_over_source(best.frequency)
     best = replace(best, lead=min(best.lead, source), line_lead=min(best.line_lead, source))
     if lines.part == INNER:
         return best
     # short segments do not resolve what lies beside the cage's lines
-    foreign, spacing = min(one.above_foreign(best) for one in compared[1:] or compared)
+    foreign, spacing = min(one.lead_over_foreign(best) for one in compared[1:] or compared)
     spacing = spacing if foreign < LEAD else math.nan
     return replace(best, lead=min(best.lead, foreign), foreign_spacing=spacing)
 
 
-def _with_the_other_race(
+def _judge_other_race(
     compared: Sequence[_Comparison], evidence: tuple[PartEvidence, ...]
 ) -> tuple[PartEvidence, ...]:
     """The evidence, where one race is damaged with the other judged as damaged beside it.
@@ -344,8 +344,8 @@ class _Comparison:
                     also = self.explained(beside.frequency, self._lines_of(beside.part))
                     explained[frequency] = np.maximum(explained[frequency], also)
             others = float((combs.level[place] - explained[frequency]).max())
-            own = self._evidence(lines, combs.envelopes[place], frequency, others)
-            directions.append(self._below_rivals(own, 0.0 if beside is None else ALIKE))
+            evidence = self._evidence(lines, combs.envelopes[place], frequency, others)
+            directions.append(self._limit_to_rivals(evidence, 0.0 if beside is None else ALIKE))
         return max(directions, key=log_probability)
 
     def explained(self, frequency: float, lines: PartLines) -> NDArray[np.float64]:
@@ -370,12 +370,12 @@ class _Comparison:
     def _windows_of(self, *names: str) -> NDArray[np.bool_]:
         """Which combs (n,) some parts may have."""
         combs, slip = self.combs, self.slip + 0.005
-        own = [
+        windows = [
             within(combs, lines, slip, self.given, combs.frequency)
             for lines in self.parts
             if lines.part in names
         ]
-        return np.asarray(np.any(own, axis=0))
+        return np.asarray(np.any(windows, axis=0))
 
     def _slower(self, frequency: float) -> NDArray[np.bool_]:
         """Which combs (n,) are those of a frequency [Hz], seen at a half or a third of it.
@@ -399,7 +399,7 @@ class _Comparison:
                 slower[near_it] = True
         return slower
 
-    def _below_rivals(self, own: PartEvidence, margin: float) -> PartEvidence:
+    def _limit_to_rivals(self, part: PartEvidence, margin: float) -> PartEvidence:
         """The evidence, its lead no more than the [dB] by which a part's comb is above the races'.
 
         A race has the lines of one that is its multiple for free, and sidebands decide where both
@@ -407,50 +407,50 @@ class _Comparison:
         `probabilities`; its own must be clearly stronger, as races have sidebands and halves of
         their lines where a ball's may be.
         """
-        ball = own.part == BALL
-        same = own.frequency * np.array([1.0] if ball else [1.0, 2.0, 3.0])
+        ball = part.part == BALL
+        same = part.frequency * np.array([1.0] if ball else [1.0, 2.0, 3.0])
         above = [
-            own.level - level - (BALL_MARGIN if ball else 0.0)
+            part.level - level - (BALL_MARGIN if ball else 0.0)
             for lines, (frequency, level) in self.combs.best.items()
-            if lines.part not in (own.part, BALL)
+            if lines.part not in (part.part, BALL)
             and not (np.abs(frequency - same) <= tolerance(self.combs, same)).any()
         ]
-        lead = min([own.lead, *(level + margin for level in above)])
-        return replace(own, lead=lead, line_lead=lead)
+        lead = min([part.lead, *(level + margin for level in above)])
+        return replace(part, lead=lead, line_lead=lead)
 
-    def with_sidebands(self, own: PartEvidence) -> PartEvidence:
+    def weigh_sidebands(self, part: PartEvidence) -> PartEvidence:
         """The evidence with what its sidebands say: those that the part's own turning makes.
 
         An outer race stands still and needs none. Where a line may be a race's or a ball's, cage
         sidebands speak for the ball.
         """
-        combs, envelope = self.combs, self._envelope_of(own)
-        level = float(comb_level(_lines(envelope, envelope.cleared, own.frequency)[:, None])[0])
+        combs, envelope = self.combs, self._envelope_of(part)
+        level = float(comb_level(_lines(envelope, envelope.cleared, part.frequency)[:, None])[0])
 
         def sides(spacing: float) -> float:
             lines = [
-                _lines(envelope, envelope.cleared, own.frequency, away)[: HARMONICS // 2]
+                _lines(envelope, envelope.cleared, part.frequency, away)[: HARMONICS // 2]
                 for away in (-spacing, spacing)
             ]
             return float(comb_level(np.concatenate(lines)[:, None])[0])
 
         shaft, cage = sides(combs.shaft), sides(self.cage)
         above = modulation = math.inf
-        if own.part in (INNER, BALL):
-            turning, other = (shaft, cage) if own.part == INNER else (cage, shaft)
+        if part.part in (INNER, BALL):
+            turning, other = (shaft, cage) if part.part == INNER else (cage, shaft)
             averages = envelope.levels.averages
             modulation = turning - _sidebands_of_noise(level, averages)
             modulation *= math.sqrt(averages) / SIDEBAND_SCALE
             above = turning - other + SIDEBAND_LEAD + SIDEBAND_MARGIN
-        place = int(np.abs(combs.frequency - own.frequency).argmin())
+        place = int(np.abs(combs.frequency - part.frequency).argmin())
         race = max(level - WEAK_SIDEBANDS, shaft - SIDEBAND_LEAD) - cage
-        if own.part != BALL and may_be(own.frequency, self.ball.order * combs.shaft):
-            above = min(above, race, LEAD + LEAD_SCALE * _race_or_ball(own.slip, self.slip))
-        if own.part == BALL and self._windows_of(OUTER, INNER)[place]:
+        if part.part != BALL and may_be(part.frequency, self.ball.order * combs.shaft):
+            above = min(above, race, LEAD + LEAD_SCALE * _race_or_ball(part.slip, self.slip))
+        if part.part == BALL and self._windows_of(OUTER, INNER)[place]:
             above = min(above, -race)
-        return replace(own, modulation=modulation, lead=min(own.lead, above, modulation + LEAD))
+        return replace(part, modulation=modulation, lead=min(part.lead, above, modulation + LEAD))
 
-    def above_foreign(self, own: PartEvidence) -> tuple[float, float]:
+    def lead_over_foreign(self, part: PartEvidence) -> tuple[float, float]:
         """Lead [dB] of an outer race's lines over sidebands of another shaft; their spacing [Hz].
 
         An outer race stands still: only this shaft and its cage change the size of its blows.
@@ -458,12 +458,12 @@ class _Comparison:
         part that turns with another shaft, or at another speed than the one stated. Infinity where
         noise reaches as far.
         """
-        combs, one = self.combs, self._envelope_of(own)
+        combs, one = self.combs, self._envelope_of(part)
         resolution = (combs.frequency[1] - combs.frequency[0]) * FINENESS
         low, high = (turns * combs.shaft for turns in FOREIGN)
         spacing = np.arange(low, high, resolution / FINENESS)
         # a coarse resolution may have found the lines a little beside their place
-        near_it = np.abs(combs.frequency - own.frequency) <= 0.5 * combs.shaft / TURNS[0]
+        near_it = np.abs(combs.frequency - part.frequency) <= 0.5 * combs.shaft / TURNS[0]
         row = next(k for k, other in enumerate(combs.envelopes) if other is one)
         levels = np.where(near_it, combs.level[row], -np.inf)
         place = int(levels.argmax())
@@ -484,9 +484,9 @@ class _Comparison:
             return math.inf, math.nan
         return float(levels[place] - level[best]) - FOREIGN_LEAD + LEAD, float(spacing[best])
 
-    def _envelope_of(self, own: PartEvidence) -> Listened:
+    def _envelope_of(self, part: PartEvidence) -> Listened:
         """The envelope in which the lines of a part were seen."""
-        place = own.band, own.direction
+        place = part.band, part.direction
         return next(one for one in self.combs.envelopes if (one.band, one.direction) == place)
 
     def carried(self, around: float) -> float:
@@ -518,7 +518,7 @@ class _Comparison:
         noise = noise_level(SIDEBAND_CHANCE, envelope.levels.averages)
         return min(cage - shaft, cage - level + CARRIED_REACH, cage - noise)
 
-    def above_source(self, frequency: float) -> float:
+    def lead_over_source(self, frequency: float) -> float:
         """By how much [dB] lines of a race are too loud for sidebands of others.
 
         In whatever band shows them best, lines that are whole turns of the shaft away are at most a
@@ -530,8 +530,8 @@ class _Comparison:
         sources &= ~near(combs, (frequency * factor for factor in (0.5, 1.0, 1.5, 2.0, 3.0)))
         if not sources.any():
             return math.inf
-        own = float(combs.level[self._loudest(frequency)])
-        return own - float(combs.level[:, sources].max()) + SIDEBAND_EXCESS
+        level = float(combs.level[self._loudest(frequency)])
+        return level - float(combs.level[:, sources].max()) + SIDEBAND_EXCESS
 
     def clearness(self, around: float) -> float:
         """By how much [dB] the loudest comb around a frequency [Hz] is above noise."""
@@ -559,7 +559,7 @@ class _Comparison:
         swings = [_lines(one, depth, frequency, away) for away in (0.0, -spacing, spacing)]
         nominal = lines.order * combs.shaft
         level = float(comb_level(levels[:, None])[0])
-        own = PartEvidence(
+        evidence = PartEvidence(
             part=lines.part,
             nominal_frequency=nominal,
             nominal_order=lines.order,
@@ -572,8 +572,8 @@ class _Comparison:
             lead=level - max(others, combs.noise),
             line_lead=0.0,
             modulation=math.inf,
-            depth=_without_greatest(swings[0]),
-            swing=_without_greatest(np.sqrt(np.square(swings).sum(axis=0))),
+            depth=_trimmed_mean(swings[0]),
+            swing=_trimmed_mean(np.sqrt(np.square(swings).sum(axis=0))),
             deviations=0.0,
             # the highest line of a comb resolves the most
             magnetic=magnetic_share(frequency, tolerance(combs, 0.0).item() / HARMONICS, self.slip),
@@ -588,9 +588,9 @@ class _Comparison:
             kurtosis=one.kurtosis,
         )
         if lines.part == BALL:
-            return replace(own, line_lead=own.lead)
-        lead = min(own.lead, _above_gaps(_lines(one, one.levels.depth, frequency)))
-        return replace(own, lead=lead, line_lead=lead)
+            return replace(evidence, line_lead=evidence.lead)
+        lead = min(evidence.lead, _lead_over_gaps(_lines(one, one.levels.depth, frequency)))
+        return replace(evidence, lead=lead, line_lead=lead)
 
     def others(self, evidence: Sequence[PartEvidence]) -> tuple[OtherLines, float, float]:
         """The strongest comb of no part, how far above noise it is [dB], and its swing."""
@@ -604,7 +604,7 @@ class _Comparison:
         frequency, envelope = float(combs.frequency[column]), combs.envelopes[int(place)]
         depths = _lines(envelope, envelope.levels.depth, frequency)
         rival = OtherLines(frequency, frequency / combs.shaft, float(level[place, column]))
-        return rival, rival.level - combs.noise, _without_greatest(depths)
+        return rival, rival.level - combs.noise, _trimmed_mean(depths)
 
 
 def _carried(compared: Iterable[_Comparison], frequency: float) -> float:
@@ -645,7 +645,7 @@ def _race_or_ball(away: float, slip: float) -> float:
     return math.log(race * (LAG + AHEAD) / SELDOM)
 
 
-def _above_gaps(depth: NDArray[np.float64]) -> float:
+def _lead_over_gaps(depth: NDArray[np.float64]) -> float:
     """By how much [dB] lines (HARMONICS,) are above gaps between those of a multiple's comb.
 
     Blows show in their first line; beats of tones, as of an inverter, at twice or three times it
@@ -674,6 +674,6 @@ def _or_sidebands(
     return np.maximum(line, np.minimum(below, above))
 
 
-def _without_greatest(values: NDArray[np.float64]) -> float:
+def _trimmed_mean(values: NDArray[np.float64]) -> float:
     """Mean of all values but the greatest: no single line decides."""
     return float(np.sort(values)[:-1].mean())

@@ -49,7 +49,7 @@ class ListenedSignal:
         usable = [index for index, fault in enumerate(faults) if fault.lost_share <= MOST_DROPPED]
         self.names = [recording.directions[index] for index in usable]
         self._measured = [np.asarray(columns[index]) for index in usable]
-        self.columns = [_with_a_floor(samples) for samples in self._measured]
+        self.columns = [_add_noise(samples) for samples in self._measured]
         self.faults: list[SignalFaults] = [faults[index] for index in usable]
         self.whitening: float | None = WHITENING
         self.unusable: Reason | None = None
@@ -108,7 +108,7 @@ class ListenedSignal:
         return shaft_lines(self.columns, self.rate, *near, envelopes=False)
 
 
-def _with_a_floor(samples: np.ndarray) -> np.ndarray:
+def _add_noise(samples: np.ndarray) -> np.ndarray:
     """The samples with the noise that any recorder has.
 
     A computed signal may have none: then the remains of rounding and leakage would show.

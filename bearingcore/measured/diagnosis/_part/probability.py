@@ -55,16 +55,16 @@ def probabilities(evidence: Iterable[PartEvidence], chosen: Calibration) -> dict
     A damaged ball marks races, a damaged race makes no ball's lines: where a ball's stand out, it
     is the ball, and races share the rest.
     """
-    own = {}
+    chances = {}
     for seen in evidence:
-        own[seen.part] = math.exp(log_probability(seen, chosen))
+        chances[seen.part] = math.exp(log_probability(seen, chosen))
         if seen.part == BALL:
             above = (seen.deviations - DEVIATIONS) / DEVIATIONS_SCALE
-            own[BALL] = 1.0 - (1.0 - own[BALL]) * (1.0 - math.exp(-_doubt(above)))
-        own[seen.part] *= 1.0 - seen.magnetic
-    no_ball = 1.0 - own[BALL]
+            chances[BALL] = 1.0 - (1.0 - chances[BALL]) * (1.0 - math.exp(-_doubt(above)))
+        chances[seen.part] *= 1.0 - seen.magnetic
+    no_ball = 1.0 - chances[BALL]
     return {
-        part: SURE * (value if part == BALL else no_ball * value) for part, value in own.items()
+        part: SURE * (value if part == BALL else no_ball * value) for part, value in chances.items()
     }
 
 

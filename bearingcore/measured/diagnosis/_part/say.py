@@ -86,14 +86,14 @@ def speed_changes(change: float) -> str:
     )
 
 
-def other_shaft(own: PartEvidence, shaft: float) -> str:
+def other_shaft(part: PartEvidence, shaft: float) -> str:
     """The lines of a part have sidebands of another shaft than the stated one [Hz]."""
-    spacing = own.foreign_spacing
+    spacing = part.foreign_spacing
     return (
-        f"There are impacts at {number(own.frequency, 4)} Hz ({decibels(own.level)} above local "
-        f"noise), as of a damaged {own.part}, but with sidebands {number(spacing, 3)} Hz apart, "
+        f"There are impacts at {number(part.frequency, 4)} Hz ({decibels(part.level)} above local "
+        f"noise), as of a damaged {part.part}, but with sidebands {number(spacing, 3)} Hz apart, "
         f"{number(spacing / shaft, 3)} times the shaft speed. Neither this shaft nor its cage "
-        f"makes them, and an {own.part} that stands still has none. Something that turns at "
+        f"makes them, and an {part.part} that stands still has none. Something that turns at "
         f"{number(60.0 * spacing, 3)} rpm makes these impacts. Check the speed, the sample rate "
         "and the bearings of other shafts."
     )
@@ -108,35 +108,35 @@ def lines_elsewhere(stated: float, shown: float) -> str:
     )
 
 
-def against_the_shaft(own: PartEvidence) -> str:
+def against_the_shaft(part: PartEvidence) -> str:
     """Lines fit a part only at a speed that the shaft does not have."""
     return (
-        f"Impacts at {number(own.frequency, 4)} Hz ({decibels(own.level)} above local noise) fit "
-        f"the {own.part} at the stated speed only, which the signal contradicts."
+        f"Impacts at {number(part.frequency, 4)} Hz ({decibels(part.level)} above local noise) fit "
+        f"the {part.part} at the stated speed only, which the signal contradicts."
     )
 
 
-def damaged(own: PartEvidence) -> str:
+def damaged(part: PartEvidence) -> str:
     """A part is named."""
-    shown = int((own.harmonics > own.noise).sum())
-    broad = own.part == BALL and own.deviations >= DEVIATIONS
+    shown = int((part.harmonics > part.noise).sum())
+    broad = part.part == BALL and part.deviations >= DEVIATIONS
     clear = (
-        f"{number(own.deviations, 2)} deviations clearer than anything else in all bands together"
+        f"{number(part.deviations, 2)} deviations clearer than anything else in all bands together"
         if broad
-        else f"{decibels(own.level)} above local noise, {shown} of {len(own.harmonics)} "
+        else f"{decibels(part.level)} above local noise, {shown} of {len(part.harmonics)} "
         "harmonics clear"
     )
     words = (
-        f"Damage on the {own.part}: impacts at {number(own.frequency, 4)} Hz "
-        f"({number(own.order, 4)} a turn, {percent_off(own.slip)} against the geometry), {clear}, "
-        f"demodulation band {span(1e-3 * own.band.low, 1e-3 * own.band.high, 'kHz', 2)}."
+        f"Damage on the {part.part}: impacts at {number(part.frequency, 4)} Hz "
+        f"({number(part.order, 4)} a turn, {percent_off(part.slip)} against the geometry), {clear}"
+        f", demodulation band {span(1e-3 * part.band.low, 1e-3 * part.band.high, 'kHz', 2)}."
     )
-    if broad and not own.modulated:
+    if broad and not part.modulated:
         words += (
             " They show no sidebands of the cage: blows of another source that wander around this "
             "frequency look alike."
         )
-    if own.part != BALL and abs(own.slip) > FAR:
+    if part.part != BALL and abs(part.slip) > FAR:
         words += " Lines of a race are seldom so far off: check bearing and speed."
     return words
 
@@ -155,65 +155,66 @@ def perhaps_a_ball() -> str:
     return " The cause may be a damaged ball: inspect the balls too."
 
 
-def magnetic(own: PartEvidence) -> str:
+def magnetic(part: PartEvidence) -> str:
     """The lines of a part, where magnetic noise has its own."""
     return (
-        f"Lines of the {own.part} show ({number(own.frequency, 4)} Hz, {decibels(own.level)} above "
-        f"local noise).{magnetic_alike(own)}"
+        f"Lines of the {part.part} show ({number(part.frequency, 4)} Hz, {decibels(part.level)} "
+        f"above local noise).{magnetic_alike(part)}"
     )
 
 
-def magnetic_alike(own: PartEvidence) -> str:
+def magnetic_alike(part: PartEvidence) -> str:
     """Another cause of lines at twice the mains' frequency, and how to exclude it."""
     return (
-        f" Magnetic noise of a motor at twice the mains frequency ({twice_mains(own.frequency):g} "
+        f" Magnetic noise of a motor at twice the mains frequency ({twice_mains(part.frequency):g} "
         "Hz) looks alike: measure at another speed, or look whether it ends at once when the motor "
         "is switched off."
     )
 
 
-def unmodulated(own: PartEvidence) -> str:
+def unmodulated(part: PartEvidence) -> str:
     """Impacts at the frequency of a part that turns, all of one size."""
     return (
-        f"Impacts at {number(own.frequency, 4)} Hz ({percent_off(own.slip)} against the frequency "
-        f"of the {own.part}, {decibels(own.level)} above local noise), but not modulated once per "
-        f"{own.sideband_source} turn, as damage of the {own.part} is under a load that stands "
-        "still. A load along the shaft, or one that turns with it, makes no modulation; nor does "
-        "another source, such as the outer race of another bearing. Check the bearing's geometry "
-        "and speed."
+        f"Impacts at {number(part.frequency, 4)} Hz ({percent_off(part.slip)} against the "
+        f"frequency of the {part.part}, {decibels(part.level)} above local noise), but not "
+        f"modulated once per {part.sideband_source} turn, as damage of the {part.part} is under a "
+        "load that stands still. A load along the shaft, or one that turns with it, makes no "
+        "modulation; nor does another source, such as the outer race of another bearing. Check the "
+        "bearing's geometry and speed."
     )
 
 
-def marked(own: PartEvidence) -> str:
+def marked(part: PartEvidence) -> str:
     """The lines of a race, too faint for its own damage."""
     return (
-        f"Lines of the {own.part} show ({number(own.frequency, 4)} Hz, {decibels(own.level)} above "
-        f"local noise), but modulate the envelope by {percent(own.swing, 2)} only. A damaged ball "
-        "or a healthy bearing may make them. Measure again, closer to the bearing."
+        f"Lines of the {part.part} show ({number(part.frequency, 4)} Hz, {decibels(part.level)} "
+        f"above local noise), but modulate the envelope by {percent(part.swing, 2)} only. A "
+        "damaged ball or a healthy bearing may make them. Measure again, closer to the bearing."
     )
 
 
-def alike(one: PartEvidence, other: PartEvidence) -> str:
+def alike(part: PartEvidence, other: PartEvidence) -> str:
     """The lines of two parts are seen."""
     return (
-        f"There are impacts, but the lines of {one.part} ({decibels(one.level)}) and {other.part} "
-        f"({decibels(other.level)}) are about as strong. A damaged ball marks both races."
+        f"There are impacts, but the lines of {part.part} ({decibels(part.level)}) and "
+        f"{other.part} ({decibels(other.level)}) are about as strong. A damaged ball marks "
+        "both races."
     )
 
 
-def not_alone(own: PartEvidence, other: OtherLines) -> str:
+def not_alone(part: PartEvidence, other: OtherLines) -> str:
     """Lines at a part's frequency that others reach, or without its sidebands."""
     return (
-        f"There are lines where damage of the {own.part} has them ({decibels(own.level)}), but "
+        f"There are lines where damage of the {part.part} has them ({decibels(part.level)}), but "
         f"others, at {number(other.order)} times a turn ({decibels(other.level)}), are as strong, "
         "or the sidebands do not fit. Check the bearing's geometry and speed."
     )
 
 
-def not_carried(own: PartEvidence) -> str:
+def not_carried(part: PartEvidence) -> str:
     """Lines at a ball's frequency that are none of a ball."""
     return (
-        f"There are lines at {number(own.order, 4)} times a turn ({decibels(own.level)} above "
+        f"There are lines at {number(part.order, 4)} times a turn ({decibels(part.level)} above "
         "local noise), as of a damaged ball, but they are too weak or lack its sidebands at the "
         "cage frequency. They may be those of a race of another bearing. Check the bearing's "
         "geometry and speed."
@@ -269,12 +270,12 @@ def healthy(detectable: float) -> str:
     )
 
 
-def faint(own: PartEvidence) -> str:
+def faint(part: PartEvidence) -> str:
     """Lines too faint to name a part."""
     return (
-        f"There are faint lines where damage of the {own.part} has them "
-        f"({number(own.frequency, 4)} Hz, {decibels(own.level)} above local noise; noise itself "
-        f"reaches {decibels(own.noise)}). Measure again, longer or closer to the bearing."
+        f"There are faint lines where damage of the {part.part} has them "
+        f"({number(part.frequency, 4)} Hz, {decibels(part.level)} above local noise; noise itself "
+        f"reaches {decibels(part.noise)}). Measure again, longer or closer to the bearing."
     )
 
 

@@ -13,7 +13,7 @@ from bearingcore.measured.diagnosis._part.combs import (
     comb_level,
     cut,
     lines_at,
-    near_multiples,
+    mark_multiples,
     noise_level,
 )
 from bearingcore.measured.diagnosis._part.parts import PartLines
@@ -129,7 +129,7 @@ def listen(
         width = 1.5 * resolution + 5e-4 * shaft
         # the speed is found to a tenth of what the highest of its lines resolves
         error = 0.1 / HARMONICS / min(TURNS[-1] / shaft, duration)
-        hidden = near_multiples(levels, shaft if known_speed else 0.0, width, error)
+        hidden = mark_multiples(levels, shaft if known_speed else 0.0, width, error)
         cleared = cut(levels, hidden)
         listened.append(
             Listened(direction, envelope.band, envelope.kurtosis, levels, cleared, hidden)
@@ -172,5 +172,5 @@ def tolerance(combs: Combs, frequency: NDArray[np.float64] | float) -> NDArray[n
 
 def near(combs: Combs, frequencies: Iterable[float]) -> NDArray[np.bool_]:
     """Which combs (n,) cannot be distinguished from one at any of some frequencies [Hz]."""
-    own = np.array(list(frequencies))[:, None]
-    return np.asarray((np.abs(combs.frequency - own) <= tolerance(combs, own)).any(axis=0))
+    lines = np.array(list(frequencies))[:, None]
+    return np.asarray((np.abs(combs.frequency - lines) <= tolerance(combs, lines)).any(axis=0))

@@ -105,17 +105,17 @@ def spin(
     order = {lines.part: lines.order for lines in parts}
     cage = next(lines.sidebands for lines in parts if lines.part == BALL)
     at, shaft = combs.frequency, combs.shaft
-    own = _deviations(combs, (0.0,))
-    window = may_be(at, order[BALL] * shaft) & np.isfinite(own)
-    column = int(np.where(window, own, -np.inf).argmax())
+    spread = _deviations(combs, (0.0,))
+    window = may_be(at, order[BALL] * shaft) & np.isfinite(spread)
+    column = int(np.where(window, spread, -np.inf).argmax())
     places = at[column] + cage * shaft * np.arange(-2, 3)[:, None]
     others = explained(float(at[column])) == 0.0
     others |= (np.abs(at - places) <= shaft / combs.turns).any(axis=0)
-    others &= ~window & np.isfinite(own)
+    others &= ~window & np.isfinite(spread)
 
     def race(part: str) -> float:
         inside = np.abs(at / (order[part] * shaft) - 1.0) <= RACE_SLIP
-        return float(np.max(own[inside & np.isfinite(own)], initial=-np.inf))
+        return float(np.max(spread[inside & np.isfinite(spread)], initial=-np.inf))
 
     def sides(spacing: float) -> float:
         return float(np.nan_to_num(_deviations(combs, (-spacing, spacing))[column]))
@@ -124,9 +124,9 @@ def spin(
         frequency=float(at[column]),
         outer=race(OUTER),
         inner=race(INNER),
-        ball=float(own[column]) if window.any() else -math.inf,
+        ball=float(spread[column]) if window.any() else -math.inf,
         but_one=float(_deviations(combs, (0.0,), but_one=True)[column]),
-        parent=float(np.max(own[others], initial=-np.inf)),
+        parent=float(np.max(spread[others], initial=-np.inf)),
         shaft_sidebands=sides(shaft),
         cage_sidebands=sides(cage * shaft),
     )

@@ -30,7 +30,7 @@ SHAFT_MARGIN = 6.0
 """[dB] by which the shaft's lines at one speed must be above those at another."""
 
 
-def in_range(
+def diagnose_in_range(
     signal: ListenedSignal, bearing: Bearing, low: float, high: float, slip: float, source: str
 ) -> Diagnosis:
     """The diagnosis at a speed between two [Hz], which is looked for.
@@ -41,10 +41,10 @@ def in_range(
     parts = part_lines(bearing)
     if (refusal := _unfit_in_range(signal, parts, low, high)) is not None:
         return silent(*refusal, source)
-    own = signal.shaft(low, high)
+    shaft = signal.shaft(low, high)
     hypotheses = []
-    if own.clear:
-        hypotheses.append(_Hypothesis(own, judge(signal, parts, own.frequency, slip)))
+    if shaft.clear:
+        hypotheses.append(_Hypothesis(shaft, judge(signal, parts, shaft.frequency, slip)))
     middle, reach = 0.5 * (low + high), (high - low) / (high + low) + slip
     resolutions = listened(signal, parts, middle, reach, known_speed=False)
     strongest, above = max(
@@ -63,8 +63,8 @@ def in_range(
     holding = sorted((one for one in hypotheses if one.holds), key=lambda one: -one.shaft.excess)
     if holding:
         return _choose(signal, holding, slip, low, high, source)
-    if own.clear:
-        return decide(signal, hypotheses[0].judged, own.frequency, _FOUND)
+    if shaft.clear:
+        return decide(signal, hypotheses[0].judged, shaft.frequency, _FOUND)
     if hypotheses:
         return _undecided_speed(signal, hypotheses, strongest, source)
     # no lines, or such as no part has at any of these speeds
@@ -75,7 +75,7 @@ def in_range(
     # of a part only at a speed outside the range, or too faint to find one
     best = judged.own
     beyond = replace(judged, shaft=best.frequency / best.nominal_order)
-    return _undecided_speed(signal, [_Hypothesis(own, beyond)], best.frequency, source)
+    return _undecided_speed(signal, [_Hypothesis(shaft, beyond)], best.frequency, source)
 
 
 def _unfit_in_range(

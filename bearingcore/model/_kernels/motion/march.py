@@ -332,7 +332,7 @@ def loads_of_block(x, active, first, contacts, passage, q, loads):
 
 
 @compiled
-def between_steps(history, body, weights, first, out):
+def interpolate_steps(history, body, weights, first, out):
     """Fill out (n_out, n) with a quantity of one body, samples from `first` on, between steps.
 
     weights (ratio, 6) multiply x, v, acceleration at a step and at the next one; body is 0 for the

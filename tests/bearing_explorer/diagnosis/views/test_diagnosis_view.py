@@ -183,11 +183,11 @@ def test_a_refusal_is_a_sentence():
 def test_lines_that_count_are_strong_where_found_and_others_faint_where_geometry_has_them(truth):
     diagnosis = diagnosed(truth)
     sources, ranges = view_of(heard(truth), diagnosis).all_data(MODEL)
-    for one in diagnosis.evidence:
-        key = one.part.replace(" ", "_")
+    for part in diagnosis.evidence:
+        key = part.part.replace(" ", "_")
         lines = sources[f"diagnosis_{key}_lines"]
-        own = one.part == truth
-        first = one.frequency if own else one.nominal_frequency
+        own = part.part == truth
+        first = part.frequency if own else part.nominal_frequency
         np.testing.assert_allclose(lines["frequency"], first * np.arange(1, 7))
         assert (lines["alpha"] == (STRONG if own else FAINT)).all()
         assert bool(sources[f"diagnosis_{key}_points"]["frequency"].size) == own
@@ -208,11 +208,11 @@ def test_lines_that_count_are_strong_where_found_and_others_faint_where_geometry
 
 def test_a_zoom_shows_a_line_with_what_stands_beside_it():
     diagnosis = diagnosed("inner race")
-    one = diagnosis.of("inner race")
+    part = diagnosis.of("inner race")
     low, high = window(diagnosis, Zoom("inner race", 2))
-    assert low < 2.0 * one.frequency - one.sideband_spacing
-    assert high > 2.0 * one.frequency + one.sideband_spacing
-    assert high - low < one.frequency
+    assert low < 2.0 * part.frequency - part.sideband_spacing
+    assert high > 2.0 * part.frequency + part.sideband_spacing
+    assert high - low < part.frequency
     view = view_of(heard("inner race"), diagnosis)
     view.look_changed("zoom", "inner race 2")
     assert view.all_data(MODEL)[1]["diagnosis_frequency"] == (low, high)
@@ -250,7 +250,7 @@ def test_the_evidence_is_listed_for_each_part():
     own = diagnosed("inner race").of("inner race")
     assert lead["part"] == "inner race"
     assert lead["order"] == f"{own.order:.3f}"
-    assert [one["clear"] for one in lead["harmonics"]] == [True] * 6
+    assert [level["clear"] for level in lead["harmonics"]] == [True] * 6
     assert lead["spacing"].endswith("Hz, shaft")
     assert lead["probability"] == "99 %"
     assert rows[0]["sidebands"] == "none expected"

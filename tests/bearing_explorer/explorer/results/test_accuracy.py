@@ -154,10 +154,10 @@ def test_an_experiment_is_shown_point_by_point_and_read_from_its_file(
     measured = shown[-1]
     again = measurements_from(charts.as_json(measured))
     assert again.count == measured.count
-    ours, theirs = (one.experiments["statics"].points for one in (measured, again))
-    for one, other in zip(ours, theirs, strict=True):
-        assert other.errors == pytest.approx(one.errors, rel=1e-3)
-        assert other.in_use == one.in_use
+    ours, theirs = (results.experiments["statics"].points for results in (measured, again))
+    for our, other in zip(ours, theirs, strict=True):
+        assert other.errors == pytest.approx(our.errors, rel=1e-3)
+        assert other.in_use == our.in_use
     view = Accuracy(PackedSource())
     view.found = Found(RIG, measured)
     assert f"Measured on this machine: {measured.count} points" in view.sentence(Results(RIG))

@@ -31,7 +31,7 @@ def test_the_first_picture_is_short_and_shows_a_ball_on_its_way_through(name: st
         cost = duration * ball_mass.step_rates["with mass"] * scene.bearing.total_balls
         assert cost * (1.0 if is_planar(scene) else 4.0) < 2.1e6
         assert ball_mass.entry is not None
-        if all(one.extent < 0.35 * scene.bearing.ball_spacing for one in scene.defects):
+        if all(defect.extent < 0.35 * scene.bearing.ball_spacing for defect in scene.defects):
             assert ball_mass.exit is not None  # else it is a longer way than is shown
         assert not ball_mass.broke_off
 

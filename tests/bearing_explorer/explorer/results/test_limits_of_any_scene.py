@@ -22,4 +22,4 @@ def test_limits_of_any_scene_are_numbers_or_not_known() -> None:
             editor.set(quantities(chance))
         limits = Results(editor.scene, 0.1).limits
         assert limits
-        assert all(one.sentence for one in limits)
+        assert all(limit.sentence for limit in limits)

@@ -78,7 +78,7 @@ def test_a_compared_scene_without_a_motion_has_no_curve_and_the_others_have_thei
         presets["fan-rig"], compared=[Reference(still, "still"), Reference(shorter, "shorter")]
     )
     drawn = levels_of_compared("here", results, 2000.0)
-    sizes = [one["x"].size for one in drawn.values()]
+    sizes = [curve["x"].size for curve in drawn.values()]
     assert sizes[0] == sizes[2] == sizes[3] == 0
     assert np.isfinite(list(drawn.values())[1]["y"]).all()
     assert sizes[1]
@@ -128,9 +128,9 @@ def test_of_two_curves_of_a_compared_scene_one_is_thin_and_the_key_says_so(
 ) -> None:
     for plot in kind(PackedSource()).figures:
         lines = [
-            one.glyph.line_width
-            for one in plot.renderers
-            if str(one.data_source.name).endswith("_compared_0")
+            renderer.glyph.line_width
+            for renderer in plot.renderers
+            if str(renderer.data_source.name).endswith("_compared_0")
         ]
         several -= len(lines) > 1
         assert len(set(lines)) == len(lines)

@@ -21,7 +21,7 @@ def test_a_published_bearing_is_put_into_the_scene() -> None:
 
 
 def matches(text: str) -> list[tuple[str, str]]:
-    return [(one["label"], one["mark"]) for one in search_bearings(text)["entries"]]
+    return [(bearing["label"], bearing["mark"]) for bearing in search_bearings(text)["entries"]]
 
 
 @pytest.mark.parametrize(
@@ -57,8 +57,8 @@ def test_a_search_without_a_match_says_what_is_known() -> None:
 
 def test_every_entry_can_be_taken() -> None:
     for text in ("", "62", "nj 3", "12", "73", "323"):
-        for one in search_bearings(text)["entries"]:
-            assert SceneEditor("fan-rig").choose(one["choose"]) == {}
+        for bearing in search_bearings(text)["entries"]:
+            assert SceneEditor("fan-rig").choose(bearing["choose"]) == {}
 
 
 PARTS = ("load", "shaft_speed", "support")
@@ -115,12 +115,12 @@ def test_an_estimated_bearing_says_so_wherever_its_name_is() -> None:
     assert again.scene == editor.scene
     editor.choose({"kind": "back-to-back"})
     assert editor.scene.bearing.estimated
-    assert any("inside dimensions" in one.name for one in limits(editor.scene))
+    assert any("inside dimensions" in limit.name for limit in limits(editor.scene))
     for name in ("n_balls", "ball_diameter_mm", "pitch_diameter_mm"):
         editor.set({name: editor.values[name] * 0.999 if name != "n_balls" else 8})
     assert editor.scene.bearing.estimated == ()
     assert "estimated" not in editor.name
-    assert not any("inside dimensions" in one.name for one in limits(editor.scene))
+    assert not any("inside dimensions" in limit.name for limit in limits(editor.scene))
 
 
 def test_a_pair_in_tandem_gets_the_axial_load_that_it_needs() -> None:

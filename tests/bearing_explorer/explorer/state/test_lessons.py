@@ -65,13 +65,13 @@ RATE = 65536.0
 # --- what the lessons claim -----------------------------------------------------------------------
 
 
-def over_spacing(scene: Scene, n: int = 721) -> Equilibrium:
+def pass_states(scene: Scene, n: int = 721) -> Equilibrium:
     return equilibrium(scene, np.linspace(0.0, scene.bearing.ball_spacing, n))
 
 
 @cache
 def loads(scene: Scene) -> Equilibrium:
-    return over_spacing(scene)
+    return pass_states(scene)
 
 
 def fan(extent_deg: float = 12.9, **fields: float) -> Scene:
@@ -94,7 +94,7 @@ def first_warned() -> float:
 
 
 @cache
-def on_the_page(extent_deg: float) -> dict[str, tuple[float, float]]:
+def shown_bands(extent_deg: float) -> dict[str, tuple[float, float]]:
     """Bands of the natural frequencies as the page shows them when the hand rests."""
     return Results(fan(extent_deg)).bands
 
@@ -140,7 +140,7 @@ def centres_apart(way: str) -> float:
 def tilted_by(moment: float, way: str) -> float:
     """By how much [mrad] a moment [N·m] about x tilts a pair further."""
     before, after = (
-        over_spacing(PAIR[way].replace(mx=m), 181).displacement[:, 3].mean() for m in (0.0, moment)
+        pass_states(PAIR[way].replace(mx=m), 181).displacement[:, 3].mean() for m in (0.0, moment)
     )
     return 1e3 * float(after - before)
 
@@ -149,7 +149,7 @@ def tilted_by(moment: float, way: str) -> float:
 def fewest(edge: str) -> tuple[float, float]:
     """Extents [deg] at which fewest balls carry load and k_yy is least, on average."""
     extents = np.arange(59.0, 67.01, 0.25)
-    states = [over_spacing(liew_lim(x, edge=edge), 361) for x in extents]
+    states = [pass_states(liew_lim(x, edge=edge), 361) for x in extents]
     balls = [e.loaded_balls[:-1].mean() for e in states]
     stiffness = [e.term("k_yy")[:-1].mean() for e in states]
     return float(extents[np.argmin(balls)]), float(extents[np.argmin(stiffness)])
@@ -180,14 +180,14 @@ def sunk_at(extent_deg: float, angle_deg: float) -> float:
 
 
 @cache
-def of_motion(extent_deg: float, step_rate: float | None = None) -> Spectrum:
+def motion_spectrum(extent_deg: float, step_rate: float | None = None) -> Spectrum:
     motion = simulate(fan(extent_deg), 1.4, RATE, step_rate=step_rate)
     return spectrum(motion.outer_acceleration, motion.sample_rate)
 
 
 def peak(extent_deg: float, dof: int) -> tuple[float, float]:
     """Frequency [Hz] and level [dB] of the highest peak from 0.3 to 2.1 kHz."""
-    frequency, density = of_motion(extent_deg)
+    frequency, density = motion_spectrum(extent_deg)
     band = (frequency >= 300.0) & (frequency <= 2100.0)
     at = int(np.argmax(np.where(band, density[:, dof], 0.0)))
     return float(frequency[at]), 10.0 * math.log10(density[at, dof])
@@ -352,7 +352,7 @@ CLAIMS: dict[str, Callable[[], list[tuple[str, tuple[float, ...]]]]] = {
     ],
     "07": lambda: [
         ("from 0° over 12.9° to 38.6°", (0, 12.9, 38.6)),
-        *((f"{label} {x1} {y1}", (*numbers, *on_the_page(x)["x1"], *on_the_page(x)["y1"]))
+        *((f"{label} {x1} {y1}", (*numbers, *shown_bands(x)["x1"], *shown_bands(x)["y1"]))
           for label, numbers, x, x1, y1 in (
               ("none", (), 0.0, "365–436 Hz", "670–679 Hz"),
               ("12.9°", (12.9,), 12.9, "365–480 Hz", "615–679 Hz"),
@@ -530,7 +530,7 @@ def test_what_lessons_say_in_words() -> None:
     # 6
     for edge in EDGES:  # to the half degree of a map's steps
         assert 60.0 + sum(edges_freed(edge)) == pytest.approx(fewest(edge)[0], abs=0.25)
-    turned = over_spacing(liew_lim(64.0))
+    turned = pass_states(liew_lim(64.0))
     assert 2 * np.count_nonzero(turned.loaded_balls == 6) > len(turned.loaded_balls)
     assert between(turned.loaded_balls) == (6, 10)
     for extent_deg in np.arange(60.0, 72.0, 0.5):  # three balls inside are never all free
@@ -564,7 +564,7 @@ def test_scenes_of_lessons_lie_inside_the_limits_or_the_lesson_says_so(path: Pat
         lesson.begin(editor)
         editor.choose(message["choose"])
         editor.set(message["typed"])
-        crossed = [one.name for one in limits(editor.scene) if one.crossed]
+        crossed = [limit.name for limit in limits(editor.scene) if limit.crossed]
         assert not crossed or "page warns" in before, (message, crossed)
 
 

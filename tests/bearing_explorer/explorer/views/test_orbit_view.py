@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.explorer.results.verdict import of_orbit
+from bearing_explorer.explorer.results.verdict import orbit_verdict
 from bearing_explorer.explorer.views.orbit import SteadyOrbit, marched_path, orbit_path
 from bearing_explorer.kit.serve.packed_source import PackedSource
 
@@ -30,13 +30,13 @@ def test_an_inner_race_defect_is_marched_and_it_is_said() -> None:
     assert sources["orbit_path"]["x"].size == 0
     assert sources["orbit_marched"]["x"].size > 100
     assert f"only after {results.ball_passes} ball passes" in view.sentence(results)
-    assert of_orbit(results.orbit, results.moving)[0] == "bad"
+    assert orbit_verdict(results.orbit, results.moving)[0] == "bad"
 
 
 def test_a_race_that_never_comes_round_has_no_orbit() -> None:
     results = Results(presets["liew-lim"].replace(race="inner"))
     assert results.ball_passes is None
-    assert of_orbit(results.orbit, results.moving)[1] == "No common period"
+    assert orbit_verdict(results.orbit, results.moving)[1] == "No common period"
     assert "have no common period" in SteadyOrbit(PackedSource()).sentence(results)
 
 

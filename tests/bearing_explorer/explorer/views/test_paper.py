@@ -13,18 +13,18 @@ from bearing_explorer.page import SECTIONS
 
 from bearingcore import presets
 
-BY_NUMBER = {one.number: one for one in FIGURES}
+BY_NUMBER = {figure.number: figure for figure in FIGURES}
 
 
 def ours(figure: int) -> dict[str, str]:
     """Our values by their names."""
-    one = BY_NUMBER[figure]
-    return {printed.name: printed.ours(one.scenes) for printed in one.printed}
+    paper_figure = BY_NUMBER[figure]
+    return {printed.name: printed.ours(paper_figure.scenes) for printed in paper_figure.printed}
 
 
 def test_all_figures_from_3_to_10_are_there() -> None:
-    assert [one.number for one in FIGURES] == list(range(3, 11))
-    assert {one.tab for one in FIGURES} <= {section.name for section in SECTIONS}
+    assert [figure.number for figure in FIGURES] == list(range(3, 11))
+    assert {figure.tab for figure in FIGURES} <= {section.name for section in SECTIONS}
 
 
 @pytest.mark.parametrize("figure", FIGURES, ids=lambda figure: f"figure {figure.number}")
@@ -38,8 +38,8 @@ def test_a_link_has_the_scene_the_other_curves_and_the_tab() -> None:
     place = read(figure.link)
     assert place is not None
     assert (place.tab, place.scene) == ("stiffness", figure.scenes[-1])
-    assert [one.scene for one in place.compared] == figure.scenes[1:-1]
-    assert [one.name for one in place.compared] == ["5°, 50 µm", "40°, 50 µm"]
+    assert [reference.scene for reference in place.compared] == figure.scenes[1:-1]
+    assert [reference.name for reference in place.compared] == ["5°, 50 µm", "40°, 50 µm"]
 
 
 def test_the_numbers_of_a_figure_are_had_outside_of_the_page() -> None:
@@ -51,7 +51,7 @@ def test_the_numbers_of_a_figure_are_had_outside_of_the_page() -> None:
 
 
 def test_every_tab_of_a_figure_has_its_title() -> None:
-    assert {one.tab for one in FIGURES} == set(TAB_TITLES)
+    assert {figure.tab for figure in FIGURES} == set(TAB_TITLES)
 
 
 def test_section_4_opens_the_signal_of_its_defect_on_the_diagnosis_tab() -> None:

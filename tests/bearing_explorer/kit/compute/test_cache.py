@@ -19,7 +19,7 @@ def small(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     assert not cache._under_way
 
 
-def in_threads(*acts: Callable[[], object]) -> list[object]:
+def run_in_threads(*acts: Callable[[], object]) -> list[object]:
     values: list[object] = [None] * len(acts)
 
     def run(k: int) -> None:
@@ -52,7 +52,7 @@ def test_each_key_is_computed_once_by_several_threads() -> None:
         threading.Timer(0.05, go_on.set).start()
         return slow(1)
 
-    first, second, third = in_threads(lambda: slow(1), late, late)
+    first, second, third = run_in_threads(lambda: slow(1), late, late)
     assert calls == [1]
     assert first is second is third
     assert slow(1) is first
@@ -123,6 +123,6 @@ def test_who_waits_for_what_another_gave_up_computes_it() -> None:
         threading.Timer(0.05, given_up.set).start()
         return search(1)
 
-    first, second = in_threads(lambda: search(1, give_up=lambda: True), late)
+    first, second = run_in_threads(lambda: search(1, give_up=lambda: True), late)
     assert isinstance(first, Overtaken)
     assert second == "found"

@@ -264,7 +264,7 @@ def tdms() -> bytes:
 def uff(tmp_path: Any, binary: int = 0) -> bytes:
     pyuff = pytest.importorskip("pyuff")
     path = tmp_path / "a.uff"
-    one = {
+    data_set = {
         "type": 58, "func_type": 1, "binary": binary, "id1": "Bearing DE", "rsp_node": 1,
         "rsp_dir": 2, "ref_node": 1, "ref_dir": 0, "data": SIGNAL[:, 0], "x": TIME,
         "abscissa_inc": 1.0 / RATE, "abscissa_min": 0.0, "abscissa_spacing": 1, "num_pts": N,
@@ -272,7 +272,7 @@ def uff(tmp_path: Any, binary: int = 0) -> bytes:
         "ordinate_spec_data_type": 12, "abscissa_spec_data_type": 17, "z_axis_axis_lab": "NONE",
     }  # fmt: skip
     path.unlink(missing_ok=True)
-    pyuff.UFF(str(path)).write_sets([one], "add")
+    pyuff.UFF(str(path)).write_sets([data_set], "add")
     return bytes(path.read_bytes())
 
 
@@ -398,7 +398,7 @@ OF_SENSORS = {
 @pytest.mark.parametrize("content", OF_SENSORS.values(), ids=list(OF_SENSORS))
 def test_rows_of_several_sensors_are_columns_of_each(content: str) -> None:
     made = read(content)
-    signals = [i for i, one in enumerate(made.contents.columns) if one.role == "signal"]
+    signals = [i for i, column in enumerate(made.contents.columns) if column.role == "signal"]
     np.testing.assert_allclose(made.columns[:, signals], SIGNAL, atol=1e-9)
     assert made.contents.choice.question, "which place is at the bearing?"
     rate = made.contents.sample_rate
@@ -598,7 +598,7 @@ def written(write: Callable[[float, float], str], heading: str = "Time,acc [g]")
     return "\n".join([*([heading] if heading else []), *rows])
 
 
-def of_a_clock(begin: float) -> Callable[[float, float], str]:
+def clock_line(begin: float) -> Callable[[float, float], str]:
     def write(t: float, a: float) -> str:
         minute, second = divmod(begin * 60.0 + t, 60.0)
         hour, half = int(minute // 60), "AP"[int(minute >= 720.0)]
@@ -618,7 +618,7 @@ def since_1970(size: int) -> str:
     return written(write, "timestamp,acc")
 
 
-def in_row(values: Any, delimiter: str) -> str:
+def join_cells(values: Any, delimiter: str) -> str:
     return delimiter.join(f"{value:.6f}" for value in values)
 
 
@@ -655,15 +655,15 @@ ONE_SIGNAL: list[tuple[Any, ...]] = [
     (written(lambda t, a: f"{t:.6g} sec,{a}"), RATE),
     (written(lambda t, a: f"0 days 00:00:00.{1e6 * t:06.0f},{a}"), RATE),
     (written(lambda t, a: f"01.01.2024 10:00:00.{1e6 * t:06.0f}+01:00,{a}"), RATE),
-    (written(of_a_clock(12 * 60 + 59.999)), RATE),
-    (written(of_a_clock(11 * 60 + 59.999)), RATE),
+    (written(clock_line(12 * 60 + 59.999)), RATE),
+    (written(clock_line(11 * 60 + 59.999)), RATE),
     (written(lambda t, a: f"{int(t * 8e3) // 480_000:02d}:{t % 60.0:09.6f},{a:.4f}"), RATE),
     # a column of words is left out, whichever rows have one
     *((written(lambda t, a, where=where: f"{t:.6f}\t{a}" + "\tok" * bool(t in where),
                "time\tacc\tComment"), RATE) for where in ([0.0], [TIME[700]], TIME)),
     # numbers in one row are a column
-    *((in_row(ALONE, delimiter), None) for delimiter in ",; "),
-    *((f"time{d}{in_row(TIME, d)}\nacc{d}{in_row(ALONE, d)}", RATE) for d in ",; "),
+    *((join_cells(ALONE, delimiter), None) for delimiter in ",; "),
+    *((f"time{d}{join_cells(TIME, d)}\nacc{d}{join_cells(ALONE, d)}", RATE) for d in ",; "),
     # a rate above columns that count
     *((written(lambda t, a: f"{round(t * RATE)},{a}", heading), RATE) for heading in (
         "X,CH1,Start,Increment\nSequence,Volt,-3.0e-3,1.25e-04", "# fs = 8000", "fs,8000")),
@@ -730,8 +730,8 @@ FACTS: dict[str, Callable[[Any], Any]] = {
     "reason": lambda made: made.contents.sample_rate.reason,
     "trouble": lambda made: made.contents.sampling.trouble,
     "unit": lambda made: stated(made.contents.unit),
-    "rpm": lambda made: in_rpm(made.contents.shaft_speed),
-    "guessed": lambda made: in_rpm(made.contents.shaft_speed, False),
+    "rpm": lambda made: rpm_of(made.contents.shaft_speed),
+    "guessed": lambda made: rpm_of(made.contents.shaft_speed, False),
     "why": lambda made: made.contents.shaft_speed.reason,
     "bearing": lambda made: stated(made.contents.designation),
     "machine": lambda made: stated(made.contents.machine),
@@ -747,12 +747,12 @@ def stated(fact: Any, sure: bool = True) -> Any:
     return fact.value if fact is not None and fact.stated == sure else None
 
 
-def in_rpm(fact: Any, sure: bool = True) -> float | None:
+def rpm_of(fact: Any, sure: bool = True) -> float | None:
     speed = stated(fact, sure)
     return speed if speed is None else round(speed * 30.0 / math.pi, 1)
 
 
-def one(remark: str) -> bytes:
+def note(remark: str) -> bytes:
     """A remark above one signal."""
     return remark.encode() + b"\n" + rows(SIGNAL[:, 0])
 
@@ -785,39 +785,39 @@ CWRU = {f"X097_{side}_time": SIGNAL[:, :1] for side in ("DE", "FE")}
 
 FILES: list[tuple[bytes | str, dict[str, Any]]] = [
     # remarks above one column are no names of it
-    (one("# fs = 12000 Hz"), {"rate": 12e3, "rpm": None, "unit": None, "columns": {"y": 0}}),
-    (one("# fs=12000,rpm=1797"), {"rate": 12e3, "rpm": 1797.0}),
-    (one("# sampling rate 25.6 kHz, speed 1500 rpm"), {"rate": 25.6e3, "rpm": 1500.0}),
-    (one("% bearing 6205 outer race, 1797 rpm, fs 12 000 Hz"), {"rate": 12e3, "rpm": 1797.0}),
-    (one("rpm = 1797"), {"no rate": None, "rpm": 1797.0}),
-    (one("data_rate = 4000.0 Hz"), {"rate": 4e3}),
-    (one("# unit: g\n# fs [kHz] = 12"), {"rate": 12e3, "unit": "g"}),
-    (one("# acc [g]\n# fs = 12000 Hz"), {"rate": 12e3, "unit": "g"}),
-    (one("# load = 500 N"), {"no rate": None, "rpm": None, "unit": None, "columns": {"y": 0}}),
-    (one("# duration = 0.5 s"), {"no rate": None, "columns": {"y": 0}}),
-    (one("# time resolution 1.25e-4 s"), {"rate": RATE}),
-    (one("# Δt = 125 µs"), {"rate": RATE}),
-    (one("# sample_rate_Hz 12000"), {"rate": 12e3}),
-    (one("Fs [Hz];12000"), {"rate": 12e3}),
-    (one("# level 1797 today"), {"no rate": None, "rpm": None, "columns": {"y": 0}}),
-    (one("# temperature: 45 °C"), {"no rate": None, "columns": {"y": 0}}),
-    (one("# samples = 2000"), {"no rate": None, "columns": {"y": 0}}),
-    (one("On Monday beside the temperature sensor"), {"no rate": None, "columns": {"y": 0}}),
+    (note("# fs = 12000 Hz"), {"rate": 12e3, "rpm": None, "unit": None, "columns": {"y": 0}}),
+    (note("# fs=12000,rpm=1797"), {"rate": 12e3, "rpm": 1797.0}),
+    (note("# sampling rate 25.6 kHz, speed 1500 rpm"), {"rate": 25.6e3, "rpm": 1500.0}),
+    (note("% bearing 6205 outer race, 1797 rpm, fs 12 000 Hz"), {"rate": 12e3, "rpm": 1797.0}),
+    (note("rpm = 1797"), {"no rate": None, "rpm": 1797.0}),
+    (note("data_rate = 4000.0 Hz"), {"rate": 4e3}),
+    (note("# unit: g\n# fs [kHz] = 12"), {"rate": 12e3, "unit": "g"}),
+    (note("# acc [g]\n# fs = 12000 Hz"), {"rate": 12e3, "unit": "g"}),
+    (note("# load = 500 N"), {"no rate": None, "rpm": None, "unit": None, "columns": {"y": 0}}),
+    (note("# duration = 0.5 s"), {"no rate": None, "columns": {"y": 0}}),
+    (note("# time resolution 1.25e-4 s"), {"rate": RATE}),
+    (note("# Δt = 125 µs"), {"rate": RATE}),
+    (note("# sample_rate_Hz 12000"), {"rate": 12e3}),
+    (note("Fs [Hz];12000"), {"rate": 12e3}),
+    (note("# level 1797 today"), {"no rate": None, "rpm": None, "columns": {"y": 0}}),
+    (note("# temperature: 45 °C"), {"no rate": None, "columns": {"y": 0}}),
+    (note("# samples = 2000"), {"no rate": None, "columns": {"y": 0}}),
+    (note("On Monday beside the temperature sensor"), {"no rate": None, "columns": {"y": 0}}),
     # rates that are not sure, or disagree
-    (one("# fs = 12.000 Hz"), {"likely": 12e3}),
-    (one("# fs: 64.0 Hz"), {"likely": 64.0}),
-    (one("# 12 kHz"), {"likely": 12e3}),
-    (one("# recorded at 12 kHz"), {"likely": 12e3}),
+    (note("# fs = 12.000 Hz"), {"likely": 12e3}),
+    (note("# fs: 64.0 Hz"), {"likely": 64.0}),
+    (note("# 12 kHz"), {"likely": 12e3}),
+    (note("# recorded at 12 kHz"), {"likely": 12e3}),
     (timed("# fs = 12000 Hz"), {"likely": RATE, "reason": "“fs” in the file is 12000 Hz"}),
     (rows(TIME, SIGNAL[:, 0], 2.0 * TIME, SIGNAL[:, 1], heading="t1 [s],a,t2 [s],b"),
      {"rate": None, "reason": "“t2 [s]” says 4000 Hz"}),
     ("Time,acc\n" + "\n".join(DAYS), {"likely": RATE}),
     ("Date,RMS [mm/s]\n" + "\n".join(QUARTERS), {"no rate": None, "trouble": "a trend"}),
     # speeds, of the shaft and of nothing
-    (one("rotational speed 185.6 rad/s"), {"no rate": None, "rpm": 1772.3}),
-    (one("Running speed: 1772 CPM"), {"no rate": None, "rpm": 1772.0}),
-    (one("Nominal speed 1800 rpm"), {"rpm": None, "guessed": None}),
-    (one("# Fmax: 20000 Hz"), {"no rate": None, "rpm": None}),
+    (note("rotational speed 185.6 rad/s"), {"no rate": None, "rpm": 1772.3}),
+    (note("Running speed: 1772 CPM"), {"no rate": None, "rpm": 1772.0}),
+    (note("Nominal speed 1800 rpm"), {"rpm": None, "guessed": None}),
+    (note("# Fmax: 20000 Hz"), {"no rate": None, "rpm": None}),
     *((timed(f"# speed: {words}"), {"guessed": 1770.0, "why": "middle of 1750 to 1790"})
       for words in ("1750-1790 rpm", "1750 - 1790 rpm", "1750 to 1790 1/min")),
     (rows(TIME, SIGNAL[:, 0], np.full(N, 1480.0), heading="Zeit,Beschl,Drehzahl\ns,g,1/min"),
@@ -880,9 +880,9 @@ FILES: list[tuple[bytes | str, dict[str, Any]]] = [
       for heading, kind in (
           ("PeakVue (G-s)", "an envelope"), ("a [gE]", "an envelope"), ("I (A)", "a current"),
           ("disp [µm pk-pk]", "a displacement"), ("mic [Pa]", "a sound"), ("L [dB]", "a level"))),
-    (one("# Signal type: envelope"), {"question": "“Signal type: envelope”: this is an envelope"}),
-    (one("# Unit: A"), {"question": "“column 1” is a current"}),
-    (one("# Envelope: off\n# FFT lines: 3200"), {"columns": {"y": 0}}),
+    (note("# Signal type: envelope"), {"question": "“Signal type: envelope”: this is an envelope"}),
+    (note("# Unit: A"), {"question": "“column 1” is a current"}),
+    (note("# Envelope: off\n# FFT lines: 3200"), {"columns": {"y": 0}}),
     (rows(SIGNAL[:, 0] * 0.0 + ENVELOPE, SIGNAL[:, 0]), {"columns": {"y": 1}}),
     ("\n".join(f"{t:.6f},{a},{more or ','}" for t, a, more in zip(
         TIME, SIGNAL[:, 0], SPECTRUM, strict=True)),
@@ -897,9 +897,9 @@ FILES: list[tuple[bytes | str, dict[str, Any]]] = [
      {"machine": "P-1", "point": "MDE-H", "recorded": "2026-06-01 00:00:00"}),
     (timed("x"), {"file": "P-1_2026-06-01.csv", "recorded": "2026-06-01 00:00:00"}),
     (timed("# Date: 03/04/2024"), {"recorded": "None"}),
-    (one("# speed 1500 rpm\n# load 2 kN"), {"rpm": 1500.0, "load": 2e3, "columns": {"y": 0}}),
-    (one("SampleRate=8000\nUnitName_1=mm/s²\nDataStart=0"), {"rate": RATE, "unit": "mm/s²"}),
-    *((one(f"{words}\nQuantity: Acceleration, g"), {"rate": RATE, "unit": "g"})
+    (note("# speed 1500 rpm\n# load 2 kN"), {"rpm": 1500.0, "load": 2e3, "columns": {"y": 0}}),
+    (note("SampleRate=8000\nUnitName_1=mm/s²\nDataStart=0"), {"rate": RATE, "unit": "mm/s²"}),
+    *((note(f"{words}\nQuantity: Acceleration, g"), {"rate": RATE, "unit": "g"})
       for words in ("SampleTime[ms];0.125", "NI_CM_Dt,1.25e-4", "accel_odr_hz: 8000")),
     (rows(TIME, SIGNAL[:, 0], heading="t [s],Accel (G-s)"), {"unit": "g"}),
     # signals in cells, and in rows behind their facts
@@ -936,7 +936,7 @@ def test_what_a_file_says(content: bytes | str, said: dict[str, Any]) -> None:
     made = read(content, said.pop("file"))
     missing = N - len(made.columns)  # the rows in which an oscilloscope has its settings
     assert missing in (0, 3)
-    assert any(np.allclose(one, SIGNAL[missing:, 0], atol=1e-6) for one in made.columns.T)
+    assert any(np.allclose(column, SIGNAL[missing:, 0], atol=1e-6) for column in made.columns.T)
     for name, expected in said.items():
         fact = FACTS[name](made)
         if name in ("question", "choice", "reason", "trouble", "why", "note"):

@@ -20,12 +20,12 @@ def at(shaft_hz: float, extent_deg: float) -> Scene:
 
 def marched_period(scene: Scene, passes: int = 600, longest: int = 12) -> int | None:
     """Ball passes after which a long march repeats itself to 0.2 %, None if more than `longest`."""
-    one = scene.bearing.ball_spacing / scene.cage_speed
+    ball_pass = scene.bearing.ball_spacing / scene.cage_speed
     rate = 65536.0 * math.ceil(scene.shaft_speed / (2.0 * math.pi * 30.0))
-    motion = simulate(scene, (passes + 2) * one, rate)
+    motion = simulate(scene, (passes + 2) * ball_pass, rate)
     x, t = motion.inner_displacement, motion.time
     size = np.ptp(x[-len(x) // 20 :], axis=0).max()
-    times = np.arange(passes - 40, passes) * one
+    times = np.arange(passes - 40, passes) * ball_pass
     phase = np.stack([np.interp(times, t, x[:, i]) for i in range(x.shape[1])], axis=1)
     for period in range(1, longest + 1):
         if np.abs(phase[period:] - phase[:-period]).max() < 2e-3 * size:

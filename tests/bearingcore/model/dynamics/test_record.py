@@ -21,16 +21,16 @@ def rms(record) -> float:
 
 
 def test_equal_scenes_give_equal_records_and_a_seed_another_one() -> None:
-    one = simulated_record(SCENE, duration=0.3)
+    record = simulated_record(SCENE, duration=0.3)
     np.testing.assert_array_equal(
-        one.acceleration, simulated_record(SCENE.replace(), duration=0.3).acceleration
+        record.acceleration, simulated_record(SCENE.replace(), duration=0.3).acceleration
     )
-    assert one.shaft_speed == SCENE.shaft_speed
+    assert record.shaft_speed == SCENE.shaft_speed
     for other in (
         simulated_record(SCENE, duration=0.3, seed=1),
         simulated_record(SCENE.replace(fy=-900.0), duration=0.3),
     ):
-        assert not np.allclose(other.acceleration, one.acceleration, rtol=0.1)
+        assert not np.allclose(other.acceleration, record.acceleration, rtol=0.1)
 
 
 def test_effects_add_what_they_say() -> None:

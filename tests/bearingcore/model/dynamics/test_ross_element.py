@@ -45,8 +45,8 @@ def test_cross_terms_turn_with_the_load(element: Any) -> None:
     R = np.array([[math.cos(a), -math.sin(a)], [math.sin(a), math.cos(a)]])
     for letter in "kc":
         before, after = (
-            np.array([[getattr(one, f"{letter}{i}{j}")[0] for j in "xy"] for i in "xy"])
-            for one in (straight, other)
+            np.array([[getattr(bearing, f"{letter}{i}{j}")[0] for j in "xy"] for i in "xy"])
+            for bearing in (straight, other)
         )
         assert np.allclose(after, R @ before @ R.T, rtol=1e-6, atol=1e-6 * before.max())
         assert abs(after[0, 1]) > 0.1 * before.max()

@@ -52,8 +52,8 @@ def test_bands_of_contacts_that_let_go_are_marked_where_steps_change_them(load, 
     for middle in 6000.0 * 2.0 ** -np.arange(0.0, 5.0, 1.0 / 3.0):
         low, high = 2.0 ** (-1.0 / 6.0) * middle, 2.0 ** (1.0 / 6.0) * middle
         power = [
-            one.density[(one.frequency > low) & (one.frequency < high)].sum()
-            for one in (motion.spectrum(since=0.25), finer.spectrum(since=0.25))
+            lines.density[(lines.frequency > low) & (lines.frequency < high)].sum()
+            for lines in (motion.spectrum(since=0.25), finer.spectrum(since=0.25))
         ]
         apart.append(abs(10.0 * math.log10(power[0] / power[1])))
     assert (max(apart) < 1.0) == known

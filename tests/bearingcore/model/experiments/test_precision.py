@@ -108,11 +108,9 @@ def test_statics_have_trusted_references(preset: str) -> None:
 
 
 def test_rollers_that_touch_by_rounding_alone_are_left_out() -> None:
-    reference = static_reference(hard_cases(presets["nu208"])["clearance closed"])
-    assert reference.reference.trusted
-    assert reference.known.sum() >= 11, (
-        "where a roller carries rounding alone depends on the processor"
-    )
+    truth = static_reference(hard_cases(presets["nu208"])["clearance closed"])
+    assert truth.reference.trusted
+    assert truth.known.sum() >= 11, "where a roller carries rounding alone depends on the processor"
     touching = static_reference(hard_cases(presets["nu208"])["all balls just touching"])
     assert touching.reference.trusted
     assert touching.known.all()
@@ -139,16 +137,14 @@ def test_motion() -> None:
 
 def test_an_experiment_reports_its_progress_and_can_be_cancelled() -> None:
     shares: list[float] = []
-    experiments: list[Experiment] = []
+    shown: list[Experiment] = []
     answers = iter([*[False] * 7, True])  # five of them within the references
     experiment = statics_experiment(
         FAN_RIG,
         n_angles=5,
-        watch=Watch(
-            lambda part, doing: shares.append(part), lambda: next(answers), experiments.append
-        ),
+        watch=Watch(lambda part, doing: shares.append(part), lambda: next(answers), shown.append),
     )
-    assert [len(one.points) for one in experiments] == [1, 2]
+    assert [len(experiment.points) for experiment in shown] == [1, 2]
     assert len(experiment.points) == 2
     assert not experiment.completed
     assert shares == sorted(shares)

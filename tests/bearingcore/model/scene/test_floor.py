@@ -32,12 +32,12 @@ def test_a_circle_rolled_over_a_square_slot_takes_the_edge_model(race, edge, flo
 @pytest.mark.parametrize("edge", EDGES)
 @pytest.mark.parametrize("overlap", [0.0, 0.1])
 def test_two_slots_that_touch_are_one(race, edge, overlap) -> None:
-    one = Defect(0.5, 50e-6, 0.1, race, edge)
+    slot = Defect(0.5, 50e-6, 0.1, race, edge)
     half = 0.25 + overlap / 2
     left, right = 0.1 - 0.25 + half / 2, 0.1 + 0.25 - half / 2
     two = tuple(Defect(half, 50e-6, center, race, edge) for center in (left, right))
     np.testing.assert_allclose(
-        drop_into(two, BEARING, ANGLES), one.path(ANGLES, BEARING), rtol=0.0, atol=TABLE_ERROR
+        drop_into(two, BEARING, ANGLES), slot.path(ANGLES, BEARING), rtol=0.0, atol=TABLE_ERROR
     )
 
 

@@ -14,7 +14,7 @@ PALMGREN = 4.36e-8
 """[m (m/N²)^(1/3)] Palmgren: between races a ball of d [m] yields by 4.36e-8 Q^(2/3) / d^(1/3)."""
 
 
-def without_clearance(n_balls: int, diameter: float, load: float, angle: float) -> Scene:
+def scene_without_clearance(n_balls: int, diameter: float, load: float, angle: float) -> Scene:
     """Return a scene of the closed form: Palmgren's balls, no clearance, distant grooves."""
     return radially_loaded("fan-rig", load).replace(
         n_balls=n_balls,
@@ -42,19 +42,19 @@ def test_along_the_load_it_is_the_closed_form(
     n_balls: int, diameter: float, load: float, angle: float
 ) -> None:
     """13e6 is 12.87e6 rounded: Palmgren's law, and Stribeck's 4.37 without clearance."""
-    _, along, _ = mean_stiffness(without_clearance(n_balls, diameter, load, angle))
+    _, along, _ = mean_stiffness(scene_without_clearance(n_balls, diameter, load, angle))
     assert along == pytest.approx(friswell(n_balls, diameter, load, angle)[1], rel=0.02)
 
 
 def test_across_the_load_eight_balls_with_one_below_are_the_printed_ratio() -> None:
-    state = equilibrium(without_clearance(8, 8e-3, 1000.0, 0.0), [0.0])
+    state = equilibrium(scene_without_clearance(8, 8e-3, 1000.0, 0.0), [0.0])
     assert state.ball_load.argmax() == 6, "a ball is right below"
     assert state.term("k_xx") / state.term("k_yy") == pytest.approx(RATIOS[8], abs=0.005)
 
 
 def test_across_the_load_many_balls_are_two_thirds() -> None:
     """2/3 is the ratio of the integrals of cos^(1/2) sin² and cos^(5/2) over the half circle."""
-    across, along, loaded = mean_stiffness(without_clearance(60, 4e-3, 1000.0, 0.0))
+    across, along, loaded = mean_stiffness(scene_without_clearance(60, 4e-3, 1000.0, 0.0))
     assert across / along == pytest.approx(2.0 / 3.0, rel=1e-3)
     assert loaded == pytest.approx(30.0, abs=0.6)
 

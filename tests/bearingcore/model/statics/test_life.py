@@ -59,7 +59,7 @@ def damaged(race: str, **changes: float) -> Scene:
     return presets["6206"].replace(race=race, **changes)
 
 
-def by_counting(scene: Scene, places: int, every: int) -> tuple[float, float]:
+def count_loads(scene: Scene, places: int, every: int) -> tuple[float, float]:
     """Q_ei, Q_ee by equal bins of both races: every ball at every place at every shaft angle.
 
     places in a ball spacing; shaft angles `every` so many places.
@@ -98,7 +98,7 @@ def test_defects_of_both_races_by_counting() -> None:
     other = dataclasses.replace(scene.defect, race="outer", center=math.radians(260.0))
     scene = dataclasses.replace(scene, defect=(scene.defect, other))
     loads = race_loads(scene, P, E)
-    inner, outer = by_counting(scene, places=48, every=4)
+    inner, outer = count_loads(scene, places=48, every=4)
     assert loads.inner[0] == pytest.approx(inner, rel=2e-3)
     assert loads.outer[0] == pytest.approx(outer, rel=2e-3)
 

@@ -66,16 +66,14 @@ def test_each_row_is_the_equilibrium_of_its_extent(name: str) -> None:
         most = row.ball_load.max(axis=1)
         np.testing.assert_allclose(maps.greatest_load[i], most, rtol=TOLERANCE)
         expected = row.stiffness[:, UPPER[0], UPPER[1]].T
-        stiffness = maps.stiffness[:, i]
-        np.testing.assert_array_equal(np.isnan(stiffness), np.isnan(expected))
+        terms = maps.stiffness[:, i]
+        np.testing.assert_array_equal(np.isnan(terms), np.isnan(expected))
         if row.converged.any():
             shares = row.shares[row.converged]
             mean = row.loaded_balls[row.converged] @ shares / shares.sum()
             assert maps.mean_loaded_balls[i] == pytest.approx(mean)
             diagonal = np.nanmax([row.term(f"k_{dof}{dof}") for dof in DOF_NAMES], axis=1)
-            error = (
-                np.abs(stiffness - expected) / np.sqrt(np.outer(diagonal, diagonal))[UPPER][:, None]
-            )
+            error = np.abs(terms - expected) / np.sqrt(np.outer(diagonal, diagonal))[UPPER][:, None]
             # two balls that hold a ring of five directions leave all but one of them soft
             soft = name == "sideways only"
             assert error[:, row.converged].max() < (1e-6 if soft else TOLERANCE)

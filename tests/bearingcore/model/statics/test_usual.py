@@ -25,7 +25,7 @@ def test_a_scene_of_a_number_is_usual_for_its_kind(name: str) -> None:
     assert rated.rating_source.startswith("of a catalogue")
     assert 10.0 < rated.dynamic_load_rating / rated.equivalent_load < 21.0
     assert 5e3 < rated.hours < 2e5
-    assert [one.name for one in limits(scene, state) if one.crossed] == []
+    assert [limit.name for limit in limits(scene, state) if limit.crossed] == []
 
 
 def test_a_row_that_carries_thrust_one_way_has_enough_of_it() -> None:

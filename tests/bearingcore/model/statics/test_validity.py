@@ -95,10 +95,10 @@ def test_the_verdict_is_that_of_a_much_finer_look(race: str) -> None:
     scene = presets["6205"].replace(race=race, extent=0.5)
     angles = state_of_limits(scene).cage_angles
     finer = over_all_positions(scene, 241 if race == "inner" else 2 * angles.size - 1)
-    for one, other in zip(limits(scene), limits(scene, finer), strict=True):
-        assert one.crossed == other.crossed
-        if not math.isnan(one.value):
-            assert one.value == pytest.approx(other.value, rel=0.01)
+    for limit, other in zip(limits(scene), limits(scene, finer), strict=True):
+        assert limit.crossed == other.crossed
+        if not math.isnan(limit.value):
+            assert limit.value == pytest.approx(other.value, rel=0.01)
 
 
 def test_loads_in_motion_count_where_they_are_known() -> None:
@@ -109,7 +109,7 @@ def test_loads_in_motion_count_where_they_are_known() -> None:
         assert math.isnan(unknown.value)
         assert "no motion of this scene has been simulated" in unknown.sentence
     still = scene.replace(shaft_speed=0.0)
-    assert not {one.name for one in limits(still)} & set(names)
+    assert not {limit.name for limit in limits(still)} & set(names)
     motion = simulate(scene, duration=0.1)
     load = float(motion.ball_loads().max())
     moving = limit_named(scene, names[0], dynamic_load=load)
@@ -128,7 +128,7 @@ def test_the_film_counts_where_the_oil_is_given() -> None:
         assert limit == oil.limit
         assert limit.value == min(oil.inner.film_parameter, oil.outer.film_parameter)
         assert limit.crossed == (limit.value < 1.0) == crossed
-    assert name not in {one.name for one in limits(scene.replace(shaft_speed=0.0))}
+    assert name not in {limit.name for limit in limits(scene.replace(shaft_speed=0.0))}
     with pytest.raises(ValueError, match="film of another scene"):
         limits(scene.replace(fy=-100.0), film=oil)
 
@@ -203,15 +203,15 @@ def test_a_state_at_hand_gives_the_same() -> None:
 
 
 def test_limits_in_a_line_say_what_is_unchecked_and_why() -> None:
-    def one(value: float, why: str = "") -> Limit:
+    def limit(value: float, why: str = "") -> Limit:
         return unknown("film", 1.0, "", why) if why else upper_limit("film", value, 1.0, "", *"abc")
 
-    assert summary([one(0.5)]) == "No limit exceeded"
-    assert summary([one(2.0), one(0.5)]) == "1 limit exceeded"
-    assert summary([one(0.0, "nothing is carried")]) == "No limit judged (1 unchecked)"
-    assert summary([one(0.5), one(0.0, NO_DRAWING), one(0.0, f"{NO_DRAWING}; so")]) == (
+    assert summary([limit(0.5)]) == "No limit exceeded"
+    assert summary([limit(2.0), limit(0.5)]) == "1 limit exceeded"
+    assert summary([limit(0.0, "nothing is carried")]) == "No limit judged (1 unchecked)"
+    assert summary([limit(0.5), limit(0.0, NO_DRAWING), limit(0.0, f"{NO_DRAWING}; so")]) == (
         "No limit exceeded (2 unchecked: groove radii unknown)"
     )
-    assert summary([one(2.0), one(2.0), one(0.0, NO_OIL), one(0.0, "it turns")]) == (
+    assert summary([limit(2.0), limit(2.0), limit(0.0, NO_OIL), limit(0.0, "it turns")]) == (
         "2 limits exceeded (2 unchecked)"
     ), "a reason that is not all of it is none"

@@ -397,7 +397,7 @@ def test_other_sources_are_another_version() -> None:
     version, _, digest = program_version().partition("+")
     assert version
     folder = Path(grid_module.__file__).parents[2]
-    files = [one for one in sorted(folder.rglob("*")) if one.suffix in (".py", ".csv")]
+    files = [path for path in sorted(folder.rglob("*")) if path.suffix in (".py", ".csv")]
     own = hashlib.blake2b(digest_size=5)
     for file in files:
         own.update(file.relative_to(folder).as_posix().encode() + b"\0" + file.read_bytes())

@@ -58,7 +58,7 @@ def test_a_release_may_fade_above_the_bands_that_show_it():
     silent = [mean_pass(Band(low, low + 2000.0), (0.4, 1.0)) for low in (9e3, 11e3, 13e3, 15e3)]
     assert seen(*low, *silent).seen == Seen.TWO
     # backwards it is the later one that fades, as an echo does and no exit
-    echo = [MeanPass(one.band, "y", one.envelope[::-1], one.error) for one in (*low, *silent)]
+    echo = [MeanPass(band.band, "y", band.envelope[::-1], band.error) for band in (*low, *silent)]
     assert seen(*echo).seen == Seen.ALIKE
     among = [mean_pass(Band(200.0, high), (0.4, 1.0)) for high in (2e3, 3e3, 5e3, 6e3)]
     assert seen(*low, *among).seen != Seen.TWO

@@ -118,8 +118,8 @@ def test_listed_bearings_that_explain_a_signal_are_named_the_strongest_lines_fir
     names = ("fan-rig", "6205", "6206", "liew-lim", "6203")
     listed = {name: presets[name].bearing for name in names}
     bearings = explaining_bearings(recording, listed, MOTOR.shaft_speed)
-    assert {one.name for one in bearings} == {"6205", "6206"}
-    assert all(one.diagnosis.fault == "inner race" for one in bearings)
+    assert {bearing.name for bearing in bearings} == {"6205", "6206"}
+    assert all(bearing.diagnosis.fault == "inner race" for bearing in bearings)
     assert abs(bearings[0].slip) < 0.02
     assert bearings[0].level > 5.0
     cancelled = explaining_bearings(
@@ -223,13 +223,11 @@ def test_another_bearings_damage_is_not_laid_to_this_one(damaged, part):
     diagnosis = answer(damaged[part], other)
     assert diagnosis.fault == CANNOT_TELL
     assert diagnosis.other is not None
-    share = (
-        diagnosis.other.frequency / MOTOR.lines[part]
-    )  # a ball's lines are also seen at parts of it
+    share = diagnosis.other.frequency / MOTOR.lines[part]  # a ball's lines show at parts of it too
     assert min(abs(share - one) for one in (0.25, 0.5, 1.0)) < 0.012
 
 
-def with_shaft_lines(signal: np.ndarray) -> np.ndarray:
+def add_shaft_lines(signal: np.ndarray) -> np.ndarray:
     time = np.arange(len(signal)) / MOTOR.rate
     rng = np.random.default_rng(15)
     lines = sum(tone(time, k * MOTOR.turns, rng, 0.5) for k in range(1, 7))
@@ -239,7 +237,7 @@ def with_shaft_lines(signal: np.ndarray) -> np.ndarray:
 @pytest.mark.parametrize("part", PARTS)
 def test_a_rough_speed_is_made_fine_by_the_shaft(damaged, part):
     speed = MOTOR.shaft_speed
-    diagnosis = answer(with_shaft_lines(damaged[part]), speed=(0.9 * speed, 1.12 * speed))
+    diagnosis = answer(add_shaft_lines(damaged[part]), speed=(0.9 * speed, 1.12 * speed))
     assert diagnosis.fault == part
     assert diagnosis.shaft_speed == pytest.approx(speed, rel=2e-3)
     assert "shaft's own lines" in diagnosis.speed_source
@@ -247,7 +245,7 @@ def test_a_rough_speed_is_made_fine_by_the_shaft(damaged, part):
 
 
 def test_an_unknown_speed_is_looked_for(damaged):
-    recording = Recording(with_shaft_lines(damaged["outer race"]), MOTOR.rate, ("y",))
+    recording = Recording(add_shaft_lines(damaged["outer race"]), MOTOR.rate, ("y",))
     diagnosis = diagnose(recording, MOTOR.bearing, None)
     assert diagnosis.fault == "outer race"
     assert diagnosis.shaft_speed == pytest.approx(MOTOR.shaft_speed, rel=2e-3)
@@ -270,7 +268,7 @@ def test_open_speeds_count_as_so_many_chances_for_another_source_to_fit(damaged)
     sure = answer(damaged["outer race"])
     rough = answer(damaged["outer race"], speed=(0.9 * speed, 1.1 * speed))
     assert (sure.fault, rough.fault) == ("outer race", "outer race")
-    odds = [one.probability / (1.0 - one.probability) for one in (sure, rough)]
+    odds = [diagnosis.probability / (1.0 - diagnosis.probability) for diagnosis in (sure, rough)]
     assert odds[0] / odds[1] == pytest.approx(1.0 + math.log(1.1 / 0.9) / 0.04, rel=0.05)
     just_outside = answer(damaged["outer race"], speed=(1.02 * speed, 1.275 * speed))
     assert (just_outside.fault, just_outside.shaft_speed) == (CANNOT_TELL, None)
@@ -286,7 +284,7 @@ def test_without_lines_of_the_shaft_a_wide_range_leaves_the_part_open():
     assert "the shaft speed decides" in diagnosis.sentence
     # what holds at one of the speeds only is no verdict
     assert 0.0 < diagnosis.probability < 0.5
-    assert max(one.probability for one in diagnosis.evidence) < 0.5
+    assert max(part.probability for part in diagnosis.evidence) < 0.5
     diagnosis = answer(signal)
     assert diagnosis.fault == "outer race"
 

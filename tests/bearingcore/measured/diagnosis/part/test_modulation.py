@@ -39,11 +39,10 @@ def test_impacts_of_one_size_name_no_part_that_turns_and_are_said(part, strength
     for seed in range(3):
         diagnosis = answer(part, strength, jitter, seed)
         assert (diagnosis.fault, diagnosis.status) == (CANNOT_TELL, DiagnosisStatus.UNMODULATED)
-        assert not diagnosis.of(part).modulated
-        assert diagnosis.of(part).frequency == pytest.approx(MOTOR.lines[part], rel=0.005)
-        assert diagnosis.detail.startswith(
-            f"Impacts at {number(diagnosis.of(part).frequency, 4)} Hz"
-        )
+        evidence = diagnosis.of(part)
+        assert not evidence.modulated
+        assert evidence.frequency == pytest.approx(MOTOR.lines[part], rel=0.005)
+        assert diagnosis.detail.startswith(f"Impacts at {number(evidence.frequency, 4)} Hz")
         assert f"not modulated once per {CARRIES[part][0]} turn" in diagnosis.sentence
 
 

@@ -114,7 +114,7 @@ def extent_of(question: ExtentQuestion) -> MeasuredExtent | str:
 
     def measure() -> MeasuredExtent:
         measured, bearing = question.measured, question.bearing
-        found = measure_extent(
+        extent = measure_extent(
             measured.recording,
             bearing,
             question.speed,
@@ -125,7 +125,7 @@ def extent_of(question: ExtentQuestion) -> MeasuredExtent | str:
             diagnosis=question.diagnosis,
         )
         unsized = measured.machine.by_frequencies
-        return dataclasses.replace(found, length=math.nan) if unsized else found
+        return dataclasses.replace(extent, length=math.nan) if unsized else extent
 
     return _or_why_not(measure)
 

@@ -101,14 +101,14 @@ class Findings:
     def diagnosis(self) -> Diagnosis | None:
         """The answer to it, where there is one already."""
         question = self.question()
-        found = None if question is None else self.diagnoses.of(question)
-        return found if isinstance(found, Diagnosis) else None
+        answer = None if question is None else self.diagnoses.of(question)
+        return answer if isinstance(answer, Diagnosis) else None
 
     def extent(self) -> MeasuredExtent | None:
         """The newest answer to how long the spall is, where there is one already."""
         question = self.question()
-        found = None if question is None else self.extents.latest(question)
-        return found if isinstance(found, MeasuredExtent) else None
+        answer = None if question is None else self.extents.latest(question)
+        return answer if isinstance(answer, MeasuredExtent) else None
 
     def sizing(self) -> Sizing | None:
         """The choice between lengths of the spall, of this signal on the machine of now."""
@@ -129,8 +129,8 @@ class Findings:
             return None
         if measured.machine.exact_speed is not None:
             return measured.machine.exact_speed
-        found = self.diagnosis()
-        return None if found is None else found.shaft_speed
+        diagnosis = self.diagnosis()
+        return None if diagnosis is None else diagnosis.shaft_speed
 
     @property
     def out_of_date(self) -> str:

@@ -237,13 +237,13 @@ def _unit(table: Table) -> str:
     return contents.unit.value if contents.unit.taken else NOT_KNOWN
 
 
-def bearings_of(table: Table | None, found: Sequence[str] = ()) -> list[list[str]]:
+def bearings_of(table: Table | None, names: Sequence[str] = ()) -> list[list[str]]:
     """[value, words, heading] of the bearings to choose from.
 
     The one of the file's collection and those that were `found` to explain the signal come first.
     """
     listed = None if table is None else table.contents.bearing
-    likely = dict.fromkeys([*([] if listed is None else [listed.value]), *found])
+    likely = dict.fromkeys([*([] if listed is None else [listed.value]), *names])
     others = dict.fromkeys(name for name in catalogue() if name not in likely)
     return [
         [NOT_KNOWN, "choose", WAYS],
@@ -282,24 +282,24 @@ def reasons(table: Table) -> dict[str, str]:
     """Why the form is filled in as it is, by field: what the file says, and what is a guess."""
     contents = table.contents
     rate, speed, choice = contents.sample_rate, contents.shaft_speed, contents.choice
-    found = {"columns": choice.reason} if choice.reason else {}
-    found["unit"] = _because(contents.unit) if contents.unit.taken else "The file does not say it."
+    texts = {"columns": choice.reason} if choice.reason else {}
+    texts["unit"] = _because(contents.unit) if contents.unit.taken else "The file does not say it."
     if _unit(table) == AS_HEADED:
-        found["unit"] = "By the heading of each column, or as given over it."
+        texts["unit"] = "By the heading of each column, or as given over it."
     if not table.full_scale_known:
-        found["full_scale"] = "Full scale of the recorder, in the unit."
+        texts["full_scale"] = "Full scale of the recorder, in the unit."
     sensor = contents.sensitivity
-    found["sensitivity"] = "See the label of the sensor." if sensor is None else _because(sensor)
-    found["sample_rate"] = "The file does not say it." if rate is None else _because(rate)
+    texts["sensitivity"] = "See the label of the sensor." if sensor is None else _because(sensor)
+    texts["sample_rate"] = "The file does not say it." if rate is None else _because(rate)
     if contents.frequencies:
-        found["bearing"] = "Its frequencies are in the file."
+        texts["bearing"] = "Its frequencies are in the file."
     elif (guessed := contents.bearing or contents.orders) is not None:
-        found["bearing"] = _because(guessed)
+        texts["bearing"] = _because(guessed)
     elif contents.designation is not None and machine.guess(contents)["designation"]:
-        found["designation"] = _because(contents.designation)
+        texts["designation"] = _because(contents.designation)
     if speed is not None:
-        found["speed"] = _because(speed)
-    return {name: words[:1].upper() + words[1:] for name, words in found.items()}
+        texts["speed"] = _because(speed)
+    return {name: words[:1].upper() + words[1:] for name, words in texts.items()}
 
 
 def _because(finding: Finding[Any]) -> str:

@@ -62,10 +62,10 @@ class DiagnosisOfSignal(Half):
         measurement = self.measurement.snapshot()
         if why := measurement.out_of_date:
             return why
-        found: Mapping[str, Any] = {
+        results: Mapping[str, Any] = {
             view.name: view.found for view in self.page.views_made() if view.found is not None
         }
         kinds = (view.look["machine"] for view in self.page.views_made()
                  if isinstance(view, MeasuredIndicators))  # fmt: skip
         kind = next(kinds, "")
-        return lambda: measured_report(Model(self.scene), measurement, found, about, kind)
+        return lambda: measured_report(Model(self.scene), measurement, results, about, kind)

@@ -122,8 +122,8 @@ class Machine:
             return "assumed, a guess from the file"
         if name in self.kept:
             return "assumed, kept from the file before"
-        found = self.bearing_source if name == "bearing" else self.speed_source
-        return (BEARING_SOURCES if name == "bearing" else SPEED_SOURCES).get(found, "")
+        source = self.bearing_source if name == "bearing" else self.speed_source
+        return (BEARING_SOURCES if name == "bearing" else SPEED_SOURCES).get(source, "")
 
     @property
     def range(self) -> float | tuple[float, float] | None:

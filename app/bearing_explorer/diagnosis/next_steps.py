@@ -57,7 +57,7 @@ ALIKE = "at the same point, speed and load"
 
 
 def next_steps(
-    found: Diagnosis,
+    diagnosis: Diagnosis,
     question: Question,
     zone: str = "",
     trend: Trend | None = None,
@@ -76,20 +76,20 @@ def next_steps(
     """
     records = len(trend.points) if trend is not None and question.measured.in_si else 1
     change = rms_change = float(trend.rms_change[-1]) if trend and records > 1 else 1.0
-    if not found.names_a_part:
-        return _without_a_part(found, zone, change)
+    if not diagnosis.names_a_part:
+        return _without_a_part(diagnosis, zone, change)
     line = "" if trend is None or records < 2 else line_growth(trend)
     if trend is not None and line:
-        change = max(change, float(trend.line_change(found.fault)[-1]))
+        change = max(change, float(trend.line_change(diagnosis.fault)[-1]))
     of_the_shaft = shaft_share >= MOST
-    part = the(found.fault)
-    words = [_how_soon(part, zone, change, found.probability < LIKELY, of_the_shaft)]
+    part = the(diagnosis.fault)
+    words = [_how_soon(part, zone, change, diagnosis.probability < LIKELY, of_the_shaft)]
     if of_the_shaft:
         words.append(
             f"Most of the velocity ({percent(shaft_share, 2)} of its power) is the shaft's own, 1 "
             "to 3 times its speed (unbalance, alignment): a new bearing will not lower it."
         )
-    if found.probability < LIKELY and (zone in ("C", "D") or change >= GROWN):
+    if diagnosis.probability < LIKELY and (zone in ("C", "D") or change >= GROWN):
         words.append(UNSURE)
     if records > 1:
         level = f"the vibration became {number(rms_change, 2)} times that of the baseline"
@@ -122,11 +122,11 @@ def _how_soon(part: str, zone: str, change: float, unsure: bool, of_the_shaft: b
     )
 
 
-def _without_a_part(found: Diagnosis, zone: str, change: float) -> str:
-    if found.fault == NONE_SEEN:
+def _without_a_part(diagnosis: Diagnosis, zone: str, change: float) -> str:
+    if diagnosis.fault == NONE_SEEN:
         words = "Measure again at the usual interval."
     else:
-        words = WHAT_HELPS.get(found.status, CLOSER)
+        words = WHAT_HELPS.get(diagnosis.status, CLOSER)
     if zone in ("C", "D"):
         soon = "now" if zone == "D" else "soon"
         words += (

@@ -78,17 +78,17 @@ class Arrival:
                 words.append(f"And {more} more.")
         return " ".join(filter(None, words))
 
-    def take(self, name: str, found: Read | str, inside: int = 1) -> None:
+    def take(self, name: str, read: Read | str, inside: int = 1) -> None:
         """Take what was read, or why nothing was; one of so many `inside` one file."""
         if inside > 1 and self.count == 1 and not (self.baseline or self.series.together):
             self.series = Series(together=True)  # of the files in a zip
-        if isinstance(found, str):
-            sentence = found if name in found else f"{name}: {found}"
+        if isinstance(read, str):
+            sentence = read if name in read else f"{name}: {read}"
             self.series, self.why = self.series.without(sentence), self.why or sentence
         else:
             self.series, self.newest = (
-                self.series.with_table(found.table, self.count * inside, first=self.baseline),
-                found,
+                self.series.with_table(read.table, self.count * inside, first=self.baseline),
+                read,
             )
 
 
@@ -134,15 +134,15 @@ def read_files(
             why = f"{one} was not read: there is a minute for all files of an upload."
             yield one, why, len(names)
             continue
-        found: Read | str
+        read: Read | str
         try:
-            found = read_file(one, content, scene, kept, give_up)
+            read = read_file(one, content, scene, kept, give_up)
         except ValueError as error:
-            found = str(error)
+            read = str(error)
         except Exception:
             log.exception("a file could not be read")
-            found = f"{one} could not be read."
-        yield one, found, len(names)
+            read = f"{one} could not be read."
+        yield one, read, len(names)
 
 
 def read_file(
@@ -175,17 +175,17 @@ def _proposed(table: Table, cut: str, scene: Machine, kept: Mapping[str, str]) -
     kept = kept_answers(first, kept)
     form = {**first, **kept}
     sizes = size_questions(table, form)
-    found, refused = _tried(table, form, scene), {}
-    if isinstance(found, FormError) and set(found.sentences) <= set(MACHINE_FIELDS):
+    answer, refused = _tried(table, form, scene), {}
+    if isinstance(answer, FormError) and set(answer.sentences) <= set(MACHINE_FIELDS):
         # the signal is one, whatever the file says of its bearing
-        refused = found.sentences
-        found = _tried(table, {**form, "bearing": NOT_KNOWN}, scene)
-    if isinstance(found, FormError):
+        refused = answer.sentences
+        answer = _tried(table, {**form, "bearing": NOT_KNOWN}, scene)
+    if isinstance(answer, FormError):
         if not usable(table):
-            raise ValueError(f"{table.name} cannot be used. {found}")
-        refused |= found.sentences
+            raise ValueError(f"{table.name} cannot be used. {answer}")
+        refused |= answer.sentences
         return Read(table, first, form, cut, None, refused, asks, sizes, kept)
-    return Read(table, first, form, cut, None if asks else found, refused, asks, sizes, kept)
+    return Read(table, first, form, cut, None if asks else answer, refused, asks, sizes, kept)
 
 
 @dataclass(frozen=True)

@@ -96,17 +96,17 @@ def recordings_of(
             answers.pop("part", None)
         try:
             told, form = fill(table, answers)
-            found = read_form(told, {**form, **kept_answers(form, kept)}, scene)
+            answer = read_form(told, {**form, **kept_answers(form, kept)}, scene)
         except FormError as error:
             words = str(error)
             left_out.append(words if words.startswith(table.name) else f"{table.name}: {words}")
             continue
-        if found.in_si != shown.in_si:
+        if answer.in_si != shown.in_si:
             left_out.append(f"{table.name}: its unit is not that of {shown.recording.name}.")
-        elif direction not in found.recording.directions:
+        elif direction not in answer.recording.directions:
             left_out.append(f"{table.name}: nothing is measured along {direction}.")
         else:
-            speed = found.machine.exact_speed
-            recordings.append(dataclasses.replace(found.recording, shaft_speed=speed))
-            origins.append(found.origin)
+            speed = answer.machine.exact_speed
+            recordings.append(dataclasses.replace(answer.recording, shaft_speed=speed))
+            origins.append(answer.origin)
     return SeriesRecordings(tuple(recordings), tuple(origins), tuple(left_out))

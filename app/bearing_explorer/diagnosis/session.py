@@ -186,8 +186,8 @@ class Measurement(SignalForm):
 
         self._read(make, self._take_simulated)
 
-    def _take_simulated(self, found: Measured) -> None:
-        self._table, self._cut, self.measured = None, "", found
+    def _take_simulated(self, measured: Measured) -> None:
+        self._table, self._cut, self.measured = None, "", measured
         self.state = MeasurementState(
             arrival=self.state.arrival + 1,
             values={"speed": SIMULATED},

@@ -121,8 +121,8 @@ class Measured:
         if resolution not in self._spectra:
             recording = self.recording
             signal = recording.acceleration - self._middle
-            found = core.spectrum(signal, recording.sample_rate, resolution)
-            _put(self._spectra, resolution, found)
+            lines = core.spectrum(signal, recording.sample_rate, resolution)
+            _put(self._spectra, resolution, lines)
         frequency, density = self._spectra[resolution]
         return core.Spectrum(frequency, density[:, self.directions.index(direction)])
 
@@ -148,8 +148,8 @@ class Measured:
             recording = self.recording
             resolution = self.envelope_resolution(top)
             signal = recording.acceleration[:, column] - self._middle[column]
-            found = core.envelope_spectrum(signal, recording.sample_rate, band, resolution)
-            _put(self._envelopes, key, found)
+            lines = core.envelope_spectrum(signal, recording.sample_rate, band, resolution)
+            _put(self._envelopes, key, lines)
         return self._envelopes[key]
 
     def column(self, direction: str) -> NDArray[np.float64]:

@@ -143,36 +143,36 @@ class SignalForm(Findings):
         self._kept = {}  # what is typed now is given for this file, be it the same
         self.take_form({**self.state.values, **dict.fromkeys(names, NOT_KNOWN)})
 
-    def _take_read(self, found: Read) -> None:
+    def _take_read(self, read: Read) -> None:
         """Take a file that was read in place of the one before.
 
         The figures of the one before leave with it, so that none is shown under another's name.
         """
-        table, before = found.table, "" if self._table is None else self._table.name
+        table, before = read.table, "" if self._table is None else self._table.name
         self._table = self._as_read = table
-        self._cut, self._first, self._agreed = found.cut, found.first, {}
-        self._kept = found.kept
-        self._taken = found.form
+        self._cut, self._first, self._agreed = read.cut, read.first, {}
+        self._kept = read.kept
+        self._taken = read.form
         self.measured = None
-        if found.asked is not None:
-            self.measured = self._measured(found.asked, found.form)
-            words, bad = self._summary(about_size(found.sizes)), False
+        if read.asked is not None:
+            self.measured = self._measured(read.asked, read.form)
+            words, bad = self._summary(about_size(read.sizes)), False
         else:
-            wanted = {**found.asks, **found.refused, **found.sizes}
+            wanted = {**read.asks, **read.refused, **read.sizes}
             if not wanted.get("columns", "?").endswith(("?", "columns.")):  # there is no signal
                 wanted = {"columns": wanted["columns"]}
             words = f"{table.name} is read. {_WAITS} {' '.join(wanted.values())}"
-            bad = bool(found.refused) and not found.asks
+            bad = bool(read.refused) and not read.asks
         self._tell(
             words=words,
             bad=bad,
             busy=False,
             columns=columns_of(table),
-            values=found.form,
-            refused={name: text for name, text in found.refused.items() if name not in found.asks},
-            reasons={**reasons(table), **found.asks, **found.sizes},
-            open=[*found.asks, *found.sizes],
-            voltage=is_voltage(table, found.form),
+            values=read.form,
+            refused={name: text for name, text in read.refused.items() if name not in read.asks},
+            reasons={**reasons(table), **read.asks, **read.sizes},
+            open=[*read.asks, *read.sizes],
+            voltage=is_voltage(table, read.form),
             proposed=proposed_unit(table),
             said=said(table),
             load=load_of(table),
@@ -181,9 +181,9 @@ class SignalForm(Findings):
             recordings=recordings_of(table),
             speeds=speeds_of(table),
             settling=False,
-            kept_from=(self.state.kept_from or before) if found.kept else "",
+            kept_from=(self.state.kept_from or before) if read.kept else "",
             arrival=self.state.arrival + 1,
-            **self._in_short(found.form),
+            **self._in_short(read.form),
         )
         self._follow()
         self._draw()
@@ -213,20 +213,20 @@ class SignalForm(Findings):
             work.show(read_answers(as_read, changed, scene))
             return ""
 
-        self._read(read, lambda found: self._take_answers(texts, found))
+        self._read(read, lambda answers: self._take_answers(texts, answers))
 
     def _take_answers(self, texts: dict[str, str], answers: AnsweredTable | FormError) -> None:
         before, table = self.measured, self._table
         if table is None:
             return
-        found = answers if isinstance(answers, FormError) else answers.found
+        answer = answers if isinstance(answers, FormError) else answers.found
         if isinstance(answers, AnsweredTable):
             # what follows from the roles of the columns follows from those of now
             texts, table = answers.form, answers.table
             self._table, self._first = table, {**answers.first, "columns": self._first["columns"]}
         asks, sizes = questions(table), size_questions(table, texts)
         left = [name for name in asks if self._is_left(name, texts[name])]
-        refused = found.sentences if isinstance(found, FormError) else {}
+        refused = answer.sentences if isinstance(answer, FormError) else {}
         news = {
             "values": texts,
             "refused": {name: words for name, words in refused.items() if name not in left},
@@ -244,9 +244,9 @@ class SignalForm(Findings):
             "settling": False,
             "kept_from": self.state.kept_from if self._kept_of(texts) else "",
         }
-        if isinstance(found, FormError):
+        if isinstance(answer, FormError):
             stays = " The figures still show the signal as it was before." if before else ""
-            self._tell(words=f"{found}{stays}", bad=True, **news)
+            self._tell(words=f"{answer}{stays}", bad=True, **news)
             return
         if left:
             words = " ".join(asks[name] for name in left)
@@ -255,10 +255,10 @@ class SignalForm(Findings):
         same = all(texts[name] == self._taken[name] for name in SIGNAL_FIELDS)
         self._taken = texts
         if before is not None and same:  # what was computed of the signal stays
-            machine = replace(found.machine, kept=self._kept_of(texts))
+            machine = replace(answer.machine, kept=self._kept_of(texts))
             self.measured = replace(before, machine=machine)
         else:
-            self.measured = self._measured(found, texts)
+            self.measured = self._measured(answer, texts)
         self._tell(
             words=self._summary(about_size(sizes)), bad=False, busy=False, **news,
             **self._in_short(texts),

@@ -27,7 +27,7 @@ def _known_fields(table: Table, form: Mapping[str, str], first: Mapping[str, str
     """Fields that the file says itself, or that a person has answered."""
     contents = table.contents
     said = {"unit": contents.unit, "sample_rate": contents.sample_rate}
-    sure = {name for name, found in said.items() if found is not None and found.stated}
+    sure = {name for name, finding in said.items() if finding is not None and finding.stated}
     return sure | {name for name in form if form[name] != first.get(name)}
 
 

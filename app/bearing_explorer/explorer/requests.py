@@ -100,7 +100,7 @@ class Requests(Half):
             self.jobs.answer(
                 SEARCH,
                 lambda: search_bearings(text),
-                lambda found: self.controls.send({"found": found}),
+                lambda bearings: self.controls.send({"found": bearings}),
             )
             return
         self.mark = message.get("mark", self.mark)
@@ -149,8 +149,8 @@ class Requests(Half):
         if refused:
             self.show_controls(refused=refused)
 
-    def _taken(self, take: Callable[[str, Found], object], name: str, found: Found) -> None:
-        take(name, found)
+    def _taken(self, take: Callable[[str, Found], object], name: str, answer: Found) -> None:
+        take(name, answer)
         self.show_controls(state=self.editor.state())
         self.show_links()
         self.draw()
@@ -177,8 +177,8 @@ class Requests(Half):
             self.jobs.answer(
                 OPENING,
                 lambda: read_request(wanted),
-                lambda found: self._taken(
-                    lambda _, place: self.bookmarks.take(wanted, place), wanted.name, found
+                lambda answer: self._taken(
+                    lambda _, place: self.bookmarks.take(wanted, place), wanted.name, answer
                 ),
             )
         self.change_scene(message)  # the mark, and a reset
@@ -188,7 +188,7 @@ class Requests(Half):
         request = OpenRequest("open", name, text)
         place = read_request(request)
         self.bookmarks.leave()
-        self._taken(lambda _, found: self.bookmarks.take(request, found), name, place)
+        self._taken(lambda _, opened: self.bookmarks.take(request, opened), name, place)
         if isinstance(place, Place):
             self.page.show_tab({"show": place.tab})
 

@@ -184,10 +184,10 @@ class PartDiagnosis(LookView, MeasuredView):
         return self._seen.visible
 
     def data(self, model: Model) -> tuple[Sources, Ranges]:
-        found = self.answer()
-        if not isinstance(found, Diagnosis) or found.spectrum is None:
+        answer = self.answer()
+        if not isinstance(answer, Diagnosis) or answer.spectrum is None:
             return {}, {}
-        return self.lines.data(found, Zoom.of(self.look["zoom"]))
+        return self.lines.data(answer, Zoom.of(self.look["zoom"]))
 
     def say(self, model: Model | None, sentence: str) -> None:
         self._show()
@@ -200,8 +200,8 @@ class PartDiagnosis(LookView, MeasuredView):
             self._seen.visible = False
             return
         question, answer = measurement.question(), self.answer()
-        found = answer if isinstance(answer, Diagnosis) else None
-        self._seen.visible = found is not None and found.spectrum is not None
+        diagnosis = answer if isinstance(answer, Diagnosis) else None
+        self._seen.visible = diagnosis is not None and diagnosis.spectrum is not None
         stale = measurement.out_of_date
         if question is None:
             self._ask(measured)
@@ -209,15 +209,15 @@ class PartDiagnosis(LookView, MeasuredView):
             self.part.outdate(stale)
         else:
             self._shown_of = None if answer is None else measured.recording
-            self.part.show(self._with_length(panel_state(question, answer), found))
+            self.part.show(self._with_length(panel_state(question, answer), diagnosis))
             if answer is not None and stale:
                 self.part.outdate(stale)
         if question is not None:
             measurement.diagnoses.want(question)
-            self._look_in_list(question, found)
-        if found is not None:
-            self.lines.show_orders(found.shaft_speed is not None)
-            self.evidence.object = evidence_html(part_words.evidence_rows(found))
+            self._look_in_list(question, diagnosis)
+        if diagnosis is not None:
+            self.lines.show_orders(diagnosis.shaft_speed is not None)
+            self.evidence.object = evidence_html(part_words.evidence_rows(diagnosis))
 
     def _ask(self, measured: Measured) -> None:
         """The question which bearing it is, in place of the answer."""
@@ -242,15 +242,15 @@ class PartDiagnosis(LookView, MeasuredView):
         said = "" if unknown else f" Its spall is {length}."
         return state | {"extent": length, "pass_on": f"{state['pass_on']}{said}"}
 
-    def _look_in_list(self, about: Question, found: Diagnosis | None) -> None:
+    def _look_in_list(self, about: Question, diagnosis: Diagnosis | None) -> None:
         """Listed bearings with which a part would be named, where with this one none is."""
-        if found is None:
+        if diagnosis is None:
             self.candidates.show("")
             return
         listed = self.measurement.listed
         answer, wanted = listed.latest(about), listed.wanted
         asked = isinstance(wanted, ListQuestion) and wanted.is_like(about)
-        if found.status not in UNEXPLAINED and not asked:
+        if diagnosis.status not in UNEXPLAINED and not asked:
             self.candidates.show("")
             return
         if not isinstance(wanted, ListQuestion) or not wanted.is_like(about):
@@ -271,8 +271,8 @@ class PartDiagnosis(LookView, MeasuredView):
             rows = [(one.name, part_words.explained(one)) for one in answer[:MOST_LISTED]]
             before = CANCELLED.format(**counted) if progress.cancelled else ""
             after = "" if progress.cancelled and not rows else NONE_IN_LIST
-            found = self.answer()
-            unexplained = isinstance(found, Diagnosis) and found.status in UNEXPLAINED
+            diagnosis = self.answer()
+            unexplained = isinstance(diagnosis, Diagnosis) and diagnosis.status in UNEXPLAINED
             first = UNEXPLAINED_BY_IT if about.geometry and unexplained else ""
             words = first + FOUND_IN_LIST if rows else after
             self.candidates.show(before + words, rows)
@@ -297,8 +297,8 @@ class PartDiagnosis(LookView, MeasuredView):
         return part_words.sentence(answer, question)
 
     def table(self, model: Model) -> dict[str, np.ndarray]:
-        found = self.answer()
-        return found.table().in_units().named() if isinstance(found, Diagnosis) else {}
+        answer = self.answer()
+        return answer.table().in_units().named() if isinstance(answer, Diagnosis) else {}
 
 
 NO_BEARING = {"n_balls": 0, "pitch": 1.0, "ball": 0.24, "outer": 0.62, "inner": 0.38}

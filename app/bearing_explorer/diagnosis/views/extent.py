@@ -114,10 +114,14 @@ class SpallExtent(LookView, MeasuredView):
         return self._question(about, measurement.state.load, measurement.diagnosis())
 
     def _question(
-        self, about: Question, load: float | None = None, found: Diagnosis | None = None
+        self, about: Question, load: float | None = None, diagnosis: Diagnosis | None = None
     ) -> ExtentQuestion:
         return ExtentQuestion.about(
-            about.measured, whole=about.bearing, race=self.look["race"], load=load, diagnosis=found
+            about.measured,
+            whole=about.bearing,
+            race=self.look["race"],
+            load=load,
+            diagnosis=diagnosis,
         )
 
     def answer(self) -> MeasuredExtent | str | None:
@@ -151,22 +155,22 @@ class SpallExtent(LookView, MeasuredView):
         return self._seen.visible
 
     def data(self, model: Model) -> tuple[Sources, Ranges]:
-        found = self.answer()
-        if not isinstance(found, MeasuredExtent) or not found.passes:
+        extent = self.answer()
+        if not isinstance(extent, MeasuredExtent) or not extent.passes:
             return {}, {}
-        spacing = math.degrees(found.ball_spacing)
-        best = found.passes[0].envelope
+        spacing = math.degrees(extent.ball_spacing)
+        best = extent.passes[0].envelope
         # angle 0 is the entry, or the highest peak
-        start = found.entry if math.isfinite(found.entry) else int(best.argmax()) / len(best)
+        start = extent.entry if math.isfinite(extent.entry) else int(best.argmax()) / len(best)
         first = round((start - BEFORE) * len(best)) % len(best)
         angle = spacing * (np.arange(len(best)) / len(best) - BEFORE)
-        drawn = [np.roll(one.envelope, -first) for one in found.passes[:BANDS]]
+        drawn = [np.roll(one.envelope, -first) for one in extent.passes[:BANDS]]
         sources: Sources = {
             f"extent_pass_{number}": {"angle": angle, "envelope": envelope}
             for number, envelope in enumerate(drawn)
         }
-        if math.isfinite(found.entry):
-            sources["extent_edges"] = _edges(found, spacing, self._way_round(found))
+        if math.isfinite(extent.entry):
+            sources["extent_edges"] = _edges(extent, spacing, self._way_round(extent))
         return sources, {
             "extent_angle": (-BEFORE * spacing, (1.0 - BEFORE) * spacing),
             "extent_size": with_head(self._size, drawn, 0.3),
@@ -211,25 +215,25 @@ class SpallExtent(LookView, MeasuredView):
         return answer.table().in_units().named() if isinstance(answer, MeasuredExtent) else {}
 
 
-def status(found: MeasuredExtent) -> dict[str, Any]:
+def status(extent: MeasuredExtent) -> dict[str, Any]:
     """The answer in a few words and a colour, with its grounds."""
     details = []
-    if math.isfinite(found.separation):
-        apart, offset = math.degrees(found.separation), math.degrees(found.offset)
+    if math.isfinite(extent.separation):
+        apart, offset = math.degrees(extent.separation), math.degrees(extent.offset)
         details.append(f"{apart:.1f}° between the peaks and {offset:.1f}° at the edges")
-    if found.n_passes:
-        frequency = style.number(found.frequency, 4)
-        details.append(f"mean of {found.n_passes} ball passes, at {frequency} Hz")
+    if extent.n_passes:
+        frequency = style.number(extent.frequency, 4)
+        details.append(f"mean of {extent.n_passes} ball passes, at {frequency} Hz")
     return {
-        "mood": "good" if found.measured else "bad",
-        "words": found.answer,
+        "mood": "good" if extent.measured else "bad",
+        "words": extent.answer,
         "details": details,
     }
 
 
-def _edges(found: MeasuredExtent, spacing: float, way: int | None) -> dict[str, np.ndarray]:
+def _edges(extent: MeasuredExtent, spacing: float, way: int | None) -> dict[str, np.ndarray]:
     """Angles [deg] of entry and exit, the first peak at 0, and places of their names."""
-    apart = spacing * ((found.exit - found.entry + BEFORE) % 1.0 - BEFORE)
+    apart = spacing * ((extent.exit - extent.entry + BEFORE) % 1.0 - BEFORE)
     angle = np.array([0.0, apart])
     return {
         "angle": angle,

@@ -137,8 +137,8 @@ class MeasuredEnvelope(FrequencyView):
             sets = [first | {"shaft": turn} for first in of_rows(turning)]
             if shown.top == high - low:
                 words += f"It has no lines above {shown.top:.0f} Hz, the width of that band. "
-        found = self.measurement.diagnosis()
-        return words + highest_line(shown, sets, *shown_unit(measured), found)
+        diagnosis = self.measurement.diagnosis()
+        return words + highest_line(shown, sets, *shown_unit(measured), diagnosis)
 
 
 _PLACES = {
@@ -199,7 +199,7 @@ def highest_line(
     sets: Sequence[Mapping[str, float]],
     unit: str,
     size: float,
-    found: Diagnosis | None,
+    diagnosis: Diagnosis | None,
 ) -> str:
     """The highest line of the envelope, and the frequency that is there.
 
@@ -218,8 +218,8 @@ def highest_line(
     if most < _CLEAR * float(np.median(height)):
         return f"No line stands out: the highest, {place} is as high as noise gives."
     words = f"Its highest line, {place}"
-    if found is not None and found.names_a_part:
-        of_part = _of_named_part(found.of(found.fault), at, shown.resolution)
+    if diagnosis is not None and diagnosis.names_a_part:
+        of_part = _of_named_part(diagnosis.of(diagnosis.fault), at, shown.resolution)
         if of_part:
             return f"{words} is {of_part}"
     if not sets:

@@ -78,26 +78,28 @@ class MeasuredIndicators(LookView, MeasuredView):
 
 def facts(measured: Measured) -> list[Fact]:
     """The numbers of a signal, for all its directions."""
-    found = measured.indicators
+    levels = measured.indicators
     unit, size = shown_unit(measured)
 
     def each(values: np.ndarray, words: str = "", digits: int = 3) -> str:
-        several = len(found.directions) > 1
+        several = len(levels.directions) > 1
         return ", ".join(
             f"{style.number(float(value), digits)}{f' {words}' if words else ''}"
             f"{f' along {along}' if several else ''}"
-            for value, along in zip(values, found.directions, strict=True)
+            for value, along in zip(values, levels.directions, strict=True)
         )
 
     listed = [
-        Fact("Root mean square", each(found.rms / size, unit)),
-        Fact("Peak", each(found.peak / size, unit)),
-        Fact("Crest factor", each(found.crest_factor), "Peak over root mean square; 1.41: a sine."),
-        Fact("Kurtosis", each(found.kurtosis), "1.5: a sine; 3: noise; more: knocks."),
+        Fact("Root mean square", each(levels.rms / size, unit)),
+        Fact("Peak", each(levels.peak / size, unit)),
+        Fact(
+            "Crest factor", each(levels.crest_factor), "Peak over root mean square; 1.41: a sine."
+        ),
+        Fact("Kurtosis", each(levels.kurtosis), "1.5: a sine; 3: noise; more: knocks."),
     ]
     why = no_velocity(measured)
-    words = f"not known: {why}" if why else each(1e3 * found.velocity_rms, "mm/s")
-    low, high = found.band
+    words = f"not known: {why}" if why else each(1e3 * levels.velocity_rms, "mm/s")
+    low, high = levels.band
     return [*listed, Fact(f"Velocity, {low:.0f} to {high:.0f} Hz, root mean square", words)]
 
 
@@ -112,8 +114,8 @@ def zone_of(measured: Measured, machine: str) -> str:
     """The zone of the greatest velocity and displacement; empty where there is none."""
     if no_zone(measured, machine):
         return ""
-    found = measured.indicators
-    velocity, displacement = float(found.velocity_rms.max()), float(found.displacement_rms.max())
+    levels = measured.indicators
+    velocity, displacement = float(levels.velocity_rms.max()), float(levels.displacement_rms.max())
     return severity_zone(velocity, machine, displacement) if machine else "D"
 
 

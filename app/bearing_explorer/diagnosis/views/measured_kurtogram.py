@@ -61,14 +61,14 @@ class MeasuredKurtogram(MeasuredView):
 
     def data_of(self, model: Model, measured: Measured) -> tuple[Sources, Ranges]:
         direction = self.direction_of(measured)
-        found = measured.kurtogram(direction)
+        chart = measured.kurtogram(direction)
         nyquist = 0.5 * measured.recording.sample_rate
-        cells = picture(found, nyquist)
+        cells = picture(chart, nyquist)
         low, high = self.demodulation(measured, direction).band
         middles = np.asarray((np.arange(CELLS) + 0.5) * (1e-3 * nyquist / CELLS))
         levels = np.arange(len(cells), dtype=float)
         columns = self._image.columns(middles, levels, cells)
-        top = max(float(found.kurtosis.max()), 1.0)
+        top = max(float(chart.kurtosis.max()), 1.0)
         return {
             "kurtogram_cells": columns,
             "kurtogram_band": {"low": np.array([1e-3 * low]), "high": np.array([1e-3 * high])},
@@ -80,11 +80,11 @@ class MeasuredKurtogram(MeasuredView):
 
     def words_of(self, model: Model, measured: Measured) -> str:
         direction = self.direction_of(measured)
-        found = measured.kurtogram(direction)
-        most = int(found.kurtosis.argmax())
-        band, chosen = found.bands[most], self.demodulation(measured, direction)
+        chart = measured.kurtogram(direction)
+        most = int(chart.kurtosis.argmax())
+        band, chosen = chart.bands[most], self.demodulation(measured, direction)
         words = (
-            f"Along {direction} the kurtosis is highest, {style.number(found.kurtosis[most], 3)}, "
+            f"Along {direction} the kurtosis is highest, {style.number(chart.kurtosis[most], 3)}, "
             f"from {band.low:.0f} to {band.high:.0f} Hz. Envelopes are taken from "
             f"{chosen.band[0]:.0f} to {chosen.band[1]:.0f} Hz, {chosen.reason}"
         )
@@ -96,14 +96,14 @@ class MeasuredKurtogram(MeasuredView):
         return measured.kurtogram(self.direction_of(measured)).table().in_units().named()
 
 
-def picture(found: Kurtogram, nyquist: float) -> NDArray[np.float64]:
+def picture(chart: Kurtogram, nyquist: float) -> NDArray[np.float64]:
     """The kurtosis (levels, CELLS) over frequency up to `nyquist` [Hz]; NaN where no band is.
 
     Of the levels that the signal is long enough for, two at least.
     """
-    count = max(BAND_COUNTS.index(int(found.parts.max())) + 1, 2)
+    count = max(BAND_COUNTS.index(int(chart.parts.max())) + 1, 2)
     cells = np.full((count, CELLS), np.nan)
-    for band, parts, kurtosis in zip(found.bands, found.parts, found.kurtosis, strict=True):
+    for band, parts, kurtosis in zip(chart.bands, chart.parts, chart.kurtosis, strict=True):
         last = round(band.high / nyquist * CELLS)
         cells[BAND_COUNTS.index(parts), last - CELLS // parts : last] = kurtosis
     return cells

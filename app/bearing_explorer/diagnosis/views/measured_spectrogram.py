@@ -65,11 +65,11 @@ class MeasuredSpectrogram(MeasuredView):
             signal, rate = measured.column(direction), measured.recording.sample_rate
             least, most = SEGMENT_LENGTHS
             length = 2 ** round(math.log2(min(max(len(signal) / SEGMENTS, least), most)))
-            found = spectrogram(signal, rate, rate / length)
-            level = thinned(decibels(found.density))
+            levels = spectrogram(signal, rate, rate / length)
+            level = thinned(decibels(levels.density))
             time, frequency = (
                 np.linspace(values[0], values[-1], count)
-                for values, count in zip((found.time, found.frequency), level.shape, strict=True)
+                for values, count in zip((levels.time, levels.frequency), level.shape, strict=True)
             )
             self._known = (measured, direction), (time, frequency, level - level.max())
         return self._known[1]

@@ -129,8 +129,8 @@ class MeasuredView(View[Model]):
 
     def diagnosed(self) -> EnvelopeLines | None:
         """The envelope on which the diagnosis rests, once there is one."""
-        found = self.measurement.diagnosis()
-        return None if found is None else found.spectrum
+        diagnosis = self.measurement.diagnosis()
+        return None if diagnosis is None else diagnosis.spectrum
 
     def direction_of(self, measured: Measured, chosen: str = "") -> str:
         """The direction to show: the one chosen, or that of the diagnosis, or y."""

@@ -119,11 +119,11 @@ def layers() -> list[Layer]:
     for part in PARTS:
         color, names = COLORS[part], f"{_lines(part)}_names"
         line = {"line_color": color, "level": "underlay"}
-        found = {**line, "line_alpha": "alpha", "line_width": "width"}
+        looks = {**line, "line_alpha": "alpha", "line_width": "width"}
         dotted = {**line, "line_alpha": 0.7, "line_dash": "dotted"}
         mark = {"size": 8, "fill_color": color, "line_color": style.INK}
         beneath += [
-            Glyph(VSpan, _lines(part), ("frequency",), found, ("alpha", "width")),
+            Glyph(VSpan, _lines(part), ("frequency",), looks, ("alpha", "width")),
             Glyph(VSpan, _sidebands(part), ("frequency",), dotted),
             names_over(names, _WORDS % NAMES[part], "frequency", "row", INKS[part],
                        ("order", "alpha", "labelled"), x_offset=3, text_alpha="alpha"),

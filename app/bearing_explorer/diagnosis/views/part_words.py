@@ -35,40 +35,40 @@ def the(part: str) -> str:
     return "a ball" if part == "ball" else f"the {part}"
 
 
-def mood(found: Diagnosis) -> str:
+def mood(answer: Diagnosis) -> str:
     """Damage ("fault"), none ("healthy") or no answer ("unknown")."""
-    if found.names_a_part:
+    if answer.names_a_part:
         return "fault"
-    return "healthy" if found.fault == NONE_SEEN else "unknown"
+    return "healthy" if answer.fault == NONE_SEEN else "unknown"
 
 
-def headline(found: Diagnosis) -> str:
+def headline(answer: Diagnosis) -> str:
     """The answer in a few words."""
-    if found.names_a_part:
-        words = the(found.fault)
-        probably = "" if found.probability >= LIKELY else "probably "
+    if answer.names_a_part:
+        words = the(answer.fault)
+        probably = "" if answer.probability >= LIKELY else "probably "
         return f"{words[0].upper()}{words[1:]} is {probably}damaged"
-    return "No damage seen" if found.fault == NONE_SEEN else "No clear result"
+    return "No damage seen" if answer.fault == NONE_SEEN else "No clear result"
 
 
-def plain(found: Diagnosis, question: Question) -> str:
+def plain(answer: Diagnosis, question: Question) -> str:
     """The finding in a sentence or three."""
-    if found.names_a_part:
-        one = found.of(found.fault)
+    if answer.names_a_part:
+        one = answer.of(answer.fault)
         modulated = f", modulated once per {one.sideband_source} turn" if one.modulated else ""
-        doubt = perhaps_a_ball() if found.perhaps_a_ball else ""
+        doubt = perhaps_a_ball() if answer.perhaps_a_ball else ""
         return (
             f"Impacts at {style.number(one.frequency, 4)} Hz, {_FREQUENCY[one.part]}"
             f"{modulated}.{doubt}"
         )
-    if found.fault == NONE_SEEN:
+    if answer.fault == NONE_SEEN:
         return (
             "No impacts repeat as those of a damaged outer race, inner race or ball would. Impacts "
-            f"that make its power swing by {swing(found.detectable_depth)} of the mean, at each "
+            f"that make its power swing by {swing(answer.detectable_depth)} of the mean, at each "
             "harmonic, would have shown in nine of ten such records."
             f"{counted(question)}"
         )
-    return found.detail
+    return answer.detail
 
 
 def counted(question: Question) -> str:
@@ -77,11 +77,11 @@ def counted(question: Question) -> str:
     return COUNTED.format(bearing.kind.elements) if "n_balls" in bearing.estimated else ""
 
 
-def extent(found: MeasuredExtent) -> str:
+def extent(measured: MeasuredExtent) -> str:
     """The length of a spall in a few words."""
-    if found.measured:
-        return f"{found.size} long, or that and whole ball spacings"
-    return found.size or LENGTH_HIDDEN
+    if measured.measured:
+        return f"{measured.size} long, or that and whole ball spacings"
+    return measured.size or LENGTH_HIDDEN
 
 
 def length(found: MeasuredExtent, sizing: Sizing | None) -> str:
@@ -94,9 +94,9 @@ def length(found: MeasuredExtent, sizing: Sizing | None) -> str:
 
 def explained(one: ListedBearing) -> str:
     """The quality with which a listed bearing explains a signal."""
-    found = one.diagnosis
+    answer = one.diagnosis
     return (
-        f"{found.fault}, probability {probability(found.probability)}, lines "
+        f"{answer.fault}, probability {probability(answer.probability)}, lines "
         f"{decibels(one.level)} dB clear, {slip(one.slip)} against its geometry"
     )
 
@@ -111,11 +111,11 @@ def duration(seconds: float) -> str:
     return f"{style.number(seconds, 2)} s"
 
 
-def turns(found: Diagnosis) -> str:
+def turns(answer: Diagnosis) -> str:
     """The shaft's speed for a sentence; empty where none is known."""
-    if found.shaft_speed is None:
+    if answer.shaft_speed is None:
         return ""
-    return f"{30.0 / math.pi * found.shaft_speed:.0f} turns a minute"
+    return f"{30.0 / math.pi * answer.shaft_speed:.0f} turns a minute"
 
 
 def speed_alone(machine: Machine) -> str:
@@ -149,48 +149,48 @@ def _rpm(speed: float) -> str:
     return f"{style.number(30.0 / math.pi * speed, 4)} turns a minute"
 
 
-def speed_source(found: Diagnosis, machine: Machine) -> str:
+def speed_source(answer: Diagnosis, machine: Machine) -> str:
     """Where the shaft speed of an answer is from, in words."""
     own = machine.source_of("speed")
     for given in ("given by the recording", "given"):
-        if found.speed_source.startswith(given):
-            return own + found.speed_source.removeprefix(given)
-    return f"{own}; {found.speed_source}" if own else f"not given; {found.speed_source}"
+        if answer.speed_source.startswith(given):
+            return own + answer.speed_source.removeprefix(given)
+    return f"{own}; {answer.speed_source}" if own else f"not given; {answer.speed_source}"
 
 
-def sentence(found: Diagnosis, question: Question) -> str:
+def sentence(answer: Diagnosis, question: Question) -> str:
     """The answer in sentences, with the shaft speed and where that is from."""
-    source = speed_source(found, question.measured.machine)
-    said = dataclasses.replace(found, speed_source=source)
+    source = speed_source(answer, question.measured.machine)
+    said = dataclasses.replace(answer, speed_source=source)
     return said.sentence + assumed(question) + truth(question)
 
 
-def pass_on(found: Diagnosis, question: Question) -> str:
+def pass_on(answer: Diagnosis, question: Question) -> str:
     """A summary for a technician."""
-    speed, doubt = turns(found), assumed(question)
+    speed, doubt = turns(answer), assumed(question)
     at = f" at {speed}" if speed else ""
     head = f"Bearing, measured for {duration(question.measured.recording.duration)}{at}: "
-    if found.names_a_part:
-        one = found.of(found.fault)
+    if answer.names_a_part:
+        one = answer.of(answer.fault)
         return (
-            f"{head}{headline(found).lower()} (probability {probability(found.probability)}); "
+            f"{head}{headline(answer).lower()} (probability {probability(answer.probability)}); "
             f"impacts at {style.number(one.frequency, 4)} Hz, {one.order:.2f} times a turn. Have "
             f"the bearing inspected, and measure again to see whether it grows.{doubt}"
         )
-    if found.fault == NONE_SEEN:
+    if answer.fault == NONE_SEEN:
         return (
             f"{head}no damage seen on outer race, inner race or balls (probability "
-            f"{probability(found.probability)}). Measure again at the usual time. This says "
+            f"{probability(answer.probability)}). Measure again at the usual time. This says "
             f"nothing about lubrication, balance or other bearings.{counted(question)}{doubt}"
         )
     return f"{head}no clear result from this signal.{doubt}"
 
 
-def facts(found: Diagnosis, question: Question) -> list[list[str]]:
+def facts(answer: Diagnosis, question: Question) -> list[list[str]]:
     """The assumptions of the answer: [name, value]."""
     bearing = question.bearing
     angle = style.in_degrees(bearing.contact_angle)
-    speed, source = turns(found), speed_source(found, question.measured.machine)
+    speed, source = turns(answer), speed_source(answer, question.measured.machine)
     rows = [
         ["Shaft", f"{speed}, {source}" if speed else source],
         ["Slip", f"balls up to {style.number(100.0 * SLIP, 2)} % slower or faster, assumed"],
@@ -204,10 +204,10 @@ def facts(found: Diagnosis, question: Question) -> list[list[str]]:
     ]
     if not question.measured.in_si:
         rows.append(["Unit", "not known; the part does not depend on it"])
-    if found.spectrum is not None:
-        low, high = found.spectrum.band
+    if answer.spectrum is not None:
+        low, high = answer.spectrum.band
         rows.append(
-            ["Demodulation band", f"{band(low, high)}, along {found.spectrum.direction}, found"]
+            ["Demodulation band", f"{band(low, high)}, along {answer.spectrum.direction}, found"]
         )
     return rows
 
@@ -252,17 +252,19 @@ def slip(value: float) -> str:
     return percent_off(value)
 
 
-def evidence_rows(found: Diagnosis) -> list[dict[str, Any]]:
+def evidence_rows(answer: Diagnosis) -> list[dict[str, Any]]:
     """The evidence of each part as the browser lists it.
 
     Without a clear result no part has a probability or leads: it would look like a verdict.
     """
-    lead = leading(found)
-    rows = [_row(one, one is lead and found.conclusive, lead is not None) for one in found.evidence]
-    if found.conclusive:
-        for row, one in zip(rows, found.evidence, strict=True):
+    lead = leading(answer)
+    rows = [
+        _row(one, one is lead and answer.conclusive, lead is not None) for one in answer.evidence
+    ]
+    if answer.conclusive:
+        for row, one in zip(rows, answer.evidence, strict=True):
             row["probability"] = probability(one.probability)
-    if found.shaft_speed is None:  # what rests on it would be of one of the speeds that were tried
+    if answer.shaft_speed is None:  # what rests on it would be of one of the speeds that were tried
         for row in rows:
             row |= {"order": "?", "slip": "not known", "spacing": ""}
     return rows

@@ -162,34 +162,34 @@ class TrendOfFiles(JobView[Model, FoundTrend, Editor], MeasuredView):
                 again = dataclasses.replace(known.trend, baseline=number - 1)
                 job.show(dataclasses.replace(known, trend=again))
                 return f"Compared with file {number}."
-            found = measurement.recordings(measured, direction)
-            if not 1 <= number <= len(found.recordings):
-                count = len(found.recordings)
+            gathered = measurement.recordings(measured, direction)
+            if not 1 <= number <= len(gathered.recordings):
+                count = len(gathered.recordings)
                 raise ValueError(f"The baseline is one of 1 to {count}, not {number}.")
 
             def goes_on(so_far: Trend, of: int) -> bool:
                 job.progress(len(so_far.points) / of)
-                job.show(FoundTrend(so_far, found, series, measured))
+                job.show(FoundTrend(so_far, gathered, series, measured))
                 return not job.cancelled()
 
             try:
                 done = trend(
-                    found.recordings, machine.bearing, machine.range, direction=direction,
+                    gathered.recordings, machine.bearing, machine.range, direction=direction,
                     band=band, baseline=number - 1, goes_on=goes_on,
                 )  # fmt: skip
             except FieldError as error:
                 raise ValueError(sentence_of(error)) from error
-            return f"{len(done.points)} of {len(found.recordings)} files are in it."
+            return f"{len(done.points)} of {len(gathered.recordings)} files are in it."
 
         return work
 
-    def _is_of_now(self, found: FoundTrend | None) -> bool:
+    def _is_of_now(self, newest: FoundTrend | None) -> bool:
         """Whether a result is complete, and of the files and answers that there are now."""
         return (
-            found is not None
-            and found.series is self.measurement.series
-            and found.measured is self.measured
-            and found.complete
+            newest is not None
+            and newest.series is self.measurement.series
+            and newest.measured is self.measured
+            and newest.complete
         )
 
     def say(self, model: Model | None, sentence: str) -> None:
@@ -217,10 +217,10 @@ class TrendOfFiles(JobView[Model, FoundTrend, Editor], MeasuredView):
 
     @property
     def drawn(self) -> bool:
-        found, measurement = self.found, self.measurement
-        if found is None or self.measured is None:
+        newest, measurement = self.found, self.measurement
+        if newest is None or self.measured is None:
             return False
-        return found.series is measurement.series and self.measured.in_si == found.measured.in_si
+        return newest.series is measurement.series and self.measured.in_si == newest.measured.in_si
 
     def _write_axes(self) -> None:
         if self.found is None:
@@ -243,13 +243,13 @@ class TrendOfFiles(JobView[Model, FoundTrend, Editor], MeasuredView):
                 plot.yaxis[0].axis_label = dataclasses.replace(AXES[name], unit=unit).label()
 
     def data(self, model: Model) -> tuple[Sources, Ranges]:
-        found = self.found
-        if found is None or not self.drawn:
+        newest = self.found
+        if newest is None or not self.drawn:
             return {}, {}
-        shown, size = found.trend, 1.0 / shown_unit(found.measured)[1]
+        shown, size = newest.trend, 1.0 / shown_unit(newest.measured)[1]
         hours = shown.hours
         x = hours if np.isfinite(hours).all() else np.arange(1.0, len(shown.points) + 1.0)
-        comparable = 1.0 if found.measured.in_si else np.nan
+        comparable = 1.0 if newest.measured.in_si else np.nan
         size *= comparable  # levels in unknown units are not compared
         rms = shown.column("rms") * size
         extent, low, high = (
@@ -276,35 +276,35 @@ class TrendOfFiles(JobView[Model, FoundTrend, Editor], MeasuredView):
         return sources, ranges
 
     def sentence(self, model: Model) -> str:
-        measured, found = self.measured, self.found
+        measured, newest = self.measured, self.found
         if measured is None:
             return ""
-        if found is None or not self.drawn:
+        if newest is None or not self.drawn:
             several = len(self.measurement.series.tables) > 1
             return "Nothing is computed yet." if several else "One file is no trend yet."
-        words = words_on(found.trend, found.measured.in_si)
-        if out := found.recordings.left_out:
+        words = words_on(newest.trend, newest.measured.in_si)
+        if out := newest.recordings.left_out:
             more = f" And {len(out) - MOST_NAMED} more." if len(out) > MOST_NAMED else ""
             words += f" Left out: {' '.join(out[:MOST_NAMED])}{more}"
-        if found.measured is not measured:
+        if newest.measured is not measured:
             words += " Your answers have changed since: compute it again."
         return words
 
     def table(self, model: Model) -> dict[str, np.ndarray]:
-        found = self.found
-        if found is None or not self.drawn:
+        newest = self.found
+        if newest is None or not self.drawn:
             return {}
-        columns = named_columns(found.trend.table(), found.measured.in_si)
+        columns = named_columns(newest.trend.table(), newest.measured.in_si)
         return {name: column for name, column in columns.items()
-                if found.measured.in_si or "rms_change" not in name}  # fmt: skip
+                if newest.measured.in_si or "rms_change" not in name}  # fmt: skip
 
     def python(self) -> str:
         """Lines of Python that read the files and compute the trend without the page."""
-        found, model = self.found, self._results
-        origins = () if found is None else found.recordings.origins
-        if found is None or model is None or None in origins:
+        newest, model = self.found, self._results
+        origins = () if newest is None else newest.recordings.origins
+        if newest is None or model is None or None in origins:
             return super().python()
-        return python_lines(found, model)
+        return python_lines(newest, model)
 
 
 NO_LEVELS = "Their units are not known, so that their levels are not compared: say the unit"
@@ -362,17 +362,17 @@ def part_words(shown: Trend) -> str:
     return f"{seen} In the last: {named}, {100.0 * last.probability:.0f} % probable."
 
 
-def python_lines(found: FoundTrend, model: Model) -> str:
+def python_lines(newest: FoundTrend, model: Model) -> str:
     """Lines that read the files of a trend and compute it."""
-    scene, shown = found.measured.scene(model.scene), found.trend
-    machine, files = found.measured.machine, []
+    scene, shown = newest.measured.scene(model.scene), newest.trend
+    machine, files = newest.measured.machine, []
     bearing = "None" if machine.bearing is None else "scene.bearing"
     speed = "None" if machine.range is None else code_of(machine.range)
     for recording, origin in zip(
-        found.recordings.recordings, found.recordings.origins, strict=True
+        newest.recordings.recordings, newest.recordings.origins, strict=True
     ):
         assert origin is not None
-        unit = origin.unit if found.measured.in_si else "m/s²"
+        unit = origin.unit if newest.measured.in_si else "m/s²"
         given = [
             code_of(origin.file), str(list(origin.columns)), code_of(list(recording.directions)),
             repr(dict(origin.given)), code_of(unit), short(recording.sample_rate),

@@ -165,7 +165,7 @@ class Accuracy(SceneJobView[Found]):
         return {**base.experiments, **own}
 
     def sentence(self, results: Results) -> str:
-        found, scene = self.found, results.scene
+        shown, scene = self.found, results.scene
         preset = preset_like(scene)
         words = f"Measured beforehand, for {preset_labels[preset]}."
         if presets[preset] != scene:
@@ -173,9 +173,9 @@ class Accuracy(SceneJobView[Found]):
                 f"The points were measured beforehand, for {preset_labels[preset]} as it comes; "
                 "“Measure on this machine” takes this scene."
             )
-        if found is not None:
-            words = f"Measured on this machine: {found.result.count} points. {words}"
-            if found.scene != scene:
+        if shown is not None:
+            words = f"Measured on this machine: {shown.result.count} points. {words}"
+            if shown.scene != scene:
                 words += " The scene has changed since it was measured."
         if scene.balls == WITH_MASS:
             words += " Balls are massless in all charts."
@@ -219,8 +219,8 @@ class Accuracy(SceneJobView[Found]):
         for case, chart in self._charts.get(subject, {}).items():
             chart.draw(parts.get(case), error, cost, reasons.get(subject, ""))
         if subject == STABILITY:
-            steps = next((found.stability for found in known if found.stability), None)
-            orbits = next((found.orbits for found in known if found.orbits), ())
+            steps = next((results.stability for results in known if results.stability), None)
+            orbits = next((results.orbits for results in known if results.orbits), ())
             points = shown["motion"].points if "motion" in shown else ()
             in_use = next((point.value for point in points if point.in_use), math.nan)
             self._orbits.show(*orbit_marks(orbits, results.scene.shaft_speed))
@@ -254,6 +254,6 @@ def foot(words: str, known: Sequence[Measurements], shown: Mapping[str, Experime
         if one.left_out
     )
     words += f"<p>Left out:</p><ul>{left}</ul>" if left else ""
-    for kind, found in zip(("Measured beforehand", "This machine"), known[::-1], strict=False):
-        words += f"<p>{kind}: {html.escape(found.machine.sentence)}</p>"
+    for kind, results in zip(("Measured beforehand", "This machine"), known[::-1], strict=False):
+        words += f"<p>{kind}: {html.escape(results.machine.sentence)}</p>"
     return f"<details><summary>Orders, failures, references, machines</summary>{words}</details>"

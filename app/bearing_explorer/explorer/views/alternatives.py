@@ -131,9 +131,9 @@ class OtherModels(SceneJobView[Alternatives]):
         def compute(job: Work) -> str:
             compiling.need(compiling.BALLS_WITH_MASS)
             began = time.perf_counter()
-            found = alternatives(scene, job.cancelled)
-            job.show(found)
-            return f"{len(found.rows)} models after {time.perf_counter() - began:.1f} s."
+            models = alternatives(scene, job.cancelled)
+            job.show(models)
+            return f"{len(models.rows)} models after {time.perf_counter() - began:.1f} s."
 
         return compute
 
@@ -161,8 +161,8 @@ class OtherModels(SceneJobView[Alternatives]):
             self._fill(self.found.rows)
             self._offer(self.found.rows)
 
-    def columns(self, found: Alternatives) -> dict[str, np.ndarray]:
-        return found.table().named()
+    def columns(self, models: Alternatives) -> dict[str, np.ndarray]:
+        return models.table().named()
 
 
 def takeable(rows: Sequence[Alternative]) -> list[Alternative]:

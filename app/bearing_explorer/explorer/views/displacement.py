@@ -145,18 +145,18 @@ class OperatingPoint(Displacement):
         return state.sentence if state.converged.any() else super().sentence(results)
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
-        found: dict[str, list[Any]] = {"scene": [], "when": []}
+        numbers: dict[str, list[Any]] = {"scene": [], "when": []}
         for name, one in scenes_of(results):
             over = one.ranges.state
             moved = over.displacement_table().named()["mean"], one.now.displacement[0]
             tables = over.stiffness_table(), one.now.stiffness_table(0)
             for when, displacement, table in zip(("mean", _WHEN[0]), moved, tables, strict=True):
-                found["scene"] += len(DOF_NAMES) * [name or THIS_SCENE]
-                found["when"] += len(DOF_NAMES) * [when]
+                numbers["scene"] += len(DOF_NAMES) * [name or THIS_SCENE]
+                numbers["when"] += len(DOF_NAMES) * [when]
                 columns = table.named() | {"displacement_in_si": displacement}
                 for column, values in columns.items():
-                    found.setdefault(column, []).extend(values)
-        return {column: np.array(values) for column, values in found.items()}
+                    numbers.setdefault(column, []).extend(values)
+        return {column: np.array(values) for column, values in numbers.items()}
 
 
 def _stiffnesses(results: Results) -> Iterable[tuple[str, ResultTable]]:

@@ -147,8 +147,8 @@ class ExplorePlane(SceneJobView[Plane]):
     def choices(self) -> dict[str, Any]:
         if self._request is None:
             return {}
-        found = self.found  # as fine as its numbers in the file are, whatever was asked for
-        stride = self._request.stride if found is None else found.stride
+        plane = self.found  # as fine as its numbers in the file are, whatever was asked for
+        stride = self._request.stride if plane is None else plane.stride
         return {**self._request.given, "grid": str(stride)}
 
     def choose(self, choices: Mapping[str, Any], results: Results) -> None:
@@ -198,16 +198,16 @@ class ExplorePlane(SceneJobView[Plane]):
         }
         self.parts.change_scene({"typed": typed})
 
-    def columns(self, found: Plane) -> dict[str, np.ndarray]:
-        up, across = np.meshgrid(found.y.own_values, found.x.own_values, indexing="ij")
+    def columns(self, plane: Plane) -> dict[str, np.ndarray]:
+        up, across = np.meshgrid(plane.y.own_values, plane.x.own_values, indexing="ij")
         return {
-            found.x.field.key: across.ravel(),
-            found.y.field.key: up.ravel(),
-            found.question.output.column: found.values.ravel(),
-            "no_answer_because": found.reasons.ravel(),
+            plane.x.field.key: across.ravel(),
+            plane.y.field.key: up.ravel(),
+            plane.question.output.column: plane.values.ravel(),
+            "no_answer_because": plane.reasons.ravel(),
             **{
-                name: np.full(found.values.size, value)
-                for name, value in found.question.output.fineness.items()
+                name: np.full(plane.values.size, value)
+                for name, value in plane.question.output.fineness.items()
             },
         }
 
@@ -238,9 +238,9 @@ class ExplorePlane(SceneJobView[Plane]):
 
         jobs.start(work, self._take, self.report)
 
-    def _take(self, found: Plane) -> None:
-        if found.question == self._question:
-            self.found = found
+    def _take(self, plane: Plane) -> None:
+        if plane.question == self._question:
+            self.found = plane
             self._draw()
 
 

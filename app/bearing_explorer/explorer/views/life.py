@@ -150,13 +150,13 @@ class LifeOfBearing(View):
         return {}, {}
 
     def sentence(self, results: Results) -> str:
-        found = results.endurance
+        answer = results.endurance
         if len(groups_of(results)) == 1:
             return "Enter the groove radii (Machine tab, Bearing) for life, pressure and film."
-        if found.healthy is None:
-            return found.no_life
+        if answer.healthy is None:
+            return answer.no_life
         healthy = "Without the defect: " if results.scene.defects else ""
-        return f"{healthy}{found.healthy.sentence}"
+        return f"{healthy}{answer.healthy.sentence}"
 
     def show(self, results: Results) -> None:
         self._answers.put(text=answers_html(results))
@@ -220,8 +220,8 @@ def facts_of(results: Results) -> Rows:
 
 def groups_of(results: Results) -> list[FactGroup]:
     """The answers; a reason that none of them is known is given once."""
-    found = results.endurance
-    groups = [_life(results, found), _pressures(results, found), _film(results, found)]
+    answer = results.endurance
+    groups = [_life(results, answer), _pressures(results, answer), _film(results, answer)]
     words = groups[0].words
     if all(not group.facts and group.words == words for group in groups):
         return [FactGroup("Life, greatest contact pressure and oil film", words, [])]
@@ -231,15 +231,15 @@ def groups_of(results: Results) -> list[FactGroup]:
 PROFILE = "Rollers are taken to have the profile of ISO 16281, and not to tilt."
 
 
-def _life(results: Results, found: Endurance) -> FactGroup:
+def _life(results: Results, answer: Endurance) -> FactGroup:
     title = "Life of the healthy bearing" if results.scene.defects else "Life"
-    if found.life is None or found.healthy is None or found.rating is None:
-        return FactGroup(title, found.no_life, [])
-    lasts, known = found.healthy, found.healthy.known
+    if answer.life is None or answer.healthy is None or answer.rating is None:
+        return FactGroup(title, answer.no_life, [])
+    lasts, known = answer.healthy, answer.healthy.known
     facts = [
         Fact(
             "Dynamic load rating C<sub>r</sub>",
-            f"{style.with_prefix(found.rating, 'N', 4)}, {found.rating_words}",
+            f"{style.with_prefix(answer.rating, 'N', 4)}, {answer.rating_words}",
             "The load under which nine of ten bearings reach a million turns.",
         ),
         Fact(
@@ -269,12 +269,12 @@ def _life(results: Results, found: Endurance) -> FactGroup:
                 "Of each row under what it carries: the bearing fails with the first.",
             )
         )
-    words = _damaged_words(found.life) if results.scene.defects else ""
+    words = _damaged_words(answer.life) if results.scene.defects else ""
     profile = PROFILE if results.scene.bearing.kind.line_contact else ""
     if not known and not words:
         words = lasts.sentence
-    against = _against_iso_281(lasts, found.rating) if known else ""
-    words = " ".join(filter(None, (words, against, profile, found.assumed)))
+    against = _against_iso_281(lasts, answer.rating) if known else ""
+    words = " ".join(filter(None, (words, against, profile, answer.assumed)))
     return FactGroup(title, words, facts)
 
 
@@ -313,15 +313,15 @@ def _damaged_words(damaged: Life) -> str:
     )
 
 
-def _pressures(results: Results, found: Endurance) -> FactGroup:
+def _pressures(results: Results, answer: Endurance) -> FactGroup:
     title = "Greatest contact pressure"
-    if found.pressures is None:
-        return FactGroup(title, found.no_pressures, [])
+    if answer.pressures is None:
+        return FactGroup(title, answer.no_pressures, [])
     bearing = results.scene.bearing
-    if math.isnan(found.pressures.ball.load):
-        return FactGroup(title, f"Not known: {found.pressures.reason}.", [])
+    if math.isnan(answer.pressures.ball.load):
+        return FactGroup(title, f"Not known: {answer.pressures.reason}.", [])
     facts = []
-    for contact in (found.pressures.inner, found.pressures.outer):
+    for contact in (answer.pressures.inner, answer.pressures.outer):
         across = "half the length" if bearing.kind.line_contact else "across"
         facts.append(
             Fact(
@@ -340,28 +340,28 @@ def _pressures(results: Results, found: Endurance) -> FactGroup:
         )
     allowed = style.with_prefix(bearing.kind.static_pressure, "Pa")
     words = (
-        f"At {style.with_prefix(found.pressures.ball.load, 'N', 4)}, the heaviest load at rest. "
+        f"At {style.with_prefix(answer.pressures.ball.load, 'N', 4)}, the heaviest load at rest. "
         f"ISO 76 allows {allowed}. On the edge of a defect the pressure is higher: "
         "Hertz theory does not hold at an edge."
     )
-    return FactGroup(title + _assuming(found), words, facts)
+    return FactGroup(title + _assuming(answer), words, facts)
 
 
-def _assuming(found: Endurance) -> str:
+def _assuming(answer: Endurance) -> str:
     """Words that a title adds where groove radii are assumed, by which no limit is judged."""
-    return ", with usual groove radii" if ASSUMED_GROOVES in found.assumed else ""
+    return ", with usual groove radii" if ASSUMED_GROOVES in answer.assumed else ""
 
 
-def _film(results: Results, found: Endurance) -> FactGroup:
+def _film(results: Results, answer: Endurance) -> FactGroup:
     title = "Oil film"
-    if found.film is None:
-        return FactGroup(title, found.no_film, [])
-    pressed = found.pressures and (found.pressures.inner, found.pressures.outer)
+    if answer.film is None:
+        return FactGroup(title, answer.no_film, [])
+    pressed = answer.pressures and (answer.pressures.inner, answer.pressures.outer)
     allowed = results.scene.bearing.kind.static_pressure
     if pressed and any(contact.greatest_pressure > allowed for contact in pressed):
         return FactGroup(title, "Not known: the pressure is more than ISO 76 allows.", [])
     facts = []
-    for film in (found.film.inner, found.film.outer):
+    for film in (answer.film.inner, answer.film.outer):
         parameter = style.number(film.film_parameter) if film.lubrication else "not known"
         facts.append(
             Fact(
@@ -378,9 +378,9 @@ def _film(results: Results, found: Endurance) -> FactGroup:
                 "above 3 hardly ever.",
             )
         )
-    words = found.film.sentence
+    words = answer.film.sentence
     if results.life_inputs.viscosity is None:
         viscosity = style.with_prefix(ASSUMED_VISCOSITY, "Pa·s")
         words = words[0].lower() + words[1:]
         words = f"With an assumed viscosity of {viscosity}, as none is given: {words}"
-    return FactGroup(title + _assuming(found), words, facts)
+    return FactGroup(title + _assuming(answer), words, facts)

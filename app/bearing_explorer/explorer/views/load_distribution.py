@@ -188,18 +188,18 @@ def _both_races(now: EquilibriumWithMass) -> str:
     return words
 
 
-def _at_both_races(found: Equilibrium, row: int) -> ResultTable:
+def _at_both_races(state: Equilibrium, row: int) -> ResultTable:
     """Loads and contact angles of a row's balls with mass, along its curve."""
-    assert isinstance(found, EquilibriumWithMass)
+    assert isinstance(state, EquilibriumWithMass)
     own = row_name(row)
     columns = (
-        ("inner_race_load", "N", found.inner_load),
-        ("inner_contact_angle", "rad", found.inner_contact_angle),
-        ("outer_contact_angle", "rad", found.contact_angle),
+        ("inner_race_load", "N", state.inner_load),
+        ("inner_contact_angle", "rad", state.inner_contact_angle),
+        ("outer_contact_angle", "rad", state.contact_angle),
     )
     return table_of(
         *(
-            (f"{own}{name}", unit, load_curve(found, row, values)[1][1:-1])
+            (f"{own}{name}", unit, load_curve(state, row, values)[1][1:-1])
             for name, unit, values in columns
         )
     )
@@ -231,6 +231,6 @@ def _names(curves: list[Curve]) -> dict[str, np.ndarray]:
 
 def shaded(scene: Scene, cage_angle: float) -> dict[str, np.ndarray]:
     """The defects as intervals of ball angle [deg]: two where one lies across 0°."""
-    found = [piece for span in spans(scene, cage_angle) for piece in pieces(span)]
-    start, end = np.degrees(np.array(found).reshape(-1, 2)).T
+    all_pieces = [piece for span in spans(scene, cage_angle) for piece in pieces(span)]
+    start, end = np.degrees(np.array(all_pieces).reshape(-1, 2)).T
     return {"start": start, "end": end}

@@ -77,11 +77,11 @@ class WhichMechanism(FoldedView[Results]):
         return plot
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
-        found = results.ball_mass
-        known = np.isfinite(found.share)
-        share = np.clip(np.where(known, found.share, 0.0), LEAST, 1.0)
-        spread = np.nan_to_num(found.spread)
-        low, high = found.octaves[:-1], found.octaves[1:]
+        mass = results.ball_mass
+        known = np.isfinite(mass.share)
+        share = np.clip(np.where(known, mass.share, 0.0), LEAST, 1.0)
+        spread = np.nan_to_num(mass.spread)
+        low, high = mass.octaves[:-1], mass.octaves[1:]
         top = 100.0 * share
         ends = 100.0 * np.clip(share + np.array([[-1.0], [1.0]]) * spread, LEAST, 1.0)
         least = min(-12.0, 1.25 * float(ends[0].min(initial=0.0)))
@@ -90,13 +90,13 @@ class WhichMechanism(FoldedView[Results]):
                 "left": low * ROOM,
                 "right": high / ROOM,
                 "middle": np.sqrt(low * high),
-                "share": np.where(known, found.share, 0.0),
+                "share": np.where(known, mass.share, 0.0),
                 "top": top,
                 "known": known.astype(float),
                 "low": ends[0],
                 "high": ends[1],
                 "label_at": np.maximum(ends[1], 0.0) + 1.5,
-                "alpha": np.where(found.quiet, 0.2, 0.75),
+                "alpha": np.where(mass.quiet, 0.2, 0.75),
             }
         }, {
             "mechanism_frequency": (float(low[0]), float(high[-1])),
@@ -104,13 +104,13 @@ class WhichMechanism(FoldedView[Results]):
         }
 
     def words(self, results: Results) -> str:
-        found = results.ball_mass
-        if not np.isfinite(found.share).any():
+        mass = results.ball_mass
+        if not np.isfinite(mass.share).any():
             return "There is no settled motion to compute the power from."
-        words = in_words(found)
-        if found.comparison is None:
+        words = in_words(mass)
+        if mass.comparison is None:
             return f"{words} The motion is too short to show where massless balls will do."
-        up_to = found.comparison.massless_up_to
+        up_to = mass.comparison.massless_up_to
         if np.isnan(up_to):
             lowest = _hertz(LOWEST_COMPARED)
             return f"{words} The mass of the balls makes a difference from {lowest} on."
@@ -120,10 +120,10 @@ class WhichMechanism(FoldedView[Results]):
         return results.ball_mass.share_table().named()
 
 
-def in_words(found: BallMass) -> str:
+def in_words(mass: BallMass) -> str:
     """In words: in which octaves which mechanism gives most of the power."""
-    loud = np.isfinite(found.share) & ~found.quiet
-    low, high, share = found.octaves[:-1][loud], found.octaves[1:][loud], found.share[loud]
+    loud = np.isfinite(mass.share) & ~mass.quiet
+    low, high, share = mass.octaves[:-1][loud], mass.octaves[1:][loud], mass.share[loud]
     struck = np.flatnonzero(share > HALF)
     if not struck.size:
         at = int(np.argmax(share))

@@ -63,8 +63,8 @@ class PaperFigure:
         """The sentence of MODEL.md on a mistake of the paper in this figure; empty for none."""
         section = asset_text("docs/MODEL.md").partition(_SLIPS)[2].partition("\n## ")[0]
         head = f"* Figure {self.number}: "
-        found = [line for line in section.splitlines() if line.startswith(head)]
-        return found[0].removeprefix(head) if found else ""
+        lines = [line for line in section.splitlines() if line.startswith(head)]
+        return lines[0].removeprefix(head) if lines else ""
 
     @property
     def link(self) -> str:
@@ -111,8 +111,8 @@ def _drawn(curve: Callable[[Scene], Array], unit: str, scenes: Sequence[Scene]) 
 
 
 def _terms(terms: Sequence[str], scenes: Sequence[Scene]) -> str:
-    found = [_term(term, 15.0, 45.0, scene) for term in terms for scene in scenes]
-    return _ends(np.concatenate(found), TERM_UNITS[terms[0]])
+    curves = [_term(term, 15.0, 45.0, scene) for term in terms for scene in scenes]
+    return _ends(np.concatenate(curves), TERM_UNITS[terms[0]])
 
 
 def _mean(term: str, scenes: Sequence[Scene]) -> str:
@@ -121,8 +121,8 @@ def _mean(term: str, scenes: Sequence[Scene]) -> str:
 
 
 def _mean_mode(label: str, scenes: Sequence[Scene]) -> str:
-    found = [Results(one).modes for one in scenes]
-    means = [one.frequency[:, list(one.label).index(label)][:-1].mean() for one in found]
+    modes = [Results(one).modes for one in scenes]
+    means = [one.frequency[:, list(one.label).index(label)][:-1].mean() for one in modes]
     return " → ".join(f"{mean:.0f} Hz" for mean in means)
 
 
@@ -173,9 +173,9 @@ def _leaving(scenes: Sequence[Scene]) -> str:
     """The ball that leaves next after ball 9 has entered."""
     words = []
     for scene in scenes:
-        found = crossings(scene, 0.0, 4.0 * math.pi)
-        entry = next(i for i, one in enumerate(found) if one.enters and one.ball == 8)
-        words.append(next(str(one.ball + 1) for one in found[entry:] if not one.enters))
+        events = crossings(scene, 0.0, 4.0 * math.pi)
+        entry = next(i for i, one in enumerate(events) if one.enters and one.ball == 8)
+        words.append(next(str(one.ball + 1) for one in events[entry:] if not one.enters))
     return ", ".join(words)
 
 

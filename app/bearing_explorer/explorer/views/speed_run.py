@@ -201,10 +201,10 @@ class SpeedRunSpectra(SceneJobView[FoundRun]):
     # The picture
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
-        if (found := self.found) is None:
+        if (answer := self.found) is None:
             return {}, {}
-        run, speeds = found.run, found.speeds
-        alpha = FAINT if self._is_of_another(results, found) else 1.0
+        run, speeds = answer.run, answer.speeds
+        alpha = FAINT if self._is_of_another(results, answer) else 1.0
         seen = in_picture(run)
         frequency = run.frequency[seen]
         top = float(frequency[-1])
@@ -231,10 +231,10 @@ class SpeedRunSpectra(SceneJobView[FoundRun]):
             **level_ranges,
         }
 
-    def _is_of_another(self, results: Results, found: FoundRun) -> bool:
+    def _is_of_another(self, results: Results, answer: FoundRun) -> bool:
         """Whether a run is of another scene than that on screen."""
         scene = focused(results.scene, results.focus)
-        return not alike_but_for(scene, found.run.scene, (found.speeds,))
+        return not alike_but_for(scene, answer.run.scene, (answer.speeds,))
 
     def sentence(self, results: Results) -> str:
         if self.found is None:
@@ -257,8 +257,8 @@ class SpeedRunSpectra(SceneJobView[FoundRun]):
         with contextlib.suppress(ValueError):  # the button says why
             self.begin({**self.job.values, "count": str(FIRST_COUNT)})
 
-    def columns(self, found: FoundRun) -> dict[str, np.ndarray]:
-        run = found.run
+    def columns(self, answer: FoundRun) -> dict[str, np.ndarray]:
+        run = answer.run
         orbits = np.repeat(run.from_orbit.astype(int), run.frequency.size)
         return {**run.table().in_units({"rad/s": "Hz"}).named(), "from_orbit": orbits}
 
@@ -268,9 +268,9 @@ def in_picture(run: SpeedRun) -> NDArray[np.bool_]:
     return run.frequency <= max(HIGHEST, 1.05 * highest(run.bands))
 
 
-def words_of(found: FoundRun) -> str:
+def words_of(answer: FoundRun) -> str:
     """Where the housing vibrates most in the picture; how many motions were integrated in time."""
-    run, words, seen = found.run, [], in_picture(found.run)
+    run, words, seen = answer.run, [], in_picture(answer.run)
     for dof in SHOWN:
         level = levels_of(run, dof)
         level[:, (run.frequency < 100.0) | ~seen] = np.nan
@@ -278,7 +278,7 @@ def words_of(found: FoundRun) -> str:
             i, k = np.unravel_index(np.nanargmax(level), level.shape)
             words.append(
                 f"along {dof} at {run.frequency[k]:.0f} Hz when the shaft turns at "
-                f"{style.number(found.speeds.values[i])} Hz"
+                f"{style.number(answer.speeds.values[i])} Hz"
             )
     top = style.with_prefix(float(run.frequency[seen][-1]), "Hz", 2)
     text = f"Up to {top} loudest {style.list_words(words)}." if words else "Nothing moves."

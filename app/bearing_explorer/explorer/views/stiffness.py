@@ -97,9 +97,9 @@ class Stiffness(ComparingView):
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         """All traces, scaled into their cells."""
-        found, now = results.equilibrium, results.now
+        states, now = results.equilibrium, results.now
         alike = [results.reference, *(results.against(one) for one in results.compared)]
-        answers = [found, *(other.equilibrium for other in alike)]
+        answers = [states, *(other.equilibrium for other in alike)]
         first, last, _ = results.stretch
         shares = [(e.cage_angles - first) / (last - first) for e in answers]
         now_share = (results.cage_angle - first) % (last - first) / (last - first)
@@ -171,8 +171,8 @@ class Stiffness(ComparingView):
     def sentence(self, results: Results) -> str:
         """The range of the radial stiffness and of the number of loaded balls."""
         ranges, healthy = results.ranges, results.reference.ranges
-        found = ranges.state
-        if not found.converged.any():
+        states = ranges.state
+        if not states.converged.any():
             return "There is no equilibrium here, so there is no stiffness to show."
         parts = []
         for name, term in (("Horizontal stiffness", "k_xx"), ("vertical stiffness", "k_yy")):
@@ -183,12 +183,12 @@ class Stiffness(ComparingView):
                 mean = healthy.mean(healthy.state.term(term))
                 line += f" (healthy: {with_prefix(mean, 'N/m')} on average)"
             parts.append(line)
-        balls = found.loaded_balls[found.converged]
+        balls = states.loaded_balls[states.converged]
         count = str(balls.min()) if balls.min() == balls.max() else f"{balls.min()}–{balls.max()}"
         at = in_degrees(results.cage_angle)
         over = " Ranges are over all turns of the shaft, curves over the one shown."
-        carry = f"{elements(found.scene.bearing)} carry load"
-        why = with_elements_of(found.scene.bearing, reasons.stiffness(results))
+        carry = f"{elements(states.scene.bearing)} carry load"
+        why = with_elements_of(states.scene.bearing, reasons.stiffness(results))
         said = f"{'; '.join(parts)}.", why, reasons.not_needed(results.scene), f"{count} {carry}."
         text = f"{' '.join(filter(None, said))} Marked: cage angle {at}."
         return text + (over if results.over_shaft else "")
@@ -204,9 +204,9 @@ class Stiffness(ComparingView):
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         """Every trace in SI, defective and healthy."""
-        found, healthy = results.equilibrium, results.reference.equilibrium
+        states, healthy = results.equilibrium, results.reference.equilibrium
         columns: dict[str, np.ndarray] = {}
-        for kind, answer in (("defective", found), ("healthy", healthy)):
+        for kind, answer in (("defective", states), ("healthy", healthy)):
             table = answer.table().in_units().prefixed(kind)
             columns |= table.only(f"{kind}_cage_angle").named()
             if results.over_shaft:

@@ -305,7 +305,7 @@ def passed(scene: Scene) -> list[tuple[str, int, float]]:
 
     Of rows that are not alike each whose balls meet one, with its number; else that is 0.
     """
-    speed, found = scene.shaft_speed, []
+    speed, lines = scene.shaft_speed, []
     several = not scene.bearing.rows_are_alike
     for race in ("outer", "inner"):
         for row, (own, _) in enumerate(scene.bearing.unlike_rows):
@@ -313,8 +313,8 @@ def passed(scene: Scene) -> list[tuple[str, int, float]]:
             there = [d.race == race and d.row in met for d in scene.defects] or [race == "outer"]
             if any(there):
                 rate = own.bpfo(speed) if race == "outer" else own.bpfi(speed)
-                found.append((race, row + 1 if several else 0, rate))
-    return found
+                lines.append((race, row + 1 if several else 0, rate))
+    return lines
 
 
 def pass_frequencies(scene: Scene, top: float) -> dict[str, NDArray[np.float64]]:

@@ -205,7 +205,7 @@ class JobView(View[C], Generic[C, Found, E]):
     def table(self, results: C) -> dict[str, np.ndarray]:
         return {} if self.found is None else self.columns(self.found)
 
-    def columns(self, found: Found) -> dict[str, np.ndarray]:
+    def columns(self, result: Found) -> dict[str, np.ndarray]:
         """The numbers behind the figures of a result, see `View.table`."""
         raise NotImplementedError
 

@@ -117,8 +117,8 @@ class OverviewStiffness(ComparingView):
         return self.only_with_numbers(plot, sizing_mode="stretch_both")
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
-        found, healthy, now = results.equilibrium, results.reference.equilibrium, results.now
-        answers = [found, healthy, *(results.against(one).equilibrium for one in results.compared)]
+        states, healthy, now = results.equilibrium, results.reference.equilibrium, results.now
+        answers = [states, healthy, *(results.against(one).equilibrium for one in results.compared)]
         first, last, _ = results.stretch
         pick = [_some(answer.cage_angles.size) for answer in answers]
         shares = [
@@ -180,14 +180,14 @@ def lively_terms(
 ) -> list[int]:
     """Which of the 15 terms matter here: k_xx and k_yy; others if they vary or differ."""
     free = free_terms(results.equilibrium.dofs)
-    found = []
+    terms = []
     for i, (term, scale) in enumerate(zip(STIFFNESS_TERMS, scales, strict=True)):
         own, *others = (cleaned(answer.term(term), scale) for answer in answers)
         if term in free and (
             term in reasons.RADIAL or any(is_lively(own, other, scale) for other in others)
         ):
-            found.append(i)
-    return found
+            terms.append(i)
+    return terms
 
 
 def is_lively(values: NDArray[np.float64], healthy: NDArray[np.float64], scale: float) -> bool:

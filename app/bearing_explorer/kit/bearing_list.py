@@ -143,8 +143,10 @@ def _entry(choose: dict[str, str], label: str, words: str, mark: str) -> dict[st
     return {"choose": choose, "label": label, "words": words, "mark": mark}
 
 
-def _estimated(made: Designation) -> dict[str, Any]:
-    return _entry({"bearing": made.name}, made.name, entry_words(made.entry), "estimated")
+def _estimated(designation: Designation) -> dict[str, Any]:
+    return _entry(
+        {"bearing": designation.name}, designation.name, entry_words(designation.entry), "estimated"
+    )
 
 
 def entry_words(entry: CatalogueBearing) -> str:

@@ -167,7 +167,7 @@ def limits(
         load = checks.real_number("dynamic_load", dynamic_load, at_least=0.0, unit="N")
         # which row it was is not known: the one on which it matters most counts
         in_motion = [(row, load) for row, _ in bearing.unlike_rows]
-    judged: list[Limit | None] = [
+    candidates: list[Limit | None] = [
         _pressure(
             bearing,
             f"contact pressure, {race} race",
@@ -179,26 +179,28 @@ def limits(
     ]
     if turns:
         name = "contact pressure in motion"
-        judged.append(_pressure(bearing, name, in_motion, RACES, NO_MOTION))
-    judged.append(_shoulder(scene, state, shoulder_height))
-    judged.append(_centrifugal_change(scene))
-    judged.append(_worst(_centrifugal_share(*row, scene, state) for row in bearing.unlike_rows))
-    judged.append(gyroscopic_limit(scene))
+        candidates.append(_pressure(bearing, name, in_motion, RACES, NO_MOTION))
+    candidates.append(_shoulder(scene, state, shoulder_height))
+    candidates.append(_centrifugal_change(scene))
+    candidates.append(_worst(_centrifugal_share(*row, scene, state) for row in bearing.unlike_rows))
+    candidates.append(gyroscopic_limit(scene))
     if not bearing.kind.line_contact:
-        judged.append(_compression("compression against groove centre distance", at_rest, NO_STATE))
+        candidates.append(
+            _compression("compression against groove centre distance", at_rest, NO_STATE)
+        )
         if turns:
-            judged.append(_compression("compression in motion", in_motion, NO_MOTION))
-        judged.append(_stiffness(scene))
-    judged += thrust_limits(scene, state)
-    judged += [held_tilts(state), free_tilts(state)]
+            candidates.append(_compression("compression in motion", in_motion, NO_MOTION))
+        candidates.append(_stiffness(scene))
+    candidates += thrust_limits(scene, state)
+    candidates += [held_tilts(state), free_tilts(state)]
     film_limit = _film_limit(scene, film)  # refuses the film of another scene
     if turns:
-        judged.append(film_limit)
+        candidates.append(film_limit)
     if step_rate is not None:
         rate = checks.real_number("step_rate", step_rate, above=0.0, unit="Hz")
-        judged.append(_steps(scene, rate))
-    judged.append(_estimate(scene))
-    return tuple(limit for limit in judged if limit is not None)
+        candidates.append(_steps(scene, rate))
+    candidates.append(_estimate(scene))
+    return tuple(limit for limit in candidates if limit is not None)
 
 
 def _film_limit(scene: Scene, film: Film | None) -> Limit:

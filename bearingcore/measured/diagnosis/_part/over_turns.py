@@ -149,4 +149,21 @@ def _change(values: Array, rate: float, shaft: float, speeds: Array) -> float:
     near = np.abs(2.0 * shown[1:-1] / (shown[2:] + shown[:-2]) - 1.0) < JUMP
     middle = np.median(np.lib.stride_tricks.sliding_window_view(shown, 3), axis=1)
     change = float(np.ptp(middle) / middle.mean())
-    return change if near.mean() >= FOLLOWED and change >= LEAST_CHANGE else 0.0
+    if near.mean() < FOLLOWED or change < LEAST_CHANGE or _is_steady(values, rate, shaft, change):
+        return 0.0
+    return change
+
+
+def _is_steady(values: Array, rate: float, shaft: float, change: float) -> bool:
+    """True if the whole record has a line too sharp for a shaft whose speed changes this much.
+
+    Short spectra place a single tone only roughly, and noise at the other orders shifts it. A
+    speed that sweeps over its change leaves half of the power at most in a tenth of that width.
+    """
+    power = np.abs(np.fft.rfft((values - values.mean()) * np.hanning(len(values)))) ** 2
+    step = rate / len(values)
+    first, last = (round(end * shaft / step) for end in NEAR)
+    peak = first + int(power[first : last + 1].argmax())
+    half_width = max(round(change * shaft / 20.0 / step), 2)
+    at_peak = power[max(peak - half_width, 0) : peak + half_width + 1].sum()
+    return bool(at_peak > 0.9 * power[first : last + 1].sum())

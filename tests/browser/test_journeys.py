@@ -370,19 +370,12 @@ def test_a_fast_shaft_is_unstable_a_long_run_is_cancelled_and_a_short_one_drawn(
     desk.wait(lambda: desk.figures() != before)
 
 
-def test_a_bearing_is_entered_found_by_name_and_brought_in_a_table(visitor: Visitor) -> None:
+def test_a_bearing_is_entered_and_found_by_name(visitor: Visitor) -> None:
     visitor.open(FAN_RIG + "bearing")
     visitor.type("Number of balls", "10")
     visitor.reads(_outer_race(FAN.replace(n_balls=10)))
     visitor.find_bearing("209 harris")
     expect(visitor.box("Pitch diameter")).to_have_value("65")
-    head = "name;balls;ball_diameter_mm;pitch_diameter_mm\n"
-    visitor.bring(visitor.main, "ours.csv", f"{head}Ours;9;x;39\n".encode())
-    visitor.reads(re.compile("line 2"))
-    visitor.bring(visitor.main, "ours.csv", f"{head}Ours;8;7,94;39,04\n".encode())
-    visitor.reads("ours.csv: 1 bearing added")
-    visitor.find_bearing("ours")
-    expect(visitor.box("Number of balls")).to_have_value("8")
     visitor.find_bearing("6208-2RS/C3")
     visitor.reads(re.compile("Estimated from the designation"))
     visitor.type("Ball diameter", "15/32 in")

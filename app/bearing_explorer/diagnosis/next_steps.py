@@ -84,6 +84,8 @@ def next_steps(
     of_the_shaft = shaft_share >= MOST
     part = the(diagnosis.fault)
     words = [_how_soon(part, zone, change, diagnosis.probability < LIKELY, of_the_shaft)]
+    if diagnosis.other_race is not None:
+        words.append(f"Inspect {the(diagnosis.other_race.part)} too.")
     if of_the_shaft:
         words.append(
             f"Most of the velocity ({percent(shaft_share, 2)} of its power) is the shaft's own, 1 "

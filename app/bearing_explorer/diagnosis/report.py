@@ -246,6 +246,7 @@ def assumptions(
     load = measured.true_load or measurement.state.load
     typed = [f"{name.upper()} {values[name]}" for name in FREQUENCIES if values.get(name)]
     clearance = with_prefix(bearing.radial_clearance, "m")
+    no_machine = "zone D with any of them" if zone_of(measured, "") == "D" else "no zone"
     unknown, made = machine.exact_speed is None, BEARING_SOURCES[SIMULATED].capitalize()
     return [
         ("File", name_of(measured), "" if measured.origin else "Simulated"),
@@ -261,7 +262,7 @@ def assumptions(
         ("Its frequencies", ", ".join(typed) or "from its dimensions",
          machine.source_of("bearing").capitalize() if typed
          else "Estimated" if machine.bearing and machine.bearing.estimated else "Computed"),
-        ("Machine and support", kind or "not said: no zone", "Given" if kind else ""),
+        ("Machine and support", kind or f"not said: {no_machine}", "Given" if kind else ""),
         ("Load", "typical ones, for the extent" if load is None
          else with_prefix(load, "N"),
          "Assumed" if load is None else made if measured.true_load else "From the file"),

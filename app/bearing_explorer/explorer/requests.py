@@ -221,15 +221,16 @@ class Requests(Half):
     # Lessons
 
     def _open_lesson_of_link(self) -> None:
-        """Open the lesson that the address names; with its scene where the address has none."""
+        """Open the lesson of the address, by name or number, with its scene if there is none."""
         name = self.bookmarks.lesson
         if not name:
             return
-        lesson = self.lesson.begin(name)
+        lesson = self.lesson.begin(int(name) - 1 if name.isdecimal() else name)
         if lesson is None:
             self.bookmarks.lesson = ""
             self.bookmarks.say(f"There is no lesson “{name}” here.")
         else:
+            self.bookmarks.lesson = lesson.name
             self.lesson.open_first = True
             if not self.bookmarks.has_scene:
                 lesson.begin(self.editor)

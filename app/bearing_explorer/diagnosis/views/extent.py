@@ -11,7 +11,7 @@ from bokeh.plotting import figure
 
 from bearing_explorer.diagnosis.diagnoses import BUSY, ExtentQuestion, Question, extent_of
 from bearing_explorer.diagnosis.model import Model
-from bearing_explorer.diagnosis.sized_defect import nearest_way_round
+from bearing_explorer.diagnosis.sized_defect import nearest_way_round, size_in_words
 from bearing_explorer.diagnosis.views.measured_view import MEASURED, WITHOUT_BEARING, MeasuredView
 from bearing_explorer.diagnosis.views.measurement import with_head
 from bearing_explorer.kit.plots import style
@@ -193,7 +193,7 @@ class SpallExtent(LookView, MeasuredView):
             self.measurement.extents.want(question)
         self._seen.visible = isinstance(answer, MeasuredExtent)
         if isinstance(answer, MeasuredExtent):
-            self.status.line = status(answer)
+            self.status.line = status(answer, self._simulated_size())
             self.plot.visible = bool(answer.passes)
 
     def sentence(self, model: Model) -> str:
@@ -208,15 +208,29 @@ class SpallExtent(LookView, MeasuredView):
         known = "" if truth is None else (
             f" The signal is simulated: the true extent is {math.degrees(truth):.1f}°."
         )  # fmt: skip
+        if (size := self._simulated_size()) and not answer.measured:
+            spacing = f"{math.degrees(answer.ball_spacing):.1f}°"
+            return (
+                f"Entry and exit alone allow {answer.size}, or whole ball spacings of {spacing} "
+                f"more. The natural frequencies decide, see below: {size}.{known}"
+            )
         return answer.sentence + known
+
+    def _simulated_size(self) -> str:
+        """The length that simulations have found, in words; empty without one."""
+        sizing = self.measurement.sizing()
+        return "" if sizing is None else size_in_words(sizing)
 
     def table(self, model: Model) -> dict[str, np.ndarray]:
         answer = self.answer()
         return answer.table().in_units().named() if isinstance(answer, MeasuredExtent) else {}
 
 
-def status(extent: MeasuredExtent) -> dict[str, Any]:
-    """The answer in a few words and a colour, with its grounds."""
+def status(extent: MeasuredExtent, simulated: str = "") -> dict[str, Any]:
+    """The answer in a few words and a colour, with its grounds.
+
+    A length that simulations have found comes before one of entry and exit alone.
+    """
     details = []
     if math.isfinite(extent.separation):
         apart, offset = math.degrees(extent.separation), math.degrees(extent.offset)
@@ -225,8 +239,8 @@ def status(extent: MeasuredExtent) -> dict[str, Any]:
         frequency = style.number(extent.frequency, 4)
         details.append(f"mean of {extent.n_passes} ball passes, at {frequency} Hz")
     return {
-        "mood": "good" if extent.measured else "bad",
-        "words": extent.answer,
+        "mood": "good" if extent.measured or simulated else "bad",
+        "words": f"{simulated}, {extent.race} race" if simulated else extent.answer,
         "details": details,
     }
 

@@ -174,8 +174,9 @@ def pass_on(answer: Diagnosis, question: Question) -> str:
         one = answer.of(answer.fault)
         return (
             f"{head}{headline(answer).lower()} (probability {probability(answer.probability)}); "
-            f"impacts at {style.number(one.frequency, 4)} Hz, {one.order:.2f} times a turn. Have "
-            f"the bearing inspected, and measure again to see whether it grows.{doubt}"
+            f"impacts at {style.number(one.frequency, 4)} Hz, {one.order:.2f} times a turn."
+            f"{other_race(answer)} Have the bearing inspected, and measure again to see whether it "
+            f"grows.{doubt}"
         )
     if answer.fault == NONE_SEEN:
         return (
@@ -184,6 +185,14 @@ def pass_on(answer: Diagnosis, question: Question) -> str:
             f"nothing about lubrication, balance or other bearings.{counted(question)}{doubt}"
         )
     return f"{head}no clear result from this signal.{doubt}"
+
+
+def other_race(answer: Diagnosis) -> str:
+    """A sentence on the other race, if it is probably damaged too; empty if not."""
+    other = answer.other_race
+    if other is None:
+        return ""
+    return f" The {other.part} shows too (probability {probability(other.probability)})."
 
 
 def facts(answer: Diagnosis, question: Question) -> list[list[str]]:

@@ -36,6 +36,9 @@ def test_every_pixel_is_as_bokeh_paints_it(
             for degrees in (14, 31):
                 move(slider(page, "extent_deg"), degrees)
                 settle(page)
+            slider(page, "extent_deg").dispatch_event(
+                "change"
+            )  # the hand lets go: no curves of before
             rest(page)
             canvases = [page.locator(f".view-{view} canvas") for view in views]
             pixels += [canvas.evaluate_all(_INSIDE) for canvas in canvases]

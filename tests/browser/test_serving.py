@@ -18,6 +18,7 @@ from tests.browser.helpers import (
     choose_tab,
     drag,
     explorer_server,
+    free_port,
     page_server,
     serving,
 )
@@ -25,16 +26,17 @@ from tests.helpers.proxies import Proxy, running
 
 
 @contextmanager
-def proxied(port: int, under: str) -> Iterator[str]:
+def proxied(port: int, under: str, own_port: int) -> Iterator[str]:
     """A proxy on a loop of its own; where the page is behind it."""
-    proxy = Proxy(port, under, strip=False)
+    proxy = Proxy(port, under, strip=False, own_port=own_port)
     with running(proxy):
         yield f"http://localhost:{proxy.port}{under}"
 
 
-def with_limits() -> Server:
+def with_limits(proxy_port: int) -> Server:
     server = explorer_server(
-        *("--root-path", "/bearing", "--max-sessions", "2", "--allow-websocket-origin", "*")
+        *("--root-path", "/bearing", "--max-sessions", "2"),
+        *("--allow-websocket-origin", f"localhost:{proxy_port}"),
     )
     server.path = "/bearing/liveness"  # waiting for the page itself would take a place
     return server
@@ -47,7 +49,8 @@ def test_the_page_works_behind_a_proxy_and_says_when_it_is_full(
     page, watching = watch
     missing: list[str] = []
     page.on("response", lambda one: missing.append(one.url) if one.status == 404 else None)
-    with serving(with_limits()) as server, proxied(server.port, "/bearing/") as url:
+    port = free_port()
+    with serving(with_limits(port)) as server, proxied(server.port, "/bearing/", port) as url:
         wait(page, lambda: "Ready after" in server.log)
         answer = page.goto(url)
         assert answer is not None

@@ -10,15 +10,15 @@ from contextlib import contextmanager
 class Proxy:
     """Hands on all below `under` to a port; with `strip` without that part of the path."""
 
-    def __init__(self, port: int, under: str, strip: bool) -> None:
+    def __init__(self, port: int, under: str, strip: bool, own_port: int = 0) -> None:
         self._to, self._under, self._strip = port, under, strip
-        self.port = 0
+        self.port = own_port
         self._server: asyncio.Server | None = None
         self._tasks: set[asyncio.Task[None]] = set()
 
     async def start(self) -> None:
-        """Listen on a free port."""
-        self._server = await asyncio.start_server(self._serve, "127.0.0.1", 0)
+        """Listen on the port that is given, or on a free one."""
+        self._server = await asyncio.start_server(self._serve, "127.0.0.1", self.port)
         self.port = self._server.sockets[0].getsockname()[1]
 
     async def stop(self) -> None:

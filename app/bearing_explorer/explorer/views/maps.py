@@ -52,7 +52,7 @@ GREATEST = 65534
 """That of the upper end of a map's scale; the lower end is 0."""
 MOST_LEVELS_NAMED = 14
 """Steps of the scale of loaded balls up to which each gets its number."""
-HEIGHT = 410
+HEIGHT = 460
 NARROWEST = 700
 """[px] width below which the maps have no room for their values at the cross."""
 
@@ -64,7 +64,7 @@ def _cell(row: int, column: int) -> Cell:
     return Cell(column + 0.15, column + 0.785, -row - 0.885, -row - 0.2)
 
 
-_BALLS = Cell(0.26, 1.98, -4.66, -3.26)
+_BALLS = Cell(0.26, 1.98, -4.66, -3.36)
 _CELLS = [*(_cell(i, j) for i, j in PLACES), _BALLS]
 _N = len(_CELLS)
 
@@ -116,7 +116,7 @@ class StiffnessMaps(View):
             ".bk-events.bk-events:focus { outline: none; }"  # it is clicked, not typed into
         )
         plot = matrix_cells.matrix_figure(
-            (-0.12, 5.23), (-5.1, 0.0), looks, 560, height=HEIGHT, name="maps_drawing"
+            (-0.12, 5.23), (-5.1, 0.09), looks, 560, height=HEIGHT, name="maps_drawing"
         )
         cells = packed.source("maps_cells", "low", "high", "kind", "now", "unit", *_PLACES_OF_CELLS)
         grid = packed.source("maps_grid", *_GRID)

@@ -81,18 +81,23 @@ def test_another_session_draws_whatever_one_sends_a_hundred_times() -> None:
         client, other = await opened(url), await opened(url, Onlooker, "load")
         until = time.perf_counter() + 5.0
         calm = await other.draw(lambda: time.perf_counter() < until)
+
+        async def longest(component: str, data: Any) -> float:
+            """The longest time [s] until the other session draws, while messages arrive."""
+            nonlocal client
+            if client.closed:
+                client = await opened(url)
+            sending = asyncio.ensure_future(send(client, component, data, COUNT))
+            ends = time.perf_counter() + 1.0
+            return await other.draw(lambda: not sending.done() or time.perf_counter() < ends)
+
         for name, (component, data) in kinds().items():
             for size in (0, LARGEST // COUNT - 500):
-                if client.closed:
-                    client = await opened(url)
-                sending = asyncio.ensure_future(
-                    send(client, component, lengthen_texts(size, data), COUNT)
-                )
-                ends = time.perf_counter() + 1.0
-                took = await other.draw(
-                    lambda at=ends, one=sending: not one.done() or time.perf_counter() < at
-                )
-                if took > max(LONGEST, 4.0 * calm):
+                long = lengthen_texts(size, data)
+                took, limit = await longest(component, long), max(LONGEST, 4.0 * calm)
+                if took > limit:  # a kind that jams does so again; a busy machine hardly
+                    took = min(took, await longest(component, long))
+                if took > limit:
                     slow.append(f"{name}, {size} characters: {took:.1f} s, {calm:.2f} s before")
         await client.close()
         await other.close()

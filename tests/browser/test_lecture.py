@@ -202,7 +202,7 @@ PROJECTED = """() => {
 }"""
 
 
-@pytest.mark.parametrize("link", ["?v=1&tab=vibration", "?lesson=what-a-ball-carries"])
+@pytest.mark.parametrize("link", ["?v=1&tab=vibration", "?lesson=what-a-ball-carries", "?lesson=1"])
 def test_a_projector_has_large_type_and_large_figures(
     page: Page, explorer: Server, link: str
 ) -> None:

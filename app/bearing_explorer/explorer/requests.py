@@ -225,7 +225,8 @@ class Requests(Half):
         name = self.bookmarks.lesson
         if not name:
             return
-        lesson = self.lesson.begin(int(name) - 1 if name.isdecimal() else name)
+        number = name.isdecimal() and len(name) < 4  # Python refuses thousands of digits
+        lesson = self.lesson.begin(int(name) - 1 if number else name)
         if lesson is None:
             self.bookmarks.lesson = ""
             self.bookmarks.say(f"There is no lesson “{name}” here.")

@@ -237,7 +237,7 @@ def test_every_model_that_would_do_less_is_taken(preset: str, kinds: set[str]) -
 
         def take_it(explorer: SceneSession, name: str = name) -> None:
             (view,) = explorer._views["accuracy"]
-            view.found = simpler
+            view.job_result = simpler
             view._use(name)  # type: ignore[attr-defined]
 
         explorer = session(take_it, sections=section, preset=preset)

@@ -21,7 +21,7 @@ from bearing_explorer.kit.sentences import sentence_of
 from bearingcore import Bearing, Diagnosis, MeasuredExtent, diagnose, measure_extent
 from bearingcore.measured.diagnosis import ListedBearing, explaining_bearings
 
-Found = TypeVar("Found")
+Result = TypeVar("Result")
 
 log = logging.getLogger(__name__)
 
@@ -175,7 +175,7 @@ def listed_of(question: ListQuestion) -> tuple[ListedBearing, ...] | str:
     )
 
 
-def _or_why_not(compute: Callable[[], Found]) -> Found | str:
+def _or_why_not(compute: Callable[[], Result]) -> Result | str:
     try:
         return compute()
     except ValueError as error:
@@ -185,7 +185,7 @@ def _or_why_not(compute: Callable[[], Found]) -> Found | str:
         return FAILED
 
 
-class Answers(Generic[Found]):
+class Answers(Generic[Result]):
     """The answers of one session. `want` and `stop` belong on its event loop.
 
     Parameters
@@ -203,15 +203,15 @@ class Answers(Generic[Found]):
         jobs: Jobs,
         kind: Kind,
         draw: Callable[[], None],
-        compute: Callable[[Any], Found | str],
+        compute: Callable[[Any], Result | str],
     ) -> None:
         self._jobs, self._kind = jobs, kind
         self._draw = draw
         self._compute = compute
-        self._known: dict[Question, Found | str] = {}
+        self._known: dict[Question, Result | str] = {}
         self.wanted: Question | None = None
 
-    def of(self, question: Question) -> Found | str | None:
+    def of(self, question: Question) -> Result | str | None:
         """The answer, a sentence where there can be none, or None: not yet. For any thread."""
         return self._known.get(question)
 
@@ -220,13 +220,13 @@ class Answers(Generic[Found]):
         """Whether a question waits for its answer."""
         return self.wanted is not None and self.wanted not in self._known
 
-    def latest(self, about: Question) -> Found | str | None:
+    def latest(self, about: Question) -> Result | str | None:
         """The newest answer about a recording, its bearing and speed, whatever else was asked."""
         known = reversed(self._known.items())
         alike = (answer for question, answer in known if about.is_like(question))
         return next(alike, None)
 
-    def keep(self, question: Question, answer: Found | str) -> None:
+    def keep(self, question: Question, answer: Result | str) -> None:
         """Keep an answer; those about other recordings leave, and the oldest."""
         recording = question.measured.recording
         kept = {q: a for q, a in self._known.items() if q.measured.recording is recording}
@@ -250,7 +250,7 @@ class Answers(Generic[Found]):
         )
         self._draw()  # the status says that something is under way
 
-    def _take(self, question: Question, answer: Found | str) -> None:
+    def _take(self, question: Question, answer: Result | str) -> None:
         if (
             self.wanted is not None
             and self.wanted.measured.recording is question.measured.recording

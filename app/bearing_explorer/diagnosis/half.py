@@ -63,7 +63,9 @@ class DiagnosisOfSignal(Half):
         if why := measurement.out_of_date:
             return why
         results: Mapping[str, Any] = {
-            view.name: view.found for view in self.page.views_made() if view.found is not None
+            view.name: view.job_result
+            for view in self.page.views_made()
+            if view.job_result is not None
         }
         kinds = (view.look["machine"] for view in self.page.views_made()
                  if isinstance(view, MeasuredIndicators))  # fmt: skip

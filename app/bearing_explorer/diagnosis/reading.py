@@ -198,7 +198,7 @@ class AnsweredTable:
     table: Table
     form: dict[str, str]
     first: dict[str, str]
-    found: Measured | FormError
+    signal: Measured | FormError
 
 
 def read_answers(

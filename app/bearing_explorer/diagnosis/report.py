@@ -68,16 +68,16 @@ NOT_FORESEEN = (
 NO_SIZE = "The level of the vibration is not known, as the unit of the signal is not."
 
 
-def _trend(measurement: Measurement, found: Mapping[str, Any]) -> FoundTrend | None:
+def _trend(measurement: Measurement, job_results: Mapping[str, Any]) -> FoundTrend | None:
     """The trend that was computed of the files there are; None where it is of others."""
-    trend = found.get(TrendOfFiles.name)
+    trend = job_results.get(TrendOfFiles.name)
     if isinstance(trend, FoundTrend) and trend.series is measurement.series:
         return trend
     return None
 
 
 def _drawings(
-    model: Model, measurement: Measurement, found: Mapping[str, Any], with_extent: bool
+    model: Model, measurement: Measurement, job_results: Mapping[str, Any], with_extent: bool
 ) -> tuple[list[str], list[Any], list[str]]:
     """Figures that show something: names in the page, what the browser draws, and HTML."""
     drawn: list[str] = []
@@ -88,7 +88,7 @@ def _drawings(
             view,
             model,
             prepare=lambda view: view.measure(measurement),  # type: ignore[attr-defined]
-            found=found.get(view.name),
+            job_result=job_results.get(view.name),
             computed=False,
         )
         data, _ = figure.view.data(model)
@@ -114,7 +114,7 @@ def _drawings(
 def measured_report(
     model: Model,
     measurement: Measurement,
-    found: Mapping[str, Any],
+    job_results: Mapping[str, Any],
     about: About,
     kind: str = "",
 ) -> dict[str, Any]:
@@ -124,7 +124,7 @@ def measured_report(
     ----------
     measurement
         a copy, see `Measurement.snapshot`.
-    found
+    job_results
         results of jobs, by view.
     kind
         power and support of the machine, one of `bearingcore.measured.signals.ZONES`, for the
@@ -142,7 +142,7 @@ def measured_report(
         raise ValueError("nothing is diagnosed yet")
     extent = measurement.extent() if answer.fault in RACES_NAMED else None
     with_extent = extent is not None and bool(extent.passes)
-    drawn, items, figures = _drawings(model, measurement, found, with_extent)
+    drawn, items, figures = _drawings(model, measurement, job_results, with_extent)
     state = panel_state(question, answer)
     state |= {"pass_on": "", "facts": ()}
     if extent is not None:
@@ -159,7 +159,7 @@ def measured_report(
         and not question.measured.true_part
     ):
         about = replace(about, link="")  # of a scene that has nothing to do with the signal
-    trend = _trend(measurement, found)
+    trend = _trend(measurement, job_results)
     zone = zone_of(question.measured, kind)
     whole = trend.trend if trend is not None and trend.complete else None
     steps = next_steps(answer, question, zone, whole, question.measured.shaft_share)

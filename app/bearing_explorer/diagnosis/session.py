@@ -129,8 +129,8 @@ class Measurement(SignalForm):
         arrival.lines = first_lines(content) if arrival.count == 1 else ""
 
         def read(work: Work) -> Generator[None, None, str]:
-            for name, found, count in read_files(file, content, scene, kept, work.cancelled):
-                arrival.take(name, found, count)
+            for name, read, count in read_files(file, content, scene, kept, work.cancelled):
+                arrival.take(name, read, count)
                 yield
             work.show(arrival)
             return ""

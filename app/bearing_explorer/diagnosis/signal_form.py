@@ -219,7 +219,7 @@ class SignalForm(Findings):
         before, table = self.measured, self._table
         if table is None:
             return
-        answer = answers if isinstance(answers, FormError) else answers.found
+        answer = answers if isinstance(answers, FormError) else answers.signal
         if isinstance(answers, AnsweredTable):
             # what follows from the roles of the columns follows from those of now
             texts, table = answers.form, answers.table

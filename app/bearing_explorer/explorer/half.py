@@ -94,7 +94,9 @@ class Explorer(Requests):
     def for_report(self) -> tuple[Results, list[type[View]], dict[str, Any]]:
         results = self.content().at_rest()
         kinds = [view for section in self.sections for view in section.views]
-        of_views = {v.name: v.found for v in self.page.views_made() if v.found is not None}
+        of_views = {
+            v.name: v.job_result for v in self.page.views_made() if v.job_result is not None
+        }
         return results, kinds, of_views
 
     def set_life_inputs(self, inputs: LifeInputs) -> None:

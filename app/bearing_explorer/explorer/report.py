@@ -45,20 +45,20 @@ _DEFECT_GROUP = "Defect"
 
 
 def report(
-    results: Results, views: Sequence[type[View]], found: Mapping[str, Any], about: About
+    results: Results, views: Sequence[type[View]], job_results: Mapping[str, Any], about: About
 ) -> dict[str, Any]:
     """The report for the browser to finish. For any thread: it touches no models of the page.
 
-    `found`: results of jobs, by view; views of jobs without are left out.
+    `job_results`: results of jobs, by view; views of jobs without are left out.
     """
     parts: list[str] = []
     items: list[Any] = []
     drawn: list[str] = []
     for kind in views:
-        if not (kind.in_report and (kind.needs or kind.name in found)):
+        if not (kind.in_report and (kind.needs or kind.name in job_results)):
             continue
         try:
-            figure = Figure(kind, results, found=found.get(kind.name), computed=False)
+            figure = Figure(kind, results, job_result=job_results.get(kind.name), computed=False)
         except ValueError as error:
             why = f"Not shown for this scene: {words_of(error)}."
             parts.append(_figure(kind, results, [], why))

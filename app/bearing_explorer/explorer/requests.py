@@ -33,7 +33,7 @@ from bearing_explorer.kit.views.base import View
 
 log = logging.getLogger(__name__)
 
-Found = TypeVar("Found")
+Result = TypeVar("Result")
 
 _LONGEST_LINK = 2000
 _REPORT_WORDS = {"title": 120, "machine": 200, "remarks": 4000}
@@ -149,7 +149,7 @@ class Requests(Half):
         if refused:
             self.show_controls(refused=refused)
 
-    def _taken(self, take: Callable[[str, Found], object], name: str, answer: Found) -> None:
+    def _taken(self, take: Callable[[str, Result], object], name: str, answer: Result) -> None:
         take(name, answer)
         self.show_controls(state=self.editor.state())
         self.show_links()

@@ -239,8 +239,8 @@ def life(
     Examples
     --------
     >>> from bearingcore import presets
-    >>> found = life(presets["seven-ball"].healthy(), 23_400.0)
-    >>> round(found.million_revolutions), round(found.hours)
+    >>> lives = life(presets["seven-ball"].healthy(), 23_400.0)
+    >>> round(lives.million_revolutions), round(lives.hours)
     (10797, 119961)
     """
     checks.instance("scene", scene, Scene)

@@ -270,7 +270,7 @@ def test_a_trend_without_bearing_and_speed_has_levels_and_no_part() -> None:
     view.measure(made)
     work = Work()
     view.prepare({"baseline": "1"}, MODEL)(work)
-    (view.found,) = work.taken()
+    (view.job_result,) = work.taken()
     assert view.drawn
     table = view.table(MODEL)
     assert table["rms_m_per_s2"][0] > 0.0

@@ -230,9 +230,9 @@ class PartDiagnosis(LookView, MeasuredView):
         else:
             self.candidates.show(OFFER, offer=True)
 
-    def _with_length(self, state: dict[str, Any], found: Diagnosis | None) -> dict[str, Any]:
+    def _with_length(self, state: dict[str, Any], diagnosis: Diagnosis | None) -> dict[str, Any]:
         """The length of the spall in an answer, once it is known; of a race alone."""
-        if found is None or found.fault not in RACES_NAMED:
+        if diagnosis is None or diagnosis.fault not in RACES_NAMED:
             return state
         extent = self.measurement.extent()
         if extent is None:

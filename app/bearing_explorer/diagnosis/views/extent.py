@@ -132,14 +132,14 @@ class SpallExtent(LookView, MeasuredView):
         return None if question is None else self.measurement.extents.of(question)
 
     @property
-    def found(self) -> MeasuredExtent | None:
+    def job_result(self) -> MeasuredExtent | None:
         """The extent that is known, for reports."""
         answer = self.answer()
         return answer if isinstance(answer, MeasuredExtent) else None
 
-    @found.setter
-    def found(self, given: MeasuredExtent) -> None:
-        self._given = given
+    @job_result.setter
+    def job_result(self, extent: MeasuredExtent) -> None:
+        self._given = extent
 
     def choose(self, choices: Mapping[str, Any], model: Model) -> None:
         super().choose(choices, model)
@@ -176,12 +176,12 @@ class SpallExtent(LookView, MeasuredView):
             "extent_size": with_head(self._size, drawn, 0.3),
         }
 
-    def _way_round(self, found: MeasuredExtent) -> int | None:
+    def _way_round(self, extent: MeasuredExtent) -> int | None:
         """0 where the first peak is the entry, 1 where it is the exit, None: not known."""
         sizing = self.measurement.sizing()
         if sizing is None or not sizing.conclusive or sizing.best is None:
-            return 0 if found.measured else None
-        return nearest_way_round(sizing.best.extent, found)
+            return 0 if extent.measured else None
+        return nearest_way_round(sizing.best.extent, extent)
 
     def say(self, model: Model | None, sentence: str) -> None:
         self._show()

@@ -84,12 +84,12 @@ def extent(measured: MeasuredExtent) -> str:
     return measured.size or LENGTH_HIDDEN
 
 
-def length(found: MeasuredExtent, sizing: Sizing | None) -> str:
+def length(measured: MeasuredExtent, sizing: Sizing | None) -> str:
     """The length of a spall in a few words, by its simulation where that is conclusive."""
     if sizing is not None and sizing.conclusive:
         return f"{size_in_words(sizing)} long, by the frequencies at which the machine rings"
-    known = ", interval of 95 %" if found.measured else ""
-    return f"{extent(found)}{known}"
+    known = ", interval of 95 %" if measured.measured else ""
+    return f"{extent(measured)}{known}"
 
 
 def explained(one: ListedBearing) -> str:

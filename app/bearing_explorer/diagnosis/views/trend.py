@@ -155,7 +155,7 @@ class TrendOfFiles(JobView[Model, FoundTrend, Editor], MeasuredView):
         number = round(number_of(text, "The number of the baseline", "", 1, 10**4))
         direction = self.direction_of(measured)
         band = self.demodulation(measured, direction).band
-        known = self.found if self._is_of_now(self.found) else None
+        known = self.job_result if self._is_of_now(self.job_result) else None
 
         def work(job: Work) -> str:
             if known is not None and number <= len(known.trend.points):
@@ -217,18 +217,18 @@ class TrendOfFiles(JobView[Model, FoundTrend, Editor], MeasuredView):
 
     @property
     def drawn(self) -> bool:
-        newest, measurement = self.found, self.measurement
+        newest, measurement = self.job_result, self.measurement
         if newest is None or self.measured is None:
             return False
         return newest.series is measurement.series and self.measured.in_si == newest.measured.in_si
 
     def _write_axes(self) -> None:
-        if self.found is None:
+        if self.job_result is None:
             return
-        unit, _ = shown_unit(self.found.measured)
-        shown = self.found.trend
+        unit, _ = shown_unit(self.job_result.measured)
+        shown = self.job_result.trend
         across = HOURS if np.isfinite(shown.hours).all() else NUMBER
-        in_si = self.found.measured.in_si
+        in_si = self.job_result.measured.in_si
         self._plots["rms"].visible = in_si
         self._plots["lines"].visible = self._key_of_lines.visible = in_si and bool(
             np.isfinite(shown.clear_lines).any()
@@ -243,7 +243,7 @@ class TrendOfFiles(JobView[Model, FoundTrend, Editor], MeasuredView):
                 plot.yaxis[0].axis_label = dataclasses.replace(AXES[name], unit=unit).label()
 
     def data(self, model: Model) -> tuple[Sources, Ranges]:
-        newest = self.found
+        newest = self.job_result
         if newest is None or not self.drawn:
             return {}, {}
         shown, size = newest.trend, 1.0 / shown_unit(newest.measured)[1]
@@ -276,7 +276,7 @@ class TrendOfFiles(JobView[Model, FoundTrend, Editor], MeasuredView):
         return sources, ranges
 
     def sentence(self, model: Model) -> str:
-        measured, newest = self.measured, self.found
+        measured, newest = self.measured, self.job_result
         if measured is None:
             return ""
         if newest is None or not self.drawn:
@@ -291,7 +291,7 @@ class TrendOfFiles(JobView[Model, FoundTrend, Editor], MeasuredView):
         return words
 
     def table(self, model: Model) -> dict[str, np.ndarray]:
-        newest = self.found
+        newest = self.job_result
         if newest is None or not self.drawn:
             return {}
         columns = named_columns(newest.trend.table(), newest.measured.in_si)
@@ -300,7 +300,7 @@ class TrendOfFiles(JobView[Model, FoundTrend, Editor], MeasuredView):
 
     def python(self) -> str:
         """Lines of Python that read the files and compute the trend without the page."""
-        newest, model = self.found, self._results
+        newest, model = self.job_result, self._results
         origins = () if newest is None else newest.recordings.origins
         if newest is None or model is None or None in origins:
             return super().python()
@@ -397,10 +397,10 @@ def python_lines(newest: FoundTrend, model: Model) -> str:
         "    table = table.one_of_recordings(part) if part else table",
         "    made = table.recording(columns, along, unit, rate, one, sensitivity=sensor)",
         "    recordings.append(Recording(made.acceleration, rate, along, name, speed))",
-        "found = trend(",
+        "measured = trend(",
         f"    recordings, {bearing}, {speed}, direction={code_of(shown.direction)},",
         f"    band=({short(shown.band[0])}, {short(shown.band[1])}), baseline={shown.baseline},",
         ")",
-        "columns = found.table().in_units().named()",
-        "print(found.rms_change)\n",
+        "columns = measured.table().in_units().named()",
+        "print(measured.rms_change)\n",
     ])  # fmt: skip

@@ -141,9 +141,9 @@ class WhichLength(JobView[Model, SizedDefect, Editor], MeasuredView):
 
         return work
 
-    def _take(self, found: SizedDefect) -> None:
-        self.measurement.sized = found
-        super()._take(found)
+    def _take(self, sized: SizedDefect) -> None:
+        self.measurement.sized = sized
+        super()._take(sized)
 
     def say(self, model: Model | None, sentence: str) -> None:
         super().say(model, sentence)
@@ -152,8 +152,8 @@ class WhichLength(JobView[Model, SizedDefect, Editor], MeasuredView):
             return
         self.hidden.visible = bool(race) or self.drawn
         self._spectra.visible = self._candidates.visible = self.drawn
-        if self.drawn and self.found is not None:
-            self._candidates.object = candidates_html(self.found.sizing)
+        if self.drawn and self.job_result is not None:
+            self._candidates.object = candidates_html(self.job_result.sizing)
             for dof, plot in self._plots.items():
                 plot.visible = dof in measured.directions
         if self._answer_of != self.measurement.state.arrival:
@@ -169,15 +169,19 @@ class WhichLength(JobView[Model, SizedDefect, Editor], MeasuredView):
     @property
     def _sizing(self) -> Sizing | None:
         """The answer on the signal that is drawn."""
-        found = self.found
-        return found.sizing if found is not None and found.measured is self.measured else None
+        result = self.job_result
+        return result.sizing if result is not None and result.measured is self.measured else None
 
     @property
     def drawn(self) -> bool:
         return self._sizing is not None and bool(self._sizing.candidates)
 
     def scene_drawn(self, model: Model) -> Scene:
-        return MeasuredView.scene_drawn(self, model) if self.found is None else self.found.machine
+        return (
+            MeasuredView.scene_drawn(self, model)
+            if self.job_result is None
+            else self.job_result.machine
+        )
 
     def data(self, model: Model) -> tuple[Sources, Ranges]:
         sizing, measured = self._sizing, self.measured
@@ -216,7 +220,7 @@ class WhichLength(JobView[Model, SizedDefect, Editor], MeasuredView):
         words = [re.sub(r"\bmode \w+", lambda mode: mode[0].translate(SUBSCRIPTS), sizing.sentence)]
         if extent is not None and not sizing.conclusive:
             words.append(likelier(sizing, extent))
-        if self.measurement.sized is self.found and self.measurement.sizing() is None:
+        if self.measurement.sized is self.job_result and self.measurement.sizing() is None:
             words.append("The scene has changed since: compare the lengths again.")
         if measured.true_extent is not None:
             true = math.degrees(measured.true_extent)

@@ -161,11 +161,11 @@ class Accuracy(SceneJobView[Found]):
     def _shown(self, results: Results) -> Mapping[str, Experiment]:
         """The experiments shown: of this machine, or else measured beforehand."""
         base = shipped(preset_like(results.scene))
-        own = {} if self.found is None else self.found.result.experiments
+        own = {} if self.job_result is None else self.job_result.result.experiments
         return {**base.experiments, **own}
 
     def sentence(self, results: Results) -> str:
-        shown, scene = self.found, results.scene
+        shown, scene = self.job_result, results.scene
         preset = preset_like(scene)
         words = f"Measured beforehand, for {preset_labels[preset]}."
         if presets[preset] != scene:
@@ -183,14 +183,14 @@ class Accuracy(SceneJobView[Found]):
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         base = shipped(preset_like(results.scene))
-        shown = base if self.found is None else self.found.result
+        shown = base if self.job_result is None else self.job_result.result
         return shown.table().named()
 
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)
         self._origin.object = paragraph(sentence)
-        if self.parts is None and self.found is not None:  # outside of the page
-            experiments = self.found.result.experiments
+        if self.parts is None and self.job_result is not None:  # outside of the page
+            experiments = self.job_result.result.experiments
             self._chosen.put({"charts": next(iter(experiments), STABILITY)})
         self._redraw()
 
@@ -208,10 +208,10 @@ class Accuracy(SceneJobView[Found]):
     def _draw_charts(self, results: Results) -> None:
         preset, subject = preset_like(results.scene), self._subject
         base = shipped(preset)
-        known = [base] if self.found is None else [self.found.result, base]
+        known = [base] if self.job_result is None else [self.job_result.result, base]
         reasons = {
             **(base.refused if presets[preset] == results.scene else {}),
-            **(known[0].refused if self.found is not None else {}),
+            **(known[0].refused if self.job_result is not None else {}),
         }
         error, cost = self._chosen.values["error"], self._chosen.values["cost"]
         shown = self._shown(results)

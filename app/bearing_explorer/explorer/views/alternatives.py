@@ -109,9 +109,9 @@ class OtherModels(SceneJobView[Alternatives]):
 
     def _use(self, name: str) -> None:
         """Change the scene to that of the model with this name."""
-        if self.parts is None or self.found is None:
+        if self.parts is None or self.job_result is None:
             return
-        for one in takeable(self.found.rows):
+        for one in takeable(self.job_result.rows):
             if one.name == name:
                 words = {k: " ".join(v) if k == "dofs" else v for k, v in one.changes.items()}
                 self.parts.change_scene({"choose": words})
@@ -138,28 +138,28 @@ class OtherModels(SceneJobView[Alternatives]):
         return compute
 
     def sentence(self, results: Results) -> str:
-        if self.found is None:
+        if self.job_result is None:
             return (
                 f"Drawn are {results.settings.n_cage_angles} cage angles a ball spacing and "
                 f"{results.settings.duration:g} s of motion, whatever the scene."
             )
         enough = [
             row.name
-            for row in self.found.rows
+            for row in self.job_result.rows
             if row.error <= GOOD_ENOUGH[row.quantity == SPECTRUM] and row.saved > 0.0
         ]
         words = "No faster model is within 0.1 dB or 1 % of the swing"
         if enough:
             words = f"Faster, and within 0.1 dB or 1 % of the swing: {style.list_words(enough)}"
-        if self.found.scene != results.scene:
+        if self.job_result.scene != results.scene:
             words += ". Computed for an earlier scene"
         return f"{words}."
 
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)
-        if self.found is not None:
-            self._fill(self.found.rows)
-            self._offer(self.found.rows)
+        if self.job_result is not None:
+            self._fill(self.job_result.rows)
+            self._offer(self.job_result.rows)
 
     def columns(self, models: Alternatives) -> dict[str, np.ndarray]:
         return models.table().named()

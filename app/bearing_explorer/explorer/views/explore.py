@@ -101,7 +101,7 @@ class ExplorePlane(SceneJobView[Plane]):
     @property
     def is_empty(self) -> bool:
         """Before the first map, or where no point of it has an answer."""
-        return self.found is None or self.found.missing == self.found.values.size
+        return self.job_result is None or self.job_result.missing == self.job_result.values.size
 
     # The form
 
@@ -147,7 +147,7 @@ class ExplorePlane(SceneJobView[Plane]):
     def choices(self) -> dict[str, Any]:
         if self._request is None:
             return {}
-        plane = self.found  # as fine as its numbers in the file are, whatever was asked for
+        plane = self.job_result  # as fine as its numbers in the file are, whatever was asked for
         stride = self._request.stride if plane is None else plane.stride
         return {**self._request.given, "grid": str(stride)}
 
@@ -155,7 +155,7 @@ class ExplorePlane(SceneJobView[Plane]):
         editor = results.editor
         self._request = request = self.request_of({**self.form(editor)[0], **choices}, editor)
         question = request.of(results)
-        self.found = last_shown(lambda job: refine(job, question, request.stride))
+        self.job_result = last_shown(lambda job: refine(job, question, request.stride))
 
     # The picture
 
@@ -171,12 +171,14 @@ class ExplorePlane(SceneJobView[Plane]):
             return
         self._question = question = self._request.of(results)
         plane, why = self._newest(results)
-        self.found = plane or self.found
+        self.job_result = plane or self.job_result
         super().say(results, sentence)
-        if self.found is not None:
+        if self.job_result is not None:
             scene = focused(results.scene, results.focus)
-            x, y = (value_of(scene, sweep.field) for sweep in (self.found.x, self.found.y))
-            self._plane.show(field_of(self.found), (x, y), _FADED if plane is None else 1.0)
+            x, y = (
+                value_of(scene, sweep.field) for sweep in (self.job_result.x, self.job_result.y)
+            )
+            self._plane.show(field_of(self.job_result), (x, y), _FADED if plane is None else 1.0)
         if self._jobs is None or self._refining == (question, self._request.stride):
             return
         if self._refining is not None:
@@ -189,9 +191,9 @@ class ExplorePlane(SceneJobView[Plane]):
 
     def _go(self, x: float, y: float) -> None:
         """Set both quantities to those of a place of the map, as if they had been typed."""
-        if self.found is None or self.parts is None:
+        if self.job_result is None or self.parts is None:
             return
-        fields = self.found.x.field, self.found.y.field
+        fields = self.job_result.x.field, self.job_result.y.field
         typed = {
             field.key: float(f"{field.read_sign * value:.6g}")
             for field, value in zip(fields, (x, y), strict=True)
@@ -216,8 +218,8 @@ class ExplorePlane(SceneJobView[Plane]):
         if self._request is None:
             return None, ""
         question = self._request.of(results)
-        if self.found is not None and self.found.question == question:
-            return self.found, ""
+        if self.job_result is not None and self.job_result.question == question:
+            return self.job_result, ""
         if not question.at_once:
             return None, ""
         try:
@@ -240,7 +242,7 @@ class ExplorePlane(SceneJobView[Plane]):
 
     def _take(self, plane: Plane) -> None:
         if plane.question == self._question:
-            self.found = plane
+            self.job_result = plane
             self._draw()
 
 

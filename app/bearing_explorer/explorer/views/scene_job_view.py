@@ -10,10 +10,10 @@ from bearing_explorer.kit.compute.jobs import JobState
 from bearing_explorer.kit.views.job_view import JobView
 from bearing_explorer.kit.widgets.facts import sentence_html
 
-Found = TypeVar("Found")
+Result = TypeVar("Result")
 
 
-class SceneJobView(JobView[Results, Found, SceneEditor], Generic[Found]):
+class SceneJobView(JobView[Results, Result, SceneEditor], Generic[Result]):
     """A `JobView` whose form reads the editor of the scene."""
 
     noun: ClassVar[str] = ""

@@ -201,7 +201,7 @@ class SpeedRunSpectra(SceneJobView[FoundRun]):
     # The picture
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
-        if (answer := self.found) is None:
+        if (answer := self.job_result) is None:
             return {}, {}
         run, speeds = answer.run, answer.speeds
         alpha = FAINT if self._is_of_another(results, answer) else 1.0
@@ -237,10 +237,10 @@ class SpeedRunSpectra(SceneJobView[FoundRun]):
         return not alike_but_for(scene, answer.run.scene, (answer.speeds,))
 
     def sentence(self, results: Results) -> str:
-        if self.found is None:
+        if self.job_result is None:
             return self.words_of_nothing
-        words = words_of(self.found)
-        if self._is_of_another(results, self.found):
+        words = words_of(self.job_result)
+        if self._is_of_another(results, self.job_result):
             return f"Faint, as the scene has changed since this was computed. Then: {words}"
         return words
 
@@ -248,7 +248,7 @@ class SpeedRunSpectra(SceneJobView[FoundRun]):
         super().say(results, sentence)
         if results is None or results.moving or self._begun or self._jobs is None:
             return
-        if self.found is None and not self._jobs.busy(COMPUTATION):
+        if self.job_result is None and not self._jobs.busy(COMPUTATION):
             self._begin_coarse()
 
     def _begin_coarse(self) -> None:

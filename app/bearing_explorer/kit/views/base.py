@@ -136,7 +136,7 @@ class View(Generic[C]):
     #: the half of the session, on the page alone
     parts: Any = None
     #: result of a job of the view
-    found: Any = None
+    job_result: Any = None
     #: whether `choose` computes the content of the view
     computes: ClassVar[bool] = False
 

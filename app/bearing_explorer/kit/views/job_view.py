@@ -24,7 +24,7 @@ from bearing_explorer.kit.widgets.form import (
 )
 from bearingcore import Scene
 
-Found = TypeVar("Found")
+Result = TypeVar("Result")
 
 
 class Editor(Protocol):
@@ -138,11 +138,12 @@ class JobForm(pn.Column):
             self._start()
 
 
-class JobView(View[C], Generic[C, Found, E]):
+class JobView(View[C], Generic[C, Result, E]):
     """A view of the result of a job.
 
-    A subclass puts `self.job` among what it builds, and provides `form` and `prepare`; `found` is
-    the newest result. `data`, `sentence` and `table` read it besides the results of the scene.
+    A subclass puts `self.job` among what it builds, and provides `form` and `prepare`;
+    `job_result` is the newest result. `data`, `sentence` and `table` read it besides the results
+    of the scene.
     """
 
     start: ClassVar[str]
@@ -155,7 +156,7 @@ class JobView(View[C], Generic[C, Found, E]):
     """The jobs of the session that it takes the place of."""
 
     computes = True
-    found: Found | None = None
+    job_result: Result | None = None
     #: values of the form, and the scene, of the newest result
     _found_for: tuple[dict[str, str], Scene] | None = None
     _jobs: Jobs | None = None
@@ -185,7 +186,7 @@ class JobView(View[C], Generic[C, Found, E]):
     @property
     def is_empty(self) -> bool:
         """Before a job has found anything."""
-        return self.found is None
+        return self.job_result is None
 
     def fields(self) -> list[FieldSpec]:
         """The fields of the form; none where there is nothing to choose."""
@@ -203,9 +204,9 @@ class JobView(View[C], Generic[C, Found, E]):
         raise NotImplementedError
 
     def table(self, results: C) -> dict[str, np.ndarray]:
-        return {} if self.found is None else self.columns(self.found)
+        return {} if self.job_result is None else self.columns(self.job_result)
 
-    def columns(self, result: Found) -> dict[str, np.ndarray]:
+    def columns(self, result: Result) -> dict[str, np.ndarray]:
         """The numbers behind the figures of a result, see `View.table`."""
         raise NotImplementedError
 
@@ -228,7 +229,7 @@ class JobView(View[C], Generic[C, Found, E]):
         assert self._jobs is not None
         work, asked = self.prepare(given, self._editor), (dict(given), self._editor.scene)
 
-        def take(result: Found) -> None:
+        def take(result: Result) -> None:
             self._found_for = asked
             self._take(result)
 
@@ -248,9 +249,9 @@ class JobView(View[C], Generic[C, Found, E]):
         """Compute the job of a form with these fields; missing ones have their usual values."""
         editor = self.editor_of(results)
         given = {**self.form(editor)[0], **choices}
-        self.found = last_shown(self.prepare(given, editor))
+        self.job_result = last_shown(self.prepare(given, editor))
         self._found_for = given, editor.scene
 
-    def _take(self, result: Found) -> None:
-        self.found = result
+    def _take(self, result: Result) -> None:
+        self.job_result = result
         self._draw()

@@ -67,10 +67,10 @@ class Figure(Generic[C]):
         choices in the view itself, by its fields: computations are made anew with them.
     prepare
         called with the view, before it is asked for anything.
-    found
+    job_result
         the result of the computation of the view, where that is known already.
     computed
-        whether a view of a computation without `found` makes it.
+        whether a view of a computation without `job_result` makes it.
 
     Raises
     ------
@@ -85,15 +85,15 @@ class Figure(Generic[C]):
         *,
         choices: Mapping[str, Any] | None = None,
         prepare: Callable[[View[C]], None] = lambda _: None,
-        found: Any = None,
+        job_result: Any = None,
         computed: bool = True,
     ) -> None:
         self.results = results
         sources = FilledSources()
         self.view = kind(sources)
         prepare(self.view)
-        if found is not None:
-            self.view.found = found
+        if job_result is not None:
+            self.view.job_result = job_result
         elif choices is not None or (computed and self.view.computes):
             self.view.choose(choices or {}, results)
         data, ranges = self.view.all_data(results)

@@ -56,7 +56,7 @@ def test_the_answer_is_one_line_with_entry_and_exit_marked():
     highest = best["angle"][best["envelope"].argmax()]
     assert min(abs(highest - entry), abs(highest - leave)) < 0.3
     assert view.csv().startswith("race,status,extent_deg")
-    assert view.found is extent
+    assert view.job_result is extent
 
 
 @pytest.mark.proof
@@ -118,4 +118,4 @@ def test_the_race_may_be_known_and_a_figure_alone_needs_no_session():
     assert view.question().race == "inner"
     drawn = figure_of(SpallExtent, SCENE, recording=measured().recording, choices={"race": "outer"})
     assert "outer race" in drawn.sentence
-    assert isinstance(drawn.view.found, MeasuredExtent)
+    assert isinstance(drawn.view.job_result, MeasuredExtent)

@@ -86,7 +86,7 @@ def computed(view: TrendOfFiles, baseline: str = "1", stopped: bool = False) -> 
     if stopped:
         work.stop()
     words = view.prepare({"baseline": baseline}, MODEL)(work)
-    (view.found,) = work.taken()
+    (view.job_result,) = work.taken()
     return words
 
 
@@ -118,7 +118,7 @@ def test_a_bad_file_among_good_ones_is_named_and_nothing_is_lost(view: TrendOfFi
     np.testing.assert_allclose(rms / rms[0], LOUD, rtol=1e-4)
     assert ranges["trend_rms"][1] > rms[-1]
     assert len(view.table(MODEL)["rms_m_per_s2"]) == 3
-    words = words_on(view.found.trend, in_si=False)
+    words = words_on(view.job_result.trend, in_si=False)
     assert NO_LEVELS in words
     assert "times" not in words
 
@@ -127,13 +127,15 @@ def test_another_baseline_needs_no_file_again(
     view: TrendOfFiles, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(brought(), "recordings", None)
-    before = view.found
+    before = view.job_result
     assert computed(view, "2") == "Compared with file 2."
-    np.testing.assert_allclose(view.found.trend.rms_change, np.array(LOUD) / LOUD[1], rtol=1e-4)
+    np.testing.assert_allclose(
+        view.job_result.trend.rms_change, np.array(LOUD) / LOUD[1], rtol=1e-4
+    )
     monkeypatch.undo()
     with pytest.raises(ValueError, match="one of 1 to 3, not 9"):
         view.prepare({"baseline": "9"}, MODEL)(Work())
-    view.found = before
+    view.job_result = before
 
 
 def test_cancel_while_files_are_read_keeps_the_signal_before() -> None:

@@ -75,8 +75,8 @@ def view_of(made: Measurement, support: str) -> WhichLength:
     view.measure(made)
     view.choose({"support": support}, MODEL)
     view._draw = lambda: None
-    assert view.found is not None
-    view._take(view.found)
+    assert view.job_result is not None
+    view._take(view.job_result)
     view.say(MODEL, view.sentence(MODEL))
     return view
 
@@ -90,8 +90,8 @@ def test_entry_and_exit_leave_it_open_and_the_simulation_says_it(view: WhichLeng
     extent = view.measurement.extent()
     assert extent is not None
     assert min(abs(math.degrees(one) - TRUE) for one, _, _ in extent.alternatives) > 20.0
-    assert view.found is not None
-    best = view.found.sizing.best
+    assert view.job_result is not None
+    best = view.job_result.sizing.best
     assert best is not None
     assert math.degrees(best.extent) == pytest.approx(TRUE, abs=0.3)
     said = view.sentence(MODEL)
@@ -126,7 +126,7 @@ def test_verdict_summary_and_report_carry_the_length(view: WhichLength) -> None:
     assert f"{TRUE}° (" in part.part.state["extent"]
     assert f"Its spall is {TRUE}° (" in part.part.state["pass_on"]
     about = About("", "", "", datetime(2026, 11, 29))
-    page = measured_report(MODEL, view.measurement.snapshot(), {view.name: view.found}, about)
+    page = measured_report(MODEL, view.measurement.snapshot(), {view.name: view.job_result}, about)
     assert f"{TRUE}° (" in page["html"]
     assert "Which length" in page["html"]
 
@@ -139,7 +139,7 @@ def test_of_a_file_it_needs_a_machine_that_is_said_to_be_known() -> None:
     assert "true" not in view.sentence(MODEL)
     view = view_of(made, KNOWN)
     assert view.sentence(MODEL).startswith(f"{TRUE}° (")
-    assert made.sizing() is view.found.sizing
+    assert made.sizing() is view.job_result.sizing
     made._scene_now = lambda: OTHER.replace(extent=0.1)
     assert made.sizing() is not None, "the length on the slider does not count"
     made._scene_now = lambda: OTHER.replace(fy=-150.0)
@@ -177,7 +177,7 @@ def test_it_begins_by_itself_once_entry_and_exit_are_known_and_can_be_cancelled(
         view.say(MODEL, "")
         while made._jobs.busy(SIZING):
             await asyncio.sleep(0.01)
-        return began, view.found is None, view
+        return began, view.job_result is None, view
 
     began, without, view = run(go())
     assert began

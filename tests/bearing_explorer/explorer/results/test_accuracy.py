@@ -159,7 +159,7 @@ def test_an_experiment_is_shown_point_by_point_and_read_from_its_file(
         assert other.errors == pytest.approx(our.errors, rel=1e-3)
         assert other.in_use == our.in_use
     view = Accuracy(PackedSource())
-    view.found = Found(RIG, measured)
+    view.job_result = Found(RIG, measured)
     assert f"Measured on this machine: {measured.count} points" in view.sentence(Results(RIG))
     assert set(view.table(Results(RIG))["experiment"]) == {"statics"}
 

@@ -171,7 +171,7 @@ def test_the_view_marks_the_scene_and_says_what_is_to_be_seen() -> None:
     assert image.glyph.global_alpha == 1.0  # as opaque as can be
     assert words.startswith("9 × 7 points. k_yy, mean: least")
     assert "9 points have no answer, most often: nothing touches" in words
-    view.found = coarse(view._request.of(results))
+    view.job_result = coarse(view._request.of(results))
     table = view.table(results)
     fine = {"cage_angles_a_period"}
     assert set(table) == {"extent_deg", "fy_n", "k_yy_mean_n_per_m", "no_answer_because"} | fine

@@ -34,7 +34,7 @@ def run() -> FoundRun:
 
 def test_rows_are_speeds_and_columns_frequencies(run: FoundRun) -> None:
     view = SpeedRunSpectra(PackedSource())
-    view.found = run
+    view.job_result = run
     sources, ranges = view.data(Results(RIG))
     packed = sources["speed_run_cells_y"]["packed"]
     n, m = int(packed[1]), int(packed[0])
@@ -51,7 +51,7 @@ def test_rows_are_speeds_and_columns_frequencies(run: FoundRun) -> None:
 
 def test_marched_speeds_are_marked_and_told(run: FoundRun) -> None:
     view = SpeedRunSpectra(PackedSource())
-    view.found = run
+    view.job_result = run
     assert run.run.from_orbit.tolist() == [True, False, True]
     results = Results(RIG)
     assert view.data(results)[0]["speed_run_marched"]["speed"].tolist() == [30.0]

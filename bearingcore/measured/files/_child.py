@@ -58,7 +58,6 @@ def read_file(
     name: str,
     content: bytes,
     *,
-    text_only: bool = False,
     most_numbers: int = MOST_NUMBERS,
     most_columns: int = MOST_COLUMNS,
     give_up: Callable[[], bool] | None = None,
@@ -71,8 +70,6 @@ def read_file(
         of the file, for sentences; ".mat" at its end marks MATLAB's version 4.
     content
         the whole file.
-    text_only
-        take the content for text, whatever it begins with.
     most_numbers, most_columns
         that are taken.
     give_up
@@ -90,7 +87,7 @@ def read_file(
     FieldError
         for a damaged, empty or mis-shaped file, or one that takes too much time or memory.
     """
-    limits = [PROCESSOR_SECONDS, MEMORY, most_numbers, most_columns, text_only]
+    limits = [PROCESSOR_SECONDS, MEMORY, most_numbers, most_columns]
     try:
         child = subprocess.Popen(
             [sys.executable, "-I", str(_PROGRAM)],

@@ -129,44 +129,6 @@ COLLECTIONS = (
         sample_rate=64_000.0, bearing="6203, Paderborn",
     ),
     Collection(
-        "Ottawa (speeds that change)", "channels and name", variable="Channel_1",
-        file=r"^[HIOBC]-[ABCD]-\d", signals="Channel_1", sample_rate=200_000.0,
-        bearing="ER-16K, Ottawa",
-    ),
-    Collection(
-        "Ottawa (UORED-VAFCLS)", "rows and name", file=r"^[HIOBC]_\d+_\d", rows=420_000,
-        sample_rate=42_000.0, rpm=1750.0, signals=r"(.*\(:,1\)|column 1|[Aa]ccel.*)",
-    ),
-    *(
-        Collection(
-            "DIRG", "variable named", variable=rf"{test}\dA_\d{{3}}_\d{{3}}_\d\(:,\d\)",
-            file=rf"({test}\dA_(?P<Hz>\d{{3}})_)?", widths=(6,), unit="m/s²", sample_rate=rate,
-            orders=(3.889, 6.111), place="bearing 1",
-            places=("bearing 1",) * 3 + ("bearing 2",) * 3,
-            directions=("z", "x", "y") * 2,
-        )
-        for test, rate in (("C", 51_200.0), ("E", 102_400.0))
-    ),
-    *(
-        Collection(
-            "HUST (Hanoi)", "variable and name", variable="data", file=rf"^[BION]+{size}0[024]\.",
-            sample_rate=51_200.0, bearing=f"620{size}",
-        )
-        for size in range(4, 9)
-    ),
-    Collection(
-        "HUST (Huazhong)", "name", file=r"^(0\.5X_)?[HIOBC]_(?P<Hz>\d+)Hz", sample_rate=25_600.0,
-        unit="g", bearing="ER-16K, Ottawa",
-    ),
-    Collection(
-        "JNU", "one column and the name", file=r"^(n|ib|ob|tb)(?P<rpm>\d{3,4})(_\d)*\.",
-        widths=(1,), headed=False, sample_rate=50_000.0, bearing="NU205",
-    ),
-    Collection(
-        "UESTC", "variables and name", variable="Data", scalars=("SampleFrequency",),
-        file=r"(^[NBIO]_(?P<rpm>\d{3,4})_\d)?", sample_rate=20_000.0,
-    ),
-    Collection(
         "HIT-SM", "variable and name", variable=r"[a-z]+\d+_\d+", rows=262_144, widths=(1,),
         file=r"(^\D+\d?_(?P<rpm>\d{3,4})\.)?", sample_rate=51_200.0, bearing="6205",
     ),

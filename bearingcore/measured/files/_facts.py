@@ -154,23 +154,7 @@ def _read_below(names: str, values: str) -> Iterator[Named]:
             yield Named(name, value, unit_in(name))
 
 
-_RANGE = re.compile(
-    rf"\s*([:=])\s*({_NUMBER})\s*(?:-|–|\.\.\.?|to|bis)\s*({_NUMBER})\s*([\w/]+)", re.IGNORECASE
-)
-MIDDLE = "middle of"
-"""In the name of a number that a file gives as a range, which is a guess."""
-
-
-def _middle(match: re.Match[str]) -> str:
-    """A narrow range, "speed: 1750-1790 rpm", as its middle."""
-    low, high = _number(match[2]), _number(match[3])
-    if low is None or high is None or not low < high <= 1.5 * low:
-        return match[0]
-    return f" ({MIDDLE} {low:g} to {high:g}){match[1]} {0.5 * (low + high):g} {match[4]}"
-
-
 def _read_line(line: str) -> Iterator[Named]:
-    line = _RANGE.sub(_middle, line)
     match = _REMARK.fullmatch(line)
     cells = [cell.strip(' "') for cell in re.split("\t" if "\t" in line else "[;,]", line)]
     several = len(cells) > 2 and re.match(r"[^\W\d]", cells[0]) and _number(cells[1]) is not None
@@ -316,8 +300,7 @@ def _speed_of(named: Named, rated: bool) -> Finding[float] | None:
     if not (math.isfinite(value) and value > 0.0):
         return None
     if "rpm" in key or (unit == "rpm" and not _OTHER_SPEED.search(named.name)):
-        stated = MIDDLE not in named.name
-        return Finding(value * SPEEDS["rpm"], words, stated, strong=True, file_unit="rpm")
+        return Finding(value * SPEEDS["rpm"], words, file_unit="rpm")
     if key in _FREQUENCIES | _SPEEDS and unit is not None and unit in SPEEDS:
         return Finding(value * SPEEDS[unit], words, file_unit=unit)
     if key in _FREQUENCIES:

@@ -175,19 +175,6 @@ def data_frame(content: bytes, variables: Variables) -> None:
     _columns(frame, variables)
 
 
-def cells(content: bytes, variables: Variables) -> None:
-    """Columns of a text that has signals in its cells, each between brackets."""
-    import pandas as pd
-
-    text = content.decode("utf-8", "replace")
-    heading = text.partition("\n")[0]
-    frame = pd.read_csv(io.StringIO(text), sep=max(";\t,", key=heading.count))
-    for name in frame.columns[(frame.iloc[0].astype(str).str.strip().str[:1] == "[").to_numpy()]:
-        signals = [np.array(re.findall(r"[^\s,;\[\]]+", cell), float) for cell in frame[name]]
-        frame[name] = pd.Series(signals, dtype=object)
-    _columns(frame, variables)
-
-
 def _columns(frame: Any, variables: Variables) -> None:
     for name in frame.columns:
         values = frame[name]

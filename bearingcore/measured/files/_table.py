@@ -409,14 +409,7 @@ def read_table(name: str, content: bytes, give_up: Callable[[], bool] | None = N
     ValueError
         for a damaged, empty, huge or mis-shaped file, with the reason in one sentence.
     """
-    size = len(content)
-    if size > MOST_BYTES:
-        raise checks.refuse(
-            f"size of {name}",
-            f"{size / 2**20:.0f} MB",
-            f"at most {MOST_BYTES >> 20} MB: split it by rows into files of that size and join "
-            "their tables, or export a shorter part",
-        )
+    check_bytes(name, len(content))
     about, columns = read_file(name, content, give_up=give_up)
     if inside := about.get("inside"):
         raise checks.refuse(
@@ -428,6 +421,17 @@ def read_table(name: str, content: bytes, give_up: Callable[[], bool] | None = N
     for words in ("names", "remarks", "stamps", "notes"):
         about[words] = tuple(about.get(words, ()))
     return _fill_skipped_rows(Table(columns=columns, **{"name": name, **about}))
+
+
+def check_bytes(name: str, size: int) -> None:
+    """Refuse a file of more than MOST_BYTES."""
+    if size > MOST_BYTES:
+        raise checks.refuse(
+            f"size of {name}",
+            f"{size / 2**20:.0f} MB",
+            f"at most {MOST_BYTES >> 20} MB: split it by rows into files of that size and join "
+            "their tables, or export a shorter part",
+        )
 
 
 def _fill_skipped_rows(table: Table) -> Table:

@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from bearingcore.common import Array, _checks as checks, thousands
 from bearingcore.measured.files._channels import TIME, column_of
-from bearingcore.measured.files._facts import GREATEST_STATED, named_in, names_a_fact, units_said
+from bearingcore.measured.files._facts import named_in, names_a_fact, units_said
 from bearingcore.measured.files._units import UNITS, unit_in, unit_named
 from bearingcore.recordings import FEWEST_SAMPLES
 
@@ -80,7 +80,7 @@ def read_text(
     FieldError
         saying what is wrong, and in which line.
     """
-    content = _tabulate_labels(_decode_to_utf8(name, content))
+    content = _decode_to_utf8(name, content)
     # the first lines that are numbers tell how all are written: delimiter, decimal sign, width
     style, begin, remarks = _beginning(name, content)
     if style.width > min(LONG_ROW, most_columns):
@@ -94,154 +94,66 @@ def read_text(
                 style.width,
                 f"at most {most_columns}: leave out some, or write each signal in a row",
             )
-    read, sensors, said, notes = _read_numbers(name, content, begin, style, remarks, most_numbers)
+    read, said, notes = _read_numbers(name, content, begin, style, remarks, most_numbers)
     headings = _headings(remarks, style, read)  # of the remarks above, the line that names columns
     if headings and any(column_of(name).role == TIME for name in headings):
-        whole = ~np.isnan(read).all(axis=1)  # what is missing there shows in the times
-        read, sensors = read[whole], None if sensors is None else sensors[whole]
+        read = read[~np.isnan(read).all(axis=1)]  # what is missing there shows in the times
     # columns of words were read as gaps; a date is one that the style knows, and stays
     kept = [i for i in range(style.width) if i in style.stamps or not np.isnan(read[:, i]).all()]
     if kept:
         read, headings = read[:, kept], headings and [headings[i] for i in kept]
     stamps = [kept.index(i) for i in style.stamps]
-    if headings is None:
-        # without names the first rows may be no samples but say the start and the rate
-        read, lines, more = _split_start(read)
-        said, notes = said + lines, notes + more
-    elif sensors is None:
-        sensors = _numbers_of_sensors(read, headings)
-    # rows of several sensors one after the other have no common time until they are side by side
-    if sensors is not None and not _goes_through(read, headings, stamps, sensors):
-        read, headings, stamps = _side_by_side(name, read, headings, stamps, sensors)
-        which = ", ".join(dict.fromkeys(sensors))
-        notes.append(f"Rows of several sensors ({which}) are put side by side.")
+    for index, heading in enumerate(headings or ()):
+        if _SENSOR.fullmatch(heading.strip()):
+            refuse_mixed_rows(name, read[:, index])
     return _about(read, headings, remarks + said, stamps, notes)
 
 
 def _read_numbers(
     name: str, content: bytes, begin: int, style: _Style, remarks: list[str], most_numbers: int
-) -> tuple[Array, NDArray[Any] | None, list[str], list[str]]:
-    """Numbers from a byte on, the sensors of their rows, words among them, and notes on these."""
+) -> tuple[Array, list[str], list[str]]:
+    """Read the numbers from a byte on, words among them, and notes on these."""
     body = content[begin:]
     said: list[str] = []
     notes: list[str] = []
     most_rows = most_numbers // style.width + 1
-    numbers = _numbers(body, style, most_rows)
-    if numbers is None:  # some lines hold something else
+    read = _numbers(name, body, style, most_rows)
+    if read is None:  # some lines hold something else
         above = content.count(b"\n", 0, begin) + 1
         body, notes, said = _mended(name, body, style, above, remarks)
-        numbers = _numbers(body, style, most_rows)
-    if numbers is None:
+        read = _numbers(name, body, style, most_rows)
+    if read is None:
         raise checks.refuse("file", name, READABLE)
-    read, sensors = numbers
     if read.size > most_numbers:
         raise checks.refuse(
             f"count of numbers in {name}",
             f"over {most_numbers}",
             f"at most {most_numbers}; split it by rows and join the parts",
         )
-    return read, sensors, said, notes
-
-
-_SINCE_1970 = (1e9, 2.2e9)
-"""Seconds since 1970 from 2001 to 2039."""
-
-FAR_ABOVE = 50.0
-"""Times all that follows: a number that is no sample among them."""
-
-
-def _split_start(columns: Array) -> tuple[Array, list[str], list[str]]:
-    """Numbers without lines at the beginning that say start, count and rate; what they say.
-
-    Wristbands of Empatica write the start, in seconds since 1970, and then the rate, in each
-    column; others the count of samples, or what may be the rate.
-    """
-    start = False
-    lines: list[str] = []
-    used: list[str] = []
-    while len(columns) > FEWEST_SAMPLES and len(used) < 3:
-        value = float(columns[0, 0])
-        if not (columns[0] == value).all() or value != round(value):
-            break
-        rest = FAR_ABOVE * float(np.nanmax(np.abs(columns[3:]), initial=0.0))
-        if start and 1.0 <= value <= GREATEST_STATED:
-            lines.append(f"sample rate {value:.10g} Hz")
-        elif value <= rest or value < FEWEST_SAMPLES or not rest:
-            break
-        elif not _SINCE_1970[0] < value < _SINCE_1970[1] and len(columns) - value not in (1, 2):
-            lines.append(f"{value:.10g} Hz")
-        start = not used and _SINCE_1970[0] < value < _SINCE_1970[1]
-        used.append(f"{value:.10g}")
-        columns = columns[1:]
-    words = "They say start, count or rate, and are no samples"
-    return columns, lines, [f"Above the numbers: {', '.join(used)}. {words}."] if used else []
+    return read, said, notes
 
 
 _SENSOR = re.compile(r"(?i)(sensor|channel|axis|device|node)([ _.-]?(id|no|nr|num|number|index))?")
 
 
-def _numbers_of_sensors(columns: Array, headings: Sequence[str]) -> NDArray[Any] | None:
-    """Names of the sensors of all rows where a column counts them; None where none does."""
-    for i, heading in enumerate(headings):
-        if _SENSOR.fullmatch(heading.strip()) and len(headings) > 1:
-            names = np.array([f"{heading} {value:g}" for value in columns[:, i].tolist()])
-            if are_sensors(names):
-                return names
-    return None
+def refuse_mixed_rows(name: str, labels: NDArray[Any], columns: Iterable[Array] = ()) -> None:
+    """Refuse rows whose labels (n,) are those of several sensors, in turn or as equal blocks.
 
-
-def are_sensors(names: NDArray[Any]) -> bool:
-    """Whether words of all rows name the sensors or records that the rows are of, in turn or as
-    blocks of one length.
+    Read as one signal they would be a vibration that no sensor has measured. Where times, in one of
+    the `columns` of numbers, rise through all blocks, they are labels along one signal.
     """
-    labels, counts = np.unique(names, return_counts=True)
-    if not 1 < len(labels) <= MOST_SIGNALS_MIXED or len(names) < FEWEST_SAMPLES:
-        return False
-    changes = int((names[1:] != names[:-1]).sum())
-    blocks = changes + 1 == len(labels) and counts.min() == counts.max() >= FEWEST_SAMPLES
-    return changes > MOST_CHANGES * len(names) or bool(blocks)
-
-
-def _goes_through(
-    columns: Array, headings: Sequence[str] | None, stamps: Sequence[int], names: NDArray[Any]
-) -> bool:
-    """Whether times rise through blocks of words: these are labels along one signal."""
-    timed = {i for i, heading in enumerate(headings or ()) if column_of(heading).role == TIME}
-    blocks = int((names[1:] != names[:-1]).sum()) + 1 == len(np.unique(names))
-    return blocks and any((np.diff(columns[:, i]) > 0.0).all() for i in timed | set(stamps))
-
-
-def _side_by_side(
-    name: str,
-    columns: Array,
-    headings: Sequence[str] | None,
-    stamps: Sequence[int],
-    sensors: NDArray[Any],
-) -> tuple[Array, list[str], list[int]]:
-    """Rows of several sensors as columns of each; times, and what all have alike, once."""
-    names = list(dict.fromkeys(sensors.tolist()))
-    several = [columns[sensors == label] for label in names]
-    size = min(map(len, several))
-    if max(map(len, several)) > size + 1:  # the last row may be of the first
+    names, counts = np.unique(labels, return_counts=True)
+    if not 1 < len(names) <= MOST_SIGNALS_MIXED or len(labels) < FEWEST_SAMPLES:
+        return
+    changes = int((labels[1:] != labels[:-1]).sum())
+    blocks = changes + 1 == len(names) and counts.min() == counts.max() >= FEWEST_SAMPLES
+    rises = any((np.diff(c) > 0.0).all() and not _counts_rows(c) for c in columns)
+    if (blocks and not rises) or changes > MOST_CHANGES * len(labels):
         raise checks.refuse(
-            f"column of {', '.join(names[:4])} in {name}",
-            "words that change from row to row",
-            "as many rows of each: bring those of each word into columns or files of their own",
+            f"column of {', '.join(map(str, names[:4]))} in {name}",
+            "rows of several sensors",
+            "a column for each sensor, or a file for each",
         )
-    several = [part[:size] for part in several]
-    made: list[Array] = []
-    heads: list[str] = []
-    times = []
-    for i, heading in enumerate(headings or [f"column {k + 1}" for k in range(columns.shape[1])]):
-        if _SENSOR.fullmatch(heading.strip()):
-            continue
-        times += [len(made)] * (i in stamps)
-        signals = [part[:, i] for part in several]
-        once = i in stamps or column_of(heading).role == TIME
-        once = once or all(np.array_equal(count, signals[0], equal_nan=True) for count in signals)
-        made += signals[:1] if once else signals
-        heads += [heading] if once else [f"{label}: {heading}" for label in names]
-    return np.column_stack(made), heads, times
 
 
 def _decode_to_utf8(name: str, content: bytes) -> bytes:
@@ -258,35 +170,6 @@ def _decode_to_utf8(name: str, content: bytes) -> bytes:
     if re.match(rb"\s*\[", content) and b"\n" not in content.strip():
         content = content.translate(None, b"[]")  # one array as NumPy and MATLAB show it
     return content if b"\n" in content else content.replace(b"\r", b"\n")
-
-
-_LABELLED = re.compile(
-    r"([^\W\d][\w .()-]{0,30}?) ?[:=]\s*([-+]?\d*\.?\d+(?:[eE][-+]?\d+)?) ?([a-zA-Z/²]{1,5}|%)?"
-    r"[,;\s]*(?=[^\W\d]|$)"
-)
-"""A number with its name before it, as Arduinos write all of a line: "ax: 0.12g, ay: 9.81g"."""
-
-
-def _tabulate_labels(content: bytes) -> bytes:
-    """Lines of such numbers as a table with a heading; any other text as it is."""
-
-    def labels(line: str) -> list[tuple[str, str, str]]:
-        matches = [*_LABELLED.finditer(line[:LONGEST_REMARK])] if ":" in line or "=" in line else []
-        whole = "".join(match[0] for match in matches) == line
-        return [(match[1].strip(), match[2], match[3] or "") for match in matches] if whole else []
-
-    first = [_decoded(line).strip() for line in islice(io.BytesIO(content), SAMPLE)]
-    heads = [[(name, unit) for name, _, unit in labels(line)] for line in first]
-    named = heads[-1]
-    if not named or 2 * heads.count(named) < len(heads) or len(heads) < SAMPLE:
-        return content
-    heading = [",".join(f"{name} [{unit}]" if unit else name for name, unit in named)]
-    made: list[str] = []
-    for line in content.splitlines():
-        said = labels(text := _decoded(line).strip())
-        made += [heading.pop()] if said and heading else []
-        made.append(",".join(value for _, value, _ in said) if said else text)
-    return "\n".join(made).encode()
 
 
 def _about(
@@ -767,13 +650,8 @@ def _counts_rows(column: Array) -> bool:
 # -- numbers ---------------------------------------------------------------------------------------
 
 
-def _numbers(
-    body: bytes, style: _Style, most_rows: int
-) -> tuple[Array, NDArray[Any] | None] | None:
-    """The numbers (n, width) of lines; None where one of them is not `width` numbers and gaps.
-
-    With the names (n,) of the sensors that rows are of, where columns of words hold those.
-    """
+def _numbers(name: str, body: bytes, style: _Style, most_rows: int) -> Array | None:
+    """The numbers (n, width) of lines; None where one of them is not `width` numbers and gaps."""
     import pandas as pd
 
     width = style.width
@@ -798,18 +676,16 @@ def _numbers(
         )
     except ValueError:  # of what is no number; pandas' own errors of lines that are too long too
         return None
-    sensors = None
-    for index in style.words:
-        words = frame[index].fillna("").to_numpy(dtype=str)
-        if are_sensors(words):
-            sensors = words if sensors is None else np.char.add(np.char.add(sensors, " "), words)
-        frame[index] = np.nan
+    words = [frame[index].fillna("").to_numpy(dtype=str) for index in style.words]
+    frame[list(style.words)] = np.nan
     columns = frame.to_numpy(dtype=float)
+    for labels in words:
+        refuse_mixed_rows(name, labels, columns.T)
     unsure = not np.isnan(columns[:, width]).all() or np.isnan(columns[:, width - 1]).any()
     lines = io.BytesIO(body)
     if unsure and next(_wrong_lines(lines, style), None) is not None:
         return None  # pandas fills short lines
-    return columns[:, :width], sensors
+    return columns[:, :width]
 
 
 def _wrong_lines(

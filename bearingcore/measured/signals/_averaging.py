@@ -71,19 +71,6 @@ class BallPasses:
         around = self.power - np.abs(self.harmonics) ** 2
         return np.asarray(np.maximum(around, 0.0) / max(self.n_passes - 1, 1))
 
-    @property
-    def noise_power(self) -> Array:
-        """Noise (N, d) in `power`: the quiet fifth of what differs from pass to pass, half an
-        octave around each harmonic, as what moves irregularly differs too.
-        """
-        around = np.maximum(self.power - np.abs(self.harmonics) ** 2, 0.0)
-        order = np.arange(1, len(around) + 1)
-        noise = np.empty_like(around)
-        for index, number in enumerate(order.tolist()):
-            near = (order >= number / 1.42 - 1.0) & (order <= number * 1.42 + 1.0)
-            noise[index] = np.quantile(around[near], 0.2, axis=0)
-        return noise
-
     def waveform(self, n: int) -> Array:
         """The mean pass as n samples (n, d)."""
         full = np.zeros((n // 2 + 1, self.harmonics.shape[1]), dtype=complex)

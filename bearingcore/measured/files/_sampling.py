@@ -153,16 +153,6 @@ def single_gaps(whole: NDArray[np.bool_]) -> NDArray[np.intp]:
     return single if single.size <= MOST_SINGLE * whole.size else single[:0]
 
 
-def skipped_rows(time: Array) -> NDArray[np.intp]:
-    """Rows before which exactly one is missing, where times are even but for a few such steps."""
-    steps = np.diff(time)
-    usual = float(np.median(steps)) if steps.size and np.isfinite(steps).all() else 0.0
-    counts = np.round(steps / usual) if usual > 0.0 else steps
-    few = 0 < np.count_nonzero(counts == 2.0) <= MOST_SINGLE * time.size
-    even = few and np.isin(counts, (1.0, 2.0)).all()
-    return np.flatnonzero(counts == 2.0) + 1 if even else np.arange(0)
-
-
 def sampling_of(time: Array, unit: float = 1.0) -> Sampling:
     """Sample rate and faults of a column of times in `unit` [s]."""
     n = len(time)

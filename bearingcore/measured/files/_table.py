@@ -20,7 +20,7 @@ from bearingcore.common import Array, _checks as checks, cached_property, count,
 from bearingcore.measured.files._channels import OTHER, ROLES, SIGNAL, SPEED, TIME, Column
 from bearingcore.measured.files._child import MOST_NUMBERS, read_file
 from bearingcore.measured.files._contents import FileColumns, FileContents, contents_of
-from bearingcore.measured.files._sampling import long_parts, longest_run, single_gaps, skipped_rows
+from bearingcore.measured.files._sampling import long_parts, longest_run, single_gaps
 from bearingcore.measured.files._shaft_angle import angle_columns, shaft_angle
 from bearingcore.measured.files._units import (
     PULSE_TRAIN,
@@ -420,7 +420,7 @@ def read_table(name: str, content: bytes, give_up: Callable[[], bool] | None = N
         )
     for words in ("names", "remarks", "stamps", "notes"):
         about[words] = tuple(about.get(words, ()))
-    return _fill_skipped_rows(Table(columns=columns, **{"name": name, **about}))
+    return Table(columns=columns, **{"name": name, **about})
 
 
 def check_bytes(name: str, size: int) -> None:
@@ -432,19 +432,6 @@ def check_bytes(name: str, size: int) -> None:
             f"at most {MOST_BYTES >> 20} MB: split it by rows into files of that size and join "
             "their tables, or export a shorter part",
         )
-
-
-def _fill_skipped_rows(table: Table) -> Table:
-    """The table with a row of gaps wherever the times skip exactly one."""
-    timed = [i for i, column in enumerate(table.contents.columns) if column.role == TIME]
-    rows = skipped_rows(table.columns[:, timed[0]]) if len(timed) == 1 else np.arange(0)
-    if not rows.size:
-        return table
-    columns = np.insert(table.columns, rows, np.nan, axis=0)
-    made = rows + np.arange(rows.size)
-    columns[made, timed[0]] = 0.5 * (columns[made - 1, timed[0]] + columns[made + 1, timed[0]])
-    words = f"The times skip single rows, {rows.size} in all, which count as missing."
-    return dataclasses.replace(table, columns=columns, notes=(*table.notes, words))
 
 
 def join_tables(tables: Sequence[Table]) -> Table:

@@ -85,7 +85,7 @@ def read_text(
     style, begin, remarks = _beginning(name, content)
     if style.width > min(LONG_ROW, most_columns):
         # few long rows are signals, not columns
-        turned = _signals_in_rows(content[begin:], style, remarks, most_numbers, most_columns)
+        turned = _signals_in_rows(name, content[begin:], style, remarks, most_numbers, most_columns)
         if turned is not None:
             return turned
         if style.width > most_columns:
@@ -765,9 +765,9 @@ def _lacking(lines: Sequence[tuple[int, str]]) -> list[str]:
 
 
 def _signals_in_rows(
-    body: bytes, style: _Style, remarks: list[str], most_numbers: int, most_columns: int
+    name: str, body: bytes, style: _Style, remarks: list[str], most_numbers: int, most_columns: int
 ) -> tuple[dict[str, Any], Array] | None:
-    """Signals that are written in a row each, behind facts of each; None for any other table."""
+    """Read signals that are written in a row each; None for any other table."""
     width = style.width
     most_rows = min(most_columns if width > most_columns else LONG_ROW, width)
     lines = list(islice(_lines_of_numbers(io.BytesIO(body)), most_rows + 1))
@@ -776,25 +776,11 @@ def _signals_in_rows(
     whole = [row[:width] for row in rows if row is not None and len(row) in (width, width + 1)]
     if width < FEWEST_SAMPLES or not len(whole) == len(rows) <= most_rows:
         return None
-    heads = _cells(remarks[-1], style.delimiter) if remarks else []
-    count = _count_of_facts(heads, width)
-    columns = np.delete(np.array(whole).T, [*range(count), *style.words], axis=0)
+    if remarks and len(_cells(remarks[-1], style.delimiter)) >= width:  # facts before the samples
+        allowed = "a column for each signal: turn the table, without the facts before its samples"
+        raise checks.refuse("file", name, allowed)
+    columns = np.delete(np.array(whole).T, style.words, axis=0)
     if columns.size > most_numbers:
         return None
-    cells = [_cells(line, style.delimiter) for line in lines]
-    named = count > 0 or style.words == (0,)
-    names = [row[0] for row in cells] if named else _headings(remarks, style, columns)
-    # what all rows say alike is said of the file
-    facts = [(heads[i], {row[i] for row in cells}) for i in range(count)]
-    said = [f"{head}: {values.pop()}" for head, values in facts if len(values) == 1]
-    return _about(columns, names, (remarks[:-1] if count else remarks) + said)
-
-
-def _count_of_facts(headings: Sequence[str], width: int) -> int:
-    """Count the first columns that are no samples, by headings such as "time, fs, s0, s1, ..."."""
-    ends = [re.search(r"(\d+)\W*$", heading) for heading in headings]
-    numbers = [int(end[1]) if end else None for end in ends]
-    if len(numbers) != width or numbers[-1] is None:
-        return 0
-    first = numbers[-1] - width + 1
-    return max((i + 1 for i, number in enumerate(numbers) if number != first + i), default=0)
+    named = [_cells(line, style.delimiter)[0] for line in lines] if style.words == (0,) else None
+    return _about(columns, named or _headings(remarks, style, columns), remarks)

@@ -284,6 +284,10 @@ def matlab_table() -> bytes:
     ("content", "told"),
     [
         (zipped(**{"[Content-Types]_xml": b"", "a_xml": b""}), "save its sheet as CSV"),
+        (
+            f"fs,{','.join(f's{i}' for i in range(N))}\n8000,{','.join(map(str, TIME))}".encode(),
+            "turn the table",
+        ),
         (b"Octave-1-L\x00", "save -v7"),
         (b"# Created by Octave 8.4.0\n# name: fs\n", "save -v7"),
         (f'date,a\n2024-03-12,"{SIGNAL[:, 0].tolist()}"\n'.encode(), "a number in each cell"),
@@ -848,10 +852,6 @@ FILES: list[tuple[bytes | str, dict[str, Any]]] = [
     *((note(f"{words}\nQuantity: Acceleration, g"), {"rate": RATE, "unit": "g"})
       for words in ("SampleTime[ms];0.125", "NI_CM_Dt,1.25e-4", "accel_odr_hz: 8000")),
     (rows(TIME, SIGNAL[:, 0], heading="t [s],Accel (G-s)"), {"unit": "g"}),
-    # signals in rows behind their facts
-    ("\n".join(",".join(map(str, row)) for row in (
-        ["time", "fs", *(f"s{i}" for i in range(N))], *(["10:00", 8000, *s] for s in SIGNAL.T))),
-     {"rate": RATE, "options": (0, 1)}),
     # a displacement or a temperature is no signal
     (rows(TIME, TIME, SIGNAL[:, 0], heading="gap [µm],temp [°C],acc [g]"),
      {"roles": ["other", "other", "signal"], "columns": {"y": 2}}),

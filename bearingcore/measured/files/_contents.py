@@ -37,6 +37,7 @@ from bearingcore.measured.files._sampling import (
     since_1970,
     times_of,
 )
+from bearingcore.measured.files._shaft_angle import FEWEST_PULSES, angle_columns, pulse_begins
 from bearingcore.measured.files._units import ACCELERATIONS, SPEEDS, TIMES, UNITS
 from bearingcore.recordings import FEWEST_SAMPLES
 from bearingcore.units import STANDARD_GRAVITY
@@ -202,7 +203,7 @@ def contents_of(table: FileColumns) -> FileContents:
         choice,
         _unit(table, columns, picked, known),
         rate,
-        speed,
+        speed or _speed_of_pulses(table, columns, rate, sampling),
         facts.load_in(named) or known.load,
         sampling,
         said,
@@ -498,6 +499,27 @@ def _speed(
                 unit = column.unit or ""
                 return Finding(mean * SPEEDS[unit], words, stated, file_unit=unit)
     return facts.shaft_speed_in([*named, *_constants(table)], table.name)
+
+
+def _speed_of_pulses(
+    table: FileColumns,
+    columns: Sequence[Column],
+    rate: Finding[float] | None,
+    sampling: Sampling | None,
+) -> Finding[float] | None:
+    """A guess at the shaft speed from a tachometer's pulses, as if each were a turn."""
+    for index in angle_columns(columns):
+        column = columns[index]
+        if rate is None or column.unit in SPEEDS:
+            continue
+        first, last = (None, None) if sampling is None else (sampling.first, sampling.last)
+        begins = pulse_begins(table.columns[first:last, index])
+        if len(begins) < FEWEST_PULSES:
+            continue
+        pulses = rate.value * (len(begins) - 1) / float(begins[-1] - begins[0])
+        words = f"{number(pulses, 4)} pulses a second in “{column.name}”, if one is a turn"
+        return Finding(pulses * SPEEDS["Hz"], words, False, False, file_unit="Hz")
+    return None
 
 
 def _constants(table: FileColumns) -> list[Named]:

@@ -13,7 +13,6 @@ from bearingcore.measured.diagnosis._of_files import (
 )
 from bearingcore.measured.diagnosis._part.combs import HARMONICS as HARMONICS
 from bearingcore.measured.diagnosis._part.diagnose import (
-    MOST_SAMPLES as MOST_SAMPLES,
     SLIP as SLIP,
 )
 from bearingcore.measured.diagnosis._part.evidence import (

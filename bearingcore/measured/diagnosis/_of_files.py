@@ -110,9 +110,8 @@ def diagnose(
         matter here.
     **more
         `slip` (0.02): largest relative difference between the true passing rate of the balls and
-        that by the shaft speed. `most_samples` (20,000,000): limit on the samples of all
-        directions; a longer signal is not analysed, and the status says so. `speed_source`,
-        `bearing_source`: "given", "from the file" or "assumed", with more words after a colon.
+        that by the shaft speed. `speed_source`, `bearing_source`: "given", "from the file" or
+        "assumed", with more words after a colon.
 
     Returns
     -------

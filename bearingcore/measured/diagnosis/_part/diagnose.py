@@ -48,10 +48,6 @@ CONTRADICTED = 0.5
 SOURCES = ("given", "from the file", "assumed")
 """Origins of a speed and a bearing; "given" is what a person has said of this measurement."""
 
-MOST_SAMPLES = 20_000_000
-"""Samples of all directions that are analysed at most by default: about a minute of
-one core, and some gigabytes."""
-
 
 def diagnose(
     recording: Recording,
@@ -59,7 +55,6 @@ def diagnose(
     shaft_speed: float | tuple[float, float] | None = None,
     *,
     slip: float = SLIP,
-    most_samples: int = MOST_SAMPLES,
     speed_source: str = "given",
     bearing_source: str = "given",
 ) -> Diagnosis:
@@ -78,9 +73,6 @@ def diagnose(
         turns a minute.
     slip
         by how much balls may pass faster or slower than the shaft speed says, as a fraction.
-    most_samples
-        of all directions that may be listened to. Where there are more nothing is begun, and the
-        status says how many there are.
     speed_source, bearing_source
         where a speed and a bearing are from, one of `SOURCES`, perhaps with its words behind a
         colon, as in "assumed: the scene's". The answer says it.
@@ -94,7 +86,7 @@ def diagnose(
     bearing = None if bearing is None else bearing_of(bearing)
     for name, said in (("speed_source", speed_source), ("bearing_source", bearing_source)):
         checks.choice(name, said.partition(":")[0], SOURCES)
-    diagnosis = _diagnose(recording, bearing, shaft_speed, slip, most_samples, speed_source)
+    diagnosis = _diagnose(recording, bearing, shaft_speed, slip, speed_source)
     return replace(diagnosis, bearing_source="unknown" if bearing is None else bearing_source)
 
 
@@ -103,15 +95,10 @@ def _diagnose(
     bearing: Bearing | None,
     shaft_speed: float | tuple[float, float] | None,
     slip: float,
-    most_samples: int,
     speed_source: str,
 ) -> Diagnosis:
     slip = checks.real_number("slip", slip, at_least=0.0, at_most=0.1)
     low, high, source = _speeds(recording, shaft_speed, speed_source)
-    most = checks.whole_number("most_samples", most_samples, at_least=1, at_most=10**12)
-    if recording.acceleration.size > most:
-        words = say.too_many(recording.acceleration.size, most)
-        return silent(DiagnosisStatus.TOO_LONG, words, source)
     measured = recording.shaft_angle is not None
     recording, low, high, source = at_steady_speed(recording, low, high, source)
     signal = ListenedSignal(recording)

@@ -12,7 +12,6 @@ from bearingcore.common import (
     percent_off,
     probability,
     span,
-    thousands,
 )
 from bearingcore.measured.diagnosis._part.evidence import OtherLines, PartEvidence
 from bearingcore.measured.diagnosis._part.mains import twice_mains
@@ -47,11 +46,6 @@ def too_short(duration: float, passes: float, fewest: int) -> str:
         f"{count(int(passes), 'ball pass', 'ball passes')}, and at least {fewest} are "
         "needed."
     )
-
-
-def too_many(samples: int, most: int) -> str:
-    """More to listen to than may be."""
-    return f"Too many samples: {thousands(samples)}, allowed are most_samples = {thousands(most)}."
 
 
 def too_slow(rate: float, needed: float) -> str:

@@ -45,7 +45,6 @@ class DiagnosisStatus(Status):
     )
     TOO_SHORT = "too short", "The recording holds too few ball passes."
     TOO_COARSE = "sampled too slowly", "The sample rate is too low to show how impacts repeat."
-    TOO_LONG = "too many samples", "The recording has more samples than are allowed."
     SPEED_CHANGES = (
         "speed changes",
         "The speed changes during the record, and was not measured beside the signal.",

@@ -251,7 +251,6 @@ def size_defect(
     passes = average_passes(
         recording.acceleration, recording.sample_rate, nominal, SLIP, lowest, highest,
         min(2.4 * highest, 0.4 * recording.sample_rate), follow=True,
-        shaft=scene.shaft_speed / (2.0 * math.pi),
     )  # fmt: skip
     search = _Search(scene, recording, passes, (lowest, highest))
     for extent in np.arange(SHORTEST, LONGEST, STEP).tolist():

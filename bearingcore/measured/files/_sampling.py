@@ -308,21 +308,15 @@ def _recordings(
 
 
 def _jumps(steps: Array, jumps: NDArray[np.intp], usual: float, shared: bool) -> str:
-    """Words on jumps; where rows share times the number of missing samples is not known."""
-    back = int((steps[jumps] <= 0.0).sum())
+    """Say where times jump; where rows share times the number of missing samples is not known."""
+    back = bool((steps[jumps] <= 0.0).any())
     # rounded times have rounded steps: only their mean is as long as a step is
-    even = np.delete(steps, jumps)
-    step = float(even.mean()) if even.size and not shared else usual
+    step = float(np.delete(steps, jumps).mean()) if len(steps) > len(jumps) else usual
     with np.errstate(over="ignore"):
         missing = float(np.maximum(np.round(steps[jumps] / step) - 1.0, 0.0).sum())
+    many = "" if shared or not missing else f" ({thousands(missing)} samples are missing)"
     times = "once" if jumps.size == 1 else f"{jumps.size} times"
-    words = f"The times jump {times}, first after row {jumps[0] + 1}"
-    remarks = []
-    if missing > 0.0 and not shared:
-        remarks.append(f"{thousands(missing)} sample{'s are' if missing > 1.0 else ' is'} missing")
-    if back:
-        remarks.append("back" if back == jumps.size else f"{back} times back")
-    return words + (f" ({', '.join(remarks)})" if remarks else "")
+    return f"The times jump {times}{', also back' * back}, first after row {jumps[0] + 1}{many}"
 
 
 def clock_columns(columns: Array) -> int:

@@ -21,7 +21,6 @@ from numpy.typing import NDArray
 from bearingcore.common import Array, _checks as checks
 from bearingcore.measured.signals._order_tracking import followed, smooth_lag
 from bearingcore.measured.signals._resampling import oversampled
-from bearingcore.measured.signals._shaft_tones import without_shaft_tones
 
 FEWEST_PASSES = 6
 """Below this an average says nothing about its own scatter."""
@@ -115,7 +114,6 @@ def average_passes(
     widest: float,
     *,
     follow: bool = False,
-    shaft: float | None = None,
     turns: float = 0.0,
 ) -> BallPasses:
     """Find the ball-pass frequency near `nominal` and average the signal over its passes.
@@ -132,8 +130,6 @@ def average_passes(
         how far off nominal the frequency may be, as a fraction of it.
     follow
         whether a cage that wanders is followed, see `order_tracking`.
-    shaft
-        turns a second [Hz] whose tones are taken out first; None to leave them.
     turns
         of the damage through the load zone in a ball pass, but for slip; 0 where it stays in its
         place. Passes of damage that turns are weighted by how loud its angle makes them.
@@ -163,8 +159,6 @@ def average_passes(
     frequency, prominence = _ball_pass_frequency(
         signal, sample_rate, nominal, slip, lowest, highest
     )
-    if shaft is not None:
-        signal = without_shaft_tones(signal, sample_rate, shaft, frequency)
     # with so many samples a cycle that a spline follows the signal
     factor = max(math.ceil(SAMPLES_A_CYCLE * widest / sample_rate), 1)
     signal, sample_rate = oversampled(signal, factor), factor * sample_rate

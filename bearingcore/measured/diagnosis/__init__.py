@@ -1,10 +1,10 @@
 """Diagnosis of the damaged part of a bearing from a measured signal."""
 
 from bearingcore.measured.diagnosis._extent.knocks import (
+    ExtentStatus as ExtentStatus,
     Knocks as Knocks,
     MeanPass as MeanPass,
     Pair as Pair,
-    Seen as Seen,
     find_knocks as find_knocks,
 )
 from bearingcore.measured.diagnosis._of_files import (

@@ -100,7 +100,7 @@ def release_offset(
 
 
 def _falls_to_zero(place: Array, compression: Array, last: int, away: int) -> float:
-    """Where a compression reaches 0 between its `last` value and the next place, straight on."""
+    """Return the place after the `last` value where a compression reaches 0, straight on."""
     slope = (compression[last + away] - compression[last]) / (place[last + away] - place[last])
     step = abs(compression[last] / slope) if slope else math.inf
     return float(place[last] - away * min(step, abs(place[last + away] - place[last])))

@@ -1,15 +1,15 @@
 """Diagnosis of the damaged part of a bearing from a measured signal."""
 
+from bearingcore.measured.diagnosis._diagnose_files import (
+    FolderDiagnosis as FolderDiagnosis,
+    diagnose as diagnose,
+)
 from bearingcore.measured.diagnosis._extent.knocks import (
     ExtentStatus as ExtentStatus,
     Knocks as Knocks,
     MeanPass as MeanPass,
     Pair as Pair,
     find_knocks as find_knocks,
-)
-from bearingcore.measured.diagnosis._of_files import (
-    FolderDiagnosis as FolderDiagnosis,
-    diagnose as diagnose,
 )
 from bearingcore.measured.diagnosis._part.combs import HARMONICS as HARMONICS
 from bearingcore.measured.diagnosis._part.diagnose import (

@@ -350,7 +350,7 @@ def _read_times(
 
 
 def _most_certain(samplings: Mapping[int, Sampling], names: Sequence[str]) -> Sampling | None:
-    """What the columns of times say, each by its index; where they disagree it is not sure."""
+    """Return the surest sampling of columns of times; not stated where two disagree."""
     if not samplings:
         return None
     time = max(samplings, key=lambda i: (samplings[i].stated, samplings[i].sample_rate is not None))
@@ -404,7 +404,7 @@ def _frequencies(table: FileColumns, columns: Sequence[Column], *, timed: bool) 
 
 
 def _counts(time: Array, column: Column) -> bool:
-    """Whether a column counts rows: 0, 1, 2, … is no time in seconds."""
+    """Return True if a column counts rows: 0, 1, 2, … is no time in seconds."""
     whole = bool(np.isfinite(time[0])) and time[0] == np.floor(time[0])
     return column.unit is None and whole and bool(np.all(np.diff(time) == 1.0))
 

@@ -57,7 +57,7 @@ class Finding(Generic[T]):
 
     @property
     def taken(self) -> bool:
-        """Whether it is taken without a question."""
+        """Return True if it is taken without a question."""
         return self.stated or self.strong
 
 
@@ -78,7 +78,7 @@ _STEADY = 0.02
 
 
 def is_steady(values: Array) -> bool:
-    """Whether numbers, such as those of a speed, vary so little that they count as one."""
+    """Return True if numbers, such as those of a speed, vary so little that they count as one."""
     return values.size > 0 and float(np.ptp(values)) <= _STEADY * float(values.mean())
 
 
@@ -187,7 +187,7 @@ def _read_unmarked(line: str) -> Iterator[tuple[str, str, str | None]]:
 
 
 def names_a_fact(line: str) -> bool:
-    """Whether a line says a rate, a speed or a load."""
+    """Return True if a line says a rate, a speed or a load."""
     keys = {_rate_key(item.name) for item in named_in([line])}
     return bool(keys & _FACTS) or any("rpm" in key for key in keys) or ":" in line or "=" in line
 

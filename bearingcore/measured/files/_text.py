@@ -106,7 +106,7 @@ def read_text(
     for index, heading in enumerate(headings or ()):
         if _SENSOR.fullmatch(heading.strip()):
             refuse_mixed_rows(name, read[:, index])
-    return _about(read, headings, remarks + said, stamps, notes)
+    return _text_fields(read, headings, remarks + said, stamps, notes)
 
 
 def _read_numbers(
@@ -172,7 +172,7 @@ def _decode_to_utf8(name: str, content: bytes) -> bytes:
     return content if b"\n" in content else content.replace(b"\r", b"\n")
 
 
-def _about(
+def _text_fields(
     columns: Array, headings: list[str] | None, remarks: list[str], *more: list[Any]
 ) -> tuple[dict[str, Any], Array]:
     names = headings or [f"column {i + 1}" for i in range(columns.shape[1])]
@@ -409,7 +409,7 @@ _TWO_WHOLE = re.compile(r"\s*(-?\d+),(\d+)\s*")
 
 
 def _looks_decimal(lines: Sequence[str]) -> bool:
-    """Whether "0,051" is one number with a comma rather than two: no one writes 051 or −0."""
+    """Return True if "0,051" is one number: no one writes 051 or −0 as a number of its own."""
     pairs = [_TWO_WHOLE.fullmatch(line) for line in lines]
     parts = [pair.groups() for pair in pairs if pair is not None]
     return len(parts) == len(lines) and any(
@@ -460,7 +460,7 @@ def _beginning(name: str, content: bytes) -> tuple[_Style, int, list[str]]:
 
 
 def _is_numbered(lines: Sequence[str]) -> bool:
-    """Whether the first line is the headings of a data frame with numbers for names: 0, 1, 2."""
+    """Return True if the first line has the headings of a data frame that are numbers: 0, 1, 2."""
     match = re.fullmatch(r'(?:"")?([,;\t]?)"?0"?(?:[,;\t]"?\d+"?)*', lines[0])
     names = re.findall(r"\d+", lines[0])
     counted = names == [str(index) for index in range(len(names))]
@@ -533,7 +533,7 @@ def _join_units(names: list[str], above: list[str] | None) -> list[str]:
 
 
 def _is_remark(line: str, style: _Style, width: int) -> bool:
-    """Whether a line says something else than the names of columns."""
+    """Return True if a line says something else than the names of columns."""
     said = ":" in line or "=" in line
     if width == 1:
         return not (unit_in(line) in UNITS and re.search(r"[\[(]", line)) and (
@@ -574,7 +574,7 @@ _UNIT_LIKE = re.compile(r"[\[(]?(?:[a-zA-Zµμ°%]{0,5}(?:[/·*]s(?:\^?2|²|\*\*
 
 
 def _are_units(cells: Sequence[str]) -> bool:
-    """Whether a line is of units: known ones, and others that look like one."""
+    """Return True if a line is of units: known ones, and others that look like one."""
     like = [bool(_UNIT_LIKE.fullmatch(cell)) for cell in cells]
     known = [_unit_alone(cell) is not None for cell in cells]
     return any(known) and all(a or b for a, b in zip(like, known, strict=True))
@@ -637,7 +637,7 @@ def _fit_width(names: list[str], style: _Style, columns: Array) -> list[str]:
 
 
 def _is_a_value(cells: Sequence[str]) -> bool:
-    """Whether cells are a name and its number, such as "block 3", and no names of columns."""
+    """Return True if cells are a name and its number, such as "block 3", not names of columns."""
     values = set(cells[1:])
     same = len(values) == 1 and "" not in values and _number(*values) is not None
     return same and _number(cells[0]) is None and column_of(cells[0]).role != TIME
@@ -783,4 +783,4 @@ def _signals_in_rows(
     if columns.size > most_numbers:
         return None
     named = [_cells(line, style.delimiter)[0] for line in lines] if style.words == (0,) else None
-    return _about(columns, named or _headings(remarks, style, columns), remarks)
+    return _text_fields(columns, named or _headings(remarks, style, columns), remarks)

@@ -266,7 +266,7 @@ def find_knocks(recording: Recording, nominal: float, slip: float, turns: float 
 
 
 def _jump(passes: BallPasses) -> float | None:
-    """When [s] the passes jump most; None where they are steady."""
+    """Return the time [s] at which passes jump most; None if they are steady."""
     if passes.begins is None:
         return None
     away = np.abs(np.diff(passes.begins) * passes.frequency - 1.0)
@@ -423,7 +423,7 @@ def _hidden(passes: Sequence[MeanPass]) -> float:
 
 
 def _fades(passes: Sequence[MeanPass], reached: float, ratios: Array) -> bool:
-    """Whether the later peak is fainter and gone in a clear band above those that show both.
+    """Return True if the later peak is fainter and gone in a clear band above those that show both.
 
     An exit is the sharper of the two. A ball that bounces and an echo fade so with frequency.
     """
@@ -432,7 +432,7 @@ def _fades(passes: Sequence[MeanPass], reached: float, ratios: Array) -> bool:
 
 
 def _is_clear(mean_pass: MeanPass) -> bool:
-    """Whether a second peak of the faintest kind would stand out of a band's noise."""
+    """Return True if a second peak of the faintest kind would stand out of a band's noise."""
     return FAINTEST * mean_pass.contrast > LEAST_SEEN
 
 

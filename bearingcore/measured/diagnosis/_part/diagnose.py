@@ -23,7 +23,10 @@ from bearingcore.measured.diagnosis._part.decide import ENOUGH_SWING, decide, si
 from bearingcore.measured.diagnosis._part.evidence import CANNOT_TELL, NONE_SEEN, Diagnosis
 from bearingcore.measured.diagnosis._part.judged import judge
 from bearingcore.measured.diagnosis._part.listened_signal import ListenedSignal, unfit
-from bearingcore.measured.diagnosis._part.over_turns import at_steady_speed, followed_change
+from bearingcore.measured.diagnosis._part.over_turns import (
+    followed_change,
+    resample_to_steady_speed,
+)
 from bearingcore.measured.diagnosis._part.parts import BALL, INNER, OUTER, PartLines, part_lines
 from bearingcore.measured.diagnosis._part.status import DiagnosisStatus
 from bearingcore.measured.diagnosis._part.unknown_speed import NARROW, diagnose_in_range
@@ -100,7 +103,7 @@ def _diagnose(
     slip = checks.real_number("slip", slip, at_least=0.0, at_most=0.1)
     low, high, source = _speeds(recording, shaft_speed, speed_source)
     measured = recording.shaft_angle is not None
-    recording, low, high, source = at_steady_speed(recording, low, high, source)
+    recording, low, high, source = resample_to_steady_speed(recording, low, high, source)
     signal = ListenedSignal(recording)
     if signal.unusable is not None:
         return silent(*signal.unusable, source)

@@ -188,5 +188,5 @@ def _known(designation: Finding[str] | None) -> Finding[str] | None:
 
 
 def _source(finding: Finding[Any], words: str = "") -> str:
-    """Where a fact is from, as `diagnose` says it."""
+    """Return the origin of a fact in the words of `diagnose`."""
     return "from the file" if finding.stated else f"assumed: {words}{finding.reason}"

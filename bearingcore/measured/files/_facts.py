@@ -374,22 +374,20 @@ def designation_in(lines: Iterable[str]) -> Finding[str] | None:
     return Finding(text, f"“{words}” in the file") if text and not others else None
 
 
-_UNITS = {
-    "unit", "units", "einheit", "einheiten", "yunit", "yunits", "yunitlabel", "unitstring",
-    "verticalunit", "verticalunits", "yaxisunit", "yaxisunits", "accelerationunit", "accunit",
-    "unity", "unitystring", "engineeringunit", "engineeringunits", "unitofmeasure", "ordinateunit",
-    "unitname", "valueunit", "valueunits", "unitdescription", "niunitdescription", "unitlabel",
-    "ylabel", "yaxis", "yaxislabel", "yaxistitle", "quantity", "measurand", "physicalquantity",
-    "dataunit", "dataunits", "signalunit", "channelunit", "sensorunit", "amplitudeunit",
-    "amplitudeunits", "measurementunit", "engunit", "engunits", "eu", "ordinate",
-    "measuredquantity", "zunit", "valueaxis",
-}  # fmt: skip
+_OF_A_UNIT = re.compile(
+    r"(ni|x?y|z|vertical|axis|accel(eration)?|acc|engineering|eng|data|signal|channel|sensor|value"
+    r"|amplitude|measure(d|ment)|physical|ordinate)*"
+    r"(units?|einheit(en)?|eu|quantity|measurand|ordinate)(string|label|name|description|ofmeasure)?"
+    r"|(y|vertical|value)(axis(label|title)?|label)"
+)
+"""The name of a unit or of a quantity, as a key: "yunitlabel", "unitstring", "measuredquantity"."""
 
 
 def unit_of(name: str, text: str) -> str | None:
     """The unit that words with a name such as "unit" or "quantity" give, or None."""
     bare = text.strip(" ;,\t\"'[]()")
-    return unit_named(bare) or unit_in(text.strip(' "')) if _key(name) in _UNITS else None
+    said = _OF_A_UNIT.fullmatch(_key(name))
+    return unit_named(bare) or unit_in(text.strip(' "')) if said else None
 
 
 def units_said(lines: Iterable[str], texts: Mapping[str, str]) -> list[str | None]:

@@ -19,9 +19,6 @@ from bearingcore.measured.files._facts import GREATEST_STATED, LEAST_STATED
 from bearingcore.measured.files._units import TIMES
 from bearingcore.recordings import FEWEST_SAMPLES
 
-MOST_NAMED = 4
-"""Recordings of one file whose lengths are named."""
-
 UNEVEN = 0.5
 """Greatest deviation of times from even steps, in steps: printed ones are rounded, but do not
 wander."""
@@ -256,7 +253,11 @@ def _sample_jumps(time: Array, steps: Array, unit: float) -> Sampling:
             parts = long_parts(pairwise(edges.tolist()))
             said, used = _jumps(steps, jumps, usual, shared), f"rows {first + 1} to {last} of {n}"
             if parts:
-                said = f"{_recordings(time, parts, (first, last), unit)}, {used}, is read. {said}."
+                number_read = parts.index((first, last)) + 1
+                said = (
+                    f"The file holds {len(parts)} recordings, or parts of one; number "
+                    f"{number_read}, {used}, is read unless another is chosen. {said}."
+                )
             else:
                 said += f". Only the longest part without a jump is used: {used}."
             even = _even(part)
@@ -293,18 +294,6 @@ def long_parts(parts: Iterable[Sequence[int]]) -> tuple[tuple[int, int], ...]:
     least = max(FEWEST_SAMPLES, SHORTEST_PART * longest)
     kept = tuple((first, last) for first, last in all_parts if last - first >= least)
     return kept if len(kept) > 1 else ()
-
-
-def _recordings(
-    time: Array, parts: Sequence[tuple[int, int]], read: tuple[int, int], unit: float
-) -> str:
-    """Beginning of a sentence on several recordings in one file, and on the one that is read."""
-    long = [with_prefix(float(time[b - 1] - time[a]) * unit, "s", 3) for a, b in parts]
-    spans = f"{', '.join(long[:-1])} and {long[-1]}" if len(long) <= MOST_NAMED else "many lengths"
-    return (
-        f"The file holds {len(parts)} recordings, or parts of one, of {spans}; unless another is "
-        f"chosen number {parts.index(read) + 1}"
-    )
 
 
 def _jumps(steps: Array, jumps: NDArray[np.intp], usual: float, shared: bool) -> str:

@@ -17,7 +17,6 @@ from bearingcore.measured.diagnosis._part.evidence import OtherLines, PartEviden
 from bearingcore.measured.diagnosis._part.mains import twice_mains
 from bearingcore.measured.diagnosis._part.parts import BALL
 from bearingcore.measured.diagnosis._part.probability import DEVIATIONS
-from bearingcore.measured.diagnosis._part.status import DiagnosisStatus
 
 FAR = 0.01
 """Of a race's frequency, by which its lines are off in 2 of 52 measured records that name one."""
@@ -276,8 +275,8 @@ def faint(part: PartEvidence) -> str:
 def which_bearing() -> str:
     """A signal, but no bearing."""
     return (
-        f"{DiagnosisStatus.BEARING_OPEN.sentence} Choose one of the list, or enter its designation "
-        "or its frequencies."
+        "Which part is damaged depends on the bearing, which is not known. Choose one of the list, "
+        "or enter its designation or its frequencies."
     )
 
 

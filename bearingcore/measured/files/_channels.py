@@ -42,12 +42,23 @@ PULSES = {
 }  # fmt: skip
 """Words for a tachometer's signal."""
 
-_NOT_SIGNALS = PULSES | {
-    "rpm", "speed", "drehzahl", "temperature", "temperatur", "temp", "current", "strom",
-    "torque", "drehmoment", "pressure", "druck", "power", "humidity", "flow", "microphone", "mic",
-    "load", "gyro", "gyroscope", "gyr", "magnetic",
-    "magnetometer", "quat", "quaternion", "displacement", "displ", "disp", "proximity", "prox",
-    "weg", "verschiebung", "amps", "courant", "currents", "sound",
+QUANTITIES = {
+    "an envelope": ("gE", ""),
+    "a current": ("A mA kA", "current currents strom amps courant"),
+    "a displacement": ("µm mm mil", "displacement displ disp proximity prox weg verschiebung"),
+    "a sound": ("Pa", "microphone mic sound"),
+    "a pressure": ("bar", "pressure druck"),
+    "a torque": ("Nm", "torque drehmoment"),
+    "a temperature": ("°C", "temperature temperatur temp"),
+    "a rotation": ("deg/s deg rad/s", "gyro gyroscope gyr"),
+    "a level": ("dB", "db"),
+    "a speed": ("rpm", "speed rpm drehzahl"),
+    "a tachometer's signal": ("", " ".join(PULSES)),
+}
+"""What is no vibration: its units, and words of its headings."""
+
+_NOT_SIGNALS = {word for _, words in QUANTITIES.values() for word in words.split()} | {
+    "power", "humidity", "flow", "load", "magnetic", "magnetometer", "quat", "quaternion",
 }  # fmt: skip
 _COUNTS = {"index", "sample", "samples", "row", "no"}
 """Words for a number of rows; in a name's last part alone: "samples.x" is a signal."""

@@ -12,17 +12,12 @@ from bearingcore.measured.files._child import MOST_COLUMNS, MOST_NUMBERS
 
 
 def read_here(
-    name: str,
-    content: bytes,
-    *,
-    most_numbers: int = MOST_NUMBERS,
-    most_columns: int = MOST_COLUMNS,
-    give_up: object = None,
+    name: str, content: bytes, give_up: object = None
 ) -> tuple[dict[str, Any], NDArray[np.float64]]:
     """Do the work of `read_file` without its child process, which takes a third of a second."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        return formats.read(name, content, most_numbers, most_columns)
+        return formats.read(name, content, MOST_NUMBERS, MOST_COLUMNS)
 
 
 def read_in_this_process(monkeypatch: pytest.MonkeyPatch) -> None:

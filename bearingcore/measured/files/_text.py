@@ -158,12 +158,8 @@ def refuse_mixed_rows(name: str, labels: NDArray[Any], columns: Iterable[Array] 
 
 def _decode_to_utf8(name: str, content: bytes) -> bytes:
     """A text without marks and with ends of lines, in UTF-8 if it had two bytes a character."""
-    start = content[:4096]
-    even, odd = (start[i::2].count(0) for i in (0, 1))
-    if start[:2] in (b"\xff\xfe", b"\xfe\xff"):
+    if content[:2] in (b"\xff\xfe", b"\xfe\xff"):
         content = content.decode("utf-16", "replace").encode()
-    elif start and min(even, odd) == 0 and max(even, odd) >= 0.45 * len(start):
-        content = content.decode("utf-16-le" if odd else "utf-16-be", "replace").encode()
     if b"\x00" in content[:4096]:
         raise checks.refuse("file", name, READABLE)
     content = content.removeprefix(b"\xef\xbb\xbf").rstrip(b"\x00")
@@ -273,12 +269,8 @@ class _Style:
             if not (self.decimal_comma and _QUOTED_DECIMALS.search(text)):
                 text = _QUOTED.sub(lambda match: match[0].replace(",", ""), text)
             text = text.replace('"', "")
-        if " sec" in text:
-            text = re.sub(r"(?<=\d) sec\b", "", text)  # MATLAB's durations
         if self.clock is not None:
             text = self.stamp.sub(self.clock, text)
-        if "D+" in text or "D-" in text:
-            text = re.sub(r"(?<=[\d.])D(?=[+-]\d)", "E", text)  # Fortran's exponents
         if self.delimiter and ("'" in text or (self.decimal_comma and " " in text)):
             text = re.sub(r"(?<=\d)['\xa0 ](?=\d{3}(?!\d))", "", text)
         if not self.decimal_comma:
@@ -498,9 +490,7 @@ def _headings(remarks: Sequence[str], style: _Style, columns: Array) -> list[str
     lines = [
         line
         for line in remarks
-        if re.search(r"[^\W_]", line)
-        and not _TYPES.fullmatch(line)
-        and not _is_remark(line, style, width)
+        if re.search(r"[^\W_]", line) and not _is_remark(line, style, width)
     ][-3:]
     names = _names(lines[-1], style, columns) if lines else None
     if names is None:
@@ -555,9 +545,6 @@ def _is_remark_above_several(line: str, single: Sequence[str], width: int) -> bo
         return True
     return (said or any(re.match(_VALUE, cell) for cell in single)) and names_a_fact(line)
 
-
-_TYPES = re.compile(r"(?i)\W*((float|double|single|u?int)\d*\W*)+")
-"""A line of the columns' types of numbers."""
 
 _VALUE = r"[-+]?\d[\d.,]*([eE][-+]?\d+)?(\s*[^\W\d]\S{0,9})?$"
 """A number with or without a unit."""

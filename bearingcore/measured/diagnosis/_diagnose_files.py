@@ -11,7 +11,7 @@ from typing import Any, overload
 
 from bearingcore.bearings import BearingLike, read_designation
 from bearingcore.common import ResultTable, _checks as checks, shown_as_table, table_of
-from bearingcore.measured.diagnosis._part.diagnose import diagnose as diagnose_recording
+from bearingcore.measured.diagnosis._part.diagnose import diagnose_recording
 from bearingcore.measured.diagnosis._part.evidence import Diagnosis
 from bearingcore.measured.files import Finding
 from bearingcore.measured.files._by_hand import recording_of, table_at

@@ -204,7 +204,7 @@ def contents_of(table: FileColumns) -> FileContents:
         _unit(table, columns, picked, known),
         rate,
         speed or _speed_of_pulses(table, columns, rate, sampling),
-        facts.load_in(named) or known.load,
+        facts.load_in(named),
         sampling,
         said,
         facts.bearing_frequencies_in(named),

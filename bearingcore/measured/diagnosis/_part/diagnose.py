@@ -52,7 +52,7 @@ SOURCES = ("given", "from the file", "assumed")
 """Origins of a speed and a bearing; "given" is what a person has said of this measurement."""
 
 
-def diagnose(
+def diagnose_recording(
     recording: Recording,
     bearing: BearingLike | None = None,
     shaft_speed: float | tuple[float, float] | None = None,
@@ -61,30 +61,7 @@ def diagnose(
     speed_source: str = "given",
     bearing_source: str = "given",
 ) -> Diagnosis:
-    """Diagnosis of the damaged part of a bearing from a signal.
-
-    Parameters
-    ----------
-    recording
-        acceleration of the housing, one direction or two.
-    bearing
-        its geometry, or its designation; only balls, diameters and contact angle count. None if it
-        is unknown: then no part is named, and the status says so.
-    shaft_speed
-        [rad/s], good to `slip`; a pair (from, to) if it is rough; None if it is unknown: then that
-        of the recording is taken if it carries one, else it is looked for between 300 and 6000
-        turns a minute.
-    slip
-        by how much balls may pass faster or slower than the shaft speed says, as a fraction.
-    speed_source, bearing_source
-        where a speed and a bearing are from, one of `SOURCES`, perhaps with its words behind a
-        colon, as in "assumed: the scene's". The answer says it.
-
-    Raises
-    ------
-    ValueError
-        for a speed, slip or source that cannot be, and for rows that are not alike.
-    """
+    """Diagnose a recording; `diagnose` describes the arguments."""
     checks.instance("recording", recording, Recording)
     bearing = None if bearing is None else bearing_of(bearing)
     for name, said in (("speed_source", speed_source), ("bearing_source", bearing_source)):

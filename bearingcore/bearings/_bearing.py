@@ -11,7 +11,7 @@ from bearingcore.bearings import _drawing as drawing
 from bearingcore.bearings._contact import Contact
 from bearingcore.bearings._hertz import RaceContact
 from bearingcore.bearings._in_rows import InRows
-from bearingcore.bearings._inside import MEASURED
+from bearingcore.bearings._inside import RATIO_SPREAD
 from bearingcore.bearings._kind import Kind
 from bearingcore.bearings._kinds import kind_of
 from bearingcore.bearings._kinematics import check_contact_angle
@@ -407,7 +407,7 @@ class Bearing(InRows):
         whose number is less sure, it is.
         """
         checks.choice("name", name, ("bpfo", "bpfi", "ftf", "bsf"))
-        ratio, counted = self.kind.estimate_spread or (MEASURED.ratio_spread, 0)
+        ratio, counted = self.kind.estimate_spread or (RATIO_SPREAD, 0)
         spread = 0.0
         if {"ball_diameter", "pitch_diameter"} & set(self.estimated):
             gamma = self.size_ratio

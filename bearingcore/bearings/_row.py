@@ -128,7 +128,7 @@ def pair(distance: float, arrangement: str, preload: float = 0.0) -> tuple[Row, 
 
 
 def arrangement_of(rows: tuple[Row, ...]) -> str:
-    """Which of ARRANGEMENTS two rows are as `pair` makes them; empty where they are none of it."""
+    """Return the one of ARRANGEMENTS in which `pair` makes two rows; empty if it makes none."""
     if len(rows) != 2:
         return ""
     low, high = rows

@@ -78,7 +78,7 @@ class Tapered(Roller):
         "this model. A ring that tilts presses their ends on the races. The friction of the rib, "
         "and the few per cent of the load that it takes, are left out."
     )
-    estimate_spread = (inside.OTHER_MAKER.ratio_spread, 1)
+    estimate_spread = (inside.TAPERED_SPREAD, 1)
     mass_unknown = "tapered rollers: a rib holds them, which is left out"
 
     def recognizes(self, bearing: InRows) -> bool:

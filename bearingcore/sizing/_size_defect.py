@@ -27,11 +27,11 @@ from bearingcore.common import (
     table_of,
 )
 from bearingcore.errors import Status
-from bearingcore.measured.diagnosis import MOST_SAMPLES, SLIP
+from bearingcore.measured.diagnosis import SLIP
 from bearingcore.measured.signals import BallPasses, average_passes, coefficients, least_passes
 from bearingcore.model.dynamics import SETTLING, modes, simulate
 from bearingcore.model.scene import MASSLESS, Scene
-from bearingcore.recordings import Recording, check_samples
+from bearingcore.recordings import Recording
 
 BAND, FEWEST_LINES = (0.25, 1.35), 6.0
 """Of the lowest and the highest natural frequency of the healthy bearing: what is compared; lines
@@ -224,7 +224,6 @@ def size_defect(
     """
     checks.instance("recording", recording, Recording)
     checks.instance("scene", scene, Scene)
-    check_samples("acceleration", recording.acceleration, MOST_SAMPLES)
     checks.real_number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")
     if not set(recording.directions) <= set(scene.active_dofs):
         raise checks.refuse("dofs", scene.active_dofs, f"with {', '.join(recording.directions)}")
@@ -252,7 +251,6 @@ def size_defect(
     passes = average_passes(
         recording.acceleration, recording.sample_rate, nominal, SLIP, lowest, highest,
         min(2.4 * highest, 0.4 * recording.sample_rate), follow=True,
-        shaft=scene.shaft_speed / (2.0 * math.pi),
     )  # fmt: skip
     search = _Search(scene, recording, passes, (lowest, highest))
     for extent in np.arange(SHORTEST, LONGEST, STEP).tolist():

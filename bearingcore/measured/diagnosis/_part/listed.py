@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
 from bearingcore.bearings import Bearing
-from bearingcore.measured.diagnosis._part.diagnose import diagnose
+from bearingcore.measured.diagnosis._part.diagnose import diagnose_recording
 from bearingcore.measured.diagnosis._part.evidence import Diagnosis
 from bearingcore.measured.diagnosis._part.parts import part_lines
 from bearingcore.recordings import Recording
@@ -63,7 +63,8 @@ def explaining_bearings(
     for done, (name, bearing) in enumerate(distinct):
         if not goes_on(done, len(distinct)):
             break
-        answer = diagnose(recording, bearing, shaft_speed, bearing_source="assumed: one of a list")
+        source = "assumed: one of a list"
+        answer = diagnose_recording(recording, bearing, shaft_speed, bearing_source=source)
         if answer.fault in ("outer race", "inner race"):
             answers.append(ListedBearing(name, answer))
     # levels within a decibel are alike: then the nearer geometry is the better

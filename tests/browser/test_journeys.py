@@ -847,27 +847,6 @@ def test_a_scene_is_saved_changed_and_opened(desk: Visitor) -> None:
     expect(desk.box("Length of the defect")).to_have_value("38.6")
 
 
-@pytest.mark.proof
-def test_a_report_is_saved_and_read(desk: Visitor, browser: BrowserContext, tmp_path: Path) -> None:
-    desk.begin("Load")
-    desk.type("Length of the defect", "20")
-    desk.steady()
-    dialog = desk.menu("Share")
-    name, text = desk.download(lambda: desk.press(re.compile("^Report"), dialog))
-    assert name.endswith(".html")
-    (tmp_path / name).write_bytes(text)
-    page, watching = browser.new_page(), Watch()
-    watching.follow(page)
-    page.goto((tmp_path / name).as_uri())
-    assert page.locator("svg").count() >= 10
-    wide = page.locator("svg").evaluate_all("all => all.map(e => e.getBoundingClientRect().width)")
-    assert max(wide) > 300
-    scene = FAN.replace(extent=math.radians(20))
-    expect(page.get_by_text(re.compile(re.escape(_most_loaded(scene)))).first).to_be_visible()
-    page.close()
-    watching.assert_clean()
-
-
 def test_first_visits_are_shown_in(visitor: Visitor) -> None:
     visitor.open()
     what = visitor.page.get_by_role("button", name="Help")

@@ -15,13 +15,12 @@ _POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'"
 
 @dataclass(frozen=True)
 class About:
-    """Head of a report: bearing, source of its numbers, link, day.
+    """Head of a report: bearing, link, day.
 
     `title`, `machine` and `remarks` are free text; they may be empty.
     """
 
     bearing: str
-    note: str
     link: str
     date: datetime
     title: str = ""

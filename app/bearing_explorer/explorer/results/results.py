@@ -161,16 +161,9 @@ class Results(SceneContent):
                 self.settings,
                 moving=self.moving,
                 give_up=self.give_up,
-                life_inputs=self._life_inputs_of(reference.scene),
                 like=None if own_period else self,
             )
         return self._against[key]
-
-    def _life_inputs_of(self, scene: Scene) -> LifeInputs:
-        """Of another scene: the same oil and surfaces; a rating is that of its own bearing."""
-        if scene.bearing == self.scene.bearing:
-            return self.life_inputs
-        return dataclasses.replace(self.life_inputs, dynamic_load_rating=None)
 
     @cached_property
     def editor(self) -> SceneEditor:

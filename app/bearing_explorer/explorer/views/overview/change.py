@@ -42,7 +42,6 @@ class LastChange(View):
     )
     needs = frozenset({"chain", "before", "late_spectra", "reference"})
     compact = True
-    in_report = False
 
     def build(self, packed: PackedSource) -> Any:
         return pn.Spacer(height=0, margin=0)

@@ -38,9 +38,8 @@ from bearing_explorer.kit.compute.executors import PICTURES
 from bearing_explorer.kit.sentences import words_of
 from bearing_explorer.kit.views.content import SceneContent, Warnings
 from bearing_explorer.kit.views.python_lines import changed_fields, code_of, scene_code, short
-from bearingcore import Equilibrium, Limit, Maps, Modes, Motion, Orbit, Scene, Spectrum
+from bearingcore import Equilibrium, Limit, Maps, Modes, Motion, Scene, Spectrum
 from bearingcore.common import cached_property
-from bearingcore.model.dynamics import OrbitStatus, common_ball_passes
 from bearingcore.model.scene import MASSLESS, WITH_MASS
 from bearingcore.model.statics import (
     EquilibriumWithMass,
@@ -73,10 +72,6 @@ def note_kinds(*kinds: set[str]) -> Callable[[Compute], Compute]:
         return compute
 
     return note
-
-
-LONGEST_ORBIT = 60
-"""Ball passes of the longest orbit that is looked for while sliders move."""
 
 
 @cached
@@ -115,8 +110,6 @@ class Results(SceneContent):
         term of the stiffness that the open lesson compares between scenes; empty without one.
     mark
         number of the newest change of the browser that they hold.
-    give_up
-        called in long searches: whether the results are no longer wanted.
     like
         other results, over whose stretch and with whose steps these are computed.
     """
@@ -136,7 +129,6 @@ class Results(SceneContent):
     life_inputs: LifeInputs = field(default_factory=LifeInputs)
     lesson_term: str = ""
     mark: int = 0
-    give_up: Callable[[], bool] | None = None
     like: Results | None = None
     _against: dict[tuple[Scene, bool], Results] = field(default_factory=dict, init=False)
 
@@ -144,9 +136,6 @@ class Results(SceneContent):
     def fine_key(self) -> tuple[object, ...]:
         """All that a fine picture depends on: turning the bearing leaves one fine."""
         return self.scene, self.settings, self.compared, self.grey_kind
-
-    def at_rest(self, rested: bool = True, give_up: Callable[[], bool] | None = None) -> Results:
-        return dataclasses.replace(self, moving=not rested, give_up=give_up)
 
     def against(self, reference: Reference, *, own_period: bool = False) -> Results:
         """Results of another scene, to be compared with these.
@@ -160,7 +149,6 @@ class Results(SceneContent):
                 self.cage_angle,
                 self.settings,
                 moving=self.moving,
-                give_up=self.give_up,
                 like=None if own_period else self,
             )
         return self._against[key]
@@ -333,9 +321,7 @@ class Results(SceneContent):
     def verdict(self, shown: frozenset[str]) -> Verdict:
         """The verdict on what is on screen: `shown` are the attributes that its views read.
 
-        The first failure counts: without a static state there is no motion, and a motion that
-        broke off has no orbit. An orbit that is shown is judged, converged or not: an unstable one
-        is no place where a machine stays.
+        The first failure counts: without a static state there is no motion.
         """
         bad = verdict.statics_words(self.equilibrium)
         if not bad and "now" in shown:
@@ -349,8 +335,6 @@ class Results(SceneContent):
                 return Verdict("bad", f"No motion: {self.ball_mass.broke_off}")
             if shown & verdict.MOTIONS and self.fault:
                 return Verdict("bad", f"The motion {self.fault}")
-            if shown & verdict.ORBITS:
-                return verdict.orbit_verdict(self.orbit, self.moving)
         except StillCompiling as wait:
             return Verdict("busy", f"Not ready: {wait}")
         except ValueError as error:  # the view gives the whole sentence
@@ -399,14 +383,7 @@ class Results(SceneContent):
 
     def is_finer_at_rest(self, shown: frozenset[str]) -> bool:
         """Whether any of these attributes is computed more finely once the slider rests."""
-        if shown & OVER_STRETCH or self.is_coarse(shown):
-            return True
-        if "orbit" not in shown:
-            return False
-        try:
-            return self.orbit is not None and self.orbit.status is OrbitStatus.NOT_CONVERGED
-        except ValueError:
-            return False  # there is no motion, and none at rest
+        return bool(shown & OVER_STRETCH) or self.is_coarse(shown)
 
     def coarse_words(self, shown: frozenset[str]) -> str:
         """In which way motions shown are coarse."""
@@ -483,27 +460,6 @@ class Results(SceneContent):
             raise ValueError(f"the model has no mass of {kind}")
         how = self._marching_of(self.scene.replace(balls=WITH_MASS))
         return motions.ball_mass(self.scene.replace(balls=MASSLESS), how)
-
-    @property
-    def ball_passes(self) -> int | None:
-        """After how many ball passes all is as before; None where it never is."""
-        return common_ball_passes(self.scene)
-
-    @cached_property
-    @note_kinds(SLOW, OF_MOTION)
-    def orbit(self) -> Orbit | None:
-        """The motion that repeats itself; None where it takes too many ball passes to look for.
-
-        The search is short while a slider moves.
-        """
-        if (self.ball_passes or 0) > LONGEST_ORBIT:
-            return None
-        # balls without mass, whatever the scene has
-        key = self.scene.replace(balls=MASSLESS), self.marching
-        answer = motions.quick_orbit(*key)
-        if self.moving or answer.status is not OrbitStatus.NOT_CONVERGED:
-            return answer
-        return motions.orbit(*key, give_up=self.give_up)
 
     @cached_property
     def contact_damping(self) -> float:

@@ -13,7 +13,6 @@ from bearing_explorer.explorer.state.lessons import (
     faults_in,
     lessons_in,
     own_lessons,
-    text_for_teachers,
 )
 from bearing_explorer.explorer.views.accuracy import Accuracy
 from bearing_explorer.explorer.views.alternatives import OtherModels
@@ -56,7 +55,6 @@ __all__ = [
     "help_texts",
     "lessons_in",
     "own_lessons",
-    "text_for_teachers",
 ]
 
 SECTIONS = (

@@ -26,7 +26,6 @@ from bearing_explorer.explorer.state.lessons import (
     own_folder,
     own_lessons,
     read_lesson,
-    text_for_teachers,
 )
 from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.page import SECTIONS, TABS
@@ -566,13 +565,6 @@ def test_scenes_of_lessons_lie_inside_the_limits_or_the_lesson_says_so(path: Pat
         editor.set(message["typed"])
         crossed = [limit.name for limit in limits(editor.scene) if limit.crossed]
         assert not crossed or "page warns" in before, (message, crossed)
-
-
-def test_the_page_for_teachers_can_be_shown() -> None:
-    html = text_for_teachers(TABS)
-    Judge().feed(html)
-    assert "45 minutes" in html
-    assert ".md" not in html, "links to files of the repository lead nowhere on the page"
 
 
 def test_words_asked_for_again_leave_the_scene_alone() -> None:

@@ -21,7 +21,13 @@ from bearing_explorer.explorer.state.bearing_kinds import (
     hidden_of,
     scene_with,
 )
-from bearing_explorer.explorer.state.choice_list import CHOICE_LIST, DIRECTIONS, Choice, chosen_of
+from bearing_explorer.explorer.state.choice_list import (
+    CHOICE_LIST,
+    DIRECTIONS,
+    Choice,
+    chosen_of,
+    floor_name,
+)
 from bearing_explorer.explorer.state.field_values import (
     CAGE_ANGLE,
     FIELD_BY_KEY,
@@ -32,7 +38,6 @@ from bearing_explorer.explorer.state.field_values import (
     defects_of,
     differ,
     groove_limits,
-    in_shown_unit,
     in_si,
     limits_of,
     read,
@@ -46,7 +51,6 @@ from bearingcore import (
     DOF_NAMES,
     Bearing,
     Defect,
-    MeasuredFloor,
     RoughFloor,
     Scene,
     preset_notes,
@@ -76,24 +80,10 @@ _USUAL = {"defect": "defect", "load": "load", "shaft_speed": "speed", "support":
 _SOUND = Defect(0.0, 50e-6, math.radians(270.0), edge="exact")
 """No defect yet: a longer one lies in the middle of the load zone."""
 _FIRST_DEFECT = (math.radians(10.0), 50e-6)
-_OF_FLOOR = [field for field in SHOWN_FIELDS if field.part == "floor"]
+_OF_FLOOR = [field.key for field in SHOWN_FIELDS if field.part == "floor"]
 
 Refused = dict[str, str]
 """Sentences by the names of the controls that they belong to."""
-
-
-@dataclass(frozen=True)
-class FloorChoice:
-    """The floor of one defect, and what it goes back to when another kind was looked at."""
-
-    kind: str = "flat"
-    rough: RoughFloor = FIRST_ROUGHNESS
-    measured: MeasuredFloor | None = None
-
-    @property
-    def floor(self) -> RoughFloor | MeasuredFloor | None:
-        """The floor of the defect; None for a flat one."""
-        return {"rough": self.rough, "measured": self.measured}.get(self.kind)
 
 
 @dataclass(frozen=True)
@@ -113,11 +103,10 @@ class Snapshot:
         self.held = {
             name: value.copy() if isinstance(value := getattr(editor, name), list | dict) else value
             for name in ("scene", "preset", "selected", "own_name", "origin", "begun",
-                         "values", "limits", "usual", "floors")
+                         "values", "limits", "usual")
         }  # fmt: skip
-        kinds = tuple(floor.kind for floor in editor.floors)
         seen = (editor.scene, editor.preset, editor.own_name, editor.origin)
-        self._seen = *seen, editor.values[CAGE_ANGLE], kinds
+        self._seen = *seen, editor.values[CAGE_ANGLE]
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Snapshot) and self._seen == other._seen
@@ -136,7 +125,6 @@ class SceneEditor:
     usual: dict[str, Range] = field(init=False)
     """The limits while no number lies outside of its slider."""
     selected: int = field(init=False)
-    floors: list[FloorChoice] = field(init=False)
     own_name: str = field(init=False, default="")
     """The name that a person gave the bearing; may be empty."""
     origin: CatalogueOrigin | None = field(init=False, default=None)
@@ -184,7 +172,6 @@ class SceneEditor:
         self.preset, self.scene, self.selected = preset, scene, selected
         self.begun = presets[preset]
         self.own_name, self.origin = one_line(name, LONGEST_NAME), None
-        self.floors = [_choice_of(defect) for defect in defects]
         self._begin_limits(limits)
         self.values = {}
         self._write_values(cage_angle)
@@ -262,9 +249,8 @@ class SceneEditor:
         if before.dofs == self.begun.dofs:
             before = before.replace(dofs=None)
         scene, effect = held(scene_with(before, bearing).replace(**fresh))
-        floors = self.floors if "defect" in kept else [FloorChoice()]
-        selected = self.selected if "defect" in kept else 0
-        self.floors, self.selected, self.begun = floors, selected, usual
+        self.selected = self.selected if "defect" in kept else 0
+        self.begun = usual
         self._take(scene)
         self._begin_limits(limits_of(self.scene))
         self._write_values()
@@ -360,15 +346,13 @@ class SceneEditor:
                 if name in inputs and radius is not None:
                     fields.setdefault(name, radius * ratio)
         if rough:
-            choice = self.floors[self.selected]
-            floor = dataclasses.replace(choice.rough, **rough)
-            if choice.kind == "rough":
-                fields["floor"] = floor
+            floor = self.defects[self.selected].floor
+            if not isinstance(floor, RoughFloor):
+                raise refuse("floor of the defect", floor_name(floor), "rough")
+            fields["floor"] = dataclasses.replace(floor, **rough)
         scene = scene_with_fields(self.scene, fields, self.selected)
         if parts["pair"] or parts["second"]:
             scene = scene.replace(bearing=_change_rows(scene.bearing, **parts))
-        if rough:
-            self.floors[self.selected] = dataclasses.replace(choice, rough=floor)
         return scene
 
     def _take(self, scene: Scene, cage_angle: float | None = None) -> None:
@@ -381,12 +365,7 @@ class SceneEditor:
 
     def _write_values(self, cage_angle: float | None = None) -> None:
         turned = self.values.get(CAGE_ANGLE, 0.0) if cage_angle is None else cage_angle
-        rough = self.floors[self.selected].rough
-        fresh = {
-            **values_of(self.scene, self.selected),
-            **{field.key: in_shown_unit(field, getattr(rough, field.name)) for field in _OF_FLOOR},
-            CAGE_ANGLE: turned,
-        }
+        fresh = {**values_of(self.scene, self.selected), CAGE_ANGLE: turned}
         # a typed number stays as typed, whatever its last digit is in SI
         self.values = {
             name: self.values[name]
@@ -464,15 +443,14 @@ class SceneEditor:
         self._write_values()
 
     def _take_floor_kind(self, kind: str) -> None:
-        floors = self.floors[self.selected]
-        new = dataclasses.replace(floors, kind=kind)
-        if kind == "measured" and floors.measured is None:
+        if kind == floor_name(self.defects[self.selected].floor):
+            return
+        if kind == "measured":
             raise ValueError(
                 "A measured floor comes with a scene's link or file: `read_floor` makes it in "
                 "Python."
             )
-        self._change(floor=new.floor)
-        self.floors[self.selected] = new
+        self._change(floor=FIRST_ROUGHNESS if kind == "rough" else None)
 
     def _take_dofs(self, dofs: str) -> None:
         named = tuple(name for name in DOF_NAMES if name in dofs.split())
@@ -508,15 +486,11 @@ class SceneEditor:
     def _remove_defect(self) -> None:
         if len(self.defects) > 1:
             rest = [d for i, d in enumerate(self.defects) if i != self.selected]
-            self._change_defects(rest, min(self.selected, len(rest) - 1), removed=self.selected)
+            self._change_defects(rest, min(self.selected, len(rest) - 1))
 
-    def _change_defects(
-        self, defects: list[Defect], selected: int, removed: int | None = None
-    ) -> None:
+    def _change_defects(self, defects: list[Defect], selected: int) -> None:
         scene = self.scene.replace(defect=defects[0] if len(defects) == 1 else tuple(defects))
-        floors = [floor for i, floor in enumerate(self.floors) if i != removed]
-        floors += [FloorChoice() for _ in range(len(defects) - len(floors))]
-        self.floors, self.selected = floors, selected
+        self.selected = selected
         self._take(scene)
 
     def _take_numbers(self, how: str) -> None:
@@ -563,10 +537,10 @@ class SceneEditor:
         return state if values is not None else state | self._choices_state()
 
     def _choices_state(self) -> dict[str, Any]:
-        scene, floor = self.scene, self.floors[self.selected]
+        scene, floor = self.scene, self.defects[self.selected].floor
         usual = {k: v for k, v in values_of(presets[self.preset]).items() if not math.isnan(v)}
-        hidden = [] if floor.kind == "rough" else [field.key for field in _OF_FLOOR]
-        hidden += hidden_of(scene.bearing)
+        hidden = [] if isinstance(floor, RoughFloor) else _OF_FLOOR
+        hidden = [*hidden, *hidden_of(scene.bearing)]
         return {
             "usual": {**usual, **chosen_of(presets[self.preset])},
             "choices": {
@@ -613,14 +587,6 @@ def _usual_words(scene: Scene, kept: Iterable[str]) -> str:
     stays = [name for part, name in _USUAL.items() if part in kept]
     usual = f"Usual for it, and assumed: {', '.join(came)}." if came else ""
     return f"{usual} Kept as you set it: {', '.join(stays)}.".strip() if stays else usual
-
-
-def _choice_of(defect: Defect) -> FloorChoice:
-    if isinstance(defect.floor, RoughFloor):
-        return FloorChoice("rough", defect.floor)
-    if isinstance(defect.floor, MeasuredFloor):
-        return FloorChoice("measured", measured=defect.floor)
-    return FloorChoice()
 
 
 def _turned(defect: Defect) -> Defect:

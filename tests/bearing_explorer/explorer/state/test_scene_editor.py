@@ -191,17 +191,17 @@ def test_defects_that_run_together_keep_to_what_the_core_allows(editor: SceneEdi
 
 
 def test_a_rough_floor_is_the_same_surface_for_the_same_seed(editor: SceneEditor) -> None:
-    editor.set({"rms_height_um": 7.0})
-    assert editor.scene.defect.floor is None, "a flat floor has no roughness"
+    refused, _ = editor.set({"rms_height_um": 7.0})
+    assert "flat" in refused["rms_height_um"], "a flat floor has no roughness"
     editor.choose({"floor": "rough"})
-    editor.set({"correlation_length_um": 150, "seed": 3})
+    editor.set({"rms_height_um": 7.0, "correlation_length_um": 150, "seed": 3})
     assert editor.scene.defect.floor == RoughFloor(7e-6, 150e-6, 3)
     assert "seed" not in editor.state()["hidden"]
     assert "whole number" in editor.set({"seed": 2.5})[0]["seed"]
+    editor.choose({"floor": "rough"})
+    assert editor.scene.defect.floor == RoughFloor(7e-6, 150e-6, 3), "it is so already"
     editor.choose({"floor": "flat"})
     assert editor.scene == presets["fan-rig"]
-    editor.choose({"floor": "rough"})
-    assert editor.scene.defect.floor == RoughFloor(7e-6, 150e-6, 3)
 
 
 def test_a_measured_floor_stays_as_the_scene_brought_it(editor: SceneEditor) -> None:
@@ -210,7 +210,7 @@ def test_a_measured_floor_stays_as_the_scene_brought_it(editor: SceneEditor) -> 
     scene = presets["fan-rig"].replace(floor=floor, extent=extent, depth=depth)
     editor.take_scene(scene, "fan-rig")
     assert editor.state()["choices"]["floor"] == "measured"
-    assert editor.choose({"floor": "flat"}) == {}
-    assert editor.scene.defect.floor is None
     assert editor.choose({"floor": "measured"}) == {}
     assert editor.scene.defect.floor == floor
+    assert editor.choose({"floor": "flat"}) == {}
+    assert editor.scene.defect.floor is None

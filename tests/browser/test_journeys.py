@@ -573,9 +573,6 @@ def test_accuracy_is_measured_and_what_less_would_do_is_said_with_its_error(
     desk.press("Compare simpler models", desk.main)
     desk.reads(re.compile(r"\d+ models after"))
     desk.wait(lambda: desk.figures() != before)
-    desk.choose("Model", "balls with mass")
-    desk.press("Take it", desk.main)
-    desk.reads(re.compile("Balls are massless in all charts"))
 
 
 # --- lessons, classes, looks ----------------------------------------------------------------------

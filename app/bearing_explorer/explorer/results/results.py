@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable, Sequence, Set
+from collections.abc import Sequence, Set
 from dataclasses import KW_ONLY, dataclass, field
-from typing import Any, ClassVar, TypeVar
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -50,28 +50,13 @@ from bearingcore.model.statics import (
     summary,
 )
 
-Compute = TypeVar("Compute", bound=Callable[..., object])
-
 MAP_REACHES = tuple(math.radians(reach) for reach in (90.0, 120.0, 180.0, 360.0))
 """Greatest extents of maps [rad]: the first that holds the extent shown. 90° as in the paper."""
 
-SLOW: set[str] = set()
-"""Attributes of `Results` that take long enough to be drawn after the others."""
-OF_MOTION: set[str] = set()
-"""Attributes that are made of a simulated motion."""
-OVER_STRETCH: set[str] = set()
+OF_MOTION = frozenset({"motion", "excerpt", "late_spectra", "ball_mass", "chain"})
+"""Attributes of `Results` that are made of a simulated motion, and are drawn after the others."""
+OVER_STRETCH = frozenset({"equilibrium", "ranges", "modes", "bands", "chain"})
 """Attributes over the cage angles of the curves, fewer while a slider moves."""
-
-
-def note_kinds(*kinds: set[str]) -> Callable[[Compute], Compute]:
-    """Note the name of an attribute in these sets."""
-
-    def note(compute: Compute) -> Compute:
-        for kind in kinds:
-            kind.add(compute.__name__)
-        return compute
-
-    return note
 
 
 @cached
@@ -114,7 +99,7 @@ class Results(SceneContent):
         other results, over whose stretch and with whose steps these are computed.
     """
 
-    slow: ClassVar[Set[str]] = SLOW
+    slow: ClassVar[Set[str]] = OF_MOTION
 
     scene: Scene
     cage_angle: float = 0.0
@@ -219,13 +204,11 @@ class Results(SceneContent):
         return np.degrees(inside)
 
     @cached_property
-    @note_kinds(OVER_STRETCH)
     def equilibrium(self) -> Equilibrium:
         """Static answers over the stretch."""
         return statics.curves(self.scene, *self.stretch)
 
     @cached_property
-    @note_kinds(OVER_STRETCH)
     def ranges(self) -> StaticRanges:
         """Least, greatest and mean of static answers, over all positions of the bearing.
 
@@ -256,13 +239,11 @@ class Results(SceneContent):
         return statics.equilibrium_at(self.scene, self.cage_angle)
 
     @cached_property
-    @note_kinds(OVER_STRETCH)
     def modes(self) -> Modes:
         """Natural frequencies over the stretch."""
         return statics.modes(self.scene, *self.stretch)
 
     @cached_property
-    @note_kinds(OVER_STRETCH)
     def bands(self) -> dict[str, tuple[float, float]]:
         """Between which frequencies [Hz] each mode moves, over all positions of the bearing.
 
@@ -411,7 +392,6 @@ class Results(SceneContent):
         return how
 
     @cached_property
-    @note_kinds(SLOW, OF_MOTION)
     def motion(self) -> Motion:
         """Simulated motion of rotor and housing."""
         return motions.motion(self.scene, self.marching).motion
@@ -432,13 +412,11 @@ class Results(SceneContent):
         return motions.ending(self.scene, self.marching).since
 
     @cached_property
-    @note_kinds(SLOW, OF_MOTION)
     def excerpt(self) -> Excerpt:
         """Some ball passes of the settled motion, with static loads for comparison."""
         return motions.excerpt(self.scene, self.marching)
 
     @cached_property
-    @note_kinds(SLOW, OF_MOTION)
     def late_spectra(self) -> dict[str, Spectrum]:
         """Spectrum of the housing's acceleration along each direction, once the motion has settled.
 
@@ -453,7 +431,6 @@ class Results(SceneContent):
         return {dof: loudest(spectra[dof]) for dof in ("x", "y") if dof in spectra}
 
     @cached_property
-    @note_kinds(SLOW, OF_MOTION)
     def ball_mass(self) -> BallMass:
         """The motions without and with the balls' mass, marched alike; whatever the scene has."""
         if kind := self.scene.bearing.kind.mass_unknown:
@@ -499,7 +476,6 @@ class Results(SceneContent):
         return load if math.isfinite(load) else None
 
     @cached_property
-    @note_kinds(SLOW, OF_MOTION, OVER_STRETCH)
     def chain(self) -> Chain:
         """Results from the loads of the balls to the vibration."""
         bands: dict[str, tuple[float, float]] = {}

@@ -247,7 +247,7 @@ DIRECTIONS = Choice(
         Option(
             IN_PART,
             "Held in some directions by choice",
-            "As a simpler model is taken on the Accuracy tab, or by a link or a file.",
+            "As a link or a file has it.",
         ),
     ),
     first=True,

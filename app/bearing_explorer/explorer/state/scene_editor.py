@@ -23,7 +23,7 @@ from bearing_explorer.explorer.state.bearing_kinds import (
 )
 from bearing_explorer.explorer.state.choice_list import (
     CHOICE_LIST,
-    DIRECTIONS,
+    IN_PART,
     Choice,
     chosen_of,
     floor_name,
@@ -48,7 +48,6 @@ from bearing_explorer.explorer.state.field_values import (
 from bearing_explorer.kit.bearing_list import find_bearing, origin_words
 from bearing_explorer.kit.sentences import one_line, sentence_of
 from bearingcore import (
-    DOF_NAMES,
     Bearing,
     Defect,
     RoughFloor,
@@ -393,7 +392,7 @@ class SceneEditor:
             self.take_preset(preset)
         for known in CHOICE_LIST:
             name = choice.get(known.name, "")
-            if name in known.names or (name and known is DIRECTIONS):
+            if name in known.names:
                 act = takers.get(known.name, partial(self._take_option, known))
                 refused |= self._tried(known.name, act, name)
         if "name" in choice:
@@ -453,13 +452,9 @@ class SceneEditor:
         self._change(floor=FIRST_ROUGHNESS if kind == "rough" else None)
 
     def _take_dofs(self, dofs: str) -> None:
-        named = tuple(name for name in DOF_NAMES if name in dofs.split())
-        known = {"auto": None, TILT_FREE: TILT_FREE}
-        if not named and dofs not in known:
-            raise ValueError(
-                "Single directions are held by a simpler model, a link or a file: see Accuracy."
-            )
-        self._change(dofs=known.get(dofs, named))
+        if dofs == IN_PART:
+            raise ValueError("Single directions are held by a link or a file.")
+        self._change(dofs=None if dofs == "auto" else TILT_FREE)
 
     def _take_defect(self, which: str) -> None:
         if which == "add":

@@ -9,6 +9,7 @@ from __future__ import annotations
 import logging
 import math
 from collections.abc import Callable, Mapping, Sequence
+from datetime import UTC, datetime
 from typing import Any, TypeVar
 
 from bearing_explorer.explorer.results.endurance import LifeInputs
@@ -33,7 +34,7 @@ from bearing_explorer.explorer.widgets.share import ShareBar
 from bearing_explorer.kit.bearing_list import search_bearings
 from bearing_explorer.kit.compute import compiling
 from bearing_explorer.kit.compute.jobs import OPENING, REPORT, SEARCH
-from bearing_explorer.kit.report_page import About, now
+from bearing_explorer.kit.report_page import About
 from bearing_explorer.kit.session import Half, Section
 from bearingcore import Scene
 
@@ -179,13 +180,10 @@ class Explorer(Half):
                 )
             if "set" in message:
                 self._set(message["set"], confirm=False)
-            typed = [name for name in ("typed", "second") if name in message]
-            for name in typed:
-                own = self.editor.in_own_units(message[name], second=name == "second")
-                self._set(own, confirm=True)
-            rests = typed or "released" in message
-            if rests and (narrowed := self.editor.narrow()):
-                self.show_controls(state=self.editor.state(narrowed))
+            for name in ("typed", "second"):
+                if name in message:
+                    numbers = self.editor.in_field_units(message[name], second=name == "second")
+                    self._set(numbers, confirm=True)
         finally:
             if self.bookmarks.follow(message):
                 self.show_links()
@@ -261,7 +259,8 @@ class Explorer(Half):
             words.get(name, "")[:most] for name, most in _REPORT_WORDS.items()
         )
         link = f"{base}?{self.bookmarks.state()['address']}"
-        make = self.report_on_signal(About(self.editor.name, link, now(), title, machine, remarks))
+        about = About(self.editor.name, link, datetime.now(UTC), title, machine, remarks)
+        make = self.report_on_signal(about)
         if isinstance(make, str):
             self.bookmarks.say(f"No report: {make}")
             self.show_links()

@@ -134,10 +134,6 @@ def _affordable(scene: Scene, duration: float, rate: float) -> float:
     return most / rate
 
 
-def _coarse_step_rate(scene: Scene, sample_rate: float) -> float:
-    return default_step_rate(scene, sample_rate, COARSE_STEPS)
-
-
 # Motions and what is made of them
 
 
@@ -147,7 +143,7 @@ def motion(scene: Scene, how: Marching) -> SettledMotion:
     compiling.need(compiling.MOTION, scene)
     rate = how.step_rate or step_rate_of(scene, how.sample_rate)
     if how.coarse:
-        rate = _coarse_step_rate(scene, how.sample_rate)
+        rate = default_step_rate(scene, how.sample_rate, COARSE_STEPS)
     duration = quick_duration(scene, how)
     if rate is not None:
         duration = _affordable(scene, duration, rate)

@@ -493,7 +493,7 @@ def _mend(tokens: list[Token], line: int, checks: _Checks) -> None:
                 token.attrSet("target", "_blank")
                 token.attrSet("rel", "noopener noreferrer")
             else:
-                known = "links go to set:, show:, simulate:, lesson: or https:"
+                known = "links go to set:, show:, simulate: or https:"
                 raise LessonError(line, f"a link goes to “{address[:60]}”; {known}")
         elif token.type == "link_close" and closing:
             token.type, token.content, closing = "html_inline", closing, ""
@@ -529,12 +529,7 @@ def _show(rest: str, line: int, checks: _Checks) -> dict[str, Any]:
     return {"show": name}
 
 
-def _lesson(rest: str, _: int, __: _Checks) -> dict[str, Any]:
-    """The message of a button that opens a lesson."""
-    return {"lesson": unquote(rest)[:LONGEST_NAME]}
-
-
-_BUTTONS = {"set": _set, "simulate": _simulate, "show": _show, "lesson": _lesson}
+_BUTTONS = {"set": _set, "simulate": _simulate, "show": _show}
 """The message of a button for what is behind the colon of a link, by what is before it."""
 
 

@@ -102,7 +102,7 @@ class Snapshot:
         self.held = {
             name: value.copy() if isinstance(value := getattr(editor, name), list | dict) else value
             for name in ("scene", "preset", "selected", "own_name", "origin", "begun",
-                         "values", "limits", "usual")
+                         "values", "limits")
         }  # fmt: skip
         seen = (editor.scene, editor.preset, editor.own_name, editor.origin)
         self._seen = *seen, editor.values[CAGE_ANGLE]
@@ -121,8 +121,6 @@ class SceneEditor:
     scene: Scene = field(init=False)
     values: Values = field(init=False)
     limits: dict[str, Range] = field(init=False)
-    usual: dict[str, Range] = field(init=False)
-    """The limits while no number lies outside of its slider."""
     selected: int = field(init=False)
     own_name: str = field(init=False, default="")
     """The name that a person gave the bearing; may be empty."""
@@ -171,7 +169,7 @@ class SceneEditor:
         self.preset, self.scene, self.selected = preset, scene, selected
         self.begun = presets[preset]
         self.own_name, self.origin = one_line(name, LONGEST_NAME), None
-        self._begin_limits(limits)
+        self.limits = limits
         self.values = {}
         self._write_values(cage_angle)
 
@@ -251,7 +249,7 @@ class SceneEditor:
         self.selected = self.selected if "defect" in kept else 0
         self.begun = usual
         self._take(scene)
-        self._begin_limits(limits_of(self.scene))
+        self.limits = limits_of(self.scene)
         self._write_values()
         self._effects["preset"] = f"{_usual_words(scene, kept)} {effect}".rstrip()
         self.own_name = one_line(name, LONGEST_NAME)
@@ -266,7 +264,7 @@ class SceneEditor:
 
     # Numbers
 
-    def in_own_units(self, texts: Mapping[str, Any], second: bool) -> dict[str, Any]:
+    def in_field_units(self, texts: Mapping[str, Any], second: bool) -> dict[str, Any]:
         """Texts as typed, in the units of the fields; in the box of the `second` unit or not.
 
         A number may name either unit in both boxes. What is a number in neither stays as it is, to
@@ -312,22 +310,6 @@ class SceneEditor:
         }
         return refused, changed
 
-    def narrow(self) -> list[str]:
-        """Give sliders that a number had widened their usual length where it is back on it.
-
-        Returns their names. Not while one is dragged: it would move under the pointer.
-        """
-        names = [
-            name
-            for name, limit in self.limits.items()
-            if limit != (usual := self.usual[name]) and usual.holds(self.values[name])
-        ]
-        self.limits |= {name: self.usual[name] for name in names}
-        return names
-
-    def _begin_limits(self, usual: dict[str, Range]) -> None:
-        self.limits, self.usual = dict(usual), dict(usual)
-
     def _scene_with(self, taken: Values) -> Scene:
         fields: dict[str, Any] = {}
         parts: dict[str, dict[str, Any]] = {"floor": {}, "pair": {}, "second": {}}
@@ -357,8 +339,7 @@ class SceneEditor:
     def _take(self, scene: Scene, cage_angle: float | None = None) -> None:
         """Make `scene` the one that is shown."""
         if scene.bearing != self.scene.bearing:
-            grooves = groove_limits(scene)
-            self.limits, self.usual = self.limits | grooves, self.usual | grooves
+            self.limits = self.limits | groove_limits(scene)
         self.scene = scene
         self._write_values(cage_angle)
 
@@ -438,7 +419,7 @@ class SceneEditor:
         self._take(scene)
         if effect:
             self._effects["kind"] = effect
-        self._begin_limits({**limits_of(self.scene), **groove_limits(self.scene)})
+        self.limits = {**limits_of(self.scene), **groove_limits(self.scene)}
         self._write_values()
 
     def _take_floor_kind(self, kind: str) -> None:

@@ -681,7 +681,7 @@ def test_a_lesson_sets_a_scene_and_its_buttons_change_it() -> None:
         ("So $x < y$ it is.", "", 21, "this part is empty"),
         ("set:extent_deg=62", "set:extent_deg=6200", 18, "6200° is out of range"),
         ("show:maps", "show:map", 18, "“map” is not a tab"),
-        ("show:maps", "ftp://a/b", 18, "links go to set:, show:, simulate:, lesson: or https:"),
+        ("show:maps", "ftp://a/b", 18, "links go to set:, show:, simulate: or https:"),
         ("show:maps", "simulate:noise=5", 18, "noise is “5”; there are 40, 20, 10, none"),
         ("3/2}", "3/2", 20, "its braces do not match"),
         ("So $x", "So\n$\\href{https://a}{x}$ $x", 23, "holds what a formula may not"),

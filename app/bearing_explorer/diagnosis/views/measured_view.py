@@ -62,7 +62,6 @@ class MeasuredView(View[Model]):
     is on the page.
     """
 
-    in_report = False
     needs = frozenset()
     hidden: Any = None
     #: whether what it computes looks for a speed that is not known

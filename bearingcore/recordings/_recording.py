@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -95,6 +95,15 @@ class Recording:
     def duration(self) -> float:
         """[s]"""
         return len(self.acceleration) / self.sample_rate
+
+    def scale_shaft(self, ratio: float) -> Recording:
+        """Return the recording with the shaft behind a gear, which turns `ratio` times as fast."""
+        speed, angle = self.shaft_speed, self.shaft_angle
+        return replace(
+            self,
+            shaft_speed=None if speed is None else ratio * speed,
+            shaft_angle=None if angle is None else ratio * angle,
+        )
 
 
 def _rising(angle: Array, samples: int) -> Array:

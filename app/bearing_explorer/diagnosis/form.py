@@ -237,14 +237,14 @@ def _unit(table: Table) -> str:
     return contents.unit.value if contents.unit.taken else NOT_KNOWN
 
 
-def bearings_of(table: Table | None, names: Sequence[str] = ()) -> list[list[str]]:
+def bearings_of(table: Table) -> list[list[str]]:
     """[value, words, heading] of the bearings to choose from.
 
-    The one of the file's collection and those that were `found` to explain the signal come first.
+    The one of the file's collection comes first.
     """
-    listed = None if table is None else table.contents.bearing
-    likely = dict.fromkeys([*([] if listed is None else [listed.value]), *names])
-    others = dict.fromkeys(name for name in catalogue() if name not in likely)
+    listed = table.contents.bearing
+    likely = [] if listed is None else [listed.value]
+    others = [name for name in catalogue() if name not in likely]
     return [
         [NOT_KNOWN, "choose", WAYS],
         [machine.BY_DESIGNATION, "by its designation", WAYS],

@@ -47,12 +47,6 @@ class DiagnosisOfSignal(Half):
         self.measurement.take_scene()
         return Model(self.scene, True, self.measurement.at_work, self.page.mark)
 
-    # What the page connects with the scene's half
-
-    def change_scene_by(self, change: Callable[[dict[str, Any]], None]) -> None:
-        """Have messages about the scene taken by this."""
-        self.measurement.change_scene = change
-
     def simulate(self, noise: str) -> None:
         """Simulate a measurement of the scene."""
         self.measurement.simulate(noise)

@@ -40,19 +40,16 @@ class Series:
     left_out: tuple[str, ...] = ()
     together: bool = False
 
-    def with_table(self, table: Table, count: int = 1, *, first: bool = False) -> Series:
-        """With a further file, of `count` that come; it replaces an earlier one of its name.
-
-        It comes last, or `first`.
-        """
+    def with_table(self, table: Table, count: int = 1) -> Series:
+        """With a further file, of `count` that come; it replaces an earlier one of its name."""
         rows, columns = table.columns.shape
         most = MOST_NUMBERS // max(count, ROOM_FOR) // columns
         if rows > most:
             table = dataclasses.replace(table, columns=table.columns[:most].copy())
         others = [one for one in self.tables if one.name != table.name]
-        tables = [table, *others] if first else [*others, table]
+        tables = [*others, table]
         while sum(one.columns.size for one in tables) > MOST_NUMBERS or len(tables) > MOST_FILES:
-            tables.pop(int(first))
+            tables.pop(0)
         return dataclasses.replace(self, tables=tuple(tables))
 
     def without(self, sentence: str) -> Series:

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from types import MappingProxyType
-from typing import Any
 
 from bearing_explorer.diagnosis.findings import Findings
 from bearing_explorer.diagnosis.form import (
-    LIKELY,
     SIGNAL_FIELDS,
     SIZES,
     as_texts,
@@ -28,12 +26,9 @@ from bearing_explorer.diagnosis.form import (
     speeds_of,
 )
 from bearing_explorer.diagnosis.machine import (
-    GIVEN,
     GROUPS,
     NOT_KNOWN,
-    ROUGH,
     SCENE,
-    SIMULATED,
     FormError,
     answers_of,
     of_scene,
@@ -43,7 +38,6 @@ from bearing_explorer.diagnosis.reading import AnsweredTable, Arrival, Read, rea
 from bearing_explorer.diagnosis.series import Series
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.signal_words import about_size, in_short, summary
-from bearing_explorer.kit.bearing_list import find_bearing
 from bearing_explorer.kit.compute.jobs import Work
 from bearingcore import Table
 
@@ -58,8 +52,8 @@ class SignalForm(Findings):
     series = Series()
     #: words for reports
     about = AboutMeasurement()
-    #: takes a message as the controls send it; None where there are no controls
-    change_scene: Callable[[dict[str, Any]], None] | None = None
+    #: whether there is a scene that could be simulated
+    can_simulate = False
     _arrival: Arrival | None = None
     _as_read: Table | None = None
     # the form as it was filled in, guesses that a person agreed to, answers that were given for the
@@ -193,12 +187,10 @@ class SignalForm(Findings):
 
         Open questions are settled by an answer or by agreement.
         """
-        table, measured = self._table, self.measured
+        table = self._table
         if self._ended or self._arrival is not None:
             return
         if table is None:
-            if measured is not None and measured.origin is None:
-                self._take_simulated_form(measured, form.get("speed", SIMULATED))
             return
         texts = as_texts(form, tuple(self.state.values))
         changed = {name: text for name, text in texts.items() if text != self._first[name]}
@@ -272,42 +264,6 @@ class SignalForm(Findings):
 
     def _measured(self, asked: Measured, form: Mapping[str, str]) -> Measured:
         return replace(asked, machine=replace(asked.machine, kept=self._kept_of(form)))
-
-    def _take_simulated_form(self, measured: Measured, speed: str) -> None:
-        """Take whether the speed of a simulated signal is known: exactly, roughly, or not."""
-        if speed not in (SIMULATED, ROUGH, NOT_KNOWN) or measured.bearing is None:
-            return
-        true = measured.true_speed
-        machine = replace(
-            measured.machine, speed_source=speed, shaft_speed=None if speed == NOT_KNOWN else true
-        )
-        if machine == measured.machine:
-            return
-        self.measured = replace(measured, machine=machine)
-        self._tell(values={"speed": speed}, words=self._summary(), **self._in_short({}))
-        self._draw()
-
-    def take_bearing(self, name: str) -> None:
-        """Take a listed bearing as the one that was measured."""
-        measured = self.measured
-        if self._table is None:
-            if measured is not None:
-                bearing = find_bearing(name).bearing
-                machine = replace(measured.machine, bearing=bearing, bearing_source=GIVEN,
-                                  bearing_name=name)  # fmt: skip
-                self.measured = replace(measured, machine=machine)
-                self._tell(words=self._summary(), **self._in_short({}))
-                self._draw()
-            return
-        named = [value for value, _, heading in self.state.bearings if heading == LIKELY]
-        self._tell(bearings=bearings_of(self._table, [*named, name]))
-        self.take_form({**self.state.values, "bearing": name})
-
-    def take_load(self) -> None:
-        """Put the load of the file, downwards, into the scene."""
-        load = None if self._table is None else load_of(self._table)
-        if load is not None and self.change_scene is not None:
-            self.change_scene({"typed": {"fy_n": f"{-load:.6g}"}})
 
     def _summary(self, *more: str) -> str:
         notes = self.measured.recording.notes if self.measured is not None else ()

@@ -112,9 +112,10 @@ def diagnose(
     **more
         `slip` (0.02): largest relative difference between the true passing rate of the balls and
         that by the shaft speed. `shaft_ratio` (1): turns of the bearing's shaft for each turn of
-        the shaft whose speed is given, such as 0.657 or 23/47, behind a gear or a belt. `most_samples` (20,000,000): limit on the samples of all
-        directions; a longer signal is not analysed, and the status says so. `speed_source`,
-        `bearing_source`: "given", "from the file" or "assumed", with more words after a colon.
+        the shaft whose speed is given, such as 0.657 or 23/47, behind a gear or a belt.
+        `most_samples` (20,000,000): limit on the samples of all directions; a longer signal is not
+        analysed, and the status says so. `speed_source`, `bearing_source`: "given", "from the
+        file" or "assumed", with more words after a colon.
 
     Returns
     -------

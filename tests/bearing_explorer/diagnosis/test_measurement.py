@@ -246,9 +246,10 @@ def test_a_known_collection_is_taken_at_once_and_each_guess_is_marked():
 
 
 def test_frequencies_of_a_file_and_typed_ones_count_as_the_bearing():
-    run_ = {"gs": NOISE[:, :1], "sr": 48_828.0, "rate": 25.0}
+    run_ = {"gs": NOISE[:, :1], "sr": 48_828.0, "rate": 25.0, "load": "150"}
     made = brought("run.mat", matlab(bearing=run_, BPFO=81.125, BPFI=118.875, BSF=63.91))
     assert made.measured is not None
+    assert made.state.load == pytest.approx(150 * 4.4482216)
     assert made.measured.machine.bearing_name == "NICE, MFPT"  # which has these frequencies
     turn = 2.0 * math.pi
     made = brought("other.mat", matlab(bearing=run_, BPFO=76.3, BPFI=123.7, FTF=9.54))
@@ -263,16 +264,6 @@ def test_frequencies_of_a_file_and_typed_ones_count_as_the_bearing():
     assert made.measured.bearing.n_balls == 9
     answer(made, bpfo="60")
     assert "nearly a whole number" in made.state.refused["bearing"]
-
-
-def test_the_load_that_a_file_says_can_be_taken_into_the_scene():
-    run_ = {"gs": NOISE[:, :1], "sr": 48_828.0, "rate": 25.0, "load": "150"}
-    made = brought("run.mat", matlab(bearing=run_))
-    assert made.state.load == pytest.approx(150 * 4.4482216)
-    taken: list[dict] = []
-    made.change_scene = taken.append
-    made.take_load()
-    assert taken == [{"typed": {"fy_n": "-667.233"}}]
 
 
 def test_voltages_need_their_sensor():
@@ -487,26 +478,6 @@ def test_the_files_of_a_zip_are_a_series():
     assert made.measured.recording.name == "rig.zip/run5.csv"
 
 
-def test_a_sound_file_is_compared_with_and_the_one_that_is_shown_stays():
-    async def steps() -> None:
-        made = measuring()
-        made.begin_upload("sound.csv", 100, baseline=True)
-        assert made.state.bad
-        await bring(made, "now.csv", csv_of(3.0 * NOISE, "time [s],x [g],y [g]"))
-        before, content = made.measured, csv_of(NOISE, "time [s],x [g],y [g]")
-        wanted: list[int] = []
-        made.want = lambda begin, of: wanted.append(of)
-        made.begin_upload("sound.csv", len(content), baseline=True)
-        made.take_piece(content, wanted[-1])
-        await settled(made)
-        assert made.measured is before
-        assert [table.name for table in made.series.tables] == ["sound.csv", "now.csv"]
-        first, second = made.recordings(before, "y").recordings
-        assert second.acceleration.std() == pytest.approx(3.0 * first.acceleration.std())
-
-    run(steps())
-
-
 # -- bad files -------------------------------------------------------------------------------------
 
 
@@ -566,7 +537,6 @@ def test_pieces_that_cannot_be_of_the_file_end_it(piece):
 def test_what_is_not_offered_changes_nothing():
     made = measuring(signal())
     made.simulate("another")
-    made.take_load()
     made.take_form({}, True)
     made.begin_upload("a", -3)
     assert "has no size" in made.state.words

@@ -13,7 +13,7 @@ from bearing_explorer.diagnosis.views.part_lines import COLORS, NAMES, leading
 from bearing_explorer.kit.plots import style
 from bearingcore import Diagnosis, MeasuredExtent, PartEvidence, Sizing
 from bearingcore.common import percent_off, probability
-from bearingcore.measured.diagnosis import LIKELY, NONE_SEEN, SLIP, ListedBearing, perhaps_a_ball
+from bearingcore.measured.diagnosis import LIKELY, NONE_SEEN, SLIP, perhaps_a_ball
 
 COUNTED = (
     " The number of {} is an estimate: with another one, damage of a race shows at another "
@@ -90,15 +90,6 @@ def length(measured: MeasuredExtent, sizing: Sizing | None) -> str:
         return f"{size_in_words(sizing)} long, by the frequencies at which the machine rings"
     known = ", interval of 95 %" if measured.measured else ""
     return f"{extent(measured)}{known}"
-
-
-def explained(one: ListedBearing) -> str:
-    """The quality with which a listed bearing explains a signal."""
-    answer = one.diagnosis
-    return (
-        f"{answer.fault}, probability {probability(answer.probability)}, lines "
-        f"{decibels(one.level)} dB clear, {slip(one.slip)} against its geometry"
-    )
 
 
 def swing(depth: float) -> str:

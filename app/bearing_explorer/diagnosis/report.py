@@ -250,8 +250,8 @@ def assumptions(
     unknown, made = machine.exact_speed is None, BEARING_SOURCES[SIMULATED].capitalize()
     return [
         ("File", name_of(measured), "" if measured.origin else "Simulated"),
-        ("Signal", f"{with_prefix(recording.duration, 's')} along "
-         f"{' and '.join(measured.directions)}", origin_of(measurement, "columns")),
+        ("Signal", with_prefix(recording.duration, "s")
+         + measured.along(" and ".join(measured.directions)), origin_of(measurement, "columns")),
         ("Sampling rate", with_prefix(recording.sample_rate, "Hz", 4),
          origin_of(measurement, "sample_rate")),
         ("Unit", values.get("unit", "m/s²") or "not known", origin_of(measurement, "unit")),

@@ -146,10 +146,8 @@ class Measurement(SignalForm):
 
     def recordings(self, shown: Measured, direction: str) -> SeriesRecordings:
         """The recordings of the series; for any thread."""
-        given = self.state.values
-        kept = {name: text for name, text in self._kept.items() if given.get(name) == text}
-        changed = {name: text for name, text in self._changed.items() if name not in kept}
-        return recordings_of(self.series, shown, changed, kept, direction, self._scene)
+        changed = {name: text for name, text in self._changed.items() if name not in self._kept}
+        return recordings_of(self.series, shown, changed, self._kept, direction, self._scene)
 
     # Simulated ones
 

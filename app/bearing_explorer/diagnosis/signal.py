@@ -35,7 +35,7 @@ class Origin:
     `sensitivity` [V/(m/s²)] is that of the sensor, where the file holds voltages. `given` is the
     meaning of columns that a person gave, `place` is that of the sensors, as given or by the file.
     `part` is which of several recordings in the file was chosen, 0 where none was; `which` is the
-    one that was read, in words.
+    one that was read, in words. `machine` is its name, by the file.
     """
 
     file: str
@@ -47,6 +47,7 @@ class Origin:
     place: str = ""
     part: int = 0
     which: str = ""
+    machine: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,6 +111,10 @@ class Measured:
     def directions(self) -> tuple[str, ...]:
         """That were measured."""
         return self.recording.directions
+
+    def along(self, direction: str) -> str:
+        """A direction in a sentence, " along x"; empty of the only one, which may be any."""
+        return f" along {direction}" if len(self.directions) > 1 else ""
 
     def finest(self, wanted: float) -> float:
         """The resolution [Hz] nearest to `wanted` that the recording has: two segments at least."""

@@ -15,7 +15,7 @@ from bearing_explorer.diagnosis.model import NOT_TAKEN, WANTED
 from bearing_explorer.diagnosis.reading import MOST_NUMBERS, read_file
 from bearing_explorer.diagnosis.session import RECORDS, Measurement
 from bearing_explorer.diagnosis.signal import Measured
-from bearing_explorer.diagnosis.signal_form import AS_GIVEN
+from bearing_explorer.diagnosis.signal_form import AS_GIVEN, EARLIER_SCENE
 from bearing_explorer.diagnosis.simulated import simulated
 from bearing_explorer.diagnosis.upload import (
     LONGEST_NAME,
@@ -27,7 +27,7 @@ from bearing_explorer.diagnosis.upload import (
 )
 from bearing_explorer.diagnosis.views.measured_view import recording_lines
 from bearing_explorer.diagnosis.views.part_words import assumed
-from bearing_explorer.diagnosis.widgets.machine_form import kept_html
+from bearing_explorer.diagnosis.widgets.machine_form import MachineForm, kept_html
 from bearing_explorer.diagnosis.widgets.measurement_form import columns_as_said
 from bearing_explorer.kit.compute.jobs import READING
 from scipy.io import wavfile
@@ -414,7 +414,7 @@ def test_bearing_and_speed_are_kept_for_the_next_file_unless_that_says_otherwise
         await bring(made, "third.csv", content)
         assert made.measured.machine.kept == {"bearing"}
         assert made.measured.machine.source_of("speed") == "from the file"
-        made.keep_machine()
+        made.confirm("bearing", "speed")
         await settled(made)
         assert (made.measured.machine.kept, made.state.kept_from) == (frozenset(), "")
         assert made.measured.machine.source_of("bearing") == "given"
@@ -426,12 +426,72 @@ def test_bearing_and_speed_are_kept_for_the_next_file_unless_that_says_otherwise
         await settled(made)
         await bring(made, "fifth.csv", csv_of(two, "time [s],a [g],tacho [V]"))
         assert made.measured.machine.kept == {"bearing", "speed"}
-        assert "there is a guess from the file: " in kept_html(made.state)
+        assert "another, from the tachometer: about 6000 rpm" in kept_html(made.state)
         made.forget_machine()
         await settled(made)
         assert (made.measured.bearing, made.state.kept_from) == (None, "")
 
     run(steps())
+
+
+def test_an_answer_that_is_typed_again_or_confirmed_is_given_for_this_file():
+    async def steps() -> None:
+        made = measuring()
+        await bring(made, "first.csv", csv_of(NOISE[:, :1], "time [s],a [g]"))
+        made.take_form({**made.state.values, "bearing": "designation", "designation": "6205",
+                        "speed": "given", "shaft_speed": "1500 rpm"})  # fmt: skip
+        await settled(made)
+        await bring(made, "second.csv", csv_of(NOISE[::-1, :1], "time [s],a [g]"))
+        for text in ("", "6205"):
+            made.take_form({**made.state.values, "designation": text})
+            await settled(made)
+        assert made.measured.machine.kept == {"speed"}
+        assert made.measured.machine.source_of("bearing") == "given"
+        form = MachineForm(lambda: made)
+        form.show(made.state)
+        form._fields.widgets["shaft_speed"].param.trigger("enter_pressed")
+        await settled(made)
+        assert (made.measured.machine.kept, made.state.kept_from) == (frozenset(), "")
+        await bring(made, "105.mat", case_western())
+        assert made.measured.machine.guessed == {"bearing"}
+        made.confirm("bearing")
+        await settled(made)
+        assert not made.measured.machine.guessed
+        assert made.measured.machine.source_of("bearing") == "given"
+
+    run(steps())
+
+
+def test_a_gear_ratio_turns_the_measured_speed_into_that_of_the_bearing() -> None:
+    pulses = 5.0 * (np.arange(len(NOISE)) % 100 < 10)
+    content = csv_of(np.column_stack([NOISE[:, 0], pulses]), "time [s],a [g],tacho [V]")
+    made = brought("a.csv", content)
+    angle = made.measured.recording.shaft_angle
+    answer(made, bearing="designation", designation="6205", speed="file", ratio="23/47")
+    turned = made.measured
+    assert turned.shaft_speed == pytest.approx(200.0 * math.pi * 23 / 47)
+    np.testing.assert_allclose(turned.recording.shaft_angle, angle * 23 / 47)
+    assert "2936 rpm (0.4894 ×)" in made.state.line
+    (line,) = [line for line in recording_lines(turned) if "scale_shaft" in line]
+    assert line == f"recording = recording.scale_shaft({23 / 47!r})"
+    answer(made, ratio="0")
+    assert "possible" in made.state.refused["ratio"]
+    answer(made, speed="scene", ratio="23/47")  # which is that of the bearing
+    assert made.measured.shaft_speed == pytest.approx(RIG.shaft_speed)
+    np.testing.assert_allclose(made.measured.recording.shaft_angle, angle)
+
+
+def test_a_simulated_signal_is_marked_where_its_scene_has_changed() -> None:
+    scene = RIG
+    made = measuring(simulated(RIG, 20.0, 1), lambda: scene)
+    made.take_scene()
+    assert made.state.remarks == ""
+    scene = RIG.replace(fy=-50.0)
+    made.take_scene()
+    assert made.state.remarks == EARLIER_SCENE
+    scene = RIG
+    made.take_scene()
+    assert made.state.remarks == ""
 
 
 def test_one_of_several_recordings_in_a_file_is_chosen_and_columns_that_are_not_used_are_said():
@@ -446,7 +506,7 @@ def test_one_of_several_recordings_in_a_file_is_chosen_and_columns_that_are_not_
     assert made.state.line.startswith("two.csv, recording 1 of 2 · ")
     assert "“a z [g]” (along the shaft). The shaft's angle is" in made.state.remarks
     assert "from the pulses in “tacho [V]”" in made.state.remarks
-    assert ["file", "a guess from the file: 100 Hz"] in made.state.speeds
+    assert ["file", "from the tachometer: about 6000 rpm"] in made.state.speeds
     answer(made, part="2")
     assert made.measured.recording.acceleration.shape == (800, 2)
     assert made.state.words.startswith("two.csv, recording 2 of 2: ")

@@ -75,11 +75,7 @@ class PartDiagnosis(MeasuredView):
     finds_speed = True
 
     def build(self, packed: PackedSource) -> Any:
-        self.machine = MachineForm(
-            lambda values: self.measurement.take_form({**self.measurement.state.values, **values}),
-            lambda: self.measurement.keep_machine(),
-            lambda: self.measurement.forget_machine(),
-        )
+        self.machine = MachineForm(lambda: self.measurement)
         self.part = PartPanel(self._report_on)
         self._shown_of: Recording | None = None  # of which the panel has an answer
         self.lines = PartLines(packed)
@@ -164,7 +160,9 @@ class PartDiagnosis(MeasuredView):
             measurement.diagnoses.want(question)
         if diagnosis is not None:
             self.lines.show_orders(diagnosis.shaft_speed is not None)
-            self.evidence.object = evidence_html(part_words.evidence_rows(diagnosis))
+            self.evidence.object = evidence_html(
+                part_words.evidence_rows(diagnosis, len(measured.directions) > 1)
+            )
 
     def _with_length(self, state: dict[str, Any], diagnosis: Diagnosis | None) -> dict[str, Any]:
         """The length of the spall in an answer, once it is known; of a race alone."""

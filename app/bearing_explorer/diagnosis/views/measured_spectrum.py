@@ -54,7 +54,7 @@ class MeasuredSpectrum(FrequencyView):
     def words_of(self, model: Model, measured: Measured) -> str:
         shown = self.shown(model, measured)
         unit, size = shown_unit(measured)
-        words = f"Along {shown.direction} above 100 Hz the highest line is "
+        words = f"Above 100 Hz the highest line{measured.along(shown.direction)} is "
         words += _highest(shown.measured, unit, size)
         return words + f"; resolution {style.number(shown.resolution, 2)} Hz."
 

@@ -113,7 +113,8 @@ def speed_alone(machine: Machine) -> str:
     """The shaft speed, in a sentence, while the bearing is not known."""
     if machine.shaft_speed is None:
         return "The shaft speed is not known; it is looked for with the bearing."
-    return f"Shaft speed: {_rpm(machine.shaft_speed)}, {machine.source_of('speed')}."
+    speed = f"{_rpm(machine.shaft_speed)}{machine.ratio_words}"
+    return f"Shaft speed: {speed}, {machine.source_of('speed')}."
 
 
 def assumed(question: Question) -> str:
@@ -152,7 +153,8 @@ def speed_source(answer: Diagnosis, machine: Machine) -> str:
 def sentence(answer: Diagnosis, question: Question) -> str:
     """The answer in sentences, with the shaft speed and where that is from."""
     source = speed_source(answer, question.measured.machine)
-    said = dataclasses.replace(answer, speed_source=source)
+    ratio = question.measured.machine.ratio
+    said = dataclasses.replace(answer, speed_source=source, shaft_ratio=ratio)
     return said.sentence + assumed(question) + truth(question)
 
 
@@ -190,9 +192,10 @@ def facts(answer: Diagnosis, question: Question) -> list[list[str]]:
     """The assumptions of the answer: [name, value]."""
     bearing = question.bearing
     angle = style.in_degrees(bearing.contact_angle)
-    speed, source = turns(answer), speed_source(answer, question.measured.machine)
+    machine = question.measured.machine
+    speed, source = turns(answer), speed_source(answer, machine)
     rows = [
-        ["Shaft", f"{speed}, {source}" if speed else source],
+        ["Shaft", f"{speed}{machine.ratio_words}, {source}" if speed else source],
         ["Slip", f"balls up to {style.number(100.0 * SLIP, 2)} % slower or faster, assumed"],
         [
             "Bearing",
@@ -207,7 +210,10 @@ def facts(answer: Diagnosis, question: Question) -> list[list[str]]:
     if answer.spectrum is not None:
         low, high = answer.spectrum.band
         rows.append(
-            ["Demodulation band", f"{band(low, high)}, along {answer.spectrum.direction}, found"]
+            [
+                "Demodulation band",
+                f"{band(low, high)}{question.measured.along(answer.spectrum.direction)}, found",
+            ]
         )
     return rows
 
@@ -252,14 +258,15 @@ def slip(value: float) -> str:
     return percent_off(value)
 
 
-def evidence_rows(answer: Diagnosis) -> list[dict[str, Any]]:
-    """The evidence of each part as the browser lists it.
+def evidence_rows(answer: Diagnosis, several: bool = True) -> list[dict[str, Any]]:
+    """The evidence of each part as the browser lists it; directions where there are `several`.
 
     Without a clear result no part has a probability or leads: it would look like a verdict.
     """
     lead = leading(answer)
     rows = [
-        _row(one, one is lead and answer.conclusive, lead is not None) for one in answer.evidence
+        _row(part, part is lead and answer.conclusive, lead is not None, several)
+        for part in answer.evidence
     ]
     if answer.conclusive:
         for row, one in zip(rows, answer.evidence, strict=True):
@@ -270,7 +277,7 @@ def evidence_rows(answer: Diagnosis) -> list[dict[str, Any]]:
     return rows
 
 
-def _row(one: PartEvidence, leads: bool, seen: bool) -> dict[str, Any]:
+def _row(one: PartEvidence, leads: bool, seen: bool, several: bool) -> dict[str, Any]:
     near = one.sidebands[: len(one.sidebands) // 2]
     own = "none expected" if one.part == "outer race" else decibels(float(near.mean()))
     return {
@@ -297,7 +304,7 @@ def _row(one: PartEvidence, leads: bool, seen: bool) -> dict[str, Any]:
         if one.part == "outer race"
         else f"± {style.number(one.sideband_spacing, 3)} Hz, {one.sideband_source}",
         "band": band(one.band.low, one.band.high),
-        "direction": one.direction,
+        "direction": f"along {one.direction}" if several else "",
     }
 
 

@@ -205,11 +205,7 @@ class MeasurementForm(pn.Column):
                 fields.add(name, entry(LABELS[name], placeholder=hint))
         self._agree = button("Use these answers", lambda: self._answer(fields.values, sure=True))
         self._notes = _text("")
-        self._machine = MachineForm(
-            self._answer,
-            lambda: self._measurement.keep_machine(),
-            lambda: self._measurement.forget_machine(),
-        )
+        self._machine = MachineForm(lambda: self._measurement)
         self._about_file[:] = [
             self._table, row(*fields.widgets.values(), self._agree), self._notes
         ]  # fmt: skip

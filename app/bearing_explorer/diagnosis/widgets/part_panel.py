@@ -205,7 +205,7 @@ def _row(row: Mapping[str, Any]) -> str:
         ),
         _cell(row["together"], f"noise {row['noise']}"),
         _cell(row["sidebands"], row["spacing"]),
-        _cell(row["band"], f"along {row['direction']}"),
+        _cell(row["band"], row["direction"]),
         *([_cell(row["probability"])] if "probability" in row else []),
     ]
     return f'<tr class="{"leads" if row["leads"] else ""}">{"".join(cells)}</tr>'

@@ -86,7 +86,8 @@ class MeasuredKurtogram(MeasuredView):
         words = (
             f"The kurtosis{measured.along(direction)} is highest, "
             f"{style.number(chart.kurtosis[most], 3)}, from {band.low:.0f} to {band.high:.0f} Hz. "
-            f"Envelopes are taken from {chosen.band[0]:.0f} to {chosen.band[1]:.0f} Hz, {chosen.reason}"
+            f"Envelopes are taken from {chosen.band[0]:.0f} to {chosen.band[1]:.0f} Hz, "
+            f"{chosen.reason}"
         )
         if self.diagnosed() is None or chosen.band == (band.low, band.high):
             return f"{words}."

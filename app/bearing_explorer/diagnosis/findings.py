@@ -25,6 +25,7 @@ from bearing_explorer.diagnosis.measurement_state import (
     MeasurementState,
 )
 from bearing_explorer.diagnosis.model import NOT_TAKEN, WANTED
+from bearing_explorer.diagnosis.series import FoundTrend
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.sized_defect import SizedDefect
 from bearing_explorer.kit.compute.jobs import EXTENT, PART, READING, Compute, Jobs, JobState
@@ -64,6 +65,9 @@ class Findings:
         self.diagnoses: Answers[Diagnosis] = Answers(jobs, PART, draw, answered)
         #: how long the spall is, when that is known
         self.extents: Answers[MeasuredExtent] = Answers(jobs, EXTENT, draw, extent_of)
+        #: the newest trend of files, and the kind of the machine for the zone of its vibration
+        self.trend: FoundTrend | None = None
+        self.machine_kind = ""
         #: the newest choice between lengths of the spall, of whichever signal
         self.sized: SizedDefect | None = None
         self._scene = of_scene(scene())
@@ -73,7 +77,7 @@ class Findings:
     def stop(self) -> None:
         """The session is over."""
         self._ended = True
-        self._table = self.sized = None
+        self._table = self.sized = self.trend = None
         self.diagnoses.stop()
         self.extents.stop()
         self._jobs.drop(READING)

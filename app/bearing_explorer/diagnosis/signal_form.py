@@ -37,7 +37,7 @@ from bearing_explorer.diagnosis.machine import (
 )
 from bearing_explorer.diagnosis.measurement_state import AboutMeasurement
 from bearing_explorer.diagnosis.reading import AnsweredTable, Arrival, Read, read_answers
-from bearing_explorer.diagnosis.series import Series
+from bearing_explorer.diagnosis.series import FoundTrend, Series
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.signal_words import about_size, in_short, summary
 from bearing_explorer.kit.compute.jobs import Work
@@ -85,6 +85,27 @@ class SignalForm(Findings):
         remarks = EARLIER_SCENE if true not in (None, scene) else ""
         if true is not None and self.state.remarks != remarks:
             self._tell(remarks=remarks)
+
+    @property
+    def trend_now(self) -> FoundTrend | None:
+        """The newest trend, where it is of the files there are now."""
+        return self.trend if self.trend is not None and self.trend.series is self.series else None
+
+    @property
+    def known_about(self) -> AboutMeasurement:
+        """Machine, point and date of the signal, as typed or as its file says them."""
+        typed, measured = self.about, self.measured
+        if measured is None or measured.origin is None:
+            return typed
+        when, date = measured.recording.recorded, ""
+        if when is not None:
+            time = f", {when:%H:%M}" if when.hour or when.minute else ""
+            date = f"{when:%d %B %Y}{time}, by the file"
+        return AboutMeasurement(
+            typed.machine or measured.origin.machine,
+            typed.point or measured.origin.place,
+            typed.date or date,
+        )
 
     def _follow(self) -> None:
         """Have the machine of the signal be as the form and the scene say it now."""

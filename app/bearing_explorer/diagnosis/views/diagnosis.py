@@ -13,6 +13,7 @@ import panel as pn
 from bearing_explorer.diagnosis.diagnoses import BUSY, Question, answered
 from bearing_explorer.diagnosis.measurement_state import AboutMeasurement, MeasurementState
 from bearing_explorer.diagnosis.model import Model
+from bearing_explorer.diagnosis.next_steps import work_order
 from bearing_explorer.diagnosis.session import Measurement
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.views import part_words
@@ -78,6 +79,7 @@ class PartDiagnosis(MeasuredView):
         self.machine = MachineForm(lambda: self.measurement)
         self.part = PartPanel(self._report_on)
         self._shown_of: Recording | None = None  # of which the panel has an answer
+        self._work_order = ""
         self.lines = PartLines(packed)
         self.evidence = pn.pane.HTML(
             "", stylesheets=[asset_text("evidence.css")], sizing_mode="stretch_width", margin=0
@@ -153,7 +155,10 @@ class PartDiagnosis(MeasuredView):
             self.part.outdate(stale)
         else:
             self._shown_of = None if answer is None else measured.recording
-            self.part.show(self._with_length(panel_state(question, answer), diagnosis))
+            state = self._with_length(panel_state(question, answer), diagnosis)
+            if diagnosis is not None:
+                state["work_order"] = self._work_order
+            self.part.show(state)
             if answer is not None and stale:
                 self.part.outdate(stale)
         if question is not None:
@@ -171,10 +176,7 @@ class PartDiagnosis(MeasuredView):
         extent = self.measurement.extent()
         if extent is None:
             return state | {"extent": MEASURING}
-        length = part_words.length(extent, self.measurement.sizing())
-        unknown = length == part_words.LENGTH_HIDDEN
-        said = "" if unknown else f" Its spall is {length}."
-        return state | {"extent": length, "pass_on": f"{state['pass_on']}{said}"}
+        return state | {"extent": part_words.length(extent, self.measurement.sizing())}
 
     def sentence(self, model: Model) -> str:
         question = self.measurement.question()
@@ -185,6 +187,12 @@ class PartDiagnosis(MeasuredView):
             return BUSY
         if isinstance(answer, str):
             return answer
+        measurement, length = self.measurement, ""
+        extent = measurement.extent() if answer.fault in RACES_NAMED else None
+        if extent is not None and extent.size:
+            length = part_words.length(extent, measurement.sizing())
+        # what it says of the severity takes too long for the loop of the session
+        self._work_order = work_order(measurement, question, answer, length)
         return part_words.sentence(answer, question)
 
     def table(self, model: Model) -> dict[str, np.ndarray]:
@@ -230,7 +238,6 @@ def panel_state(question: Question, answer: Diagnosis | str | None) -> dict[str,
         "headline": part_words.headline(answer),
         "probability": likely if answer.conclusive else "",
         "plain": part_words.plain(answer, question) + part_words.assumed(question),
-        "pass_on": part_words.pass_on(answer, question),
         "facts": part_words.facts(answer, question),
         "bearing": drawn,
     }

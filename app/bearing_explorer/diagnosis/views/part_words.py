@@ -97,11 +97,6 @@ def swing(depth: float) -> str:
     return f"{style.number(100.0 * depth, 1 if depth < 0.095 else 2)} %"
 
 
-def duration(seconds: float) -> str:
-    """A time for a sentence."""
-    return f"{style.number(seconds, 2)} s"
-
-
 def turns(answer: Diagnosis) -> str:
     """The shaft's speed for a sentence; empty where none is known."""
     if answer.shaft_speed is None:
@@ -158,34 +153,25 @@ def sentence(answer: Diagnosis, question: Question) -> str:
     return said.sentence + assumed(question) + truth(question)
 
 
-def pass_on(answer: Diagnosis, question: Question) -> str:
-    """A summary for a technician."""
+def finding(answer: Diagnosis, question: Question) -> str:
+    """The finding for a technician, with what it assumes."""
     speed, doubt = turns(answer), assumed(question)
     at = f" at {speed}" if speed else ""
-    head = f"Bearing, measured for {duration(question.measured.recording.duration)}{at}: "
+    name = question.measured.machine.bearing_name
+    head = f"bearing{f' {name}' if name else ''}{at}: "
     if answer.names_a_part:
-        one = answer.of(answer.fault)
+        part = answer.of(answer.fault)
         return (
             f"{head}{headline(answer).lower()} (probability {probability(answer.probability)}); "
-            f"impacts at {style.number(one.frequency, 4)} Hz, {one.order:.2f} times a turn."
-            f"{other_race(answer)} Have the bearing inspected, and measure again to see whether it "
-            f"grows.{doubt}"
+            f"impacts at {style.number(part.frequency, 4)} Hz, {part.order:.2f} a turn.{doubt}"
         )
     if answer.fault == NONE_SEEN:
         return (
             f"{head}no damage seen on outer race, inner race or balls (probability "
-            f"{probability(answer.probability)}). Measure again at the usual time. This says "
-            f"nothing about lubrication, balance or other bearings.{counted(question)}{doubt}"
+            f"{probability(answer.probability)}). This says nothing about lubrication, balance or "
+            f"other bearings.{counted(question)}{doubt}"
         )
     return f"{head}no clear result from this signal.{doubt}"
-
-
-def other_race(answer: Diagnosis) -> str:
-    """A sentence on the other race, if it is probably damaged too; empty if not."""
-    other = answer.other_race
-    if other is None:
-        return ""
-    return f" The {other.part} shows too (probability {probability(other.probability)})."
 
 
 def facts(answer: Diagnosis, question: Question) -> list[list[str]]:

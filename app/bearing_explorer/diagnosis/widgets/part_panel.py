@@ -53,7 +53,7 @@ class PartPanel(pn.Column):
         wide: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
         self._answer = pn.pane.HTML("", stylesheets=[asset_text("part.css")], **wide)
         self._summary = pn.pane.Str("", visible=False)
-        self._copy = button("Copy the summary", lambda: None)
+        self._copy = button("Copy the work order", lambda: None)
         self._copy.js_on_click(args={"summary": self._summary, "button": self._copy}, code=_COPY)
         self._report = button("Report on one page", lambda: None)
         self._report.js_on_click(code=_REPORT)
@@ -77,12 +77,12 @@ class PartPanel(pn.Column):
         self.state = state
         self._answer.object = part_html(state)
         stale = state.get("stale", "")
-        summary = "" if stale else state.get("pass_on", "")
+        summary = "" if stale else state.get("work_order", "")
         self._summary.object = summary
-        self._copy.param.update(label="Copy the summary", disabled=not summary)
+        self._copy.param.update(label="Copy the work order", disabled=not summary)
         self._report.disabled = not summary
         self._why_not.object = f"<p>{NOT_NOW}</p>" if stale else ""
-        self._actions.visible = self._next.visible = bool(state.get("pass_on", ""))
+        self._actions.visible = self._next.visible = bool(state.get("work_order", ""))
 
     def outdate(self, why: str) -> None:
         """Mark the answer that is shown: it is not that of the newest answers and settings."""
@@ -96,16 +96,16 @@ def _words(content: str) -> pn.pane.HTML:
 
 
 def part_html(state: Mapping[str, Any]) -> str:
-    """The answer as HTML: picture, headline, words, summary, assumptions."""
+    """The answer as HTML: picture, headline, words, work order, assumptions."""
     names = (
-        "headline", "probability", "extent", "plain", "pass_on", "color", "mood", "stale",
+        "headline", "probability", "extent", "plain", "work_order", "color", "mood", "stale",
     )  # fmt: skip
     said = {name: html.escape(str(state.get(name, ""))) for name in names}
     short = said["probability"], said["extent"]
     facts = [Fact(html.escape(name), value) for name, value in state.get("facts", ())]
     summary = (
-        f'<div class="summary"><strong>Summary to copy</strong><p>{said["pass_on"]}</p></div>'
-        if said["pass_on"] and not said["stale"]
+        f'<div class="summary"><strong>Work order to copy</strong><p>{said["work_order"]}</p></div>'
+        if said["work_order"] and not said["stale"]
         else ""
     )
     assumptions = (

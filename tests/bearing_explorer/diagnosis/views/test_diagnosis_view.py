@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from bearing_explorer.diagnosis.diagnoses import Question, answered
 from bearing_explorer.diagnosis.model import Model
+from bearing_explorer.diagnosis.next_steps import work_order
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.simulated import simulated
 from bearing_explorer.diagnosis.views import part_words
@@ -112,13 +113,16 @@ def test_words_have_sensible_digits_and_nothing_is_certain(truth):
     state = panel_state(asked(truth), diagnosed(truth))
     words = " ".join(
         [
-            *(str(state[key]) for key in ("headline", "probability", "plain", "pass_on")),
+            *(str(state[key]) for key in ("headline", "probability", "plain")),
+            order := work_order(measuring(heard(truth)), asked(truth), diagnosed(truth)),
             *(" ".join(row) for row in state["facts"]),
             str(part_words.evidence_rows(diagnosed(truth))),
         ]
     )
     assert not re.search(r"100 %|nan|inf\b|no value|None|e-\d|\d\.\d{4}", words), words
-    assert "±" not in state["pass_on"]
+    assert "±" not in order
+    names = [line.partition(":")[0] for line in order.splitlines()]
+    assert names == ["Finding", "Severity", "To do"]
 
 
 def test_a_counted_bearing_is_cleared_without_a_word_and_an_estimated_one_is_not():
@@ -128,10 +132,11 @@ def test_a_counted_bearing_is_cleared_without_a_word_and_an_estimated_one_is_not
     estimated = Question.about(dataclasses.replace(question.measured, machine=machine))
     state = panel_state(estimated, diagnosis)
     assert part_words.COUNTED.format("balls") in state["plain"]
-    assert part_words.COUNTED.format("balls") in state["pass_on"]
+    assert part_words.COUNTED.format("balls") in part_words.finding(diagnosis, estimated)
     assert "estimated from the designation, so BPFO ± " in dict(state["facts"])["Bearing"]
     counted = panel_state(question, diagnosis)
-    assert "estimate" not in str([counted[key] for key in ("plain", "pass_on", "facts")])
+    assert "estimate" not in str([counted[key] for key in ("plain", "facts")])
+    assert "estimate" not in part_words.finding(diagnosis, question)
 
 
 def test_a_part_that_is_hardly_told_is_only_probably_damaged():

@@ -304,7 +304,7 @@ def read_ratio(text: str) -> float:
     over, _, under = text.replace(":", "/").partition("/")
     ratio = number_of(over, words, "", 1e-3, 1e6) / number_of(under or "1", words, "", 1e-3, 1e6)
     if not least <= ratio <= most:
-        raise ValueError(f"{words} is {number(ratio, 4)}; possible: {span(least, most)}.")
+        raise ValueError(f"{words} is {number(ratio, 4)}; possible: {span(least, most, 'times')}.")
     return ratio
 
 

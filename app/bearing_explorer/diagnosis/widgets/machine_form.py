@@ -100,8 +100,8 @@ class MachineForm(pn.Column):
             self._shown = state.bearings, state.speeds
             for name, options in (("bearing", state.bearings), ("speed", state.speeds)):
                 fields.values[name] = values[name]
-                options = choices(options or NO_OPTIONS[name])
-                fields.widgets[name].param.update(**options, value=values[name])
+                shown_options = choices(options or NO_OPTIONS[name])
+                fields.widgets[name].param.update(**shown_options, value=values[name])
         fields.put(values)
         by, speed = values["bearing"], values["speed"]
         shown = {

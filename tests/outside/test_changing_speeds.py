@@ -11,7 +11,7 @@ import pytest
 
 from bearingcore import Recording, diagnose
 from bearingcore.errors import FieldError
-from bearingcore.measured.diagnosis import DiagnosisStatus
+from bearingcore.measured.diagnosis import DiagnosisStatus, speed_over_time
 from bearingcore.measured.files import read_recording
 from tests.outside.changing_speeds import BALLS, CHANGES, TURN, machine
 from tests.outside.witness import witness
@@ -63,6 +63,10 @@ def test_a_tachometer_is_followed(a_turn: int, given: float | None, ratio: float
         recording.shaft_angle, TURN * a_turn * counted, atol=0.05 * TURN * a_turn
     )
     speed = None if given is None else TURN / 60.0 * given
+    turning = np.gradient(TURN * counted, time)
+    mean = float(turning.mean())
+    beside = speed_over_time(recording, mean)
+    np.testing.assert_allclose(beside[500:-500], turning[500:-500], rtol=0.01)
     answer = diagnose(recording, "6309", speed, shaft_ratio=ratio)
     assert (answer.fault, answer.probability >= 0.9) == ("inner race", True)
     assert answer.shaft_speed == pytest.approx(TURN / 60.0 * RPM, rel=0.01)

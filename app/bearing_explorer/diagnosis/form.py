@@ -26,7 +26,7 @@ from bearing_explorer.diagnosis.machine import FormError, Machine
 from bearing_explorer.diagnosis.signal import Measured, Origin
 from bearing_explorer.kit.sentences import number_of, sentence_of
 from bearingcore import Recording, Table, catalogue
-from bearingcore.common import number, with_prefix
+from bearingcore.common import with_prefix
 from bearingcore.errors import FieldError
 from bearingcore.measured.files import (
     OTHER,
@@ -271,7 +271,7 @@ def speeds_of(table: Table) -> list[list[str]]:
         rpm = 30.0 / math.pi * speed.value
         words = f"{'from the file' if speed.stated else 'a guess from the file'}: {rpm:.4g} rpm"
         if not speed.supported:  # of pulses, which are as many as turns only if each is one
-            words = f"from the tachometer: about {number(rpm, 3)} rpm"
+            words = f"from the tachometer: about {float(f'{rpm:.3g}'):g} rpm"
         of_file = [[machine.FILE, words]]
     return [
         [NOT_KNOWN, "not known: find it"],

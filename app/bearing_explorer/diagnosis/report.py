@@ -41,7 +41,7 @@ from bearingcore.common import number, percent, with_prefix
 
 FILE = "bearing-report-{}.html"
 NOT_SAID = "not said"
-WIDTH, HEIGHT = 600, 200
+WIDTH, HEIGHT = 600, 260
 """Of a figure as it is drawn [px]; two are side by side."""
 MOST_FIGURES = 4
 _ORIGINS = {
@@ -78,7 +78,7 @@ def _drawings(
         figure = Figure(
             view,
             model,
-            prepare=lambda view: view.measure(measurement),  # type: ignore[attr-defined]
+            prepare=lambda view: _prepare(view, measurement),
             job_result=job_results.get(view.name),
             computed=False,
         )
@@ -90,7 +90,6 @@ def _drawings(
             continue
         # the trend is in words above
         caption = "" if view is TrendOfFiles else html_text(figure.sentence)
-        first.height = first.min_height = first.max_height = HEIGHT
         drawn.append(first.id)
         items.append(json_item(figure.layout))
         figures.append(
@@ -100,6 +99,13 @@ def _drawings(
         if len(drawn) == MOST_FIGURES:
             break
     return drawn, items, figures
+
+
+def _prepare(view: Any, measurement: Measurement) -> None:
+    """Have a view draw the signal, as high as in the report: places of names follow from that."""
+    view.measure(measurement)
+    for plot in view.figures:
+        plot.height = plot.min_height = plot.max_height = HEIGHT
 
 
 def measured_report(

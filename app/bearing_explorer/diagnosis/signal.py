@@ -16,7 +16,7 @@ import bearingcore as core
 from bearing_explorer.diagnosis.machine import Machine
 from bearingcore import Bearing, Indicators, Kurtogram, Recording, Scene, Spectrum
 from bearingcore.common import cached_property
-from bearingcore.measured.diagnosis import NARROWEST
+from bearingcore.measured.diagnosis import NARROWEST, speed_over_time
 from bearingcore.measured.files import Column
 from bearingcore.measured.signals import shaft_share
 
@@ -165,6 +165,11 @@ class Measured:
     def indicators(self) -> Indicators:
         """Condition indicators of the recording."""
         return core.indicators(self.recording, self.shaft_speed)
+
+    @cached_property
+    def speeds(self) -> NDArray[np.float64] | None:
+        """Speed (n,) [rad/s] of the bearing's shaft, if measured beside the signal; else None."""
+        return speed_over_time(self.recording, self.shaft_speed)
 
     @cached_property
     def shaft_share(self) -> float:

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from bearing_explorer.diagnosis.form import AS_HEADED, read_form, with_role
 from bearing_explorer.diagnosis.machine import Machine
-from bearing_explorer.diagnosis.model import NOT_TAKEN, WANTED
+from bearing_explorer.diagnosis.model import NOT_TAKEN, WANTED, Model
 from bearing_explorer.diagnosis.reading import MOST_NUMBERS, read_file
 from bearing_explorer.diagnosis.session import RECORDS, Measurement
 from bearing_explorer.diagnosis.signal import Measured
@@ -25,11 +25,13 @@ from bearing_explorer.diagnosis.upload import (
     shown_name,
     without_middle,
 )
+from bearing_explorer.diagnosis.views.measured_spectrum import MeasuredSpectrum
 from bearing_explorer.diagnosis.views.measured_view import recording_lines
 from bearing_explorer.diagnosis.views.part_words import assumed
 from bearing_explorer.diagnosis.widgets.machine_form import MachineForm, kept_html
 from bearing_explorer.diagnosis.widgets.measurement_form import columns_as_said
 from bearing_explorer.kit.compute.jobs import READING
+from bearing_explorer.kit.serve.packed_source import PackedSource
 from scipy.io import wavfile
 
 from bearingcore import Scene, catalogue, presets
@@ -472,6 +474,12 @@ def test_a_gear_ratio_turns_the_measured_speed_into_that_of_the_bearing() -> Non
     assert turned.shaft_speed == pytest.approx(200.0 * math.pi * 23 / 47)
     np.testing.assert_allclose(turned.recording.shaft_angle, angle * 23 / 47)
     assert "2936 rpm (0.4894 ×)" in made.state.line
+    spectrum = MeasuredSpectrum(PackedSource())
+    spectrum.measure(made)
+    drawn = spectrum.data(Model(RIG))[0]["shaft_speed"]
+    np.testing.assert_allclose(drawn["rpm"], 6000.0 * 23 / 47, rtol=1e-3)
+    spectrum.show_look()
+    assert spectrum.speed_plot.visible
     (line,) = [line for line in recording_lines(turned) if "scale_shaft" in line]
     assert line == f"recording = recording.scale_shaft({23 / 47!r})"
     answer(made, ratio="0")

@@ -39,7 +39,6 @@ COLORS = {"outer race": "#E69F00", "inner race": "#AA3377", "ball": "#009E73"}
 INKS = {"outer race": "#8A5A00", "inner race": "#94407A", "ball": "#00704F"}
 """Colours of the parts: those that their lines have on all figures."""
 
-_ROW = ROW_PIXELS / FRAME
 _NAME_WIDTH, _ORDER_WIDTH = 0.13, 0.06
 """Of a part's first name and those of its harmonics, as shares of a narrow frame's width."""
 _WORDS = "return row.order == 1 ? '%s' : `${row.order}×`"
@@ -136,6 +135,7 @@ class PartLines:
         drawn = excerpt(spectrum.frequency, spectrum.level, low, high)
         sources: Sources = {"diagnosis_spectrum": drawn}
         lead = leading(diagnosis)
+        name_row = ROW_PIXELS / (FRAME + self.plot.height - HEIGHT)
         for row, one in enumerate(diagnosis.evidence):
             first = fundamental(diagnosis, one)
             alpha = EVEN if lead is None else STRONG if one is lead else FAINT
@@ -150,14 +150,14 @@ class PartLines:
             sources[f"{_lines(one.part)}_names"] = {
                 "frequency": labels * first,
                 "order": labels,
-                "row": np.full(labels.size, 1.0 - _ROW * (row + 0.8)),
+                "row": np.full(labels.size, 1.0 - name_row * (row + 0.8)),
                 "alpha": np.full(labels.size, 1.0 if one is lead or lead is None else 0.75),
             }
         if lead is not None:
             sources |= self._of_lead(lead)
         swells = drawn["frequency"] > 0.5 * shaft  # what drifts slowly is not what the scale is for
         loudest = float(np.max(drawn["level"][swells], initial=10.0))
-        room = _ROW * (len(PARTS) + 0.8)
+        room = name_row * (len(PARTS) + 0.8)
         head = (loudest - LOWEST) * room / (1.0 - room)
         return sources, {
             "diagnosis_frequency": (low, high),

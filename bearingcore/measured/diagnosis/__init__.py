@@ -23,11 +23,8 @@ from bearingcore.measured.diagnosis._part.evidence import (
     EnvelopeLines as EnvelopeLines,
     PartEvidence as PartEvidence,
 )
-from bearingcore.measured.diagnosis._part.listed import (
-    ListedBearing as ListedBearing,
-    explaining_bearings as explaining_bearings,
-)
 from bearingcore.measured.diagnosis._part.listened_signal import NARROWEST as NARROWEST
+from bearingcore.measured.diagnosis._part.over_turns import speed_over_time as speed_over_time
 from bearingcore.measured.diagnosis._part.parts import (
     INNER as INNER,
     OUTER as OUTER,

@@ -110,8 +110,10 @@ def diagnose(
         matter here.
     **more
         `slip` (0.02): largest relative difference between the true passing rate of the balls and
-        that by the shaft speed. `speed_source`, `bearing_source`: "given", "from the file" or
-        "assumed", with more words after a colon.
+        that by the shaft speed. `shaft_ratio` (1): turns of the bearing's shaft for each turn of
+        the shaft whose speed is given, such as 0.657 or 23/47, behind a gear or a belt.
+        `speed_source`, `bearing_source`: "given", "from the file" or "assumed", with more words
+        after a colon.
 
     Returns
     -------

@@ -203,7 +203,7 @@ class Table(FileColumns):
             shaft_speed = speed.value
         made = Recording(
             signal, rate, tuple(directions), self.name, shaft_speed, tuple(filter(None, notes)),
-            angle,
+            angle, None if contents.recorded is None else contents.recorded.value,
         )  # fmt: skip
         with np.errstate(over="ignore"):
             levels = made.acceleration.std(axis=0)

@@ -58,6 +58,7 @@ def diagnose_recording(
     shaft_speed: float | tuple[float, float] | None = None,
     *,
     slip: float = SLIP,
+    shaft_ratio: float = 1.0,
     speed_source: str = "given",
     bearing_source: str = "given",
 ) -> Diagnosis:
@@ -66,19 +67,24 @@ def diagnose_recording(
     bearing = None if bearing is None else bearing_of(bearing)
     for name, said in (("speed_source", speed_source), ("bearing_source", bearing_source)):
         checks.choice(name, said.partition(":")[0], SOURCES)
-    diagnosis = _diagnose(recording, bearing, shaft_speed, slip, speed_source)
-    return replace(diagnosis, bearing_source="unknown" if bearing is None else bearing_source)
+    ratio = checks.real_number("shaft_ratio", shaft_ratio, at_least=0.01, at_most=100.0)
+    speeds = _speeds(recording, shaft_speed, speed_source, ratio)
+    behind_gear = recording if ratio == 1.0 else recording.scale_shaft(ratio)
+    diagnosis = _diagnose(behind_gear, bearing, speeds, ratio, slip, speed_source)
+    source = "unknown" if bearing is None else bearing_source
+    return replace(diagnosis, bearing_source=source, shaft_ratio=ratio)
 
 
 def _diagnose(
     recording: Recording,
     bearing: Bearing | None,
-    shaft_speed: float | tuple[float, float] | None,
+    speeds: tuple[float, float, str],
+    ratio: float,
     slip: float,
     speed_source: str,
 ) -> Diagnosis:
     slip = checks.real_number("slip", slip, at_least=0.0, at_most=0.1)
-    low, high, source = _speeds(recording, shaft_speed, speed_source)
+    low, high, source = speeds
     measured = recording.shaft_angle is not None
     recording, low, high, source = resample_to_steady_speed(recording, low, high, source)
     signal = ListenedSignal(recording)
@@ -91,7 +97,7 @@ def _diagnose(
     if high > NARROW * low or answer.fault in (INNER, BALL):
         return answer
     speed, reach = 0.5 * (low + high), (high - low) / (high + low) + slip
-    held = _held_against_the_shaft(signal, answer, speed, reach)
+    held = _held_against_the_shaft(signal, answer, speed, reach, speed / ratio)
     if measured or held.names_a_part or not held.evidence:
         return held
     return _where_it_changes(held, followed_change(signal.columns, signal.rate, speed))
@@ -129,13 +135,14 @@ def _diagnose_between(
 
 
 def _held_against_the_shaft(
-    signal: ListenedSignal, answer: Diagnosis, speed: float, reach: float
+    signal: ListenedSignal, answer: Diagnosis, speed: float, reach: float, driving: float
 ) -> Diagnosis:
     """The answer, held against lines of the shaft at another speed than the stated one [Hz].
 
     Lines of the shaft elsewhere, and none at the stated speed, mean that speed or sample rate are
     wrong: no part is named then, and the answer says which speed the lines show. At 60 times the
-    speed or a 60th of it, Hz and rpm are confused most likely.
+    speed or a 60th of it, Hz and rpm are confused most likely. Lines of the shaft that is `driving`
+    [Hz] the bearing's by a gear contradict nothing.
     """
     stated = signal.shaft(speed * (1.0 - reach), speed * (1.0 + reach))
     if stated.clear:
@@ -149,7 +156,7 @@ def _held_against_the_shaft(
     if stated.excess >= 0.0:
         return answer
     shown = signal.shaft_tones(ELSEWHERE[0] * speed, ELSEWHERE[1] * speed)
-    if not shown.clear:
+    if not shown.clear or abs(shown.frequency / driving - 1.0) <= reach:
         return answer
     words = say.lines_elsewhere(speed, shown.frequency)
     if not answer.names_a_part:
@@ -167,16 +174,16 @@ def _held_against_the_shaft(
 
 
 def _speeds(
-    recording: Recording, shaft_speed: float | tuple[float, float] | None, said: str
+    recording: Recording, shaft_speed: float | tuple[float, float] | None, said: str, ratio: float
 ) -> tuple[float, float, str]:
-    """The speed from, to [Hz], and where it is from."""
-    turn = 2.0 * math.pi
+    """The speed of the bearing's shaft from, to [Hz], and where it is from."""
+    turn = 2.0 * math.pi / ratio
     if shaft_speed is None:
         stated = getattr(recording, "shaft_speed", None)
         if stated is not None:
             speed = checks.real_number("shaft_speed", stated, above=0.0, unit="rad/s") / turn
             return speed, speed, "given by the recording"
-        return SPEEDS[0] / turn, SPEEDS[1] / turn, "looked for"
+        return SPEEDS[0] / (2.0 * math.pi), SPEEDS[1] / (2.0 * math.pi), "looked for"
     if np.ndim(shaft_speed) == 0:
         speed = checks.real_number("shaft_speed", shaft_speed, above=0.0, unit="rad/s") / turn  # type: ignore[arg-type]
         return speed, speed, said

@@ -99,6 +99,19 @@ def resample_to_steady_speed(
     return made, low, high, f"{source}; {words}"
 
 
+def speed_over_time(recording: Recording, shaft_speed: float | None = None) -> Array | None:
+    """Return the shaft speed (n,) [rad/s] that was measured beside a signal; None without.
+
+    It is the mean of two turns around each sample. A `shaft_speed` [rad/s] that is known gives the
+    pulses a turn of a tachometer.
+    """
+    if recording.shaft_angle is None:
+        return None
+    turn = 2.0 * math.pi
+    speed = turn * _smooth_speed(recording.shaft_angle / turn, recording.sample_rate)
+    return speed / max(1.0, round(float(speed.mean()) / shaft_speed)) if shaft_speed else speed
+
+
 def _mean_speed(turns: Array, rate: float) -> float:
     """Turns a second [Hz] in the mean."""
     return float(turns[-1] - turns[0]) / (len(turns) - 1) * rate

@@ -108,7 +108,7 @@ class Path(NamedTuple):
 
 
 class Place(NamedTuple):
-    """Where the balls are at one instant, each array (n,): cosine, sine and drop [m]."""
+    """Places of the balls at one instant, each array (n,): cosine, sine and drop [m]."""
 
     c: Array
     s: Array
@@ -116,7 +116,7 @@ class Place(NamedTuple):
 
 
 class Passage(NamedTuple):
-    """Where the balls are at some instants, and what turns with the shaft.
+    """Places of the balls at some instants, and what turns with the shaft.
 
     Attributes
     ----------

@@ -137,7 +137,7 @@ def rates(y, part, before, k, at, system, work):
 
 @inlined
 def changed(y, at, system, work):
-    """Whether contacts have been released or taken up, and y with them, as a step begins."""
+    """Release and take up contacts as a step begins; True where that has changed y."""
     rotor = system.rotor
     if rotor.tension or rotor.variables == VELOCITIES:
         return False

@@ -82,17 +82,14 @@ def update_released(y, k, passage, inner, at, system, work):
         for j in range(n_balls):
             before[race, j] = released[race, j]
             some = some or released[race, j]
-            if not released[race, j] and work.contact[race, j, 0] < 0.0:
+            # those that were released before are looked at again below, as if they pushed
+            released[race, j] = not released[race, j] and work.contact[race, j, 0] < 0.0
+            if released[race, j]:
                 change_variable(y, race, j, 1.0, passage, at, system, work)
-                released[race, j] = True
                 changed = True
     if not some:
         return changed
     # those that were released before: are they still compressed, and would they still pull?
-    for race in range(2):
-        for j in range(n_balls):
-            if before[race, j]:
-                released[race, j] = False
     locate_contacts(y, passage, inner, at, system, work)
     true_forces(k, passage, inner, at, system, work)
     for race in range(2):

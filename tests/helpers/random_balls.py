@@ -11,6 +11,7 @@ import numpy as np
 
 from bearingcore import Bearing, Defect, Load, Scene, presets, simulate
 from bearingcore.model import _kernels as kernels
+from bearingcore.model.dynamics import Motion
 from bearingcore.model.scene import WITH_MASS
 from bearingcore.model.statics import BallPositions
 from tests.helpers.contact_law import TwoContacts
@@ -80,6 +81,12 @@ def faults(state: BallPositions, i: int, weight: bool) -> str:
     return ""
 
 
+def ball_places(motion: Motion, i: int) -> np.ndarray:
+    """Radial and axial places (2, N_b) [m] of balls in a sample; axial 0 of a planar motion."""
+    assert motion.ball_place is not None
+    return np.vstack([*motion.ball_place[i], np.zeros(motion.ball_place.shape[2])])[:2]
+
+
 def motion_faults(scene: Scene, rng: np.random.Generator) -> str:
     """What is wrong with a motion of a scene without damping of its contacts, "" for nothing.
 
@@ -102,7 +109,7 @@ def motion_faults(scene: Scene, rng: np.random.Generator) -> str:
         rings = np.zeros((2, 5))
         rings[0, number] = motion.inner_displacement[row]
         rings[1, number] = motion.outer_displacement[row]
-        sums = TwoContacts(scene, motion.cage_angle[row], *rings, motion.ball_position[row])
+        sums = TwoContacts(scene, motion.cage_angle[row], *rings, ball_places(motion, row))
         carried = [sums.force(race)[number] for race in (0, 1)]
         held = stiffness * rings[1, number] + damping * motion.outer_velocity[row]
         forces = scene.load.vector[number] - carried[0], carried[1] - held

@@ -56,8 +56,6 @@ class Modes:
         direction with the largest motion, numbered by rising frequency: "x1", "y1", "x2", "y2".
     body : (m,)
         "inner" or "outer": the body with the largest motion in that direction.
-    mean_shape : (m, 2 len(dofs))
-        undamped shapes at the mean stiffness, with which modes are matched.
     cost
         the number of contacts if they exceeded `most_contacts`; else empty.
     state
@@ -75,7 +73,6 @@ class Modes:
     shape: Array
     label: tuple[str, ...]
     body: tuple[str, ...]
-    mean_shape: Array
     cost: str = ""
     state: Equilibrium | None = field(default=None, repr=False, compare=False)
 
@@ -231,7 +228,7 @@ def modes_at(state: Equilibrium, template: Array | None = None, *, nearly: bool 
     """The modes at static states that are already known.
 
     They are followed by the shapes of a template (m, m), else by those of their mean stiffness.
-    `nearly`: damping by `_nearly_damped`, which is quicker.
+    `nearly`: damping by `_approximate_damping`, which is quicker.
     """
     scene, dofs = state.scene, state.dofs
     nd = len(dofs)
@@ -243,9 +240,7 @@ def modes_at(state: Equilibrium, template: Array | None = None, *, nearly: bool 
         names = _labels(template, mass, dofs)
         rows = np.broadcast_to(np.float64(math.nan), (len(state.cage_angles), 2 * nd))
         shapes = np.broadcast_to(np.float64(math.nan), (*rows.shape, 2 * nd))
-        return Modes(
-            scene, dofs, state.cage_angles, rows, rows, rows, shapes, *names, template, state.cost
-        )
+        return Modes(scene, dofs, state.cage_angles, rows, rows, rows, shapes, *names, state.cost)
     K_b = state.stiffness[:, index][:, :, index]
     C_b = contact_damping(scene) * loaded_directions(state)[:, index][:, :, index]
     K = two_body_matrix(K_b, scene.support.stiffness(dofs))
@@ -264,12 +259,11 @@ def modes_at(state: Equilibrium, template: Array | None = None, *, nearly: bool 
         template = _undamped(mean, mass)[1]
     if known.any():
         undamped[known], shape[known] = _follow(*_undamped(K[known], mass), template, mass)
-        damped = _nearly_damped if nearly else _damped
+        damped = _approximate_damping if nearly else _exact_damping
         frequency[known], ratio[known] = damped(K[known], C[known], mass, shape[known])
     label, body = _labels(template, mass, dofs)
     return Modes(
-        scene, dofs, state.cage_angles, frequency, ratio, undamped, shape, label, body, template,
-        state=state,
+        scene, dofs, state.cage_angles, frequency, ratio, undamped, shape, label, body, state=state
     )  # fmt: skip
 
 
@@ -428,7 +422,7 @@ def _undamped(K: Array, mass: Array) -> tuple[Array, Array]:
     return frequency, np.swapaxes(vectors, -1, -2) / root
 
 
-def _damped(K: Array, C: Array, mass: Array, shape: Array) -> tuple[Array, Array]:
+def _exact_damping(K: Array, C: Array, mass: Array, shape: Array) -> tuple[Array, Array]:
     """|λ|/2π [Hz] and −Re λ/|λ| of each mode with damping, each in the place of its undamped mode.
 
     State matrix [0, 1; −M⁻¹K, −M⁻¹C]: the signs of Eq. 28 mended.
@@ -449,12 +443,12 @@ def _damped(K: Array, C: Array, mass: Array, shape: Array) -> tuple[Array, Array
     return size / (2.0 * math.pi), -chosen.real / np.maximum(size, 1e-300)
 
 
-def _nearly_damped(K: Array, C: Array, mass: Array, shape: Array) -> tuple[Array, Array]:
-    """`_damped` to the third order in what dampers couple, without an eigenvalue problem.
+def _approximate_damping(K: Array, C: Array, mass: Array, shape: Array) -> tuple[Array, Array]:
+    """`_exact_damping` to the third order in what dampers couple, without an eigenvalue problem.
 
     In modal coordinates, with D_j = λ² + c_jj λ + ω_j² of the other modes j, k ≠ i:
     λ² + c_ii λ + ω_i² = λ² Σ_j c_ij²/D_j − λ³ Σ_jk c_ij c_jk c_ki/(D_j D_k), k ≠ j. Where modes mix
-    by more than MIXED, or one hardly swings, as `_damped` has it.
+    by more than MIXED, or one hardly swings, as `_exact_damping` has it.
     """
     c = shape @ C @ np.swapaxes(shape, 1, 2)
     damping = np.diagonal(c, axis1=1, axis2=2)
@@ -472,7 +466,7 @@ def _nearly_damped(K: Array, C: Array, mass: Array, shape: Array) -> tuple[Array
     frequency, ratio = size / (2.0 * math.pi), -rate.real / np.maximum(size, 1e-300)
     near = (np.abs(there * part) < MIXED).all(axis=(1, 2)) & (damping**2 < squared).all(axis=1)
     if not near.all():
-        frequency[~near], ratio[~near] = _damped(K[~near], C[~near], mass, shape[~near])
+        frequency[~near], ratio[~near] = _exact_damping(K[~near], C[~near], mass, shape[~near])
     return frequency, ratio
 
 

@@ -294,14 +294,14 @@ def orbit(
     if y is None:
         why = rest.reason(0)
         return replace(nothing, status=OrbitStatus.NO_START, period=period, cost=why)
-    y = shooting.own(y)
+    y = shooting.smooth_state(y)
     if start is not None:
         answer = _newton(nothing, shooting, y, period, most_iterations)
         if answer.status != OrbitStatus.NOT_CONVERGED or shooting.given_up:
             return shooting.reported(answer)
     # where Newton loses its way it begins again, nearer to where the motion itself goes
     for periods in MARCHED_BEFORE:
-        y = shooting.marched(y, periods)
+        y = shooting.march(y, periods)
         answer = _newton(nothing, shooting, y, period, most_iterations)
         if answer.status != OrbitStatus.NOT_CONVERGED or shooting.given_up:
             break
@@ -360,13 +360,13 @@ class _Shooting:
         omega = 2.0 * math.pi * highest_frequency_of(packed)
         self.scale = np.repeat([1.0, 1.0 / omega, 1.0, 1.0 / omega], len(packed.dofs))
 
-    def own(self, y: Array) -> Array:
-        """A state of displacements and velocities in the variables that are marched."""
+    def smooth_state(self, y: Array) -> Array:
+        """Turn displacements and velocities into the variables that are marched."""
         periodic = y.copy()
         kernels.turn_smooth(periodic, 1.0, 0.0, self._system)
         return periodic
 
-    def marched(self, y: Array, periods: int = 1) -> Array:
+    def march(self, y: Array, periods: int = 1) -> Array:
         """P(y), or P of P, or more."""
         end = y.copy()
         for _ in range(periods):
@@ -376,7 +376,7 @@ class _Shooting:
             self._count()
         return end
 
-    def with_tangent(self, y: Array) -> tuple[Array, Array]:
+    def march_with_tangent(self, y: Array) -> tuple[Array, Array]:
         """P(y) and its derivative."""
         both = np.concatenate([y, np.eye(y.size).ravel()])
         kernels.march(both, self._step, 0.0, self._system, self.history)
@@ -408,7 +408,7 @@ class _Shooting:
 
 
 def _newton(nothing: Orbit, shooting: _Shooting, y: Array, period: float, most: int) -> Orbit:
-    end, tangent = shooting.with_tangent(y)
+    end, tangent = shooting.march_with_tangent(y)
     miss = shooting.miss(y, end)
     iterations = 0
     while miss > CLOSED and iterations < most and math.isfinite(miss) and not shooting.given_up:
@@ -420,7 +420,7 @@ def _newton(nothing: Orbit, shooting: _Shooting, y: Array, period: float, most: 
         part = 1.0
         while part > 0.02:
             trial = y + part * step
-            trial_end, trial_tangent = shooting.with_tangent(trial)
+            trial_end, trial_tangent = shooting.march_with_tangent(trial)
             trial_miss = shooting.miss(trial, trial_end)
             if trial_miss < miss or shooting.given_up:
                 break
@@ -428,7 +428,7 @@ def _newton(nothing: Orbit, shooting: _Shooting, y: Array, period: float, most: 
         else:
             # no part of the step helps: let the motion itself move on
             trial = end
-            trial_end, trial_tangent = shooting.with_tangent(trial)
+            trial_end, trial_tangent = shooting.march_with_tangent(trial)
             trial_miss = shooting.miss(trial, trial_end)
         y, end, tangent, miss = trial, trial_end, trial_tangent, trial_miss
     answer = replace(

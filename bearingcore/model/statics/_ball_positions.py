@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,11 +16,8 @@ from bearingcore.common import (
     ResultTable,
     _checks as checks,
     cached_property,
-    number,
-    percent,
     shown_as_table,
     table_of,
-    with_prefix,
 )
 from bearingcore.model import _kernels as kernels
 from bearingcore.model.scene import DOF_NAMES, WITH_MASS, Scene, _packing as packing
@@ -39,8 +37,6 @@ BALANCED = 1e-8
 
 CARRYING = 0.05
 """Part of the heaviest load above which a ball counts as carrying."""
-
-UNSETTLED = StaticStatus.NOT_CONVERGED
 
 
 @shown_as_table
@@ -198,7 +194,7 @@ def ball_positions(
     for none in (StaticStatus.NOT_CARRIED, StaticStatus.BEYOND_GEOMETRY):
         status[massless.status == none] = none
     left = _unbalanced(packed.contacts, races, massless.cage_angles, load, angle)
-    status[(status < StaticStatus.NOT_CARRIED) & (left > BALANCED)] = UNSETTLED
+    status[(status < StaticStatus.NOT_CARRIED) & (left > BALANCED)] = StaticStatus.NOT_CONVERGED
     residual = np.maximum(residual, left)
     units = packed.units
     gone = status >= StaticStatus.NOT_CARRIED
@@ -305,14 +301,11 @@ def static_state(
     )
 
 
-@dataclass(frozen=True)
-class CentrifugalEffect:
+class CentrifugalEffect(NamedTuple):
     """Changes of a scene's static state by centrifugal load, the greatest over its cage angles.
 
     Attributes
     ----------
-    force [N]
-        F_c of a ball of the first row.
     load
         change of a load at the outer race over the heaviest load.
     contact_angle [rad]
@@ -324,23 +317,10 @@ class CentrifugalEffect:
         True where both states have an answer at all cage angles.
     """
 
-    force: float
     load: float
     contact_angle: float
     stiffness: float
     converged: bool
-
-    @property
-    def sentence(self) -> str:
-        """In a line, with the numbers."""
-        if not self.converged:
-            return "Centrifugal load: not known, as a cage angle has no static state."
-        return (
-            f"Centrifugal load of {with_prefix(self.force, 'N')} a ball changes loads by up to "
-            f"{percent(self.load, 2)} of the heaviest, stiffness by up to "
-            f"{percent(self.stiffness, 2)}, and separates the contact angles of the races by up to "
-            f"{number(math.degrees(self.contact_angle), 2)}°."
-        )
 
 
 @contextmanager
@@ -364,8 +344,7 @@ def centrifugal_effect(
     with_load = ball_positions(scene, without.cage_angles, shaft_angles=shaft_angles)
     both = without.converged & with_load.converged
     if not both.all():
-        nan = math.nan
-        return CentrifugalEffect(with_load.centrifugal_load, nan, nan, nan, False)
+        return CentrifugalEffect(math.nan, math.nan, math.nan, False)
     heaviest = max(float(without.load.max()), 1e-300)
     load = np.abs(with_load.load[1] - without.load[1]).max() / heaviest
     parted = np.abs(with_load.contact_angle[0] - with_load.contact_angle[1])
@@ -377,9 +356,7 @@ def centrifugal_effect(
         for name in ("k_xx", "k_yy", "k_zz")
     ]
     apart = float(np.nanmax(parted)) if np.isfinite(parted).any() else 0.0
-    return CentrifugalEffect(
-        with_load.centrifugal_load, float(load), apart, float(max(changes)), True
-    )
+    return CentrifugalEffect(float(load), apart, float(max(changes)), True)
 
 
 def _unbalanced(

@@ -333,8 +333,8 @@ def equilibrium(
     return equilibrium_of(packed, cage_angles, shaft_angles, most_contacts)
 
 
-def without_defects(packed: PackedScene) -> PackedScene:
-    """The same scene without its defects, packed."""
+def remove_defects(packed: PackedScene) -> PackedScene:
+    """Return the same packed scene without its defects."""
     return dataclasses.replace(packed, scene=packed.scene.healthy(), path=packing.HEALTHY_PATH)
 
 

@@ -64,8 +64,8 @@ class Law(NamedTuple):
     slope: Array
     energy: Array
 
-    def at(self, compression: Array) -> tuple[Array, Array, Array]:
-        """Load, slope and energy at compressions of any shape."""
+    def interpolate(self, compression: Array) -> tuple[Array, Array, Array]:
+        """Return load, slope and energy at compressions of any shape."""
         return tuple(np.interp(compression, self.compression, y) for y in self[1:])  # type: ignore[return-value]
 
 
@@ -122,11 +122,11 @@ def compressions(state: Equilibrium) -> Array:
         return np.maximum(np.einsum("njd,nd->nj", gradient, q) - gap, 0.0)
 
     def energy(q: Array) -> Array:
-        return law.at(pressed(q))[2].sum(1) - q @ force
+        return law.interpolate(pressed(q))[2].sum(1) - q @ force
 
     reached = energy(place)
     for _ in range(STEPS):
-        load, slope, _ = law.at(pressed(place))
+        load, slope, _ = law.interpolate(pressed(place))
         rest = force - np.einsum("njd,nj->nd", gradient, load)
         enough = ENOUGH * np.maximum(np.abs(force).max(), load.max(axis=1))
         settled = np.abs(rest).max(axis=1) <= enough

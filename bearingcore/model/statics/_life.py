@@ -63,7 +63,12 @@ from bearingcore.model.statics._load_rating import (
     rating_and_source,
     ratings_alone,
 )
-from bearingcore.model.statics._race_loads import RaceLoads, race_loads, snapshot_loads, together
+from bearingcore.model.statics._race_loads import (
+    RaceLoads,
+    combined_load,
+    race_loads,
+    snapshot_loads,
+)
 
 POSITIONS = ("load line", "all")
 """Over which places of the balls loads are averaged: one of them on the line of the radial load, as
@@ -263,14 +268,14 @@ def life(
     healthy_scene = dataclasses.replace(scene, defect=()) if damaged else scene
     healthy = _loads(healthy_scene, positions, turning_race)
     loads = _loads(scene, positions, turning_race) if damaged else healthy
-    L_healthy = million_revolutions(contact, rated, healthy.of_rows)
-    carried = loads.of_rows
+    L_healthy = million_revolutions(contact, rated, healthy.load_of_rows)
+    carried = loads.load_of_rows
     L = million_revolutions(contact, rated, carried)
     Q_ci, Q_ce = rated[0].tolist()
     # what all rows together do to a race, as a load on that of the first row
     chain = contact.load_exponent * contact.scatter
     parts = (carried / rated).T.tolist()
-    Q_ei, Q_ee = Q_ci * together(parts[0], chain), Q_ce * together(parts[1], chain)
+    Q_ei, Q_ee = Q_ci * combined_load(parts[0], chain), Q_ce * combined_load(parts[1], chain)
     turns_an_hour = scene.shaft_speed / (2.0 * math.pi) * 3600.0
     hours = 1e6 * L / turns_an_hour if turns_an_hour else math.nan
     P = 0.0 if math.isinf(L) else C * L ** (-1.0 / contact.rating_exponent)
@@ -302,15 +307,15 @@ def race_ratings(bearing: Bearing, dynamic_load_rating: float, row: int = 0) -> 
     Of one row, from the rating of all rows (ISO 16281). ValueError where a ball bearing does not
     carry its groove radii.
     """
-    own = bearing.of_row(row)
-    cosine = math.cos(own.contact_angle)
+    row_bearing = bearing.of_row(row)
+    cosine = math.cos(row_bearing.contact_angle)
     each = [1.0] if bearing.rows_are_alike else ratings_alone(bearing)
     part = each[row % len(each)] * len(each) / sum(each)  # over the mean of all rows
     return ratings_of_races(
         LINE_CONTACT if bearing.kind.line_contact else POINT_CONTACT,
-        dynamic_load_rating * part / (own.n_balls * cosine),
-        own.ball_diameter * cosine / own.pitch_diameter,
-        1.0 if bearing.kind.line_contact else groove_ratio(*_conformities(own)),
+        dynamic_load_rating * part / (row_bearing.n_balls * cosine),
+        row_bearing.ball_diameter * cosine / row_bearing.pitch_diameter,
+        1.0 if bearing.kind.line_contact else groove_ratio(*_conformities(row_bearing)),
         len(bearing.all_rows),
     )
 

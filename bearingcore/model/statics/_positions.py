@@ -44,7 +44,7 @@ from bearingcore.model.statics._equilibrium import (
     MOST_CONTACTS,
     Equilibrium,
     equilibrium_of,
-    without_defects,
+    remove_defects,
 )
 
 TWO_PI = 2.0 * math.pi
@@ -300,7 +300,7 @@ def _places_on_edges(defect: Defect, bearing: Bearing, compression: float) -> Ar
 
 def _greatest_compression(packed: PackedScene, row: int) -> float:
     """Greatest compression [m] in a row of the bearing without defects; 0 where none is known."""
-    healthy, contacts = without_defects(packed), packed.contacts
+    healthy, contacts = remove_defects(packed), packed.contacts
     state = equilibrium_of(healthy, np.linspace(0.0, packed.scene.bearing.period, 13))
     first, count = contacts.rows[row]
     loads = np.nan_to_num(state.ball_load[:, first : first + count])
@@ -362,15 +362,15 @@ def extremes(
         cage = pairs[0][where].ravel()
         shaft = places.shaft_ratio * cage + pairs[1][where].ravel()
         new = evaluate(cage, shaft).reshape(q, where.size, -1)
-        own = np.where(of < q, 1.0, -1.0)[:, None] * new[of % q, back.ravel()]
-        own = np.where(np.isnan(own), math.inf, own)
-        at = own.argmin(axis=1)
+        tried = np.where(of < q, 1.0, -1.0)[:, None] * new[of % q, back.ravel()]
+        tried = np.where(np.isnan(tried), math.inf, tried)
+        at = tried.argmin(axis=1)
         i, k = np.divmod(at, parts.size)
-        lower = own.min(axis=1) <= best[changes]
+        lower = tried.min(axis=1) <= best[changes]
         each = np.arange(of.size)
         c[changes] = np.where(lower, cs[each, k], c[changes])
         u[changes] = np.where(lower, us[each, i], u[changes])
-        best[changes] = np.minimum(best[changes], own.min(axis=1))
+        best[changes] = np.minimum(best[changes], tried.min(axis=1))
         turn, ways = turn / PARTS, ways / PARTS
     better = best.argmin(axis=0)
     least, c, u = (np.take_along_axis(x, better[None], axis=0)[0] for x in (best, c, u))

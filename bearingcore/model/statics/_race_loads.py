@@ -97,7 +97,7 @@ class RaceLoads(NamedTuple):
     reason: str = ""
 
     @property
-    def of_rows(self) -> Array:
+    def load_of_rows(self) -> Array:
         """(rows, 2) [N] of the inner and the outer race of each row."""
         return np.stack([self.inner, self.outer], axis=1)
 
@@ -177,7 +177,7 @@ def _averaged(
     powers = (load_exponent, chain) if turning_race == "inner" else (chain, load_exponent)
     inner, outer = (
         tuple(
-            together(
+            combined_load(
                 [_mean(strip, weights, power) for strip in strips(scene.bearing, row, chain)], chain
             )
             for row in (carried_there[:, balls] for balls in scene.bearing.balls_of_rows)
@@ -187,8 +187,8 @@ def _averaged(
     return RaceLoads(inner, outer, heaviest)
 
 
-def together(loads: Sequence[float], power: float) -> float:
-    """The one load that tires as much as all of them do, each a part that has to live."""
+def combined_load(loads: Sequence[float], power: float) -> float:
+    """Return the one load that tires as much as all loads do, each on a part that has to live."""
     size = max(loads)
     if len(loads) == 1 or not size > 0.0:
         return size
@@ -298,7 +298,7 @@ def _average_turning_defects(scene: Scene, load_exponent: float, scatter: float)
     ]
     inner, outer = (
         tuple(
-            together([race(strip, theta) for strip in strips(bearing, row, chain)], chain)
+            combined_load([race(strip, theta) for strip in strips(bearing, row, chain)], chain)
             for theta, row in zip(thetas, np.split(there, len(thetas), axis=2), strict=True)
         )
         for race, there in zip((inner_race, outer_race), loads, strict=True)

@@ -166,10 +166,10 @@ def descent_direction(
     if not load.any():
         return nothing
     phi = contacts.angles_at(np.array([cage_angle]))[0]
-    c, s, zero, one = np.cos(phi), np.sin(phi), np.zeros_like(phi), np.ones_like(phi)
+    c, s, zero, ones = np.cos(phi), np.sin(phi), np.zeros_like(phi), np.ones_like(phi)
     arm, reach = contacts.arm, contacts.reach
     radial = np.stack([c, s, zero, -arm * s, arm * c], axis=1)[:, active]
-    axial = np.stack([zero, zero, one, reach * s, -reach * c], axis=1)[:, active]
+    axial = np.stack([zero, zero, ones, reach * s, -reach * c], axis=1)[:, active]
     ca, sa = contacts.line_r[:, None], contacts.line_z[:, None]
     across = (axial * ca - radial * sa)[~contacts.fixed]
     across[np.abs(across) < ROUNDING] = 0.0

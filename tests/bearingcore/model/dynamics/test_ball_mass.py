@@ -21,7 +21,7 @@ from bearingcore.model.dynamics._ball_motion import (
 from bearingcore.model.dynamics._damping import packed_motion
 from bearingcore.model.scene import _packing as packing
 from tests.helpers.contact_law import TwoContacts
-from tests.helpers.random_balls import motion_faults, random_scene
+from tests.helpers.random_balls import ball_places, motion_faults, random_scene
 
 RATE = 65536.0
 FAN_RIG = presets["fan-rig"].replace(contact_damping=122.0, density=7850.0, balls="with mass")
@@ -109,19 +109,12 @@ def test_loads_and_places_are_those_of_independent_sums(scene: Scene) -> None:
     index = packing.direction_numbers(motion.dofs)
     for i in (0, 100, 400):
         full[0, index], full[1, index] = motion.inner_displacement[i], motion.outer_displacement[i]
-        sums = TwoContacts(scene, motion.cage_angle[i], *full, motion.ball_position[i])
+        sums = TwoContacts(scene, motion.cage_angle[i], *full, ball_places(motion, i))
         for race, load in enumerate(motion.race_loads()):
             assert load[i] == pytest.approx(sums.load[race], rel=1e-7, abs=1e-6)
     part = motion.race_loads(90, 110)
     assert np.array_equal(part[1], motion.ball_loads(90, 110))
     assert part[0] == pytest.approx(motion.race_loads()[0, 90:110], rel=1e-9, abs=1e-9)
-
-
-def test_massless_motions_have_the_same_load_on_both_sides_and_no_places() -> None:
-    motion = simulate(FAN_RIG.replace(balls="massless"), 0.002, RATE)
-    assert np.array_equal(*motion.race_loads())
-    with pytest.raises(ValueError, match="with mass"):
-        _ = motion.ball_position
 
 
 def undamped(scene: Scene) -> tuple[kernels.BallSystem, np.ndarray]:

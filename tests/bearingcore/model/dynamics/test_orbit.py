@@ -79,11 +79,12 @@ def test_multipliers_are_of_the_derivative_of_a_period(
     scene = presets[name].replace(contact_damping=130.0, **changes)
     cycle = orbit(scene, step_rate=2.0**20 if apart > 1e-9 else None)
     shooting = _Shooting(packed_motion(scene), cycle.period, len(cycle.history) - 1)
-    y = shooting.own(_state_at_start(cycle, cycle.dofs))
+    y = shooting.smooth_state(_state_at_start(cycle, cycle.dofs))
     slopes = np.empty((y.size, y.size))
     for column, h in zip(slopes.T, np.diag(apart / shooting.scale), strict=True):
-        column[:] = (shooting.marched(y + h) - shooting.marched(y - h)) / (2.0 * h.max())
-    wrong = (slopes - shooting.with_tangent(y)[1]) * np.divide.outer(shooting.scale, shooting.scale)
+        column[:] = (shooting.march(y + h) - shooting.march(y - h)) / (2.0 * h.max())
+    tangent = shooting.march_with_tangent(y)[1]
+    wrong = (slopes - tangent) * np.divide.outer(shooting.scale, shooting.scale)
     assert np.abs(wrong).max() < off
     assert cycle.largest_multiplier == pytest.approx(
         np.abs(np.linalg.eigvals(slopes)).max(), rel=1e-3

@@ -376,7 +376,7 @@ def sizes_at(q, g, H, force, active, tight):
     return norm, taken, reach, stiffest
 
 
-@called
+@inlined
 def judge_minimum(q, noise, least, now, place, contacts, load, work):
     """Tell a minimum that is held in all directions from one with a free direction.
 

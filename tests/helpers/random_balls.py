@@ -57,7 +57,7 @@ def random_scene(rng: np.random.Generator) -> Scene:
     )
 
 
-def faults(state: BallPositions, i: int, weight: bool) -> str:
+def faults(state: BallPositions, i: int) -> str:
     """What is wrong with a cage angle's answer, "" for nothing: right, or said not to be."""
     if state.status[i] not in (kernels.CONVERGED, kernels.FREE_DIRECTION):
         silent = np.isfinite(state.load[:, i]).any() and state.status[i] >= kernels.NOT_CARRIED
@@ -70,7 +70,7 @@ def faults(state: BallPositions, i: int, weight: bool) -> str:
         scene, state.cage_angles[i], state.displacement[i], np.zeros(5), state.position[i]
     )
     size = max(float(state.load[:, i].max()), float(np.linalg.norm(scene.load.vector[:3])))
-    left = np.abs(sums.on_balls(centrifugal=state.centrifugal_load, weight=weight)).max()
+    left = np.abs(sums.on_balls(centrifugal=state.centrifugal_load, weight=False)).max()
     lever = np.array([1.0, 1.0, 1.0, *[scene.bearing.groove_center_radius] * 2])
     free = [("x", "y", "z", "rx", "ry").index(dof) for dof in state.dofs]
     ring = float(np.abs((sums.force(0) - scene.load.vector) / lever)[free].max())

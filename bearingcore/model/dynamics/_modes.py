@@ -23,7 +23,7 @@ from bearingcore.model.statics import (
     Equilibrium,
     equilibrium,
 )
-from bearingcore.model.statics._equilibrium import MOST_CONTACTS, equilibrium_of
+from bearingcore.model.statics._equilibrium import equilibrium_of
 from bearingcore.model.statics._positions import equilibrium_over_all, extremes, positions_of
 
 MIXED = 0.25
@@ -57,7 +57,7 @@ class Modes:
     body : (m,)
         "inner" or "outer": the body with the largest motion in that direction.
     cost
-        the number of contacts if they exceeded `most_contacts`; else empty.
+        the number of contacts if they exceeded MOST_CONTACTS; else empty.
     state
         the static states that were linearised.
 
@@ -103,9 +103,7 @@ class Modes:
         return dict(zip(self.label, ends, strict=True))
 
 
-def modes(
-    scene: Scene, cage_angles: ArrayLike | None = None, *, most_contacts: int = MOST_CONTACTS
-) -> Modes:
+def modes(scene: Scene, cage_angles: ArrayLike | None = None) -> Modes:
     """Compute natural frequencies, damping and shapes of `scene` at each cage angle (Eqs. 24-29).
 
     Parameters
@@ -114,20 +112,16 @@ def modes(
         the scene; support and inertia must be known along its active directions.
     cage_angles : (n,)
         [rad]; None takes one period, as `equilibrium` does.
-    most_contacts
-        as of `equilibrium`. Beyond it nothing is computed, and `cost` gives the number.
 
     Raises
     ------
     ValueError
         if the support lacks a number; the error names it.
     """
-    return modes_at(equilibrium(scene, cage_angles, most_contacts=most_contacts))
+    return modes_at(equilibrium(scene, cage_angles))
 
 
-def frequency_bands(
-    scene: Scene, *, coarse: bool = False, most_contacts: int = MOST_CONTACTS
-) -> dict[str, tuple[float, float]]:
+def frequency_bands(scene: Scene, *, coarse: bool = False) -> dict[str, tuple[float, float]]:
     """Compute the least and greatest natural frequency [Hz] of each mode over all positions.
 
     The positions are all cage angles and, if a defect turns with the shaft, all shaft angles at
@@ -141,13 +135,11 @@ def frequency_bands(
         as of `modes`.
     coarse
         True for a third of the cage angles and half the refinements.
-    most_contacts
-        as of `equilibrium`, for the first samples. Beyond it nothing is computed.
 
     Returns
     -------
     {label: (least, greatest)} [Hz]
-        NaN for both if no angle has an answer, or nothing was computed.
+        NaN for both if no angle has an answer.
 
     Raises
     ------
@@ -159,7 +151,7 @@ def frequency_bands(
     n, rounds = ((n - 1) // 3 + 1, 2) if coarse else (n, ROUNDS)
     packed = pack(scene)
     positions = positions_of(packed, n)
-    state = equilibrium_over_all(packed, n, most_contacts)
+    state = equilibrium_over_all(packed, n)
     if not state.converged.any():
         return modes_at(state).bands()
     search = BandSearch(scene, stiffness_terms(state), state.shares)

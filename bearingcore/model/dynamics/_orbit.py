@@ -48,6 +48,9 @@ MOST_BALL_PASSES = 400
 WINDOW_REACH = 6
 """Bins over which the Hann window lets a line be seen: beyond, its side lobes are 60 dB down."""
 
+MOST_ITERATIONS = 25
+"""Newton steps at most."""
+
 MARCHED_BEFORE = (2, 20, 60)
 """Periods marched before Newton's method begins, and before it begins again."""
 
@@ -223,13 +226,15 @@ def orbit(
     scene: Scene,
     *,
     start: Orbit | None = None,
-    ball_passes: int | None = None,
     step_rate: float | None = None,
-    most_iterations: int = 25,
     most_steps: int = MOST_STEPS,
     give_up: Callable[[], bool] | None = None,
 ) -> Orbit:
     """Find the periodic motion of `scene` by Newton's method on P(y) = y (shooting).
+
+    Its period is the shortest after which all that acts on the rings repeats: one ball pass for
+    healthy bearings and outer-race defects; for an inner-race defect there is one only if shaft and
+    cage return together (`common_ball_passes`).
 
     The variational equations are integrated with the motion. Newton's method finds unstable orbits
     too, so the multipliers are part of the answer: a machine settles to a stable orbit only.
@@ -240,14 +245,8 @@ def orbit(
         the scene; it moves along its active directions.
     start
         an orbit of a similar scene to start from; None starts at the static state.
-    ball_passes
-        number of ball passes in a period: 1 for healthy bearings and outer-race defects, as all
-        ball passes are then alike. None takes the shortest period; an inner-race defect has one
-        only if shaft and cage return together.
     step_rate
         least step rate [Hz]; the period has a whole number of steps. None as in `simulate`.
-    most_iterations
-        limit on the Newton steps.
     most_steps
         limit on all steps of integration. They are counted before each period; beyond the limit the
         search ends and the status says so.
@@ -263,15 +262,7 @@ def orbit(
     checks.instance("scene", scene, Scene)
     checks.real_number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")
     dofs = scene.active_dofs
-    shortest = common_ball_passes(scene)
-    if ball_passes is None:
-        ball_passes = shortest or 0
-    else:
-        ball_passes = checks.whole_number(
-            "ball_passes", ball_passes, at_least=1, at_most=MOST_BALL_PASSES
-        )
-        if shortest is None or ball_passes % shortest:
-            ball_passes = 0
+    ball_passes = common_ball_passes(scene) or 0
     nothing = Orbit(
         scene, dofs, OrbitStatus.NO_PERIOD, "", math.nan, ball_passes, np.zeros(0, complex),
         math.nan, 0, 0, np.full((2, 6, len(dofs)), math.nan),
@@ -296,13 +287,13 @@ def orbit(
         return replace(nothing, status=OrbitStatus.NO_START, period=period, cost=why)
     y = shooting.smooth_state(y)
     if start is not None:
-        answer = _newton(nothing, shooting, y, period, most_iterations)
+        answer = _newton(nothing, shooting, y, period)
         if answer.status != OrbitStatus.NOT_CONVERGED or shooting.given_up:
             return shooting.reported(answer)
     # where Newton loses its way it begins again, nearer to where the motion itself goes
     for periods in MARCHED_BEFORE:
         y = shooting.march(y, periods)
-        answer = _newton(nothing, shooting, y, period, most_iterations)
+        answer = _newton(nothing, shooting, y, period)
         if answer.status != OrbitStatus.NOT_CONVERGED or shooting.given_up:
             break
     return shooting.reported(answer)
@@ -407,11 +398,12 @@ class _Shooting:
         return float(np.linalg.norm((end - y) * self.scale) / max(size, STILL))
 
 
-def _newton(nothing: Orbit, shooting: _Shooting, y: Array, period: float, most: int) -> Orbit:
+def _newton(nothing: Orbit, shooting: _Shooting, y: Array, period: float) -> Orbit:
+    """Solve P(y) = y from y; its Jacobian is the tangent less 1. A step is cut until it helps."""
     end, tangent = shooting.march_with_tangent(y)
     miss = shooting.miss(y, end)
     iterations = 0
-    while miss > CLOSED and iterations < most and math.isfinite(miss) and not shooting.given_up:
+    while CLOSED < miss < math.inf and iterations < MOST_ITERATIONS and not shooting.given_up:
         iterations += 1
         try:
             step = np.linalg.solve(tangent - np.eye(y.size), y - end)

@@ -22,7 +22,6 @@ from bearingcore.common import (
 from bearingcore.model import _kernels as kernels
 from bearingcore.model.scene import DOF_NAMES, WITH_MASS, Scene, _packing as packing
 from bearingcore.model.statics._equilibrium import (
-    MOST_CONTACTS,
     TERM_INDICES,
     Equilibrium,
     default_cage_angles,
@@ -129,14 +128,13 @@ def ball_positions(
     *,
     shaft_angles: ArrayLike | None = None,
     centrifugal_load: float | None = None,
-    weight: bool = False,
-    most_contacts: int = MOST_CONTACTS,
 ) -> BallPositions:
     """Compute the static equilibrium of `scene` under the centrifugal load of its balls.
 
     Each ball finds its place between its two contacts; contact angles, loads and stiffness follow.
-    Without centrifugal load and weight this is `equilibrium` to rounding. The gyroscopic moment of
-    a ball, which has no potential, is left out: `limits` says from what speed it matters.
+    Without centrifugal load this is `equilibrium` to rounding. The weight of the balls is left out,
+    and so is their gyroscopic moment, which has no potential: `limits` says from what speed it
+    matters.
 
     Parameters
     ----------
@@ -144,10 +142,6 @@ def ball_positions(
         as of `equilibrium`.
     centrifugal_load
         F_c [N] of each ball; None: at the scene's speed.
-    weight
-        True if the weight of the balls acts, along −y.
-    most_contacts
-        as of `equilibrium`.
 
     Returns
     -------
@@ -167,11 +161,10 @@ def ball_positions(
         packed = packing.pack(scene, active, balls=True)
     if cage_angles is None:
         cage_angles = default_cage_angles(scene)
-    massless = equilibrium_of(packed, cage_angles, shaft_angles, most_contacts)
+    massless = equilibrium_of(packed, cage_angles, shaft_angles)
     assert packed.balls is not None
     races = packed.balls.races
-    if not weight:
-        races = races._replace(weight=np.zeros_like(races.weight))
+    races = races._replace(weight=np.zeros_like(races.weight))
     if centrifugal_load is not None:
         races = races._replace(centrifugal=np.full_like(races.mass, centrifugal_load))
     if massless.cost:
@@ -193,7 +186,7 @@ def ball_positions(
     status[_exceeds_geometry(packed.balls, q, load, status)] = StaticStatus.BEYOND_GEOMETRY
     for none in (StaticStatus.NOT_CARRIED, StaticStatus.BEYOND_GEOMETRY):
         status[massless.status == none] = none
-    left = _unbalanced(packed.contacts, races, massless.cage_angles, load, angle)
+    left = _unbalanced(races, load, angle)
     status[(status < StaticStatus.NOT_CARRIED) & (left > BALANCED)] = StaticStatus.NOT_CONVERGED
     residual = np.maximum(residual, left)
     units = packed.units
@@ -264,7 +257,6 @@ def static_state(
     dofs: Iterable[str] | None = None,
     *,
     shaft_angles: ArrayLike | None = None,
-    most_contacts: int = MOST_CONTACTS,
 ) -> Equilibrium:
     """Compute the static equilibrium by the scene's own model of the balls.
 
@@ -274,12 +266,8 @@ def static_state(
     """
     checks.instance("scene", scene, Scene)
     if scene.balls != WITH_MASS:
-        return equilibrium(
-            scene, cage_angles, dofs, shaft_angles=shaft_angles, most_contacts=most_contacts
-        )
-    answer = ball_positions(
-        scene, cage_angles, dofs, shaft_angles=shaft_angles, most_contacts=most_contacts
-    )
+        return equilibrium(scene, cage_angles, dofs, shaft_angles=shaft_angles)
+    answer = ball_positions(scene, cage_angles, dofs, shaft_angles=shaft_angles)
     known = answer.status < StaticStatus.NOT_CARRIED
     carries = (answer.load[0] > 0.0) & (answer.load[1] > 0.0)
     return EquilibriumWithMass(
@@ -359,17 +347,14 @@ def centrifugal_effect(
     return CentrifugalEffect(float(load), apart, float(max(changes)), True)
 
 
-def _unbalanced(
-    contacts: kernels.Contacts, races: kernels.Races, cage_angles: Array, load: Array, angle: Array
-) -> Array:
+def _unbalanced(races: kernels.Races, load: Array, angle: Array) -> Array:
     """(n,) greatest force left on a ball over the greatest load at that cage angle.
 
     Looked at once more with the answer at hand: a ball that did not settle must not pass for one.
     """
-    phi = contacts.angles_at(cage_angles)
     known = np.nan_to_num(angle)
     radial, axial = load * np.cos(known), load * np.sin(known)
-    outwards = radial[0] - radial[1] + races.centrifugal - races.weight * np.sin(phi)
+    outwards = radial[0] - radial[1] + races.centrifugal
     left = np.hypot(outwards, axial[0] - axial[1]).max(axis=1)
     # a ball with next to no load in the gap has none left on it
     size = np.maximum(load.max(axis=(0, 2)), np.abs(races.centrifugal).max())

@@ -74,8 +74,6 @@ POSITIONS = ("load line", "all")
 """Over which places of the balls loads are averaged: one of them on the line of the radial load, as
 the standard's examples do, or everywhere, as it is."""
 
-TURNING = ("inner", "outer")
-
 
 class ContactLife(NamedTuple):
     """Constants of ISO 16281 for a kind of contact.
@@ -112,7 +110,7 @@ class Life:
 
     Attributes
     ----------
-    scene, dynamic_load_rating [N], positions, turning_race
+    scene, dynamic_load_rating [N], positions
         arguments of `life`.
     inner_rating, outer_rating [N]
         Q_ci, Q_ce: the ball load under which each race of the first row lasts 10⁶ turns; of a
@@ -144,7 +142,6 @@ class Life:
     scene: Scene
     dynamic_load_rating: float
     positions: str
-    turning_race: str
     inner_rating: float
     outer_rating: float
     inner_load: float
@@ -206,7 +203,6 @@ def life(
     dynamic_load_rating: float | None = None,
     *,
     positions: str = "all",
-    turning_race: str = "inner",
 ) -> Life:
     """Compute the reference rating life L_10r of a bearing under the loads that its defects leave.
 
@@ -224,9 +220,6 @@ def life(
         ball on the line of the radial load (angle 0 without one), as in the standard's examples
         and commercial codes; only for a healthy bearing with rows alike. The two differ by up to
         some 3 % with seven balls.
-    turning_race
-        the race that turns against the load: "inner", as in a scene with a defect; "outer" for a
-        healthy bearing whose load turns with the shaft (an imbalance), or whose hub turns.
 
     Returns
     -------
@@ -238,8 +231,8 @@ def life(
     ------
     ValueError
         for a rating that is missing or not positive; for a ball bearing without groove radii; for
-        "load line" with unlike rows or a damaged bearing; for a turning outer race with a damaged
-        bearing; and for a damaged inner race of unlike rows.
+        "load line" with unlike rows or a damaged bearing; and for a damaged inner race of unlike
+        rows.
 
     Examples
     --------
@@ -253,21 +246,16 @@ def life(
     damaged = bool(scene.defects)
     alike = scene.bearing.rows_are_alike
     checks.choice("positions", positions, POSITIONS)
-    checks.choice("turning_race", turning_race, TURNING)
     if damaged and positions != "all":
         raise checks.refuse("positions", positions, '"all" for a damaged bearing')
     if not alike and positions != "all":
         raise checks.refuse("positions", positions, '"all" for rows that are not alike')
-    if damaged and turning_race != "inner":
-        raise checks.refuse(
-            "turning_race", turning_race, '"inner" for a damaged bearing: its load stands still'
-        )
     contact = LINE_CONTACT if scene.bearing.kind.line_contact else POINT_CONTACT
     rows = range(len(scene.bearing.all_rows))
     rated = np.array([race_ratings(scene.bearing, C, k) for k in rows])
     healthy_scene = dataclasses.replace(scene, defect=()) if damaged else scene
-    healthy = _loads(healthy_scene, positions, turning_race)
-    loads = _loads(scene, positions, turning_race) if damaged else healthy
+    healthy = _loads(healthy_scene, positions)
+    loads = _loads(scene, positions) if damaged else healthy
     L_healthy = million_revolutions(contact, rated, healthy.load_of_rows)
     carried = loads.load_of_rows
     L = million_revolutions(contact, rated, carried)
@@ -283,7 +271,6 @@ def life(
         scene=scene,
         dynamic_load_rating=C,
         positions=positions,
-        turning_race=turning_race,
         inner_rating=Q_ci,
         outer_rating=Q_ce,
         inner_load=Q_ei,
@@ -361,14 +348,14 @@ def ratings_of_races(
 
 
 @lru_cache(maxsize=256)
-def _loads(scene: Scene, positions: str, turning_race: str) -> RaceLoads:
+def _loads(scene: Scene, positions: str) -> RaceLoads:
     contact = LINE_CONTACT if scene.bearing.kind.line_contact else POINT_CONTACT
     law = contact.load_exponent, contact.scatter
     if positions == "all":
-        return race_loads(scene, *law, turning_race)
+        return race_loads(scene, *law)
     load = scene.load
     line = math.atan2(load.fy, load.fx) if load.fx or load.fy else 0.0
-    return snapshot_loads(scene, line % scene.bearing.ball_spacing, *law, turning_race)
+    return snapshot_loads(scene, line % scene.bearing.ball_spacing, *law)
 
 
 def million_revolutions(contact: ContactLife, ratings: ArrayLike, loads: ArrayLike) -> float:

@@ -41,7 +41,6 @@ from bearingcore.model.scene._defect import floor_bytes
 from bearingcore.model.scene._packing import pack
 from bearingcore.model.statics._equilibrium import (
     ANGLES_A_PERIOD,
-    MOST_CONTACTS,
     Equilibrium,
     equilibrium_of,
     remove_defects,
@@ -120,8 +119,6 @@ def over_all_positions(
     scene: Scene,
     n: int = ANGLES_A_PERIOD,
     solve: Callable[..., Equilibrium] | None = None,
-    *,
-    most_contacts: int = MOST_CONTACTS,
 ) -> Equilibrium:
     """Static equilibrium at all pairs of `positions`, with their weights.
 
@@ -129,11 +126,9 @@ def over_all_positions(
     """
     packed = pack(scene)
     if solve is None:
-        return equilibrium_over_all(packed, n, most_contacts)
+        return equilibrium_over_all(packed, n)
     places = positions_of(packed, n)
-    state = solve(
-        scene, places.cage_angles, shaft_angles=places.shaft_angles, most_contacts=most_contacts
-    )
+    state = solve(scene, places.cage_angles, shaft_angles=places.shaft_angles)
     return dataclasses.replace(state, weights=places.weights)
 
 
@@ -151,12 +146,10 @@ def state_of(
     return over_all_positions(scene, solve=solve) if state is None else state
 
 
-def equilibrium_over_all(
-    packed: PackedScene, n: int, most_contacts: int = MOST_CONTACTS
-) -> Equilibrium:
+def equilibrium_over_all(packed: PackedScene, n: int) -> Equilibrium:
     """`over_all_positions` of a scene that is packed."""
     places = positions_of(packed, n)
-    state = equilibrium_of(packed, places.cage_angles, places.shaft_angles, most_contacts)
+    state = equilibrium_of(packed, places.cage_angles, places.shaft_angles)
     return dataclasses.replace(state, weights=places.weights)
 
 

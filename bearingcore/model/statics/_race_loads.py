@@ -103,7 +103,7 @@ class RaceLoads(NamedTuple):
 
 
 def snapshot_loads(
-    scene: Scene, cage_angle: float, load_exponent: float, scatter: float, turning_race: str
+    scene: Scene, cage_angle: float, load_exponent: float, scatter: float
 ) -> RaceLoads:
     """The means over the balls at one cage angle [rad], as a standard takes them.
 
@@ -115,14 +115,10 @@ def snapshot_loads(
     if unknown := _unknown(state, loads):
         return unknown
     heaviest = float(state.ball_load[0].max())
-    return _averaged(
-        scene, loads[:, :1], heaviest, np.full(1, 1.0), load_exponent, scatter, turning_race
-    )
+    return _averaged(scene, loads[:, :1], heaviest, np.full(1, 1.0), load_exponent, scatter)
 
 
-def race_loads(
-    scene: Scene, load_exponent: float, scatter: float, turning_race: str = "inner"
-) -> RaceLoads:
+def race_loads(scene: Scene, load_exponent: float, scatter: float) -> RaceLoads:
     """The means over all cage angles, and over all shaft angles where a defect turns.
 
     ValueError for a defect of the inner race of a bearing whose rows are not alike.
@@ -140,7 +136,7 @@ def race_loads(
         heaviest = max(heaviest, float(state.ball_load.max()))
         weights.append(weight / len(turned))
     all_loads, all_weights = np.concatenate(loads, axis=1), np.concatenate(weights)
-    return _averaged(scene, all_loads, heaviest, all_weights, load_exponent, scatter, turning_race)
+    return _averaged(scene, all_loads, heaviest, all_weights, load_exponent, scatter)
 
 
 def _rows_turned(scene: Scene) -> list[Scene]:
@@ -170,11 +166,10 @@ def _averaged(
     weights: Array,
     load_exponent: float,
     scatter: float,
-    turning_race: str,
 ) -> RaceLoads:
     """Both races under what is `carried` (2, n, balls), where nothing turns against the load."""
     chain = load_exponent * scatter
-    powers = (load_exponent, chain) if turning_race == "inner" else (chain, load_exponent)
+    powers = load_exponent, chain
     inner, outer = (
         tuple(
             combined_load(

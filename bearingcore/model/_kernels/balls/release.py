@@ -12,7 +12,7 @@ from bearingcore.model._kernels.balls.contacts import (
 from bearingcore.model._kernels.balls.structs import INNER
 from bearingcore.model._kernels.compiling import called
 from bearingcore.model._kernels.contact import tilting
-from bearingcore.model._kernels.structs import PLANAR, VELOCITIES
+from bearingcore.model._kernels.structs import PLANAR
 
 
 @called
@@ -107,10 +107,7 @@ def update_released(y, k, passage, inner, at, system, work):
 @called
 def smooth_start(y, passage, inner, system, work):
     """Turn the velocities in y into w: everything that is compressed counts as pushing."""
-    rotor = system.rotor
-    if rotor.variables == VELOCITIES:
-        return
-    ring_state(y, rotor, work.x)
+    ring_state(y, system.rotor, work.x)
     locate_contacts(y, passage, inner, 0, system, work)
     for race in range(2):
         for j in range(system.contacts.angle.size):

@@ -87,6 +87,17 @@ class Contacts(NamedTuple):
         """Angles (n, contacts) [rad] of all contacts at cage angles (n,) [rad]."""
         return cage_angles[:, None] * self.relative_speed + self.angle
 
+    def gradients(self, angles: Array, radial: Array, axial: Array) -> Array:
+        """Derivatives (..., contacts, 5) by q of a motion along (radial, axial) at the contacts.
+
+        Contacts at angles (..., contacts) [rad] move by e·q: e = (er c, er s, ez, τ s, −τ c), with
+        τ as in `contact.tilting`.
+        """
+        c, s = np.cos(angles), np.sin(angles)
+        tilting = self.reach * axial - self.arm * radial
+        along = np.broadcast_to(axial, c.shape)
+        return np.stack([radial * c, radial * s, along, tilting * s, -tilting * c], axis=-1)
+
     def compression(self, load: float, contact: int = 0) -> float:
         """Compression [m] of a contact that carries a load [N]."""
         return float((load / self.factor[contact]) ** (1.0 / self.exponent[contact]))

@@ -15,7 +15,7 @@ from bearingcore.model import _kernels as kernels
 from bearingcore.model.dynamics._damping import contact_damping
 from bearingcore.model.scene import DOF_NAMES, PackedScene, Scene
 from bearingcore.model.scene._defect import floor_bytes
-from bearingcore.model.scene._packing import contacts, pack
+from bearingcore.model.scene._packing import contacts, length_units, pack
 from bearingcore.model.statics import (
     ANGLES_A_PERIOD,
     ROUNDS,
@@ -349,21 +349,8 @@ def two_body_matrix(bearing: Array, support: Array) -> Array:
 def loaded_directions(state: Equilibrium) -> Array:
     """Σ e e' over the loaded balls, (n, 5, 5), e the direction of a contact in q (Eq. 27)."""
     alpha, phi = np.nan_to_num(state.contact_angle), state.ball_angle
-    radial, axial = np.cos(alpha), np.sin(alpha)
-    every = contacts(state.scene.bearing)
-    lever = state.scene.bearing.groove_center_radius
-    tilting = lever * (every.reach * axial - every.arm * radial)
-    e = np.stack(
-        [
-            radial * np.cos(phi),
-            radial * np.sin(phi),
-            axial,
-            tilting * np.sin(phi),
-            -tilting * np.cos(phi),
-        ],
-        axis=-1,
-    )
-    e *= state.carries[..., None]
+    e = contacts(state.scene.bearing).gradients(phi, np.cos(alpha), np.sin(alpha))
+    e *= state.carries[..., None] * length_units(state.scene)
     return np.swapaxes(e, 1, 2) @ e
 
 

@@ -128,38 +128,18 @@ class Orbit:
             ("multiplier_size", "1", np.abs(self.multipliers), "above 1 a disturbance grows"),
         )
 
-    def outer_acceleration(self, time: ArrayLike) -> Array:
-        """(n, len(dofs)) [m/s², rad/s²] of the housing at times [s], the period repeated.
-
-        It is unfiltered and jumps as balls touch, so that its samples alias frequencies above half
-        their rate. `spectrum` avoids this.
-        """
-        time = np.asarray(time, dtype=float).ravel() % self.period
-        return self._states(time)[:, 5] / packing.length_units(self.scene, self.dofs)
-
-    def _states(self, time: Array) -> Array:
-        """(n, 6, len(dofs)) rows as those of `history` at times [s] within the period."""
-        parts = [self._sampled(time, body, derivative) for body in (0, 3) for derivative in (0, 1)]
-        # from the equations of motion: it jumps as balls touch, and no interpolation follows that
-        moving = moving_system(packed_motion(self.scene, self.dofs), velocities=True)
-        rates = np.asarray(kernels.motion_rates(time, np.hstack(parts), 0.0, moving))
-        inner, outer = (rates[:, k * len(self.dofs) :][:, : len(self.dofs)] for k in (1, 3))
-        return np.stack([parts[0], parts[1], inner, parts[2], parts[3], outer], axis=1)
-
     def inner_displacement(self, time: ArrayLike) -> Array:
-        """(n, len(dofs)) [m, rad] of the inner ring at times [s], the period repeated."""
-        return self._sampled(time, 0, 0) / packing.length_units(self.scene, self.dofs)
+        """(n, len(dofs)) [m, rad] of the inner ring at times [s], the period repeated.
 
-    def _sampled(self, time: ArrayLike, body: int, derivative: int) -> Array:
-        """Quintic interpolation in the periodic history, tilts times r_d."""
+        By quintic interpolation between steps.
+        """
         steps = len(self.history) - 1
         at = np.asarray(time, dtype=float) / self.period * steps % steps
         step = np.minimum(at.astype(int), steps - 1)
-        weights = hermite_weights(at - step, derivative, self.period / steps)
-        ends = np.concatenate(
-            [self.history[step, body : body + 3], self.history[step + 1, body : body + 3]], axis=1
-        )
-        return np.einsum("nw,nwd->nd", weights, ends)
+        weights = hermite_weights(at - step, 0, self.period / steps)
+        ends = np.concatenate([self.history[step, :3], self.history[step + 1, :3]], axis=1)
+        scaled = np.einsum("nw,nwd->nd", weights, ends)
+        return scaled / packing.length_units(self.scene, self.dofs)
 
     def spectrum(
         self,

@@ -647,6 +647,57 @@ def static_maps(cage_angles, contacts, paths, load, rows, memory, answers):
     return solve_maps(cage_angles, contacts, paths, load, rows, memory, answers, work)
 
 
+@inlined
+def repeat_answer(e, k, answers):
+    """Take the answer of row e at cage angle k from the row before."""
+    answers.status[e, k] = answers.status[e - 1, k]
+    answers.residual[e, k] = answers.residual[e - 1, k]
+    answers.loaded[e, k] = answers.loaded[e - 1, k]
+    answers.greatest[e, k] = answers.greatest[e - 1, k]
+    for term in range(15):
+        answers.stiffness[term, e, k] = answers.stiffness[term, e - 1, k]
+
+
+@inlined
+def keep_answer(e, k, now, contacts, work, memory, answers):
+    """Put what follows from work.state into row e at cage angle k.
+
+    Loads (Eq. 13), the stiffness work.descent.H[now] (Eq. 17), and BEYOND as the status of a
+    balance where no bearing could be: the formulas have those too. There the ring is tilted beyond
+    small angles or has left the other, or a ball is compressed beyond its room.
+    """
+    place = work.place
+    loads = memory.loads
+    status = answers.status
+    count = 0
+    most = 0.0
+    settled = status[e, k] == CONVERGED
+    x = components(work.state)
+    beyond = settled and max(abs(x[3]), abs(x[4])) > contacts.most_tilt
+    for j in range(contacts.angle.size):
+        delta, _, _, bend = touch(x, place.c[j], place.s[j], place.d[j], j, contacts)
+        loads[k, j] = 0.0
+        if delta > 0.0:
+            _, loads[k, j], _ = contact_load(delta, contacts.factor[j], contacts.exponent[j])
+            count += 1
+            most = max(most, loads[k, j])
+            beyond = beyond or delta > contacts.room[j]
+            if settled and bend == 0.0:
+                beyond = beyond or has_left(x, place.c[j], place.s[j], j, contacts)
+    if beyond and (settled or status[e, k] == FREE_DIRECTION):
+        status[e, k] = BEYOND
+    gone = status[e, k] >= NOT_CARRIED
+    loose = status[e, k] == NOTHING_TOUCHES
+    nowhere = gone or loose
+    answers.loaded[e, k] = 0 if nowhere else count
+    answers.greatest[e, k] = math.nan if gone else 0.0 if loose else most
+    term = 0
+    for a in range(5):
+        for b in range(a, 5):
+            answers.stiffness[term, e, k] = math.nan if nowhere else work.descent.H[now, b, a]
+            term += 1
+
+
 @compiled
 def solve_maps(cage_angles, contacts, paths, load, rows, memory, answers, work):
     """Static states of rows (first, last) of a map: the defects differ, cage angles do not.
@@ -663,13 +714,8 @@ def solve_maps(cage_angles, contacts, paths, load, rows, memory, answers, work):
     active = load.active
     q = memory.q
     drops = memory.drops
-    loads = memory.loads
-    stiffness = answers.stiffness
-    loaded = answers.loaded
-    greatest = answers.greatest
     status = answers.status
     residual = answers.residual
-    descent = work.descent
     place = work.place
     d = place.d
     state = work.state
@@ -690,12 +736,7 @@ def solve_maps(cage_angles, contacts, paths, load, rows, memory, answers, work):
                 same = same and drops[k, j] == d[j]
                 drops[k, j] = d[j]
             if same:
-                status[e, k] = status[e - 1, k]
-                residual[e, k] = residual[e - 1, k]
-                loaded[e, k] = loaded[e - 1, k]
-                greatest[e, k] = greatest[e - 1, k]
-                for term in range(15):
-                    stiffness[term, e, k] = stiffness[term, e - 1, k]
+                repeat_answer(e, k, answers)
                 continue
             # Newton's method begins at the answer before, or at a parabola through three of them
             known = 0
@@ -708,45 +749,14 @@ def solve_maps(cage_angles, contacts, paths, load, rows, memory, answers, work):
             circle_c = work.circle_c
             place_balls(cage_angles[k], contacts, circle_c, work.circle_s, place.c, place.s)
             now, status[e, k], residual[e, k], memory.iterations[k], calls = minimise_energy(
-                state, place, contacts, load, descent
+                state, place, contacts, load, work.descent
             )
             solved += 1
             evaluations += calls
             memory.evaluations[k] = calls
             for i in range(5):
                 q[k, i] = state[i]
-            # the loads that follow from the answer, and what is wrong with it
-            count = 0
-            most = 0.0
-            settled = status[e, k] == CONVERGED
-            x = components(state)
-            # the formulas balance loads also where no bearing could: tilted beyond small angles, a
-            # ball compressed beyond its room, a ring that has left the other
-            beyond = settled and max(abs(x[3]), abs(x[4])) > contacts.most_tilt
-            for j in range(n_contacts):
-                delta, _, _, bend = touch(x, place.c[j], place.s[j], d[j], j, contacts)
-                loads[k, j] = 0.0
-                if delta > 0.0:
-                    _, loads[k, j], _ = contact_load(
-                        delta, contacts.factor[j], contacts.exponent[j]
-                    )
-                    count += 1
-                    most = max(most, loads[k, j])
-                    beyond = beyond or delta > contacts.room[j]
-                    if settled and bend == 0.0:
-                        beyond = beyond or has_left(x, place.c[j], place.s[j], j, contacts)
-            if beyond and (settled or status[e, k] == FREE_DIRECTION):
-                status[e, k] = BEYOND
-            gone = status[e, k] >= NOT_CARRIED
-            loose = status[e, k] == NOTHING_TOUCHES
-            nowhere = gone or loose
-            loaded[e, k] = 0 if nowhere else count
-            greatest[e, k] = math.nan if gone else 0.0 if loose else most
-            term = 0
-            for a in range(5):
-                for b in range(a, 5):
-                    stiffness[term, e, k] = math.nan if nowhere else descent.H[now, b, a]
-                    term += 1
+            keep_answer(e, k, now, contacts, work, memory, answers)
     return solved, evaluations
 
 

@@ -54,8 +54,6 @@ class Modes:
         angles.
     label : (m,)
         direction with the largest motion, numbered by rising frequency: "x1", "y1", "x2", "y2".
-    body : (m,)
-        "inner" or "outer": the body with the largest motion in that direction.
     cost
         the number of contacts if they exceeded MOST_CONTACTS; else empty.
     state
@@ -72,7 +70,6 @@ class Modes:
     undamped_frequency: Array
     shape: Array
     label: tuple[str, ...]
-    body: tuple[str, ...]
     cost: str = ""
     state: Equilibrium | None = field(default=None, repr=False, compare=False)
 
@@ -200,7 +197,7 @@ class BandSearch:
         share = max(float(known.sum()), 1e-300)
         mean[row, column] = mean[column, row] = np.nan_to_num(chosen) @ known / share
         self.template = _undamped(two_body_matrix(mean, self._support), mass)[1]
-        self.labels = _labels(self.template, mass, dofs)[0]
+        self.labels = _labels(self.template, mass, dofs)
 
     def frequencies(self, terms: Array) -> Array:
         """(m, n) [Hz] for stiffness terms (15, n); NaN where one that counts is not known."""
@@ -229,10 +226,10 @@ def modes_at(state: Equilibrium, template: Array | None = None, *, nearly: bool 
     if state.cost:
         support = two_body_matrix(np.zeros((nd, nd)), scene.support.stiffness(dofs))
         _, template = _undamped(support, mass)
-        names = _labels(template, mass, dofs)
+        label = _labels(template, mass, dofs)
         rows = np.broadcast_to(np.float64(math.nan), (len(state.cage_angles), 2 * nd))
         shapes = np.broadcast_to(np.float64(math.nan), (*rows.shape, 2 * nd))
-        return Modes(scene, dofs, state.cage_angles, rows, rows, rows, shapes, *names, state.cost)
+        return Modes(scene, dofs, state.cage_angles, rows, rows, rows, shapes, label, state.cost)
     K_b = state.stiffness[:, index][:, :, index]
     C_b = contact_damping(scene) * loaded_directions(state)[:, index][:, :, index]
     K = two_body_matrix(K_b, scene.support.stiffness(dofs))
@@ -253,9 +250,9 @@ def modes_at(state: Equilibrium, template: Array | None = None, *, nearly: bool 
         undamped[known], shape[known] = _follow(*_undamped(K[known], mass), template, mass)
         damped = _approximate_damping if nearly else _exact_damping
         frequency[known], ratio[known] = damped(K[known], C[known], mass, shape[known])
-    label, body = _labels(template, mass, dofs)
+    label = _labels(template, mass, dofs)
     return Modes(
-        scene, dofs, state.cage_angles, frequency, ratio, undamped, shape, label, body, state=state
+        scene, dofs, state.cage_angles, frequency, ratio, undamped, shape, label, state=state
     )  # fmt: skip
 
 
@@ -449,10 +446,8 @@ def _approximate_damping(K: Array, C: Array, mass: Array, shape: Array) -> tuple
     return frequency, ratio
 
 
-def _labels(
-    template: Array, mass: Array, dofs: tuple[str, ...]
-) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Direction and number of each mode, two modes a direction, and the body that moves most.
+def _labels(template: Array, mass: Array, dofs: tuple[str, ...]) -> tuple[str, ...]:
+    """Direction and number of each mode, two modes a direction.
 
     `template` (m, m) are shapes in the order of rising frequency.
     """
@@ -464,6 +459,4 @@ def _labels(
     for d in range(nd):
         for number, i in enumerate(np.flatnonzero(direction == d), start=1):
             label[i] = f"{dofs[d]}{number}"
-    mode = np.arange(m)
-    outer = np.abs(template[mode, nd + direction]) > np.abs(template[mode, direction])
-    return tuple(label), tuple("outer" if flag else "inner" for flag in outer)
+    return tuple(label)

@@ -11,7 +11,7 @@ from bearingcore.model._kernels.path import BLOCK
 
 @inlined
 def all_finite(y):
-    """Whether every number of y (n,) is finite."""
+    """Return True if every number of y (n,) is finite."""
     total = 0.0
     for i in range(y.size):
         total += y[i] - y[i]  # 0, or NaN for what is not finite

@@ -7,11 +7,9 @@ The effects are drawn, not derived: what is learned from such records has to be 
 
 from __future__ import annotations
 
-import dataclasses
 import math
 import zlib
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -98,12 +96,6 @@ class PathEffects:
     shaft_tones: float = 0.3
     noise: float | None = 20.0
     background: float = 0.0
-
-    def without(self, *names: str) -> PathEffects:
-        """The same with some effects switched off, by the names of their fields."""
-        off: dict[str, Any] = {"cage_wander": 0.0, "resonances": (), "knock": 0.0}
-        off |= {"shaft_tones": 0.0, "noise": None, "background": 0.0}
-        return dataclasses.replace(self, **{name: off[name] for name in names})
 
 
 def simulated_record(

@@ -25,7 +25,6 @@ from bearingcore.model import _kernels as kernels
 from bearingcore.model.scene import Defect, Scene, _packing as packing
 from bearingcore.model.scene._defect import TWO_PI, floor_bytes, path_tables
 from bearingcore.model.statics._equilibrium import (
-    MOST_CONTACTS,
     STIFFNESS_TERMS,
     TERM_UNITS,
     UNEXPLAINED,
@@ -70,7 +69,7 @@ class Maps:
     refusals : (m,)
         the reason why a scene with this extent is impossible; empty if it is possible.
     cost
-        the number of contacts if they exceeded `most_contacts`; else empty.
+        the number of contacts if they exceeded MOST_CONTACTS; else empty.
     """
 
     scene: Scene
@@ -133,8 +132,6 @@ def stiffness_maps(
     extents: ArrayLike | None = None,
     cage_angles: ArrayLike | None = None,
     dofs: Iterable[str] | None = None,
-    *,
-    most_contacts: int = MOST_CONTACTS,
 ) -> Maps:
     """Compute stiffness (Eq. 17) and loaded balls of `scene` for each extent of its first defect.
 
@@ -151,15 +148,13 @@ def stiffness_maps(
         [rad]; None takes `default_cage_angles`, which for a defect of the inner race are many.
     dofs
         free directions, names out of x, y, z, rx, ry; None takes the scene's.
-    most_contacts
-        limit on the contacts to solve, extents times cage angles times balls. Beyond it nothing is
-        computed, and `cost` gives the number.
 
     Returns
     -------
     Maps
         with a status for each point. A missing answer, or defects that overlap at this extent, are
-        a status and not an error.
+        a status and not an error. With more than MOST_CONTACTS contacts, extents times cage angles
+        times balls, nothing is computed, and `cost` gives the number.
 
     Raises
     ------
@@ -183,7 +178,7 @@ def stiffness_maps(
     packed = packing.pack(scene, free)
     contacts, load = packed.contacts, packed.load
     points = sizes.size * angles.size
-    if cost := too_many_contacts(points * contacts.angle.size, most_contacts):
+    if cost := too_many_contacts(points * contacts.angle.size):
         nothing = np.broadcast_to(np.float64(math.nan), (15, *shape))
         return Maps(
             scene, free, sizes, angles, nothing, np.broadcast_to(np.int64(0), shape), nothing[0],

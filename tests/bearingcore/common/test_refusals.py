@@ -143,12 +143,8 @@ REFUSED: dict[str, list[tuple[Callable[[], object], str]]] = {
         (lambda: lasts(INF), "dynamic_load_rating"),
         (lambda: lasts(14e3, positions="load line"), "positions"),
         (lambda: lasts(14e3, positions="some"), "positions"),
-        (lambda: lasts(14e3, turning_race="outer"), "turning_race"),
-        (lambda: lasts(14e3, turning_race="cage"), "turning_race"),
     ],
     "limits": [
-        (lambda: core.limits(HEALTHY, shoulder_height=0.0), "shoulder_height is 0; "),
-        (lambda: core.limits(HEALTHY, shoulder_height=0.6), "shoulder_height is 0.6; "),
         (lambda: core.limits(HEALTHY, step_rate=0.0), "step_rate is 0; "),
         (lambda: core.limits(HEALTHY, step_rate=NAN), "step_rate is nan; "),
     ],

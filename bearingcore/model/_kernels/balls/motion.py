@@ -48,17 +48,17 @@ from bearingcore.model._kernels.path import (
     new_passage,
 )
 from bearingcore.model._kernels.runge_kutta import stepper, try_state
-from bearingcore.model._kernels.structs import PLANAR, VELOCITIES, Recorded
+from bearingcore.model._kernels.structs import PLANAR, Recorded
 
 
 @inlined
-def ring_velocities(y, k, rotor, work, sign):
-    """ẋ of both rings into k from w (sign 1), Σ c δ e being in work.S; into work.v too."""
+def ring_velocities(y, k, rotor, work):
+    """ẋ of both rings into k from w, Σ c δ e being in work.S; into work.v too."""
     active = rotor.active
     n = active.size
     for a in range(n):
-        k[a] = y[n + a] - sign * rotor.inverse_inner[a] * work.S[INNER, active[a]]
-        k[2 * n + a] = y[3 * n + a] + sign * rotor.inverse_outer[a] * work.S[OUTER, active[a]]
+        k[a] = y[n + a] - rotor.inverse_inner[a] * work.S[INNER, active[a]]
+        k[2 * n + a] = y[3 * n + a] + rotor.inverse_outer[a] * work.S[OUTER, active[a]]
         work.v[INNER, active[a]] = k[a]
         work.v[OUTER, active[a]] = k[2 * n + a]
 
@@ -75,10 +75,8 @@ def ball_rates(y, k, passage, inner, at, system, work):
     n = rotor.active.size
     n_balls = contacts.angle.size
     first = 4 * n
-    planar = rotor.variables == PLANAR
-    smooth = rotor.variables != VELOCITIES
     ring_state(y, rotor, work.x)
-    if planar:
+    if rotor.variables == PLANAR:
         planar_contacts(y, first, passage, inner, at, system, work)
         speeds = first + n_balls
         for j in range(n_balls):
@@ -88,26 +86,24 @@ def ball_rates(y, k, passage, inner, at, system, work):
             )
             k[first + j] = y[speeds + j] + damped * races.inverse_mass[j]
             k[speeds + j] = work.ball[0, j] * races.inverse_mass[j]
-        ring_velocities(y, k, rotor, work, 1.0)
+        ring_velocities(y, k, rotor, work)
     else:
         find_contacts(y, first, passage, inner, at, system, work)
         speeds = first + 2 * n_balls
         for j in range(n_balls):
             for part in range(2):
-                damped = 0.0
-                if smooth:
-                    damped = (
-                        races.damping[INNER, j]
-                        * work.contact[INNER, j, 0]
-                        * work.contact[INNER, j, 1 + part]
-                        - races.damping[OUTER, j]
-                        * work.contact[OUTER, j, 0]
-                        * work.contact[OUTER, j, 1 + part]
-                    )
+                damped = (
+                    races.damping[INNER, j]
+                    * work.contact[INNER, j, 0]
+                    * work.contact[INNER, j, 1 + part]
+                    - races.damping[OUTER, j]
+                    * work.contact[OUTER, j, 0]
+                    * work.contact[OUTER, j, 1 + part]
+                )
                 i = part * n_balls + j
                 k[first + i] = y[speeds + i] + damped * races.inverse_mass[j]
-        ring_velocities(y, k, rotor, work, 1.0 if smooth else 0.0)
-        push_contacts(k, first, passage, inner, at, system, work, smooth)
+        ring_velocities(y, k, rotor, work)
+        push_contacts(k, first, passage, inner, at, system, work, True)
         for j in range(n_balls):
             for part in range(2):
                 k[speeds + part * n_balls + j] = work.ball[part, j] * races.inverse_mass[j]
@@ -137,9 +133,8 @@ def rates(y, part, before, k, at, system, work):
 
 @inlined
 def changed(y, at, system, work):
-    """Whether contacts have been released or taken up, and y with them, as a step begins."""
-    rotor = system.rotor
-    if rotor.tension or rotor.variables == VELOCITIES:
+    """Release and take up contacts as a step begins; True where that has changed y."""
+    if system.rotor.tension:
         return False
     return update_released(y, work.k[0], work.passage, work.inner, at, system, work.forces)
 

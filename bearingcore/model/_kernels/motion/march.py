@@ -217,7 +217,7 @@ def rates(y, part, before, k, at, system, work):
 
 @inlined
 def changed(y, at, system, work):
-    """A state of massless balls is never changed between steps."""
+    """Return False: a state of massless balls is never changed between steps."""
     return False
 
 
@@ -312,23 +312,17 @@ def elastic_loads(x, active, start_angle, turn, contacts, path):
 
 @compiled
 def fill_loads(active, start_angle, turn, contacts, path, loads, work):
-    """Body of `elastic_loads`; work holds x, a place for a displacement, and a passage."""
+    """Body of `elastic_loads`; work holds x, a place (5,) for a displacement, 0, and a passage."""
     x, q, passage = work
     for first in range(0, x.shape[0], BLOCK):
         instants = min(BLOCK, x.shape[0] - first)
         lay_out_balls(start_angle + first * turn, turn, instants, 1.0, contacts, path, passage)
-        loads_of_block(x, active, first, contacts, passage, q, loads)
-
-
-@called
-def loads_of_block(x, active, first, contacts, passage, q, loads):
-    """Loads of the instants from `first` on that a passage holds; q (5,) is work space, 0."""
-    for i in range(min(BLOCK, x.shape[0] - first)):
-        for a in range(active.size):
-            q[active[a]] = x[first + i, a]
-        place = Place(passage.c[i], passage.s[i], passage.d[i])
-        for j in range(loads.shape[1]):
-            loads[first + i, j], _, _ = carried(components(q), place, j, contacts)
+        for i in range(instants):
+            for a in range(active.size):
+                q[active[a]] = x[first + i, a]
+            place = Place(passage.c[i], passage.s[i], passage.d[i])
+            for j in range(loads.shape[1]):
+                loads[first + i, j], _, _ = carried(components(q), place, j, contacts)
 
 
 @compiled
@@ -361,8 +355,8 @@ def interpolate_steps(history, body, weights, first, out):
 
 
 @compiled
-def side_by_side(history, body, before, rows):
-    """Displacement since the first row, v and a of a body into rows (n, 3 stride, m), which is 0.
+def lay_side_by_side(history, body, before, rows):
+    """Put displacement since the first row, v and a of a body into rows (n, 3 stride, m), all 0.
 
     Row i of the history is column (before + i)//stride, of each quantity the (before + i) mod
     stride-th row: what is `stride` rows apart in time then lies side by side.

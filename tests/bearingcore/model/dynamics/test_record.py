@@ -13,7 +13,7 @@ from bearingcore.model.sweeps import OUTPUTS, Settings, sweep
 from bearingcore.model.sweeps._outputs import chosen_outputs
 
 SCENE = scene_of("6205").replace(extent=0.03, depth=5e-5, center=math.radians(270.0))
-BARE = PathEffects().without("cage_wander", "resonances", "knock", "shaft_tones", "noise")
+BARE = PathEffects(0.0, (), 0.0, shaft_tones=0.0, noise=None)
 
 
 def rms(record) -> float:

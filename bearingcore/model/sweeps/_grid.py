@@ -29,9 +29,11 @@ from bearingcore.model.sweeps._outputs import (
     MOVING,
     OUTPUTS,
     PRESSURE,
+    RECORD,
     SAMPLE,
     SECONDS,
     SECONDS_IN_A_ROW,
+    SEED,
     Numbers,
     Settings,
     chosen_outputs,
@@ -163,14 +165,17 @@ class Grid:
     def dims_of(self, output: str) -> tuple[str, ...]:
         """Dimensions of an output."""
         if OUTPUTS[output].per_sample:
-            return (*self.dims, SAMPLE)
+            several = isinstance(self.settings.seed, tuple)
+            return (*self.dims, SEED, SAMPLE) if several else (*self.dims, SAMPLE)
         return (*self.dims, MODE) if OUTPUTS[output].per_mode else self.dims
 
     def shape_of(self, output: str, shape: Sequence[int] | None = None) -> tuple[int, ...]:
         """Shape of an output over the grid, or over a region of this shape."""
         part = tuple(self.shape if shape is None else shape)
         if OUTPUTS[output].per_sample:
-            return (*part, len(self.settings.record_time))
+            samples = len(self.settings.record_time)
+            several = isinstance(self.settings.seed, tuple)
+            return (*part, len(self.settings.seeds), samples) if several else (*part, samples)
         return (*part, len(self.labels)) if OUTPUTS[output].per_mode else part
 
     def scene_at(self, index: Sequence[int]) -> Scene:
@@ -188,6 +193,8 @@ class Grid:
         if scenes is None:
             table = SECONDS_IN_A_ROW if self.in_rows else SECONDS
             seconds = sum(table[need] for need in self.needs)
+            if RECORD in self.needs:
+                seconds += table[RECORD] * (len(self.settings.seeds) - 1)
             if len(self.dofs) > 2 and set(self.needs) & MOVING:
                 seconds *= 10.0
             scenes = min(round(TASK_SECONDS / seconds), self.size // TASKS_AT_LEAST)

@@ -15,7 +15,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import Array, _checks as checks
-from bearingcore.model.dynamics import BandSearch, orbit, simulate, simulated_record
+from bearingcore.model.dynamics import (
+    BandSearch,
+    PathEffects,
+    orbit,
+    simulate,
+    simulated_record,
+)
 from bearingcore.model.dynamics._ball_comparison import mass_share
 from bearingcore.model.dynamics._low_pass import PASSED
 from bearingcore.model.dynamics._modes import stiffness_terms, undamped_bands
@@ -63,6 +69,11 @@ MODE = "mode"
 
 SAMPLE = "sample"
 """Name of the dimension of records; its coordinate is the time [s]."""
+
+SEED = "seed"
+"""Name of the dimension of records that are drawn several times, with several seeds."""
+
+MOST_SEEDS = 100_000
 
 
 @dataclass(frozen=True)
@@ -177,7 +188,7 @@ def _table() -> dict[str, Output]:
         table[f"record_{dof}"] = Output(
             "m/s²",
             f"record of a sensor along {dof}: the settled motion of the housing behind a path, with"
-            " a cage that wanders, tones of the shaft and noise, all drawn by the scene itself",
+            " a cage that wanders, tones of the shaft and noise, drawn with the settings' seed",
             "Records",
             f"record along {dof}",
             RECORD,
@@ -266,6 +277,13 @@ class Settings:
         known, else by ISO 281.
     band_low, band_high
         [Hz] of the band for the share of the power that mass adds.
+    seed
+        of the random numbers of records, the same for all scenes: they then differ by what the
+        scenes do and not by what is drawn. Several seeds draw each scene several times, and
+        records have the further dimension "seed". None: a seed made from each scene, so that each
+        has another path; use it to learn from records.
+    effects
+        of the path of the sensor in records; None draws them, see `simulated_record`.
     """
 
     cage_angles: int = 121
@@ -274,6 +292,8 @@ class Settings:
     dynamic_load_rating: float | None = None
     band_low: float = 2100.0
     band_high: float = 10_000.0
+    seed: int | tuple[int, ...] | None = None
+    effects: PathEffects | None = None
 
     def __post_init__(self) -> None:
         angles = checks.whole_number("cage_angles", self.cage_angles, at_least=3, at_most=10_000)
@@ -283,6 +303,25 @@ class Settings:
         checks.keep_number(self, "band_low", above=0.0, unit="Hz")
         checks.keep_number(self, "band_high", above=self.band_low, unit="Hz")
         checks.keep_number(self, "dynamic_load_rating", optional=True, above=0.0, unit="N")
+        if self.effects is not None:
+            checks.instance("effects", self.effects, PathEffects, "PathEffects, or None")
+        if self.seed is not None:
+            several = isinstance(self.seed, Sequence | np.ndarray) and not isinstance(
+                self.seed, str
+            )
+            values = self.seed if several else (self.seed,)
+            seeds = tuple(
+                checks.whole_number("seed", value, at_least=0, at_most=2**32 - 1)
+                for value in values
+            )
+            if not 1 <= len(set(seeds)) == len(seeds) <= MOST_SEEDS:
+                raise checks.refuse("seed", self.seed, f"1 to {MOST_SEEDS:,} different ones")
+            checks.keep(self, seed=seeds if several else seeds[0])
+
+    @property
+    def seeds(self) -> tuple[int | None, ...]:
+        """Seeds with which each record is drawn."""
+        return self.seed if isinstance(self.seed, tuple) else (self.seed,)
 
     @property
     def record_time(self) -> Array:
@@ -509,10 +548,15 @@ def _orbit(scene: Scene, numbers: Numbers) -> SweepStatus:
 
 
 def _record(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus:
-    """Put records (n,) along each direction into `numbers`."""
-    made = simulated_record(scene, None, settings.duration, settings.sample_rate)
-    pairs = zip(made.directions, made.acceleration.T, strict=True)
-    numbers |= {f"record_{name}": signal for name, signal in pairs}
+    """Put records (n,), or (seeds, n), along each direction into `numbers`."""
+    effects, duration, rate = settings.effects, settings.duration, settings.sample_rate
+    records = [
+        simulated_record(scene, effects, duration, rate, seed=seed) for seed in settings.seeds
+    ]
+    signals = np.stack([record.acceleration for record in records])  # (seeds, n, directions)
+    for axis, name in enumerate(records[0].directions):
+        several = isinstance(settings.seed, tuple)
+        numbers[f"record_{name}"] = signals[:, :, axis] if several else signals[0, :, axis]
     return SweepStatus.COMPLETE
 
 

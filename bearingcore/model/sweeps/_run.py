@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import errno
 import importlib
 import logging
@@ -68,6 +69,7 @@ def sweep(
     processes: bool = False,
     scenes_per_task: int | None = None,
     progress: Progress | None = None,
+    **resolution: Any,
 ) -> xarray.Dataset:
     """Compute outputs for all combinations of values of some fields of `scene`.
 
@@ -87,7 +89,10 @@ def sweep(
         it already holds a part of the same sweep, only the rest is computed. None keeps results
         in memory.
     settings
-        the resolution; see `Settings`.
+        the resolution, and what is drawn for records; see `Settings`.
+    resolution
+        single fields of `Settings` by name, such as ``duration=0.5``, instead of those of
+        `settings`.
     workers, processes
         on this machine: the number of workers (None: one per core), and True for processes instead
         of threads. Processes share nothing and are faster, but take a second or two to
@@ -114,6 +119,10 @@ def sweep(
         if the scheduler cannot be reached or is lost. Finished parts are in the store.
     """
     needs_extra()
+    for name in resolution.keys() - {field.name for field in dataclasses.fields(Settings)}:
+        allowed = ", ".join(field.name for field in dataclasses.fields(Settings))
+        raise checks.refuse("argument of sweep", name, f"also {allowed}, of Settings")
+    settings = dataclasses.replace(settings or Settings(), **resolution)
     grid = Grid.of(scene, over, outputs, settings)
     if scenes_per_task is not None:
         scenes_per_task = checks.whole_number(

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from bearingcore.common import _checks as checks
 from bearingcore.errors import FieldError
 from bearingcore.model.sweeps._grid import Grid, program_version
-from bearingcore.model.sweeps._outputs import MODE, OUTPUTS, SAMPLE, Numbers
+from bearingcore.model.sweeps._outputs import MODE, OUTPUTS, SAMPLE, SEED, Numbers
 from bearingcore.model.sweeps._status import STATUSES
 
 PROGRAM = "bearing-explorer"
@@ -70,6 +70,8 @@ def coordinates(grid: Grid) -> dict[str, NDArray[Any]]:
         values[MODE] = np.array(grid.labels)
     if any(OUTPUTS[name].per_sample for name in grid.outputs):
         values[SAMPLE] = grid.settings.record_time
+        if isinstance(grid.settings.seed, tuple):
+            values[SEED] = np.array(grid.settings.seed)
     return values
 
 

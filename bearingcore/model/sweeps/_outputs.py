@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from bearingcore.common import Array, _checks as checks
+from bearingcore.common import Array, Progress, _checks as checks
 from bearingcore.model.dynamics import (
     BandSearch,
     PathEffects,
@@ -306,13 +306,10 @@ class Settings:
         if self.effects is not None:
             checks.instance("effects", self.effects, PathEffects, "PathEffects, or None")
         if self.seed is not None:
-            several = isinstance(self.seed, Sequence | np.ndarray) and not isinstance(
-                self.seed, str
-            )
-            values = self.seed if several else (self.seed,)
+            several = isinstance(self.seed, Iterable)
             seeds = tuple(
-                checks.whole_number("seed", value, at_least=0, at_most=2**32 - 1)
-                for value in values
+                checks.whole_number("seed", seed, at_least=0, at_most=2**32 - 1)
+                for seed in (self.seed if isinstance(self.seed, Iterable) else (self.seed,))
             )
             if not 1 <= len(set(seeds)) == len(seeds) <= MOST_SEEDS:
                 raise checks.refuse("seed", self.seed, f"1 to {MOST_SEEDS:,} different ones")
@@ -338,11 +335,12 @@ def of_scene(
     labels: tuple[str, ...],
     settings: Settings,
     outputs: Iterable[str] = OUTPUTS,
+    progress: Progress | None = None,
 ) -> tuple[int, Numbers]:
     """Code of what became of one scene, and its outputs: those of the computations in `needs`.
 
     `labels` are the modes that the band edges are given for. With a defect that turns the ends of
-    no other stiffness than in `outputs` are looked for.
+    no other stiffness than in `outputs` are looked for. `progress` is called during motions.
     """
     ended: list[SweepStatus] = []
     numbers: Numbers = {}
@@ -368,10 +366,10 @@ def of_scene(
             settings.cage_angles,
             numbers,
         ),
-        MOTION: lambda: _motion(scene, settings, numbers),
-        RECORD: lambda: _record(scene, settings, numbers),
-        MASS: lambda: _mass(scene, settings, numbers),
-        ORBIT: lambda: _orbit(scene, numbers),
+        MOTION: lambda: _motion(scene, settings, numbers, progress),
+        RECORD: lambda: _record(scene, settings, numbers, progress),
+        MASS: lambda: _mass(scene, settings, numbers, progress),
+        ORBIT: lambda: _orbit(scene, numbers, progress),
     }
     for name, compute in computations.items():
         if name not in needs:
@@ -528,30 +526,35 @@ def _pressure(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus
     return OF_STATICS[StaticStatus(int(state.status.max()))]
 
 
-def _mass(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus:
+def _mass(
+    scene: Scene, settings: Settings, numbers: Numbers, progress: Progress | None
+) -> SweepStatus:
     """Put the share that the balls' mass adds into `numbers`."""
     if settings.band_high > PASSED * settings.sample_rate:
         raise checks.refuse(
             "band_high", settings.band_high, f"at most {PASSED:g} of the sample_rate"
         )
     band = settings.band_low, settings.band_high
-    share = mass_share(scene, *band, settings.duration, settings.sample_rate)
+    share = mass_share(scene, *band, settings.duration, settings.sample_rate, progress)
     numbers["mass_share"] = np.array(share)
     return SweepStatus.COMPLETE
 
 
-def _orbit(scene: Scene, numbers: Numbers) -> SweepStatus:
+def _orbit(scene: Scene, numbers: Numbers, progress: Progress | None) -> SweepStatus:
     """Put the largest multiplier of the orbit into `numbers`; say what became of it."""
-    motion = orbit(scene)
+    motion = orbit(scene, progress=progress)
     numbers["floquet_multiplier_greatest"] = np.array(motion.largest_multiplier)
     return OF_ORBIT[motion.status]
 
 
-def _record(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus:
+def _record(
+    scene: Scene, settings: Settings, numbers: Numbers, progress: Progress | None
+) -> SweepStatus:
     """Put records (n,), or (seeds, n), along each direction into `numbers`."""
     effects, duration, rate = settings.effects, settings.duration, settings.sample_rate
     records = [
-        simulated_record(scene, effects, duration, rate, seed=seed) for seed in settings.seeds
+        simulated_record(scene, effects, duration, rate, seed=seed, progress=progress)
+        for seed in settings.seeds
     ]
     signals = np.stack([record.acceleration for record in records])  # (seeds, n, directions)
     for axis, name in enumerate(records[0].directions):
@@ -560,9 +563,11 @@ def _record(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus:
     return SweepStatus.COMPLETE
 
 
-def _motion(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus:
+def _motion(
+    scene: Scene, settings: Settings, numbers: Numbers, progress: Progress | None
+) -> SweepStatus:
     """Put what the motion gives into `numbers`; say what became of it."""
-    motion = simulate(scene, settings.duration, settings.sample_rate)
+    motion = simulate(scene, settings.duration, settings.sample_rate, progress=progress)
     late = motion.outer_acceleration[round(SETTLING_SHARE * len(motion.time)) :]
     for i, dof in enumerate(motion.dofs):
         numbers[f"acceleration_rms_{dof}"] = np.sqrt(np.mean(late[:, i] ** 2))

@@ -19,6 +19,7 @@ from .codes import (
     TOO_MANY as TOO_MANY,
 )
 from .compiling import all_on_disk as all_on_disk, kept_on_disk as kept_on_disk
+from .in_parts import Watch as Watch, parts as parts
 from .modes import DOUBTFUL as DOUBTFUL, modes_like as modes_like
 from .motion.march import (
     elastic_loads as elastic_loads,

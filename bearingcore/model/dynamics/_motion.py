@@ -10,6 +10,7 @@ import numpy as np
 
 from bearingcore.common import (
     Array,
+    Progress,
     ResultTable,
     _checks as checks,
     cached_property,
@@ -270,6 +271,7 @@ def simulate(
     *,
     step_rate: float | None = None,
     most_steps: int = MOST_STEPS,
+    progress: Progress | None = None,
 ) -> Motion:
     """Simulate the motion of `scene` from its static state at cage angle 0 (Runge-Kutta, order 4).
 
@@ -291,6 +293,9 @@ def simulate(
         limit on the number of steps. Beyond it no motion is computed, and the status gives the
         number. A light body on a stiff support needs hundreds of millions a second. Steps for the
         REACH further samples that the filter needs (`low_pass`) are not counted.
+    progress
+        called about ten times a second with the part done, 0 to 1, and words; an exception from it
+        ends the work. Under the law without tension each number of steps begins at 0 again.
 
     Returns
     -------
@@ -329,7 +334,9 @@ def simulate(
     rest = equilibrium_of(packed, [0.0])
 
     def march(rate: float) -> Motion:
-        return _marched(packed, rest, duration, sample_rate, rate, most_steps)
+        words = f"{duration:g} s at {thousands(rate)} steps a second"
+        watch = None if progress is None else lambda part: progress(part, words)
+        return _marched(packed, rest, duration, sample_rate, rate, most_steps, watch)
 
     if step_rate is not None:
         motion = march(step_rate)
@@ -347,6 +354,7 @@ def _marched(
     sample_rate: float,
     step_rate: float,
     most_steps: int,
+    watch: kernels.Watch | None = None,
 ) -> Motion:
     """Motion at one step rate [Hz]; `rest`: state at cage angle 0."""
     scene, dofs = packed.scene, packed.dofs
@@ -383,9 +391,9 @@ def _marched(
     history = np.empty((rows, 6, len(dofs)))
     if with_mass:
         place = np.empty((-(-rows // kept), parts, n_balls))
-        marched = march_balls(packed, rest, h, every, history, place)
+        marched = march_balls(packed, rest, h, every, history, place, watch)
     else:
-        marched = march_from(packed, rest, h, history)
+        marched = march_from(packed, rest, h, history, watch)
     done, status, detail = marched or 0, MotionStatus.COMPLETED, ""
     if marched is None:
         status, detail = MotionStatus.NO_START, f": {rest.reason(0)}"
@@ -490,17 +498,24 @@ def _level(motion: Motion) -> float:
     return math.sqrt(float(np.mean(late * late)))
 
 
-def march_from(packed: PackedMotion, rest: Equilibrium, h: float, history: Array) -> int | None:
+def march_from(
+    packed: PackedMotion,
+    rest: Equilibrium,
+    h: float,
+    history: Array,
+    watch: kernels.Watch | None = None,
+) -> int | None:
     """Fill `history` (steps + 1, 6, nd) by steps of h [s] from the static state at cage angle 0.
 
     Returns the number of steps after which all was finite; None where there is no static state.
+    `watch` is called with the part done.
     """
     y = static_start(packed, rest)
     if y is None:
         return None
     system = moving_system(packed)
     kernels.turn_smooth(y, 1.0, 0.0, system)
-    return int(kernels.march(y, h, 0.0, system, history))
+    return int(kernels.march(y, h, 0.0, system, history, watch))
 
 
 def moving_system(packed: PackedMotion, *, velocities: bool = False) -> kernels.System:

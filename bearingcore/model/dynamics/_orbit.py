@@ -20,6 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from bearingcore.common import (
     Array,
+    Progress,
     ResultTable,
     _checks as checks,
     shown_as_table,
@@ -209,6 +210,7 @@ def orbit(
     step_rate: float | None = None,
     most_steps: int = MOST_STEPS,
     give_up: Callable[[], bool] | None = None,
+    progress: Progress | None = None,
 ) -> Orbit:
     """Find the periodic motion of `scene` by Newton's method on P(y) = y (shooting).
 
@@ -233,6 +235,9 @@ def orbit(
     give_up
         called after every period; True ends the search, which has then not converged unless this
         period was the orbit.
+    progress
+        called after every period, and at least ten times a second, with the used part of
+        `most_steps` and words; an exception from it ends the search.
 
     Raises
     ------
@@ -259,7 +264,7 @@ def orbit(
         most = thousands(most_steps)
         cost = f"{thousands(steps)} steps a period, allowed are most_steps = {most} in all"
         return replace(nothing, status=OrbitStatus.TOO_MANY_STEPS, period=period, cost=cost)
-    shooting = _Shooting(packed, period, steps, give_up, most_steps)
+    shooting = _Shooting(packed, period, steps, give_up, most_steps, progress)
     rest = equilibrium_of(packed, [0.0])
     y = static_start(packed, rest) if start is None else _state_at_start(start, dofs)
     if y is None:
@@ -317,7 +322,9 @@ class _Shooting:
         steps: int,
         give_up: Callable[[], bool] | None = None,
         most_steps: int = MOST_STEPS,
+        progress: Progress | None = None,
     ) -> None:
+        self._progress = progress
         self.steps = steps
         self._most_steps = most_steps
         self._too_many = False
@@ -343,16 +350,22 @@ class _Shooting:
         for _ in range(periods):
             if self.given_up:
                 break
-            kernels.march(end, self._step, 0.0, self._system, self.history)
+            kernels.march(end, self._step, 0.0, self._system, self.history, self._watch)
             self._count()
         return end
 
     def march_with_tangent(self, y: Array) -> tuple[Array, Array]:
         """P(y) and its derivative."""
         both = np.concatenate([y, np.eye(y.size).ravel()])
-        kernels.march(both, self._step, 0.0, self._system, self.history)
+        kernels.march(both, self._step, 0.0, self._system, self.history, self._watch)
         self._count()
         return both[: y.size], both[y.size :].reshape(y.size, y.size)
+
+    def _watch(self, part: float) -> None:
+        """Report the steps so far and a part of a period."""
+        if self._progress is not None:
+            steps = self.calls // 4 + round(part * self.steps)
+            self._progress(min(steps / self._most_steps, 1.0), f"{thousands(steps)} steps")
 
     def _count(self) -> None:
         self.calls += 4 * self.steps

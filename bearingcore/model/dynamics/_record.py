@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from bearingcore.common import Array, _checks as checks
+from bearingcore.common import Array, Progress, _checks as checks
 from bearingcore.model.dynamics._motion import SETTLING, simulate
 from bearingcore.model.scene import Scene
 from bearingcore.model.statics import crossings, equilibrium
@@ -105,6 +105,7 @@ def simulated_record(
     sample_rate: float = 20_480.0,
     *,
     seed: int | None = None,
+    progress: Progress | None = None,
 ) -> Recording:
     """Simulate the record of a real sensor in a scene, for learning and trials.
 
@@ -124,6 +125,8 @@ def simulated_record(
     seed
         seed of the random numbers; None: a seed made from the scene, so that equal scenes give
         equal records.
+    progress
+        see `simulate`.
 
     Raises
     ------
@@ -138,7 +141,7 @@ def simulated_record(
         resonances, background = drawn_resonances(rng), math.exp(rng.uniform(*_BACKGROUND))
         effects = PathEffects(resonances=resonances, background=background)
     start = SETTLING + float(rng.uniform(0.05, 0.25))
-    motion = simulate(scene, start + 1.02 * duration + 0.05, sample_rate)
+    motion = simulate(scene, start + 1.02 * duration + 0.05, sample_rate, progress=progress)
     if not motion.completed:
         raise checks.refuse("scene", motion.reason, "one whose motion is computed")
     directions = tuple(name for name in DIRECTIONS if name in motion.dofs)

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from bearingcore.bearings import Bearing
 from bearingcore.common import (
     Array,
+    Progress,
     ResultTable,
     _checks as checks,
     cached_property,
@@ -37,6 +38,10 @@ from bearingcore.model.statics._status import StaticStatus
 
 GREATEST_EXTENT = math.radians(90.0)
 """Greatest extent of maps by default, as in the paper's Figs. 5 and 6."""
+
+
+FIRST_POINTS = 20_000
+"""Points of a map that are solved before it is looked whether to go on."""
 
 
 @shown_as_table
@@ -132,6 +137,8 @@ def stiffness_maps(
     extents: ArrayLike | None = None,
     cage_angles: ArrayLike | None = None,
     dofs: Iterable[str] | None = None,
+    *,
+    progress: Progress | None = None,
 ) -> Maps:
     """Compute stiffness (Eq. 17) and loaded balls of `scene` for each extent of its first defect.
 
@@ -148,6 +155,9 @@ def stiffness_maps(
         [rad]; None takes `default_cage_angles`, which for a defect of the inner race are many.
     dofs
         free directions, names out of x, y, z, rx, ry; None takes the scene's.
+    progress
+        called about ten times a second with the part done, 0 to 1, and words; an exception from it
+        ends the work.
 
     Returns
     -------
@@ -196,7 +206,12 @@ def stiffness_maps(
     memory = kernels.new_memory(angles.size, contacts)
 
     def solve(begin: int, end: int) -> tuple[int, int]:
-        return kernels.static_maps(angles, contacts, ways, load, (begin, end), memory, answers)
+        counts = np.zeros(2, dtype=np.int64)
+        for rows in kernels.parts(begin, end, max(FIRST_POINTS // max(angles.size, 1), 1)):
+            counts += kernels.static_maps(angles, contacts, ways, load, rows, memory, answers)
+            if progress is not None:
+                progress(rows[1] / sizes.size, f"{rows[1]} of {sizes.size} extents")
+        return int(counts[0]), int(counts[1])
 
     # Whether a load can be carried depends on the cage angle alone, and to find out that it cannot
     # takes long: the first row shows which cage angles the others need not try.

@@ -39,6 +39,7 @@ from bearingcore.model._kernels.balls.contacts import (
 from bearingcore.model._kernels.balls.release import smooth_start, true_forces, update_released
 from bearingcore.model._kernels.balls.structs import INNER, OUTER, BallForces, BallSteps
 from bearingcore.model._kernels.compiling import called, compiled, inlined
+from bearingcore.model._kernels.in_parts import march_in_parts
 from bearingcore.model._kernels.motion.rings import record, ring_accelerations
 from bearingcore.model._kernels.path import (
     BLOCK,
@@ -181,23 +182,30 @@ def new_ball_steps(size, instants, angle):
     )
 
 
-def march_balls(y, h, start_angle, stride, system, history, places):
+def march_balls(y, h, start_angle, stride, system, history, places, watch=None):
     """Steps of h [s] from y, velocities in it, which is moved to the end.
 
     Every `stride` steps history (samples, 6, n) takes displacement, velocity and acceleration of
     the inner ring, then of the outer one, and places (samples, k, n_balls) those of the balls:
     radial, and axial unless the motion is planar. Fewer rows of places, the samples over a whole
     number and rounded up, take those of every so many samples. Returns the number of steps after
-    which all was still finite, which is looked at once in half a BLOCK.
+    which all was still finite, which is looked at once in half a BLOCK. `watch`: see
+    `march_in_parts`.
     """
     work = new_ball_steps(y.size, BLOCK + 1, system.contacts.angle)
     out = Recorded(history, places, -(-len(history) // max(len(places), 1)))
-    return march_with_balls(y, h, start_angle, stride, system, out, work)
+    return march_in_parts(
+        stride * (len(history) - 1),
+        y.size * system.contacts.angle.size,
+        lambda span: march_with_balls(y, h, start_angle, stride, system, out, work, span),
+        watch,
+    )
 
 
 @compiled
-def march_with_balls(y, h, start_angle, stride, system, out, work):
-    """Body of `march_balls`."""
-    lay_out(start_angle, 0.0, 1, system, work)
-    smooth_start(y, work.passage, work.inner, system, work.forces)
-    return runge_kutta(y, h, start_angle, stride, system, out, work)
+def march_with_balls(y, h, start_angle, stride, system, out, work, span):
+    """Body of `march_balls`; span: see `runge_kutta`."""
+    if span[0] == 0:
+        lay_out(start_angle, 0.0, 1, system, work)
+        smooth_start(y, work.passage, work.inner, system, work.forces)
+    return runge_kutta(y, h, start_angle, stride, system, out, work, span)

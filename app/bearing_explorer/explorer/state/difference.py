@@ -19,7 +19,7 @@ from bearing_explorer.explorer.state.references import usual_name
 from bearing_explorer.kit.sentences import label_inside
 from bearingcore import Scene
 from bearingcore.common import number, with_prefix
-from bearingcore.fields import FIELD_OF, SCENE_PARTS, Field
+from bearingcore.fields import FIELD_OF, Field
 
 MOST_NUMBERS = 3
 """Numbers that are named one by one; more are said to be another bearing, or several at once."""
@@ -63,7 +63,7 @@ def separated(now: Scene, before: Scene, focus: int = 0) -> dict[str, Scene]:
         return {}
     focus = min(focus, len(defects_of(now)) - 1)
     changed = [field for field, _ in _numbers(values_of(now, focus), values_of(before, focus))]
-    if len(changed) > MOST_NUMBERS or {field.part for field in changed} - set(SCENE_PARTS):
+    if len(changed) > MOST_NUMBERS:
         return {}
     longer = any(field.name == "extent" for field in changed)
     causes: dict[str, dict[str, float | None]] = {}
@@ -71,7 +71,7 @@ def separated(now: Scene, before: Scene, focus: int = 0) -> dict[str, Scene]:
         at_one_end = longer and field.name == "center"
         name = label_inside(FIELD_OF["extent"] if at_one_end else field)
         name = "load" if field.part == "load" else name
-        causes.setdefault(name, {})[field.name] = number_of(now, field, focus)
+        causes.setdefault(name, {})[field.full_name] = number_of(now, field, focus)
     together = {name: value for cause in causes.values() for name, value in cause.items()}
     try:
         if len(causes) < 2 or scene_with_fields(before, together, focus) != now:

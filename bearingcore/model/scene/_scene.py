@@ -6,9 +6,9 @@ import dataclasses
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any, ClassVar, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
-from bearingcore.bearings import Bearing, bearing_of
+from bearingcore.bearings import Bearing, BearingLike, bearing_of
 from bearingcore.bearings._kind import DIRECTIONS
 from bearingcore.bearings._kinds import recognized
 from bearingcore.bearings._line_contact import mended_factor
@@ -98,6 +98,22 @@ class Scene:
     dofs: tuple[str, ...] | str | None = None
     balls: str = dataclasses.field(default=MASSLESS, metadata=scene_file.LEFT_OUT)
     unbalance: float = dataclasses.field(default=0.0, metadata=scene_file.LEFT_OUT)
+
+    if TYPE_CHECKING:  # the fields say what a scene holds, this what it takes
+
+        def __init__(
+            self,
+            bearing: BearingLike,
+            defect: Defect | Iterable[Defect],
+            load: Load,
+            shaft_speed: float,
+            support: Support,
+            contact_damping: float | None = None,
+            contact_law: str = "published",
+            dofs: Iterable[str] | None = None,
+            balls: str = MASSLESS,
+            unbalance: float = 0.0,
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         checks.keep_number(self, "shaft_speed", at_least=0.0)

@@ -108,7 +108,7 @@ class Tapered(Roller):
         return (*super().inputs(bearing), "contact_angle", *paired)
 
     def facts(self, bearing: InRows) -> tuple[str, ...]:
-        meet = ("pressure_centers_apart",) if self.arrangement(bearing) else ()
+        meet = ("preload_force", "pressure_centers_apart") if self.arrangement(bearing) else ()
         return (*meet, *super().facts(bearing))
 
     def completed(self, bearing: InRows, changes: dict[str, Any]) -> dict[str, Any]:

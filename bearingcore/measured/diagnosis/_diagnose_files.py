@@ -77,7 +77,7 @@ def diagnose(
     bearing: BearingLike | None = None,
     shaft_speed: float | tuple[float, float] | None = None,
     **more: Any,
-) -> Diagnosis | FolderDiagnosis: ...
+) -> Diagnosis | Any: ...  # of a folder a FolderDiagnosis, which the type of a path does not say
 def diagnose(
     recording: Recording | str | os.PathLike[str],
     bearing: BearingLike | None = None,

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from bearingcore.common import Progress, _checks as checks, cached_property
 from bearingcore.errors import FieldError
-from bearingcore.fields import FIELD_OF, FIELDS, SCENE_PARTS
+from bearingcore.fields import FIELD_OF, SCENE_FIELDS
 from bearingcore.model.scene import DOF_NAMES, MASSLESS, Defect, Scene
 from bearingcore.model.statics._life import race_ratings
 from bearingcore.model.sweeps._outputs import (
@@ -61,12 +61,12 @@ LONGEST_ROW = 128
 WORDS = ("race", "edge", "contact_law", "balls")
 """Fields of words that a sweep can go over."""
 
-UNITS = {field.name: field.unit for field in FIELDS if field.part in SCENE_PARTS} | dict.fromkeys(
-    WORDS, ""
-)
+UNITS = {field.full_name: field.unit for field in SCENE_FIELDS} | dict.fromkeys(WORDS, "")
 """Fields that a sweep can vary, and the unit of each; words have none."""
 
-_OF_DEFECTS = {field.name for field in dataclasses.fields(Defect)}
+_OF_DEFECTS = {field.name for field in dataclasses.fields(Defect)} | {
+    field.name for field in SCENE_FIELDS if field.part == "floor"
+}
 
 Slices = tuple[slice, ...]
 
@@ -395,8 +395,10 @@ def _axis(name: object, given: Any) -> Axis:
             raise checks.refuse(f"values of {name}", _short(given), allowed)
         array = np.array([checks.real_number(f"value of {name}", value) for value in values])
         if FIELD_OF[name].whole:
+            most = 2**31 - 1 if name == "seed" else 500
+            least = 0 if name == "seed" else 1
             array = np.array(
-                [checks.whole_number(name, value, at_least=1, at_most=500) for value in values]
+                [checks.whole_number(name, value, at_least=least, at_most=most) for value in values]
             )
     if len(np.unique(array)) != len(array):
         raise checks.refuse(f"values of {name}", _short(given), allowed)
@@ -409,7 +411,7 @@ def _all_dofs(scene: Scene, axes: Iterable[Axis]) -> tuple[str, ...]:
     richest = {
         axis.name: max(axis.values.tolist(), key=abs)
         for axis in axes
-        if axis.name in ("contact_angle", "fz", "mx", "my")
+        if axis.name in ("contact_angle", "second_contact_angle", "row_distance", "fz", "mx", "my")
     }
     try:
         return scene.replace(**richest).active_dofs

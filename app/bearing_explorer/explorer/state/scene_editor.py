@@ -312,12 +312,13 @@ class SceneEditor:
 
     def _scene_with(self, taken: Values) -> Scene:
         fields: dict[str, Any] = {}
-        parts: dict[str, dict[str, Any]] = {"floor": {}, "pair": {}, "second": {}}
+        rough: dict[str, Any] = {}
         for name, value in taken.items():
             field = FIELD_BY_KEY[name]
             if field.part:
-                parts.get(field.part, fields)[field.name] = in_si(field, value)
-        rough, bearing = parts["floor"], self.scene.bearing
+                numbers = rough if field.part == "floor" else fields
+                numbers[field.full_name] = in_si(field, value)
+        bearing = self.scene.bearing
         if "ball_diameter" in fields:
             # grooves are made for their ball: they keep what they are to it
             ratio = fields["ball_diameter"] / bearing.ball_diameter
@@ -332,8 +333,6 @@ class SceneEditor:
                 raise refuse("floor of the defect", floor_name(floor), "rough")
             fields["floor"] = dataclasses.replace(floor, **rough)
         scene = scene_with_fields(self.scene, fields, self.selected)
-        if parts["pair"] or parts["second"]:
-            scene = scene.replace(bearing=_change_rows(scene.bearing, **parts))
         return scene
 
     def _take(self, scene: Scene, cage_angle: float | None = None) -> None:
@@ -533,20 +532,6 @@ class SceneEditor:
             "hidden": hidden,
             "effects": self.effects,
         }
-
-
-def _change_rows(
-    bearing: Bearing, pair: Mapping[str, Any], second: Mapping[str, Any], **_: object
-) -> Bearing:
-    """A bearing of two rows with numbers of both, and of the second row alone, changed."""
-    if pair:
-        bearing = bearing.respaced(pair.get("row_distance"), pair.get("preload"))
-    if not second:
-        return bearing
-    if len(bearing.rows) != 2:
-        raise refuse("rows of balls", len(bearing.all_rows), "two of them")
-    low, high = bearing.rows
-    return bearing.replace(rows=(low, dataclasses.replace(high, **second)))
 
 
 def _usual_words(scene: Scene, kept: Iterable[str]) -> str:

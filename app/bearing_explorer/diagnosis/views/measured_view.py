@@ -63,6 +63,7 @@ class MeasuredView(View[Model]):
     """
 
     in_report = False
+    is_brief = False  # what a result of a signal rests on is seen with it
     needs = frozenset()
     hidden: Any = None
     #: whether what it computes looks for a speed that is not known

@@ -140,8 +140,8 @@ class OtherModels(SceneJobView[Alternatives]):
     def sentence(self, results: Results) -> str:
         if self.job_result is None:
             return (
-                f"Drawn are {results.settings.n_cage_angles} cage angles a ball spacing and "
-                f"{results.settings.duration:g} s of motion, whatever the scene."
+                f"The page draws {results.settings.n_cage_angles} cage angles per ball spacing and "
+                f"{results.settings.duration:g} s of motion of every scene."
             )
         enough = [
             row.name

@@ -68,10 +68,10 @@ class LoadDistribution(ComparingView):
     title = "Load distribution"
     about = (
         "Ball load against angular position. Blue: this scene. Grey: {grey}. Shaded: the "
-        "defect. Dots: balls now. With a defect of the inner race the curve is the most in "
-        "all turns of the shaft. A second row is orange, and in grey dashed. Of balls with mass "
-        "the full line is the load at the outer race, where their centrifugal load comes on top, "
-        "the dashed one that at the inner race."
+        "defect. Dots: balls now. For an inner-race defect, the curve is the greatest load in "
+        "all turns of the shaft. A second row is orange, its reference dashed. For balls with "
+        "mass, the full line is the load at the outer race, which also carries their centrifugal "
+        "force, and the dashed line that at the inner race."
     )
     needs = frozenset({"equilibrium", "now", "ranges"})
 
@@ -143,9 +143,10 @@ class LoadDistribution(ComparingView):
                 f"{style.with_prefix(load[most], 'N')}, at {style.in_degrees(angle[most])}"
             )
             if results.reference_label and np.isfinite(healthy).any():
-                part += f"; {results.reference_label} {style.with_prefix(np.nanmax(healthy), 'N')}"
+                most_there = style.with_prefix(np.nanmax(healthy), "N")
+                part += f" ({results.reference_label} {most_there})"
             parts.append(part)
-        words = ", ".join(parts)
+        words = "; ".join(parts)
         if results.over_shaft:
             words += " (the most at each angle in all turns of the shaft)"
         why = reasons.greatest_load(results)

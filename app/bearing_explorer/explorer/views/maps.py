@@ -94,10 +94,10 @@ class StiffnessMaps(View):
     """All stiffness terms and the loaded balls over extent and cage angle."""
 
     name = "maps"
-    title = "Maps over extent and cage angle"
+    title = "Stiffness over length and cage angle"
     about = (
-        "Every stiffness term, over extent and cage angle. Up: the extent of the defect; right: "
-        "the cage angle. The large map counts the balls that carry load. Lines that slope are "
+        "Every stiffness term over length and cage angle. Upwards: length of the defect. To the "
+        "right: cage angle. The large map counts the balls that carry load. Sloping lines are "
         "balls that enter and leave the defect. Click in a map to go there."
     )
     needs = frozenset({"maps", "now"})
@@ -213,11 +213,11 @@ class StiffnessMaps(View):
         n_balls, names = bearing.total_balls, elements(bearing)
         least, most = np.nanmin(mean), np.nanmax(mean)
         if most - least < 0.05:
-            words = f"Whatever the extent, about {least:.1f} of {n_balls} {names} carry load"
+            words = f"Whatever the length, about {least:.1f} of {n_balls} {names} carry load"
         else:
             at = int(np.nanargmin(mean))
             where = (
-                f"at an extent of {in_degrees(maps.extents[at], 0)}" if at else "without a defect"
+                f"at a length of {in_degrees(maps.extents[at], 0)}" if at else "without a defect"
             )
             if at == mean.size - 1:
                 where += ", the longest of the map"
@@ -228,13 +228,15 @@ class StiffnessMaps(View):
             )
             if at and np.isfinite(mean[0]):
                 words += f", against {mean[0]:.1f} without the defect"
-        words += f". Marked: extent {in_degrees(results.extent)}, cage angle "
+        words += (
+            f". At the mark, with a length of {in_degrees(results.extent)} and a cage angle of "
+        )
         words += in_degrees(results.cage_angle)
         now = results.against(massless(results.scene)).now
         if now.converged[0]:
             count = int(now.loaded_balls[0])
             carries = f"{elements(bearing, count)} {'carries' if count == 1 else 'carry'}"
-            words += f", where {count} {carries} load"
+            words += f", {count} {carries} load"
             words += f" and k_yy is {with_prefix(float(now.term('k_yy')[0]), 'N/m')}"
         missing = float(np.mean(~maps.converged))
         if missing:

@@ -86,9 +86,9 @@ class NaturalFrequencies(ComparingView):
     title = "Natural frequencies"
     about = (
         "Each natural frequency as the bearing turns. Blue x, orange y. A mode is named after the "
-        "direction that moves most. Shaded: the band in which it moves. Grey: {grey}. Upright: "
-        "now. With a defect of the inner race lines are those of the turn of now, bands of all "
-        "turns."
+        "direction that moves most. Shaded: the band in which it moves. Grey: {grey}. Vertical "
+        "line: current cage angle. For an inner-race defect, curves show the current turn of the "
+        "shaft and bands all turns."
     )
     needs = frozenset({"modes", "bands", "ranges"})
 
@@ -166,7 +166,7 @@ class NaturalFrequencies(ComparingView):
         if results.reference_label and is_known and in_same_order(first, known, healthy):
             text += f"; {results.reference_label} {mode_symbol(first)} {_from_to(healthy[first])}"
         why = with_elements_of(results.scene.bearing, reasons.frequencies(results))
-        return f"{text}. {why}".rstrip()
+        return f"{why} {text}.".lstrip()
 
     def show(self, results: Results) -> None:
         over = style.SHAFT_ANGLE if results.over_shaft else style.CAGE_ANGLE

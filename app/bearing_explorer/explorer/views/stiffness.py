@@ -56,9 +56,9 @@ class Stiffness(ComparingView):
     title = "Stiffness of the bearing"
     about = (
         "The 15 stiffness terms as the cage turns. They are the independent ones of the symmetric "
-        "5×5 stiffness matrix: displacements are the columns, "
-        "loads the rows. A click enlarges a term. Blue: this scene. Grey: {grey}. A defect that "
-        "turns with the shaft meets the balls elsewhere in each turn: drawn is the turn of now."
+        "5×5 stiffness matrix: displacements are the columns, loads the rows. Blue: this scene. "
+        "Grey: {grey}. Click: enlarges a term and says why it varies. For an inner-race defect, "
+        "curves show the current turn of the shaft."
     )
     needs = frozenset({"equilibrium", "now", "ranges"})
     cells = matrix_cells.named_cells(_FRAMES)
@@ -169,7 +169,7 @@ class Stiffness(ComparingView):
         return self._lesson_limits
 
     def sentence(self, results: Results) -> str:
-        """The range of the radial stiffness and of the number of loaded balls."""
+        """Why the radial stiffness is as it is, its range, and the number of loaded balls."""
         ranges, healthy = results.ranges, results.reference.ranges
         states = ranges.state
         if not states.converged.any():
@@ -189,8 +189,9 @@ class Stiffness(ComparingView):
         over = " Ranges are over all turns of the shaft, curves over the one shown."
         carry = f"{elements(states.scene.bearing)} carry load"
         why = with_elements_of(states.scene.bearing, reasons.stiffness(results))
-        said = f"{'; '.join(parts)}.", why, reasons.not_needed(results.scene), f"{count} {carry}."
-        text = f"{' '.join(filter(None, said))} Marked: cage angle {at}."
+        held = reasons.not_needed(results.scene)
+        said = why, f"{'; '.join(parts)}; {count} {carry}.", held
+        text = f"{' '.join(filter(None, said))} Dots mark the cage angle, {at}."
         return text + (over if results.over_shaft else "")
 
     def cell_lines(self, content: Results) -> list[str]:

@@ -265,10 +265,11 @@ class SceneEditor:
         floors = self.floors if "defect" in kept else [FloorChoice()]
         selected = self.selected if "defect" in kept else 0
         self.floors, self.selected, self.begun = floors, selected, usual
+        lost = _lost_words(self.scene) if "defect" not in kept else ""
         self._take(scene)
         self._begin_limits(limits_of(self.scene))
         self._write_values()
-        self._effects["preset"] = f"{_usual_words(scene, kept)} {effect}".rstrip()
+        self._effects["preset"] = f"{lost} {_usual_words(scene, kept)} {effect}".strip()
         self.own_name = one_line(name, LONGEST_NAME)
         self.origin = CatalogueOrigin(self.own_name, origin, self.scene.bearing)
 
@@ -613,6 +614,15 @@ def _usual_words(scene: Scene, kept: Iterable[str]) -> str:
     stays = [name for part, name in _USUAL.items() if part in kept]
     usual = f"Usual for it, and assumed: {', '.join(came)}." if came else ""
     return f"{usual} Kept as you set it: {', '.join(stays)}.".strip() if stays else usual
+
+
+def _lost_words(scene: Scene) -> str:
+    """Sentence on the defects that a bearing out of a list does not take over; or empty."""
+    lengths = [f"{number(math.degrees(defect.extent))}°" for defect in scene.defects]
+    if not lengths:
+        return ""
+    gone = f"The defect of {lengths[0]} is" if len(lengths) == 1 else "The defects are"
+    return f"{gone} gone: the bearing comes sound."
 
 
 def _choice_of(defect: Defect) -> FloorChoice:

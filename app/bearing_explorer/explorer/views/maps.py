@@ -445,7 +445,7 @@ if (!unit) return row.now + (row.now == 1 ? ' ball' : ' balls') + ' at the cross
 return rounded(row.now/10**e, 3) + '\\u00a0' + names[e] + unit
 """
 _ZERO = f"{_UNIT}return unit && row.kind == 1 ? '0' : ''"
-_FLAT = f"return row.kind == 3 ? '{matrix_cells.ZERO}' : ''"
+_FLAT = f"return row.kind != 3 ? '' : narrow ? '0' : '{matrix_cells.ZERO}'"
 _ONLY = "return row.at == %d ? String(Number(row.value.toPrecision(4))) + '%s' : ''"
 
 
@@ -461,7 +461,7 @@ def _scales(plot: figure, cells: ColumnDataSource) -> None:
     above = {"x": "bar", "y": "top", "x_offset": 20, "y_offset": -6}
     write(plot, cells, _NOW, fitting=NARROWEST, text_align="right", **above)
     inside = {"x": "left", "y": "top", "x_offset": 8, "y_offset": 8}
-    write(plot, cells, _FLAT, text_baseline="top", **inside)
+    write(plot, cells, _FLAT, fitting=NARROWEST, text_baseline="top", **inside)
 
 
 def _ticks(plot: figure, ticks: ColumnDataSource) -> None:

@@ -275,10 +275,9 @@ const e = power(Math.max(Math.abs(row.low), Math.abs(row.high)))
 return rounded(row.now/10**e, 4) + '\\u00a0' + names[e] + unit
 """
 _FLAT = f"""
-const words = '{matrix_cells.ZERO}'
-return !row.flat ? '' : narrow ? words.replace(/ (?!.* )/, '\\n') : words
+return !row.flat ? '' : narrow ? '0' : '{matrix_cells.ZERO}'
 """
-_FOOT = "return row.foot ? rounded(%s, 4) + '°' : ''"
+_FOOT = "return row.foot ? rounded(%s, narrow ? 3 : 4) + '°' : ''"
 
 
 def _moving_parts(plot: figure, cells: ColumnDataSource, axis: ColumnDataSource) -> None:
@@ -292,7 +291,7 @@ def _moving_parts(plot: figure, cells: ColumnDataSource, axis: ColumnDataSource)
     # below the zero line, which runs through the middle
     inside = {"x": "left", "y": "bottom", "x_offset": 3, "y_offset": -1}
     write(plot, cells, _FLAT, fitting=NARROWEST, **inside)
-    below = {"y": "bottom", "y_offset": 4, "text_baseline": "top"}
+    below = {"y": "bottom", "y_offset": 4, "text_baseline": "top", "fitting": NARROWEST}
     write(plot, cells, _FOOT % "0*row.foot", x="left", **below)
     write(plot, cells, _FOOT % "row.foot", x="right", text_align="right", **below)
     middle = {"x": 0.5 * (_BALLS.left + _BALLS.right), "text_align": "center"}

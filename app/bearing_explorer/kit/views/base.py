@@ -69,7 +69,7 @@ class Caption(LiveComponent):
     figures = param.List(default=[])
     #: name, left, right, bottom and top of the cells that it enlarges one by one
     cells = param.List(default=[])
-    #: what is said above each of them; empty strings for nothing
+    #: HTML above each of them; empty strings for nothing
     cell_lines = param.List(default=[])
     #: a small one: a title that leads to the tab of this name, and a sentence
     compact = param.Boolean(default=False)
@@ -286,7 +286,8 @@ class View(Generic[C]):
         )
         if results is not None:
             if self.cells and not results.moving:
-                self._caption.put(cell_lines=self.cell_lines(results))
+                lines = [sentence_html(line) for line in self.cell_lines(results)]
+                self._caption.put(cell_lines=lines)
             self.show(results)
 
     def cell_lines(self, content: C) -> list[str]:

@@ -257,6 +257,7 @@ class SceneEditor:
         """
         usual = scene_of(bearing).replace(defect=_SOUND)
         kept = [part for part in _USUAL if getattr(self.scene, part) != getattr(self.begun, part)]
+        lost = "" if "defect" in kept else _lost_words(self.scene)
         fresh = {part: getattr(usual, part) for part in _USUAL if part not in kept}
         before = self.scene.replace(defect=fresh.get("defect", self.scene.defect))
         if before.dofs == self.begun.dofs:
@@ -265,7 +266,6 @@ class SceneEditor:
         floors = self.floors if "defect" in kept else [FloorChoice()]
         selected = self.selected if "defect" in kept else 0
         self.floors, self.selected, self.begun = floors, selected, usual
-        lost = _lost_words(self.scene) if "defect" not in kept else ""
         self._take(scene)
         self._begin_limits(limits_of(self.scene))
         self._write_values()
@@ -600,6 +600,15 @@ def _change_rows(
     return bearing.replace(rows=(low, dataclasses.replace(high, **second)))
 
 
+def _lost_words(scene: Scene) -> str:
+    """Sentence on the defects that a bearing out of a list does not take over; or empty."""
+    lengths = [f"{number(math.degrees(defect.extent))}°" for defect in scene.defects]
+    if not lengths:
+        return ""
+    gone = f"The defect of {lengths[0]} is" if len(lengths) == 1 else "The defects are"
+    return f"{gone} gone: the bearing comes sound."
+
+
 def _usual_words(scene: Scene, kept: Iterable[str]) -> str:
     """Sentence on what came with a bearing out of a list, and on what was kept."""
     loads = ((-scene.load.fy, "down"), (scene.load.fz, "along the shaft"))
@@ -614,15 +623,6 @@ def _usual_words(scene: Scene, kept: Iterable[str]) -> str:
     stays = [name for part, name in _USUAL.items() if part in kept]
     usual = f"Usual for it, and assumed: {', '.join(came)}." if came else ""
     return f"{usual} Kept as you set it: {', '.join(stays)}.".strip() if stays else usual
-
-
-def _lost_words(scene: Scene) -> str:
-    """Sentence on the defects that a bearing out of a list does not take over; or empty."""
-    lengths = [f"{number(math.degrees(defect.extent))}°" for defect in scene.defects]
-    if not lengths:
-        return ""
-    gone = f"The defect of {lengths[0]} is" if len(lengths) == 1 else "The defects are"
-    return f"{gone} gone: the bearing comes sound."
 
 
 def _choice_of(defect: Defect) -> FloorChoice:

@@ -16,7 +16,6 @@ from bearing_explorer.explorer.results.load_curve import Curve, curves_table, lo
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.views.comparing_view import ComparingView
 from bearing_explorer.kit.plots import style
-from bearing_explorer.kit.plots.element_words import elements
 from bearing_explorer.kit.plots.layers import (
     Layer,
     Words,
@@ -152,16 +151,8 @@ class LoadDistribution(ComparingView):
         why = reasons.greatest_load(results)
         words += f". {why[:-1]}" if why else ""
         now = results.now
-        if now.converged[0]:
-            count = int(now.loaded_balls[0])
-            words += (
-                f". Now, at {style.in_degrees(results.cage_angle)}, {count} of "
-                f"{bearing.total_balls} {elements(bearing)} "
-                f"{'carries' if count == 1 else 'carry'} load, at most "
-                f"{style.with_prefix(now.ball_load[0].max(), 'N')}"
-            )
-            if isinstance(now, EquilibriumWithMass) and results.inner_load_curves:
-                words += f". {_both_races(now)}"
+        if isinstance(now, EquilibriumWithMass) and now.converged[0] and results.inner_load_curves:
+            words += f". {_both_races(now)}"
         return words + "."
 
     def table(self, results: Results) -> dict[str, np.ndarray]:

@@ -32,7 +32,7 @@ from bearing_explorer.kit.plots import color_scales, style
 from bearing_explorer.kit.plots.element_words import elements
 from bearing_explorer.kit.plots.heat_map import Side, ends, let_point
 from bearing_explorer.kit.plots.ranges import StickyRange
-from bearing_explorer.kit.plots.style import in_degrees, number, with_prefix
+from bearing_explorer.kit.plots.style import in_degrees, number
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources, View
 from bearingcore import STIFFNESS_TERMS
@@ -203,7 +203,7 @@ class StiffnessMaps(View):
         return low, high, False
 
     def sentence(self, results: Results) -> str:
-        """The extent at which fewest balls carry load, and the state at the sliders' place."""
+        """The length at which fewest balls carry load."""
         maps = results.maps
         if not maps.converged.any():
             first = np.unravel_index(0, maps.status.shape)
@@ -228,16 +228,6 @@ class StiffnessMaps(View):
             )
             if at and np.isfinite(mean[0]):
                 words += f", against {mean[0]:.1f} without the defect"
-        words += (
-            f". At the mark, with a length of {in_degrees(results.extent)} and a cage angle of "
-        )
-        words += in_degrees(results.cage_angle)
-        now = results.against(massless(results.scene)).now
-        if now.converged[0]:
-            count = int(now.loaded_balls[0])
-            carries = f"{elements(bearing, count)} {'carries' if count == 1 else 'carry'}"
-            words += f", {count} {carries} load"
-            words += f" and k_yy is {with_prefix(float(now.term('k_yy')[0]), 'N/m')}"
         missing = float(np.mean(~maps.converged))
         if missing:
             words += f". {number(100.0 * missing, 2)} % of the points have no answer"

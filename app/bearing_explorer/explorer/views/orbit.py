@@ -66,9 +66,9 @@ class SteadyOrbit(ComparingView):
     title = "Steady orbit"
     about = (
         "The motion that repeats with every ball pass. It is found by Newton's method, "
-        "not by a long simulation. A pass changes a small disturbance by its Floquet multipliers, "
-        "drawn on the left; inside the unit circle the disturbance dies out. Path of the inner "
-        "ring, grey: the motion integrated in time from rest."
+        "not by a long simulation. Its Floquet multipliers: factors by which a pass changes a "
+        "small disturbance; inside the unit circle it dies out. Then the path of the inner "
+        "ring. Grey: the motion integrated in time from rest."
     )
     needs = frozenset({"orbit", "motion"})
 

@@ -419,7 +419,8 @@ def parts_of(text: str, *, key_alone: bool) -> tuple[str, str]:
     The key is seen, sentences such as “Shaded: the defect.”, and the first sentence unless
     `key_alone`.
     """
-    seen, rest = [], []
+    seen: list[str] = []
+    rest: list[str] = []
     for number, sentence in enumerate(_sentences(text)):
         is_seen = _IS_KEY.match(sentence) or (number == 0 and not key_alone)
         (seen if is_seen else rest).append(sentence)

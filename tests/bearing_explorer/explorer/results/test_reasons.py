@@ -55,7 +55,6 @@ def test_a_ball_in_the_defect_leaves_its_load_to_those_beside_it() -> None:
     ranges = of(RIG).ranges.state
     worst = math.degrees(ranges.cage_angles[np.argmax(ranges.ball_load.max(axis=1))])
     assert f"It occurs with the cage at {worst:.1f}°. There ball" in most(of(RIG))
-    assert f"Now, at {math.degrees(UNDER) % 360.0:.1f}°, " in most(of(RIG))
 
 
 @pytest.mark.parametrize("name", ["fan-rig", "3208", "nu208"])

@@ -456,11 +456,6 @@ class Results(SceneContent):
         """Words on bands of the spectrum that are not known within 1 dB; or empty."""
         return motions.ending(self.scene, self.marching).doubt
 
-    @property
-    def settled_since(self) -> float:
-        """Time [s] of the motion after which it counts as settled."""
-        return motions.ending(self.scene, self.marching).since
-
     @cached_property
     @note_kinds(SLOW, OF_MOTION)
     def excerpt(self) -> Excerpt:

@@ -139,10 +139,7 @@ class OtherModels(SceneJobView[Alternatives]):
 
     def sentence(self, results: Results) -> str:
         if self.job_result is None:
-            return (
-                f"The page draws {results.settings.n_cage_angles} cage angles per ball spacing and "
-                f"{results.settings.duration:g} s of motion of every scene."
-            )
+            return "No model is compared yet."
         enough = [
             row.name
             for row in self.job_result.rows

@@ -21,7 +21,7 @@ from bearing_explorer.explorer.views.comparing_view import ComparingView
 from bearing_explorer.kit.plots import layers, style
 from bearing_explorer.kit.plots.element_words import elements, with_elements_of
 from bearing_explorer.kit.plots.ranges import ROOM, StickyRange
-from bearing_explorer.kit.plots.style import in_degrees, with_prefix
+from bearing_explorer.kit.plots.style import with_prefix
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
 from bearingcore import STIFFNESS_TERMS, Scene
@@ -185,14 +185,12 @@ class Stiffness(ComparingView):
             parts.append(line)
         balls = states.loaded_balls[states.converged]
         count = str(balls.min()) if balls.min() == balls.max() else f"{balls.min()}–{balls.max()}"
-        at = in_degrees(results.cage_angle)
         over = " Ranges are over all turns of the shaft, curves over the one shown."
         carry = f"{elements(states.scene.bearing)} carry load"
         why = with_elements_of(states.scene.bearing, reasons.stiffness(results))
         held = reasons.not_needed(results.scene)
         said = why, f"{'; '.join(parts)}; {count} {carry}.", held
-        text = f"{' '.join(filter(None, said))} Dots mark the cage angle, {at}."
-        return text + (over if results.over_shaft else "")
+        return " ".join(filter(None, said)) + (over if results.over_shaft else "")
 
     def cell_lines(self, content: Results) -> list[str]:
         return [reasons.stiffness_term(content, term) for term in STIFFNESS_TERMS]

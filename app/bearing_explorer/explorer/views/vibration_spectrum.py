@@ -277,11 +277,7 @@ def loudest_words(results: Results) -> str:
     )
     estimated = ", as estimated" if results.scene.bearing.estimated else ""
     text += with_elements_of(results.scene.bearing, f"; balls pass a point {passing}{estimated}")
-    text += results.doubt
-    if results.moving:
-        return f"{text}."
-    start = style.with_prefix(results.settled_since, "s")
-    return f"{text}. Computed by time integration, without the first {start}."
+    return f"{text}{results.doubt}."
 
 
 def why_words(results: Results, *, briefly: bool = False) -> str:

@@ -68,6 +68,7 @@ class MeasuredView(View[Model]):
     finds_speed: ClassVar[bool] = False
     #: whether its card comes with a signal
     waits: ClassVar[bool] = True
+    is_brief = False  # what a result of a signal rests on is seen with it
     measurement: Measurement = NO_MEASUREMENT
 
     def __init__(self, packed: PackedSource) -> None:

@@ -72,7 +72,7 @@ def read(
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             walk(content, variables)
-    except (FieldError, MemoryError):
+    except (FieldError, MemoryError, ImportError):
         raise
     except Exception:  # a damaged file raises almost anything in there
         raise checks.refuse(

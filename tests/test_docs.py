@@ -40,6 +40,11 @@ def test_the_table_of_fields_is_that_of_the_registry() -> None:
     assert text.rstrip("\n") == as_markdown()
 
 
+def test_the_citation_is_of_this_version() -> None:
+    text = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
+    assert f"\nversion: {bearingcore.__version__}\n" in text
+
+
 def test_the_tables_of_accuracy_are_those_of_the_files() -> None:
     """The same files that the page draws: ``python -m tests.benchmarks.charts`` writes both."""
     text = charts.DOCUMENT.read_text(encoding="utf-8")

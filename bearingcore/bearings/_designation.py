@@ -32,7 +32,7 @@ from bearingcore.bearings._designation_tables import (
     rows_of,
     series_of,
 )
-from bearingcore.bearings._drawing import USUAL_GROOVES, center_distance
+from bearingcore.bearings._drawing import USUAL_GROOVES
 from bearingcore.bearings._inside import (
     Inside,
     accuracy,
@@ -442,31 +442,19 @@ def _mounted(
             f"pressure centres {number(1e3 * centers, 3)} mm apart, as "
             f"{'cups' if back else 'cones'} that touch"
         )
-    bearing, preload, clearance_words = _set(bearing, kind, size, said)
+    preload, clearance_words = _set(size, said)
     assumed.append(f"{words}, {clearance_words}")
     return bearing.paired(distance, said.arrangement, preload)
 
 
-def _set(bearing: Bearing, kind: str, size: Boundary, said: Suffix) -> tuple[Bearing, float, str]:
-    """A row with its part of the axial clearance of a pair, the preload [m], and both in words.
-
-    Half of the clearance G moves a row from the middle until it touches: tapered rollers by
-    r_L = G/2 tan α, balls up to the free contact angle, sin α_f = sin α0 + G/(2 A0).
-    """
+def _set(size: Boundary, said: Suffix) -> tuple[float, str]:
+    """Preload [m] of a pair, below 0 an axial clearance, and both in words."""
     play, words = said.axial_play, ""
     if said.matched:
         least, most = matched_clearance(size.bore, said.matched)
         play = 0.5 * (least + most)
         words = f", the middle of {said.matched} ({number(1e6 * least)} to {number(1e6 * most)} µm)"
     if not play:
-        return bearing, 0.0, f"without clearance or preload{words}"
-    if play < 0.0:
-        return bearing, -play, f"an axial preload of {number(-1e6 * play)} µm{words}"
-    words = f"an axial clearance of {number(1e6 * play)} µm{words}"
-    if kind == TAPERED_ROLLERS:
-        gap = 0.5 * play * math.tan(bearing.contact_angle)
-    else:
-        apart = center_distance(bearing.groove_center_distance)
-        sine = math.sin(bearing.contact_angle) + 0.5 * play / apart
-        gap = apart * (math.cos(bearing.contact_angle) - math.sqrt(1.0 - sine**2))
-    return bearing.replace(radial_clearance=gap), 0.0, words
+        return 0.0, f"without clearance or preload{words}"
+    name = "preload" if play < 0.0 else "clearance"
+    return -play, f"an axial {name} of {number(1e6 * abs(play))} µm{words}"

@@ -14,6 +14,7 @@ import textwrap
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from html import escape
+from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
@@ -166,7 +167,12 @@ class ResultTable(Mapping[str, NDArray[Any]]):
         return self.only(*(column.name for column in alike)).frame().set_axis(heads, axis=1)
 
     def __str__(self) -> str:
-        """The table as text: of a single row a line a column, of many the first and last rows."""
+        """The table as text: of a single row a line a column, of many the first and last rows.
+
+        Without pandas, which cuts out the middle, all of many rows as CSV.
+        """
+        if not self._is_one_row and find_spec("pandas") is None:
+            return self.csv()
         if not self._is_one_row:
             return str(self._headed().to_string(max_cols=MOST_COLUMNS, max_colwidth=60, **_PRINTED))
         lines = self._lines()
@@ -177,6 +183,8 @@ class ResultTable(Mapping[str, NDArray[Any]]):
 
     def _repr_html_(self) -> str:
         """The table in a notebook, turned like the text."""
+        if find_spec("pandas") is None:
+            return f"<pre>{escape(str(self))}</pre>"
         if not self._is_one_row:
             return str(self._headed().to_html(max_cols=2 * MOST_COLUMNS, border=0, **_PRINTED))
         import pandas as pd

@@ -100,21 +100,15 @@ def test_pressure_centres_of_angular_contact_pairs(basic: str) -> None:
 def test_a_pair_is_a_pair_with_its_clearance(
     name: str, arrangement: str, least: float, most: float
 ) -> None:
-    """Source: SKF general catalogue, axial clearance and preload of bearings for 30 to 50 mm.
-
-    Half of the clearance takes the ring from the middle to the free contact angle.
-    """
+    """Source: SKF general catalogue, axial clearance and preload of bearings for 30 to 50 mm."""
     designation = read_designation(name)
     pair, single = designation.bearing, read_designation("7208 BEP")
     assert pair.arrangement == arrangement
     assert pair.row_distance == pytest.approx(single.width)
     middle = 0.5e-6 * (least + most)
     if arrangement != "tandem":
-        assert pair.preload == pytest.approx(max(-middle, 0.0))
-
-    rise = math.sin(pair.free_contact_angle) - math.sin(pair.contact_angle)
-    play = 2.0 * pair.groove_center_distance * rise
-    assert play == pytest.approx(max(middle, 0.0), abs=1e-12)
+        assert pair.preload == pytest.approx(-middle)
+    assert pair.radial_clearance == 0.0
 
 
 @witness(
@@ -132,10 +126,8 @@ def test_pairs_are_rated_by_iso_281() -> None:
 
 
 def test_axial_clearance_of_a_tapered_pair() -> None:
-    """Source: SKF, DFC and micrometres is the mean axial clearance; δz sin α = r_L cos α."""
-    pair = read_designation("30212 J2/QDFC290").bearing
-    play = 2.0 * pair.radial_clearance / math.tan(pair.contact_angle)
-    assert play == pytest.approx(290e-6)
+    """Source: SKF, DFC and micrometres is the mean axial clearance."""
+    assert read_designation("30212 J2/QDFC290").bearing.preload == pytest.approx(-290e-6)
 
 
 REFUSED = {
@@ -313,7 +305,7 @@ def test_combined_loads_last_longer_by_iso_16281() -> None:
     assert (rated.hours, rated.equivalent_load) == pytest.approx((13_700.0, 4004.0), rel=2e-3)
     pair = life(scene_of("7310 BECBP DB").replace(fx=0.0, fy=-3000.0, fz=5000.0))
     by_factors = (pair.dynamic_load_rating / (0.57 * 3000.0 + 0.93 * 5000.0)) ** 3
-    assert (pair.million_revolutions, by_factors) == pytest.approx((11_686.0, 7030.0), rel=1e-3)
+    assert (pair.million_revolutions, by_factors) == pytest.approx((11_565.0, 7030.0), rel=1e-3)
 
 
 @witness(

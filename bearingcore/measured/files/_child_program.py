@@ -57,6 +57,9 @@ def main() -> None:
         about = {"refused": (error.field, error.value, error.allowed)}
     except MemoryError:
         about = {"refused": ("file", name, f"one that can be read in {memory // 10**6} MB")}
+    except ImportError as error:
+        needed = f"one that needs no package {error.name}, which is not installed"
+        about = {"refused": ("file", name, needed)}
     out = sys.stdout.buffer
     out.write(json.dumps(about).encode() + b"\n")
     for part in parts:

@@ -66,7 +66,7 @@ def read(name: str, content: bytes, most_numbers: int, most_columns: int) -> Ans
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             walk(content, variables)
-    except (FieldError, MemoryError):
+    except (FieldError, MemoryError, ImportError):
         raise
     except Exception:  # a damaged file raises almost anything in there
         raise checks.refuse(

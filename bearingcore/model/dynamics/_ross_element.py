@@ -20,6 +20,9 @@ ALONG = {
 """Row and column of what a bearing has in ROSS, whose axes are those of a scene."""
 
 MISSING = 'to_ross needs ROSS, which is not installed: pip install "bearing-explorer[ross]"'
+AXES = {"2": "frequency", "3": "speed"}
+"""Argument of `ross.BearingElement` for shaft speeds, by ROSS's first version number. ROSS 3 means
+by `frequency` that of the whirl."""
 
 
 def to_ross(scene: Scene, speeds: ArrayLike, *, node: int = 0, **more: Any) -> Any:
@@ -47,7 +50,7 @@ def to_ross(scene: Scene, speeds: ArrayLike, *, node: int = 0, **more: Any) -> A
     Raises
     ------
     ImportError
-        if ROSS is not installed: install the extra "ross".
+        if ROSS is not installed, for which install the extra "ross", or is neither ROSS 2 nor 3.
     ValueError
         for speeds that are negative or do not increase, or a cage angle without a static state.
     """
@@ -56,6 +59,9 @@ def to_ross(scene: Scene, speeds: ArrayLike, *, node: int = 0, **more: Any) -> A
         import ross  # imported late: optional, and slow
     except ImportError as error:
         raise ImportError(MISSING) from error
+    axis = AXES.get(ross.__version__.split(".")[0])
+    if axis is None:
+        raise ImportError(f"to_ross knows ROSS 2 and 3; this is ROSS {ross.__version__}")
     speeds = np.atleast_1d(checks.finite("speeds", speeds, "rad/s"))
     if speeds.size == 0 or speeds[0] < 0.0 or (np.diff(speeds) <= 0.0).any():
         raise checks.refuse("speeds", speeds.tolist(), "at least 0 rad/s and increasing")
@@ -65,7 +71,7 @@ def to_ross(scene: Scene, speeds: ArrayLike, *, node: int = 0, **more: Any) -> A
         for k, letter in enumerate("kc")
         for name, at in ALONG.items()
     }
-    return ross.BearingElement(n=node, frequency=speeds, **coefficients, **more)
+    return ross.BearingElement(n=node, **{axis: speeds}, **coefficients, **more)
 
 
 def _mean_matrices(scene: Scene) -> tuple[Array, Array]:

@@ -340,9 +340,8 @@ class Scene:
         >>> scene.defect.extent, scene.load.fy
         (0.2, -50.0)
 
-        Fields of a defect change the first of several defects. Those of a rough floor change it,
-        or make one if both its height and its length are given; those of two rows: see
-        `Bearing.replace`.
+        Fields of a defect, and of its rough floor, change the first of several defects. For those
+        of two rows see `Bearing.replace`.
 
         Raises
         ------
@@ -398,12 +397,10 @@ def _change_defect(defect: Defect, values: dict[str, Any]) -> Defect:
     defect = dataclasses.replace(defect, **of_defect)
     if not of_floor:
         return defect
-    if isinstance(defect.floor, RoughFloor):
-        return dataclasses.replace(defect, floor=dataclasses.replace(defect.floor, **of_floor))
-    if not {"rms_height", "correlation_length"} <= of_floor.keys():
-        words = "left out, unless the defect has a RoughFloor or both its numbers are given"
+    if not isinstance(defect.floor, RoughFloor):
+        words = "left out, unless the floor of the defect is a RoughFloor"
         raise checks.refuse(*next(iter(of_floor.items())), words)
-    return dataclasses.replace(defect, floor=RoughFloor(**of_floor))
+    return dataclasses.replace(defect, floor=dataclasses.replace(defect.floor, **of_floor))
 
 
 def check_dofs(dofs: Iterable[str]) -> tuple[str, ...]:

@@ -75,5 +75,3 @@ def test_numbers_that_a_scene_has_not_are_refused_by_name() -> None:
     flat = presets["6205"].replace(extent=0.1, depth=20e-6)
     with pytest.raises(ValueError, match="rms_height is 1e-06; allowed: left out, unless"):
         flat.replace(rms_height=1e-6)
-    rough = flat.replace(rms_height=1e-6, correlation_length=1e-4).defects[0].floor
-    assert rough == RoughFloor(1e-6, 1e-4)

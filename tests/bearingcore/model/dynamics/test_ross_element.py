@@ -20,7 +20,8 @@ SPEEDS = (0.0, 1000.0, 2000.0, 3000.0)
 @pytest.fixture
 def element(monkeypatch: pytest.MonkeyPatch) -> Any:
     """ROSS as something that keeps what it is given, so that numbers are tested without it."""
-    monkeypatch.setitem(sys.modules, "ross", SimpleNamespace(BearingElement=SimpleNamespace))
+    fake = SimpleNamespace(BearingElement=SimpleNamespace, __version__="2.3.0")
+    monkeypatch.setitem(sys.modules, "ross", fake)
     return to_ross
 
 
@@ -47,6 +48,17 @@ def test_damping_is_that_of_the_loaded_contacts(element: Any) -> None:
 def test_rollers_without_known_mass_are_the_same_at_all_speeds(element: Any) -> None:
     bearing = element(presets["30206-back-to-back"], [0.0, 300.0])
     assert bearing.kxx[0] == bearing.kxx[1] > 0.0
+
+
+def test_ross_3_takes_speeds_by_their_name(element: Any) -> None:
+    """Source: petrobras/ross, pull request 1371: `speed=` is what version 2 called `frequency=`."""
+    sys.modules["ross"].__version__ = "3.0.0"  # type: ignore[attr-defined]
+    bearing = element(SCENE, [10.0])
+    assert bearing.speed == 10.0
+    assert not hasattr(bearing, "frequency")
+    sys.modules["ross"].__version__ = "4.1"  # type: ignore[attr-defined]
+    with pytest.raises(ImportError, match=r"knows ROSS 2 and 3; this is ROSS 4\.1"):
+        element(SCENE, [10.0])
 
 
 def test_what_cannot_be_had_is_refused(element: Any, monkeypatch: pytest.MonkeyPatch) -> None:

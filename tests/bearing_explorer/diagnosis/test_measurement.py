@@ -266,8 +266,7 @@ def test_frequencies_of_a_file_and_typed_ones_count_as_the_bearing():
 
 
 def test_the_load_that_a_file_says_can_be_taken_into_the_scene():
-    run_ = {"gs": NOISE[:, :1], "sr": 48_828.0, "rate": 25.0, "load": "150"}
-    made = brought("run.mat", matlab(bearing=run_))
+    made = brought("a.csv", b"# load: 150 lb\n" + csv_of(NOISE[:, :1], "time [s],a [g]"))
     assert made.state.load == pytest.approx(150 * 4.4482216)
     taken: list[dict] = []
     made.change_scene = taken.append

@@ -177,8 +177,10 @@ def recording_of(
     if not picked:
         options = choice.options or range(len(table.names))
         names = ", ".join(f"{index} (“{table.names[index]}”)" for index in options)
-        question = choice.question or choice.reason
-        raise checks.missing("columns", f"one or two signals of {names}. {table.name}: {question}")
+        words = f"{table.name}: {choice.question or choice.reason}"
+        if not choice.options:  # no vibration, as far as it is seen
+            raise ValueError(f"{words} If one is a signal all the same, pass columns=...: {names}.")
+        raise checks.missing("columns", f"one or two signals of {names}. {words}")
     if directions is None:
         by_choice = {index: axis for axis, index in choice.columns.items()}
         known = [by_choice.get(index) or contents.columns[index].direction for index in picked]

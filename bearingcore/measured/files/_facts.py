@@ -300,7 +300,7 @@ def _speed_of(named: Named, rated: bool) -> Finding[float] | None:
     if not (math.isfinite(value) and value > 0.0):
         return None
     if "rpm" in key or (unit == "rpm" and not _OTHER_SPEED.search(named.name)):
-        return Finding(value * SPEEDS["rpm"], words, file_unit="rpm")
+        return Finding(value * SPEEDS["rpm"], words, strong=True, file_unit="rpm")
     if key in _FREQUENCIES | _SPEEDS and unit is not None and unit in SPEEDS:
         return Finding(value * SPEEDS[unit], words, file_unit=unit)
     if key in _FREQUENCIES:

@@ -18,8 +18,10 @@ FAN_RIG = "?v=1&preset=fan-rig&tab="
 _FIGURES = """canvases => {
   const figures = new Map()
   for (const canvas of canvases) {
-    if (!canvas.width || !canvas.height || !canvas.getClientRects().length) continue
-    const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height)
+    if (canvas.width < 3 || canvas.height < 3 || !canvas.getClientRects().length) continue
+    // not the edge: what is painted again there grows darker by a shade
+    const context = canvas.getContext("2d")
+    const {data} = context.getImageData(1, 1, canvas.width - 2, canvas.height - 2)
     const pixels = new Uint32Array(data.buffer)
     let hash = 0, drawn = 0
     for (const pixel of pixels) {

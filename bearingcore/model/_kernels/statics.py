@@ -267,11 +267,11 @@ def drop_negligible_contacts(q, noise, place, contacts, load, work, other):
     factor = work.firm
     x = components(q)
     for j in range(factor.size):
-        Q, _, _ = carried(x, place, j, contacts)
-        factor[j] = contacts.factor[j] if noise < Q else 0.0
-    firm = replace_factors(contacts, factor)
+        firm = noise < carried(x, place, j, contacts)
+        factor[j] = contacts.factor[j] if firm else 0.0
+    held = replace_factors(contacts, factor)
     H = work.H[other]
-    energy_gradient_hessian(q, load.force, place, firm, work.g[other], H)
+    energy_gradient_hessian(q, load.force, place, held, work.g[other], H)
     return least_pivot(H, load.active, work.L)
 
 
@@ -281,8 +281,7 @@ def pressed_load(q, place, contacts):
     x = components(q)
     total = 0.0
     for j in range(contacts.factor.size):
-        Q, _, _ = carried(x, place, j, contacts)
-        total += Q
+        total += carried(x, place, j, contacts)
     return total
 
 

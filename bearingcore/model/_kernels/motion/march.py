@@ -322,7 +322,7 @@ def fill_loads(active, start_angle, turn, contacts, path, loads, work):
                 q[active[a]] = x[first + i, a]
             place = Place(passage.c[i], passage.s[i], passage.d[i])
             for j in range(loads.shape[1]):
-                loads[first + i, j], _, _ = carried(components(q), place, j, contacts)
+                loads[first + i, j] = carried(components(q), place, j, contacts)
 
 
 @compiled

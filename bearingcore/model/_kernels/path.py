@@ -1,4 +1,4 @@
-"""Where the balls are, and how deep they have sunk into defects (Eqs. 4 and 6)."""
+"""Places of the balls, and how deep they have sunk into defects (Eqs. 4 and 6)."""
 
 from __future__ import annotations
 

@@ -622,21 +622,13 @@ def first_guess(contacts, load, state):
         state[i] = reach * load.force[i] / max(size, 1e-300)
 
 
-def new_descent(n_contacts):
-    """Empty work space of Newton's descent."""
-    soft, firm = np.zeros((2, n_contacts))
-    p, trial, start = np.zeros((3, 5))
-    return Descent(
-        np.zeros((2, 5)), np.zeros((2, 5, 5)), np.zeros((5, 5)), p, trial, start, soft, firm
-    )
-
-
 def new_map_work(angle):
     """Empty work space of a map of contacts at angles (n,) [rad] from the first ball."""
-    c, s, d, slope = np.zeros((4, angle.size))
-    state, guess = np.zeros((2, 5))
+    c, s, d, slope, soft, firm = np.zeros((6, angle.size))
+    state, guess, p, trial, start = np.zeros((5, 5))
     circle_c, circle_s = np.cos(angle), np.sin(angle)
-    descent = new_descent(angle.size)
+    g, H, L = np.zeros((2, 5)), np.zeros((2, 5, 5)), np.zeros((5, 5))
+    descent = Descent(g, H, L, p, trial, start, soft, firm)
     return MapWork(descent, state, guess, Place(c, s, d), slope, circle_c, circle_s)
 
 

@@ -80,7 +80,7 @@ def centers_apart(bearing: Bearing) -> float:
 
 
 def rows_of(bearing: Bearing) -> list[dict[str, float]]:
-    """What the contacts of each row are made of, written out from its dimensions."""
+    """Return the numbers of the contacts of each row, written out from its dimensions."""
     b, rows = bearing, []
     for row in b.all_rows:
         n = b.n_balls if row.n_balls is None else row.n_balls
@@ -233,7 +233,7 @@ class Balls:
         return stored - self.load @ q.astype(Long)
 
     def rounding(self, q: Array) -> float:
-        """What rounding does to the energy [N·m]: to its lengths, and to the work of the load."""
+        """Effect of rounding on the energy [N·m]: on its lengths, and to the work of the load."""
         lengths = self.drop + self.distance + np.linalg.norm(q)
         size = float(self.ball_load(q) @ lengths + np.abs(self.load * q).sum())
         return float(np.finfo(Long).eps) * size
@@ -283,7 +283,7 @@ class Balls:
 
 
 class Attempt(NamedTuple):
-    """Where Newton's method ended: scaled displacement (5,) [m], and why it failed, if it did."""
+    """End of Newton's method: scaled displacement (5,) [m], and why it failed, if it did."""
 
     q: NDArray[np.float64]
     failure: str

@@ -29,7 +29,7 @@ and below the second it must: what a residual cannot see holds nothing."""
 
 
 def rounding_of_residual(balls: Balls, q: Array) -> float:
-    """What residual [N] rounding of q and of the balls' places to double precision can make.
+    """Residual [N] that rounding of q and of the balls' places to double precision can make.
 
     A digit lost of q changes a compression by ε|q|, and the load by the contact's stiffness times
     that; a digit lost of a ball's angle counts where a loaded ball stands on a defect's edge.
@@ -103,7 +103,7 @@ def way_to_move(
 
 
 def verdict(answer: Equilibrium, i: int) -> str:
-    """What is wrong with the answer at cage angle i; an empty string where nothing is."""
+    """Return the fault of the answer at cage angle i; an empty string where there is none."""
     balls = Balls(answer.scene, float(answer.cage_angles[i]))
     active = [DOF_NAMES.index(name) for name in answer.dofs]
     judge = {
@@ -177,7 +177,7 @@ def _judge_converged(answer: Equilibrium, i: int, balls: Balls, active: list[int
 
 
 def beyond_geometry(balls: Balls, q: Array) -> float:
-    """How much a state has of the most that the contacts' geometry allows; above 1 is beyond it.
+    """Share that a state has of the most that the contacts' geometry allows; above 1 is beyond it.
 
     A tilt of 0.2 rad, half a ball or roller of compression, and as much of a way back of the inner
     groove from a loaded ball as there is between the groove centres, whatever the ball has sunk by.
@@ -258,7 +258,7 @@ def _judge_free(answer: Equilibrium, i: int, balls: Balls, active: list[int]) ->
 def _costs_nothing(
     balls: Balls, q: Array, active: list[int], flat: NDArray[np.float64], dof: int, reach: float
 ) -> bool:
-    """Whether the energy [N·m] stays the same at `reach` [m] along some free direction."""
+    """Return True if the energy [N·m] stays the same at `reach` [m] along some free direction."""
     # the load's own share is the residual that is allowed
     stiffest = float(np.trace(balls.stiffness(q)))
     allowed = 1e-9 * stiffest * reach**2 + 1e-8 * balls.whole_load(q, active) * reach

@@ -58,7 +58,7 @@ def random_scene(rng: np.random.Generator) -> Scene:
 
 
 def faults(state: BallPositions, i: int) -> str:
-    """What is wrong with a cage angle's answer, "" for nothing: right, or said not to be."""
+    """Return the fault of a cage angle's answer, "" for none: right, or said not to be."""
     if state.status[i] not in (kernels.CONVERGED, kernels.FREE_DIRECTION):
         silent = np.isfinite(state.load[:, i]).any() and state.status[i] >= kernels.NOT_CARRIED
         return "numbers without an answer" if silent else ""
@@ -88,7 +88,7 @@ def ball_places(motion: Motion, i: int) -> np.ndarray:
 
 
 def motion_faults(scene: Scene, rng: np.random.Generator) -> str:
-    """What is wrong with a motion of a scene without damping of its contacts, "" for nothing.
+    """Return the fault of a motion of a scene without damping of its contacts, "" for none.
 
     Raises ValueError where it cannot move.
     """

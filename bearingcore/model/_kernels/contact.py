@@ -128,12 +128,12 @@ def tilting(er, ez, j, contacts):
 
 @inlined
 def carried(x, place, j, contacts):
-    """Elastic load [N] of contact j at the displacement x, a tuple of five, and its direction."""
-    delta, er, ez, _ = touch(x, place.c[j], place.s[j], place.d[j], j, contacts)
+    """Elastic load [N] of contact j at the displacement x, a tuple of five."""
+    delta, _, _, _ = touch(x, place.c[j], place.s[j], place.d[j], j, contacts)
     if delta <= 0.0:
-        return 0.0, er, ez
+        return 0.0
     _, load, _ = contact_load(delta, contacts.factor[j], contacts.exponent[j])
-    return load, er, ez
+    return load
 
 
 @inlined

@@ -1,4 +1,4 @@
-"""Where the balls are, and how deep they have sunk into defects (Eqs. 4 and 6)."""
+"""Places of the balls, and how deep they have sunk into defects (Eqs. 4 and 6)."""
 
 from __future__ import annotations
 
@@ -156,10 +156,7 @@ def roll_over(surface, circle):
 def fill_depths(surface, circle, waiting, path):
     """Body of `roll_over`; waiting holds nodes from, to, and touched points from, to."""
     reach = circle.size - 1
-    waiting[0, 0] = 0
-    waiting[0, 1] = surface.size - 1
-    waiting[0, 2] = 0
-    waiting[0, 3] = surface.size - 1
+    push_nodes(waiting, 0, 0, surface.size - 1, 0, surface.size - 1)
     size = 1
     while size > 0:
         size -= 1

@@ -267,11 +267,11 @@ def drop_negligible_contacts(q, noise, place, contacts, load, work, other):
     factor = work.firm
     x = components(q)
     for j in range(factor.size):
-        Q, _, _ = carried(x, place, j, contacts)
-        factor[j] = contacts.factor[j] if noise < Q else 0.0
-    firm = replace_factors(contacts, factor)
+        firm = noise < carried(x, place, j, contacts)
+        factor[j] = contacts.factor[j] if firm else 0.0
+    held = replace_factors(contacts, factor)
     H = work.H[other]
-    energy_gradient_hessian(q, load.force, place, firm, work.g[other], H)
+    energy_gradient_hessian(q, load.force, place, held, work.g[other], H)
     return least_pivot(H, load.active, work.L)
 
 
@@ -281,8 +281,7 @@ def pressed_load(q, place, contacts):
     x = components(q)
     total = 0.0
     for j in range(contacts.factor.size):
-        Q, _, _ = carried(x, place, j, contacts)
-        total += Q
+        total += carried(x, place, j, contacts)
     return total
 
 
@@ -623,21 +622,13 @@ def first_guess(contacts, load, state):
         state[i] = reach * load.force[i] / max(size, 1e-300)
 
 
-def new_descent(n_contacts):
-    """Empty work space of Newton's descent."""
-    soft, firm = np.zeros((2, n_contacts))
-    p, trial, start = np.zeros((3, 5))
-    return Descent(
-        np.zeros((2, 5)), np.zeros((2, 5, 5)), np.zeros((5, 5)), p, trial, start, soft, firm
-    )
-
-
 def new_map_work(angle):
     """Empty work space of a map of contacts at angles (n,) [rad] from the first ball."""
-    c, s, d, slope = np.zeros((4, angle.size))
-    state, guess = np.zeros((2, 5))
+    c, s, d, slope, soft, firm = np.zeros((6, angle.size))
+    state, guess, p, trial, start = np.zeros((5, 5))
     circle_c, circle_s = np.cos(angle), np.sin(angle)
-    descent = new_descent(angle.size)
+    g, H, L = np.zeros((2, 5)), np.zeros((2, 5, 5)), np.zeros((5, 5))
+    descent = Descent(g, H, L, p, trial, start, soft, firm)
     return MapWork(descent, state, guess, Place(c, s, d), slope, circle_c, circle_s)
 
 

@@ -226,11 +226,6 @@ class Motion:
             ),
         )
 
-    @property
-    def _history_rate(self) -> float:
-        """Rows of the history a second [Hz]: one a step, with balls' mass one a sample."""
-        return self.step_rate if self.ball_place is None else self.sample_rate
-
     def _accelerations(self, body: str) -> Array:
         n, first = len(self.time), 0 if body == "inner" else 3
         if self.filtered is not None:  # of balls with mass not every step is kept
@@ -251,7 +246,10 @@ class Motion:
 
         Between steps by quintic interpolation.
         """
-        history, rate = self.history, self._history_rate
+        # rows of the history a second: one a step, of balls with mass one a sample
+        history, rate = self.history, self.step_rate
+        if self.ball_place is not None:
+            rate = self.sample_rate
         a_step, a_sample = _ratio(self.sample_rate, rate)
         first = 0 if body == "inner" else 3
         n = max(stop - start, 0)

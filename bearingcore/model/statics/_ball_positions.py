@@ -230,11 +230,6 @@ class EquilibriumWithMass(Equilibrium):
 
     positions: BallPositions = field(kw_only=True)
 
-    @property
-    def carries(self) -> NDArray[np.bool_]:
-        """(n, N_b) True for balls that carry load from ring to ring, at both races."""
-        return np.asarray((self.positions.load > 0.0).all(axis=0))
-
     @cached_property
     def contact_angle(self) -> Array:
         """(n, N_b) [rad] contact angle at the outer race; NaN for balls that carry nothing."""

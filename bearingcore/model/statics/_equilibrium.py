@@ -33,13 +33,13 @@ from bearingcore.model.scene import (
 from bearingcore.model.statics._shortage import explanation, is_unbounded, moved
 from bearingcore.model.statics._status import StaticStatus
 
-STIFFNESS_TERMS = tuple(f"k_{a}{b}" for i, a in enumerate(DOF_NAMES) for b in DOF_NAMES[i:])
-"""Names of the 15 independent terms of the symmetric 5×5 stiffness matrix, row by row."""
-
 TERM_INDICES = {
     f"k_{a}{b}": (i, i + k) for i, a in enumerate(DOF_NAMES) for k, b in enumerate(DOF_NAMES[i:])
 }
 """Row and column of each stiffness term."""
+
+STIFFNESS_TERMS = tuple(TERM_INDICES)
+"""Names of the 15 independent terms of the symmetric 5×5 stiffness matrix, row by row."""
 
 TERM_UNITS = {
     term: ("N/m", "N/rad", "N·m/rad")[sum(DOF_NAMES[i].startswith("r") for i in indices)]
@@ -142,8 +142,8 @@ class Equilibrium:
 
     @property
     def carries(self) -> NDArray[np.bool_]:
-        """(n, N_b) True for balls that carry load from ring to ring."""
-        return self.ball_load > 0.0
+        """(n, N_b) True for balls that carry load from ring to ring, at both races."""
+        return np.asarray((self.inner_load > 0.0) & (self.ball_load > 0.0))
 
     @property
     def inner_load(self) -> Array:

@@ -79,8 +79,8 @@ class RaceFilm:
     ----------
     race
         "inner" or "outer".
-    load [N], ellipse_ratio
-        of the contact; a line is an ellipse of infinite ratio.
+    load [N]
+        of the contact.
     thickness [m]
         h_min; 0 where the shaft stands still.
     roughness [m]
@@ -95,7 +95,6 @@ class RaceFilm:
 
     race: str
     load: float
-    ellipse_ratio: float
     thickness: float
     roughness: float
     film_parameter: float
@@ -295,13 +294,12 @@ def _film_of(
             else:
                 h = least_thickness(u, load, radius, contact.ellipse_ratio, modulus, eta, xi)
         element = scene.bearing.kind.element
-        films[race] = _race_film(race, load, contact.ellipse_ratio, h, sigma[race], element=element)
+        films[race] = _race_film(race, load, h, sigma[race], element)
     return Film(scene, u, films["inner"], films["outer"])
 
 
-def _race_film(
-    race: str, load: float, k: float, h: float, sigma: float, *, element: str
-) -> RaceFilm:
+def _race_film(race: str, load: float, h: float, sigma: float, element: str) -> RaceFilm:
+    """Film of thickness h [m] on surfaces of a roughness σ [m], with its sentence."""
     ratio = h / sigma
     if ratio < TOUCHING:
         kind, so = LUBRICATION[0], "their peaks carry the load and wear"
@@ -322,4 +320,4 @@ def _race_film(
             f"most ({with_prefix(load, 'N')}), {number(ratio)} times the roughness of the surfaces "
             f"({with_prefix(sigma, 'm')}): {kind} lubrication, {so}."
         )
-    return RaceFilm(race, load, k, h, sigma, ratio, kind, sentence)
+    return RaceFilm(race, load, h, sigma, ratio, kind, sentence)

@@ -1,4 +1,4 @@
-"""Why a scene has no equilibrium: whether contacts can carry its load, and what it lacks.
+"""Reasons for a missing equilibrium: loads that no contact can carry, and what a scene lacks.
 
 Quantity                                                        | Symbol | Name     | Unit
 --------------------------------------------------------------- | ------ | -------- | ----

@@ -1,4 +1,4 @@
-"""Where a scene leaves what the model holds for: numbers, limits, and a sentence each.
+"""Limits of the model in a scene: each with its number, its limit and a sentence.
 
 Quantity                                    | Symbol | Unit
 ------------------------------------------- | ------ | -----

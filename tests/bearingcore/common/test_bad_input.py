@@ -30,7 +30,7 @@ NAN, INF = math.nan, math.inf
 
 
 def refused(field: str, shown: str, act: Callable[[], object]) -> str:
-    """What is said to be allowed, after checking that field and value are named."""
+    """Return the words on what is allowed, after checking that field and value are named."""
     with pytest.raises(ValueError, match=r"; allowed: .") as error:
         act()
     said = str(error.value)
@@ -118,7 +118,7 @@ def test_a_bad_number_does_not_hide_behind_a_good_one() -> None:
 
 
 def test_numbers_that_only_look_bad() -> None:
-    """What a caller may well mean: whole floats, NumPy numbers, integers, 360° as a decimal."""
+    """Values that a caller may mean: whole floats, NumPy numbers, integers, 360° as a decimal."""
     assert LIEW_LIM.replace(n_balls=12.0) == LIEW_LIM
     assert LIEW_LIM.replace(n_balls=np.int32(12), fy=np.float32(-2000.0)) == LIEW_LIM
     assert LIEW_LIM.replace(fy=-2000) == LIEW_LIM

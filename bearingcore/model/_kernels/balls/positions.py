@@ -410,21 +410,6 @@ def settle_ring(q, load, balls, places, work):
     return now, NOT_CONVERGED, residual, MOST_RING_STEPS
 
 
-def new_places(n_balls):
-    """Empty `BallPlaces`."""
-    by_race = (2, n_balls)
-    return BallPlaces(
-        np.empty(n_balls),
-        np.empty(n_balls),
-        np.zeros(by_race),
-        np.zeros(by_race),
-        np.zeros(n_balls),
-        np.zeros(by_race),
-        np.ones(by_race),
-        np.zeros(by_race),
-    )
-
-
 def ball_positions(cage_angles, leads, start, balls, load):
     """Static equilibrium with free balls at each cage angle, from the rings' places `start` (n, 5).
 
@@ -446,7 +431,10 @@ def ball_positions(cage_angles, leads, start, balls, load):
         np.empty(n),
         np.zeros(n, dtype=np.int64),
     )
-    work = new_map_work(balls.contacts.angle), new_places(n_balls)
+    c, s, known = np.zeros((3, n_balls))
+    drop, place, load_of_race, er, ez = np.zeros((5, 2, n_balls))
+    places = BallPlaces(c, s, drop, place, known, load_of_race, er, ez)
+    work = new_map_work(balls.contacts.angle), places
     find_positions(cage_angles, leads, start, balls, load, answers, work)
     return answers
 

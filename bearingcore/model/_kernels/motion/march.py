@@ -51,19 +51,6 @@ from bearingcore.model._kernels.structs import (
 )
 
 
-def new_forces(n_contacts):
-    """Empty work space of the equations of motion."""
-    return Forces(
-        np.zeros(5),
-        np.zeros(5),
-        np.zeros(5),
-        np.zeros(5),
-        np.empty(n_contacts, dtype=np.int64),
-        np.empty((n_contacts, 5)),
-        np.zeros(1, dtype=np.int64),
-    )
-
-
 @inlined
 def find_touching(passage, at, contacts, work):
     """List the contacts compressed at work.x in work, and put Σ δ e into work.S."""
@@ -241,9 +228,10 @@ runge_kutta = stepper(lay_out, rates, changed, keep)
 def new_steps(size, instants, system):
     """Empty work space of steps from states of `size` numbers."""
     angle = system.contacts.angle
+    touching, touched = np.empty(angle.size, dtype=np.int64), np.zeros(1, dtype=np.int64)
     return Steps(
         new_passage(instants, angle),
-        new_forces(angle.size),
+        Forces(*np.zeros((4, 5)), touching, np.empty((angle.size, 5)), touched),
         new_slopes(4 * system.rotor.active.size, size, angle.size),
         np.zeros((4, size)),
         np.zeros(size),
@@ -333,7 +321,7 @@ def fill_loads(active, start_angle, turn, contacts, path, loads, work):
                 q[active[a]] = x[first + i, a]
             place = Place(passage.c[i], passage.s[i], passage.d[i])
             for j in range(loads.shape[1]):
-                loads[first + i, j], _, _ = carried(components(q), place, j, contacts)
+                loads[first + i, j] = carried(components(q), place, j, contacts)
 
 
 @compiled

@@ -42,24 +42,16 @@ def march_tangent(y, part, k, at, system, work):
         saltation(tried, work.passage, at, rotor, system.contacts, work.forces, slopes)
         for r in range(size, y.size):
             y[r] = work.trial[r]
-    contact_slopes(work.trial, work.passage, at, system, work.forces, slopes)
-    tangent_rates(tried, k[size:].reshape(shape), rotor, slopes)
-
-
-@inlined
-def contact_slopes(y, passage, at, system, work, slopes):
-    """Derivatives of Σ δ e and the force by x and v at the state y, into slopes.Sx, Px and Pv."""
-    rotor = system.rotor
-    contacts = system.contacts
     if rotor.variables == PLANAR:
-        planar_slopes(y, passage, at, rotor, contacts, slopes)
+        planar_slopes(work.trial, work.passage, at, rotor, system.contacts, slopes)
     else:
-        swivelling_slopes(passage, at, rotor, contacts, work, slopes)
+        swivelling_slopes(work.passage, at, rotor, system.contacts, work.forces, slopes)
+    tangent_rates(tried, k[size:].reshape(shape), rotor, slopes)
 
 
 @called
 def swivelling_slopes(passage, at, rotor, contacts, work, slopes):
-    """`contact_slopes` where contacts swivel.
+    """Derivatives of Σ δ e and the force by x and v, into slopes.Sx, Px and Pv; contacts swivel.
 
     With e along a contact and t across it, in q, and their derivatives with the cage's turning:
     de = t (t·dx)/A, dt = −e (t·dx)/A, dδ = dA = e·dx, and σ = (t·ṗ)/A. So the force itself,

@@ -13,7 +13,9 @@ FAN_RIG = presets["fan-rig"].replace(contact_damping=122.0)
 def both(scene: Scene) -> tuple[Motion, Motion]:
     """Motions with massless balls and with those that have mass, known up to the same frequency."""
     kinds = (scene.replace(balls=balls) for balls in (MASSLESS, WITH_MASS))
-    massless, heavy = (simulate(one, 1.0, step_rate=fine_step_rate(one, 65536.0)) for one in kinds)
+    massless, heavy = (
+        simulate(kind, 1.0, step_rate=fine_step_rate(kind, 65536.0)) for kind in kinds
+    )
     return massless, heavy
 
 

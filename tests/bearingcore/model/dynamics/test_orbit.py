@@ -17,7 +17,7 @@ from bearingcore.model.dynamics._orbit import _Shooting, _state_at_start
 RIG = presets["fan-rig"].replace(contact_damping=130.0)
 
 
-def at(shaft_hz: float, extent_deg: float) -> Scene:
+def rig_at(shaft_hz: float, extent_deg: float) -> Scene:
     return RIG.replace(shaft_speed=2.0 * math.pi * shaft_hz, extent=math.radians(extent_deg))
 
 
@@ -37,10 +37,10 @@ def marched_period(scene: Scene, passes: int = 600, longest: int = 12) -> int | 
 
 
 def test_at_30_hz_the_orbit_doubles_its_period() -> None:
-    cycle = orbit(at(30.0, 12.9))
+    cycle = orbit(rig_at(30.0, 12.9))
     assert (cycle.status, cycle.through) == (OrbitStatus.UNSTABLE, "-1")
     assert cycle.largest_multiplier == pytest.approx(1.33, abs=0.01)
-    assert marched_period(at(30.0, 12.9)) == 2
+    assert marched_period(rig_at(30.0, 12.9)) == 2
 
 
 @pytest.mark.parametrize(
@@ -56,7 +56,7 @@ def test_at_30_hz_the_orbit_doubles_its_period() -> None:
 )
 def test_marching_settles_where_multipliers_say_it_does(shaft_hz: float, extent_deg: float) -> None:
     """600 ball passes of marching repeat after one pass just where the orbit is stable."""
-    scene = at(shaft_hz, extent_deg)
+    scene = rig_at(shaft_hz, extent_deg)
     cycle = orbit(scene)
     assert cycle.status in (OrbitStatus.STABLE, OrbitStatus.UNSTABLE)
     assert (marched_period(scene) == 1) == cycle.stable
@@ -94,7 +94,7 @@ def test_multipliers_are_of_the_derivative_of_a_period(
 
 def test_where_no_orbit_is_found_none_is_claimed() -> None:
     """At 100 Hz shooting over one pass has nothing to find: marching returns every second pass."""
-    scene = at(100.0, 12.9)
+    scene = rig_at(100.0, 12.9)
     assert marched_period(scene) == 2
     assert orbit(scene).status in (OrbitStatus.NOT_CONVERGED, OrbitStatus.UNSTABLE)
 
@@ -117,7 +117,7 @@ def tiled_acceleration(cycle: Orbit, time: np.ndarray) -> np.ndarray:
     return kernels.motion_rates(time % cycle.period, np.hstack(states), 0.0, system)[:, 6:]
 
 
-@pytest.mark.parametrize("scene", [at(7.0, 12.9), at(60.0, 12.9), at(7.0, 38.6)])
+@pytest.mark.parametrize("scene", [rig_at(7.0, 12.9), rig_at(60.0, 12.9), rig_at(7.0, 38.6)])
 def test_the_spectrum_of_lines_is_that_of_the_tiled_record(scene: Scene) -> None:
     cycle = orbit(scene)
     n = round(1.4 * 65536.0)
@@ -138,10 +138,10 @@ def test_the_spectrum_of_lines_is_that_of_the_tiled_record(scene: Scene) -> None
 
 def test_an_inner_race_defect_repeats_when_shaft_and_cage_do() -> None:
     """Fan rig: ω_c/ω_s = 37/90, so 45 turns of the shaft are 18.5 of the cage, 259 ball passes."""
-    inner = at(7.0, 12.9).replace(race="inner")
+    inner = rig_at(7.0, 12.9).replace(race="inner")
     assert common_ball_passes(inner) == 259
-    assert common_ball_passes(at(7.0, 12.9)) == 1
-    assert common_ball_passes(at(7.0, 12.9).replace(unbalance=1e-4)) != 1
+    assert common_ball_passes(rig_at(7.0, 12.9)) == 1
+    assert common_ball_passes(rig_at(7.0, 12.9).replace(unbalance=1e-4)) != 1
     unlike = inner.replace(contact_angle=math.radians(15.0))
     assert common_ball_passes(unlike) is None
     assert orbit(unlike).status == OrbitStatus.NO_PERIOD

@@ -82,8 +82,8 @@ def start(
     )
 
 
-def obeying() -> tuple[str, ...]:
-    """What makes a process obey the permissions of folders, which root does not."""
+def command_that_obeys() -> tuple[str, ...]:
+    """Return a command under which a process obeys permissions of folders, which root does not."""
     if os.geteuid() != 0:
         return ()
     command = ("setpriv", "--bounding-set", "-dac_override,-dac_read_search")
@@ -195,14 +195,14 @@ def test_a_folder_that_cannot_be_written_is_left_alone(package: Path, tmp_path: 
     write_callee(package, "Later", "2.0")
     home = tmp_path / "home"
     home.mkdir()
-    own = {"XDG_CACHE_HOME": str(home), "HOME": str(home)}
+    folders = {"XDG_CACHE_HOME": str(home), "HOME": str(home)}
     before = {file: file.read_bytes() for file in package.rglob("*.kernel*")}
     modes = {folder: folder.stat().st_mode for folder in (package, package / "__pycache__")}
     for folder in modes:
         folder.chmod(0o555)
     try:
-        assert told(start(package, None, obeying(), own))[0] == 10.0
-        assert told(start(package, None, obeying(), own))[:2] == (10.0, 1)
+        assert told(start(package, None, command_that_obeys(), folders))[0] == 10.0
+        assert told(start(package, None, command_that_obeys(), folders))[:2] == (10.0, 1)
     finally:
         for folder, mode in modes.items():
             folder.chmod(mode)
@@ -219,7 +219,7 @@ def test_kernels_of_somebody_else_are_read_and_left_alone(package: Path, tmp_pat
         file.write_bytes(content)
         file.parent.chmod(0o555)
         try:
-            process = start(package, kept, obeying())
+            process = start(package, kept, command_that_obeys())
             out, err = process.communicate(timeout=300.0)
         finally:
             file.parent.chmod(0o755)

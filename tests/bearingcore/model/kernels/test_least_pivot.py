@@ -17,8 +17,8 @@ def test_it_is_that_of_lapack_and_zero_without_full_rank(rank: int) -> None:
         root = random.normal(size=(5, rank)) * 10.0 ** random.uniform(-2.0, 0.0, rank)
         whole = root @ root.T
         active = np.sort(random.permutation(5)[: random.integers(rank, 6)])
-        own = whole[np.ix_(active, active)]
-        factor, _, known, _ = dpstrf(own, lower=1, tol=1e-13 * own.diagonal().max())
+        part = whole[np.ix_(active, active)]
+        factor, _, known, _ = dpstrf(part, lower=1, tol=1e-13 * part.diagonal().max())
         pivots = np.diag(factor) ** 2
         expected = pivots[-1] / pivots[0] if known == active.size else 0.0
         pivot = least_pivot.py_func(whole, active, np.empty((5, 5)))

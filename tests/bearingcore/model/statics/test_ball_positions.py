@@ -29,16 +29,18 @@ def test_without_centrifugal_load_it_is_the_massless_state(name: str) -> None:
     massless = equilibrium(scene)
     positions = ball_positions(scene, centrifugal_load=0.0)
     standing = ball_positions(scene.replace(shaft_speed=0.0))
-    for one in (positions, standing):
-        assert one.converged.all()
+    for state in (positions, standing):
+        assert state.converged.all()
         size = np.abs(massless.displacement).max()
-        assert np.abs(one.displacement - massless.displacement).max() <= 1e-12 * size
-        assert np.abs(one.load - massless.ball_load).max() <= 1e-12 * massless.ball_load.max()
+        assert np.abs(state.displacement - massless.displacement).max() <= 1e-12 * size
+        assert np.abs(state.load - massless.ball_load).max() <= 1e-12 * massless.ball_load.max()
         terms = np.abs(massless.stiffness).max(axis=0)
-        assert np.all(np.abs(one.stiffness - massless.stiffness).max(axis=0) <= 1e-12 * terms.max())
+        assert np.all(
+            np.abs(state.stiffness - massless.stiffness).max(axis=0) <= 1e-12 * terms.max()
+        )
         loaded = massless.ball_load > 1e-6 * massless.ball_load.max()
         for race in range(2):
-            angle = one.contact_angle[race][loaded]
+            angle = state.contact_angle[race][loaded]
             assert angle == pytest.approx(massless.contact_angle[loaded], abs=1e-9)
 
 
@@ -95,7 +97,7 @@ def test_force_balance_of_harris_and_mindel() -> None:
     equilibrium of its angles); the other three numbers then follow from balance alone.
     """
 
-    def at(contact_angle: float):
+    def solve(contact_angle: float):
         bearing = Bearing.from_drawing(
             21, 22.225e-3, 205e-3, 0.52 * 22.225e-3, 0.52 * 22.225e-3, contact_angle=contact_angle
         )
@@ -105,9 +107,9 @@ def test_force_balance_of_harris_and_mindel() -> None:
 
     printed = math.radians(29.762)
     angle = brentq(
-        lambda a: at(a).contact_angle[0, 0, 0] - printed, math.radians(5.0), math.radians(35.0)
+        lambda a: solve(a).contact_angle[0, 0, 0] - printed, math.radians(5.0), math.radians(35.0)
     )
-    positions = at(angle)
+    positions = solve(angle)
     Q_i, Q_e = positions.load[:, 0, 0] / POUND
     alpha_i, alpha_e = positions.contact_angle[:, 0, 0]
     assert Q_i == pytest.approx(287.76, rel=1e-3)

@@ -37,7 +37,7 @@ def solve(scene: Scene, angles: np.ndarray = ANGLES) -> Equilibrium:
 
 
 def lengths(scene: Scene) -> np.ndarray:
-    """What turns metres and radians into lengths: r_d along the tilts."""
+    """Factors that turn metres and radians into lengths: r_d along the tilts."""
     lever = scene.bearing.groove_center_radius
     return np.array([1.0, 1.0, 1.0, lever, lever])
 

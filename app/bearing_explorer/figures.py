@@ -5,6 +5,7 @@
     drawn = figures.stiffness(presets["fan-rig"], cage_angle=0.1)
     drawn.show()      # in the browser; in a notebook the figure shows by itself
     drawn.table()     # the numbers, as in the view's CSV file
+    drawn.save("st.pdf")  # or .svg, .png, .html
 
 They draw what the page draws, by the same code. `names` lists them; `figure_of` of each half lists
 their parameters, and `kit.views.still_figure.Figure` is their result. `of_sweep` gives a sweep

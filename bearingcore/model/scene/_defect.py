@@ -102,7 +102,10 @@ class Defect:
     def measured(
         cls, angle: ArrayLike, depth: ArrayLike, race: str = "outer", edge: str = "exact"
     ) -> Self:
-        """Make a defect with a measured floor: angles [rad] on the race, depths [m] below it."""
+        """Make a defect of any shape: angles [rad] on the race, depths [m] below it.
+
+        Negative depths stand above the race, as a rim pushed up beside a dent does.
+        """
         floor, extent, deepest, center = measured_floor(angle, depth)
         return cls(extent, deepest, center, race, edge, floor)
 
@@ -386,10 +389,15 @@ def _floor_path(defect: Defect, bearing: Bearing) -> tuple[float, float, Array]:
     neglected is of the order of depth over raceway radius.
     """
     half = 0.5 * defect.extent
+    whole = defect.extent >= TWO_PI
+    if isinstance(defect.floor, MeasuredFloor) and not whole:
+        # a ball climbs a raised rim before it is over it
+        height = -defect.depth * min(defect.floor.depths)
+        if height > 0.0:
+            half = min(half + defect.edge_width(bearing, height), math.pi)
     angle = _nodes(half)
     step = angle[1] - angle[0]
     surface = defect.surface(defect.center + angle, bearing)
-    whole = defect.extent >= TWO_PI
     # the corners belong to the healthy race; a whole race closes on itself
     surface[0] = surface[-1] = min(surface[0], surface[-1]) if whole else 0.0
     # no farther than the floor is long: a tiny defect would need steps without end

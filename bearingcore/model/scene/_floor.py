@@ -108,7 +108,8 @@ class MeasuredFloor:
     places
         rising, from −1 (beginning of the defect) to 1 (its end).
     depths
-        at those places, over the defect's depth: 0 is the healthy race, 1 the deepest point.
+        at those places, over the defect's depth: 0 is the healthy race, 1 the depth; below 0 it
+        stands above the race, as a rim that was pushed up does.
     """
 
     kind: ClassVar[str] = "measured"
@@ -128,8 +129,8 @@ class MeasuredFloor:
             )
         if not (np.all(np.diff(places) > 0.0) and places[0] >= -1.0 and places[-1] <= 1.0):
             raise checks.refuse("floor places", "not rising from -1 to 1", "rising from -1 to 1")
-        if not (np.all(np.isfinite(depths)) and np.all(depths >= 0.0) and np.all(depths <= 1.0)):
-            raise checks.refuse("floor depths", "not all from 0 to 1", "0 to 1")
+        if not (np.all(np.isfinite(depths)) and np.all(np.abs(depths) <= 1.0)):
+            raise checks.refuse("floor depths", "not all from -1 to 1", "-1 to 1")
         checks.keep(self, places=tuple(places.tolist()), depths=tuple(depths.tolist()))
 
     def surface(self, angle: Array, extent: float, depth: float, radius: float) -> Array:
@@ -138,15 +139,15 @@ class MeasuredFloor:
 
 
 def measured_floor(angle: ArrayLike, depth: ArrayLike) -> tuple[MeasuredFloor, float, float, float]:
-    """A floor from measured angles [rad] and depths [m], in any order.
+    """A floor from measured angles [rad] and depths [m], in any order; below 0 it is raised.
 
     Returns the floor and the extent [rad], depth [m] and center [rad] of the defect it belongs to.
 
     Raises
     ------
     ValueError
-        for fewer than two points, numbers that are not finite, repeated angles, depths below zero
-        or a floor without depth.
+        for fewer than two points, numbers that are not finite, repeated angles, or depths that
+        are 0 everywhere.
     """
     angles = np.asarray(angle, dtype=float).ravel()
     depths = np.asarray(depth, dtype=float).ravel()
@@ -163,14 +164,10 @@ def measured_floor(angle: ArrayLike, depth: ArrayLike) -> tuple[MeasuredFloor, f
         raise checks.refuse(
             "floor angles", f"{extent:g} rad wide", "different angles within one turn"
         )
-    if depths.min() < 0.0 or depths.max() <= 0.0:
-        raise checks.refuse(
-            "floor depths",
-            f"{depths.min():g} to {depths.max():g} m",
-            "at least 0 and not 0 everywhere",
-        )
+    deepest = float(np.abs(depths).max())
+    if deepest == 0.0:
+        raise checks.refuse("floor depths", "0 m everywhere", "not 0 everywhere")
     center = 0.5 * float(angles[0] + angles[-1])
-    deepest = float(depths.max())
     places = np.clip((angles - center) / (0.5 * extent), -1.0, 1.0)
     floor = MeasuredFloor(tuple(places.tolist()), tuple((depths / deepest).tolist()))
     return floor, extent, deepest, center

@@ -29,7 +29,7 @@ from numpy.typing import NDArray
 from bearing_explorer.explorer.results.defect_shape import crossings
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.kit.assets import asset_text
-from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.plots import printed, style
 from bearing_explorer.kit.plots.layers import Glyph, Words, segments
 from bearing_explorer.kit.plots.ranges import StickyRange
 from bearingcore import DOF_NAMES
@@ -111,6 +111,7 @@ def matrix_figure(
     plot.min_width = None
     least = f"min-width: var(--matrix-width, {least_width}px);"
     plot.stylesheets = [f":host {{ {least} }} {looks}"]
+    plot.tags = [printed.WIDE]
     return plot
 
 

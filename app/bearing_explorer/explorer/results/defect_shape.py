@@ -88,14 +88,15 @@ def race_depth(
 ) -> NDArray[np.float64]:
     """Depth [m] of what is missing from `race` at the angles [rad], the floor as it was cut.
 
-    `row`: of that row's race alone.
+    It is negative where a rim stands above the race. `row`: of that row's race alone.
     """
     angles = np.asarray(angle, dtype=float)
     depth = np.zeros_like(angles)
     for defect in scene.defects:
         if defect.race == race and (row is None or defect.row in (None, row)):
             turned = angles - defect.turn_ratio(scene.bearing) * cage_angle
-            depth = np.maximum(depth, defect.surface(turned, scene.bearing))
+            shape = defect.surface(turned, scene.bearing)
+            depth = np.where(np.abs(shape) > np.abs(depth), shape, depth)
     return depth
 
 

@@ -72,6 +72,7 @@ class DepthProfile(ComparingView):
             results.compared_results,
             lambda other: _path(other.profile),
         )
+        highest = float(min(profile.depth.min(), profile.path.min()))
         deepest = self._range.fit(
             1.15 * profile.depth, 1.15 * compared_curves.numbers(compared, "drop")
         )[1]
@@ -97,7 +98,8 @@ class DepthProfile(ComparingView):
         }
         return sources, {
             "depth_profile_angle": (start, end),
-            "depth_profile_depth": (deepest, -0.07 * deepest),  # depth grows downwards
+            # depth grows downwards; a rim stands above the race
+            "depth_profile_depth": (deepest, min(-0.07 * deepest, 1.15 * highest)),
         }
 
     def sentence(self, results: Results) -> str:
@@ -115,9 +117,12 @@ class DepthProfile(ComparingView):
         length = extent_words(defect, scene.bearing)
         deepest = float(np.max(profile.path))
         if defect.floor is not None:
+            height = -float(np.min(profile.depth))
+            deep = style.with_prefix(float(np.max(profile.depth)), "m")
+            raised = f" and {style.with_prefix(height, 'm')} high" if height > 0.0 else ""
             return (
                 f"The {defect.race}-race defect is {length} "
-                f"long and up to {style.with_prefix(float(np.max(profile.depth)), 'm')} deep; "
+                f"long and up to {deep} deep{raised}; "
                 f"a {ball}'s centre sinks by at most {style.with_prefix(deepest, 'm')}{turning}."
             )
         floor = style.with_prefix(defect.depth, "m")

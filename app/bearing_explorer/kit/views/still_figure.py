@@ -16,8 +16,10 @@ from bokeh.events import DocumentReady
 from bokeh.models import Column, CustomJS
 from bokeh.resources import Resources
 
+from bearing_explorer.kit.plots import printed
 from bearing_explorer.kit.serve.packed_source import Columns, PackedSource
-from bearing_explorer.kit.views.base import C, View
+from bearing_explorer.kit.views.base import C, View, parts_of
+from bearingcore.errors import FieldError
 
 _FOLLOW = """
 for (const range of ranges) for (const end of ["start", "end"]) range.properties[end].change.emit()
@@ -104,6 +106,7 @@ class Figure(Generic[C]):
             plot.frame_align = False  # or all would leave as much room as the one that needs most
         plots = [] if self.view.is_empty else list(self.view.still_figures())
         self.layout = Column(children=plots, sizing_mode="stretch_width")
+        self.layout.tags = follow.args["sources"]  # pictures are made of some that none draws
         self.document = Document()
         self.document.add_root(self.layout)
         self.document.js_on_event(DocumentReady, follow)
@@ -128,9 +131,34 @@ class Figure(Generic[C]):
         script, place = components(self.layout)
         return f"{place}{script}{words}"
 
-    def save(self, path: str | Path) -> None:
-        """Write `page` to a file."""
-        Path(path).write_text(self.page(), encoding="utf-8")
+    def save(self, path: str | Path, width: float | None = None) -> None:
+        """Write the figure to a file, whose suffix says as what.
+
+        .html is `page`. .svg, .pdf and .png are for paper, drawn by Matplotlib, `width` [mm] wide;
+        None is a column of 88 mm, or 180 mm for the matrix of stiffness.
+
+        Raises
+        ------
+        ValueError
+            for another suffix, and for a view without a figure.
+        ImportError
+            without what ``pip install "bearing-explorer[figures]"`` installs, for paper.
+        """
+        path = Path(path)
+        if path.suffix.lower() == ".html":
+            path.write_text(self.page(), encoding="utf-8")
+            return
+        allowed = (".html", *printed.SUFFIXES)
+        if path.suffix.lower() not in allowed:
+            raise FieldError("suffix of path", path.suffix, ", ".join(allowed))
+        if width is not None and not 30.0 <= width <= 500.0:
+            raise FieldError("width", width, "30 to 500 mm", "mm")
+        if not self.layout.children:
+            raise FieldError(
+                "suffix of path", path.suffix, f".html: {self.view.name} has no figure"
+            )
+        note, _ = parts_of(self.results.in_words(self.view.caption(self.results)))
+        printed.print_figures(self.document, note, path, width)
 
     def show(self) -> None:
         """Open the figure in the browser; where there is none, its path is printed."""

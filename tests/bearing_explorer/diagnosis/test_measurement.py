@@ -299,33 +299,14 @@ def test_a_unit_chosen_over_a_column_is_that_of_all_until_another_has_its_own():
         answer(made, **with_role(*columns_as_said(made.state), *column))
         return made.measured.recording.acceleration
 
-    np.testing.assert_allclose(choose(1, "x", "g", ""), NOISE * 9.80665, rtol=1e-5)
+    np.testing.assert_allclose(choose(1, "x", "g"), NOISE * 9.80665, rtol=1e-5)
     assert made.state.values["unit"] == "g"
-    np.testing.assert_allclose(choose(2, "y", "m/s²", ""), NOISE * [9.80665, 1.0], rtol=1e-5)
-    assert columns_as_said(made.state) == (["time", "x", "y"], ["", "g", "m/s²"], ["", "", ""])
+    np.testing.assert_allclose(choose(2, "y", "m/s²"), NOISE * [9.80665, 1.0], rtol=1e-5)
+    assert columns_as_said(made.state) == (["time", "x", "y"], ["", "g", "m/s²"])
     given = made.measured.origin.given
     assert [given[index].unit for index in (1, 2)] == ["g", "m/s²"]
-    np.testing.assert_allclose(choose(1, "", "g", "")[:, 0], NOISE[:, 1], rtol=1e-5)
+    np.testing.assert_allclose(choose(1, "", "g")[:, 0], NOISE[:, 1], rtol=1e-5)
     assert made.state.values["unit"] == "m/s²"
-
-
-def test_a_place_chosen_over_a_column_is_that_of_the_sensor():
-    made = brought("two.csv", csv_of(NOISE, "time,A,B"))
-
-    def choose(*column: Any) -> Any:
-        answer(made, **with_role(*columns_as_said(made.state), *column))
-        return made.measured.origin
-
-    origin = choose(1, "y", "g", "fan end")
-    assert (origin.columns, origin.place, origin.given[1].place) == ((1,), "fan end", "fan end")
-    assert columns_as_said(made.state)[2] == ["", "fan end", ""]
-    assert choose(2, "x", "g", "drive end").place == "drive end and fan end"
-    assert "sensors at two places" in made.state.remarks
-    assert choose(2, "x", "g", "fan end").place == "fan end"
-    assert "two places" not in made.state.remarks
-    assert choose(2, "x", "g", "").given[2].place == ""
-    answer(made, columns="time;y@under the bed;")
-    assert "other columns" in made.state.words
 
 
 @pytest.mark.parametrize(

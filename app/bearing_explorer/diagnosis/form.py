@@ -121,7 +121,7 @@ def fill(table: Table, changed: Mapping[str, str]) -> tuple[Table, dict[str, str
         for roles or a recording that cannot be.
     """
     if "columns" in changed:
-        table = with_roles(table, changed["columns"])
+        table = give_roles(table, changed["columns"])
     if part := changed.get("part"):
         try:
             table = table.one_of_recordings(int(part))
@@ -145,7 +145,7 @@ def roles_of(table: Table) -> list[str]:
     return roles
 
 
-def with_roles(table: Table, text: str) -> Table:
+def give_roles(table: Table, text: str) -> Table:
     """The table with other roles of its columns; `FormError` for roles that cannot be."""
     roles, guessed = text.split(APART), roles_of(table)
     if roles == guessed:
@@ -170,7 +170,7 @@ def with_roles(table: Table, text: str) -> Table:
         raise FormError({"columns": sentence_of(error)}) from None
 
 
-def with_role(
+def change_role(
     roles: Sequence[str],
     units: Sequence[str],
     index: int,
@@ -200,7 +200,7 @@ def roles_and_units(text: str) -> tuple[list[str], list[str]]:
 
 
 def says_the_same(name: str, text: str, first: str) -> bool:
-    """Whether a field still says what the file alone does.
+    """True where a field still says what the file alone does.
 
     The field of columns holds units too, which are a question of their own.
     """
@@ -264,7 +264,7 @@ def speeds_of(table: Table) -> list[list[str]]:
 
 
 def reasons(table: Table) -> dict[str, str]:
-    """Why the form is filled in as it is, by field: what the file says, and what is a guess."""
+    """Reasons for the values of the form, by field: a statement of the file, or a guess."""
     contents = table.contents
     rate, speed, choice = contents.sample_rate, contents.shaft_speed, contents.choice
     texts = {"columns": choice.reason} if choice.reason else {}
@@ -343,7 +343,7 @@ def size_questions(table: Table, form: Mapping[str, str]) -> dict[str, str]:
 
 
 def is_voltage(table: Table, form: Mapping[str, str]) -> bool:
-    """Whether any of the signals that a form names is in volts."""
+    """True where any of the signals that a form names is in volts."""
     if form["unit"] != AS_HEADED:
         return form["unit"] in VOLTAGES
     return any(unit in VOLTAGES for _, unit in _signals(table, form))
@@ -425,11 +425,10 @@ def read_form(
     Where its unit is not known the recording holds the numbers of the file. It carries no shaft
     speed: that is the machine's, where it is known.
 
-    `scene` has the bearing and the speed of the scene, see `machine.of_scene`, for a form that says
-    so.
+    `scene` has the bearing and the speed of the scene, for a form that says so.
     """
-    texts = as_texts(form, FIELDS)
-    table = with_roles(table, texts["columns"])
+    texts = bounded_texts(form, FIELDS)
+    table = give_roles(table, texts["columns"])
     stated = table.contents.unit.stated
     in_si = not size_questions(table, texts) or (texts["unit"] == NOT_KNOWN and stated)
     numbers, refused = _numbers_of(table, texts, in_si and is_voltage(table, texts))
@@ -505,7 +504,7 @@ def _numbers_of(
     return numbers, refused
 
 
-def as_texts(form: Mapping[str, Any], names: Sequence[str]) -> dict[str, str]:
+def bounded_texts(form: Mapping[str, Any], names: Sequence[str]) -> dict[str, str]:
     """The fields of a form as texts of a bounded length."""
     longest = dict.fromkeys(names, LONGEST_TEXT) | {"columns": LONGEST_ROLES}
     return {name: str(form.get(name, ""))[: longest[name]].strip() for name in names}

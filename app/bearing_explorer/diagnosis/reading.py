@@ -57,7 +57,7 @@ class Arrival:
 
     @property
     def words(self) -> str:
-        """Which of how many it is; empty of one alone."""
+        """Number of the file and of all, in words; empty of one alone."""
         if self.count == 1:
             return ""
         of = f" (some of {self.chosen}, from first to last)" if self.chosen > self.count else ""

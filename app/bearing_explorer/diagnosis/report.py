@@ -271,7 +271,7 @@ def _machine(measured: Measured, kind: str) -> tuple[str, str]:
 
 
 def origin_of(measurement: Measurement, name: str) -> str:
-    """Whether a field is given, from the file or assumed, with its reason."""
+    """Origin of a field in words: given, from the file or assumed, with its reason."""
     words = measurement.source_of(name)
     for before, after in _ORIGINS.items():
         if words.startswith(before):

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from bearing_explorer.diagnosis.form import AS_HEADED, read_form, with_role
+from bearing_explorer.diagnosis.form import AS_HEADED, change_role, read_form
 from bearing_explorer.diagnosis.machine import Machine
 from bearing_explorer.diagnosis.model import NOT_TAKEN, WANTED, Model
 from bearing_explorer.diagnosis.reading import MOST_NUMBERS, read_file
@@ -296,7 +296,7 @@ def test_a_unit_chosen_over_a_column_is_that_of_all_until_another_has_its_own():
     made = brought("two.csv", csv_of(NOISE, "time,x,y"))
 
     def choose(*column: Any) -> np.ndarray:
-        answer(made, **with_role(*columns_as_said(made.state), *column))
+        answer(made, **change_role(*columns_as_said(made.state), *column))
         return made.measured.recording.acceleration
 
     np.testing.assert_allclose(choose(1, "x", "g"), NOISE * 9.80665, rtol=1e-5)

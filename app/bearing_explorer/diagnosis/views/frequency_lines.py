@@ -80,7 +80,7 @@ def spreads(scene: Scene | Turning, row: int = 0) -> dict[str, float]:
     }
 
 
-def of_rows(scene: Scene | Turning) -> list[dict[str, float]]:
+def row_frequencies(scene: Scene | Turning) -> list[dict[str, float]]:
     """`fundamentals` and `spreads` of each row that is unlike; one where all are alike."""
     rows = range(len(scene.bearing.unlike_rows))
     return [fundamentals(scene, row) | spreads(scene, row) for row in rows]
@@ -134,8 +134,8 @@ def columns(
 ) -> dict[str, dict[str, NDArray[np.float64]]]:
     """Sources with the lines of the families `shown` up to `top` [Hz], and their names.
 
-    `sets` are what `of_rows` gives: of several each has names of its own. `height` is that of the
-    frame [px].
+    `sets` are those of `row_frequencies`: of several each has names of its own. `height` is that of
+    the frame [px].
     """
     sources: dict[str, dict[str, NDArray[np.float64]]] = {}
     row = 0

@@ -173,7 +173,7 @@ class TrendOfFiles(JobView[Model, FoundTrend, Editor], MeasuredView):
         super()._take(result)
 
     def _is_of_now(self, newest: FoundTrend | None) -> bool:
-        """Whether a result is complete, and of the files and answers that there are now."""
+        """True where a result is complete, and of the files and answers that there are now."""
         return (
             newest is not None
             and newest.series is self.measurement.series

@@ -16,8 +16,8 @@ from bearing_explorer.diagnosis.form import (
     DIRECTIONS,
     ROLES,
     USUAL_SENSITIVITY,
+    change_role,
     roles_and_units,
-    with_role,
 )
 from bearing_explorer.diagnosis.measurement_state import MeasurementState
 from bearing_explorer.diagnosis.series import MOST_FILES
@@ -184,7 +184,7 @@ class MeasurementForm(pn.Column):
         assert self._fields is not None, "there is no column before"
         now = columns_as_said(self._shown)
         if index < len(now[0]):
-            changed = with_role(*now, index, role, unit)
+            changed = change_role(*now, index, role, unit)
             self._answer({**self._fields.values, **changed})
 
     def _make_fields(self) -> Fields:

@@ -516,6 +516,21 @@ def test_columns_given_for_one_file_leave_others_as_they_propose_themselves():
     assert joined.left_out == ()
 
 
+def test_dated_files_are_in_the_order_of_their_dates_and_the_newest_is_shown():
+    dates = {"a_csv": "2026-06-02", "b_csv": "2026-05-01", "c_csv": "2026-05-20"}
+    head = "# Machine: Fan 3\n# Point: DE-H\n# Date: {} 09:30\n"
+    made = brought("rig.zip", zipped(**{
+        name: head.format(date).encode() + csv_of(NOISE[:, :1], "time [s],a [g]")
+        for name, date in dates.items()
+    }))  # fmt: skip
+    assert made.measured.recording.name == "rig.zip/a.csv"
+    series = made.recordings(made.measured, "y").recordings
+    assert [one.name[-5:] for one in series] == ["b.csv", "c.csv", "a.csv"]
+    about = made.known_about
+    assert (about.machine, about.point) == ("Fan 3", "DE-H")
+    assert about.date == "02 June 2026, 09:30, by the file"
+
+
 def test_the_files_of_a_zip_are_a_series():
     parts = {
         f"run{k}_csv": csv_of(NOISE[::-1][k * 300 : k * 300 + 300], "time [s],x [g],y [g]")

@@ -41,7 +41,7 @@ from bearing_explorer.diagnosis.series import FoundTrend, Series
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.signal_words import about_size, line_and_remarks, summary
 from bearing_explorer.kit.compute.jobs import Work
-from bearingcore import Table
+from bearingcore import Table, Trend
 
 _WAITS = "Nothing is drawn yet:"
 AS_GIVEN = "As you gave it."
@@ -90,6 +90,12 @@ class SignalForm(Findings):
     def trend_now(self) -> FoundTrend | None:
         """The newest trend, where it is of the files there are now."""
         return self.trend if self.trend is not None and self.trend.series is self.series else None
+
+    @property
+    def whole_trend(self) -> Trend | None:
+        """The same trend, once all files are in it."""
+        trend = self.trend_now
+        return trend.trend if trend is not None and trend.complete else None
 
     @property
     def known_about(self) -> AboutMeasurement:

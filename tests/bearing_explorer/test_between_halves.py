@@ -9,7 +9,7 @@ import pytest
 from bearing_explorer.diagnosis.measurement_state import NOT_YET
 from bearing_explorer.diagnosis.simulated import simulated
 from bearing_explorer.diagnosis.views import frequency_lines
-from bearing_explorer.diagnosis.views.frequency_lines import of_rows
+from bearing_explorer.diagnosis.views.frequency_lines import row_frequencies
 from bearing_explorer.explorer.messages import LessonChange
 from bearing_explorer.explorer.state.lessons import Lesson
 from bearing_explorer.explorer.state.scene_editor import SceneEditor
@@ -81,8 +81,8 @@ def test_lines_of_an_estimated_inside_have_their_error() -> None:
     spread = pass_frequencies(scene, 2500.0)["spread"]
     assert spread[0] == pytest.approx(bearing.bpfo(scene.shaft_speed) * 0.0146, rel=0.02)
     inner = bearing.bpfi(scene.shaft_speed) * bearing.frequency_spread("bpfi")
-    assert of_rows(scene)[0]["bpfi_spread"] == pytest.approx(inner)
-    columns = frequency_lines.columns("lines", of_rows(scene), ("bpfi",), 1000.0, 200.0)
+    assert row_frequencies(scene)[0]["bpfi_spread"] == pytest.approx(inner)
+    columns = frequency_lines.columns("lines", row_frequencies(scene), ("bpfi",), 1000.0, 200.0)
     assert columns["lines_bpfi_names"]["spread"][0] == pytest.approx(inner)
 
 
@@ -95,7 +95,7 @@ def test_rows_that_are_not_alike_have_pass_frequencies_of_their_own() -> None:
     rates = [scene.bearing.of_row(k).bpfo(scene.shaft_speed) for k in range(2)]
     assert passed(scene) == [("outer", 1, rates[0]), ("outer", 2, rates[1])]
     assert passed(scene.replace(row=1)) == [("outer", 2, rates[1])]
-    columns = frequency_lines.columns("own", of_rows(scene), ("bpfo",), 3000.0, 400.0)
+    columns = frequency_lines.columns("own", row_frequencies(scene), ("bpfo",), 3000.0, 400.0)
     names = columns["own_bpfo_names"]
     assert set(names["of"]) == {1.0, 2.0}
     assert np.unique(names["row"]).size == 2, "each row has its names at a height of their own"

@@ -98,7 +98,7 @@ def test_colors_that_mean_different_things_are_told_apart(kind: str, turned: obj
         (*style.DIRECTION_COLORS, style.HEALTHY),
         (style.DEFECTIVE, style.HEALTHY, *compared_curves.COLORS),
         style.BALL_COLORS,
-        [family.color for family in FAMILIES if family.name != "half"],
+        [family.color for family in FAMILIES],
         work_precision.COLORS,
     ]
     for colors in one_figure:

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from functools import cache
 
-from bearing_explorer.diagnosis.machine import GIVEN, Machine, of_scene
+from bearing_explorer.diagnosis.machine import GIVEN, Machine, scene_machine
 from bearing_explorer.diagnosis.session import Measurement
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.simulated import simulated
@@ -20,7 +20,7 @@ def signal() -> Measured:
 
 def at(scene: Scene, shaft_speed: float | None = None) -> Machine:
     """A machine that a person gave: the bearing of a scene, at its speed or another [rad/s]."""
-    machine = of_scene(scene, GIVEN)
+    machine = scene_machine(scene, GIVEN)
     return machine if shaft_speed is None else machine.knowing(shaft_speed)
 
 

@@ -74,13 +74,13 @@ class Question:
 
     @property
     def bearing(self) -> Bearing:
-        """That was measured; ValueError where it is not known."""
+        """The measured bearing; ValueError where it is not known."""
         if self.measured.bearing is None:
             raise ValueError(WHICH_BEARING)
         return self.measured.bearing
 
     def is_like(self, other: Question) -> bool:
-        """Whether recording, bearing and knowledge of the speed are the same."""
+        """True where recording, bearing and knowledge of the speed are the same."""
         mine, theirs = ((q._recording, q.speed, q.geometry) for q in (self, other))
         return mine == theirs
 
@@ -168,7 +168,7 @@ class Answers(Generic[Result]):
 
     @property
     def busy(self) -> bool:
-        """Whether a question waits for its answer."""
+        """True while a question waits for its answer."""
         return self.wanted is not None and self.wanted not in self._known
 
     def latest(self, about: Question) -> Result | str | None:

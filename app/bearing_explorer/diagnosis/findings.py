@@ -17,7 +17,7 @@ from bearing_explorer.diagnosis.diagnoses import (
     answered,
     extent_of,
 )
-from bearing_explorer.diagnosis.machine import FIELDS, of_scene
+from bearing_explorer.diagnosis.machine import FIELDS, scene_machine
 from bearing_explorer.diagnosis.measurement_state import (
     CHANGED,
     NOT_YET,
@@ -70,7 +70,7 @@ class Findings:
         self.machine_kind = ""
         #: the newest choice between lengths of the spall, of whichever signal
         self.sized: SizedDefect | None = None
-        self._scene = of_scene(scene())
+        self._scene = scene_machine(scene())
         self._table: Table | None = None  # with the roles of its columns as they are given
         self._ended = False
 
@@ -130,7 +130,7 @@ class Findings:
 
     @property
     def out_of_date(self) -> str:
-        """Why the answer that may be on screen is not that of now; empty where it is."""
+        """Reason why the answer on screen is out of date; empty where it is not."""
         question = self.question()
         if self.measured is not None and self.state.refused:
             return REFUSED

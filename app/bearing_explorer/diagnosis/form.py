@@ -30,7 +30,6 @@ from bearingcore.common import with_prefix
 from bearingcore.errors import FieldError
 from bearingcore.measured.files import (
     OTHER,
-    PLACES,
     SIGNAL,
     SPEED,
     SPEEDS,
@@ -66,8 +65,7 @@ ROLES = (
 )
 """Possible roles of a column, as the form has them and in words."""
 DIRECTIONS = ("x", "y")
-"""Roles that are signals; each may have its unit and its place behind it: "x g@drive end"."""
-AT = "@"
+"""Roles that are signals; each may have its unit behind it: "x g"."""
 APART = ";"
 """Between the roles of the columns in their field."""
 NOT_KNOWN = ""
@@ -123,7 +121,7 @@ def fill(table: Table, changed: Mapping[str, str]) -> tuple[Table, dict[str, str
         for roles or a recording that cannot be.
     """
     if "columns" in changed:
-        table = with_roles(table, changed["columns"])
+        table = give_roles(table, changed["columns"])
     if part := changed.get("part"):
         try:
             table = table.one_of_recordings(int(part))
@@ -147,7 +145,7 @@ def roles_of(table: Table) -> list[str]:
     return roles
 
 
-def with_roles(table: Table, text: str) -> Table:
+def give_roles(table: Table, text: str) -> Table:
     """The table with other roles of its columns; `FormError` for roles that cannot be."""
     roles, guessed = text.split(APART), roles_of(table)
     if roles == guessed:
@@ -156,18 +154,14 @@ def with_roles(table: Table, text: str) -> Table:
         f"{axis} {unit}" for axis in DIRECTIONS for unit in UNITS
     }
     columns = table.contents.columns
-    there = {"", *PLACES, *(column.place for column in columns)}
-    split = [role.partition(AT) for role in roles]
-    if len(roles) != len(guessed) or any(
-        role not in known or place not in there for role, _, place in split
-    ):
+    if len(roles) != len(guessed) or not known.issuperset(roles):
         raise FormError({"columns": f"{table.name} has other columns."})
     given: dict[int | str, Column] = {}
-    for index, ((role, at, place), was) in enumerate(zip(split, guessed, strict=True)):
+    for index, (role, was) in enumerate(zip(roles, guessed, strict=True)):
         column, (kind, _, unit) = columns[index], role.partition(" ")
         if kind in DIRECTIONS:
             headed = column.unit if column.unit in UNITS else None
-            given[index] = Column("", SIGNAL, unit or headed, kind, place if at else column.place)
+            given[index] = Column("", SIGNAL, unit or headed, kind, column.place)
         elif role != was:
             given[index] = Column("", kind if kind in (TIME, SPEED) else OTHER, unit or None)
     try:
@@ -176,16 +170,14 @@ def with_roles(table: Table, text: str) -> Table:
         raise FormError({"columns": sentence_of(error)}) from None
 
 
-def with_role(
+def change_role(
     roles: Sequence[str],
     units: Sequence[str],
-    places: Sequence[str],
     index: int,
     role: str,
     unit: str,
-    place: str,
 ) -> dict[str, str]:
-    """The fields "columns" and "unit" with another role, unit or place of a column.
+    """The fields "columns" and "unit" with another role or unit of a column.
 
     No other column keeps that role. Signals have one unit together until they are given two.
     """
@@ -196,36 +188,25 @@ def with_role(
     known = set(own.values()) - {NOT_KNOWN}
     if len(known) > 1:
         roles = [f"{one} {own.get(i, '')}".strip() for i, one in enumerate(roles)]
-    at = [place if i == index else was for i, was in enumerate(places)]
-    roles = [f"{one}{AT}{at[i]}" if i in own else one for i, one in enumerate(roles)]
     said = {"unit": AS_HEADED if len(known) > 1 else known.pop()} if known else {}
     return {"columns": APART.join(roles), **said}
 
 
-def places_of(text: str, headed: Sequence[str]) -> list[str]:
-    """The place of each column out of the field of roles, else as it is `headed`."""
-    roles = (role.partition(AT) for role in text.split(APART))
-    return [place if at else was for (_, at, place), was in zip(roles, headed, strict=False)]
-
-
 def roles_and_units(text: str) -> tuple[list[str], list[str]]:
     """The roles out of their field, and the units that a person gave signals there."""
-    roles = [role.partition(AT)[0] for role in text.split(APART)]
+    roles = text.split(APART)
     signals = [one.partition(" ") if one[:2] in ("x ", "y ") else (one, "", "") for one in roles]
     return [role for role, _, _ in signals], [unit for _, _, unit in signals]
 
 
 def says_the_same(name: str, text: str, first: str) -> bool:
-    """Whether a field still says what the file alone does.
+    """True where a field still says what the file alone does.
 
     The field of columns holds units too, which are a question of their own.
     """
     if name != "columns":
         return text == first
-    texts = (text, first)
-    roles = [roles_and_units(one)[0] for one in texts]
-    places = [[role.partition(AT)[2] for role in one.split(APART)] for one in texts]
-    return roles[0] == roles[1] and places[0] == places[1]
+    return roles_and_units(text)[0] == roles_and_units(first)[0]
 
 
 def _unit(table: Table) -> str:
@@ -283,7 +264,7 @@ def speeds_of(table: Table) -> list[list[str]]:
 
 
 def reasons(table: Table) -> dict[str, str]:
-    """Why the form is filled in as it is, by field: what the file says, and what is a guess."""
+    """Reasons for the values of the form, by field: a statement of the file, or a guess."""
     contents = table.contents
     rate, speed, choice = contents.sample_rate, contents.shaft_speed, contents.choice
     texts = {"columns": choice.reason} if choice.reason else {}
@@ -362,7 +343,7 @@ def size_questions(table: Table, form: Mapping[str, str]) -> dict[str, str]:
 
 
 def is_voltage(table: Table, form: Mapping[str, str]) -> bool:
-    """Whether any of the signals that a form names is in volts."""
+    """True where any of the signals that a form names is in volts."""
     if form["unit"] != AS_HEADED:
         return form["unit"] in VOLTAGES
     return any(unit in VOLTAGES for _, unit in _signals(table, form))
@@ -443,11 +424,10 @@ def read_form(
     Where its unit is not known the recording holds the numbers of the file. It carries no shaft
     speed: that is the machine's, where it is known.
 
-    `scene` has the bearing and the speed of the scene, see `machine.of_scene`, for a form that says
-    so.
+    `scene` has the bearing and the speed of the scene, for a form that says so.
     """
-    texts = as_texts(form, FIELDS)
-    table = with_roles(table, texts["columns"])
+    texts = bounded_texts(form, FIELDS)
+    table = give_roles(table, texts["columns"])
     stated = table.contents.unit.stated
     in_si = not size_questions(table, texts) or (texts["unit"] == NOT_KNOWN and stated)
     numbers, refused = _numbers_of(table, texts, in_si and is_voltage(table, texts))
@@ -523,7 +503,7 @@ def _numbers_of(
     return numbers, refused
 
 
-def as_texts(form: Mapping[str, Any], names: Sequence[str]) -> dict[str, str]:
+def bounded_texts(form: Mapping[str, Any], names: Sequence[str]) -> dict[str, str]:
     """The fields of a form as texts of a bounded length."""
     longest = dict.fromkeys(names, LONGEST_TEXT) | {"columns": LONGEST_ROLES}
     return {name: str(form.get(name, ""))[: longest[name]].strip() for name in names}

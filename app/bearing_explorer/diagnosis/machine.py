@@ -1,7 +1,7 @@
 """The machine of a measurement: which bearing, how fast the shaft turned, and who said so.
 
 What is not said is not known. The scene's bearing and speed are taken only where a person chose
-them, by `of_scene`: nothing else here looks at a scene.
+them, by `scene_machine`: nothing else here looks at a scene.
 """
 
 from __future__ import annotations
@@ -56,12 +56,12 @@ SPEED_SOURCES = {
     FILE: "from the file", GIVEN: "given", ROUGH: "given, good to 10 %",
     SCENE: "the scene's, as chosen", SIMULATED: "of the simulation",
 }  # fmt: skip
-"""Where a shaft speed is from, in words."""
+"""Sources of a shaft speed, in words."""
 BEARING_SOURCES = {
     FILE: "from the file", GIVEN: "given", SCENE: "the scene's, as chosen",
     SIMULATED: "of the simulation",
 }  # fmt: skip
-"""Where a bearing is from, in words."""
+"""Sources of a bearing, in words."""
 
 OWN_FREQUENCIES = " Choose “by its frequencies” to type them."
 """Follows the refusal of a bearing that is not in the table: a way on."""
@@ -136,7 +136,7 @@ class Machine:
         return f", {number(self.ratio, 4)} times the {measured} of the measured shaft"
 
     def source_of(self, name: str) -> str:
-        """Where "bearing" or "speed" is from, in words; empty where it is not known."""
+        """Source of "bearing" or "speed", in words; empty where it is not known."""
         if name in self.guessed:
             return "assumed, a guess from the file"
         if name in self.kept:
@@ -157,7 +157,7 @@ class Machine:
         return None if self.speed_source == ROUGH else self.shaft_speed
 
 
-def of_scene(scene: Scene, source: str = SCENE) -> Machine:
+def scene_machine(scene: Scene, source: str = SCENE) -> Machine:
     """The bearing and the shaft speed of a scene: all that a measurement takes from there."""
     return Machine(scene.shaft_speed, scene.bearing, source, source)
 
@@ -220,7 +220,7 @@ def _bearing(contents: FileContents) -> dict[str, str]:
 
 
 def _agree(name: str, said: Mapping[str, float], speed: float) -> bool:
-    """Whether a listed bearing has the frequencies [Hz] that a file says, at a speed [rad/s]."""
+    """True where a listed bearing has the frequencies [Hz] that a file says, at a speed [rad/s]."""
     bearing = find_bearing(name).bearing
     own = {"bpfo": bearing.bpfo(speed), "bpfi": bearing.bpfi(speed)}
     return all(abs(said[key] / value - 1.0) < SAME_ORDERS for key, value in own.items())
@@ -250,7 +250,7 @@ def read_machine(
     contents
         of the file.
     scene
-        bearing and speed of the scene, see `of_scene`: used only where the form says so.
+        bearing and speed of the scene, see `scene_machine`: used only where the form says so.
     """
     speed, ratio = _speed_in(texts, contents, scene), _ratio_in(texts)
     speed = None if speed is None else ratio * speed
@@ -319,7 +319,7 @@ def _bearing_in(
         if name == BY_FREQUENCIES:
             turns = None if speed is None else speed / (2.0 * math.pi)
             typed = ", ".join(texts[name] for name in FREQUENCIES if texts[name])
-            return _of_frequencies(texts, turns), f"frequencies {typed}", GIVEN, ""
+            return _bearing_by_frequencies(texts, turns), f"frequencies {typed}", GIVEN, ""
         if name == BY_DESIGNATION:
             name = texts["designation"]
             if not name:  # it is not typed yet
@@ -333,7 +333,7 @@ def _bearing_in(
         raise FormError({field: words}) from None
 
 
-def _of_frequencies(texts: Mapping[str, str], turns: float | None) -> Bearing | None:
+def _bearing_by_frequencies(texts: Mapping[str, str], turns: float | None) -> Bearing | None:
     """The bearing with frequencies that were typed, at so many `turns` of the shaft a second.
 
     None before there are two of them. ValueError for frequencies that are those of no bearing.

@@ -14,7 +14,7 @@ FIRST_WORDS = (
 REFUSED = "An answer on bearing, speed or columns is refused; this is for the one before."
 CHANGED = "Your answers have changed since."
 NOT_YET = "The signal is being analysed with the newest answers."
-"""Why an answer is out of date, or not there yet."""
+"""Reasons why an answer is out of date, or not there yet."""
 
 
 @dataclass(frozen=True)

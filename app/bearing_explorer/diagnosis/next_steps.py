@@ -12,7 +12,7 @@ from bearing_explorer.diagnosis.diagnoses import Question
 from bearing_explorer.diagnosis.session import Measurement
 from bearing_explorer.diagnosis.views.measured_indicators import severity, zone_of
 from bearing_explorer.diagnosis.views.part_words import finding, the
-from bearing_explorer.diagnosis.views.trend import line_growth, since_when
+from bearing_explorer.diagnosis.views.trend import growth, line_growth
 from bearingcore import Diagnosis, Trend
 from bearingcore.common import number, percent
 from bearingcore.measured.diagnosis import LIKELY, NONE_SEEN, DiagnosisStatus
@@ -76,12 +76,11 @@ def next_steps(
     shaft_share
         of the velocity's power, that the shaft's own lines carry; NaN where it is not known.
     """
-    records = len(trend.points) if trend is not None and question.measured.in_si else 1
-    change = rms_change = float(trend.rms_change[-1]) if trend and records > 1 else 1.0
+    compared = trend is not None and len(trend.points) > 1 and question.measured.in_si
+    change = float(trend.rms_change[-1]) if trend is not None and compared else 1.0
     if not diagnosis.names_a_part:
         return _without_a_part(diagnosis, zone, change)
-    line = "" if trend is None or records < 2 else line_growth(trend)
-    if line and trend is not None:
+    if trend is not None and compared and line_growth(trend):
         change = max(change, float(trend.line_change(diagnosis.fault)[-1]))
     of_the_shaft = shaft_share >= MOST
     part = the(diagnosis.fault)
@@ -95,12 +94,7 @@ def next_steps(
         )
     if diagnosis.probability < LIKELY and (zone in ("C", "D") or change >= GROWN):
         words.append(UNSURE)
-    if records > 1:
-        words += [line] if line else []
-        words += [since] if trend is not None and (since := since_when(trend)) else []
-        level = f"the vibration became {number(rms_change, 2)} times that of the baseline"
-        words.append(f"Over {records} records {level}.")
-    else:
+    if not compared:
         words.append(ONE_RECORD)
     if zone in ("A", "B"):
         words.append("A low velocity does not clear a bearing: early damage hardly shows in it.")
@@ -114,24 +108,24 @@ def steps_now(
     shaft_share: float = math.nan,
 ) -> str:
     """The next step by all that a session knows of the machine."""
-    trend = measurement.trend_now
-    whole = trend.trend if trend is not None and trend.complete else None
     zone = zone_of(question.measured, measurement.machine_kind)
-    return next_steps(diagnosis, question, zone, whole, shaft_share)
+    return next_steps(diagnosis, question, zone, measurement.whole_trend, shaft_share)
 
 
 def work_order(
     measurement: Measurement, question: Question, diagnosis: Diagnosis, length: str = ""
 ) -> str:
     """The text of a work order, a fact in each line; `length` is that of the spall in words."""
-    about, measured = measurement.known_about, question.measured
+    about, measured, trend = measurement.known_about, question.measured, measurement.whole_trend
     spall = f" Its spall is {length}." if length else ""
+    compared = trend is not None and len(trend.points) > 1 and measured.in_si
     lines = {
         "Machine": about.machine,
         "Measuring point": about.point,
         "Recorded": about.date,
         "Finding": f"{finding(diagnosis, question)}{spall}",
         "Severity": severity(measured, measurement.machine_kind),
+        "Growth": growth(trend) if trend is not None and compared else "",
         "To do": steps_now(measurement, question, diagnosis),
     }
     return "\n".join(f"{name}: {words}" for name, words in lines.items() if words)

@@ -8,6 +8,7 @@ from __future__ import annotations
 import logging
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from datetime import datetime
 from types import MappingProxyType
 
 from bearing_explorer.diagnosis.form import (
@@ -57,7 +58,7 @@ class Arrival:
 
     @property
     def words(self) -> str:
-        """Which of how many it is; empty of one alone."""
+        """Number of the file and of all, in words; empty of one alone."""
         if self.count == 1:
             return ""
         of = f" (some of {self.chosen}, from first to last)" if self.chosen > self.count else ""
@@ -86,7 +87,8 @@ class Arrival:
             self.series, self.why = self.series.without(sentence), self.why or sentence
         else:
             self.series = self.series.with_table(read.table, self.count * inside)
-            self.newest = read
+            if self.newest is None or read.recorded >= self.newest.recorded:
+                self.newest = read
 
 
 @dataclass(frozen=True)
@@ -107,6 +109,12 @@ class Read:
     asks: dict[str, str]
     sizes: dict[str, str]
     kept: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def recorded(self) -> datetime:
+        """The date of the recording; the least one where the file says none."""
+        recorded = self.table.contents.recorded
+        return datetime.min if recorded is None else recorded.value
 
 
 def read_files(

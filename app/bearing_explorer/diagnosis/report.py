@@ -205,8 +205,9 @@ def findings(
         frequencies = f"{', '.join(each)}, at {part_words.turns(answer)}, without slip"
     files = len(measurement.series.tables)
     grown = "one record shows none"
-    if trend is not None and len(trend.trend.points) > 1 and trend.complete:
-        grown = words_on(trend.trend, measured.in_si, measured.along(trend.trend.direction))
+    whole = measurement.whole_trend
+    if whole is not None and len(whole.points) > 1:
+        grown = words_on(whole, measured.in_si, measured.along(whole.direction))
     elif files > 1 and measurement.series.together:
         done = 0 if trend is None else len(trend.trend.points)
         grown = f"not finished: {done} of {files} files are done; make the report again then"
@@ -271,7 +272,7 @@ def _machine(measured: Measured, kind: str) -> tuple[str, str]:
 
 
 def origin_of(measurement: Measurement, name: str) -> str:
-    """Whether a field is given, from the file or assumed, with its reason."""
+    """Origin of a field in words: given, from the file or assumed, with its reason."""
     words = measurement.source_of(name)
     for before, after in _ORIGINS.items():
         if words.startswith(before):

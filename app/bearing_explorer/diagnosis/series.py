@@ -78,7 +78,7 @@ class FoundTrend:
 
     @property
     def complete(self) -> bool:
-        """Whether all recordings are in it."""
+        """True once all recordings are in it."""
         return len(self.trend.points) == len(self.recordings.recordings)
 
 

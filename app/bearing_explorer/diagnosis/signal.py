@@ -104,12 +104,12 @@ class Measured:
 
     @property
     def bearing(self) -> Bearing | None:
-        """That was measured; None where nothing says which it is."""
+        """The measured bearing; None where nothing says which it is."""
         return self.machine.bearing
 
     @property
     def directions(self) -> tuple[str, ...]:
-        """That were measured."""
+        """The measured directions."""
         return self.recording.directions
 
     def along(self, direction: str) -> str:

@@ -10,8 +10,8 @@ from bearing_explorer.diagnosis.findings import Findings
 from bearing_explorer.diagnosis.form import (
     SIGNAL_FIELDS,
     SIZES,
-    as_texts,
     bearings_of,
+    bounded_texts,
     columns_of,
     is_voltage,
     load_of,
@@ -33,15 +33,15 @@ from bearing_explorer.diagnosis.machine import (
     SCENE,
     FormError,
     Machine,
-    of_scene,
+    scene_machine,
 )
 from bearing_explorer.diagnosis.measurement_state import AboutMeasurement
 from bearing_explorer.diagnosis.reading import AnsweredTable, Arrival, Read, read_answers
 from bearing_explorer.diagnosis.series import FoundTrend, Series
 from bearing_explorer.diagnosis.signal import Measured
-from bearing_explorer.diagnosis.signal_words import about_size, in_short, summary
+from bearing_explorer.diagnosis.signal_words import about_size, line_and_remarks, summary
 from bearing_explorer.kit.compute.jobs import Work
-from bearingcore import Table
+from bearingcore import Table, Trend
 
 _WAITS = "Nothing is drawn yet:"
 AS_GIVEN = "As you gave it."
@@ -77,7 +77,7 @@ class SignalForm(Findings):
     def take_scene(self) -> None:
         """Follow the scene: its bearing and speed count where a person chose them."""
         scene = self._scene_now()
-        now = of_scene(scene)
+        now = scene_machine(scene)
         if now != self._scene:
             self._scene = now
             self._follow()
@@ -90,6 +90,12 @@ class SignalForm(Findings):
     def trend_now(self) -> FoundTrend | None:
         """The newest trend, where it is of the files there are now."""
         return self.trend if self.trend is not None and self.trend.series is self.series else None
+
+    @property
+    def whole_trend(self) -> Trend | None:
+        """The same trend, once all files are in it."""
+        trend = self.trend_now
+        return trend.trend if trend is not None and trend.complete else None
 
     @property
     def known_about(self) -> AboutMeasurement:
@@ -126,7 +132,7 @@ class SignalForm(Findings):
             self._tell(words=words, bad=False, refused={}, **self._in_short(values))
 
     def source_of(self, name: str) -> str:
-        """Where the value of a field comes from; empty where there is no such field."""
+        """Origin of the value of a field, in words; empty where there is no such field."""
         value = self.state.values.get(name, "")
         if not says_the_same(name, value, self._first.get(name, "")):
             kept = self.state.kept_from if self._kept.get(name) == value else ""
@@ -233,7 +239,7 @@ class SignalForm(Findings):
             return
         if table is None:
             return
-        texts = as_texts(form, tuple(self.state.values))
+        texts = bounded_texts(form, tuple(self.state.values))
         changed = {name: text for name, text in texts.items() if text != self._first[name]}
         if sure:
             agreed = {name: texts[name] for name in self.state.open if name not in SIZES}
@@ -316,4 +322,4 @@ class SignalForm(Findings):
         return " ".join(filter(None, words))
 
     def _in_short(self, form: Mapping[str, str]) -> dict[str, str]:
-        return in_short(self.measured, self._table, form, self._first, self._cut)
+        return line_and_remarks(self.measured, self._table, form, self._first, self._cut)

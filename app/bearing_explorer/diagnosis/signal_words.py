@@ -54,7 +54,7 @@ def summary(measured: Measured | None) -> str:
     return f"{words}, {thousands(passes)} {pass_} a point of the outer race."
 
 
-def in_short(
+def line_and_remarks(
     measured: Measured | None,
     table: Table | None,
     form: Mapping[str, str],

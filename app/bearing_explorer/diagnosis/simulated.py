@@ -14,7 +14,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from bearing_explorer.diagnosis.machine import SIMULATED, of_scene
+from bearing_explorer.diagnosis.machine import SIMULATED, scene_machine
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.kit.compute import compiling
 from bearing_explorer.kit.compute.cache import cached
@@ -141,7 +141,7 @@ def simulated(scene: Scene, noise_db: float, seed: int) -> Measured:
     extent = scene.defects[0].extent if single else None
     edge = scene.defects[0].edge if len(scene.defects) == 1 else None
     return Measured(
-        recording, of_scene(scene, SIMULATED), extent,
+        recording, scene_machine(scene, SIMULATED), extent,
         true_part=true_part(scene), noiseless=math.isinf(noise_db),
         true_speed=scene.shaft_speed, true_load=load_on_defect(scene), true_edge=edge,
         true_scene=scene,

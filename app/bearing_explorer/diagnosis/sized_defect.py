@@ -21,7 +21,7 @@ WITHOUT_DEFECT = (
     "taken."
 )
 CLEARLY = 1.5
-"""How many times as much misfit an unlikelier length has."""
+"""Times the misfit of the best length that an unlikelier one has."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from bearing_explorer.diagnosis.form import AS_HEADED, read_form, with_role
+from bearing_explorer.diagnosis.form import AS_HEADED, change_role, read_form
 from bearing_explorer.diagnosis.machine import Machine
 from bearing_explorer.diagnosis.model import NOT_TAKEN, WANTED, Model
 from bearing_explorer.diagnosis.reading import MOST_NUMBERS, read_file
@@ -296,36 +296,17 @@ def test_a_unit_chosen_over_a_column_is_that_of_all_until_another_has_its_own():
     made = brought("two.csv", csv_of(NOISE, "time,x,y"))
 
     def choose(*column: Any) -> np.ndarray:
-        answer(made, **with_role(*columns_as_said(made.state), *column))
+        answer(made, **change_role(*columns_as_said(made.state), *column))
         return made.measured.recording.acceleration
 
-    np.testing.assert_allclose(choose(1, "x", "g", ""), NOISE * 9.80665, rtol=1e-5)
+    np.testing.assert_allclose(choose(1, "x", "g"), NOISE * 9.80665, rtol=1e-5)
     assert made.state.values["unit"] == "g"
-    np.testing.assert_allclose(choose(2, "y", "m/s²", ""), NOISE * [9.80665, 1.0], rtol=1e-5)
-    assert columns_as_said(made.state) == (["time", "x", "y"], ["", "g", "m/s²"], ["", "", ""])
+    np.testing.assert_allclose(choose(2, "y", "m/s²"), NOISE * [9.80665, 1.0], rtol=1e-5)
+    assert columns_as_said(made.state) == (["time", "x", "y"], ["", "g", "m/s²"])
     given = made.measured.origin.given
     assert [given[index].unit for index in (1, 2)] == ["g", "m/s²"]
-    np.testing.assert_allclose(choose(1, "", "g", "")[:, 0], NOISE[:, 1], rtol=1e-5)
+    np.testing.assert_allclose(choose(1, "", "g")[:, 0], NOISE[:, 1], rtol=1e-5)
     assert made.state.values["unit"] == "m/s²"
-
-
-def test_a_place_chosen_over_a_column_is_that_of_the_sensor():
-    made = brought("two.csv", csv_of(NOISE, "time,A,B"))
-
-    def choose(*column: Any) -> Any:
-        answer(made, **with_role(*columns_as_said(made.state), *column))
-        return made.measured.origin
-
-    origin = choose(1, "y", "g", "fan end")
-    assert (origin.columns, origin.place, origin.given[1].place) == ((1,), "fan end", "fan end")
-    assert columns_as_said(made.state)[2] == ["", "fan end", ""]
-    assert choose(2, "x", "g", "drive end").place == "drive end and fan end"
-    assert "sensors at two places" in made.state.remarks
-    assert choose(2, "x", "g", "fan end").place == "fan end"
-    assert "two places" not in made.state.remarks
-    assert choose(2, "x", "g", "").given[2].place == ""
-    answer(made, columns="time;y@under the bed;")
-    assert "other columns" in made.state.words
 
 
 @pytest.mark.parametrize(
@@ -533,6 +514,21 @@ def test_columns_given_for_one_file_leave_others_as_they_propose_themselves():
     joined = made.recordings(made.measured, "y")
     assert [one.name for one in joined.recordings] == ["rig.zip/alone.csv", "rig.zip/two.csv"]
     assert joined.left_out == ()
+
+
+def test_dated_files_are_in_the_order_of_their_dates_and_the_newest_is_shown():
+    dates = {"a_csv": "2026-06-02", "b_csv": "2026-05-01", "c_csv": "2026-05-20"}
+    head = "# Machine: Fan 3\n# Point: DE-H\n# Date: {} 09:30\n"
+    made = brought("rig.zip", zipped(**{
+        name: head.format(date).encode() + csv_of(NOISE[:, :1], "time [s],a [g]")
+        for name, date in dates.items()
+    }))  # fmt: skip
+    assert made.measured.recording.name == "rig.zip/a.csv"
+    series = made.recordings(made.measured, "y").recordings
+    assert [one.name[-5:] for one in series] == ["b.csv", "c.csv", "a.csv"]
+    about = made.known_about
+    assert (about.machine, about.point) == ("Fan 3", "DE-H")
+    assert about.date == "02 June 2026, 09:30, by the file"
 
 
 def test_the_files_of_a_zip_are_a_series():

@@ -13,7 +13,7 @@ from bearing_explorer.diagnosis.diagnoses import BUSY, ExtentQuestion, Question,
 from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.sized_defect import nearest_way_round, size_in_words
 from bearing_explorer.diagnosis.views.measured_view import MEASURED, WITHOUT_BEARING, MeasuredView
-from bearing_explorer.diagnosis.views.measurement import with_head
+from bearing_explorer.diagnosis.views.measurement import fit_with_head
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.layers import Layer, curve, draw, names_over, uprights
 from bearing_explorer.kit.plots.ranges import StickyRange
@@ -172,7 +172,7 @@ class SpallExtent(LookView, MeasuredView):
             sources["extent_edges"] = _edges(extent, spacing, self._way_round(extent))
         return sources, {
             "extent_angle": (-BEFORE * spacing, (1.0 - BEFORE) * spacing),
-            "extent_size": with_head(self._size, drawn, 0.3),
+            "extent_size": fit_with_head(self._size, drawn, 0.3),
         }
 
     def _way_round(self, extent: MeasuredExtent) -> int | None:

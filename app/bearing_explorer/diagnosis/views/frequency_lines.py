@@ -36,19 +36,10 @@ class Family:
     color: str
     ink: str
     most: float = math.inf
-    dash: str = "solid"
 
 
 FAMILIES = (
     Family("bpfo", "BPFO", "balls pass a point of the outer race", "#E69F00", "#8A5A00"),
-    Family(
-        "half",
-        "½ BPFO",
-        "odd multiples of half of that: every second ball pass is alike",
-        "#E69F00",
-        "#8A5A00",
-        dash="dashed",
-    ),
     Family("bpfi", "BPFI", "balls pass a point of the inner race", "#AA3377", "#94407A"),
     Family(
         "bsf", "BSF", "a ball spins; a spot on it strikes twice a turn", "#009E73", "#00704F", 6
@@ -58,7 +49,7 @@ FAMILIES = (
 """In the order of their rows."""
 
 _WORDS = """
-if (row.order == %(first)s) {
+if (row.order == 1) {
   const name = '%(title)s' + (row.of ? ` row ${row.of}` : ''), first = rounded(row.first, 4)
   const give = row.spread > 0 ? ` ± ${rounded(row.spread, 1)}` : ''
   let room = Infinity  // letters up to the next name
@@ -66,18 +57,15 @@ if (row.order == %(first)s) {
   const longer = [`${name} ${first}${give} Hz`, `${name} ${first} Hz`]
   return longer.find(one => one.length < room) ?? name
 }
-const whole = Math.floor(row.order), half = row.order > whole ? '½' : ''
-return `${whole || ''}${half}×`
+return `${row.order}×`
 """
 
 
 def fundamentals(scene: Scene | Turning, row: int = 0) -> dict[str, float]:
     """First frequency [Hz] of each family, of a row, at the scene's shaft speed."""
     bearing, speed = scene.bearing.of_row(row), scene.shaft_speed
-    outer = bearing.bpfo(speed)
     return {
-        "bpfo": outer,
-        "half": outer,
+        "bpfo": bearing.bpfo(speed),
         "bpfi": bearing.bpfi(speed),
         "bsf": bearing.bsf(speed),
         "ftf": bearing.ftf(speed),
@@ -87,14 +75,12 @@ def fundamentals(scene: Scene | Turning, row: int = 0) -> dict[str, float]:
 def spreads(scene: Scene | Turning, row: int = 0) -> dict[str, float]:
     """Errors [Hz] that an estimated inside may give each family, by its name and "_spread"."""
     bearing, first = scene.bearing.of_row(row), fundamentals(scene, row)
-    kin = {"half": "bpfo"}
     return {
-        f"{name}_spread": value * bearing.frequency_spread(kin.get(name, name))
-        for name, value in first.items()
+        f"{name}_spread": value * bearing.frequency_spread(name) for name, value in first.items()
     }
 
 
-def of_rows(scene: Scene | Turning) -> list[dict[str, float]]:
+def row_frequencies(scene: Scene | Turning) -> list[dict[str, float]]:
     """`fundamentals` and `spreads` of each row that is unlike; one where all are alike."""
     rows = range(len(scene.bearing.unlike_rows))
     return [fundamentals(scene, row) | spreads(scene, row) for row in rows]
@@ -104,9 +90,8 @@ def orders(family: Family, first: float, top: float) -> NDArray[np.float64]:
     """Multiples of `first` [Hz] that a family has up to `top` [Hz]."""
     if not first > 0.0:
         return np.zeros(0)
-    begin = 0.5 if family.name == "half" else 1.0
-    count = int(min(family.most, top / first + 1.0 - begin + 1e-9))
-    return begin + np.arange(max(count, 0), dtype=float)
+    count = int(min(family.most, top / first + 1e-9))
+    return 1.0 + np.arange(max(count, 0), dtype=float)
 
 
 def named(multiples: NDArray[np.float64], first: float, top: float) -> NDArray[np.float64]:
@@ -121,9 +106,7 @@ def named(multiples: NDArray[np.float64], first: float, top: float) -> NDArray[n
     )
     from_end = multiples * first <= (1.0 - 0.6 * ORDER_WIDTH) * top
     clear = multiples * first >= multiples[0] * first + NAME_WIDTH * top
-    # halves count from the first one: ½, 1½, 2½; whole orders are named where they are round
-    round_ones = (multiples if multiples[0] == 1.0 else multiples + 0.5) % step == 0.0
-    kept = (round_ones & clear & from_end) | (np.arange(multiples.size) == 0)
+    kept = ((multiples % step == 0.0) & clear & from_end) | (multiples == 1.0)
     return multiples[kept]
 
 
@@ -132,11 +115,9 @@ def layers(prefix: str) -> list[Layer]:
     drawn: list[Layer] = []
     for family in FAMILIES:
         source = f"{prefix}_{family.name}"
-        first = 0.5 if family.name == "half" else 1
-        words = _WORDS % {"first": first, "title": family.title, "room": NAME_WIDTH}
-        line = {"line_dash": family.dash, "level": "underlay"}
+        words = _WORDS % {"title": family.title, "room": NAME_WIDTH}
         drawn += [
-            uprights(source, "frequency", family.color, 1.1, 0.6, **line),
+            uprights(source, "frequency", family.color, 1.1, 0.6, level="underlay"),
             names_over(f"{source}_names", words, "frequency", "row", family.ink, NAME_COLUMNS,
                        x_offset=3),
         ]  # fmt: skip
@@ -153,8 +134,8 @@ def columns(
 ) -> dict[str, dict[str, NDArray[np.float64]]]:
     """Sources with the lines of the families `shown` up to `top` [Hz], and their names.
 
-    `sets` are what `of_rows` gives: of several each has names of its own. `height` is that of the
-    frame [px].
+    `sets` are those of `row_frequencies`: of several each has names of its own. `height` is that of
+    the frame [px].
     """
     sources: dict[str, dict[str, NDArray[np.float64]]] = {}
     row = 0

@@ -14,7 +14,7 @@ from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.views import frequency_lines
 from bearing_explorer.diagnosis.views.frequency_cursor import FrequencyCursor
-from bearing_explorer.diagnosis.views.frequency_lines import FAMILIES, fundamentals, of_rows
+from bearing_explorer.diagnosis.views.frequency_lines import FAMILIES, fundamentals, row_frequencies
 from bearing_explorer.diagnosis.views.measured_view import MEASURED, MeasuredView, shown_unit
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.layers import Layer, add_all, curve, sources_of
@@ -160,7 +160,7 @@ class FrequencyView(LookView, MeasuredView):
         p, look = self.prefix, self.look
         shown = self.shown(model, measured)
         turning, speed = self.turning, self.shaft_speed
-        lines = [] if turning is None else of_rows(turning)
+        lines = [] if turning is None else row_frequencies(turning)
         top, resolution = shown.top, shown.resolution
         factor = 1.0 / shown_unit(measured)[1]
         drawn = curves(shown.measured, top, factor)

@@ -10,7 +10,7 @@ import numpy as np
 
 from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.signal import ENVELOPE_TOP, Measured
-from bearing_explorer.diagnosis.views.frequency_lines import fundamentals, of_rows
+from bearing_explorer.diagnosis.views.frequency_lines import fundamentals, row_frequencies
 from bearing_explorer.diagnosis.views.frequency_view import (
     ALONG,
     AXIS,
@@ -134,7 +134,7 @@ class MeasuredEnvelope(FrequencyView):
         sets: list[dict[str, float]] = []
         if turning is not None:
             turn = turning.shaft_speed / (2.0 * math.pi)
-            sets = [first | {"shaft": turn} for first in of_rows(turning)]
+            sets = [first | {"shaft": turn} for first in row_frequencies(turning)]
             if shown.top == high - low:
                 words += f"It has no lines above {shown.top:.0f} Hz, the width of that band. "
         diagnosis = self.measurement.diagnosis()
@@ -156,7 +156,7 @@ _CLEAR = 4.0
 """Times the median from which on a line stands out: of 1600 of noise the highest has 3.3 times."""
 
 
-def _of_named_part(part: PartEvidence, at: float, resolution: float) -> str:
+def _line_of_part(part: PartEvidence, at: float, resolution: float) -> str:
     """The line at a frequency [Hz] as one of the part that is named; empty where it is none."""
     multiple = round(at / part.frequency)
     off = abs(at - multiple * part.frequency)
@@ -219,7 +219,7 @@ def highest_line(
         return f"No line stands out: the highest, {place} is as high as noise gives."
     words = f"Its highest line, {place}"
     if diagnosis is not None and diagnosis.names_a_part:
-        of_part = _of_named_part(diagnosis.of(diagnosis.fault), at, shown.resolution)
+        of_part = _line_of_part(diagnosis.of(diagnosis.fault), at, shown.resolution)
         if of_part:
             return f"{words} is {of_part}"
     if not sets:

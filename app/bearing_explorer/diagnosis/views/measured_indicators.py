@@ -109,7 +109,7 @@ def facts(measured: Measured) -> list[Fact]:
 
 
 def no_velocity(measured: Measured) -> str:
-    """Why there is no velocity, or an empty text."""
+    """Reason why there is no velocity; empty where there is one."""
     if not measured.in_si:
         return "the unit of the signal is not known"
     return measured.indicators.velocity_reason
@@ -125,7 +125,7 @@ def zone_of(measured: Measured, machine: str) -> str:
 
 
 def no_zone(measured: Measured, machine: str) -> str:
-    """Why there is no zone; empty where there is one."""
+    """Reason why there is no zone; empty where there is one."""
     why = no_velocity(measured)
     speed = measured.shaft_speed
     if not why and speed is None:

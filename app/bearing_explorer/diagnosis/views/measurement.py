@@ -121,7 +121,7 @@ class MeasuredSignal(MeasuredView):
             "measurement_all_time": (0.0, measured.recording.duration),
             "measurement_all_size": self._all.fit(*(whole[dof] for dof in SHOWN)),
             "measurement_close_time": (first / rate, last / rate),
-            "measurement_close_size": with_head(self._close, [part[dof] for dof in SHOWN]),
+            "measurement_close_size": fit_with_head(self._close, [part[dof] for dof in SHOWN]),
         }
 
     def words_of(self, model: Model, measured: Measured) -> str:
@@ -176,7 +176,7 @@ def drawn(measured: Measured, first: int, last: int) -> dict[str, NDArray[np.flo
     return {"time": time, **{dof: own.get(dof, missing) for dof in SHOWN}}
 
 
-def with_head(
+def fit_with_head(
     sticky: StickyRange, values: list[NDArray[np.float64]], head: float = 0.22
 ) -> tuple[float, float]:
     """A range for the values with room for names above them."""

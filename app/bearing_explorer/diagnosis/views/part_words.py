@@ -137,7 +137,7 @@ def _rpm(speed: float) -> str:
 
 
 def speed_source(answer: Diagnosis, machine: Machine) -> str:
-    """Where the shaft speed of an answer is from, in words."""
+    """Source of the shaft speed of an answer, in words."""
     own = machine.source_of("speed")
     for given in ("given by the recording", "given"):
         if answer.speed_source.startswith(given):
@@ -205,7 +205,7 @@ def facts(answer: Diagnosis, question: Question) -> list[list[str]]:
 
 
 def _origin(question: Question) -> str:
-    """Where the bearing of an answer is from, after a comma."""
+    """Source of the bearing of an answer, after a comma."""
     machine, estimated = question.measured.machine, question.bearing.estimated
     source = machine.source_of("bearing")
     if machine.by_frequencies:

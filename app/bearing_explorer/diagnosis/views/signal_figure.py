@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from typing import Any
 
-from bearing_explorer.diagnosis.machine import BY_FREQUENCIES, GIVEN, of_scene
+from bearing_explorer.diagnosis.machine import BY_FREQUENCIES, GIVEN, scene_machine
 from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.session import measurement_of
 from bearing_explorer.diagnosis.signal import Measured
@@ -50,7 +50,7 @@ def figure_of(
         further parameters of `Figure`.
     """
     del cage_angle, focus
-    machine = of_scene(scene, GIVEN).knowing(speed)
+    machine = scene_machine(scene, GIVEN).knowing(speed)
     if choice("bearing", bearing, BEARINGS) == "unknown":
         machine = dataclasses.replace(machine, bearing=None)
     machine = dataclasses.replace(machine, by_frequencies=bearing == BY_FREQUENCIES)

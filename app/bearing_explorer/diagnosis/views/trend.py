@@ -53,6 +53,9 @@ COLORS = {
 LABELS = {"bpfo": "BPFO", "bpfi": "BPFI", "bsf_2": "2 BSF", "ftf": "FTF"}
 NUMBER = style.AxisQuantity("File", "", "number")
 HOURS = style.AxisQuantity("Time since the first", "t", "h")
+DAYS = style.AxisQuantity("Time since the first", "t", "d")
+MOST_HOURS = 72.0
+"""From which on the time is in days."""
 RMS = style.AxisQuantity("RMS", "", "")
 AMPLITUDE = style.AxisQuantity("Envelope", "", "")
 AXES = {
@@ -173,7 +176,7 @@ class TrendOfFiles(JobView[Model, FoundTrend, Editor], MeasuredView):
         super()._take(result)
 
     def _is_of_now(self, newest: FoundTrend | None) -> bool:
-        """Whether a result is complete, and of the files and answers that there are now."""
+        """True where a result is complete, and of the files and answers that there are now."""
         return (
             newest is not None
             and newest.series is self.measurement.series
@@ -216,7 +219,7 @@ class TrendOfFiles(JobView[Model, FoundTrend, Editor], MeasuredView):
             return
         unit, _ = shown_unit(self.job_result.measured)
         shown = self.job_result.trend
-        across = HOURS if np.isfinite(shown.hours).all() else NUMBER
+        across, _ = time_axis(shown)
         in_si = self.job_result.measured.in_si
         self._plots["rms"].visible = in_si
         self._plots["lines"].visible = self._key_of_lines.visible = in_si and bool(
@@ -236,8 +239,7 @@ class TrendOfFiles(JobView[Model, FoundTrend, Editor], MeasuredView):
         if newest is None or not self.drawn:
             return {}, {}
         shown, size = newest.trend, 1.0 / shown_unit(newest.measured)[1]
-        hours = shown.hours
-        x = hours if np.isfinite(hours).all() else np.arange(1.0, len(shown.points) + 1.0)
+        _, x = time_axis(shown)
         comparable = 1.0 if newest.measured.in_si else np.nan
         size *= comparable  # levels in unknown units are not compared
         rms = shown.column("rms") * size
@@ -297,33 +299,43 @@ class TrendOfFiles(JobView[Model, FoundTrend, Editor], MeasuredView):
         return python_lines(newest, model)
 
 
-NO_LEVELS = "Their units are not known, so that their levels are not compared: say the unit"
+def time_axis(shown: Trend) -> tuple[style.AxisQuantity, np.ndarray]:
+    """Quantity and places (k,) of the recordings: their time, or their number without dates."""
+    hours = shown.hours
+    if not np.isfinite(hours).all():
+        return NUMBER, np.arange(1.0, len(hours) + 1.0)
+    return (DAYS, hours / 24.0) if np.ptp(hours) > MOST_HOURS else (HOURS, hours)
+
+
+NO_LEVELS = "Their units are not known, so that their levels are not compared: say the unit."
 
 
 def words_on(shown: Trend, in_si: bool, along: str = "") -> str:
-    """The trend in sentences: line of the named part, level, kurtosis, and the last recording.
+    """The trend in sentences: growth, kurtosis, and the last recording.
 
     Levels are compared in SI units only.
     """
     first, last = shown.points[0], shown.points[-1]
     if len(shown.points) == 1:
         return f"One recording{along}: {part_words(shown)}"
-    words = f"{len(shown.points)} recordings{along}. "
-    if in_si:
-        most, change = int(shown.rms_change.argmax()), shown.rms_change
-        words += " ".join(filter(None, (line_growth(shown), since_when(shown), "")))
-        words += (
-            f"Root mean square of the last is {style.number(float(change[-1]), 3)} times that of "
-            f"the baseline, {shown.points[shown.baseline].name}"
-        )
-        if most != len(shown.points) - 1:
-            top = style.number(float(change[most]), 3)
-            words += f"; {top} times at most, in {shown.points[most].name}"
-    else:
-        words += NO_LEVELS
     kurtosis = [style.number(point.kurtosis, 3) for point in (first, last)]
-    words += f". Kurtosis {kurtosis[0]} in the first, {kurtosis[1]} in the last. "
-    return words + part_words(shown)
+    return (
+        f"{len(shown.points)} recordings{along}. {growth(shown) if in_si else NO_LEVELS} Kurtosis "
+        f"{kurtosis[0]} in the first, {kurtosis[1]} in the last. {part_words(shown)}"
+    )
+
+
+def growth(shown: Trend) -> str:
+    """The growth in sentences: line of the named part, since when it shows, and the level."""
+    most, change = int(shown.rms_change.argmax()), shown.rms_change
+    level = (
+        f"Root mean square of the last is {style.number(float(change[-1]), 3)} times that of the "
+        f"baseline, {shown.points[shown.baseline].name}"
+    )
+    if most != len(shown.points) - 1:
+        top = style.number(float(change[most]), 3)
+        level += f"; {top} times at most, in {shown.points[most].name}"
+    return " ".join(filter(None, (line_growth(shown), since_when(shown), f"{level}.")))
 
 
 def line_growth(shown: Trend) -> str:

@@ -1,4 +1,4 @@
-"""Which of several lengths a spall has: the frequencies at which the machine rings decide."""
+"""Choice between several lengths of a spall: the frequencies at which the machine rings decide."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from bearing_explorer.diagnosis.views.measured_view import (
     WITHOUT_BEARING,
     MeasuredView,
 )
-from bearing_explorer.diagnosis.views.measurement import with_head
+from bearing_explorer.diagnosis.views.measurement import fit_with_head
 from bearing_explorer.kit.compute.compiling import MOTION, need
 from bearing_explorer.kit.compute.jobs import SIZING, Work
 from bearing_explorer.kit.plots import style
@@ -206,7 +206,9 @@ class WhichLength(JobView[Model, SizedDefect, Editor], MeasuredView):
                     "frequency": sizing.frequency, "amplitude": drawn[-1],
                 }  # fmt: skip
                 sources[f"length_bands_{dof}_{number}"] = _bands(candidate, dof, number, high)
-            ranges[f"length_size_{dof}"] = with_head(self._heights[dof], drawn, head / (1.0 - head))
+            ranges[f"length_size_{dof}"] = fit_with_head(
+                self._heights[dof], drawn, head / (1.0 - head)
+            )
         return sources, ranges
 
     def sentence(self, model: Model) -> str:

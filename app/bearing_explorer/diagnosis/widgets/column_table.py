@@ -14,12 +14,11 @@ from bearing_explorer.kit.messages import read
 
 
 class RoleOfColumn(msgspec.Struct):
-    """The role of a column of a file, from 0, was chosen, or the unit or place of a signal."""
+    """The role of a column of a file, from 0, was chosen, or the unit of a signal."""
 
     column: int
     role: str
     unit: str = ""
-    place: str = ""
 
 
 class ColumnTable(JSComponent):
@@ -28,19 +27,18 @@ class ColumnTable(JSComponent):
     Parameters
     ----------
     chosen
-        called with the number of a column, its role and, of a signal, its unit and place.
+        called with the number of a column, its role and, of a signal, its unit.
     """
 
     roles = param.List(doc="What a column may be: [value, words].")
     signals = param.List(doc="Which of the roles have a unit.")
     units = param.List(doc="In which units a signal may be: [value, words].")
-    places = param.List(doc="Where its sensor may be: [value, words].")
     shown = param.Dict({}, doc="Names, places, first lines, roles, units, and what is asked for.")
 
     _esm = scripts("element.js", "column_table.js")
     _stylesheets: ClassVar[list[str]] = [asset_text("column_table.css")]
 
-    def __init__(self, chosen: Callable[[int, str, str, str], None], **params: Any) -> None:
+    def __init__(self, chosen: Callable[[int, str, str], None], **params: Any) -> None:
         super().__init__(margin=(8, 0, 8, 0), sizing_mode="stretch_width", **params)
         self._chosen = chosen
         self.on_msg(lambda event: self._take(event.data))
@@ -50,7 +48,6 @@ class ColumnTable(JSComponent):
         columns: Mapping[str, Any],
         roles: Sequence[str],
         units: Sequence[str],
-        places: Sequence[str],
         marks: Mapping[str, str],
     ) -> None:
         """Show columns: their names, places of sensors, first lines, and how many rows there are.
@@ -58,7 +55,7 @@ class ColumnTable(JSComponent):
         `marks` of "columns" and "unit": "open" where an answer is wanted, "refused" where it cannot
         be.
         """
-        said = {"roles": [*roles], "units": [*units], "at": [*places], "marks": {**marks}}
+        said = {"roles": [*roles], "units": [*units], "marks": {**marks}}
         self.shown = {**columns, **said}
 
     def _take(self, data: Any) -> None:
@@ -68,7 +65,6 @@ class ColumnTable(JSComponent):
         known = (
             message.role in {value for value, _ in self.roles},
             message.unit in {value for value, _ in self.units},
-            message.place in {value for value, _ in self.places} | set(self.shown["places"]),
         )
         if all(known):
-            self._chosen(message.column, message.role, message.unit, message.place)
+            self._chosen(message.column, message.role, message.unit)

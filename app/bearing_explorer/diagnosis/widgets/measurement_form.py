@@ -16,9 +16,8 @@ from bearing_explorer.diagnosis.form import (
     DIRECTIONS,
     ROLES,
     USUAL_SENSITIVITY,
-    places_of,
+    change_role,
     roles_and_units,
-    with_role,
 )
 from bearing_explorer.diagnosis.measurement_state import MeasurementState
 from bearing_explorer.diagnosis.series import MOST_FILES
@@ -30,7 +29,7 @@ from bearing_explorer.diagnosis.widgets.machine_form import MachineForm, notes_h
 from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.simulated_signals import NOISES
 from bearing_explorer.kit.widgets.form import Fields, button, choices, entry, row, select
-from bearingcore.measured.files import PLACES, UNITS
+from bearingcore.measured.files import UNITS
 
 LABELS = {
     "columns": "Columns",
@@ -180,12 +179,12 @@ class MeasurementForm(pn.Column):
         self._fold(self._shown)
         self._unfolded()
 
-    def _role(self, index: int, role: str, unit: str, place: str) -> None:
-        """Take another role, unit or place of a column."""
+    def _role(self, index: int, role: str, unit: str) -> None:
+        """Take another role or unit of a column."""
         assert self._fields is not None, "there is no column before"
         now = columns_as_said(self._shown)
         if index < len(now[0]):
-            changed = with_role(*now, index, role, unit, place)
+            changed = change_role(*now, index, role, unit)
             self._answer({**self._fields.values, **changed})
 
     def _make_fields(self) -> Fields:
@@ -195,7 +194,6 @@ class MeasurementForm(pn.Column):
             self._role,
             roles=[list(role) for role in ROLES],
             signals=[*DIRECTIONS],
-            places=[["", "place not said"], *([place, place] for place in PLACES)],
         )
         for name in LABELS:
             if name == "part":
@@ -255,12 +253,10 @@ def units(state: MeasurementState) -> list[list[str]]:
     return [["", words], *known]
 
 
-def columns_as_said(state: MeasurementState) -> tuple[list[str], list[str], list[str]]:
-    """The role of each column, and the unit and place that it has or would have as a signal."""
+def columns_as_said(state: MeasurementState) -> tuple[list[str], list[str]]:
+    """The role of each column, and the unit that it has or would have as a signal."""
     assert state.columns is not None
-    text = state.values["columns"]
-    roles, given = roles_and_units(text)
-    one = state.values["unit"]
-    several = state.columns.headed if one == AS_HEADED else [one] * len(roles)
-    own = [own or other for own, other in zip(given, several, strict=False)]
-    return roles, own, places_of(text, state.columns.places)
+    roles, given = roles_and_units(state.values["columns"])
+    unit = state.values["unit"]
+    headed = state.columns.headed if unit == AS_HEADED else [unit] * len(roles)
+    return roles, [own or other for own, other in zip(given, headed, strict=False)]

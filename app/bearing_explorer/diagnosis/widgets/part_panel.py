@@ -61,13 +61,13 @@ class PartPanel(pn.Column):
         fields = Fields(lambda _: report_on(dict(fields.values)))
         for name, (label, example) in REPORTED.items():
             fields.add(name, entry(label, placeholder=example))
-        self._actions = row(
-            self._copy, *fields.widgets.values(), self._report, self._why_not, visible=False
-        )
         several = button("Is it getting worse? Several files …", lambda: None)
         several.js_on_click(code=_SEVERAL)
-        self._next = row(several, visible=False, margin=(8, 0, 8, 0))
-        super().__init__(self._answer, self._actions, self._next, self._summary, **wide)
+        self._actions = row(
+            self._copy, *fields.widgets.values(), self._report, several, self._why_not,
+            visible=False, margin=(0, 0, 8, 0),
+        )  # fmt: skip
+        super().__init__(self._answer, self._actions, self._summary, **wide)
         self.state: Mapping[str, Any] = {}
 
     def show(self, state: Mapping[str, Any]) -> None:
@@ -82,7 +82,7 @@ class PartPanel(pn.Column):
         self._copy.param.update(label="Copy the work order", disabled=not summary)
         self._report.disabled = not summary
         self._why_not.object = f"<p>{NOT_NOW}</p>" if stale else ""
-        self._actions.visible = self._next.visible = bool(state.get("work_order", ""))
+        self._actions.visible = bool(state.get("work_order", ""))
 
     def outdate(self, why: str) -> None:
         """Mark the answer that is shown: it is not that of the newest answers and settings."""

@@ -55,12 +55,6 @@ def test_names_of_a_family_stand_clear_of_each_other(family, first, top):
         assert np.diff(places[1:]).min(initial=math.inf) >= ORDER_WIDTH * top * (1.0 - 1e-9)
 
 
-def test_half_orders_lie_between_the_whole_ones():
-    half = next(family for family in FAMILIES if family.name == "half")
-    assert orders(half, 40.0, 150.0).tolist() == [0.5, 1.5, 2.5, 3.5]
-    assert not orders(half, 0.0, 150.0).size
-
-
 def test_a_peak_of_a_fine_spectrum_is_not_lost():
     frequency = np.arange(10 * MOST_LINES) * 0.01
     density = np.ones(frequency.size)

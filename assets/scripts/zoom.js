@@ -1,7 +1,9 @@
 // A button in a figure that is zoomed: it leads back to the whole figure, and so does Reset (share.js).
 const view = Bokeh.index.find_one_by_id(plot.id)
 const is_zoomed = ({ start, end, reset_start, reset_end }) => reset_start !== null && (start !== reset_start || end !== reset_end)
-const zoomed = [plot.x_range, plot.y_range].some(is_zoomed)
+const root = document.documentElement
+const led = root.dataset.cell && (root.hasAttribute("data-projector") || innerWidth <= 820)  // to a cell, by a lesson
+const zoomed = !led && [plot.x_range, plot.y_range].some(is_zoomed)
 let button = view?.shadow_el.querySelector(".home")
 if (view && zoomed && !button) {
   button = document.createElement("button")

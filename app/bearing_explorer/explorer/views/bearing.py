@@ -46,7 +46,7 @@ LOWEST = 1.52  # end of the longest bar, from the middle
 HIGHEST = 1.3  # of a ring with words above it, from the middle
 ROW_NAMES = 1.5  # below the middle of the rows: their names
 SIDE_ROOM = 0.55  # of the number of a bar at 0° or 180°, which has no more than that
-NUMBER_RIGHT, NUMBER_UP = 15.0, 13.0  # [px] from the ends of a bar: the middle of its number
+NUMBER_RIGHT, NUMBER_UP = 20.0, 13.0  # [px] from the ends of a bar: the middle of its number
 MOST_NAMED = 4  # balls in a defect; more are counted
 LINE_PIXELS = 16.0
 KEYWAY = 0.09  # [rad] half its width
@@ -191,9 +191,9 @@ class BearingDrawing(ComparingView):
     title = "The bearing"
     about = (
         "Ball loads at the cage angle, seen along the shaft. Rows are side by side. Bars and "
-        "colours: loads of the balls. Grey rim: {grey}. Arrow: the load on the shaft; it reaches "
-        "the bore at the load that is named. "
-        "Ticks on the ring: ball spacings from the beginning of the defect. "
+        "colours: loads of the balls. Grey rim: {grey}. The arrow is the load on the shaft; it "
+        "reaches the bore at the load that is named. "
+        "Ticks on the ring are ball spacings from the beginning of the defect. "
         "Compared scenes have dashed rims. The keyway turns with the shaft; z points towards you."
     )
     needs = frozenset({"equilibrium", "now", "drop"})

@@ -316,7 +316,7 @@ def summary(plane: Plane) -> str:
         np.unravel_index(int(find(values)), values.shape) for find in (np.nanargmin, np.nanargmax)
     )
     ends = f"least {_place(plane, least)}, greatest {_place(plane, most)}"
-    return f"{words}: {ends}. {size}.{missing}"
+    return f"{words}: {ends}.{missing} Computed at {size}."
 
 
 def _place(plane: Plane, at: tuple[Any, ...]) -> str:

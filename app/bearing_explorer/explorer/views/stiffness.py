@@ -128,7 +128,8 @@ class Stiffness(ComparingView):
             at = float(cell.y(np.array(at_now), limits))
             marks.append((float(cell.x(np.array(now_share))), at, cell.bottom, cell.top))
             zero = float(np.clip(cell.y(np.array(0.0), limits), cell.bottom, cell.top))
-            flat = not np.nan_to_num(np.concatenate(terms)).any()
+            known = [term[np.isfinite(term)] for term in terms]
+            flat = any(map(len, known)) and not np.concatenate(known).any()
             heads.append((*limits, at_now, zero, flat))
 
         counts = [np.where(e.converged, e.loaded_balls, np.nan) for e in answers]

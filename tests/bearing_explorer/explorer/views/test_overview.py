@@ -231,6 +231,13 @@ def test_cells_of_terms_are_apart_and_inside(count: int) -> None:
     assert len({(c.left, c.top) for c in cells}) == count
 
 
+def test_a_term_without_an_answer_is_not_zero_by_symmetry() -> None:
+    """Without a contact angle x and y are not coupled to the other three directions."""
+    view = Stiffness(PackedSource())
+    for scene, count in ((FAN_RIG, 6), (FAN_RIG.replace(fy=0.0), 0)):
+        assert view.data(Results(scene))[0]["stiffness_cells"]["flat"].sum() == count
+
+
 def test_what_is_held_is_said_alike_on_all_tabs() -> None:
     def said(scene: Scene) -> list[str]:
         views = (OverviewStiffness, Stiffness, ModelEditor)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from bearing_explorer.explorer.plots import compared_curves
 from bearing_explorer.explorer.plots.frequency_bands import BAND_NAME, BAND_SPAN, band_rows, spread
 from bearing_explorer.explorer.results import reasons
-from bearing_explorer.explorer.results.chain import in_same_order
+from bearing_explorer.explorer.results.chain import have_same_order
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.views.comparing_view import ComparingView
 from bearing_explorer.kit.plots import style
@@ -158,13 +158,15 @@ class NaturalFrequencies(ComparingView):
             why = results.equilibrium.reason(0)
             return f"There is no static state to take natural frequencies from: {why}."
         named = sorted(known, key=lambda label: label[:-1] not in ("x", "y"))  # radial ones first
-        words = [f"{mode_symbol(label)} {_from_to(known[label])}" for label in named]
+        words = [f"{mode_symbol(label)} {_band_words(known[label])}" for label in named]
         turning = "In all turns of the shaft" if results.over_shaft else "As the cage turns"
         text = f"{turning} the natural frequencies move: {style.list_words(words)}"
         first = named[0]
         is_known = np.isfinite(healthy.get(first, (np.nan,))[0])
-        if results.reference_label and is_known and in_same_order(first, known, healthy):
-            text += f"; {results.reference_label} {mode_symbol(first)} {_from_to(healthy[first])}"
+        if results.reference_label and is_known and have_same_order(first, known, healthy):
+            text += (
+                f"; {results.reference_label} {mode_symbol(first)} {_band_words(healthy[first])}"
+            )
         why = with_elements_of(results.scene.bearing, reasons.frequencies(results))
         return f"{text}. {why}".rstrip()
 
@@ -181,7 +183,7 @@ class NaturalFrequencies(ComparingView):
         return columns
 
 
-def _from_to(band: tuple[float, float]) -> str:
+def _band_words(band: tuple[float, float]) -> str:
     words = span(*band, "Hz")
     return f"from {words}" if " to " in words else f"at {words}"
 

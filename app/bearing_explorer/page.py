@@ -81,7 +81,7 @@ class Halves:
         if self.explorer is not None and self.diagnosis is not None:
             self.explorer.report_on_signal = self.diagnosis.report
             self.explorer.simulate = self.diagnosis.simulate
-            self.diagnosis.change_scene_by(self.explorer.change_scene)
+            self.diagnosis.measurement.can_simulate = True
 
     def _scene_of_signal(self) -> Any:
         """The scene with which a signal is compared."""

@@ -97,11 +97,13 @@ def test_a_measured_signal_has_its_answer_pictures_and_assumptions_on_one_page()
     )
     session.about = AboutMeasurement(point="drive end, up", date="2 March")
     session._first = {"unit": "g"}
-    made = measured_report(Model(scene), session.snapshot(), {}, own, "medium, rigid")
+    session.machine_kind = "medium, rigid"
+    made = measured_report(Model(scene), session.snapshot(), {}, own)
     reader = Reader(made["html"])
     for said in (
-        f"fan-rig: {NASTY}",
+        "Pump 3, drive end, up",
         "Machine: Pump 3",
+        NASTY,
         "Measuring point: drive end, up. Recorded: 2 March.",
         part_words.headline(answer),
         f"Probability {probability(answer.probability)}",
@@ -132,6 +134,7 @@ def test_a_measured_signal_has_its_answer_pictures_and_assumptions_on_one_page()
         ("outer race", "A", None, "Measure again within a week", "does not clear a bearing"),
         ("outer race", "", 2.5, "Soon: the vibration has clearly grown", "became 2.5 times"),
         ("outer race", "", 1.1, "Soon: the vibration has clearly grown", "outer race became 4.4"),
+        ("outer race", "", 1.2, "Soon: the vibration has clearly grown", "May 2026, 9 days before"),
         ("none seen", "A", None, "Measure again at the usual interval.", ""),
         ("none seen", "D", None, "Measure again at the usual", "look now for its cause"),
         ("cannot tell", "", 3.0, "This record decides nothing", "became 3 times"),
@@ -144,11 +147,15 @@ def test_the_next_step_rests_on_part_zone_and_growth(
     diagnosis = dataclasses.replace(answered(question), fault=fault, probability=0.99)
     grown = None
     if change is not None:
-        points = [SimpleNamespace(fault=fault)] * 2
-        changes = np.array([1.0, change])
+        points = [
+            SimpleNamespace(fault=fault, name=f"{day}.csv", recorded=datetime(2026, 5, day))
+            for day in (1, 3, 12)
+        ]
+        changes = np.array([1.0, 1.0, change])
         grown = SimpleNamespace(
-            points=points, baseline=0, rms_change=changes, line_change=lambda part: 4.0 * changes
-        )
+            points=points, baseline=0, rms_change=changes, line_change=lambda part: 4.0 * changes,
+            seen_since=lambda part: 1, hours=24.0 * np.array([0.0, 2.0, 11.0]),
+        )  # fmt: skip
     words = next_steps(diagnosis, question, zone, grown)
     assert words.startswith(begins)
     assert says in words

@@ -346,14 +346,14 @@ def test_a_ball_strikes_where_the_numbers_say(desk: Visitor) -> None:
 def test_a_long_run_is_cancelled_and_a_short_one_drawn(desk: Visitor) -> None:
     desk.begin("More: Over speed")
     desk.choose("Speeds", "193")
-    desk.press("Run up")
+    desk.press("Compute all speeds")
     cancel = desk.main.get_by_role("button", name="Cancel").last
     expect(desk.main.get_by_role("progressbar")).to_be_visible()
     cancel.click()
     desk.reads(re.compile("Cancelled"))
     expect(cancel).to_be_disabled()
     desk.choose("Speeds", "25")
-    desk.press("Run up")
+    desk.press("Compute all speeds")
     desk.reads(re.compile("25 speeds after"))
     desk.steady()
     before = desk.figures()

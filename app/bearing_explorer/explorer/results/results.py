@@ -406,11 +406,6 @@ class Results(SceneContent):
         """Words on bands of the spectrum that are not known within 1 dB; or empty."""
         return motions.ending(self.scene, self.marching).doubt
 
-    @property
-    def settled_since(self) -> float:
-        """Time [s] of the motion after which it counts as settled."""
-        return motions.ending(self.scene, self.marching).since
-
     @cached_property
     def excerpt(self) -> Excerpt:
         """Some ball passes of the settled motion, with static loads for comparison."""

@@ -241,6 +241,7 @@ class SceneEditor:
         """
         usual = scene_of(bearing).replace(defect=_SOUND)
         kept = [part for part in _USUAL if getattr(self.scene, part) != getattr(self.begun, part)]
+        lost = "" if "defect" in kept else _lost_words(self.scene)
         fresh = {part: getattr(usual, part) for part in _USUAL if part not in kept}
         before = self.scene.replace(defect=fresh.get("defect", self.scene.defect))
         if before.dofs == self.begun.dofs:
@@ -251,7 +252,7 @@ class SceneEditor:
         self._take(scene)
         self.limits = limits_of(self.scene)
         self._write_values()
-        self._effects["preset"] = f"{_usual_words(scene, kept)} {effect}".rstrip()
+        self._effects["preset"] = f"{lost} {_usual_words(scene, kept)} {effect}".strip()
         self.own_name = one_line(name, LONGEST_NAME)
         self.origin = CatalogueOrigin(self.own_name, origin, self.scene.bearing)
 
@@ -312,12 +313,13 @@ class SceneEditor:
 
     def _scene_with(self, taken: Values) -> Scene:
         fields: dict[str, Any] = {}
-        parts: dict[str, dict[str, Any]] = {"floor": {}, "pair": {}, "second": {}}
+        rough: dict[str, Any] = {}
         for name, value in taken.items():
             field = FIELD_BY_KEY[name]
             if field.part:
-                parts.get(field.part, fields)[field.name] = si_number(field, value)
-        rough, bearing = parts["floor"], self.scene.bearing
+                numbers = rough if field.part == "floor" else fields
+                numbers[field.full_name] = si_number(field, value)
+        bearing = self.scene.bearing
         if "ball_diameter" in fields:
             # grooves are made for their ball: they keep what they are to it
             ratio = fields["ball_diameter"] / bearing.ball_diameter
@@ -331,10 +333,7 @@ class SceneEditor:
             if not isinstance(floor, RoughFloor):
                 raise refuse("floor of the defect", floor_name(floor), "rough")
             fields["floor"] = dataclasses.replace(floor, **rough)
-        scene = scene_with_fields(self.scene, fields, self.selected)
-        if parts["pair"] or parts["second"]:
-            scene = scene.replace(bearing=_change_rows(scene.bearing, **parts))
-        return scene
+        return scene_with_fields(self.scene, fields, self.selected)
 
     def _take(self, scene: Scene, cage_angle: float | None = None) -> None:
         """Make `scene` the one that is shown."""
@@ -535,18 +534,13 @@ class SceneEditor:
         }
 
 
-def _change_rows(
-    bearing: Bearing, pair: Mapping[str, Any], second: Mapping[str, Any], **_: object
-) -> Bearing:
-    """A bearing of two rows with numbers of both, and of the second row alone, changed."""
-    if pair:
-        bearing = bearing.respaced(pair.get("row_distance"), pair.get("preload"))
-    if not second:
-        return bearing
-    if len(bearing.rows) != 2:
-        raise refuse("rows of balls", len(bearing.all_rows), "two of them")
-    low, high = bearing.rows
-    return bearing.replace(rows=(low, dataclasses.replace(high, **second)))
+def _lost_words(scene: Scene) -> str:
+    """Sentence on the defects that a bearing out of a list does not take over; or empty."""
+    lengths = [f"{number(math.degrees(defect.extent))}°" for defect in scene.defects]
+    if not lengths:
+        return ""
+    gone = f"The defect of {lengths[0]} is" if len(lengths) == 1 else "The defects are"
+    return f"{gone} gone: the bearing comes sound."
 
 
 def _usual_words(scene: Scene, kept: Iterable[str]) -> str:

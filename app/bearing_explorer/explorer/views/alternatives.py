@@ -116,10 +116,7 @@ class OtherModels(SceneJobView[Alternatives]):
 
     def sentence(self, results: Results) -> str:
         if self.job_result is None:
-            return (
-                f"Drawn are {results.settings.n_cage_angles} cage angles a ball spacing and "
-                f"{results.settings.duration:g} s of motion, whatever the scene."
-            )
+            return "No model is compared yet."
         enough = [
             row.name
             for row in self.job_result.rows

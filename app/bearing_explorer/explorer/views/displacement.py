@@ -30,10 +30,9 @@ class Displacement(View):
     name = "displacement"
     title = "Displacement of the inner ring"
     about = (
-        "How far the load moves the inner ring. Against the outer one, in the middle of which it "
-        "would be without a load and without clearance; y counts upwards. Least, mean in time and "
-        "greatest are those of one period, with a defect of the inner race of all turns of the "
-        "shaft."
+        "How far the load moves the inner ring. It is measured from the middle of the outer ring; "
+        "y counts upwards. Least, mean in time and greatest are those of one period, and with an "
+        "inner-race defect of all turns of the shaft."
     )
     needs = frozenset({"equilibrium", "now", "ranges"})
 

@@ -105,8 +105,8 @@ class PaperFigures(View[Results]):
         self.rows()
         bearing = "Liew and Lim's bearing" if figure.preset == "liew-lim" else "the fan rig"
         return (
-            f"Figure {figure.number}, {figure.title.lower()}, is of {bearing}, independent of the "
-            f"sliders; the tab {TAB_TITLES[figure.tab]} draws it."
+            f"Figure {figure.number}, {figure.title.lower()}, shows {bearing}, whatever the "
+            f"sliders say; the tab {TAB_TITLES[figure.tab]} draws it."
         )
 
     def say(self, results: Results | None, sentence: str) -> None:

@@ -150,8 +150,8 @@ class SlowPassage(BearingDrawing):
         at, ball = np.unravel_index(np.argmax(loads), loads.shape)
         length = float(shown.time[-1] - shown.time[0])
         return (
-            f"{style.with_prefix(length, 's')} of motion; {element_name(bearing, int(ball))} "
-            f"carries the most, {style.with_prefix(loads[at, ball], 'N')} at "
+            f"In these {style.with_prefix(length, 's')} {element_name(bearing, int(ball))} "
+            f"carries most: {style.with_prefix(loads[at, ball], 'N')} at "
             f"{style.with_prefix(float(shown.static_time[at]), 's')}."
         )
 

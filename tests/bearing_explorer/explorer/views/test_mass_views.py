@@ -38,7 +38,7 @@ def test_a_ball_over_a_small_pit_meets_its_far_edge_half_way() -> None:
     assert small.exit is not None
     assert small.far_edge == pytest.approx(0.5 * small.exit.time, rel=0.02)
     assert mechanism_words(small).startswith(
-        "Stiffness that varies gives most of the power in every"
+        "The varying stiffness gives most of the power in every"
     )
 
 

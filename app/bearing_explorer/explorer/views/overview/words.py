@@ -68,13 +68,13 @@ def story(by: Cause, now: Chain, before: Chain) -> str:
         return f"{by.words or 'With the defect'}: {gone} ({now.reason})."
     if before.answered == 0.0:
         whose = by.words or "With the defect"
-        return f"{whose}: now there is an equilibrium, which there was not before."
+        return f"{whose}: now there is an equilibrium."
     along = direction(now, before)
     stiff = stiffness_words(now, before, along)
     text = _load_and_stiffness(by, now, before, along, stiff)
     text = _add_band_and_peak(text, by, now, before, along, stiff)
     if before.silent and not now.silent:
-        text += f"{'; ' if text else ''}now there is a spectrum, which there was not before"
+        text += f"{'; ' if text else ''}now there is a spectrum"
     text = text or unchanged(now, before, by.why_not)
     text = f"{by.words}: {text}" if by.words else text[0].upper() + text[1:]
     if now.answered < 1.0:

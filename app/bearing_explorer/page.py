@@ -41,7 +41,7 @@ _LAST = ("accuracy", "explore", "over-speed", "paper")
 """Tabs of the scene that come after those of the measured signal."""
 
 
-def _in_order() -> tuple[Section, ...]:
+def _ordered_sections() -> tuple[Section, ...]:
     of_scene = scene.SECTIONS if scene else ()
     return (
         *(section for section in of_scene if section.name not in _LAST),
@@ -50,7 +50,7 @@ def _in_order() -> tuple[Section, ...]:
     )
 
 
-SECTIONS = _in_order()
+SECTIONS = _ordered_sections()
 """The tabs. What is not on the tab that is open is neither computed nor sent."""
 
 TABS = tuple((s.name, tuple(view.name for view in s.views)) for s in SECTIONS)

@@ -91,7 +91,7 @@ def begin_compiling(**report: Callable[..., object]) -> None:
 def help_texts() -> dict[str, str]:
     """Parts of the page's help that are about the scene, as HTML by their names."""
     return {
-        "glossary": glossary.as_html(),
+        "glossary": glossary.glossary_html(),
         "bearing_picture": bearing_picture(presets["fan-rig"].bearing),
         "python_lines": html.escape(asset_text("notebooks/first_lines.py")),
     }

@@ -182,7 +182,7 @@ class Explorer(Half):
                 self._set(message["set"], confirm=False)
             for name in ("typed", "second"):
                 if name in message:
-                    numbers = self.editor.in_field_units(message[name], second=name == "second")
+                    numbers = self.editor.read_units(message[name], second=name == "second")
                     self._set(numbers, confirm=True)
         finally:
             if self.bookmarks.follow(message):

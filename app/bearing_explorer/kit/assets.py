@@ -13,7 +13,7 @@ _FOLDERS = {".js": "scripts", ".css": "styles"}
 
 
 def asset_path(name: str) -> Path:
-    """Where the asset called `name` lies, a file or a folder."""
+    """Path of the asset called `name`, a file or a folder."""
     for place in _PLACES:
         path = place / _FOLDERS.get(Path(name).suffix, "") / name
         if path.exists():

@@ -79,7 +79,7 @@ def _ranked(wanted: str) -> list[tuple[int, dict[str, Any]]]:
 
 
 def _no_match(text: str) -> str:
-    """Why a search finds nothing; of a bearing with an unknown suffix what may be written."""
+    """Say why a search finds nothing; of an unknown suffix what may be written."""
     if is_known(text):
         try:
             read_designation(text)

@@ -17,7 +17,7 @@ import panel as pn
 from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.compute import compiling
 from bearing_explorer.kit.compute.drawing_loop import DrawingLoop
-from bearing_explorer.kit.compute.executors import in_turn, run_in_thread
+from bearing_explorer.kit.compute.executors import run_in_thread, run_in_turn
 from bearing_explorer.kit.compute.jobs import Change, Jobs
 from bearing_explorer.kit.pictures import BROKEN, Picture, picture_of
 from bearing_explorer.kit.serve import log as write
@@ -218,7 +218,7 @@ class Session:
         """
         if name not in self._views:
             kinds = self._sections[name].views
-            self._views[name] = await in_turn(lambda: [view(self.packed) for view in kinds])
+            self._views[name] = await run_in_turn(lambda: [view(self.packed) for view in kinds])
             for view in self._views[name]:
                 self._halves[name].attach(view)
         self._on_screen = name
@@ -291,7 +291,7 @@ class Session:
         """Draw what follows a slider, what takes long after the others."""
         quick, slow = self._quick_and_slow(content)
         if quick or not slow:
-            run = in_turn if self._quick_cost < _AT_ONCE else run_in_thread
+            run = run_in_turn if self._quick_cost < _AT_ONCE else run_in_thread
             content, picture = await run(self._newest_picture, content, quick)
             self._quick_cost = picture.work
             await self._assign(picture, None if slow else content.mark)
@@ -319,7 +319,7 @@ class Session:
         return quick, slow
 
     def _is_for_screen(self, content: Content) -> bool:
-        """Whether this is content of the half whose tab is on screen."""
+        """True if this is content of the half whose tab is on screen."""
         return isinstance(content, self._halves[self._on_screen].kind_of_content)
 
     def _newest_picture(self, content: Content, views: Sequence[View]) -> tuple[Content, Picture]:

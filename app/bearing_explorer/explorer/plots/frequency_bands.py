@@ -75,7 +75,7 @@ def spread(
 
 
 def _bottom(group: list[float], apart: float, lowest: float, highest: float) -> float:
-    """Where the lowest of a group stands."""
+    """Place of the lowest of a group."""
     height = apart * (len(group) - 1)
     wanted = float(np.mean(group)) - 0.5 * height
     return max(min(wanted, highest - 0.5 * apart - height), lowest + 0.5 * apart)

@@ -74,7 +74,7 @@ class SpectrumFigures:
                 x_axis_type="log" if logarithmic else "linear",
             )
             if logarithmic:
-                in_hertz(plot)
+                write_hertz(plot)
             add_all(plot, sources, layers(dof))
             self.plots.append(plot)
 
@@ -105,7 +105,7 @@ def levels_of_compared(
     )
 
 
-def in_hertz(plot: figure) -> None:
+def write_hertz(plot: figure) -> None:
     """Write frequencies along a logarithmic axis, each with its unit."""
     plot.xaxis[0].formatter = style.logarithmic_ticks("Hz")
     style.fixed_ticks(plot.xaxis[0], TICKS)

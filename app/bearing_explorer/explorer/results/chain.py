@@ -123,7 +123,7 @@ def chain_of(
     return Chain(
         answered=1.0 - float(state.shares[bad].sum()),
         reason=state.reason(int(bad[0])) if bad.size else "",
-        off_line=off_line(state, scene),
+        off_line=mean_angle_off_line(state, scene),
         direction=direction(scene),
         greatest_load=ranges.greatest[BALL_LOAD],
         loaded_balls=ranges.mean(np.where(state.converged, state.loaded_balls, math.nan)),
@@ -145,7 +145,7 @@ def upright(state: Equilibrium) -> float:
     return float((carried * radial).sum() / total)
 
 
-def off_line(state: Equilibrium, scene: Scene) -> float:
+def mean_angle_off_line(state: Equilibrium, scene: Scene) -> float:
     """Mean angle [rad] between the loaded balls and the radial load, each by what it carries."""
     load = scene.load
     carried = np.where(state.converged[:, None], state.ball_load, 0.0) * state.shares[:, None]
@@ -163,8 +163,8 @@ def direction(scene: Scene) -> float:
     return math.atan2(load.fy, load.fx) if math.hypot(load.fx, load.fy) > 0.0 else math.nan
 
 
-def in_same_order(label: str, *bands: Mapping[str, tuple[float, float]]) -> bool:
-    """Whether the mode of a label is in each scene above, or below, that of the other direction.
+def have_same_order(label: str, *bands: Mapping[str, tuple[float, float]]) -> bool:
+    """True if the mode of a label is in each scene above, or below, that of the other direction.
 
     Modes that move along x and y alike may have each other's names in another scene. Modes within
     `ALIKE` of each other are in any order.

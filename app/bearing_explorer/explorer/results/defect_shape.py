@@ -32,7 +32,7 @@ class Span(NamedTuple):
     row: int | None = None
 
     def meets(self, row: int | None) -> bool:
-        """Whether balls of a row meet it; None: of any row."""
+        """True if balls of a row meet it; None: of any row."""
         return row is None or self.row is None or self.row == row
 
 

@@ -90,7 +90,7 @@ _LIFE_ASSUMES = "Life assumes usual ones, by which no limit is judged"
 def endurance(scene: Scene, inputs: LifeInputs) -> Endurance:
     """Life, contact pressures and film of a scene."""
     compiling.need(compiling.STATICS)
-    with_grooves = with_usual_grooves(scene)
+    with_grooves = assume_usual_grooves(scene)
     told = [ESTIMATED] if scene.bearing.estimated else []
     of_number = scene.bearing.dynamic_load_rating
     assumed = " ".join(told if with_grooves is None else [*told, ASSUMED_GROOVES])
@@ -133,7 +133,7 @@ def endurance(scene: Scene, inputs: LifeInputs) -> Endurance:
     )
 
 
-def with_usual_grooves(scene: Scene) -> Scene | None:
+def assume_usual_grooves(scene: Scene) -> Scene | None:
     """The scene with usual groove radii, where its own are not known and its loads stay the same.
 
     That is so for a row of balls without contact angle under a radial load: the distance of the
@@ -188,7 +188,7 @@ def limits(
     if inputs.viscosity is not None and scene.bearing.knows_contacts:
         oil = film_of(scene, inputs, _state_of_contacts(scene))
     answers = limits_of(scene, state, dynamic_load=dynamic_load, step_rate=step_rate, film=oil)
-    if with_usual_grooves(scene) is None:
+    if assume_usual_grooves(scene) is None:
         return answers
     return tuple(_not_judged(answer) for answer in answers)
 

@@ -151,7 +151,7 @@ class Question:
 
     @property
     def at_once(self) -> bool:
-        """Whether the first level is quick enough to follow a slider."""
+        """True if the first level is quick enough to follow a slider."""
         return self.output.needs in _QUICK
 
     @property

@@ -61,7 +61,7 @@ class SettledMotion(NamedTuple):
 
 
 class Ending(NamedTuple):
-    """Why a motion ended early, empty where it did not, and since when [s] it counts as settled.
+    """Reason for an early end of a motion, or empty, and since when [s] it counts as settled.
 
     `doubt`: how well bands of the spectrum of a completed motion are known, see `Motion.detail`.
     """
@@ -98,7 +98,7 @@ def _contacts(scene: Scene, how: Marching) -> float:
 
 
 def is_costly(scene: Scene, how: Marching) -> bool:
-    """Whether a motion takes too long to be marched in full while a slider moves."""
+    """True if a motion takes too long to be marched in full while a slider moves."""
     return how.duration * _contacts(scene, how) > MOST_IN_FULL
 
 

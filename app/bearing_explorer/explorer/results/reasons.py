@@ -61,7 +61,7 @@ def most_loaded(
     *,
     briefly: bool = False,
 ) -> str:
-    """Which ball carries the most in a state, and why; `drop` [m] of each ball into defects."""
+    """Say which ball carries the most in a state, and why; `drop` [m] of each ball into defects."""
     load, bearing = states.ball_load[state], scene.bearing
     if not (np.isfinite(load).all() and load.max() > 0.0):
         return ""
@@ -105,7 +105,7 @@ def _carried_at_most(load: float, single: bool) -> str:
 
 
 def _place_words(apart: float, is_off: bool, single: bool) -> tuple[str, str]:
-    """Where the elements are that carry most, `apart` [rad] from the load's line, also in short.
+    """Place of the elements that carry most, `apart` [rad] from the load's line, also in short.
 
     `is_off`: others are nearer to it. NaN where there is no line.
     """
@@ -177,7 +177,7 @@ def why_softer(
     before: tuple[Mapping[str, float], float],
     briefly: bool = False,
 ) -> str:
-    """Why the mean of k_xx or k_yy changed, from both and the number of loaded balls.
+    """Say why the mean of k_xx or k_yy changed, from both and the number of loaded balls.
 
     A contact at φ with stiffness k adds k·cos²φ to k_xx and k·sin²φ to k_yy: their sum is the
     stiffness of all contacts, the share of one of them the mean cos²φ or sin²φ. Empty where the
@@ -221,7 +221,7 @@ def change_words(before: float, now: float) -> str:
 
 
 def stiffness(results: Results, *, briefly: bool = False) -> str:
-    """Why the radial stiffness is not that of the healthy bearing, or why x and y differ."""
+    """Say why the radial stiffness is not the healthy one, or why x and y differ."""
     now = radial(results)
     means = now[0]
     if len(means) < 2 or not all(map(math.isfinite, means.values())):
@@ -250,7 +250,7 @@ def stiffness(results: Results, *, briefly: bool = False) -> str:
 
 
 def _stiffness_against(results: Results, now: tuple[dict[str, float], float], briefly: bool) -> str:
-    """Why the radial stiffness is not, or just, that of the healthy bearing; empty if unknown."""
+    """Say why the radial stiffness is not, or just, the healthy one; empty if unknown."""
     means, before = now[0], radial(results.reference)
     grown = {term: means[term] / before[0][term] - 1.0 for term in means}
     most = max(grown, key=lambda term: abs(grown[term]))
@@ -366,7 +366,7 @@ def _micro(length: float) -> str:
 
 
 def frequencies(results: Results) -> str:
-    """Why the natural frequency that moves most does so."""
+    """Say why the natural frequency that moves most does so."""
     ranges = results.ranges
     widths = {
         label: high / low
@@ -440,7 +440,7 @@ def passes(
 
 
 def peak(results: Results, rates: Sequence[float], *, briefly: bool = False) -> str:
-    """Why the largest peak of the settled vibration is where it is; `rates` [Hz] of ball passes."""
+    """Explain the largest peak of the settled vibration; `rates` [Hz] of ball passes."""
     peaks = results.peaks
     if not peaks:
         return ""
@@ -458,7 +458,7 @@ def peak(results: Results, rates: Sequence[float], *, briefly: bool = False) -> 
             name = mode_symbol(alike[0])
             return f"The highest peak{above} is the {name} resonance, struck by every passing ball."
         return f"{text} {_lies(most, alike[0], bands)}: each passing ball excites this mode."
-    if times := _in_ball_passes(most, rates):
+    if times := _ball_pass_words(most, rates):
         if briefly:
             return f"The highest peak{above} is at {times}."
         return (
@@ -483,7 +483,7 @@ def peak(results: Results, rates: Sequence[float], *, briefly: bool = False) -> 
     return f"{text}; the results here do not show why."
 
 
-def _in_ball_passes(most: Peak, rates: Sequence[float]) -> str:
+def _ball_pass_words(most: Peak, rates: Sequence[float]) -> str:
     """A peak as a multiple of a rate [Hz] of ball passes, and why it is there; else empty."""
     for rate in rates:
         halves = round(2.0 * most.frequency / rate) if rate > 0.0 else 0
@@ -499,7 +499,7 @@ def _in_ball_passes(most: Peak, rates: Sequence[float]) -> str:
 
 
 def jolt(shown: Excerpt, bearing: Bearing) -> str:
-    """When the housing is shaken most, against the loaded balls that enter and leave a defect."""
+    """Time of the largest jolt, against the loaded balls that enter and leave a defect."""
     if shown.broke_off or not shown.acceleration or not shown.events:
         return ""
     size = np.max([np.abs(values) for values in shown.acceleration.values()], axis=0)

@@ -167,7 +167,7 @@ class Results(SceneContent):
 
     @property
     def over_shaft(self) -> bool:
-        """Whether curves are drawn over a turn of the shaft: a defect turns with it."""
+        """True if curves are drawn over a turn of the shaft: a defect turns with it."""
         return self.scene.defect_turns
 
     @cached_property
@@ -354,7 +354,7 @@ class Results(SceneContent):
         return self.scene.replace(balls=WITH_MASS) if known else self.scene
 
     def is_coarse(self, shown: frozenset[str]) -> bool:
-        """Whether what is shown of attributes is made of motions that are marched coarsely."""
+        """True if what is shown of attributes is made of motions that are marched coarsely."""
         scenes = [self.scene] if shown & OF_MOTION else []
         if "reference" in shown and scenes:
             scenes.append(self.grey.scene)
@@ -363,7 +363,7 @@ class Results(SceneContent):
         return any(map(self._is_coarse, scenes))
 
     def is_finer_at_rest(self, shown: frozenset[str]) -> bool:
-        """Whether any of these attributes is computed more finely once the slider rests."""
+        """True if any of these attributes is computed more finely once the slider rests."""
         return bool(shown & OVER_STRETCH) or self.is_coarse(shown)
 
     def coarse_words(self, shown: frozenset[str]) -> str:
@@ -398,7 +398,7 @@ class Results(SceneContent):
 
     @property
     def fault(self) -> str:
-        """Why the motion ended early; empty where it did not."""
+        """Reason for an early end of the motion; empty where there is none."""
         return motions.ending(self.scene, self.marching).fault
 
     @property

@@ -39,7 +39,7 @@ def statics_words(state: Equilibrium) -> str:
 
 
 def words_of_now(now: Equilibrium) -> str:
-    """Why there is no static equilibrium at the cage angle that is drawn; empty where there is."""
+    """Reason for no static equilibrium at the cage angle drawn; empty where there is one."""
     return "" if now.converged[0] else f"No answer at this cage angle: {now.reason(0)}"
 
 

@@ -125,7 +125,7 @@ def write(place: Place, longest: int | None = None) -> str:
 
 
 def leaves_out(text: str) -> bool:
-    """Whether `write` left a floor out."""
+    """True if `write` left a floor out."""
     return "floor=left-out" in text
 
 
@@ -205,7 +205,7 @@ def lesson_in(text: str) -> tuple[str, str]:
 
 
 def holds_scene(text: str) -> bool:
-    """Whether a text says something about a scene that can be read."""
+    """True if a text says something about a scene that can be read."""
     try:
         return read(text) is not None
     except ValueError:
@@ -290,7 +290,7 @@ def number_text(field: Field, value: float | None) -> str:
     if value is None:
         return "none"
     shown = (float(f"{value / field.factor:.{digits}g}") for digits in (12, 15, 16, 17))
-    exact = [_short(digit) for digit in shown if field_values.in_si(field, digit) == value]
+    exact = [_short(digit) for digit in shown if field_values.si_number(field, digit) == value]
     return min([*exact, _short(value) + "SI"], key=len)
 
 
@@ -482,13 +482,13 @@ def _count(text: str, name: str) -> int:
 
 def _option(choice: Choice, text: str) -> Any:
     """The value of an option."""
-    if text not in choice.in_links:
-        raise ValueError(f"“{_shown(text)}” is not one of {', '.join(choice.in_links)}.")
-    return choice.in_links[text]
+    if text not in choice.link_options:
+        raise ValueError(f"“{_shown(text)}” is not one of {', '.join(choice.link_options)}.")
+    return choice.link_options[text]
 
 
 def _option_text(choice: Choice, value: Any) -> str:
-    return next(name for name, held in choice.in_links.items() if held == value)
+    return next(name for name, held in choice.link_options.items() if held == value)
 
 
 def _dofs(text: str) -> tuple[str, ...] | str | None:

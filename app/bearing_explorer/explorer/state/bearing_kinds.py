@@ -14,7 +14,7 @@ from bearingcore.model.scene import LOAD_ALONG, MASSLESS, TILT_FREE
 MOST_SHOWN_ROWS = 2
 
 
-def as_kind(bearing: Bearing, variant: str) -> Bearing:
+def convert_to_kind(bearing: Bearing, variant: str) -> Bearing:
     """The bearing nearest to `bearing` that is of a kind, by the name of its option.
 
     Dimensions that both kinds have are kept; what the new kind needs besides is assumed, and is

@@ -103,7 +103,7 @@ class Bookmarks:
 
     @property
     def moving(self) -> bool:
-        """Whether a hand moves something: a step has begun and not ended."""
+        """True if a hand moves something: a step has begun and not ended."""
         return bool(self._history.moving)
 
     @property
@@ -165,7 +165,7 @@ class Bookmarks:
 
     @property
     def can_go_back(self) -> bool:
-        """Whether something is kept for `back`."""
+        """True if something is kept for `back`."""
         return self._left is not None
 
     def back(self) -> str:

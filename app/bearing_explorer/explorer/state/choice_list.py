@@ -77,12 +77,12 @@ class Choice:
         return tuple(option.name for option in self.options)
 
     @property
-    def in_lessons(self) -> tuple[str, ...]:
+    def lesson_options(self) -> tuple[str, ...]:
         """Names of the options that a lesson can set."""
         return tuple(name for name in self.names if name not in self.not_in_lessons)
 
     @property
-    def in_links(self) -> Mapping[str, Any]:
+    def link_options(self) -> Mapping[str, Any]:
         """Values by their names in links, with hyphens for spaces."""
         return {option.name.replace(" ", "-"): option.value for option in self.options}
 

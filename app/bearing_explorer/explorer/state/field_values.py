@@ -49,7 +49,7 @@ def defects_of(scene: Scene) -> tuple[Defect, ...]:
 def values_of(scene: Scene, selected: int = 0) -> Values:
     """The numbers of a scene as the page shows them, at cage angle 0; `selected` is a defect."""
     return {
-        field.key: in_shown_unit(field, number_of(scene, field, selected)) if field.part else 0.0
+        field.key: shown_number(field, number_of(scene, field, selected)) if field.part else 0.0
         for field in SHOWN_FIELDS
     }
 
@@ -76,7 +76,7 @@ def number_of(scene: Scene, field: Field, selected: int = 0) -> float | None:
     return value
 
 
-def in_shown_unit(field: Field, si: float | None) -> float:
+def shown_number(field: Field, si: float | None) -> float:
     """A number in SI as the page shows it; NaN for one left open."""
     return math.nan if si is None else _divided(si, field.factor)
 
@@ -87,7 +87,7 @@ def _divided(si: float, factor: float) -> float:
     return float(f"{si / factor:.12g}")
 
 
-def in_si(field: Field, value: float) -> float | None:
+def si_number(field: Field, value: float) -> float | None:
     """The other way round."""
     return None if math.isnan(value) else value * field.factor
 
@@ -106,7 +106,7 @@ def scene_with_fields(scene: Scene, fields: Mapping[str, Any], selected: int = 0
 
 
 def differ(a: float, b: float) -> bool:
-    """Whether two numbers of fields differ; NaN, left open, equals itself."""
+    """True if two numbers of fields differ; NaN, left open, equals itself."""
     return a != b and not (math.isnan(a) and math.isnan(b))
 
 

@@ -57,7 +57,7 @@ def terms() -> Iterator[Term]:
     yield from sorted((*TERMS, *fields), key=lambda term: term.name.casefold())
 
 
-def as_html() -> str:
+def glossary_html() -> str:
     """All terms as the rows of a table."""
     return "".join(
         f"<tr><th scope=row>{html.escape(term.name)}</th><td><i>{term.symbol}</i></td>"

@@ -28,12 +28,12 @@ class History(Generic[State]):
 
     @property
     def can_undo(self) -> bool:
-        """Whether there is a step to undo."""
+        """True if there is a step to undo."""
         return bool(self._past) and not (len(self._past) == 1 and self._idle_move)
 
     @property
     def can_redo(self) -> bool:
-        """Whether a step was undone that can be done again."""
+        """True if a step was undone that can be done again."""
         return bool(self._future)
 
     def moved(self, now: State, what: str) -> None:
@@ -77,7 +77,7 @@ class History(Generic[State]):
 
     @property
     def _idle_move(self) -> bool:
-        """Whether a drag is back where it began."""
+        """True if a drag is back where it began."""
         return bool(self.moving) and self._past[-1] == self._now
 
     def _go(

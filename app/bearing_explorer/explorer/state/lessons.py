@@ -87,7 +87,7 @@ LONGEST_NAME = 60  # characters
 _MOST_LISTED = 16
 
 CHOICES: Mapping[str, Sequence[str]] = {
-    choice.name: choice.in_lessons for choice in CHOICE_LIST if choice.in_lessons
+    choice.name: choice.lesson_options for choice in CHOICE_LIST if choice.lesson_options
 }
 """Choices that a lesson may make, and their options."""
 
@@ -185,7 +185,7 @@ class Lesson:
         editor.choose(self.choices)
         editor.set(self.values)
 
-    def for_browser(self, number: int) -> dict[str, Any]:
+    def browser_data(self, number: int) -> dict[str, Any]:
         """The lesson as the page's script takes it; `number` counts from 0."""
         return {
             "number": number,

@@ -44,13 +44,13 @@ HEALTHY, OTHER_BALLS = "healthy", "other-balls"
 """Kinds of the scene that is drawn in grey."""
 
 
-def without_defect(scene: Scene) -> Reference:
+def healthy_reference(scene: Scene) -> Reference:
     """The bearing without its defect; no label where the scene is the same."""
     label = "without the defect" if scene.defects else ""
     return Reference(scene.healthy(), WITHOUT_DEFECT, label)
 
 
-def with_other_balls(scene: Scene) -> Reference:
+def other_balls_reference(scene: Scene) -> Reference:
     """The same scene with the mass of its balls; of a scene with that, with massless balls.
 
     Raises
@@ -74,7 +74,7 @@ def massless(scene: Scene) -> Reference:
 
 def grey_reference(scene: Scene, kind: str) -> Reference:
     """The scene that is drawn in grey, of one of the kinds."""
-    return with_other_balls(scene) if kind == OTHER_BALLS else without_defect(scene)
+    return other_balls_reference(scene) if kind == OTHER_BALLS else healthy_reference(scene)
 
 
 def scene_line(bearing: str, scene: Scene) -> str:

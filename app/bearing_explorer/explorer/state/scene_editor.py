@@ -16,7 +16,7 @@ from typing import Any
 
 from bearing_explorer.explorer.state.bearing_kinds import (
     MOST_SHOWN_ROWS,
-    as_kind,
+    convert_to_kind,
     held,
     hidden_of,
     scene_with,
@@ -38,11 +38,11 @@ from bearing_explorer.explorer.state.field_values import (
     defects_of,
     differ,
     groove_limits,
-    in_si,
     limits_of,
     read,
     scene_with_fields,
     second_units,
+    si_number,
     values_of,
 )
 from bearing_explorer.kit.bearing_list import find_bearing, origin_words
@@ -197,7 +197,7 @@ class SceneEditor:
 
     @property
     def changed(self) -> bool:
-        """Whether the bearing is no longer that of the preset."""
+        """True if the bearing is no longer that of the preset."""
         return self.scene.bearing != presets[self.preset].bearing
 
     @property
@@ -265,7 +265,7 @@ class SceneEditor:
 
     # Numbers
 
-    def in_field_units(self, texts: Mapping[str, Any], second: bool) -> dict[str, Any]:
+    def read_units(self, texts: Mapping[str, Any], second: bool) -> dict[str, Any]:
         """Texts as typed, in the units of the fields; in the box of the `second` unit or not.
 
         A number may name either unit in both boxes. What is a number in neither stays as it is, to
@@ -318,7 +318,7 @@ class SceneEditor:
             field = FIELD_BY_KEY[name]
             if field.part:
                 numbers = rough if field.part == "floor" else fields
-                numbers[field.full_name] = in_si(field, value)
+                numbers[field.full_name] = si_number(field, value)
         bearing = self.scene.bearing
         if "ball_diameter" in fields:
             # grooves are made for their ball: they keep what they are to it
@@ -333,8 +333,7 @@ class SceneEditor:
             if not isinstance(floor, RoughFloor):
                 raise refuse("floor of the defect", floor_name(floor), "rough")
             fields["floor"] = dataclasses.replace(floor, **rough)
-        scene = scene_with_fields(self.scene, fields, self.selected)
-        return scene
+        return scene_with_fields(self.scene, fields, self.selected)
 
     def _take(self, scene: Scene, cage_angle: float | None = None) -> None:
         """Make `scene` the one that is shown."""
@@ -415,7 +414,7 @@ class SceneEditor:
             self._effects["preset"] += f" Assumed: {', '.join(listed.assumed)}."
 
     def _take_kind(self, kind: str) -> None:
-        scene, effect = held(scene_with(self.scene, as_kind(self.scene.bearing, kind)))
+        scene, effect = held(scene_with(self.scene, convert_to_kind(self.scene.bearing, kind)))
         self._take(scene)
         if effect:
             self._effects["kind"] = effect
@@ -587,5 +586,5 @@ def _freest(defects: Iterable[Defect]) -> float:
 
 
 def _close(a: float, b: float) -> bool:
-    """Whether two numbers are the same up to the rounding of units."""
+    """True if two numbers are the same up to the rounding of units."""
     return (math.isnan(a) and math.isnan(b)) or math.isclose(a, b, rel_tol=1e-10, abs_tol=1e-12)

@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 from bearing_explorer.explorer.state.field_values import (
     SHOWN_FIELDS,
     defects_of,
-    in_shown_unit,
-    in_si,
     number_of,
     read,
+    shown_number,
+    si_number,
 )
 from bearingcore import Scene
 from bearingcore.fields import Field, Range
@@ -42,7 +42,7 @@ class Sweep:
     @property
     def in_si(self) -> tuple[str, NDArray[np.float64]]:
         """The field of the scene and its values [SI], as the core takes them."""
-        return self.field.full_name, np.array([in_si(self.field, v) for v in self.own_values])
+        return self.field.full_name, np.array([si_number(self.field, v) for v in self.own_values])
 
     def every(self, stride: int) -> Sweep:
         """The same with every `stride`-th value, first and last among them, where that is even."""
@@ -79,7 +79,7 @@ def _turned(text: str) -> str:
 
 
 def usual_range(name: str, limits: Mapping[str, Range]) -> tuple[float, float]:
-    """Where a sweep goes unless it is said: as far as the slider, or where it shows most."""
+    """Usual ends of a sweep: those of the slider, or where it shows most."""
     low, high = limits[name].least, limits[name].most
     field = SWEEPABLE[name]
     first, last = field.sweep_range or (low, high)
@@ -98,11 +98,11 @@ def focused(scene: Scene, selected: int) -> Scene:
 
 def value_of(scene: Scene, field: Field) -> float:
     """The number of a field as it is read, of the first defect where it is one's."""
-    return field.read_sign * in_shown_unit(field, number_of(scene, field))
+    return field.read_sign * shown_number(field, number_of(scene, field))
 
 
 def alike_but_for(scene: Scene, other: Scene, sweeps: tuple[Sweep, ...]) -> bool:
-    """Whether two scenes differ at most in the quantities of `sweeps`."""
+    """True if two scenes differ at most in the quantities of `sweeps`."""
     first = {field: float(values[0]) for field, values in (s.in_si for s in sweeps)}
     try:
         return scene.replace(**first) == other.replace(**first)

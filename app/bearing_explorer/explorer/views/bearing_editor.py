@@ -110,7 +110,7 @@ def facts_of(scene: Scene) -> list[dict[str, str]]:
         {
             "label": label.format(element, elements.capitalize()),
             "symbol": name.upper(),
-            "value": _of_each_row(bearing, words),
+            "value": _words_of_rows(bearing, words),
             "about": about.format(element),
         }
         for name, label, about in _FREQUENCIES
@@ -118,7 +118,7 @@ def facts_of(scene: Scene) -> list[dict[str, str]]:
     ]
     for name in bearing.kind.facts(bearing):
         fact = FACTS[name]
-        value = (fact.of_all or partial(_of_each_row, words=fact.of_row))(bearing)
+        value = (fact.of_all or partial(_words_of_rows, words=fact.of_row))(bearing)
         facts.append(
             {"label": fact.label, "symbol": fact.symbol, "value": value, "about": fact.about}
         )
@@ -141,7 +141,7 @@ def _hertz(bearing: Bearing, name: str, speed: float) -> str:
     return f"{style.number(value, 4)} Hz{', number of rollers estimated' if counted else ''}"
 
 
-def _of_each_row(bearing: Bearing, words: Callable[[Bearing], str]) -> str:
+def _words_of_rows(bearing: Bearing, words: Callable[[Bearing], str]) -> str:
     """The `words` of a bearing; of rows that are not alike, of one after the other."""
     return " and ".join(dict.fromkeys(words(own) for own, _ in bearing.unlike_rows))
 
@@ -184,7 +184,7 @@ class Fact(NamedTuple):
     of_all: Callable[[Bearing], str] | None = None
 
 
-def _of_field(name: str, words: Callable[[Bearing], str]) -> Fact:
+def _field_fact(name: str, words: Callable[[Bearing], str]) -> Fact:
     """A number that other bearings are given by, and that follows here."""
     field = FIELD_OF[name]
     return Fact(field.label, field.symbol_html, html.escape(field.meaning), words)
@@ -224,17 +224,17 @@ FACTS = {
         "From contact to contact across the shaft: it follows from contact angle and clearance.",
         _length("diametral_play"),
     ),
-    "load_deflection_factor": _of_field("load_deflection_factor", _factor),
+    "load_deflection_factor": _field_fact("load_deflection_factor", _factor),
     "line_load_deflection_factor": Fact(
         "Load-deflection factor",
         "K",
         "Stiffness of both line contacts of a roller in series, by ISO 16281.",
         _factor,
     ),
-    "groove_center_distance": _of_field(
+    "groove_center_distance": _field_fact(
         "groove_center_distance", _length("groove_center_distance", 4)
     ),
-    "groove_center_radius": _of_field("groove_center_radius", _length("groove_center_radius", 5)),
+    "groove_center_radius": _field_fact("groove_center_radius", _length("groove_center_radius", 5)),
     "raceway_radii": Fact(
         "Raceway radii",
         "R<sub>o</sub>, R<sub>i</sub>",

@@ -50,7 +50,7 @@ class Displacement(View):
             *(f"{DOF_SYMBOLS[d]} ({u})" for d, (u, _) in zip(DOF_NAMES, _UNITS, strict=True)),
         )
         moved = displacements(results)
-        shown = [_without_noise(part, 5e-5) for part in (moved[:, :3], moved[:, 3:])]
+        shown = [_drop_noise(part, 5e-5) for part in (moved[:, :3], moved[:, 3:])]
         rows = (
             (html_text(when), *(_digits(value) for value in line))
             for when, line in zip(_WHEN, np.hstack(shown).tolist(), strict=True)
@@ -124,13 +124,13 @@ def _stiffness_html(when: str, table: ResultTable) -> str:
     _, *columns = table.named().values()
     rows = (
         (html_text(str(load)), *(_digits(float(value), 5) for value in line))
-        for load, line in zip(table["load"], _without_noise(np.stack(columns, axis=1)), strict=True)
+        for load, line in zip(table["load"], _drop_noise(np.stack(columns, axis=1)), strict=True)
     )
     per = (f"{DOF_SYMBOLS[dof]} ({'rad' if dof.startswith('r') else 'm'})" for dof in DOF_NAMES)
     return f"<h3>Stiffness {when}</h3>{html_table(('', *per), rows, named=True)}"
 
 
-def _without_noise(values: np.ndarray, least: float = 1e-9) -> np.ndarray:
+def _drop_noise(values: np.ndarray, least: float = 1e-9) -> np.ndarray:
     """Numbers below `least` of the largest one, noise or beyond its digits, as zero."""
     largest = np.nanmax(np.abs(values), initial=0.0)
     return np.where(np.abs(values) < least * largest, 0.0, values)
@@ -140,7 +140,7 @@ def displacements(results: Results) -> np.ndarray:
     """(4, 5) [µm, mrad] at this cage angle; least, mean and greatest over all positions."""
     over = results.ranges.state.displacement_table().named()
     rows = [results.now.displacement[0], *(over[when] for when in _WHEN[1:])]
-    return _without_noise(np.array(rows, dtype=float) * _FACTORS)
+    return _drop_noise(np.array(rows, dtype=float) * _FACTORS)
 
 
 def _digits(value: float, digits: int = 4) -> str:

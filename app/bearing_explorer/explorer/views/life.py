@@ -238,12 +238,12 @@ def _life(results: Results, answer: Endurance) -> FactGroup:
     profile = PROFILE if results.scene.bearing.kind.line_contact else ""
     if not known and not words:
         words = lasts.sentence
-    against = _against_iso_281(lasts, answer.rating) if known else ""
+    against = _iso_281_words(lasts, answer.rating) if known else ""
     words = " ".join(filter(None, (words, against, profile, answer.assumed)))
     return FactGroup(title, words, facts)
 
 
-def _against_iso_281(lasts: Life, rating: float) -> str:
+def _iso_281_words(lasts: Life, rating: float) -> str:
     """The life by ISO 281 for the radial load alone, and why it differs; empty with other loads."""
     load, bearing = lasts.scene.load, lasts.scene.bearing
     radial = math.hypot(load.fx, load.fy)

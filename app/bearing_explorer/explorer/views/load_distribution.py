@@ -159,7 +159,7 @@ class LoadDistribution(ComparingView):
         tables = [curves_table(results.load_curves)]
         if results.inner_load_curves:
             rows = range(len(results.load_curves))
-            tables += [_at_both_races(results.ranges.state, row) for row in rows]
+            tables += [_both_races_table(results.ranges.state, row) for row in rows]
         tables.append(curves_table(results.reference.load_curves).prefixed("healthy"))
         return reduce(or_, tables).in_units().named()
 
@@ -180,7 +180,7 @@ def _both_races(now: EquilibriumWithMass) -> str:
     return words
 
 
-def _at_both_races(state: Equilibrium, row: int) -> ResultTable:
+def _both_races_table(state: Equilibrium, row: int) -> ResultTable:
     """Loads and contact angles of a row's balls with mass, along its curve."""
     assert isinstance(state, EquilibriumWithMass)
     own = row_name(row)
@@ -207,7 +207,7 @@ NAMES_APART = 40.0
 
 
 def _names(curves: list[Curve]) -> dict[str, np.ndarray]:
-    """Where the name of each row stands, at the top of its curve; none of a single row."""
+    """Places of the names of rows, at the tops of their curves; none of a single row."""
     rows = [
         (float(np.degrees(angle[np.nanargmax(load)])), float(np.nanmax(load)), row + 1.0)
         for row, (angle, load) in enumerate(curves)

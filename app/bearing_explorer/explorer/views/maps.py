@@ -180,7 +180,7 @@ class StiffnessMaps(View):
             "maps_grid": {name: np.array([value]) for name, value in grid.items()},
             "maps_ticks": _tick_rows(grid, low, high),
             "maps_now": {**_marks(results, grid), **_SIDE_COLUMNS},
-            "maps_points": {"bits": as_bits(maps.status.shape, columns["kind"], levels, points)},
+            "maps_points": {"bits": pack_bits(maps.status.shape, columns["kind"], levels, points)},
         }
         return sources, {}
 
@@ -249,7 +249,7 @@ def whole_numbers(values: NDArray[np.float64], low: float, high: float) -> NDArr
     return np.where(known, np.clip(np.rint(shares), 0, GREATEST), NO_ANSWER).astype(np.uint16)
 
 
-def as_bits(
+def pack_bits(
     shape: tuple[int, int],
     kinds: NDArray[np.float64],
     levels: int,
@@ -311,7 +311,7 @@ def _grid(results: Results) -> dict[str, float]:
 
 
 def _marks(results: Results, grid: dict[str, float]) -> dict[str, np.ndarray]:
-    """Where the sliders stand, in each map."""
+    """Positions of the sliders, in each map."""
     angle, extent = float(results.along(results.cage_angle)), math.degrees(results.extent)
     x = (angle - grid["x_first"]) / (grid["x_last"] - grid["x_first"])
     y = (extent - grid["y_first"]) / (grid["y_last"] - grid["y_first"])
@@ -465,7 +465,7 @@ def _ticks(plot: figure, ticks: ColumnDataSource) -> None:
 
 
 def _crosshair(plot: figure, now: ColumnDataSource) -> None:
-    """Where the sliders stand: dark on light, so that it shows on every colour."""
+    """Mark the positions of the sliders: dark on light, so that it shows on every colour."""
     for color, width, alpha in ((style.LIGHT, 3.0, 0.75), (style.SHADE, 1.0, 0.9)):
         look = {"source": now, "line_color": color, "line_width": width, "line_alpha": alpha}
         plot.segment("x", "bottom", "x", "top", **look)

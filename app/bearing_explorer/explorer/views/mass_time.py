@@ -18,13 +18,13 @@ from bearing_explorer.explorer.views.passage_view import (
     LABEL_WIDTH,
     SLOTS,
     PassageView,
-    along_both,
     ball_names,
+    both_directions,
     event_lines,
     event_names,
-    in_slots,
     named,
     places_of_labels,
+    slot_columns,
     traces,
 )
 from bearing_explorer.kit.plots import style
@@ -82,7 +82,7 @@ class MassInTime(FoldedView[Results], PassageView):
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         shown, bearing = results.ball_mass, results.scene.bearing
-        massless = along_both(shown.time, shown.massless)
+        massless = both_directions(shown.time, shown.massless)
         moved, numbers = self.motions(
             results,
             lambda one: (one.ball_mass.time, one.ball_mass.with_mass),
@@ -91,7 +91,7 @@ class MassInTime(FoldedView[Results], PassageView):
         balls = shown.balls[:SLOTS]
         loads: dict[str, np.ndarray] = {}
         for race, carried in zip(RACES_OF_LOADS, shown.loads, strict=True):
-            loads |= in_slots(race, carried)
+            loads |= slot_columns(race, carried)
         slot_of = {int(ball): float(slot) for slot, ball in enumerate(balls)}
         free = [(f.begin, f.end, slot_of[f.ball]) for f in shown.flights if f.ball in slot_of]
         flights = np.array(free, dtype=float).reshape(-1, 3).T

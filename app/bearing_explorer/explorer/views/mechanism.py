@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from bokeh.models import Quad, Segment, Span
 
-from bearing_explorer.explorer.plots.spectra import FREQUENCY_WITH_UNITS, in_hertz
+from bearing_explorer.explorer.plots.spectra import FREQUENCY_WITH_UNITS, write_hertz
 from bearing_explorer.explorer.results.ball_mass import BallMass
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.views.folded_view import FoldedView
@@ -71,7 +71,7 @@ class WhichMechanism(FoldedView[Results]):
             x_axis_type="log",
             name="mechanism",
         )
-        in_hertz(plot)
+        write_hertz(plot)
         draw(plot, packed, LAYERS)
         plot.add_layout(Span(location=0.0, dimension="width", line_color=style.STEEL_EDGE))
         return plot
@@ -107,7 +107,7 @@ class WhichMechanism(FoldedView[Results]):
         mass = results.ball_mass
         if not np.isfinite(mass.share).any():
             return "There is no settled motion to compute the power from."
-        words = in_words(mass)
+        words = mechanism_words(mass)
         if mass.comparison is None:
             return f"{words} The motion is too short to show where massless balls will do."
         up_to = mass.comparison.massless_up_to
@@ -120,7 +120,7 @@ class WhichMechanism(FoldedView[Results]):
         return results.ball_mass.share_table().named()
 
 
-def in_words(mass: BallMass) -> str:
+def mechanism_words(mass: BallMass) -> str:
     """In words: in which octaves which mechanism gives most of the power."""
     loud = np.isfinite(mass.share) & ~mass.quiet
     low, high, share = mass.octaves[:-1][loud], mass.octaves[1:][loud], mass.share[loud]

@@ -157,7 +157,7 @@ class NaturalFrequencies(ComparingView):
             why = results.equilibrium.reason(0)
             return f"There is no static state to take natural frequencies from: {why}."
         named = sorted(known, key=lambda label: label[:-1] not in ("x", "y"))  # radial ones first
-        words = [f"{mode_symbol(label)} {_from_to(known[label])}" for label in named]
+        words = [f"{mode_symbol(label)} {_band_words(known[label])}" for label in named]
         turning = "In all turns of the shaft" if results.over_shaft else "As the cage turns"
         text = f"{turning} the natural frequencies move: {style.list_words(words)}"
         why = with_elements_of(results.scene.bearing, reasons.frequencies(results))
@@ -176,7 +176,7 @@ class NaturalFrequencies(ComparingView):
         return columns
 
 
-def _from_to(band: tuple[float, float]) -> str:
+def _band_words(band: tuple[float, float]) -> str:
     words = span(*band, "Hz")
     return f"from {words}" if " to " in words else f"at {words}"
 

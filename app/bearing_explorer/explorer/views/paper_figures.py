@@ -130,7 +130,7 @@ def _band(label: str, scenes: Sequence[Scene]) -> str:
     return " → ".join(span(*Results(scene).bands[label], "Hz") for scene in scenes)
 
 
-def _inside(scenes: Sequence[Scene]) -> str:
+def _counts(scenes: Sequence[Scene]) -> str:
     """Balls in the defect at any one time."""
     words = []
     for scene in scenes:
@@ -146,14 +146,14 @@ def _inside(scenes: Sequence[Scene]) -> str:
 
 
 @cache
-def _near_64() -> Maps:
+def _maps_near_64() -> Maps:
     scene = presets["liew-lim"]
     cage = np.arange(240) * scene.bearing.ball_spacing / 240
     return stiffness_maps(scene, np.radians(np.arange(60.0, 67.0, 0.25)), cage)
 
 
 def _least(of: str, _: Sequence[Scene]) -> str:
-    maps = _near_64()
+    maps = _maps_near_64()
     means = (maps.term(of) if of in STIFFNESS_TERMS else maps.loaded_balls).mean(axis=1)
     return f"{math.degrees(maps.extents[int(np.argmin(means))]):.2f}°"
 
@@ -179,7 +179,7 @@ def _leaving(scenes: Sequence[Scene]) -> str:
     return ", ".join(words)
 
 
-def _of(attribute: Callable[[Scene], float], unit: str) -> Callable[[Sequence[Scene]], str]:
+def _text(attribute: Callable[[Scene], float], unit: str) -> Callable[[Sequence[Scene]], str]:
     return lambda scenes: style.with_prefix(attribute(scenes[0]), unit)
 
 
@@ -191,7 +191,7 @@ FIGURES = (
     PaperFigure(
         3, "Load distribution", "liew-lim", (0.0, 5.0, 40.0, 70.0),
         (
-            Printed("Balls in the defect at 5°, 40° and 70°", "0 or 1, 1 or 2, 2 or 3", _inside),
+            Printed("Balls in the defect at 5°, 40° and 70°", "0 or 1, 1 or 2, 2 or 3", _counts),
             Printed("Loads; the printed axis", "0 to 1.6 kN", partial(_drawn, _loads, "N")),
         ),
         "load",
@@ -226,15 +226,15 @@ FIGURES = (
     PaperFigure(
         7, "Model of the fan rig", "fan-rig", (12.9,),
         (
-            Printed("Mass of rotor and inner ring", "2 kg", _of(lambda s: s.support.inner_mass,
+            Printed("Mass of rotor and inner ring", "2 kg", _text(lambda s: s.support.inner_mass,
                                                                 "kg")),
-            Printed("Mass of housing and outer ring", "2 kg", _of(lambda s: s.support.outer_mass,
+            Printed("Mass of housing and outer ring", "2 kg", _text(lambda s: s.support.outer_mass,
                                                                   "kg")),
-            Printed("Stiffness of the support", "212.2 MN/m", _of(lambda s: s.support.stiffness_y,
+            Printed("Stiffness of the support", "212.2 MN/m", _text(lambda s: s.support.stiffness_y,
                                                                   "N/m")),
             Printed("Damping of the support", "1648.2 N·s/m",
                     lambda s: f"{number(s[0].support.damping_y, 5)} N·s/m"),
-            Printed("Load, downwards", "100 N", _of(lambda s: -s.load.fy, "N")),
+            Printed("Load, downwards", "100 N", _text(lambda s: -s.load.fy, "N")),
             Printed("Load-deflection factor", "5453 MN/m^1.5",
                     lambda s: f"{s[0].bearing.load_deflection_factor / 1e6:.4g} MN/m^1.5"),
         ),

@@ -100,7 +100,7 @@ class PassageView(ComparingView):
 
         def columns(one: Results) -> tuple[Array, dict[str, Array]]:
             time, acceleration = of(one)
-            return time, along_both(time, acceleration)
+            return time, both_directions(time, acceleration)
 
         name = f"{self.prefix}_motion"
         compared = compared_curves.sources(
@@ -172,13 +172,13 @@ def ball_names(balls: NDArray[np.int64], bearing: Bearing) -> dict[str, np.ndarr
     }
 
 
-def along_both(time: Array, acceleration: Mapping[str, Array]) -> dict[str, Array]:
+def both_directions(time: Array, acceleration: Mapping[str, Array]) -> dict[str, Array]:
     """Acceleration along x and y over time; NaN where the housing cannot move."""
     missing = np.full(time.size, np.nan)
     return {dof: acceleration.get(dof, missing) for dof in SHOWN}
 
 
-def in_slots(name: str, loads: Array) -> dict[str, Array]:
+def slot_columns(name: str, loads: Array) -> dict[str, Array]:
     """Loads of balls (n, balls) as a column for each of the slots that are drawn; NaN without."""
     missing = np.full(len(loads), np.nan)
     filled = list(loads.T[:SLOTS])

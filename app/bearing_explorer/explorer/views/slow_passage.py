@@ -21,7 +21,7 @@ from bearing_explorer.explorer.views.bearing import (
     Shapes,
     load_words,
 )
-from bearing_explorer.explorer.views.passage_view import along_both, traces
+from bearing_explorer.explorer.views.passage_view import both_directions, traces
 from bearing_explorer.explorer.views.vibration_time import (
     ACCELERATION,
     event_rows,
@@ -113,7 +113,7 @@ class SlowPassage(BearingDrawing):
             "turned": turned[:, 0] - turned[at, 0],
             "shaft": (cage - cage[at]) / scene.bearing.cage_ratio,
         }
-        signals = along_both(shown.time, shown.acceleration)
+        signals = both_directions(shown.time, shown.acceleration)
         start, end = float(shown.time[0]), float(shown.time[-1])
         sources = {f"slow_{name}": columns for name, columns in shapes.items()} | {
             "slow_load_words": load_words(scene.load, drawn.depth_scale),

@@ -205,7 +205,7 @@ class SpeedRunSpectra(SceneJobView[FoundRun]):
             return {}, {}
         run, speeds = answer.run, answer.speeds
         alpha = FAINT if self._is_of_another(results, answer) else 1.0
-        seen = in_picture(run)
+        seen = drawn_frequencies(run)
         frequency = run.frequency[seen]
         top = float(frequency[-1])
         level_ranges = {}
@@ -232,7 +232,7 @@ class SpeedRunSpectra(SceneJobView[FoundRun]):
         }
 
     def _is_of_another(self, results: Results, answer: FoundRun) -> bool:
-        """Whether a run is of another scene than that on screen."""
+        """True if a run is of another scene than that on screen."""
         scene = focused(results.scene, results.focus)
         return not alike_but_for(scene, answer.run.scene, (answer.speeds,))
 
@@ -263,14 +263,14 @@ class SpeedRunSpectra(SceneJobView[FoundRun]):
         return {**run.table().in_units({"rad/s": "Hz"}).named(), "from_orbit": orbits}
 
 
-def in_picture(run: SpeedRun) -> NDArray[np.bool_]:
-    """Which frequencies are drawn: more than usual where a band lies higher."""
+def drawn_frequencies(run: SpeedRun) -> NDArray[np.bool_]:
+    """Mask of the frequencies drawn: more than usual where a band lies higher."""
     return run.frequency <= max(HIGHEST, 1.05 * highest(run.bands))
 
 
 def words_of(answer: FoundRun) -> str:
-    """Where the housing vibrates most in the picture; how many motions were integrated in time."""
-    run, words, seen = answer.run, [], in_picture(answer.run)
+    """Say where the housing vibrates most, and how many motions were integrated in time."""
+    run, words, seen = answer.run, [], drawn_frequencies(answer.run)
     for dof in SHOWN:
         level = levels_of(run, dof)
         level[:, (run.frequency < 100.0) | ~seen] = np.nan

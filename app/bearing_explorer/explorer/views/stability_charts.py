@@ -185,19 +185,19 @@ def steps_sentence(chart: StabilityChart | None) -> str:
 
 
 def orbits_sentence(orbits: tuple[OrbitAtSpeed, ...]) -> str:
-    """Where the periodic motion loses its stability, and how."""
+    """Say where the periodic motion loses its stability, and how."""
     known = [one for one in orbits if one.multipliers]
     if not known:
         why = orbits[0].status if orbits else "not measured yet"
         return f"No periodic motion over the shaft speed: {why}."
 
-    def at(one: OrbitAtSpeed) -> str:
-        return f"{style.number(one.shaft_speed / (2.0 * math.pi), 3)} Hz"
+    def speed_words(orbit: OrbitAtSpeed) -> str:
+        return f"{style.number(orbit.shaft_speed / (2.0 * math.pi), 3)} Hz"
 
     changed = [b for a, b in pairwise(known) if a.loss != b.loss]
-    changes = [f"{one.loss or 'stable again'} from {at(one)}" for one in changed]
-    first = f"{'Unstable' if known[0].loss else 'Stable'} at {at(known[0])}"
-    words = ", ".join([first, *(changes or [f"and so to {at(known[-1])}"])])
+    changes = [f"{one.loss or 'stable again'} from {speed_words(one)}" for one in changed]
+    first = f"{'Unstable' if known[0].loss else 'Stable'} at {speed_words(known[0])}"
+    words = ", ".join([first, *(changes or [f"and so to {speed_words(known[-1])}"])])
     missing = len(orbits) - len(known)
     rest = f" No orbit was found at {missing} of {len(orbits)} speeds." if missing else ""
     return f"{words}.{rest}"

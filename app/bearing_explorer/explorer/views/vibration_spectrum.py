@@ -174,12 +174,12 @@ class VibrationSpectra(ComparingView, LookView[Results]):
 
     @property
     def is_empty(self) -> bool:
-        """Where the motion ended before it had settled."""
+        """True if the motion ended before it had settled."""
         return self._results is not None and not self._results.late_spectra
 
     @property
     def wide(self) -> bool:
-        """Whether it goes as far as the motion is known, on a logarithmic frequency axis."""
+        """True if it goes as far as the motion is known, on a logarithmic frequency axis."""
         return bool(self.look["axis"] == "logarithmic")
 
     def still_figures(self) -> Sequence[LayoutDOM]:
@@ -258,7 +258,7 @@ def _bands_of(dof: str, top: float, other: Results) -> dict[str, np.ndarray]:
 
 
 def loudest_words(results: Results) -> str:
-    """Where the housing vibrates most along each direction, and how often balls pass."""
+    """Say where the housing vibrates most along each direction, and how often balls pass."""
     words = []
     if not results.late_spectra:
         return f"There is no spectrum, as {why_ended(results.motion)}."
@@ -281,7 +281,7 @@ def loudest_words(results: Results) -> str:
 
 
 def why_words(results: Results, *, briefly: bool = False) -> str:
-    """Why the largest peak is where it is, and whether one stands at the ball-pass frequency."""
+    """Explain the largest peak, and say whether one stands at the ball-pass frequency."""
     peaks = results.peaks
     if not peaks:
         return ""

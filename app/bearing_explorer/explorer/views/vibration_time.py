@@ -19,9 +19,9 @@ from bearing_explorer.explorer.views.passage_view import (
     ball_names,
     event_lines,
     event_names,
-    in_slots,
     named,
     places_of_labels,
+    slot_columns,
     traces,
 )
 from bearing_explorer.kit.plots import style
@@ -81,7 +81,7 @@ class VibrationInTime(PassageView):
         start, end = float(shown.time[0]), float(shown.time[-1])
         sources: Sources = {
             **moved,
-            "vibration_loads": traces(shown.time, in_slots("load", shown.ball_load)),
+            "vibration_loads": traces(shown.time, slot_columns("load", shown.ball_load)),
             "vibration_static_loads": static_lines(shown),
             "vibration_events": event_rows(shown.events, start, end, bearing),
             "vibration_ball_names": ball_names(shown.balls[:SLOTS], bearing),

@@ -227,9 +227,9 @@ class WorkPrecision:
         good: Sequence[Point],
     ) -> tuple[float, float, float]:
         """Set the axes, and return where they begin and end across, and end upwards."""
-        left, right = _around([c for c, _ in places if _are_logarithmic((c,))], 1.8)
+        left, right = _axis_ends([c for c, _ in places if _are_logarithmic((c,))], 1.8)
         allowed = ALLOWED[shown.unit(error)]
-        bottom, top = _around([*(p.errors[error] for p in good), allowed], 2.5)
+        bottom, top = _axis_ends([*(p.errors[error] for p in good), allowed], 2.5)
         top *= 6.0
         set_range(self.plot.x_range, left, right)
         set_range(self.plot.y_range, bottom, top)
@@ -242,14 +242,14 @@ class WorkPrecision:
         unit = " (dB)" if shown.unit(error) == "dB" else ""
         self.plot.yaxis.axis_label = f"Error of {error}{unit}"
         self._allowed.location = self._limit.y = allowed
-        self._limit.text = f"allowed: {with_unit(shown, error, allowed)}"
+        self._limit.text = f"allowed: {error_with_unit(shown, error, allowed)}"
         return left, right, top
 
 
 def _shown_place(
     at: tuple[float, float], is_placed: bool, right: float, top: float
 ) -> tuple[float, float]:
-    """Where a point is drawn: as high as `top` without an error, at the `right` without a cost."""
+    """Place of a point: as high as `top` without an error, at the `right` without a cost."""
     across, up = at
     return across if _are_logarithmic((across,)) else right, up if is_placed else top
 
@@ -277,7 +277,7 @@ def _are_logarithmic(values: Sequence[float]) -> bool:
     return all(math.isfinite(value) and value > 0.0 for value in values)
 
 
-def with_unit(one: Experiment, error: str, value: float) -> str:
+def error_with_unit(one: Experiment, error: str, value: float) -> str:
     """An error for a sentence: in powers of ten where it is small."""
     if one.unit(error) == "dB" and value >= 0.01:
         return decibels(value)
@@ -290,7 +290,7 @@ def with_unit(one: Experiment, error: str, value: float) -> str:
 def verdict(one: Experiment, error: str, cost: str) -> str:
     """Compare the cheapest method within the allowed error with the next of another program."""
     allowed = ALLOWED[one.unit(error)]
-    limit = with_unit(one, error, allowed)
+    limit = error_with_unit(one, error, allowed)
     within = sorted(
         (p for p in one.points if not p.failed and p.errors.get(error, math.inf) <= allowed),
         key=lambda p: getattr(p, cost),
@@ -310,7 +310,7 @@ def verdict(one: Experiment, error: str, cost: str) -> str:
 
 def said(one: Experiment, error: str, point: Point) -> str:
     """A point for a sentence: method, setting, time and error."""
-    words = with_unit(one, error, point.errors[error])
+    words = error_with_unit(one, error, point.errors[error])
     setting = f", {point.setting}" if point.setting else ""
     return f"{point.method}{setting} ({style.with_prefix(point.seconds, 's')}, {words})"
 
@@ -320,7 +320,7 @@ def sentence(one: Experiment, error: str) -> str:
     allowed = ALLOWED[one.unit(error)]
     frontier = one.frontier(error)
     within = [point for point in frontier if point.errors[error] <= allowed]
-    limit = with_unit(one, error, allowed)
+    limit = error_with_unit(one, error, allowed)
     parts = []
     if within:
         also = ", and in use" if within[0].in_use else ""
@@ -353,7 +353,7 @@ def details(one: Experiment, error: str) -> str:
     trust = "agree" if reference.trusted else "do not agree, so small errors mean little"
     parts.append(
         f"Reference: {style.list_words(reference.families)} {trust}"
-        + (f", {with_unit(one, error, apart)} apart" if math.isfinite(apart) else "")
+        + (f", {error_with_unit(one, error, apart)} apart" if math.isfinite(apart) else "")
     )
     parts += [part for part in (reference.note,) if part]
     words = html.escape(". ".join(part.rstrip(".") for part in parts))
@@ -371,7 +371,7 @@ def paragraph(words: str) -> str:
     return f"<p>{html.escape(words)}</p>"
 
 
-def _around(values: list[float], room: float) -> tuple[float, float]:
+def _axis_ends(values: list[float], room: float) -> tuple[float, float]:
     """Ends of an axis: `room` about the values, and at least two numbers on it."""
     low, high = (min(values), max(values)) if values else (1.0, 1.0)
     room = max(room, math.sqrt(SHORTEST * low / high))

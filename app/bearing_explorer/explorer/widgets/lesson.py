@@ -24,7 +24,7 @@ class LessonPanel(JSComponent):
 
     #: [title, what is wrong with the file or "", name] of each
     titles = param.List(default=[])
-    #: of `Lesson.for_browser`; empty before the first
+    #: of `Lesson.browser_data`; empty before the first
     lesson = param.Dict(default={})
     #: whether it is open when the page loads
     open_first = param.Boolean(default=False)
@@ -63,7 +63,7 @@ class LessonPanel(JSComponent):
         if again or self.lesson.get("number") != number:
             # counted, or the same lesson begun again would be no news to the browser
             self._begun += 1
-            self.lesson = {**lesson.for_browser(number), "begun": self._begun}
+            self.lesson = {**lesson.browser_data(number), "begun": self._begun}
         return lesson
 
     def _number(self, which: object) -> int | None:

@@ -61,7 +61,7 @@ class Cached(Generic[Result]):
         return future.result()  # type: ignore[no-any-return]
 
     def knows(self, *key: Hashable) -> bool:
-        """Whether the result is there already."""
+        """True if the result is there already."""
         with _lock:
             return (self, *key) in _results
 

@@ -35,7 +35,7 @@ _WORDS = {
 
 
 def all_on_disk() -> bool:
-    """Whether machine code of all parts is on disk, so that nothing takes long."""
+    """True if machine code of all parts is on disk, so that nothing takes long."""
     return model.all_on_disk()
 
 
@@ -84,7 +84,7 @@ class Compilation:
         self._drawn.set()
 
     def wait(self, seconds: float) -> bool:
-        """Whether it has ended, after so many seconds at most."""
+        """True if it has ended, after so many seconds at most."""
         return self._over.wait(seconds)
 
     def left(self) -> tuple[str, ...]:

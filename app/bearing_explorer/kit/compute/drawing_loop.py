@@ -54,17 +54,17 @@ class DrawingLoop(Generic[Inputs, Fine]):
 
     @property
     def waiting(self) -> bool:
-        """Whether there are newer inputs than those at work. For any thread."""
+        """True if there are newer inputs than those at work. For any thread."""
         return bool(self._newest)
 
     @property
     def drawn(self) -> bool:
-        """Whether the newest inputs are drawn."""
+        """True if the newest inputs are drawn."""
         return not (self._newest or self._drawing)
 
     @property
     def idle(self) -> bool:
-        """Whether the newest inputs are drawn as finely as can be."""
+        """True if the newest inputs are drawn as finely as can be."""
         return not self._newest and (self._task is None or self._task.done())
 
     def newest(self, inputs: Inputs) -> Inputs:
@@ -109,7 +109,7 @@ class DrawingLoop(Generic[Inputs, Fine]):
                 await self._draw_finely(inputs)
 
     async def _rests(self) -> bool:
-        """Whether no newer inputs come for a while."""
+        """True if no newer inputs come for a while."""
         if self._newest:
             return False
         self._submitted.clear()

@@ -58,7 +58,7 @@ _TURNS = WeakKeyDictionary[asyncio.AbstractEventLoop, asyncio.Lock]()
 """A lock for each event loop: an asyncio lock belongs to one."""
 
 
-async def in_turn(function: Callable[..., Result], *args: object) -> Result:
+async def run_in_turn(function: Callable[..., Result], *args: object) -> Result:
     """Run `function` on the event loop, one call after the other.
 
     Between two of them what browsers have sent is taken: of the positions of a slider only the

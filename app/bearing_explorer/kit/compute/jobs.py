@@ -123,7 +123,7 @@ class Work:
 
     @property
     def has_found(self) -> bool:
-        """Whether a result waits to be drawn."""
+        """True if a result waits to be drawn."""
         return bool(self._found)
 
     def stop(self) -> None:
@@ -160,7 +160,7 @@ class Jobs:
         self._ended = False
 
     def busy(self, kind: Kind | None = None) -> bool:
-        """Whether a job of a kind, or of any kind, runs or waits."""
+        """True if a job of a kind, or of any kind, runs or waits."""
         return bool(self._lanes) if kind is None else kind in self._lanes
 
     def start(

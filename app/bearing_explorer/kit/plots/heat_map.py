@@ -79,7 +79,7 @@ class Side:
         """Text of an axis."""
         return self.quantity.label()
 
-    def for_browser(self) -> dict[str, str | float]:
+    def browser_data(self) -> dict[str, str | float]:
         """The side for the scripts."""
         unit = self.unit if self.unit in ("", "°") else f" {self.unit}"
         return {"name": self.name, "words": self.words, "unit": unit, "sign": self.sign}
@@ -143,7 +143,7 @@ def let_point(
         "stands": stands,
         "count": count,
         "digits": digits,
-        "sides": [side.for_browser() for side in sides],
+        "sides": [side.browser_data() for side in sides],
     }
     click = CustomJS(args=places, code=_PLACE + asset_text("heat_map_click.js"))
     plot.js_on_event(Tap, click)
@@ -242,6 +242,6 @@ class GridImage:
 
 
 def ends(values: NDArray[np.float64]) -> tuple[float, float]:
-    """Where cells around evenly spaced values begin and end."""
+    """Ends of the cells around evenly spaced values."""
     half = 0.5 * float(values[1] - values[0])
     return float(values[0]) - half, float(values[-1]) + half

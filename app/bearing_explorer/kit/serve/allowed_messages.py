@@ -32,7 +32,7 @@ _EVENTS = {
 
 
 def is_costly(text: str) -> bool:
-    """Whether parsing a frame would hold up everybody: 2.6 s for a million empty lists.
+    """True if parsing a frame would hold up everybody: 2.6 s for a million empty lists.
 
     What people wrote may hold any number of commas and brackets: it stands in strings.
     """
@@ -64,7 +64,7 @@ def component_message(event: Any, buffers: Mapping[str, bytes]) -> tuple[str, An
         raise ValueError("the message is of another form") from error
 
 
-def by_id(event: Any) -> Any:
+def name_model_by_id(event: Any) -> Any:
     """An event whose model is named by its id alone.
 
     BokehJS writes a model out in full that it believes to be new, as after a tab has been added.
@@ -79,7 +79,7 @@ def by_id(event: Any) -> Any:
 
 
 def is_allowed(event: Any, models: Any) -> bool:
-    """Whether an event that is no message to a component may reach the document.
+    """True if an event that is no message to a component may reach the document.
 
     `models` are those of the document (`Document.models`).
     """
@@ -100,7 +100,7 @@ def is_allowed(event: Any, models: Any) -> bool:
 
 
 def _is_offered(model: Any, attribute: str, new: Any) -> bool:
-    """Whether a choice is among those of its list; Panel raises for any other one."""
+    """True if a choice is among those of its list; Panel raises for any other one."""
     offers = type(model).properties()
     if attribute == "value" and "options" in offers:
         groups = model.options.values() if isinstance(model.options, dict) else [model.options]
@@ -113,7 +113,7 @@ def _is_offered(model: Any, attribute: str, new: Any) -> bool:
 
 
 def _is_plain(value: Any) -> bool:
-    """Whether a value only refers to models, and makes none."""
+    """True if a value only refers to models, and makes none."""
     try:
         _Reader({}).read(value)
     except (ValueError, TypeError):

@@ -214,7 +214,7 @@ def find_models_quickly() -> None:
 
 @cache
 def _is_made(descriptor: PropertyDescriptor, kind: type[HasProps]) -> bool:
-    """Whether each model of a class has a default of its own."""
+    """True if each model of a class has a default of its own."""
     changed = kind._overridden_defaults().get(descriptor.name)
     return bool(descriptor.property._may_have_unstable_default() or descriptor.is_unstable(changed))
 

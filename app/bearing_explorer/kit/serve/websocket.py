@@ -11,10 +11,10 @@ from panel.io import server as panel_server
 from bearing_explorer.kit.serve import live
 from bearing_explorer.kit.serve.allowed_messages import (
     MOST_EVENTS,
-    by_id,
     component_message,
     is_allowed,
     is_costly,
+    name_model_by_id,
 )
 from bearing_explorer.kit.serve.bokeh_internals import apply_patch
 from bearing_explorer.kit.serve.hosts import AllowedHosts
@@ -70,13 +70,13 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
             self._refuse(error)
 
     def _is_signed(self) -> bool:
-        """Whether the token is of this server and not over; Bokeh refuses one that is not."""
+        """True if the token is of this server and not over; Bokeh refuses one that is not."""
         app, token = self.application, self._named_token
         signed = check_token_signature(token, signed=app.sign_sessions, secret_key=app.secret_key)
         return signed and get_token_payload(token).get("session_expiry", 0.0) > time.time()
 
     async def _has_place(self) -> bool:
-        """Whether there is room for the session, and in it; else the connection is closed."""
+        """True if there is room for the session, and in it; else the connection is closed."""
         token, context = self._named_token, self.application_context
         name = get_session_id(token)
         if await PageHandler.make_session(context, name, self.request, token) is None:
@@ -120,7 +120,7 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
         others = []
         for event in events:
             if (component := component_message(event, buffers)) is None:
-                others.append(by_id(event))
+                others.append(name_model_by_id(event))
             elif (model := session.document.models.get_by_id(component[0])) is not None:
                 await live.hand_on(session, model, component[1])
         message.content["events"] = [e for e in others if is_allowed(e, session.document.models)]

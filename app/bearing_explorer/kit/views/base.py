@@ -328,7 +328,7 @@ class View(Generic[C]):
 
     @property
     def is_empty(self) -> bool:
-        """Whether there are no numbers behind the figure: views of jobs before the first."""
+        """True if there are no numbers behind the figure: views of jobs before the first."""
         return False
 
     def csv(self) -> str:
@@ -393,12 +393,12 @@ class View(Generic[C]):
 
 
 def _holds_figures(part: Any) -> bool:
-    """Whether a part shows figures, Bokeh's own or those of a plot of HoloViews."""
+    """True if a part shows figures, Bokeh's own or those of a plot of HoloViews."""
     return isinstance(part, pn.pane.Bokeh | pn.pane.HoloViews)
 
 
 def _only_figures(body: pn.viewable.Viewable) -> bool:
-    """Whether there is nothing in a layout but figures: nothing to choose or to press."""
+    """True if there is nothing in a layout but figures: nothing to choose or to press."""
     leaves = [part for part in body.select() if not isinstance(part, pn.layout.ListPanel)]
     return all(isinstance(part, pn.pane.Bokeh) for part in leaves)
 

@@ -26,7 +26,7 @@ class Content:
     """
 
     moving: bool
-    """Whether a slider moves; at rest it is drawn as finely as can be."""
+    """True if a slider moves; at rest it is drawn as finely as can be."""
     mark: int
     """Number of the newest change of the browser that it holds."""
     slow: ClassVar[Set[str]] = frozenset()
@@ -67,7 +67,7 @@ class Content:
         raise NotImplementedError
 
     def is_finer_at_rest(self, needed: frozenset[str]) -> bool:
-        """Whether any of these attributes is computed more finely once the slider rests."""
+        """True if any of these attributes is computed more finely once the slider rests."""
         return False
 
     def scene_drawn(self) -> Scene:

@@ -28,7 +28,7 @@ Result = TypeVar("Result")
 
 
 class Editor(Protocol):
-    """Where a form finds the scene that is computed."""
+    """Owner of the scene that a form computes."""
 
     @property
     def scene(self) -> Scene:
@@ -179,7 +179,7 @@ class JobView(View[C], Generic[C, Result, E]):
         self.job.fill(*self.form(self._editor))
 
     def editor_of(self, owner: Any) -> E:
-        """Where the form finds the scene: of the half on the page, elsewhere of what is drawn."""
+        """Owner of the scene: of the half on the page, elsewhere of what is drawn."""
         editor: E = owner
         return editor
 

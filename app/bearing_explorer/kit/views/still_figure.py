@@ -124,7 +124,7 @@ class Figure(Generic[C]):
         )
 
     def _place(self) -> str:
-        """Where the figure goes, the script that draws it, and its sentence."""
+        """The place of the figure, the script that draws it, and its sentence."""
         words = f"<p style='font-family: sans-serif'>{html.escape(self.sentence)}</p>"
         if not self.layout.children:
             return words

@@ -4,7 +4,7 @@ import math
 
 import pytest
 from bearing_explorer.explorer.state import address
-from bearing_explorer.explorer.state.field_values import in_shown_unit, number_of
+from bearing_explorer.explorer.state.field_values import number_of, shown_number
 from bearing_explorer.explorer.state.scene_editor import SceneEditor
 
 from bearingcore import RoughFloor, Scene, presets
@@ -52,7 +52,7 @@ def test_a_field_is_replaced_swept_filed_sent_and_dragged(field: Field) -> None:
     assert read.scene == changed
     if not field.group:
         return
-    shown = in_shown_unit(field, value)
+    shown = shown_number(field, value)
     editor = SceneEditor(preset)
     editor.take_scene(scene, preset, 0)
     refused, _ = editor.set({field.key: shown})

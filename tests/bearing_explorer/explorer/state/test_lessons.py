@@ -595,7 +595,7 @@ def test_the_lessons_that_come_along_are_in_order() -> None:
         assert lesson.drag
         assert lesson.watch
         assert lesson.predict is not None
-        told = json.dumps(lesson.for_browser(0))
+        told = json.dumps(lesson.browser_data(0))
         assert len(told) < 20_000
         editor = SceneEditor("6205")
         lesson.begin(editor)

@@ -110,14 +110,14 @@ def test_what_is_typed_past_a_slider_stretches_it(editor: SceneEditor) -> None:
 def test_a_number_names_either_unit_in_either_box(
     editor: SceneEditor, name: str, text: str, second: bool, wanted: float
 ) -> None:
-    refused, _ = editor.set(editor.in_field_units({name: text}, second))
+    refused, _ = editor.set(editor.read_units({name: text}, second))
     assert refused == {}
     assert editor.values[name] == pytest.approx(wanted, rel=1e-9)
 
 
 def test_what_is_a_number_in_neither_unit_is_refused(editor: SceneEditor) -> None:
     for text in ("a lot", "5 N", ""):
-        numbers = editor.in_field_units({"extent_deg": text}, second=True)
+        numbers = editor.read_units({"extent_deg": text}, second=True)
         assert numbers == {"extent_deg": text}
         assert "from 0 to 360°" in editor.set(numbers)[0]["extent_deg"]
 

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from bearing_explorer.explorer.results.endurance import LifeInputs, endurance, with_usual_grooves
+from bearing_explorer.explorer.results.endurance import LifeInputs, assume_usual_grooves, endurance
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.results.verdict import rows_of
 from bearing_explorer.explorer.views.life import groups_of
@@ -46,11 +46,11 @@ def test_the_default_bearing_has_an_answer_that_says_what_it_assumes() -> None:
     assert answer.healthy is not None
     assert answer.pressures is not None
     assert "Assumed" in facts("fan-rig")["Life of the healthy bearing"]["words"]
-    usual = with_usual_grooves(scene)
+    usual = assume_usual_grooves(scene)
     assert usual is not None
     loads = [state_of_limits(one).ball_load for one in (scene, usual)]
     np.testing.assert_allclose(loads[1], loads[0], atol=1e-9)
-    assert with_usual_grooves(scene.replace(fz=10.0)) is None, "then the grooves change the loads"
+    assert assume_usual_grooves(scene.replace(fz=10.0)) is None, "then the grooves change the loads"
 
 
 def number(text: str) -> float:

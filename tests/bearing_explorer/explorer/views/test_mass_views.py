@@ -8,7 +8,7 @@ from bearing_explorer.explorer.results.ball_mass import BallMass
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.references import OTHER_BALLS
 from bearing_explorer.explorer.views.mass_time import MassInTime
-from bearing_explorer.explorer.views.mechanism import WhichMechanism, in_words
+from bearing_explorer.explorer.views.mechanism import WhichMechanism, mechanism_words
 from bearing_explorer.explorer.views.vibration_spectrum import VibrationSpectra
 from bearing_explorer.kit.serve.packed_source import PackedSource
 
@@ -37,7 +37,9 @@ def test_a_ball_over_a_small_pit_meets_its_far_edge_half_way() -> None:
     assert small.strikes == ()
     assert small.exit is not None
     assert small.far_edge == pytest.approx(0.5 * small.exit.time, rel=0.02)
-    assert in_words(small).startswith("The varying stiffness gives most of the power in every")
+    assert mechanism_words(small).startswith(
+        "The varying stiffness gives most of the power in every"
+    )
 
 
 def test_shares_are_those_of_the_core(ball_mass: BallMass) -> None:
@@ -63,7 +65,7 @@ def test_what_is_drawn_is_what_was_found(results: Results, ball_mass: BallMass) 
     bars = sources["mechanism_bars"]
     np.testing.assert_allclose(bars["top"], 100.0 * ball_mass.share)
     assert (bars["right"][:-1] < bars["left"][1:]).all()
-    words = in_words(ball_mass)
+    words = mechanism_words(ball_mass)
     assert words.startswith("From 4 kHz up the mass of the balls gives most of the power")
 
 

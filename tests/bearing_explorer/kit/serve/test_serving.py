@@ -8,7 +8,11 @@ from typing import Any
 
 import panel as pn
 import pytest
-from bearing_explorer.kit.serve.allowed_messages import by_id, component_message, is_allowed
+from bearing_explorer.kit.serve.allowed_messages import (
+    component_message,
+    is_allowed,
+    name_model_by_id,
+)
 from bearing_explorer.kit.serve.headers import policy
 from bearing_explorer.kit.serve.hosts import AllowedHosts
 from bearing_explorer.kit.serve.pages import SERVER_IS_FULL, message_page
@@ -214,8 +218,8 @@ def test_a_button_that_is_written_out_is_taken_by_its_id() -> None:
     click = {"type": "event", "name": "button_click", "values": values}
     event = {"kind": "MessageSent", "msg_type": "bokeh_event", "msg_data": click}
     assert not is_allowed(event, Document().models)
-    assert is_allowed(by_id(event), Document().models)
-    assert is_allowed(by_id(event | {"more": NEW_MODEL}), Document().models) is False
+    assert is_allowed(name_model_by_id(event), Document().models)
+    assert is_allowed(name_model_by_id(event | {"more": NEW_MODEL}), Document().models) is False
 
 
 @pytest.mark.parametrize("model", [{"id": "p1"}, NEW_MODEL])

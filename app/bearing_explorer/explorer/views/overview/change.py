@@ -84,7 +84,7 @@ class LastChange(View):
 
 
 def _alike_but_for_play(now: Bearing, before: Bearing) -> bool:
-    """Whether contact angle and clearance alone differ."""
+    """True if contact angle and clearance alone differ."""
     try:
         return now.replace(**{name: getattr(before, name) for name in _PLAY}) == before
     except ValueError:  # of another kind, which they do not fit

@@ -177,7 +177,7 @@ def free_terms(dofs: Sequence[str]) -> set[str]:
 def lively_terms(
     results: Results, answers: Sequence[Equilibrium], scales: Sequence[float]
 ) -> list[int]:
-    """Which of the 15 terms matter here: k_xx and k_yy; others if they vary or differ."""
+    """Numbers of the terms that matter here: k_xx and k_yy; others if they vary or differ."""
     free = free_terms(results.equilibrium.dofs)
     terms = []
     for i, (term, scale) in enumerate(zip(STIFFNESS_TERMS, scales, strict=True)):
@@ -190,7 +190,7 @@ def lively_terms(
 
 
 def is_lively(values: NDArray[np.float64], healthy: NDArray[np.float64], scale: float) -> bool:
-    """Whether a term of this size varies over the angles, or differs from the healthy one."""
+    """True if a term of this size varies over the angles, or differs from the healthy one."""
     known, usual = values[np.isfinite(values)], healthy[np.isfinite(healthy)]
     if not known.size:
         return False

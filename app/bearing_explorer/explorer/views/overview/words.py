@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bearing_explorer.explorer.results.chain import Chain, Peak, in_same_order
+from bearing_explorer.explorer.results.chain import Chain, Peak, have_same_order
 from bearing_explorer.explorer.results.reasons import why_softer
 from bearing_explorer.kit.plots import style
 from bearingcore.model.statics import TERM_SYMBOLS
@@ -72,7 +72,7 @@ def story(by: Cause, now: Chain, before: Chain) -> str:
     along = direction(now, before)
     stiff = stiffness_words(now, before, along)
     text = _load_and_stiffness(by, now, before, along, stiff)
-    text = _with_band_and_peak(text, by, now, before, along, stiff)
+    text = _add_band_and_peak(text, by, now, before, along, stiff)
     if before.silent and not now.silent:
         text += f"{'; ' if text else ''}now there is a spectrum"
     text = text or unchanged(now, before, by.why_not)
@@ -88,7 +88,7 @@ def story(by: Cause, now: Chain, before: Chain) -> str:
 
 
 def _load_and_stiffness(by: Cause, now: Chain, before: Chain, along: str, stiff: list[str]) -> str:
-    """Where the load went, and what that did to the stiffness."""
+    """Say where the load went, and what that did to the stiffness."""
     moved = moved_load(now, before, by.defect)
     # harder or softer contacts are a reason by themselves, which the cause has said
     why = why_stiffer(now, before, along) if stiff and not by.contacts else ""
@@ -104,7 +104,7 @@ def _load_and_stiffness(by: Cause, now: Chain, before: Chain, along: str, stiff:
     return text
 
 
-def _with_band_and_peak(
+def _add_band_and_peak(
     text: str, by: Cause, now: Chain, before: Chain, along: str, stiff: list[str]
 ) -> str:
     """`text` and what became of natural frequencies and of the spectrum's highest peak."""
@@ -157,7 +157,7 @@ def unchanged(now: Chain, before: Chain, why_not: str = "") -> str:
 
 
 def why_stiffer(now: Chain, before: Chain, along: str) -> str:
-    """Why the radial stiffness that is named first changed, from balls and their places."""
+    """Say why the stiffness that is named first changed, from balls and their places."""
     term = next(iter(named_terms(now, before, along)), "")
     leant, changed = math.log(now.upright / before.upright), math.log1p(_change(now, before, term))
     if leant * changed > 0.0 and abs(leant) >= 0.5 * abs(changed):
@@ -169,7 +169,7 @@ def why_stiffer(now: Chain, before: Chain, along: str) -> str:
 
 
 def band_follows(now: Chain, before: Chain, label: str) -> bool:
-    """Whether a band moves the way that the stiffness along it does."""
+    """True if a band moves the way that the stiffness along it does."""
     moved = sum(now.bands[label]) - sum(before.bands[label])
     return moved * _change(now, before, f"k_{label[:-1] * 2}") > 0.0
 
@@ -198,13 +198,13 @@ def moved_load(now: Chain, before: Chain, by_defect: bool = False) -> str:
 def load_of_one(now: Chain, before: Chain) -> str:
     """Change of the load of the most loaded ball."""
     grown = _ratio(now.greatest_load, before.greatest_load)
-    return f"the greatest load of a ball {_by(grown)}" if abs(grown) >= LEAST_LOAD else ""
+    return f"the greatest load of a ball {_growth(grown)}" if abs(grown) >= LEAST_LOAD else ""
 
 
 def stiffness_words(now: Chain, before: Chain, along: str) -> list[str]:
     """Change of the mean stiffness along a direction, and in another where it is larger."""
     terms = named_terms(now, before, along)
-    return [f"k_{TERM_SYMBOLS[term][2:]} {_by(_change(now, before, term))}" for term in terms]
+    return [f"k_{TERM_SYMBOLS[term][2:]} {_growth(_change(now, before, term))}" for term in terms]
 
 
 def named_terms(now: Chain, before: Chain, along: str) -> list[str]:
@@ -243,14 +243,14 @@ def moved_band(now: Chain, before: Chain, along: str) -> str:
 
 
 def is_same_mode(label: str, now: Chain, before: Chain) -> bool:
-    """Whether a label names the same mode before and now.
+    """True if a label names the same mode before and now.
 
     If not in the same order, then at most as far as the stiffness along it moves a mode.
     """
     grown = sum(now.bands[label]) / sum(before.bands[label])
     stiffer = 1.0 + _change(now, before, f"k_{label[:-1] * 2}")
     room = _OF_STIFFNESS * abs(math.log(stiffer)) + _SHIFT
-    return in_same_order(label, now.bands, before.bands) or abs(math.log(grown)) <= room
+    return have_same_order(label, now.bands, before.bands) or abs(math.log(grown)) <= room
 
 
 def band_words(label: str, now: tuple[float, float], before: tuple[float, float]) -> str:
@@ -295,13 +295,13 @@ def peak_words(now: Chain, before: Chain, along: str, label: str) -> str:
 def _goes_along(
     new: Peak, old: Peak, band: tuple[float, float], former: tuple[float, float]
 ) -> bool:
-    """Whether the peak lies in the band both times, and both move the same way."""
+    """True if the peak lies in the band both times, and both move the same way."""
 
-    def inside(peak: Peak, band: tuple[float, float]) -> bool:
+    def lies_inside(peak: Peak, band: tuple[float, float]) -> bool:
         return band[0] - peak.resolution <= peak.frequency <= band[1] + peak.resolution
 
     same_way = (new.frequency - old.frequency) * (sum(band) - sum(former)) > 0.0
-    return inside(new, band) and inside(old, former) and same_way
+    return lies_inside(new, band) and lies_inside(old, former) and same_way
 
 
 def _change(now: Chain, before: Chain, term: str) -> float:
@@ -316,7 +316,7 @@ def _ratio(now: float, before: float) -> float:
     return grown if math.isfinite(grown) else 0.0
 
 
-def _by(grown: float) -> str:
+def _growth(grown: float) -> str:
     if grown >= 1.0:
         return f"rises to {style.number(1.0 + grown, 2)} times"
     if grown <= -0.995:

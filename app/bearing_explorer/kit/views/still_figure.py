@@ -157,7 +157,7 @@ class Figure(Generic[C]):
             raise FieldError(
                 "suffix of path", path.suffix, f".html: {self.view.name} has no figure"
             )
-        note, _ = parts_of(self.results.in_words(self.view.caption(self.results)))
+        note, _ = parts_of(self.results.in_words(self.view.caption(self.results)), key_alone=False)
         printed.print_figures(self.document, note, path, width)
 
     def show(self) -> None:

@@ -228,10 +228,11 @@ runge_kutta = stepper(lay_out, rates, changed, keep)
 def new_steps(size, instants, system):
     """Empty work space of steps from states of `size` numbers."""
     angle = system.contacts.angle
+    x, v, f, S = np.zeros((4, 5))
     touching, touched = np.empty(angle.size, dtype=np.int64), np.zeros(1, dtype=np.int64)
     return Steps(
         new_passage(instants, angle),
-        Forces(*np.zeros((4, 5)), touching, np.empty((angle.size, 5)), touched),
+        Forces(x, v, f, S, touching, np.empty((angle.size, 5)), touched),
         new_slopes(4 * system.rotor.active.size, size, angle.size),
         np.zeros((4, size)),
         np.zeros(size),

@@ -129,6 +129,8 @@ def test_a_tab_shows_its_views_and_follows_a_slider(walk: tuple[Visitor, Watch],
     visitor.steady()
     assert "blank" not in visitor.figures()
     assert not _NOTHING.search(" ".join(visitor.sentences()))
+    for more in visitor.main.get_by_role("button", name=re.compile("^More about")).all():
+        more.click()
     if known is not None:
         visitor.reads(re.compile(re.escape(known(FAN))))
     if moved is not None:

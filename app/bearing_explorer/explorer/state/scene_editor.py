@@ -258,6 +258,7 @@ class SceneEditor:
         usual = scene_of(bearing).replace(defect=_SOUND)
         kept = [part for part in _USUAL if getattr(self.scene, part) != getattr(self.begun, part)]
         lost = " and ".join(f"{number(math.degrees(d.extent))}°" for d in self.scene.defects)
+        gone = f"The defect of {lost} is gone. " if lost and "defect" not in kept else ""
         fresh = {part: getattr(usual, part) for part in _USUAL if part not in kept}
         before = self.scene.replace(defect=fresh.get("defect", self.scene.defect))
         if before.dofs == self.begun.dofs:
@@ -269,7 +270,7 @@ class SceneEditor:
         self._take(scene)
         self._begin_limits(limits_of(self.scene))
         self._write_values()
-        self._effects["preset"] = f"{_usual_words(scene, kept, lost)} {effect}".rstrip()
+        self._effects["preset"] = f"{gone}{_usual_words(scene, kept)} {effect}".rstrip()
         self.own_name = one_line(name, LONGEST_NAME)
         self.origin = CatalogueOrigin(self.own_name, origin, self.scene.bearing)
 
@@ -600,11 +601,11 @@ def _change_rows(
     return bearing.replace(rows=(low, dataclasses.replace(high, **second)))
 
 
-def _usual_words(scene: Scene, kept: Iterable[str], lost: str) -> str:
-    """Sentence on what came with a bearing out of a list, what was kept, and which defects went."""
+def _usual_words(scene: Scene, kept: Iterable[str]) -> str:
+    """Sentence on what came with a bearing out of a list, and on what was kept."""
     loads = ((-scene.load.fy, "down"), (scene.load.fz, "along the shaft"))
     words = {
-        "defect": f"no defect any more ({lost} before)" if lost else "no defect",
+        "defect": "no defect",
         "load": " and ".join(f"{number(load)} N {where}" for load, where in loads if load),
         "shaft_speed": f"{number(scene.shaft_speed * 30.0 / math.pi, 4)} turns a minute",
         "support": f"a rotor and a housing of {number(scene.support.inner_mass)} kg each, on "

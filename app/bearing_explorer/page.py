@@ -81,7 +81,7 @@ class Halves:
         if self.explorer is not None and self.diagnosis is not None:
             self.explorer.report_on_signal = self.diagnosis.report
             self.explorer.simulate = self.diagnosis.simulate
-            self.diagnosis.change_scene_by(self.explorer.change_scene)
+            self.diagnosis.measurement.can_simulate = True
 
     def _scene_of_signal(self) -> Any:
         """The scene with which a signal is compared."""
@@ -106,11 +106,6 @@ def address() -> str:
 def _frame() -> Any:
     """The frame of all pages, read once a process."""
     return PageTemplate(asset_text("page.html")).template
-
-
-@cache
-def _for_teachers() -> str:
-    return scene.text_for_teachers(TABS)
 
 
 def lessons_of(folder: Path | None = None) -> Any:
@@ -150,7 +145,6 @@ def page(lessons: Path | None = None) -> PageTemplate:
     }.items():
         template.add_variable(name, text)
     if explorer is not None:
-        explorer.lesson.teachers = _for_teachers()
         template.add_panel("lesson", explorer.lesson)
         template.add_panel("controls", stack(explorer.share, explorer.controls))
     else:

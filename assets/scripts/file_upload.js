@@ -16,7 +16,6 @@ export function render({ model }) {
   const input = (id, more) => element("input", { type: "file", id, "aria-describedby": "measurement-note", ...more })
   const files = input("measurement-file", { multiple: "" })
   const folder = input("measurement-folder", { webkitdirectory: "" })
-  const sound = input("measurement-baseline", { tabindex: "-1", "aria-hidden": "true" })
   const lost = window.signal_files ? "" : stored()
   const note = element("p", { class: "lost", role: "status" },
     lost && `The page was loaded again: ${lost}, and what was said of it, is not kept. Choose it again.`)
@@ -25,12 +24,12 @@ export function render({ model }) {
   const root = element("div", { class: "upload" },
     element("div", { class: "line" },
       files, element("label", { for: files.id }, "Choose a file …"),
-      folder, element("label", { for: folder.id, class: "further" }, "or a folder …"), sound, bar),
+      folder, element("label", { for: folder.id, class: "further" }, "or a folder …"), bar),
     note,
     element("p", { id: "measurement-note" }, model.note))
   const { compare } = new Intl.Collator(undefined, { numeric: true })
   const place = (file) => file.webkitRelativePath || file.name
-  let queue = [], count = 0, chosen = 0, source = null, upload = 0, baseline = false, asked = ""
+  let queue = [], count = 0, chosen = 0, source = null, upload = 0, asked = false
   const show = (share) => {
     bar.hidden = !source && !queue.length
     bar.value = count ? (count - queue.length - 1 + share) / count : 0
@@ -40,7 +39,7 @@ export function render({ model }) {
     if (!file) return
     source = file.size <= model.largest ? file : null
     show(0)
-    model.send_msg({ type: "begin", name: file.name, size: file.size, number: count - queue.length, count, chosen, baseline })
+    model.send_msg({ type: "begin", name: file.name, size: file.size, number: count - queue.length, count, chosen })
   }
   // The trend that further files bring is far below: it comes into view with its figures.
   const show_trend = () => {
@@ -52,10 +51,9 @@ export function render({ model }) {
     })
     if (card) growth.observe(card)
   }
-  const begin = (list, is_baseline = false) => {
-    baseline = is_baseline
-    if (is_baseline || asked === "several") show_trend()
-    asked = ""
+  const begin = (list) => {
+    if (asked) show_trend()
+    asked = false
     const all = [...list ?? []].filter(({ name }, _, every) =>
       !name.startsWith(".") && (every.length < 2 || !no_record.test(name)))
     if (all.length === 1 && is_scene_name(all[0].name)) return announce("other-file", { file: all[0], is: "scene" })
@@ -63,7 +61,7 @@ export function render({ model }) {
     chosen = all.length
     count = Math.min(chosen, model.most)
     // of more files than are taken some from first to last
-    if (chosen && !is_baseline) store(chosen > 1 ? `the signal of ${chosen} files` : all[0].name)
+    if (chosen) store(chosen > 1 ? `the signal of ${chosen} files` : all[0].name)
     note.hidden = true
     queue = all.filter((_, k) => count === chosen || Math.floor(k * (count - 1) / (chosen - 1)) !== Math.floor((k - 1) * (count - 1) / (chosen - 1)))
     next()
@@ -85,13 +83,13 @@ export function render({ model }) {
     show(last / sent.size)
     model.send_msg({ type: "piece", content: piece, of })
   })
-  on_event("choose-files", root, (which) => {
-    asked = which
-    ;({ baseline: sound, several: files })[which]?.click()
+  on_event("choose-files", root, () => {
+    asked = true
+    files.click()
   })
-  for (const one of [files, folder, sound]) one.addEventListener("change", () => {
-    begin(one.files, one === sound)
-    one.value = ""  // so that the same can be chosen again
+  for (const chooser of [files, folder]) chooser.addEventListener("change", () => {
+    begin(chooser.files)
+    chooser.value = ""  // so that the same can be chosen again
   })
   for (const kind of ["dragover", "dragleave", "drop"]) root.addEventListener(kind, (event) => {
     event.preventDefault()

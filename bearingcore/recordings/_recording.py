@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from datetime import datetime
 
 import numpy as np
 
@@ -38,6 +39,8 @@ class Recording:
     shaft_angle : (n,) [rad]
         angle of the shaft at each sample, if it was measured beside the signal; the speed may then
         change. For a tachometer with several pulses a turn, one turn from pulse to pulse.
+    recorded
+        date and time of the measurement; None if they are not known.
 
     Raises
     ------
@@ -52,6 +55,7 @@ class Recording:
     shaft_speed: float | None = None
     notes: tuple[str, ...] = ()
     shaft_angle: Array | None = field(default=None, repr=False)
+    recorded: datetime | None = None
 
     def __post_init__(self) -> None:
         checks.keep_number(self, "sample_rate", above=0.0, unit="Hz")
@@ -95,6 +99,15 @@ class Recording:
     def duration(self) -> float:
         """[s]"""
         return len(self.acceleration) / self.sample_rate
+
+    def scale_shaft(self, ratio: float) -> Recording:
+        """Return the recording with the shaft behind a gear, which turns `ratio` times as fast."""
+        speed, angle = self.shaft_speed, self.shaft_angle
+        return replace(
+            self,
+            shaft_speed=None if speed is None else ratio * speed,
+            shaft_angle=None if angle is None else ratio * angle,
+        )
 
 
 def _rising(angle: Array, samples: int) -> Array:

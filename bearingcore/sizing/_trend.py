@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from datetime import datetime
 
 import numpy as np
 
@@ -67,6 +68,8 @@ class TrendPoint:
         see `Diagnosis`; "cannot tell" and NaN for an unknown bearing.
     extent
         extent of the spall if a race is named.
+    recorded
+        date and time of the recording, or those in its name; None without.
     """
 
     name: str
@@ -80,6 +83,7 @@ class TrendPoint:
     fault: str
     probability: float
     extent: MeasuredExtent
+    recorded: datetime | None = None
 
 
 @shown_as_table
@@ -135,13 +139,20 @@ class Trend:
 
     @property
     def hours(self) -> Array:
-        """Time (k,) since the first recording [h], by dates in all names; NaN without."""
-        times = [time_in(point.name) for point in self.points]
-        first = times[0] if times else None
-        if first is None:
-            return np.full(len(times), math.nan)
-        since = [math.nan if t is None else (t - first).total_seconds() / 3600.0 for t in times]
-        return np.array(since) if np.isfinite(since).all() else np.full(len(times), math.nan)
+        """Time (k,) since the first recording [h]; NaN unless all have a date."""
+        dates = [point.recorded for point in self.points if point.recorded is not None]
+        if len(dates) < len(self.points):
+            return np.full(len(self.points), math.nan)
+        return np.array([(date - dates[0]).total_seconds() / 3600.0 for date in dates])
+
+    def seen_since(self, part: str) -> int | None:
+        """Return the number of the recording from which on a part's line is more than noise.
+
+        None if it is not in the last recording.
+        """
+        hidden = np.flatnonzero(np.isnan(self.clear_lines[:, PARTS.index(part)]))
+        first = int(hidden[-1]) + 1 if hidden.size else 0
+        return first if first < len(self.points) else None
 
     def table(self) -> ResultTable:
         """A row for each recording."""
@@ -149,7 +160,7 @@ class Trend:
         extents = [point.extent for point in points]
         return table_of(
             ("recording", "", [point.name for point in points]),
-            ("time", "s", 3600.0 * self.hours, "since the first, by dates in the names"),
+            ("time", "s", 3600.0 * self.hours, "since the first"),
             ("shaft_speed", "rad/s", self.column("shaft_speed")),
             ("rms", "m/s²", self.column("rms")),
             ("rms_change", "1", self.rms_change, "over that of the baseline"),
@@ -265,6 +276,7 @@ def trend_point(
         fault,
         probability,
         extent,
+        recording.recorded or time_in(recording.name),
     )
 
 
@@ -344,7 +356,7 @@ def _line_amplitudes(
 
 
 def _is_shaft_line(finest: Spectrum, line: float, turn: float) -> bool:
-    """Whether the highest line next to one of the bearing [Hz] is a multiple of the shaft's turn.
+    """Return True if the highest line near one of the bearing [Hz] is a multiple of the shaft's.
 
     Of gears, vanes and loose parts: what repeats with the shaft is no damage of the bearing.
     """

@@ -11,7 +11,7 @@ import pytest
 
 from bearingcore import Recording, diagnose
 from bearingcore.errors import FieldError
-from bearingcore.measured.diagnosis import DiagnosisStatus
+from bearingcore.measured.diagnosis import DiagnosisStatus, speed_over_time
 from bearingcore.measured.files import read_recording
 from tests.outside.changing_speeds import BALLS, CHANGES, TURN, machine
 from tests.outside.witness import witness
@@ -49,15 +49,25 @@ def test_a_changing_speed_is_followed(bearing: str, part: str, change: str) -> N
     assert ("over the shaft's angle" in answer.sentence) == (change != "steady")
 
 
-@pytest.mark.parametrize(("a_turn", "given"), [(1, 1450.0), (2, 1450.0), (1, None)])
-def test_a_tachometer_is_followed(a_turn: int, given: float | None) -> None:
+@pytest.mark.parametrize(
+    ("a_turn", "given", "ratio"),
+    [(1, 1450.0, 1.0), (2, 1450.0, 1.0), (1, None, 1.0), (1, 2207.0, 0.657), (1, None, 0.657)],
+)
+def test_a_tachometer_is_followed(a_turn: int, given: float | None, ratio: float) -> None:
     time, signal, turns = machine("6309", "inner race", "rising by half", 2)
-    recording = read_recording("a.csv", file_of(time, signal, pulses(turns, a_turn), "tacho [V]"))
+    counted = turns / ratio  # of the shaft with the tachometer, which a gear joins to this one
+    beside = pulses(counted, a_turn)
+    recording = read_recording("a.csv", file_of(time, signal, beside, "tacho [V]"))
     assert recording.shaft_angle is not None
     np.testing.assert_allclose(
-        recording.shaft_angle, TURN * a_turn * turns, atol=0.05 * TURN * a_turn
+        recording.shaft_angle, TURN * a_turn * counted, atol=0.05 * TURN * a_turn
     )
-    answer = diagnose(recording, "6309", None if given is None else TURN / 60.0 * given)
+    speed = None if given is None else TURN / 60.0 * given
+    turning = np.gradient(TURN * counted, time)
+    mean = float(turning.mean())
+    beside = speed_over_time(recording, mean)
+    np.testing.assert_allclose(beside[500:-500], turning[500:-500], rtol=0.01)
+    answer = diagnose(recording, "6309", speed, shaft_ratio=ratio)
     assert (answer.fault, answer.probability >= 0.9) == ("inner race", True)
     assert answer.shaft_speed == pytest.approx(TURN / 60.0 * RPM, rel=0.01)
 

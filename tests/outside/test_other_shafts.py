@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from bearingcore import Diagnosis, Recording, diagnose
+from bearingcore.common import number
 from bearingcore.measured.diagnosis import CANNOT_TELL, DiagnosisStatus
 from tests.outside.motor_signals import INNER_ORDER, OUTER_ORDER, TURN, Motor
 from tests.outside.test_mains_hum import MOTOR_BEARING
@@ -41,6 +42,26 @@ def test_an_inner_race_of_a_driven_shaft_is_no_outer_race(ratio: float) -> None:
     assert not diagnosis.names_a_part
     assert "Neither this shaft nor its cage" in diagnosis.sentence
     assert "own lines" not in diagnosis.sentence  # they are where they were said to be
+
+
+@witness(
+    "function: diagnose", by="closed form signals of motors",
+    compared="part and speed of a shaft behind a gear, by its teeth", within=0.005,
+)  # fmt: skip
+@pytest.mark.parametrize("part", ["outer race", "inner race"])
+@pytest.mark.parametrize("teeth", [(23, 47), (71, 37)])
+def test_a_bearing_behind_a_gear_is_diagnosed_by_the_ratio(teeth: tuple, part: str) -> None:
+    ratio = teeth[0] / teeth[1]
+    driven = Motor(RPM * teeth[0] / teeth[1], part, height=2.5, shaft_lines=())
+    signal = driven.signal(2) + Motor(RPM, shaft_lines=LINES).signal(3)
+    recording = Recording(signal[:, None], driven.rate, ("y",))
+    for speed in (RPM, (0.998 * RPM, 1.002 * RPM)):
+        given = np.multiply(TURN / 60.0, speed)
+        diagnosis = diagnose(recording, MOTOR_BEARING, given, shaft_ratio=ratio)
+        assert diagnosis.fault == part
+        assert diagnosis.shaft_speed == pytest.approx(TURN / 60.0 * driven.rpm, rel=0.005)
+        assert f"{number(ratio, 4)} times the measured shaft" in diagnosis.sentence
+    assert not answer(signal, driven.rate).names_a_part
 
 
 @witness(

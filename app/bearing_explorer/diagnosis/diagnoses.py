@@ -11,7 +11,7 @@ import asyncio
 import dataclasses
 import logging
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any, Generic, Self, TypeVar
 
@@ -19,7 +19,6 @@ from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.kit.compute.jobs import Jobs, Kind
 from bearing_explorer.kit.sentences import sentence_of
 from bearingcore import Bearing, Diagnosis, MeasuredExtent, diagnose, measure_extent
-from bearingcore.measured.diagnosis import ListedBearing, explaining_bearings
 
 Result = TypeVar("Result")
 
@@ -80,9 +79,6 @@ class Question:
             raise ValueError(WHICH_BEARING)
         return self.measured.bearing
 
-    def give_up(self) -> None:
-        """Its answer is no longer wanted."""
-
     def is_like(self, other: Question) -> bool:
         """Whether recording, bearing and knowledge of the speed are the same."""
         mine, theirs = ((q._recording, q.speed, q.geometry) for q in (self, other))
@@ -128,51 +124,6 @@ def extent_of(question: ExtentQuestion) -> MeasuredExtent | str:
         return dataclasses.replace(extent, length=math.nan) if unsized else extent
 
     return _or_why_not(measure)
-
-
-@dataclass(frozen=True)
-class ListQuestion(Question):
-    """A recording that its bearing does not explain, and listed bearings that may."""
-
-    bearings: Mapping[str, Bearing] = field(default_factory=dict, compare=False)
-    progress: Progress = field(default_factory=lambda: Progress(), compare=False)
-
-    def give_up(self) -> None:
-        self.progress.cancelled = True
-
-
-class Progress:
-    """Progress of a search, and whether it is to end. `goes_on` is called by its thread.
-
-    Parameters
-    ----------
-    changed
-        called in that thread after each step.
-    """
-
-    def __init__(self, changed: Callable[[], object] = lambda: None) -> None:
-        self.done = self.of = 0
-        self.cancelled = False
-        self._changed = changed
-
-    def goes_on(self, done: int, of: int) -> bool:
-        """Note how far it is; False once it is to end."""
-        if not self.cancelled:
-            self.done, self.of = done, of
-            self._changed()
-        return not self.cancelled
-
-
-def listed_of(question: ListQuestion) -> tuple[ListedBearing, ...] | str:
-    """Listed bearings that explain the signal, or a sentence. For any thread."""
-    return _or_why_not(
-        lambda: explaining_bearings(
-            question.measured.recording,
-            question.bearings,
-            question.speed,
-            goes_on=question.progress.goes_on,
-        )
-    )
 
 
 def _or_why_not(compute: Callable[[], Result]) -> Result | str:
@@ -239,8 +190,6 @@ class Answers(Generic[Result]):
         before, self.wanted = self.wanted, question
         if question in self._known or (question == before and self._jobs.busy(self._kind)):
             return
-        if before is not None and before != question:
-            before.give_up()
         try:
             asyncio.get_running_loop()
         except RuntimeError:  # a view is drawn outside of a session
@@ -260,8 +209,6 @@ class Answers(Generic[Result]):
 
     def stop(self) -> None:
         """The session is over."""
-        if self.wanted is not None:
-            self.wanted.give_up()
         self.wanted = None
         self._known = {}
         self._jobs.drop(self._kind)

@@ -5,7 +5,6 @@ Holds no Panel and draws nothing.
 
 from __future__ import annotations
 
-import asyncio
 import copy
 import logging
 from collections.abc import Callable
@@ -14,12 +13,9 @@ from typing import Any, Self
 
 from bearing_explorer.diagnosis.diagnoses import (
     Answers,
-    ListQuestion,
-    Progress,
     Question,
     answered,
     extent_of,
-    listed_of,
 )
 from bearing_explorer.diagnosis.machine import FIELDS, of_scene
 from bearing_explorer.diagnosis.measurement_state import (
@@ -29,11 +25,11 @@ from bearing_explorer.diagnosis.measurement_state import (
     MeasurementState,
 )
 from bearing_explorer.diagnosis.model import NOT_TAKEN, WANTED
+from bearing_explorer.diagnosis.series import FoundTrend
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.sized_defect import SizedDefect
-from bearing_explorer.kit.compute.jobs import EXTENT, LISTED, PART, READING, Compute, Jobs, JobState
-from bearingcore import Diagnosis, MeasuredExtent, Scene, Sizing, Table, catalogue
-from bearingcore.measured.diagnosis import ListedBearing
+from bearing_explorer.kit.compute.jobs import EXTENT, PART, READING, Compute, Jobs, JobState
+from bearingcore import Diagnosis, MeasuredExtent, Scene, Sizing, Table
 
 log = logging.getLogger(__name__)
 
@@ -69,8 +65,9 @@ class Findings:
         self.diagnoses: Answers[Diagnosis] = Answers(jobs, PART, draw, answered)
         #: how long the spall is, when that is known
         self.extents: Answers[MeasuredExtent] = Answers(jobs, EXTENT, draw, extent_of)
-        #: listed bearings, where the one that is given does not explain the signal
-        self.listed: Answers[tuple[ListedBearing, ...]] = Answers(jobs, LISTED, draw, listed_of)
+        #: the newest trend of files, and the kind of the machine for the zone of its vibration
+        self.trend: FoundTrend | None = None
+        self.machine_kind = ""
         #: the newest choice between lengths of the spall, of whichever signal
         self.sized: SizedDefect | None = None
         self._scene = of_scene(scene())
@@ -80,10 +77,9 @@ class Findings:
     def stop(self) -> None:
         """The session is over."""
         self._ended = True
-        self._table = self.sized = None
+        self._table = self.sized = self.trend = None
         self.diagnoses.stop()
         self.extents.stop()
-        self.listed.stop()
         self._jobs.drop(READING)
 
     # What was found
@@ -156,28 +152,12 @@ class Findings:
             return WANTED
         if state.bad:  # what the form on the machine refuses stands in it
             return NOT_TAKEN.format(2 if state.line and set(state.refused) & set(FIELDS) else 1)
-        return "Searching the list of bearings" if self.listed.busy else ""
-
-    def listed_question(self, about: Question) -> ListQuestion:
-        """The question which of the listed bearings explain a recording."""
-        named = {name: entry.bearing for name, entry in catalogue().items()}
-        try:
-            loop = asyncio.get_running_loop()
-            progress = Progress(lambda: loop.call_soon_threadsafe(self._draw))
-        except RuntimeError:  # a view is drawn outside of a session
-            progress = Progress()
-        return ListQuestion.about(about.measured, bearings=named, progress=progress)
-
-    def cancel_search(self) -> None:
-        """End the search for listed bearings."""
-        if self.listed.wanted is not None:
-            self.listed.wanted.give_up()
+        return ""
 
     def snapshot(self) -> Self:
         """A copy for another thread: what is measured and found by now."""
         made = copy.copy(self)
         made.diagnoses, made.extents = copy.copy(self.diagnoses), copy.copy(self.extents)
-        made.listed = copy.copy(self.listed)
         return made
 
     # Saying and doing

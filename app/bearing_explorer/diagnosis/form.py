@@ -13,6 +13,7 @@ does not depend on it.
 from __future__ import annotations
 
 import dataclasses
+import math
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -237,14 +238,14 @@ def _unit(table: Table) -> str:
     return contents.unit.value if contents.unit.taken else NOT_KNOWN
 
 
-def bearings_of(table: Table | None, names: Sequence[str] = ()) -> list[list[str]]:
+def bearings_of(table: Table) -> list[list[str]]:
     """[value, words, heading] of the bearings to choose from.
 
-    The one of the file's collection and those that were `found` to explain the signal come first.
+    The one of the file's collection comes first.
     """
-    listed = None if table is None else table.contents.bearing
-    likely = dict.fromkeys([*([] if listed is None else [listed.value]), *names])
-    others = dict.fromkeys(name for name in catalogue() if name not in likely)
+    listed = table.contents.bearing
+    likely = [] if listed is None else [listed.value]
+    others = [name for name in catalogue() if name not in likely]
     return [
         [NOT_KNOWN, "choose", WAYS],
         [machine.BY_DESIGNATION, "by its designation", WAYS],
@@ -262,13 +263,16 @@ def recordings_of(table: Table) -> list[list[str]]:
     return [*longest, *([str(k), words] for k, words in enumerate(rows, 1))]
 
 
-def speeds_of(table: Table | None) -> list[list[str]]:
+def speeds_of(table: Table) -> list[list[str]]:
     """[value, words] of the answers on the shaft speed."""
-    speed = None if table is None else table.contents.shaft_speed
+    speed = table.contents.shaft_speed
     of_file = []
     if speed is not None:
-        words = "from the file" if speed.stated else "a guess from the file"
-        of_file = [[machine.FILE, f"{words}: {machine.written(speed)}"]]
+        rpm = 30.0 / math.pi * speed.value
+        words = f"{'from the file' if speed.stated else 'a guess from the file'}: {rpm:.4g} rpm"
+        if not speed.supported:  # of pulses, which are as many as turns only if each is one
+            words = f"from the tachometer: about {float(f'{rpm:.3g}'):g} rpm"
+        of_file = [[machine.FILE, words]]
     return [
         [NOT_KNOWN, "not known: find it"],
         *of_file,
@@ -378,8 +382,7 @@ def said(table: Table) -> str:
     ]
     words = f"The file says: {', '.join(stated)}." if stated else ""
     if contents.load is not None:
-        sure = "" if contents.load.stated else " if it is in pounds"
-        words += f" Its load is {with_prefix(contents.load.value, 'N', 4)}{sure}."
+        words += f" Its load is {with_prefix(contents.load.value, 'N', 4)}."
     return words.strip()
 
 
@@ -454,7 +457,7 @@ def read_form(
     if texts["unit"] not in (*UNITS, AS_HEADED) and in_si:
         refused["unit"] = f"The unit is one of {', '.join(UNITS)}."
     try:
-        found_machine = machine_of(table, texts, scene)
+        measured_machine = machine_of(table, texts, scene)
     except FormError as error:
         refused |= error.sentences
     if refused:
@@ -477,15 +480,19 @@ def read_form(
         )
     except ValueError as error:
         raise FormError({"columns": f"These columns are no signal: {_said_by(error)}."}) from None
+    contents = table.contents
+    places = sorted({contents.columns[i].place for i in columns} - {""})
+    point = "" if contents.point is None else contents.point.value
     origin = Origin(
         table.name, columns, unit, numbers["full_scale"], sensitivity, dict(table.given),
-        place=" and ".join(sorted({table.contents.columns[i].place for i in columns} - {""})),
-        part=int(texts["part"] or 0), which=table.which,
+        place=" and ".join(places) or point, part=int(texts["part"] or 0), which=table.which,
+        machine="" if contents.machine is None else contents.machine.value,
     )  # fmt: skip
     notes = (*recording.notes, *_doubts(table, columns, unit))
-    sized = dataclasses.replace(recording, shaft_speed=None, notes=notes)
+    turned = recording.scale_shaft(measured_machine.ratio)
+    sized = dataclasses.replace(turned, shaft_speed=None, notes=notes)
     return Measured(
-        sized if in_si else _without_size(sized), found_machine, origin=origin, in_si=in_si
+        sized if in_si else _without_size(sized), measured_machine, origin=origin, in_si=in_si
     )
 
 

@@ -8,7 +8,6 @@ from typing import Any
 from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.report import measured_report
 from bearing_explorer.diagnosis.session import Measurement
-from bearing_explorer.diagnosis.views.measured_indicators import MeasuredIndicators
 from bearing_explorer.kit.report_page import About
 from bearing_explorer.kit.session import Half, Section, Session
 from bearingcore import Scene
@@ -47,17 +46,11 @@ class DiagnosisOfSignal(Half):
         self.measurement.take_scene()
         return Model(self.scene, True, self.measurement.at_work, self.page.mark)
 
-    # What the page connects with the scene's half
-
-    def change_scene_by(self, change: Callable[[dict[str, Any]], None]) -> None:
-        """Have messages about the scene taken by this."""
-        self.measurement.change_scene = change
-
     def simulate(self, noise: str) -> None:
         """Simulate a measurement of the scene."""
         self.measurement.simulate(noise)
 
-    def report(self, about: About) -> Callable[[], dict[str, Any] | None] | str:
+    def report(self, about: About) -> Callable[[], dict[str, Any]] | str:
         """A function that makes the report on the signal, in any thread; or why there is none."""
         measurement = self.measurement.snapshot()
         if why := measurement.out_of_date:
@@ -67,7 +60,4 @@ class DiagnosisOfSignal(Half):
             for view in self.page.views_made()
             if view.job_result is not None
         }
-        kinds = (view.look["machine"] for view in self.page.views_made()
-                 if isinstance(view, MeasuredIndicators))  # fmt: skip
-        kind = next(kinds, "")
-        return lambda: measured_report(Model(self.scene), measurement, results, about, kind)
+        return lambda: measured_report(Model(self.scene), measurement, results, about)

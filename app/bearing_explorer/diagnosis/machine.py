@@ -34,16 +34,24 @@ PITCH_DIAMETER = 39e-3
 SPEEDS = (1e-3, 1e4)
 """[Hz] between which a shaft speed may be typed."""
 
+RATIOS = (0.01, 100.0)
+"""Between which a bearing's shaft may turn as often as the measured one."""
+
 FASTEST_BARE = 300.0
 """[Hz] above which a number without a unit may be meant in rpm: 18,000 rpm."""
 
-FIELDS = ("bearing", "designation", *FREQUENCIES, "speed", "shaft_speed")
+FIELDS = ("bearing", "designation", *FREQUENCIES, "speed", "shaft_speed", "ratio")
 """Of the form that says it."""
 
-GROUPS = {"bearing": ("bearing", "designation", *FREQUENCIES), "speed": ("speed", "shaft_speed")}
+GROUPS = {
+    "bearing": ("bearing", "designation", *FREQUENCIES),
+    "speed": ("speed", "shaft_speed", "ratio"),
+}
 """The fields that answer one question, by the first of them."""
 
 KNOWN = (GIVEN, ROUGH)
+MEASURED = (FILE, *KNOWN)
+"""Sources of a speed that may be that of another shaft, which drives the bearing's."""
 SPEED_SOURCES = {
     FILE: "from the file", GIVEN: "given", ROUGH: "given, good to 10 %",
     SCENE: "the scene's, as chosen", SIMULATED: "of the simulation",
@@ -73,7 +81,7 @@ class Machine:
     Attributes
     ----------
     shaft_speed
-        [rad/s]; None where it is not known.
+        [rad/s] of the bearing's shaft; None where it is not known.
     bearing
         None where nothing says which it is.
     speed_source
@@ -90,6 +98,8 @@ class Machine:
         whether the bearing is known by the frequencies of its parts alone: it has no size then.
     unread
         letters of the bearing's designation of which no meaning is known.
+    ratio
+        turns of the bearing's shaft for each turn of the shaft whose speed was measured.
     """
 
     shaft_speed: float | None = None
@@ -101,6 +111,7 @@ class Machine:
     kept: frozenset[str] = frozenset()
     by_frequencies: bool = False
     unread: str = ""
+    ratio: float = 1.0
 
     def __post_init__(self) -> None:
         if self.shaft_speed is None:
@@ -115,6 +126,14 @@ class Machine:
         if isinstance(speed, str):
             return dataclasses.replace(self, speed_source=choice("speed", speed, KNOWN))
         return dataclasses.replace(self, shaft_speed=speed)
+
+    @property
+    def ratio_words(self) -> str:
+        """The speed as one of the measured shaft's, after a comma; empty without a gear."""
+        if self.ratio == 1.0 or self.shaft_speed is None:
+            return ""
+        measured = number(30.0 / math.pi * self.shaft_speed / self.ratio, 4)
+        return f", {number(self.ratio, 4)} times the {measured} of the measured shaft"
 
     def source_of(self, name: str) -> str:
         """Where "bearing" or "speed" is from, in words; empty where it is not known."""
@@ -157,6 +176,7 @@ def guess(contents: FileContents) -> dict[str, str]:
     return {
         "speed": FILE if speed is not None and speed.taken else NOT_KNOWN,
         "shaft_speed": "" if speed is None else written(speed),
+        "ratio": "",
         "designation": "",
         **_bearing(contents),
     }
@@ -170,16 +190,6 @@ def kept_answers(first: Mapping[str, str], given: Mapping[str, str]) -> dict[str
     """
     silent = [name for name in GROUPS if first[name] == NOT_KNOWN and name in given]
     return {field: given[field] for name in silent for field in GROUPS[name]}
-
-
-def answers_of(values: Mapping[str, str], first: Mapping[str, str]) -> dict[str, str]:
-    """The fields of the questions that a person answered otherwise than `first`."""
-    answered = [
-        name
-        for name, fields in GROUPS.items()
-        if values[name] not in (NOT_KNOWN, FILE) and any(values[f] != first[f] for f in fields)
-    ]
-    return {field: values[field] for name in answered for field in GROUPS[name]}
 
 
 def _bearing(contents: FileContents) -> dict[str, str]:
@@ -242,19 +252,20 @@ def read_machine(
     scene
         bearing and speed of the scene, see `of_scene`: used only where the form says so.
     """
-    speed = _speed_in(texts, contents, scene)
+    speed, ratio = _speed_in(texts, contents, scene), _ratio_in(texts)
+    speed = None if speed is None else ratio * speed
     bearing, name, by, unread = _bearing_in(texts, speed, scene)
     guessed = set()
     stated = contents.shaft_speed
     if texts["speed"] == FILE and stated is not None and not stated.stated:
         guessed.add("speed")
-    if by == GIVEN and all(texts[one] == first[one] for one in GROUPS["bearing"]):
+    if by == GIVEN and all(texts[field] == first[field] for field in GROUPS["bearing"]):
         by = FILE
         if not contents.frequencies and not texts["designation"]:
             guessed.add("bearing")  # known from the collection the file seems to be of
     return Machine(
         speed, bearing, texts["speed"], by, name, frozenset(guessed),
-        by_frequencies=texts["bearing"] == BY_FREQUENCIES, unread=unread,
+        by_frequencies=texts["bearing"] == BY_FREQUENCIES, unread=unread, ratio=ratio,
     )  # fmt: skip
 
 
@@ -273,6 +284,30 @@ def _speed_in(texts: Mapping[str, str], contents: FileContents, scene: Machine) 
     return scene.shaft_speed if source == SCENE else None
 
 
+def _ratio_in(texts: Mapping[str, str]) -> float:
+    """The gear ratio of a form; 1 where none is typed, or the speed is that of the bearing."""
+    if not texts["ratio"] or texts["speed"] not in MEASURED:
+        return 1.0
+    try:
+        return read_ratio(texts["ratio"])
+    except ValueError as error:
+        raise FormError({"ratio": sentence_of(error)}) from None
+
+
+def read_ratio(text: str) -> float:
+    """Turns of the bearing's shaft for each turn of the measured one.
+
+    >>> read_ratio("0.657"), read_ratio("23/46"), read_ratio("2 : 1")
+    (0.657, 0.5, 2.0)
+    """
+    words, (least, most) = "The gear ratio", RATIOS
+    over, _, under = text.replace(":", "/").partition("/")
+    ratio = number_of(over, words, "", 1e-3, 1e6) / number_of(under or "1", words, "", 1e-3, 1e6)
+    if not least <= ratio <= most:
+        raise ValueError(f"{words} is {number(ratio, 4)}; possible: {span(least, most, 'times')}.")
+    return ratio
+
+
 def _bearing_in(
     texts: Mapping[str, str], speed: float | None, scene: Machine
 ) -> tuple[Bearing | None, str, str, str]:
@@ -283,7 +318,7 @@ def _bearing_in(
             return scene.bearing, "", SCENE, ""
         if name == BY_FREQUENCIES:
             turns = None if speed is None else speed / (2.0 * math.pi)
-            typed = ", ".join(texts[one] for one in FREQUENCIES if texts[one])
+            typed = ", ".join(texts[name] for name in FREQUENCIES if texts[name])
             return _of_frequencies(texts, turns), f"frequencies {typed}", GIVEN, ""
         if name == BY_DESIGNATION:
             name = texts["designation"]

@@ -11,8 +11,6 @@ FIRST_WORDS = (
     "indicators and spectra appear here."
 )
 
-NO_FILE_TO_COMPARE = "A file is compared with a file: choose the one to compare first."
-
 REFUSED = "An answer on bearing, speed or columns is refused; this is for the one before."
 CHANGED = "Your answers have changed since."
 NOT_YET = "The signal is being analysed with the newest answers."

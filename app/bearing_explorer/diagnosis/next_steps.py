@@ -9,8 +9,10 @@ from __future__ import annotations
 import math
 
 from bearing_explorer.diagnosis.diagnoses import Question
-from bearing_explorer.diagnosis.views.part_words import the
-from bearing_explorer.diagnosis.views.trend import line_growth
+from bearing_explorer.diagnosis.session import Measurement
+from bearing_explorer.diagnosis.views.measured_indicators import severity, zone_of
+from bearing_explorer.diagnosis.views.part_words import finding, the
+from bearing_explorer.diagnosis.views.trend import line_growth, since_when
 from bearingcore import Diagnosis, Trend
 from bearingcore.common import number, percent
 from bearingcore.measured.diagnosis import LIKELY, NONE_SEEN, DiagnosisStatus
@@ -79,7 +81,7 @@ def next_steps(
     if not diagnosis.names_a_part:
         return _without_a_part(diagnosis, zone, change)
     line = "" if trend is None or records < 2 else line_growth(trend)
-    if trend is not None and line:
+    if line and trend is not None:
         change = max(change, float(trend.line_change(diagnosis.fault)[-1]))
     of_the_shaft = shaft_share >= MOST
     part = the(diagnosis.fault)
@@ -94,13 +96,45 @@ def next_steps(
     if diagnosis.probability < LIKELY and (zone in ("C", "D") or change >= GROWN):
         words.append(UNSURE)
     if records > 1:
+        words += [line] if line else []
+        words += [since] if trend is not None and (since := since_when(trend)) else []
         level = f"the vibration became {number(rms_change, 2)} times that of the baseline"
-        words.append(f"Over {records} records {f'{line}, and ' if line else ''}{level}.")
+        words.append(f"Over {records} records {level}.")
     else:
         words.append(ONE_RECORD)
     if zone in ("A", "B"):
         words.append("A low velocity does not clear a bearing: early damage hardly shows in it.")
     return " ".join([*words, PRACTICE])
+
+
+def steps_now(
+    measurement: Measurement,
+    question: Question,
+    diagnosis: Diagnosis,
+    shaft_share: float = math.nan,
+) -> str:
+    """The next step by all that a session knows of the machine."""
+    trend = measurement.trend_now
+    whole = trend.trend if trend is not None and trend.complete else None
+    zone = zone_of(question.measured, measurement.machine_kind)
+    return next_steps(diagnosis, question, zone, whole, shaft_share)
+
+
+def work_order(
+    measurement: Measurement, question: Question, diagnosis: Diagnosis, length: str = ""
+) -> str:
+    """The text of a work order, a fact in each line; `length` is that of the spall in words."""
+    about, measured = measurement.known_about, question.measured
+    spall = f" Its spall is {length}." if length else ""
+    lines = {
+        "Machine": about.machine,
+        "Measuring point": about.point,
+        "Recorded": about.date,
+        "Finding": f"{finding(diagnosis, question)}{spall}",
+        "Severity": severity(measured, measurement.machine_kind),
+        "To do": steps_now(measurement, question, diagnosis),
+    }
+    return "\n".join(f"{name}: {words}" for name, words in lines.items() if words)
 
 
 def _how_soon(part: str, zone: str, change: float, unsure: bool, of_the_shaft: bool) -> str:

@@ -53,7 +53,6 @@ class Arrival:
     number: int = 1
     newest: Read | None = None
     why: str = ""
-    baseline: bool = False
     lines: str = ""
 
     @property
@@ -80,16 +79,14 @@ class Arrival:
 
     def take(self, name: str, read: Read | str, inside: int = 1) -> None:
         """Take what was read, or why nothing was; one of so many `inside` one file."""
-        if inside > 1 and self.count == 1 and not (self.baseline or self.series.together):
+        if inside > 1 and self.count == 1 and not self.series.together:
             self.series = Series(together=True)  # of the files in a zip
         if isinstance(read, str):
             sentence = read if name in read else f"{name}: {read}"
             self.series, self.why = self.series.without(sentence), self.why or sentence
         else:
-            self.series, self.newest = (
-                self.series.with_table(read.table, self.count * inside, first=self.baseline),
-                read,
-            )
+            self.series = self.series.with_table(read.table, self.count * inside)
+            self.newest = read
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ from bokeh.embed import json_item
 from bearing_explorer.diagnosis.diagnoses import Question
 from bearing_explorer.diagnosis.machine import BEARING_SOURCES, SCENE, SIMULATED
 from bearing_explorer.diagnosis.model import Model
-from bearing_explorer.diagnosis.next_steps import next_steps
+from bearing_explorer.diagnosis.next_steps import steps_now
 from bearing_explorer.diagnosis.session import Measurement
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.signal_words import name_of
@@ -28,7 +28,7 @@ from bearing_explorer.diagnosis.views.measured_indicators import no_velocity, se
 from bearing_explorer.diagnosis.views.measured_kurtogram import MeasuredKurtogram
 from bearing_explorer.diagnosis.views.measured_spectrum import MeasuredSpectrum
 from bearing_explorer.diagnosis.views.measurement import MeasuredSignal
-from bearing_explorer.diagnosis.views.trend import FoundTrend, TrendOfFiles, words_on
+from bearing_explorer.diagnosis.views.trend import TrendOfFiles, words_on
 from bearing_explorer.diagnosis.views.which_length import WhichLength
 from bearing_explorer.diagnosis.widgets.part_panel import part_html
 from bearing_explorer.kit.assets import asset_text
@@ -38,11 +38,10 @@ from bearing_explorer.kit.widgets.facts import html_table, html_text
 from bearingcore import Diagnosis
 from bearingcore.bearings import FREQUENCIES
 from bearingcore.common import number, percent, with_prefix
-from bearingcore.measured.files import time_in
 
 FILE = "bearing-report-{}.html"
 NOT_SAID = "not said"
-WIDTH, HEIGHT = 600, 200
+WIDTH, HEIGHT = 600, 260
 """Of a figure as it is drawn [px]; two are side by side."""
 MOST_FIGURES = 4
 _ORIGINS = {
@@ -68,14 +67,6 @@ NOT_FORESEEN = (
 NO_SIZE = "The level of the vibration is not known, as the unit of the signal is not."
 
 
-def _trend(measurement: Measurement, job_results: Mapping[str, Any]) -> FoundTrend | None:
-    """The trend that was computed of the files there are; None where it is of others."""
-    trend = job_results.get(TrendOfFiles.name)
-    if isinstance(trend, FoundTrend) and trend.series is measurement.series:
-        return trend
-    return None
-
-
 def _drawings(
     model: Model, measurement: Measurement, job_results: Mapping[str, Any], with_extent: bool
 ) -> tuple[list[str], list[Any], list[str]]:
@@ -87,7 +78,7 @@ def _drawings(
         figure = Figure(
             view,
             model,
-            prepare=lambda view: view.measure(measurement),  # type: ignore[attr-defined]
+            prepare=lambda view: _prepare(view, measurement),
             job_result=job_results.get(view.name),
             computed=False,
         )
@@ -99,7 +90,6 @@ def _drawings(
             continue
         # the trend is in words above
         caption = "" if view is TrendOfFiles else html_text(figure.sentence)
-        first.height = first.min_height = first.max_height = HEIGHT
         drawn.append(first.id)
         items.append(json_item(figure.layout))
         figures.append(
@@ -111,12 +101,18 @@ def _drawings(
     return drawn, items, figures
 
 
+def _prepare(view: Any, measurement: Measurement) -> None:
+    """Have a view draw the signal, as high as in the report: places of names follow from that."""
+    view.measure(measurement)
+    for plot in view.figures:
+        plot.height = plot.min_height = plot.max_height = HEIGHT
+
+
 def measured_report(
     model: Model,
     measurement: Measurement,
     job_results: Mapping[str, Any],
     about: About,
-    kind: str = "",
 ) -> dict[str, Any]:
     """The page for the browser to finish. For any thread: it touches no models of the page.
 
@@ -126,9 +122,6 @@ def measured_report(
         a copy, see `Measurement.snapshot`.
     job_results
         results of jobs, by view.
-    kind
-        power and support of the machine, one of `bearingcore.measured.signals.ZONES`, for the
-        zone of its vibration; empty where it is not known.
 
     Raises
     ------
@@ -144,32 +137,28 @@ def measured_report(
     with_extent = extent is not None and bool(extent.passes)
     drawn, items, figures = _drawings(model, measurement, job_results, with_extent)
     state = panel_state(question, answer)
-    state |= {"pass_on": "", "facts": ()}
+    state["facts"] = ()
     if extent is not None:
         state["extent"] = part_words.length(extent, measurement.sizing())
     machine = question.measured.machine
     bearing = about.bearing if model.scene.bearing == machine.bearing else "Bearing"
-    title = f"{machine.bearing_name or bearing}: {question.measured.recording.name}"
-    title = about.title.strip() or title
-    said = measurement.about
-    place = "" if (origin := question.measured.origin) is None else origin.place
+    said, kind = measurement.known_about, measurement.machine_kind
     about = replace(about, machine=said.machine or about.machine)
+    title = about.title.strip() or ", ".join(filter(None, (about.machine, said.point)))
+    title = title or f"{machine.bearing_name or bearing}: {question.measured.recording.name}"
     if (
         SCENE not in (machine.bearing_source, machine.speed_source)
         and not question.measured.true_part
     ):
         about = replace(about, link="")  # of a scene that has nothing to do with the signal
-    trend = _trend(measurement, job_results)
-    zone = zone_of(question.measured, kind)
-    whole = trend.trend if trend is not None and trend.complete else None
-    steps = next_steps(answer, question, zone, whole, question.measured.shaft_share)
+    steps = steps_now(measurement, question, answer, question.measured.shaft_share)
     body = [
         *heading(about, title),
-        f"<p>Measuring point: {html_text(said.point or place or NOT_SAID)}. "
-        f"Recorded: {html_text(recorded(measurement))}.</p>",
+        f"<p>Measuring point: {html_text(said.point or NOT_SAID)}. "
+        f"Recorded: {html_text(said.date or NOT_SAID)}.</p>",
         part_html(state),
         f"<h2>What to do next</h2><p class='do'>{html_text(steps)}</p>",
-        html_table([], _escaped(findings(question, answer, measurement, kind, trend)), named=True),
+        html_table([], _escaped(findings(question, answer, measurement)), named=True),
         f"<div class='figures'>{''.join(figures)}</div>",
         "<h2>Assumptions</h2>",
         html_table(
@@ -194,19 +183,21 @@ def findings(
     question: Question,
     answer: Diagnosis,
     measurement: Measurement,
-    kind: str,
-    trend: FoundTrend | None,
 ) -> list[tuple[str, str]]:
     """Severity, the bearing's frequencies and the trend: name and words."""
-    measured, speed = question.measured, answer.shaft_speed
+    measured, speed, trend = question.measured, answer.shaft_speed, measurement.trend_now
     why = no_velocity(measured)
     level = "not known: " + why
     if not why:
         low, high = measured.indicators.band
         most = 1e3 * float(measured.indicators.velocity_rms.max())
-        level = f"velocity {number(most, 3)} mm/s RMS, {low:.0f} to {high:.0f} Hz"
+        moved = 1e6 * float(measured.indicators.displacement_rms.max())
+        level = (
+            f"velocity {number(most, 3)} mm/s and displacement {number(moved, 3)} µm RMS, "
+            f"{low:.0f} to {high:.0f} Hz"
+        )
         if math.isfinite(share := measured.shaft_share):
-            level += f", {percent(share, 2)} of its power at 1 to 3 times the shaft speed"
+            level += f", {percent(share, 2)} of the velocity's power at 1 to 3 turns of the shaft"
     frequencies = "the shaft speed is not known"
     if speed is not None:
         each = (f"{name.upper()} {number(getattr(question.bearing, name)(speed), 4)} Hz"
@@ -215,12 +206,12 @@ def findings(
     files = len(measurement.series.tables)
     grown = "one record shows none"
     if trend is not None and len(trend.trend.points) > 1 and trend.complete:
-        grown = words_on(trend.trend, measured.in_si)
+        grown = words_on(trend.trend, measured.in_si, measured.along(trend.trend.direction))
     elif files > 1 and measurement.series.together:
         done = 0 if trend is None else len(trend.trend.points)
         grown = f"not finished: {done} of {files} files are done; make the report again then"
     return [
-        ("Severity", f"{level}. {severity(measured, kind)}"),
+        ("Severity", f"{level}. {severity(measured, measurement.machine_kind)}"),
         ("Frequencies", frequencies),
         ("Trend", grown),
     ]
@@ -250,8 +241,8 @@ def assumptions(
     unknown, made = machine.exact_speed is None, BEARING_SOURCES[SIMULATED].capitalize()
     return [
         ("File", name_of(measured), "" if measured.origin else "Simulated"),
-        ("Signal", f"{with_prefix(recording.duration, 's')} along "
-         f"{' and '.join(measured.directions)}", origin_of(measurement, "columns")),
+        ("Signal", with_prefix(recording.duration, "s")
+         + measured.along(" and ".join(measured.directions)), origin_of(measurement, "columns")),
         ("Sampling rate", with_prefix(recording.sample_rate, "Hz", 4),
          origin_of(measurement, "sample_rate")),
         ("Unit", values.get("unit", "m/s²") or "not known", origin_of(measurement, "unit")),
@@ -288,15 +279,6 @@ def origin_of(measurement: Measurement, name: str) -> str:
     if words.startswith("Given") or not words:
         return words
     return f"From the file, {words[0].lower()}{words[1:]}"
-
-
-def recorded(measurement: Measurement) -> str:
-    """When the signal was recorded, as a person or the name of the file says."""
-    if measurement.about.date:
-        return measurement.about.date
-    measured = measurement.measured
-    when = None if measured is None else time_in(measured.recording.name)
-    return NOT_SAID if when is None else f"{when:%d %B %Y, %H:%M}, by the name of the file"
 
 
 def limits(question: Question, answer: Diagnosis) -> list[str]:

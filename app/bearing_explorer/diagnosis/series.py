@@ -5,12 +5,13 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass
+from datetime import datetime
 from pathlib import Path
 
 from bearing_explorer.diagnosis.form import fill, read_form
 from bearing_explorer.diagnosis.machine import FormError, Machine, kept_answers
 from bearing_explorer.diagnosis.signal import Measured, Origin
-from bearingcore import Recording, Table
+from bearingcore import Recording, Table, Trend
 
 MOST_FILES = 200
 """Of a series."""
@@ -40,19 +41,16 @@ class Series:
     left_out: tuple[str, ...] = ()
     together: bool = False
 
-    def with_table(self, table: Table, count: int = 1, *, first: bool = False) -> Series:
-        """With a further file, of `count` that come; it replaces an earlier one of its name.
-
-        It comes last, or `first`.
-        """
+    def with_table(self, table: Table, count: int = 1) -> Series:
+        """With a further file, of `count` that come; it replaces an earlier one of its name."""
         rows, columns = table.columns.shape
         most = MOST_NUMBERS // max(count, ROOM_FOR) // columns
         if rows > most:
             table = dataclasses.replace(table, columns=table.columns[:most].copy())
         others = [one for one in self.tables if one.name != table.name]
-        tables = [table, *others] if first else [*others, table]
+        tables = [*others, table]
         while sum(one.columns.size for one in tables) > MOST_NUMBERS or len(tables) > MOST_FILES:
-            tables.pop(int(first))
+            tables.pop(0)
         return dataclasses.replace(self, tables=tuple(tables))
 
     def without(self, sentence: str) -> Series:
@@ -69,6 +67,21 @@ class SeriesRecordings:
     left_out: tuple[str, ...]
 
 
+@dataclass(frozen=True, eq=False)
+class FoundTrend:
+    """A trend, of which files it is, and what was left out."""
+
+    trend: Trend
+    recordings: SeriesRecordings
+    series: Series
+    measured: Measured
+
+    @property
+    def complete(self) -> bool:
+        """Whether all recordings are in it."""
+        return len(self.trend.points) == len(self.recordings.recordings)
+
+
 def recordings_of(
     series: Series,
     shown: Measured,
@@ -82,16 +95,18 @@ def recordings_of(
     Each file is read as it proposes itself, but for the fields that a person `changed` for the one
     that is `shown`; `kept` are answers on the machine for those that say nothing of it. Columns and
     a unit that a person gave hold for files of the same kind and columns. In another unit, or one
-    that is not known, a file cannot be compared and is left out.
+    that is not known, a file cannot be compared and is left out. They are in the order of their
+    dates where all have one.
     """
     if not series.tables:
         return SeriesRecordings((shown.recording,), (shown.origin,), ())
-    recordings, origins, left_out = [], [], list(series.left_out)
+    read: list[tuple[Recording, Origin | None]] = []
+    left_out = list(series.left_out)
     families = {table.name: (Path(table.name).suffix, *table.names) for table in series.tables}
     family = families.get(shown.recording.name)
-    own = {name: text for name, text in changed.items() if name not in ("unit", "columns")}
+    for_others = {name: text for name, text in changed.items() if name not in ("unit", "columns")}
     for table in series.tables:
-        answers = dict(changed if families[table.name] == family else own)
+        answers = dict(changed if families[table.name] == family else for_others)
         if table.name != shown.recording.name:
             answers.pop("part", None)
         try:
@@ -107,6 +122,10 @@ def recordings_of(
             left_out.append(f"{table.name}: nothing is measured along {direction}.")
         else:
             speed = answer.machine.exact_speed
-            recordings.append(dataclasses.replace(answer.recording, shaft_speed=speed))
-            origins.append(answer.origin)
-    return SeriesRecordings(tuple(recordings), tuple(origins), tuple(left_out))
+            recording = dataclasses.replace(answer.recording, shaft_speed=speed)
+            read.append((recording, answer.origin))
+    dates = {id(recording): recording.recorded for recording, _ in read}
+    if None not in dates.values():
+        read.sort(key=lambda pair: dates[id(pair[0])] or datetime.min)
+    recordings, origins = zip(*read, strict=True) if read else ((), ())
+    return SeriesRecordings(recordings, origins, tuple(left_out))

@@ -12,8 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable, Generator
 from dataclasses import replace
 
-from bearing_explorer.diagnosis.machine import NOT_KNOWN, ROUGH, SIMULATED, SPEED_SOURCES
-from bearing_explorer.diagnosis.measurement_state import NO_FILE_TO_COMPARE, MeasurementState
+from bearing_explorer.diagnosis.measurement_state import MeasurementState
 from bearing_explorer.diagnosis.reading import Arrival, read_files
 from bearing_explorer.diagnosis.series import MOST_FILES, Series, SeriesRecordings, recordings_of
 from bearing_explorer.diagnosis.signal import Measured
@@ -56,24 +55,19 @@ class Measurement(SignalForm):
         number: int = 1,
         count: int = 1,
         chosen: int = 1,
-        baseline: bool = False,
     ) -> None:
         """A file is about to come, so long [bytes]; the `number`th of `count`, see `UploadBegins`.
 
-        The last of several that can be read is the one that is shown. A `baseline` is put before
-        the others, and the one that is shown stays.
+        The last of several that can be read is the one that is shown.
         """
         if self._ended:
-            return
-        if baseline and self._table is None:
-            self._refuse(NO_FILE_TO_COMPARE)
             return
         if number == 1:
             self._jobs.drop(READING)
             # a file that comes alone is a series with those before it
             several = 1 < count <= MOST_FILES
             series = Series(together=True) if several else replace(self.series, together=False)
-            self._arrival = Arrival(count if several else 1, chosen, series, baseline=baseline)
+            self._arrival = Arrival(count if several else 1, chosen, series)
         arrival = self._arrival
         if arrival is None or number not in (1, arrival.number + 1):
             return  # of files that were given up
@@ -148,26 +142,12 @@ class Measurement(SignalForm):
             self._refuse(f"{none if arrival.count > 1 else ''}{arrival.why}", arrival.lines)
             return
         self.series = arrival.series
-        if arrival.baseline:
-            self._take_baseline(arrival.newest.table.name)
-        else:
-            self._take_read(replace(arrival.newest, cut=arrival.which))
-
-    def _take_baseline(self, name: str) -> None:
-        """The files of the series are compared with the first one, which came now."""
-        self.series = replace(self.series, together=True)
-        shown = "" if self._table is None else self._table.name
-        words = f"{name} is what {shown} is compared with. See the trend below."
-        remarks = f"{words} {self._in_short(self.state.values)['remarks']}"
-        self._tell(words=words, remarks=remarks, bad=False, busy=False)
-        self._draw()
+        self._take_read(replace(arrival.newest, cut=arrival.which))
 
     def recordings(self, shown: Measured, direction: str) -> SeriesRecordings:
         """The recordings of the series; for any thread."""
-        given = self.state.values
-        kept = {name: text for name, text in self._kept.items() if given.get(name) == text}
-        changed = {name: text for name, text in self._changed.items() if name not in kept}
-        return recordings_of(self.series, shown, changed, kept, direction, self._scene)
+        changed = {name: text for name, text in self._changed.items() if name not in self._kept}
+        return recordings_of(self.series, shown, changed, self._kept, direction, self._scene)
 
     # Simulated ones
 
@@ -188,12 +168,7 @@ class Measurement(SignalForm):
 
     def _take_simulated(self, measured: Measured) -> None:
         self._table, self._cut, self.measured = None, "", measured
-        self.state = MeasurementState(
-            arrival=self.state.arrival + 1,
-            values={"speed": SIMULATED},
-            speeds=[[SIMULATED, SPEED_SOURCES[SIMULATED]], [ROUGH, "known to 10 %"],
-                    [NOT_KNOWN, "not known: find it"]],
-        )  # fmt: skip
+        self.state = MeasurementState(arrival=self.state.arrival + 1)
         self._tell(words=self._summary(), **self._in_short({}))
         self._draw()
 

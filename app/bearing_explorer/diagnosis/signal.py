@@ -16,7 +16,7 @@ import bearingcore as core
 from bearing_explorer.diagnosis.machine import Machine
 from bearingcore import Bearing, Indicators, Kurtogram, Recording, Scene, Spectrum
 from bearingcore.common import cached_property
-from bearingcore.measured.diagnosis import NARROWEST
+from bearingcore.measured.diagnosis import NARROWEST, speed_over_time
 from bearingcore.measured.files import Column
 from bearingcore.measured.signals import shaft_share
 
@@ -35,7 +35,7 @@ class Origin:
     `sensitivity` [V/(m/s²)] is that of the sensor, where the file holds voltages. `given` is the
     meaning of columns that a person gave, `place` is that of the sensors, as given or by the file.
     `part` is which of several recordings in the file was chosen, 0 where none was; `which` is the
-    one that was read, in words.
+    one that was read, in words. `machine` is its name, by the file.
     """
 
     file: str
@@ -47,6 +47,7 @@ class Origin:
     place: str = ""
     part: int = 0
     which: str = ""
+    machine: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,6 +112,10 @@ class Measured:
         """That were measured."""
         return self.recording.directions
 
+    def along(self, direction: str) -> str:
+        """A direction in a sentence, " along x"; empty of the only one, which may be any."""
+        return f" along {direction}" if len(self.directions) > 1 else ""
+
     def finest(self, wanted: float) -> float:
         """The resolution [Hz] nearest to `wanted` that the recording has: two segments at least."""
         coarsest = self.recording.sample_rate / 64.0
@@ -160,6 +165,11 @@ class Measured:
     def indicators(self) -> Indicators:
         """Condition indicators of the recording."""
         return core.indicators(self.recording, self.shaft_speed)
+
+    @cached_property
+    def speeds(self) -> NDArray[np.float64] | None:
+        """Speed (n,) [rad/s] of the bearing's shaft, if measured beside the signal; else None."""
+        return speed_over_time(self.recording, self.shaft_speed)
 
     @cached_property
     def shaft_share(self) -> float:

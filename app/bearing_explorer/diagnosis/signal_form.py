@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from types import MappingProxyType
-from typing import Any
 
 from bearing_explorer.diagnosis.findings import Findings
 from bearing_explorer.diagnosis.form import (
-    LIKELY,
     SIGNAL_FIELDS,
     SIZES,
     as_texts,
@@ -28,27 +26,26 @@ from bearing_explorer.diagnosis.form import (
     speeds_of,
 )
 from bearing_explorer.diagnosis.machine import (
+    FILE,
     GIVEN,
     GROUPS,
     NOT_KNOWN,
-    ROUGH,
     SCENE,
-    SIMULATED,
     FormError,
-    answers_of,
+    Machine,
     of_scene,
 )
 from bearing_explorer.diagnosis.measurement_state import AboutMeasurement
 from bearing_explorer.diagnosis.reading import AnsweredTable, Arrival, Read, read_answers
-from bearing_explorer.diagnosis.series import Series
+from bearing_explorer.diagnosis.series import FoundTrend, Series
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.signal_words import about_size, in_short, summary
-from bearing_explorer.kit.bearing_list import find_bearing
 from bearing_explorer.kit.compute.jobs import Work
 from bearingcore import Table
 
 _WAITS = "Nothing is drawn yet:"
 AS_GIVEN = "As you gave it."
+EARLIER_SCENE = "The scene has changed since this signal was simulated: simulate it again."
 
 
 class SignalForm(Findings):
@@ -58,8 +55,8 @@ class SignalForm(Findings):
     series = Series()
     #: words for reports
     about = AboutMeasurement()
-    #: takes a message as the controls send it; None where there are no controls
-    change_scene: Callable[[dict[str, Any]], None] | None = None
+    #: whether there is a scene that could be simulated
+    can_simulate = False
     _arrival: Arrival | None = None
     _as_read: Table | None = None
     # the form as it was filled in, guesses that a person agreed to, answers that were given for the
@@ -68,6 +65,8 @@ class SignalForm(Findings):
     _agreed: Mapping[str, str] = MappingProxyType({})
     _kept: Mapping[str, str] = MappingProxyType({})
     _taken: Mapping[str, str] = MappingProxyType({})
+    #: "bearing" and "speed" where a person has answered them for this file
+    _answered: frozenset[str] = frozenset()
     _cut = ""
 
     def stop(self) -> None:
@@ -77,10 +76,36 @@ class SignalForm(Findings):
 
     def take_scene(self) -> None:
         """Follow the scene: its bearing and speed count where a person chose them."""
-        now = of_scene(self._scene_now())
+        scene = self._scene_now()
+        now = of_scene(scene)
         if now != self._scene:
             self._scene = now
             self._follow()
+        true = None if self.measured is None else self.measured.true_scene
+        remarks = EARLIER_SCENE if true not in (None, scene) else ""
+        if true is not None and self.state.remarks != remarks:
+            self._tell(remarks=remarks)
+
+    @property
+    def trend_now(self) -> FoundTrend | None:
+        """The newest trend, where it is of the files there are now."""
+        return self.trend if self.trend is not None and self.trend.series is self.series else None
+
+    @property
+    def known_about(self) -> AboutMeasurement:
+        """Machine, point and date of the signal, as typed or as its file says them."""
+        typed, measured = self.about, self.measured
+        if measured is None or measured.origin is None:
+            return typed
+        when, date = measured.recording.recorded, ""
+        if when is not None:
+            time = f", {when:%H:%M}" if when.hour or when.minute else ""
+            date = f"{when:%d %B %Y}{time}, by the file"
+        return AboutMeasurement(
+            typed.machine or measured.origin.machine,
+            typed.point or measured.origin.place,
+            typed.date or date,
+        )
 
     def _follow(self) -> None:
         """Have the machine of the signal be as the form and the scene say it now."""
@@ -94,7 +119,7 @@ class SignalForm(Findings):
         except FormError as error:  # frequencies in Hz that are those of no bearing at this speed
             self._tell(words=str(error), bad=True, refused=error.sentences)
             return
-        machine = replace(machine, kept=self._kept_of(values))
+        machine = self._confirmed(machine)
         if machine != measured.machine or self.state.refused:
             self.measured = replace(measured, machine=machine)
             words = self._summary(about_size(size_questions(table, values)))
@@ -117,20 +142,30 @@ class SignalForm(Findings):
     @property
     def _given_machine(self) -> dict[str, str]:
         """The answers on the machine that a person gave for this file or for one before."""
-        values = self.state.values
-        return answers_of(values, self._first) if self._table is not None else {}
+        values = self.state.values if self._table is not None else {}
+        names = {*self._answered, *self._kept} & set(GROUPS) & set(values)
+        answered = [name for name in names if values[name] not in (NOT_KNOWN, FILE)]
+        return {field: values[field] for name in answered for field in GROUPS[name]}
 
-    def _kept_of(self, form: Mapping[str, str]) -> frozenset[str]:
-        """The answers on the machine that are still those for the file before."""
-        kept = self._kept
-        return frozenset(
-            name for name, fields in GROUPS.items()
-            if name in kept and all(form[field] == kept[field] for field in fields)
-        )  # fmt: skip
+    def _confirmed(self, machine: Machine) -> Machine:
+        """The machine, marked with what is kept from the file before and what is given."""
+        answered, by = self._answered, machine.bearing_source
+        return replace(
+            machine,
+            kept=frozenset(GROUPS) & set(self._kept),
+            guessed=machine.guessed - answered,
+            bearing_source=GIVEN if "bearing" in answered and by == FILE else by,
+        )
 
-    def keep_machine(self) -> None:
-        """Bearing and speed, given for the file before, are those of this one too."""
-        self._kept = {}
+    def _take_as_given(self, *names: str) -> None:
+        """Take the answers "bearing" or "speed", as they stand, as given for this file."""
+        self._answered |= {*names}
+        fields = {field for name in names for field in GROUPS[name]}
+        self._kept = {name: text for name, text in self._kept.items() if name not in fields}
+
+    def confirm(self, *names: str) -> None:
+        """Take the answers "bearing" or "speed" as given for this file, as a person says."""
+        self._take_as_given(*names)
         self.take_form(self.state.values)
 
     def forget_machine(self) -> None:
@@ -151,11 +186,11 @@ class SignalForm(Findings):
         table, before = read.table, "" if self._table is None else self._table.name
         self._table = self._as_read = table
         self._cut, self._first, self._agreed = read.cut, read.first, {}
-        self._kept = read.kept
+        self._kept, self._answered = read.kept, frozenset()
         self._taken = read.form
         self.measured = None
         if read.asked is not None:
-            self.measured = self._measured(read.asked, read.form)
+            self.measured = self._measured(read.asked)
             words, bad = self._summary(about_size(read.sizes)), False
         else:
             wanted = {**read.asks, **read.refused, **read.sizes}
@@ -193,18 +228,20 @@ class SignalForm(Findings):
 
         Open questions are settled by an answer or by agreement.
         """
-        table, measured = self._table, self.measured
+        table = self._table
         if self._ended or self._arrival is not None:
             return
         if table is None:
-            if measured is not None and measured.origin is None:
-                self._take_simulated_form(measured, form.get("speed", SIMULATED))
             return
         texts = as_texts(form, tuple(self.state.values))
         changed = {name: text for name, text in texts.items() if text != self._first[name]}
         if sure:
             agreed = {name: texts[name] for name in self.state.open if name not in SIZES}
             self._agreed = {**self._agreed, **agreed}
+        before = self.state.values
+        self._take_as_given(
+            *(name for name, fields in GROUPS.items() if any(texts[f] != before[f] for f in fields))
+        )
         self._tell(values=texts, settling=True)
         scene, as_read = self._scene, self._as_read
         assert as_read is not None
@@ -242,7 +279,7 @@ class SignalForm(Findings):
             "recordings": self.state.recordings if texts["part"] else recordings_of(table),
             "speeds": speeds_of(table),
             "settling": False,
-            "kept_from": self.state.kept_from if self._kept_of(texts) else "",
+            "kept_from": self.state.kept_from if self._kept else "",
         }
         if isinstance(answer, FormError):
             stays = " The figures still show the signal as it was before." if before else ""
@@ -254,11 +291,11 @@ class SignalForm(Findings):
             return
         same = all(texts[name] == self._taken[name] for name in SIGNAL_FIELDS)
         self._taken = texts
-        if before is not None and same:  # what was computed of the signal stays
-            machine = replace(answer.machine, kept=self._kept_of(texts))
-            self.measured = replace(before, machine=machine)
-        else:
-            self.measured = self._measured(answer, texts)
+        signal = self._measured(answer)
+        if before is not None and same and before.machine.ratio == signal.machine.ratio:
+            # what was computed of the signal stays
+            signal = replace(before, machine=signal.machine)
+        self.measured = signal
         self._tell(
             words=self._summary(about_size(sizes)), bad=False, busy=False, **news,
             **self._in_short(texts),
@@ -270,44 +307,8 @@ class SignalForm(Findings):
         """True where a question still has its first answer, and nobody has agreed to that."""
         return text == self._first[name] and text != self._agreed.get(name)
 
-    def _measured(self, asked: Measured, form: Mapping[str, str]) -> Measured:
-        return replace(asked, machine=replace(asked.machine, kept=self._kept_of(form)))
-
-    def _take_simulated_form(self, measured: Measured, speed: str) -> None:
-        """Take whether the speed of a simulated signal is known: exactly, roughly, or not."""
-        if speed not in (SIMULATED, ROUGH, NOT_KNOWN) or measured.bearing is None:
-            return
-        true = measured.true_speed
-        machine = replace(
-            measured.machine, speed_source=speed, shaft_speed=None if speed == NOT_KNOWN else true
-        )
-        if machine == measured.machine:
-            return
-        self.measured = replace(measured, machine=machine)
-        self._tell(values={"speed": speed}, words=self._summary(), **self._in_short({}))
-        self._draw()
-
-    def take_bearing(self, name: str) -> None:
-        """Take a listed bearing as the one that was measured."""
-        measured = self.measured
-        if self._table is None:
-            if measured is not None:
-                bearing = find_bearing(name).bearing
-                machine = replace(measured.machine, bearing=bearing, bearing_source=GIVEN,
-                                  bearing_name=name)  # fmt: skip
-                self.measured = replace(measured, machine=machine)
-                self._tell(words=self._summary(), **self._in_short({}))
-                self._draw()
-            return
-        named = [value for value, _, heading in self.state.bearings if heading == LIKELY]
-        self._tell(bearings=bearings_of(self._table, [*named, name]))
-        self.take_form({**self.state.values, "bearing": name})
-
-    def take_load(self) -> None:
-        """Put the load of the file, downwards, into the scene."""
-        load = None if self._table is None else load_of(self._table)
-        if load is not None and self.change_scene is not None:
-            self.change_scene({"typed": {"fy_n": f"{-load:.6g}"}})
+    def _measured(self, asked: Measured) -> Measured:
+        return replace(asked, machine=self._confirmed(asked.machine))
 
     def _summary(self, *more: str) -> str:
         notes = self.measured.recording.notes if self.measured is not None else ()

@@ -42,9 +42,9 @@ def summary(measured: Measured | None) -> str:
     if measured is None:
         return FIRST_WORDS
     recording, machine = measured.recording, measured.machine
-    along = " and ".join(recording.directions)
+    along = measured.along(" and ".join(recording.directions))
     words = (
-        f"{name_of(measured)}: {with_prefix(recording.duration, 's')} along {along} at "
+        f"{name_of(measured)}: {with_prefix(recording.duration, 's')}{along} at "
         f"{thousands(recording.sample_rate)} Hz"
     )
     if machine.bearing is None or machine.shaft_speed is None:
@@ -76,6 +76,7 @@ def in_short(
     speed = "speed"
     if machine.shaft_speed is not None:
         speed = f"{number(30.0 / math.pi * machine.shaft_speed, 4)} rpm"
+        speed += f" ({number(machine.ratio, 4)} ×)" if machine.ratio != 1.0 else ""
     facts = {
         "": name_of(measured, name),
         "duration": with_prefix(recording.duration, "s", 3),

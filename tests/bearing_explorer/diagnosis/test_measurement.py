@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 from bearing_explorer.diagnosis.form import AS_HEADED, read_form, with_role
 from bearing_explorer.diagnosis.machine import Machine
-from bearing_explorer.diagnosis.model import NOT_TAKEN, WANTED
+from bearing_explorer.diagnosis.model import NOT_TAKEN, WANTED, Model
 from bearing_explorer.diagnosis.reading import MOST_NUMBERS, read_file
 from bearing_explorer.diagnosis.session import RECORDS, Measurement
 from bearing_explorer.diagnosis.signal import Measured
-from bearing_explorer.diagnosis.signal_form import AS_GIVEN
+from bearing_explorer.diagnosis.signal_form import AS_GIVEN, EARLIER_SCENE
 from bearing_explorer.diagnosis.simulated import simulated
 from bearing_explorer.diagnosis.upload import (
     LONGEST_NAME,
@@ -25,11 +25,13 @@ from bearing_explorer.diagnosis.upload import (
     shown_name,
     without_middle,
 )
+from bearing_explorer.diagnosis.views.measured_spectrum import MeasuredSpectrum
 from bearing_explorer.diagnosis.views.measured_view import recording_lines
 from bearing_explorer.diagnosis.views.part_words import assumed
-from bearing_explorer.diagnosis.widgets.machine_form import kept_html
+from bearing_explorer.diagnosis.widgets.machine_form import MachineForm, kept_html
 from bearing_explorer.diagnosis.widgets.measurement_form import columns_as_said
 from bearing_explorer.kit.compute.jobs import READING
+from bearing_explorer.kit.serve.packed_source import PackedSource
 from scipy.io import wavfile
 
 from bearingcore import Scene, catalogue, presets
@@ -246,9 +248,10 @@ def test_a_known_collection_is_taken_at_once_and_each_guess_is_marked():
 
 
 def test_frequencies_of_a_file_and_typed_ones_count_as_the_bearing():
-    run_ = {"gs": NOISE[:, :1], "sr": 48_828.0, "rate": 25.0}
+    run_ = {"gs": NOISE[:, :1], "sr": 48_828.0, "rate": 25.0, "load": "150"}
     made = brought("run.mat", matlab(bearing=run_, BPFO=81.125, BPFI=118.875, BSF=63.91))
     assert made.measured is not None
+    assert made.state.load == pytest.approx(150 * 4.4482216)
     assert made.measured.machine.bearing_name == "NICE, MFPT"  # which has these frequencies
     turn = 2.0 * math.pi
     made = brought("other.mat", matlab(bearing=run_, BPFO=76.3, BPFI=123.7, FTF=9.54))
@@ -263,16 +266,6 @@ def test_frequencies_of_a_file_and_typed_ones_count_as_the_bearing():
     assert made.measured.bearing.n_balls == 9
     answer(made, bpfo="60")
     assert "nearly a whole number" in made.state.refused["bearing"]
-
-
-def test_the_load_that_a_file_says_can_be_taken_into_the_scene():
-    run_ = {"gs": NOISE[:, :1], "sr": 48_828.0, "rate": 25.0, "load": "150"}
-    made = brought("run.mat", matlab(bearing=run_))
-    assert made.state.load == pytest.approx(150 * 4.4482216)
-    taken: list[dict] = []
-    made.change_scene = taken.append
-    made.take_load()
-    assert taken == [{"typed": {"fy_n": "-667.233"}}]
 
 
 def test_voltages_need_their_sensor():
@@ -423,7 +416,7 @@ def test_bearing_and_speed_are_kept_for_the_next_file_unless_that_says_otherwise
         await bring(made, "third.csv", content)
         assert made.measured.machine.kept == {"bearing"}
         assert made.measured.machine.source_of("speed") == "from the file"
-        made.keep_machine()
+        made.confirm("bearing", "speed")
         await settled(made)
         assert (made.measured.machine.kept, made.state.kept_from) == (frozenset(), "")
         assert made.measured.machine.source_of("bearing") == "given"
@@ -435,12 +428,78 @@ def test_bearing_and_speed_are_kept_for_the_next_file_unless_that_says_otherwise
         await settled(made)
         await bring(made, "fifth.csv", csv_of(two, "time [s],a [g],tacho [V]"))
         assert made.measured.machine.kept == {"bearing", "speed"}
-        assert "there is a guess from the file: " in kept_html(made.state)
+        assert "another, from the tachometer: about 6000 rpm" in kept_html(made.state)
         made.forget_machine()
         await settled(made)
         assert (made.measured.bearing, made.state.kept_from) == (None, "")
 
     run(steps())
+
+
+def test_an_answer_that_is_typed_again_or_confirmed_is_given_for_this_file():
+    async def steps() -> None:
+        made = measuring()
+        await bring(made, "first.csv", csv_of(NOISE[:, :1], "time [s],a [g]"))
+        made.take_form({**made.state.values, "bearing": "designation", "designation": "6205",
+                        "speed": "given", "shaft_speed": "1500 rpm"})  # fmt: skip
+        await settled(made)
+        await bring(made, "second.csv", csv_of(NOISE[::-1, :1], "time [s],a [g]"))
+        for text in ("", "6205"):
+            made.take_form({**made.state.values, "designation": text})
+            await settled(made)
+        assert made.measured.machine.kept == {"speed"}
+        assert made.measured.machine.source_of("bearing") == "given"
+        form = MachineForm(lambda: made)
+        form.show(made.state)
+        form._fields.widgets["shaft_speed"].param.trigger("enter_pressed")
+        await settled(made)
+        assert (made.measured.machine.kept, made.state.kept_from) == (frozenset(), "")
+        await bring(made, "105.mat", case_western())
+        assert made.measured.machine.guessed == {"bearing"}
+        made.confirm("bearing")
+        await settled(made)
+        assert not made.measured.machine.guessed
+        assert made.measured.machine.source_of("bearing") == "given"
+
+    run(steps())
+
+
+def test_a_gear_ratio_turns_the_measured_speed_into_that_of_the_bearing() -> None:
+    pulses = 5.0 * (np.arange(len(NOISE)) % 100 < 10)
+    content = csv_of(np.column_stack([NOISE[:, 0], pulses]), "time [s],a [g],tacho [V]")
+    made = brought("a.csv", content)
+    angle = made.measured.recording.shaft_angle
+    answer(made, bearing="designation", designation="6205", speed="file", ratio="23/47")
+    turned = made.measured
+    assert turned.shaft_speed == pytest.approx(200.0 * math.pi * 23 / 47)
+    np.testing.assert_allclose(turned.recording.shaft_angle, angle * 23 / 47)
+    assert "2936 rpm (0.4894 ×)" in made.state.line
+    spectrum = MeasuredSpectrum(PackedSource())
+    spectrum.measure(made)
+    drawn = spectrum.data(Model(RIG))[0]["shaft_speed"]
+    np.testing.assert_allclose(drawn["rpm"], 6000.0 * 23 / 47, rtol=1e-3)
+    spectrum.show_look()
+    assert spectrum.speed_plot.visible
+    (line,) = [line for line in recording_lines(turned) if "scale_shaft" in line]
+    assert line == f"recording = recording.scale_shaft({23 / 47!r})"
+    answer(made, ratio="0")
+    assert "possible" in made.state.refused["ratio"]
+    answer(made, speed="scene", ratio="23/47")  # which is that of the bearing
+    assert made.measured.shaft_speed == pytest.approx(RIG.shaft_speed)
+    np.testing.assert_allclose(made.measured.recording.shaft_angle, angle)
+
+
+def test_a_simulated_signal_is_marked_where_its_scene_has_changed() -> None:
+    scene = RIG
+    made = measuring(simulated(RIG, 20.0, 1), lambda: scene)
+    made.take_scene()
+    assert made.state.remarks == ""
+    scene = RIG.replace(fy=-50.0)
+    made.take_scene()
+    assert made.state.remarks == EARLIER_SCENE
+    scene = RIG
+    made.take_scene()
+    assert made.state.remarks == ""
 
 
 def test_one_of_several_recordings_in_a_file_is_chosen_and_columns_that_are_not_used_are_said():
@@ -455,7 +514,7 @@ def test_one_of_several_recordings_in_a_file_is_chosen_and_columns_that_are_not_
     assert made.state.line.startswith("two.csv, recording 1 of 2 · ")
     assert "“a z [g]” (along the shaft). The shaft's angle is" in made.state.remarks
     assert "from the pulses in “tacho [V]”" in made.state.remarks
-    assert ["file", "a guess from the file: 100 Hz"] in made.state.speeds
+    assert ["file", "from the tachometer: about 6000 rpm"] in made.state.speeds
     answer(made, part="2")
     assert made.measured.recording.acceleration.shape == (800, 2)
     assert made.state.words.startswith("two.csv, recording 2 of 2: ")
@@ -485,26 +544,6 @@ def test_the_files_of_a_zip_are_a_series():
     assert [table.name for table in made.series.tables] == [f"rig.zip/run{k}.csv" for k in range(6)]
     assert len(made.series.left_out) == 1
     assert made.measured.recording.name == "rig.zip/run5.csv"
-
-
-def test_a_sound_file_is_compared_with_and_the_one_that_is_shown_stays():
-    async def steps() -> None:
-        made = measuring()
-        made.begin_upload("sound.csv", 100, baseline=True)
-        assert made.state.bad
-        await bring(made, "now.csv", csv_of(3.0 * NOISE, "time [s],x [g],y [g]"))
-        before, content = made.measured, csv_of(NOISE, "time [s],x [g],y [g]")
-        wanted: list[int] = []
-        made.want = lambda begin, of: wanted.append(of)
-        made.begin_upload("sound.csv", len(content), baseline=True)
-        made.take_piece(content, wanted[-1])
-        await settled(made)
-        assert made.measured is before
-        assert [table.name for table in made.series.tables] == ["sound.csv", "now.csv"]
-        first, second = made.recordings(before, "y").recordings
-        assert second.acceleration.std() == pytest.approx(3.0 * first.acceleration.std())
-
-    run(steps())
 
 
 # -- bad files -------------------------------------------------------------------------------------
@@ -566,7 +605,6 @@ def test_pieces_that_cannot_be_of_the_file_end_it(piece):
 def test_what_is_not_offered_changes_nothing():
     made = measuring(signal())
     made.simulate("another")
-    made.take_load()
     made.take_form({}, True)
     made.begin_upload("a", -3)
     assert "has no size" in made.state.words

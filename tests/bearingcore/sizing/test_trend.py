@@ -2,6 +2,8 @@
 
 import math
 import os
+from dataclasses import replace
+from datetime import datetime
 from pathlib import Path
 
 import numpy as np
@@ -31,7 +33,13 @@ def recorded(depth: float, name: str = "", duration: float = 2.0) -> Recording:
 
 
 def test_amplitudes_of_lines_and_only_those_above_noise():
-    history = trend([recorded(0.0), recorded(0.2), recorded(0.5)], BEARING, SPEED, band=BAND)
+    recordings = [
+        replace(recorded(depth), recorded=datetime(2026, 5, day))
+        for depth, day in ((0.0, 1), (0.2, 3), (0.5, 12))
+    ]
+    history = trend(recordings, BEARING, SPEED, band=BAND)
+    assert history.hours.tolist() == [0.0, 48.0, 264.0]
+    assert (history.seen_since("outer race"), history.seen_since("ball")) == (1, None)
     outer = LINES.index("bpfo")
     lines = history.clear_lines
     assert lines[1:, outer] == pytest.approx([0.4, 1.0], rel=0.1)

@@ -128,7 +128,7 @@ class MeasuredEnvelope(FrequencyView):
         assert self.measurement is not None
         low, high = shown.band
         words = (
-            f"Envelope along {shown.direction} between {low:.0f} and {high:.0f} Hz, "
+            f"Envelope{measured.along(shown.direction)} between {low:.0f} and {high:.0f} Hz, "
             f"{self.band(measured, shown.direction).reason}. "
         )
         sets: list[dict[str, float]] = []

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import Any, ClassVar
 
 import numpy as np
@@ -63,6 +64,10 @@ class MeasuredIndicators(LookView, MeasuredView):
         self._facts = facts_pane(sizing_mode="stretch_width")
         self.hidden = stack(self.panel_of_look, self._facts, visible=False)
         return self.hidden
+
+    def take_look(self, choices: Mapping[str, Any]) -> None:
+        super().take_look(choices)
+        self.measurement.machine_kind = self.look["machine"]
 
     def say(self, model: Model | None, sentence: str) -> None:
         super().say(model, sentence)

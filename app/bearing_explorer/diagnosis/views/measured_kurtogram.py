@@ -84,9 +84,10 @@ class MeasuredKurtogram(MeasuredView):
         most = int(chart.kurtosis.argmax())
         band, chosen = chart.bands[most], self.demodulation(measured, direction)
         words = (
-            f"Along {direction} the kurtosis is highest, {style.number(chart.kurtosis[most], 3)}, "
-            f"from {band.low:.0f} to {band.high:.0f} Hz. Envelopes are taken from "
-            f"{chosen.band[0]:.0f} to {chosen.band[1]:.0f} Hz, {chosen.reason}"
+            f"The kurtosis{measured.along(direction)} is highest, "
+            f"{style.number(chart.kurtosis[most], 3)}, from {band.low:.0f} to {band.high:.0f} Hz. "
+            f"Envelopes are taken from {chosen.band[0]:.0f} to {chosen.band[1]:.0f} Hz, "
+            f"{chosen.reason}"
         )
         if self.diagnosed() is None or chosen.band == (band.low, band.high):
             return f"{words}."

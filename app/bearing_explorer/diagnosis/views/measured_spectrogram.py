@@ -89,7 +89,7 @@ class MeasuredSpectrogram(MeasuredView):
         when, most = np.unravel_index(int(level[:, above:].argmax()), level[:, above:].shape)
         most += above
         where = f"at {frequency[most]:.0f} Hz, {style.with_prefix(float(time[when]), 's')} in"
-        return f"Along {self.direction_of(measured)} it is loudest {where}."
+        return f"It is loudest{measured.along(self.direction_of(measured))} {where}."
 
     def columns_of(self, model: Model, measured: Measured) -> dict[str, np.ndarray]:
         time, frequency, level = self.shown(measured)

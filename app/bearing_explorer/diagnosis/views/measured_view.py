@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from bearing_explorer.diagnosis.machine import NOT_KNOWN, ROUGH, Turning
+from bearing_explorer.diagnosis.machine import NOT_KNOWN, ROUGH, Machine, Turning
 from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.session import Measurement, measurement_of
 from bearing_explorer.diagnosis.signal import Measured, Origin
@@ -62,7 +62,6 @@ class MeasuredView(View[Model]):
     is on the page.
     """
 
-    in_report = False
     needs = frozenset()
     hidden: Any = None
     #: whether what it computes looks for a speed that is not known
@@ -248,7 +247,9 @@ def recording_lines(measured: Measured) -> list[str]:
             "settled = motion.outer_acceleration[motion.time >= 0.3]",
             f"recording = Recording(settled[:, columns], {rate}, {along})",
         ]
-    known = {"sensitivity": origin.sensitivity, "shaft_speed": measured.machine.exact_speed}
+    machine = measured.machine
+    speed = None if machine.exact_speed is None else machine.exact_speed / machine.ratio
+    known = {"sensitivity": origin.sensitivity, "shaft_speed": speed}
     further = "".join(f", {name}={short(v)}" for name, v in known.items() if v is not None)
     unit = code_of(origin.unit if measured.in_si else "m/s²")
     return [
@@ -259,4 +260,10 @@ def recording_lines(measured: Measured) -> list[str]:
         "recording = table.recording(",
         f"    {list(origin.columns)}, {along}, {unit}, {rate}, {short(origin.full_scale)}{further}",
         ")",
+        *gear_lines("recording", machine),
     ]
+
+
+def gear_lines(name: str, machine: Machine) -> list[str]:
+    """A line that puts the bearing of a recording behind the gear of a machine; none without."""
+    return [f"{name} = {name}.scale_shaft({machine.ratio!r})"] if machine.ratio != 1.0 else []

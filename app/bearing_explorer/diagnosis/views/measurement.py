@@ -134,7 +134,7 @@ class MeasuredSignal(MeasuredView):
             middle = float(signal.mean())
             root = math.sqrt(float(np.mean((signal - middle) ** 2)))
             level, mean = style.number(root / size, 3), style.number(middle / size, 2)
-            sizes.append(f"{level}{unit} along {dof} about a mean of {mean}{unit}")
+            sizes.append(f"{level}{unit}{measured.along(dof)} about a mean of {mean}{unit}")
         of = "the acceleration" if measured.in_si else "the numbers of the file"
         return f"Root mean square of {of}: {style.list_words(sizes)}."
 

@@ -8,7 +8,6 @@ them. Below are frequencies, above the same in turns of the shaft (orders).
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 from bokeh.models import LinearAxis, Scatter, VSpan
@@ -40,27 +39,9 @@ COLORS = {"outer race": "#E69F00", "inner race": "#AA3377", "ball": "#009E73"}
 INKS = {"outer race": "#8A5A00", "inner race": "#94407A", "ball": "#00704F"}
 """Colours of the parts: those that their lines have on all figures."""
 
-_ROW = ROW_PIXELS / FRAME
 _NAME_WIDTH, _ORDER_WIDTH = 0.13, 0.06
 """Of a part's first name and those of its harmonics, as shares of a narrow frame's width."""
-_WORDS = """
-const name = row.order == 1 ? '%s' : `${row.order}×`
-return row.labelled ? `${name} ${rounded(row.frequency, 4)} Hz` : name
-"""
-
-
-@dataclass(frozen=True)
-class Zoom:
-    """A line to look at closely: a harmonic of a part; all of them where there is no part."""
-
-    part: str = ""
-    harmonic: int = 1
-
-    @classmethod
-    def of(cls, words: str) -> Zoom:
-        """The line that "inner race 2" says, the second harmonic; of no words all lines."""
-        part, _, harmonic = words.rpartition(" ")
-        return cls(part, int(harmonic)) if part else cls()
+_WORDS = "return row.order == 1 ? '%s' : `${row.order}×`"
 
 
 def leading(diagnosis: Diagnosis) -> PartEvidence | None:
@@ -79,21 +60,6 @@ def shaft_frequency(diagnosis: Diagnosis) -> float:
 def fundamental(diagnosis: Diagnosis, one: PartEvidence) -> float:
     """The frequency [Hz] at which the first line of a part is drawn."""
     return one.frequency if one is leading(diagnosis) else one.nominal_frequency
-
-
-def window(diagnosis: Diagnosis, zoom: Zoom) -> tuple[float, float]:
-    """Frequencies [Hz] that are shown: all lines, or the surroundings of one."""
-    if zoom.part not in PARTS:
-        greatest = max(fundamental(diagnosis, one) * len(one.harmonics)
-                       for one in diagnosis.evidence)  # fmt: skip
-        assert diagnosis.spectrum is not None
-        return 0.0, min(1.04 * greatest, float(diagnosis.spectrum.frequency[-1]))
-    one = diagnosis.of(zoom.part)
-    middle = fundamental(diagnosis, one) * zoom.harmonic
-    sideways = 3.4 if one.sideband_source == "cage" else 1.7
-    return max(middle - sideways * one.sideband_spacing, 0.0), middle + (
-        sideways * one.sideband_spacing
-    )
 
 
 def named(multiples: NDArray[np.float64], first: float, low: float, high: float) -> (
@@ -126,7 +92,7 @@ def layers() -> list[Layer]:
             Glyph(VSpan, _lines(part), ("frequency",), looks, ("alpha", "width")),
             Glyph(VSpan, _sidebands(part), ("frequency",), dotted),
             names_over(names, _WORDS % NAMES[part], "frequency", "row", INKS[part],
-                       ("order", "alpha", "labelled"), x_offset=3, text_alpha="alpha"),
+                       ("order", "alpha"), x_offset=3, text_alpha="alpha"),
         ]  # fmt: skip
         marks.append(Glyph(Scatter, _points(part), ("frequency", "level"), mark))
     spectrum = curve("diagnosis_spectrum", "frequency", "level", style.INK, 1.2, alpha=0.9)
@@ -157,15 +123,19 @@ class PartLines:
         """The axis of orders, where the shaft's speed is known."""
         self._order_axis.visible = known
 
-    def data(self, diagnosis: Diagnosis, zoom: Zoom) -> tuple[Sources, Ranges]:
+    def data(self, diagnosis: Diagnosis) -> tuple[Sources, Ranges]:
         """The sources of a diagnosis with a spectrum."""
         spectrum = diagnosis.spectrum
         assert spectrum is not None
-        low, high = window(diagnosis, zoom)
+        greatest = max(
+            fundamental(diagnosis, part) * len(part.harmonics) for part in diagnosis.evidence
+        )
+        low, high = 0.0, min(1.04 * greatest, float(spectrum.frequency[-1]))
         shaft = shaft_frequency(diagnosis)
         drawn = excerpt(spectrum.frequency, spectrum.level, low, high)
         sources: Sources = {"diagnosis_spectrum": drawn}
         lead = leading(diagnosis)
+        name_row = ROW_PIXELS / (FRAME + self.plot.height - HEIGHT)
         for row, one in enumerate(diagnosis.evidence):
             first = fundamental(diagnosis, one)
             alpha = EVEN if lead is None else STRONG if one is lead else FAINT
@@ -180,15 +150,14 @@ class PartLines:
             sources[f"{_lines(one.part)}_names"] = {
                 "frequency": labels * first,
                 "order": labels,
-                "row": np.full(labels.size, 1.0 - _ROW * (row + 0.8)),
+                "row": np.full(labels.size, 1.0 - name_row * (row + 0.8)),
                 "alpha": np.full(labels.size, 1.0 if one is lead or lead is None else 0.75),
-                "labelled": np.full(labels.size, float(zoom.part != "")),
             }
         if lead is not None:
             sources |= self._of_lead(lead)
         swells = drawn["frequency"] > 0.5 * shaft  # what drifts slowly is not what the scale is for
         loudest = float(np.max(drawn["level"][swells], initial=10.0))
-        room = _ROW * (len(PARTS) + 0.8)
+        room = name_row * (len(PARTS) + 0.8)
         head = (loudest - LOWEST) * room / (1.0 - room)
         return sources, {
             "diagnosis_frequency": (low, high),

@@ -13,7 +13,7 @@ from bearing_explorer.diagnosis.views.part_lines import COLORS, NAMES, leading
 from bearing_explorer.kit.plots import style
 from bearingcore import Diagnosis, MeasuredExtent, PartEvidence, Sizing
 from bearingcore.common import percent_off, probability
-from bearingcore.measured.diagnosis import LIKELY, NONE_SEEN, SLIP, ListedBearing, perhaps_a_ball
+from bearingcore.measured.diagnosis import LIKELY, NONE_SEEN, SLIP, perhaps_a_ball
 
 COUNTED = (
     " The number of {} is an estimate: with another one, damage of a race shows at another "
@@ -92,23 +92,9 @@ def length(measured: MeasuredExtent, sizing: Sizing | None) -> str:
     return f"{extent(measured)}{known}"
 
 
-def explained(one: ListedBearing) -> str:
-    """The quality with which a listed bearing explains a signal."""
-    answer = one.diagnosis
-    return (
-        f"{answer.fault}, probability {probability(answer.probability)}, lines "
-        f"{decibels(one.level)} dB clear, {slip(one.slip)} against its geometry"
-    )
-
-
 def swing(depth: float) -> str:
     """A share of the envelope's mean."""
     return f"{style.number(100.0 * depth, 1 if depth < 0.095 else 2)} %"
-
-
-def duration(seconds: float) -> str:
-    """A time for a sentence."""
-    return f"{style.number(seconds, 2)} s"
 
 
 def turns(answer: Diagnosis) -> str:
@@ -122,7 +108,8 @@ def speed_alone(machine: Machine) -> str:
     """The shaft speed, in a sentence, while the bearing is not known."""
     if machine.shaft_speed is None:
         return "The shaft speed is not known; it is looked for with the bearing."
-    return f"Shaft speed: {_rpm(machine.shaft_speed)}, {machine.source_of('speed')}."
+    speed = f"{_rpm(machine.shaft_speed)}{machine.ratio_words}"
+    return f"Shaft speed: {speed}, {machine.source_of('speed')}."
 
 
 def assumed(question: Question) -> str:
@@ -161,47 +148,40 @@ def speed_source(answer: Diagnosis, machine: Machine) -> str:
 def sentence(answer: Diagnosis, question: Question) -> str:
     """The answer in sentences, with the shaft speed and where that is from."""
     source = speed_source(answer, question.measured.machine)
-    said = dataclasses.replace(answer, speed_source=source)
+    ratio = question.measured.machine.ratio
+    said = dataclasses.replace(answer, speed_source=source, shaft_ratio=ratio)
     return said.sentence + assumed(question) + truth(question)
 
 
-def pass_on(answer: Diagnosis, question: Question) -> str:
-    """A summary for a technician."""
+def finding(answer: Diagnosis, question: Question) -> str:
+    """The finding for a technician, with what it assumes."""
     speed, doubt = turns(answer), assumed(question)
     at = f" at {speed}" if speed else ""
-    head = f"Bearing, measured for {duration(question.measured.recording.duration)}{at}: "
+    name = question.measured.machine.bearing_name
+    head = f"bearing{f' {name}' if name else ''}{at}: "
     if answer.names_a_part:
-        one = answer.of(answer.fault)
+        part = answer.of(answer.fault)
         return (
             f"{head}{headline(answer).lower()} (probability {probability(answer.probability)}); "
-            f"impacts at {style.number(one.frequency, 4)} Hz, {one.order:.2f} times a turn."
-            f"{other_race(answer)} Have the bearing inspected, and measure again to see whether it "
-            f"grows.{doubt}"
+            f"impacts at {style.number(part.frequency, 4)} Hz, {part.order:.2f} a turn.{doubt}"
         )
     if answer.fault == NONE_SEEN:
         return (
             f"{head}no damage seen on outer race, inner race or balls (probability "
-            f"{probability(answer.probability)}). Measure again at the usual time. This says "
-            f"nothing about lubrication, balance or other bearings.{counted(question)}{doubt}"
+            f"{probability(answer.probability)}). This says nothing about lubrication, balance or "
+            f"other bearings.{counted(question)}{doubt}"
         )
     return f"{head}no clear result from this signal.{doubt}"
-
-
-def other_race(answer: Diagnosis) -> str:
-    """A sentence on the other race, if it is probably damaged too; empty if not."""
-    other = answer.other_race
-    if other is None:
-        return ""
-    return f" The {other.part} shows too (probability {probability(other.probability)})."
 
 
 def facts(answer: Diagnosis, question: Question) -> list[list[str]]:
     """The assumptions of the answer: [name, value]."""
     bearing = question.bearing
     angle = style.in_degrees(bearing.contact_angle)
-    speed, source = turns(answer), speed_source(answer, question.measured.machine)
+    machine = question.measured.machine
+    speed, source = turns(answer), speed_source(answer, machine)
     rows = [
-        ["Shaft", f"{speed}, {source}" if speed else source],
+        ["Shaft", f"{speed}{machine.ratio_words}, {source}" if speed else source],
         ["Slip", f"balls up to {style.number(100.0 * SLIP, 2)} % slower or faster, assumed"],
         [
             "Bearing",
@@ -216,7 +196,10 @@ def facts(answer: Diagnosis, question: Question) -> list[list[str]]:
     if answer.spectrum is not None:
         low, high = answer.spectrum.band
         rows.append(
-            ["Demodulation band", f"{band(low, high)}, along {answer.spectrum.direction}, found"]
+            [
+                "Demodulation band",
+                f"{band(low, high)}{question.measured.along(answer.spectrum.direction)}, found",
+            ]
         )
     return rows
 
@@ -261,14 +244,15 @@ def slip(value: float) -> str:
     return percent_off(value)
 
 
-def evidence_rows(answer: Diagnosis) -> list[dict[str, Any]]:
-    """The evidence of each part as the browser lists it.
+def evidence_rows(answer: Diagnosis, several: bool = True) -> list[dict[str, Any]]:
+    """The evidence of each part as the browser lists it; directions where there are `several`.
 
     Without a clear result no part has a probability or leads: it would look like a verdict.
     """
     lead = leading(answer)
     rows = [
-        _row(one, one is lead and answer.conclusive, lead is not None) for one in answer.evidence
+        _row(part, part is lead and answer.conclusive, lead is not None, several)
+        for part in answer.evidence
     ]
     if answer.conclusive:
         for row, one in zip(rows, answer.evidence, strict=True):
@@ -279,7 +263,7 @@ def evidence_rows(answer: Diagnosis) -> list[dict[str, Any]]:
     return rows
 
 
-def _row(one: PartEvidence, leads: bool, seen: bool) -> dict[str, Any]:
+def _row(one: PartEvidence, leads: bool, seen: bool, several: bool) -> dict[str, Any]:
     near = one.sidebands[: len(one.sidebands) // 2]
     own = "none expected" if one.part == "outer race" else decibels(float(near.mean()))
     return {
@@ -306,7 +290,7 @@ def _row(one: PartEvidence, leads: bool, seen: bool) -> dict[str, Any]:
         if one.part == "outer race"
         else f"± {style.number(one.sideband_spacing, 3)} Hz, {one.sideband_source}",
         "band": band(one.band.low, one.band.high),
-        "direction": one.direction,
+        "direction": f"along {one.direction}" if several else "",
     }
 
 

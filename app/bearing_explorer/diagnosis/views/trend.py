@@ -5,7 +5,6 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -14,12 +13,13 @@ from bokeh.models import Scatter
 from bokeh.plotting import figure
 
 from bearing_explorer.diagnosis.model import Model
-from bearing_explorer.diagnosis.series import Series, SeriesRecordings
+from bearing_explorer.diagnosis.series import FoundTrend, Series
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.views.frequency_lines import FAMILIES
 from bearing_explorer.diagnosis.views.measured_view import (
     NOTHING,
     MeasuredView,
+    gear_lines,
     named_columns,
     shown_unit,
 )
@@ -83,21 +83,6 @@ def _layers(name: str) -> list[Layer]:
         *drawn,
         *(Glyph(Scatter, "trend", ("x", y), {**dots, "color": c}) for y, c in names.items()),
     ]
-
-
-@dataclass(frozen=True, eq=False)
-class FoundTrend:
-    """A trend, of which files it is, and what was left out."""
-
-    trend: Trend
-    recordings: SeriesRecordings
-    series: Series
-    measured: Measured
-
-    @property
-    def complete(self) -> bool:
-        """Whether all recordings are in it."""
-        return len(self.trend.points) == len(self.recordings.recordings)
 
 
 class TrendOfFiles(JobView[Model, FoundTrend, Editor], MeasuredView):
@@ -182,6 +167,10 @@ class TrendOfFiles(JobView[Model, FoundTrend, Editor], MeasuredView):
             return f"{len(done.points)} of {len(gathered.recordings)} files are in it."
 
         return work
+
+    def _take(self, result: FoundTrend) -> None:
+        self.measurement.trend = result
+        super()._take(result)
 
     def _is_of_now(self, newest: FoundTrend | None) -> bool:
         """Whether a result is complete, and of the files and answers that there are now."""
@@ -282,7 +271,8 @@ class TrendOfFiles(JobView[Model, FoundTrend, Editor], MeasuredView):
         if newest is None or not self.drawn:
             several = len(self.measurement.series.tables) > 1
             return "Nothing is computed yet." if several else "One file is no trend yet."
-        words = words_on(newest.trend, newest.measured.in_si)
+        along = newest.measured.along(newest.trend.direction)
+        words = words_on(newest.trend, newest.measured.in_si, along)
         if out := newest.recordings.left_out:
             more = f" And {len(out) - MOST_NAMED} more." if len(out) > MOST_NAMED else ""
             words += f" Left out: {' '.join(out[:MOST_NAMED])}{more}"
@@ -310,39 +300,57 @@ class TrendOfFiles(JobView[Model, FoundTrend, Editor], MeasuredView):
 NO_LEVELS = "Their units are not known, so that their levels are not compared: say the unit"
 
 
-def words_on(shown: Trend, in_si: bool) -> str:
-    """The trend in sentences: level (`in_si` only), kurtosis, lines, extent, first and last."""
+def words_on(shown: Trend, in_si: bool, along: str = "") -> str:
+    """The trend in sentences: line of the named part, level, kurtosis, and the last recording.
+
+    Levels are compared in SI units only.
+    """
     first, last = shown.points[0], shown.points[-1]
     if len(shown.points) == 1:
-        return f"One recording along {shown.direction}: {part_words(shown)}"
-    most = int(shown.rms_change.argmax())
-    base = shown.points[shown.baseline].name
-    level = (
-        f"Root mean square of the last is {style.number(float(shown.rms_change[-1]), 3)} times "
-        f"that of the baseline, {base}"
-    )
-    words = f"{len(shown.points)} recordings along {shown.direction}. "
-    words += level if in_si else NO_LEVELS
-    if in_si and most != len(shown.points) - 1:
-        top = style.number(float(shown.rms_change[most]), 3)
-        words += f"; {top} times at most, in {shown.points[most].name}"
-    if in_si and (line := line_growth(shown)):
-        words += f"; {line}"
+        return f"One recording{along}: {part_words(shown)}"
+    words = f"{len(shown.points)} recordings{along}. "
+    if in_si:
+        most, change = int(shown.rms_change.argmax()), shown.rms_change
+        words += " ".join(filter(None, (line_growth(shown), since_when(shown), "")))
+        words += (
+            f"Root mean square of the last is {style.number(float(change[-1]), 3)} times that of "
+            f"the baseline, {shown.points[shown.baseline].name}"
+        )
+        if most != len(shown.points) - 1:
+            top = style.number(float(change[most]), 3)
+            words += f"; {top} times at most, in {shown.points[most].name}"
+    else:
+        words += NO_LEVELS
     kurtosis = [style.number(point.kurtosis, 3) for point in (first, last)]
     words += f". Kurtosis {kurtosis[0]} in the first, {kurtosis[1]} in the last. "
     return words + part_words(shown)
 
 
 def line_growth(shown: Trend) -> str:
-    """The growth of the line of the part that is named in the last recording; empty without."""
+    """A sentence on the growth of the line of the part named in the last recording, if any."""
     part = shown.points[-1].fault
     change = float(shown.line_change(part)[-1]) if part in PARTS else math.nan
     if not math.isfinite(change):
         return ""
     seen = np.isfinite(shown.line_change(part)[shown.baseline])
     least = "" if seen else "at least "
-    since = "that of the baseline" if seen else "what noise hides in the baseline"
-    return f"the line of the {part} became {least}{style.number(change, 2)} times {since}"
+    reference = "that of the baseline" if seen else "what noise hides in the baseline"
+    return f"The line of the {part} became {least}{style.number(change, 2)} times {reference}."
+
+
+def since_when(shown: Trend) -> str:
+    """A sentence on the recording, and the days, since which that line stands out of noise."""
+    part = shown.points[-1].fault
+    first = shown.seen_since(part) if part in PARTS else None
+    if first is None:
+        return ""
+    days = float(shown.hours[-1] - shown.hours[first]) / 24.0
+    before = f", {style.number(days, 2)} days before the last" if days > 0.0 else ""
+    if first == 0:
+        return f"It stands out since the first{before}."
+    recorded = shown.points[first].recorded
+    date = "" if recorded is None else f" of {recorded:%d %B %Y}"
+    return f"It stands out since {shown.points[first].name}{date}{before}."
 
 
 def part_words(shown: Trend) -> str:
@@ -383,20 +391,22 @@ def python_lines(newest: FoundTrend, model: Model) -> str:
         ]  # fmt: skip
         files.append(f"    ({', '.join(given)}),")
     return "\n".join([
+        "from dataclasses import replace",
         "from pathlib import Path\n",
-        "from bearingcore import Recording, Scene, presets, read_table, trend",
+        "from bearingcore import Scene, presets, read_table, trend",
         "from bearingcore.measured.files import Column, path_in\n",
         f"scene = {scene_code(scene)}",
         "files = [  # columns, directions, meaning given, unit, rate, a 1, V/(m/s²), rad/s, which",
         *files,
         "]",
         "recordings = []",
-        "for name, columns, along, given, unit, rate, one, sensor, speed, part in files:",
+        "for name, columns, along, given, unit, rate, scale, sensor, speed, part in files:",
         "    table = read_table(name, Path(path_in(name)).read_bytes())",
         "    table = table.with_columns(given)",
         "    table = table.one_of_recordings(part) if part else table",
-        "    made = table.recording(columns, along, unit, rate, one, sensitivity=sensor)",
-        "    recordings.append(Recording(made.acceleration, rate, along, name, speed))",
+        "    made = table.recording(columns, along, unit, rate, scale, sensitivity=sensor)",
+        *(f"    {line}" for line in gear_lines("made", machine)),
+        "    recordings.append(replace(made, shaft_speed=speed))",
         "measured = trend(",
         f"    recordings, {bearing}, {speed}, direction={code_of(shown.direction)},",
         f"    band=({short(shown.band[0])}, {short(shown.band[1])}), baseline={shown.baseline},",

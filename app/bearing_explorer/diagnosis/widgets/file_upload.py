@@ -20,8 +20,7 @@ from bearing_explorer.kit.messages import read
 class UploadBegins(msgspec.Struct, tag="begin"):
     """A file was chosen: its name and its size [bytes].
 
-    It is the `number`th of `count` that come, from 1, out of so many that were `chosen`; or the
-    `baseline` with which the file that is there is to be compared.
+    It is the `number`th of `count` that come, from 1, out of so many that were `chosen`.
     """
 
     name: str
@@ -29,7 +28,6 @@ class UploadBegins(msgspec.Struct, tag="begin"):
     number: int = 1
     count: int = 1
     chosen: int = 1
-    baseline: bool = False
 
 
 class UploadPiece(msgspec.Struct, tag="piece"):

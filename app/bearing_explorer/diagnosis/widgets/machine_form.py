@@ -14,10 +14,12 @@ from bearing_explorer.diagnosis.machine import (
     BY_FREQUENCIES,
     FIELDS,
     FILE,
-    GIVEN,
-    ROUGH,
+    GROUPS,
+    KNOWN,
+    MEASURED,
 )
 from bearing_explorer.diagnosis.measurement_state import MeasurementState
+from bearing_explorer.diagnosis.signal_form import SignalForm
 from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.widgets.facts import Fact, facts_html
 from bearing_explorer.kit.widgets.form import Fields, button, choices, entry, row, select
@@ -32,12 +34,12 @@ LABELS = {
     "bsf": "BSF",
     "speed": "Measured speed",
     "shaft_speed": "Hz, or with its unit: rpm",
+    "ratio": "Gear ratio (turns of the bearing's shaft for one of the measured)",
 }
-NO_BEARINGS = [["", "choose", WAYS]]
-HINTS = {"designation": "6205-2RS", "shaft_speed": "1797 rpm"}
+NO_OPTIONS = {"bearing": [["", "choose", WAYS]], "speed": [["", ""]]}
+HINTS = {"designation": "6205-2RS", "shaft_speed": "1797 rpm", "ratio": "1, or 23/47"}
 
-
-KEPT = (
+KEPT_WORDS = (
     "<p>Bearing or speed are kept from the file before, {}, and assumed for this one: is it the "
     "same machine?</p>"
 )
@@ -47,39 +49,39 @@ def kept_html(state: MeasurementState) -> str:
     """Answers that are kept from the file before, and a guess of this file beside them."""
     if not state.kept_from:
         return ""
-    own = dict(state.speeds).get(FILE, "")
-    doubt = f"<p>Of the shaft speed there is {html.escape(own)}. Choose it if that is right.</p>"
-    kept_speed = own and state.values["speed"] in (GIVEN, ROUGH)
-    return KEPT.format(html.escape(state.kept_from)) + (doubt if kept_speed else "")
+    of_file = dict(state.speeds).get(FILE, "")
+    doubt = f"<p>Its file says another, {html.escape(of_file)}: choose it if it is right.</p>"
+    kept_speed = of_file and state.values["speed"] in KNOWN
+    return KEPT_WORDS.format(html.escape(state.kept_from)) + (doubt if kept_speed else "")
 
 
 class MachineForm(pn.Column):
     """Bearing and shaft speed of a signal; each answer counts at once.
 
+    Enter in a field says that its answer, as it stands, is that of this file.
+
     Parameters
     ----------
-    answer
-        called with all values of the form.
-    keep, forget
-        called to take what was given for the file before as given for this one, or to ask again.
+    form
+        gives the form of the signal.
     """
 
-    def __init__(
-        self,
-        answer: Callable[[Mapping[str, str]], None],
-        keep: Callable[[], None],
-        forget: Callable[[], None],
-    ) -> None:
-        self._fields = fields = Fields(lambda _: answer(dict(fields.values)))
+    def __init__(self, form: Callable[[], SignalForm]) -> None:
+        def answer(_: str) -> None:
+            form().take_form({**form().state.values, **fields.values})
+
+        self._fields = fields = Fields(answer)
         for name in FIELDS:
-            if name == "bearing":
-                fields.add(name, select(LABELS[name], NO_BEARINGS))
-            elif name == "speed":
-                fields.add(name, select(LABELS[name], [["", ""]]))
-            else:
-                fields.add(name, entry(LABELS[name], placeholder=HINTS.get(name, "")))
+            if name in GROUPS:
+                fields.add(name, select(LABELS[name], NO_OPTIONS[name]))
+                continue
+            typed = fields.add(name, entry(LABELS[name], placeholder=HINTS.get(name, "")))
+            group = next(group for group, names in GROUPS.items() if name in names)
+            typed.param.watch(lambda _, group=group: form().confirm(group), "enter_pressed")
         self._kept = row(
-            button("The same machine", keep), button("Another machine", forget), visible=False
+            button("The same machine", lambda: form().confirm(*GROUPS)),
+            button("Another machine", lambda: form().forget_machine()),
+            visible=False,
         )
         self._notes = pn.pane.HTML(
             "", stylesheets=[asset_text("measurement.css")], sizing_mode="stretch_width", margin=0
@@ -98,15 +100,16 @@ class MachineForm(pn.Column):
             self._shown = state.bearings, state.speeds
             for name, options in (("bearing", state.bearings), ("speed", state.speeds)):
                 fields.values[name] = values[name]
-                options = options or (NO_BEARINGS if name == "bearing" else [["", ""]])
-                fields.widgets[name].param.update(**choices(options), value=values[name])
+                shown_options = choices(options or NO_OPTIONS[name])
+                fields.widgets[name].param.update(**shown_options, value=values[name])
         fields.put(values)
         by, speed = values["bearing"], values["speed"]
         shown = {
             "bearing": bool(state.bearings),
             "designation": by == BY_DESIGNATION,
             "speed": bool(state.speeds),
-            "shaft_speed": speed in (GIVEN, ROUGH) and bool(state.bearings),
+            "shaft_speed": speed in KNOWN and bool(state.bearings),
+            "ratio": speed in MEASURED and bool(state.bearings),
         } | dict.fromkeys(FREQUENCIES, by == BY_FREQUENCIES)
         missing = {name for name in ("bearing", "designation", "shaft_speed") if not values[name]}
         for name, widget in fields.widgets.items():

@@ -30,7 +30,6 @@ from bearing_explorer.diagnosis.widgets.machine_form import MachineForm, notes_h
 from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.simulated_signals import NOISES
 from bearing_explorer.kit.widgets.form import Fields, button, choices, entry, row, select
-from bearingcore.common import number
 from bearingcore.measured.files import PLACES, UNITS
 
 LABELS = {
@@ -42,7 +41,7 @@ LABELS = {
     "sample_rate": "Sample rate (Hz)",
 }
 FORMATS = (
-    "CSV or other text, WAV, MATLAB (.mat), Octave, HDF5, NumPy, UFF, TDMS, Parquet, Excel "
+    "CSV or other text, WAV, MATLAB (.mat), HDF5, NumPy, UFF, TDMS, Parquet, Excel "
     f"(.xlsx), or a zip of some of them; at most {MOST_BYTES // 2**20} MB. Or drop it here. "
     "Several, or a folder, become a trend."
 )
@@ -70,7 +69,6 @@ class MeasurementForm(pn.Column):
         )
         self._about_file = pn.Column(visible=False, **{**_WIDE, "margin": (10, 0, 6, 0)})
         self._facts = _text("", visible=False, css_classes=["note"])
-        self._load = button("", lambda: self._measurement.take_load(), visible=False)
         self._words = _text("")
         self._line = _text("", css_classes=["line"])
         self._change = button("Change", self._turn, css_classes=["change"])
@@ -84,9 +82,7 @@ class MeasurementForm(pn.Column):
             self._simulation,
             css_classes=["ways"],
         )
-        self._in_full = pn.Column(
-            self._ways, self._about_file, row(self._facts, self._load), **_WIDE
-        )
+        self._in_full = pn.Column(self._ways, self._about_file, self._facts, **_WIDE)
         super().__init__(self._in_short, self._in_full, self._words, self._cancel, **_WIDE)
         self.show(MeasurementState())
 
@@ -95,8 +91,7 @@ class MeasurementForm(pn.Column):
         self._measurement = measurement
         measurement.show, measurement.want = self.show, self.upload.want
         measurement.more = self.upload.more
-        # without the scene's half nobody has set up the scene that would be simulated
-        self._simulation.visible = measurement.change_scene is not None
+        self._simulation.visible = measurement.can_simulate
         self.show(measurement.state)
 
     def _way(self, title: str, content: pn.viewable.Viewable, flex: str) -> pn.Column:
@@ -138,9 +133,8 @@ class MeasurementForm(pn.Column):
     def _uploaded(self, message: UploadBegins | UploadPiece) -> None:
         if isinstance(message, UploadBegins):
             self._measurement.begin_upload(
-                message.name, message.size, message.number, message.count, message.chosen,
-                message.baseline,
-            )  # fmt: skip
+                message.name, message.size, message.number, message.count, message.chosen
+            )
         else:
             self._measurement.take_piece(message.content, message.of)
 
@@ -160,11 +154,6 @@ class MeasurementForm(pn.Column):
         if state.columns is not None:
             self._show_fields(state)
         self._facts.param.update(object=html.escape(state.said), visible=bool(state.said))
-        load = state.load
-        self._load.param.update(
-            label=f"Load the scene with {number(load, 3)} N, downwards" if load else "",
-            visible=bool(load and self._measurement.change_scene),
-        )
         self._shown = state
 
     def _fold(self, state: MeasurementState) -> None:
@@ -216,11 +205,7 @@ class MeasurementForm(pn.Column):
                 fields.add(name, entry(LABELS[name], placeholder=hint))
         self._agree = button("Use these answers", lambda: self._answer(fields.values, sure=True))
         self._notes = _text("")
-        self._machine = MachineForm(
-            self._answer,
-            lambda: self._measurement.keep_machine(),
-            lambda: self._measurement.forget_machine(),
-        )
+        self._machine = MachineForm(lambda: self._measurement)
         self._about_file[:] = [
             self._table, row(*fields.widgets.values(), self._agree), self._notes
         ]  # fmt: skip

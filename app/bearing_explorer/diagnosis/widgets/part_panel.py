@@ -5,7 +5,6 @@ from __future__ import annotations
 import html
 import math
 from collections.abc import Callable, Mapping, Sequence
-from functools import partial
 from typing import Any
 
 import panel as pn
@@ -25,11 +24,7 @@ navigator.clipboard?.writeText(summary.text)
 button.label = navigator.clipboard ? "Copied" : "Select the text to copy it"
 """
 NOT_NOW = "Neither can be taken while the answer is out of date."
-_CHOOSE = "window.dispatchEvent(new CustomEvent('explorer-choose-files', {{detail: '{}'}}))"
-_NEXT = (
-    ("baseline", "Compare with a sound one …"), ("several", "Is it getting worse? Several files …"),
-)  # fmt: skip
-"""Files to choose next, and the words of the button."""
+_SEVERAL = "window.dispatchEvent(new CustomEvent('explorer-choose-files'))"
 _REPORT = "window.dispatchEvent(new CustomEvent('explorer-measured-report'))"
 _MOST_BALLS = 60
 
@@ -49,19 +44,16 @@ class PartPanel(pn.Column):
     ----------
     report_on
         called with the words for the report, by the names of `REPORTED`.
-    search
-        called to look for listed bearings that would explain the signal.
     """
 
     def __init__(
         self,
         report_on: Callable[[Mapping[str, str]], None] = lambda _: None,
-        search: Callable[[], None] = lambda: None,
     ) -> None:
         wide: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
         self._answer = pn.pane.HTML("", stylesheets=[asset_text("part.css")], **wide)
         self._summary = pn.pane.Str("", visible=False)
-        self._copy = button("Copy the summary", lambda: None)
+        self._copy = button("Copy the work order", lambda: None)
         self._copy.js_on_click(args={"summary": self._summary, "button": self._copy}, code=_COPY)
         self._report = button("Report on one page", lambda: None)
         self._report.js_on_click(code=_REPORT)
@@ -72,13 +64,9 @@ class PartPanel(pn.Column):
         self._actions = row(
             self._copy, *fields.widgets.values(), self._report, self._why_not, visible=False
         )
-        further = [button(words, lambda: None) for _, words in _NEXT]
-        for made, (which, _) in zip(further, _NEXT, strict=True):
-            made.js_on_click(code=_CHOOSE.format(which))
-        self._next = row(
-            *further, button("Which bearing could it be?", search), visible=False,
-            margin=(8, 0, 8, 0),
-        )  # fmt: skip
+        several = button("Is it getting worse? Several files …", lambda: None)
+        several.js_on_click(code=_SEVERAL)
+        self._next = row(several, visible=False, margin=(8, 0, 8, 0))
         super().__init__(self._answer, self._actions, self._next, self._summary, **wide)
         self.state: Mapping[str, Any] = {}
 
@@ -89,76 +77,17 @@ class PartPanel(pn.Column):
         self.state = state
         self._answer.object = part_html(state)
         stale = state.get("stale", "")
-        summary = "" if stale else state.get("pass_on", "")
+        summary = "" if stale else state.get("work_order", "")
         self._summary.object = summary
-        self._copy.param.update(label="Copy the summary", disabled=not summary)
+        self._copy.param.update(label="Copy the work order", disabled=not summary)
         self._report.disabled = not summary
         self._why_not.object = f"<p>{NOT_NOW}</p>" if stale else ""
-        self._actions.visible = self._next.visible = bool(state.get("pass_on", ""))
+        self._actions.visible = self._next.visible = bool(state.get("work_order", ""))
 
     def outdate(self, why: str) -> None:
         """Mark the answer that is shown: it is not that of the newest answers and settings."""
         if self.state.get("mood") in ("fault", "healthy", "unknown"):
             self.show({**self.state, "stale": why})
-
-
-class ListedBearings(pn.Column):
-    """Listed bearings to take in place of the one that does not explain a signal.
-
-    Parameters
-    ----------
-    take
-        called with the name of the one that is chosen.
-    cancel
-        called to end the search.
-    search
-        called to begin one.
-    """
-
-    def __init__(
-        self,
-        take: Callable[[str], None],
-        cancel: Callable[[], None],
-        search: Callable[[], None] = lambda: None,
-    ) -> None:
-        self._take = take
-        self._shown: object = None
-        # both stay while the search goes on: a click on what is replaced meanwhile is lost
-        self._head = _words("")
-        self._cancel = button("Cancel the search", cancel, visible=False)
-        self._search = button(
-            "Try the listed bearings", search, visible=False, align="start",
-            css_classes=["search"],
-        )  # fmt: skip
-        head = row(self._search, self._head, self._cancel)
-        super().__init__(head, visible=False, sizing_mode="stretch_width", margin=(0, 0, 8, 0))
-
-    def show(
-        self,
-        words: str,
-        bearings: Sequence[tuple[str, str]] = (),
-        searching: bool = False,
-        offer: bool = False,
-    ) -> None:
-        """Show a sentence, and bearings with how well each explains the signal.
-
-        `offer`: whether a search can be begun.
-        """
-        if self._shown == (words, list(bearings), searching, offer):
-            return
-        self._shown = (words, list(bearings), searching, offer)
-        self.visible = bool(words) or offer
-        self._search.visible = offer
-        self._head.object = f'<p role="status">{html.escape(words)}</p>'
-        self._cancel.visible = searching
-        if bearings or len(self) > 1:
-            self[1:] = [
-                row(
-                    button(f"Take {name}", partial(self._take, name)),
-                    _words(f"<p>{html.escape(why)}</p>"),
-                )
-                for name, why in bearings
-            ]
 
 
 def _words(content: str) -> pn.pane.HTML:
@@ -167,16 +96,16 @@ def _words(content: str) -> pn.pane.HTML:
 
 
 def part_html(state: Mapping[str, Any]) -> str:
-    """The answer as HTML: picture, headline, words, summary, assumptions."""
+    """The answer as HTML: picture, headline, words, work order, assumptions."""
     names = (
-        "headline", "probability", "extent", "plain", "pass_on", "color", "mood", "stale",
+        "headline", "probability", "extent", "plain", "work_order", "color", "mood", "stale",
     )  # fmt: skip
     said = {name: html.escape(str(state.get(name, ""))) for name in names}
     short = said["probability"], said["extent"]
     facts = [Fact(html.escape(name), value) for name, value in state.get("facts", ())]
     summary = (
-        f'<div class="summary"><strong>Summary to copy</strong><p>{said["pass_on"]}</p></div>'
-        if said["pass_on"] and not said["stale"]
+        f'<div class="summary"><strong>Work order to copy</strong><p>{said["work_order"]}</p></div>'
+        if said["work_order"] and not said["stale"]
         else ""
     )
     assumptions = (
@@ -276,7 +205,7 @@ def _row(row: Mapping[str, Any]) -> str:
         ),
         _cell(row["together"], f"noise {row['noise']}"),
         _cell(row["sidebands"], row["spacing"]),
-        _cell(row["band"], f"along {row['direction']}"),
+        _cell(row["band"], row["direction"]),
         *([_cell(row["probability"])] if "probability" in row else []),
     ]
     return f'<tr class="{"leads" if row["leads"] else ""}">{"".join(cells)}</tr>'

@@ -46,7 +46,6 @@ class PaperFigures(View[Results]):
         "scene stays as it is until a figure or Section 4 is opened, which simulates the signal "
         "of a spall and finds its length on the Diagnosis tab."
     )
-    in_report = False
     computes = True
 
     def build(self, packed: PackedSource) -> Any:

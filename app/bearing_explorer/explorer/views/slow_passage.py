@@ -66,7 +66,6 @@ class SlowPassage(BearingDrawing):
     prefix = "slow"
     grabbed = False
     at_rest = True
-    in_report = False
 
     def build(self, packed: PackedSource) -> Any:
         bearing = super().build(packed)

@@ -54,8 +54,8 @@ READING = Kind("reading", FILES, longest=60.0)
 """A file is read with all that is in it, an answer about it is taken, or a signal is simulated."""
 COMPUTATION = Kind("computation", JOBS)
 """A map, a sweep or a trend that a person has started."""
-PART, EXTENT, LISTED = (Kind(name, JOBS) for name in ("part", "extent", "listed"))
-"""Analyses of a signal: the damaged part, the extent of its spall, other bearings."""
+PART, EXTENT = (Kind(name, JOBS) for name in ("part", "extent"))
+"""Analyses of a signal: the damaged part, the extent of its spall."""
 SIZING = Kind("sizing", JOBS)
 """Lengths of a spall are simulated and held against a signal."""
 

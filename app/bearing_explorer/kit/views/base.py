@@ -121,8 +121,6 @@ class View(Generic[C]):
     needs: frozenset[str] = frozenset()
     #: whether it draws an SVG of the class "picture" by itself instead of Bokeh's figures
     picture: ClassVar[bool] = False
-    #: whether it is in a report; one without `needs` only with the result of its job
-    in_report: ClassVar[bool] = True
     #: whether it is drawn only once the slider rests, and does not follow a drag
     at_rest: ClassVar[bool] = False
     #: whether it is a small card of the overview; `leads_to` is the tab that shows it in full

@@ -92,7 +92,9 @@ class LookPanel(pn.Column):
             self._disabled[name] = gone
             kept = [option for option in spec["options"] if option[0] not in gone]
             self._fields.values[name] = values[name]
-            self._fields.widgets[name].param.update(**choices(kept), value=values[name])
+            self._fields.widgets[name].param.update(
+                **choices(kept), value=values[name], visible=len(kept) > 1
+            )
         self._fields.put({name: v for name, v in values.items() if name in self._fields.values})
 
     def refuse(self, sentence: str) -> None:

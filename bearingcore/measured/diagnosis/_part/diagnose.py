@@ -23,7 +23,10 @@ from bearingcore.measured.diagnosis._part.decide import ENOUGH_SWING, decide, si
 from bearingcore.measured.diagnosis._part.evidence import CANNOT_TELL, NONE_SEEN, Diagnosis
 from bearingcore.measured.diagnosis._part.judged import judge
 from bearingcore.measured.diagnosis._part.listened_signal import ListenedSignal, unfit
-from bearingcore.measured.diagnosis._part.over_turns import at_steady_speed, followed_change
+from bearingcore.measured.diagnosis._part.over_turns import (
+    followed_change,
+    resample_to_steady_speed,
+)
 from bearingcore.measured.diagnosis._part.parts import BALL, INNER, OUTER, PartLines, part_lines
 from bearingcore.measured.diagnosis._part.status import DiagnosisStatus
 from bearingcore.measured.diagnosis._part.unknown_speed import NARROW, diagnose_in_range
@@ -48,72 +51,42 @@ CONTRADICTED = 0.5
 SOURCES = ("given", "from the file", "assumed")
 """Origins of a speed and a bearing; "given" is what a person has said of this measurement."""
 
-MOST_SAMPLES = 20_000_000
-"""Samples of all directions that are analysed at most by default: about a minute of
-one core, and some gigabytes."""
 
-
-def diagnose(
+def diagnose_recording(
     recording: Recording,
     bearing: BearingLike | None = None,
     shaft_speed: float | tuple[float, float] | None = None,
     *,
     slip: float = SLIP,
-    most_samples: int = MOST_SAMPLES,
+    shaft_ratio: float = 1.0,
     speed_source: str = "given",
     bearing_source: str = "given",
 ) -> Diagnosis:
-    """Diagnosis of the damaged part of a bearing from a signal.
-
-    Parameters
-    ----------
-    recording
-        acceleration of the housing, one direction or two.
-    bearing
-        its geometry, or its designation; only balls, diameters and contact angle count. None if it
-        is unknown: then no part is named, and the status says so.
-    shaft_speed
-        [rad/s], good to `slip`; a pair (from, to) if it is rough; None if it is unknown: then that
-        of the recording is taken if it carries one, else it is looked for between 300 and 6000
-        turns a minute.
-    slip
-        by how much balls may pass faster or slower than the shaft speed says, as a fraction.
-    most_samples
-        of all directions that may be listened to. Where there are more nothing is begun, and the
-        status says how many there are.
-    speed_source, bearing_source
-        where a speed and a bearing are from, one of `SOURCES`, perhaps with its words behind a
-        colon, as in "assumed: the scene's". The answer says it.
-
-    Raises
-    ------
-    ValueError
-        for a speed, slip or source that cannot be, and for rows that are not alike.
-    """
+    """Diagnose a recording; `diagnose` describes the arguments."""
     checks.instance("recording", recording, Recording)
     bearing = None if bearing is None else bearing_of(bearing)
     for name, said in (("speed_source", speed_source), ("bearing_source", bearing_source)):
         checks.choice(name, said.partition(":")[0], SOURCES)
-    diagnosis = _diagnose(recording, bearing, shaft_speed, slip, most_samples, speed_source)
-    return replace(diagnosis, bearing_source="unknown" if bearing is None else bearing_source)
+    ratio = checks.real_number("shaft_ratio", shaft_ratio, at_least=0.01, at_most=100.0)
+    speeds = _speeds(recording, shaft_speed, speed_source, ratio)
+    behind_gear = recording if ratio == 1.0 else recording.scale_shaft(ratio)
+    diagnosis = _diagnose(behind_gear, bearing, speeds, ratio, slip, speed_source)
+    source = "unknown" if bearing is None else bearing_source
+    return replace(diagnosis, bearing_source=source, shaft_ratio=ratio)
 
 
 def _diagnose(
     recording: Recording,
     bearing: Bearing | None,
-    shaft_speed: float | tuple[float, float] | None,
+    speeds: tuple[float, float, str],
+    ratio: float,
     slip: float,
-    most_samples: int,
     speed_source: str,
 ) -> Diagnosis:
     slip = checks.real_number("slip", slip, at_least=0.0, at_most=0.1)
-    low, high, source = _speeds(recording, shaft_speed, speed_source)
-    most = checks.whole_number("most_samples", most_samples, at_least=1, at_most=10**12)
-    if recording.acceleration.size > most:
-        words = say.too_many(recording.acceleration.size, most)
-        return silent(DiagnosisStatus.TOO_LONG, words, source)
+    low, high, source = speeds
     measured = recording.shaft_angle is not None
-    recording, low, high, source = at_steady_speed(recording, low, high, source)
+    recording, low, high, source = resample_to_steady_speed(recording, low, high, source)
     signal = ListenedSignal(recording)
     if signal.unusable is not None:
         return silent(*signal.unusable, source)
@@ -124,7 +97,7 @@ def _diagnose(
     if high > NARROW * low or answer.fault in (INNER, BALL):
         return answer
     speed, reach = 0.5 * (low + high), (high - low) / (high + low) + slip
-    held = _held_against_the_shaft(signal, answer, speed, reach)
+    held = _held_against_the_shaft(signal, answer, speed, reach, speed / ratio)
     if measured or held.names_a_part or not held.evidence:
         return held
     return _where_it_changes(held, followed_change(signal.columns, signal.rate, speed))
@@ -162,13 +135,14 @@ def _diagnose_between(
 
 
 def _held_against_the_shaft(
-    signal: ListenedSignal, answer: Diagnosis, speed: float, reach: float
+    signal: ListenedSignal, answer: Diagnosis, speed: float, reach: float, driving: float
 ) -> Diagnosis:
     """The answer, held against lines of the shaft at another speed than the stated one [Hz].
 
     Lines of the shaft elsewhere, and none at the stated speed, mean that speed or sample rate are
     wrong: no part is named then, and the answer says which speed the lines show. At 60 times the
-    speed or a 60th of it, Hz and rpm are confused most likely.
+    speed or a 60th of it, Hz and rpm are confused most likely. Lines of the shaft that is `driving`
+    [Hz] the bearing's by a gear contradict nothing.
     """
     stated = signal.shaft(speed * (1.0 - reach), speed * (1.0 + reach))
     if stated.clear:
@@ -182,7 +156,7 @@ def _held_against_the_shaft(
     if stated.excess >= 0.0:
         return answer
     shown = signal.shaft_tones(ELSEWHERE[0] * speed, ELSEWHERE[1] * speed)
-    if not shown.clear:
+    if not shown.clear or abs(shown.frequency / driving - 1.0) <= reach:
         return answer
     words = say.lines_elsewhere(speed, shown.frequency)
     if not answer.names_a_part:
@@ -200,16 +174,16 @@ def _held_against_the_shaft(
 
 
 def _speeds(
-    recording: Recording, shaft_speed: float | tuple[float, float] | None, said: str
+    recording: Recording, shaft_speed: float | tuple[float, float] | None, said: str, ratio: float
 ) -> tuple[float, float, str]:
-    """The speed from, to [Hz], and where it is from."""
-    turn = 2.0 * math.pi
+    """The speed of the bearing's shaft from, to [Hz], and where it is from."""
+    turn = 2.0 * math.pi / ratio
     if shaft_speed is None:
         stated = getattr(recording, "shaft_speed", None)
         if stated is not None:
             speed = checks.real_number("shaft_speed", stated, above=0.0, unit="rad/s") / turn
             return speed, speed, "given by the recording"
-        return SPEEDS[0] / turn, SPEEDS[1] / turn, "looked for"
+        return SPEEDS[0] / (2.0 * math.pi), SPEEDS[1] / (2.0 * math.pi), "looked for"
     if np.ndim(shaft_speed) == 0:
         speed = checks.real_number("shaft_speed", shaft_speed, above=0.0, unit="rad/s") / turn  # type: ignore[arg-type]
         return speed, speed, said

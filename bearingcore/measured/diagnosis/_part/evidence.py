@@ -184,6 +184,8 @@ class Diagnosis:
         source of the speed: "given", "from the file", "assumed", "looked for", ...
     bearing_source
         source of the bearing, likewise.
+    shaft_ratio
+        turns of the bearing's shaft, that of `shaft_speed`, for each turn of the measured one.
     other
         the strongest clear lines of another source, if any.
     detectable_depth
@@ -204,6 +206,7 @@ class Diagnosis:
     detectable_depth: float
     spectrum: EnvelopeLines | None
     bearing_source: str = "given"
+    shaft_ratio: float = 1.0
 
     @property
     def sentence(self) -> str:
@@ -218,7 +221,10 @@ class Diagnosis:
         if self.shaft_speed is None:
             return f"{words} No shaft speed is known ({self.speed_source})."
         speed = number(30.0 / math.pi * self.shaft_speed, 4)
-        return f"{words} Shaft speed {speed} turns a minute ({self.speed_source})."
+        if self.shaft_ratio == 1.0:
+            return f"{words} Shaft speed {speed} turns a minute ({self.speed_source})."
+        ratio = f"{number(self.shaft_ratio, 4)} times the measured shaft"
+        return f"{words} Bearing's shaft {speed} turns a minute, {ratio} ({self.speed_source})."
 
     @property
     def conclusive(self) -> bool:

@@ -47,7 +47,7 @@ BESIDE = 0.02
 """By how much a given speed may be outside those that were measured, as a fraction."""
 
 
-def at_steady_speed(
+def resample_to_steady_speed(
     recording: Recording, low: float, high: float, source: str
 ) -> tuple[Recording, float, float, str]:
     """The record at the mean speed, with the speed from, to [Hz], and where that is from.
@@ -97,6 +97,19 @@ def at_steady_speed(
     change = number(100.0 * float(np.ptp(speed[part])) / mean, 2)
     words = f"it changes by {change} % as measured, so the signal is taken over the shaft's angle"
     return made, low, high, f"{source}; {words}"
+
+
+def speed_over_time(recording: Recording, shaft_speed: float | None = None) -> Array | None:
+    """Return the shaft speed (n,) [rad/s] that was measured beside a signal; None without.
+
+    It is the mean of two turns around each sample. A `shaft_speed` [rad/s] that is known gives the
+    pulses a turn of a tachometer.
+    """
+    if recording.shaft_angle is None:
+        return None
+    turn = 2.0 * math.pi
+    speed = turn * _smooth_speed(recording.shaft_angle / turn, recording.sample_rate)
+    return speed / max(1.0, round(float(speed.mean()) / shaft_speed)) if shaft_speed else speed
 
 
 def _mean_speed(turns: Array, rate: float) -> float:

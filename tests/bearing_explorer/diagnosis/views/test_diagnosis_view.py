@@ -9,18 +9,13 @@ import numpy as np
 import pytest
 from bearing_explorer.diagnosis.diagnoses import Question, answered
 from bearing_explorer.diagnosis.model import Model
+from bearing_explorer.diagnosis.next_steps import work_order
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.simulated import simulated
 from bearing_explorer.diagnosis.views import part_words
 from bearing_explorer.diagnosis.views.diagnosis import PartDiagnosis, panel_state
 from bearing_explorer.diagnosis.views.measured_view import MeasuredView
-from bearing_explorer.diagnosis.views.part_lines import (
-    FAINT,
-    STRONG,
-    Zoom,
-    named,
-    window,
-)
+from bearing_explorer.diagnosis.views.part_lines import FAINT, STRONG, named
 from bearing_explorer.diagnosis.widgets.part_panel import evidence_html
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.page import SECTIONS
@@ -118,13 +113,16 @@ def test_words_have_sensible_digits_and_nothing_is_certain(truth):
     state = panel_state(asked(truth), diagnosed(truth))
     words = " ".join(
         [
-            *(str(state[key]) for key in ("headline", "probability", "plain", "pass_on")),
+            *(str(state[key]) for key in ("headline", "probability", "plain")),
+            order := work_order(measuring(heard(truth)), asked(truth), diagnosed(truth)),
             *(" ".join(row) for row in state["facts"]),
             str(part_words.evidence_rows(diagnosed(truth))),
         ]
     )
     assert not re.search(r"100 %|nan|inf\b|no value|None|e-\d|\d\.\d{4}", words), words
-    assert "±" not in state["pass_on"]
+    assert "±" not in order
+    names = [line.partition(":")[0] for line in order.splitlines()]
+    assert names == ["Finding", "Severity", "To do"]
 
 
 def test_a_counted_bearing_is_cleared_without_a_word_and_an_estimated_one_is_not():
@@ -134,10 +132,11 @@ def test_a_counted_bearing_is_cleared_without_a_word_and_an_estimated_one_is_not
     estimated = Question.about(dataclasses.replace(question.measured, machine=machine))
     state = panel_state(estimated, diagnosis)
     assert part_words.COUNTED.format("balls") in state["plain"]
-    assert part_words.COUNTED.format("balls") in state["pass_on"]
+    assert part_words.COUNTED.format("balls") in part_words.finding(diagnosis, estimated)
     assert "estimated from the designation, so BPFO ± " in dict(state["facts"])["Bearing"]
     counted = panel_state(question, diagnosis)
-    assert "estimate" not in str([counted[key] for key in ("plain", "pass_on", "facts")])
+    assert "estimate" not in str([counted[key] for key in ("plain", "facts")])
+    assert "estimate" not in part_words.finding(diagnosis, question)
 
 
 def test_a_part_that_is_hardly_told_is_only_probably_damaged():
@@ -206,30 +205,6 @@ def test_lines_that_count_are_strong_where_found_and_others_faint_where_geometry
     assert ranges["diagnosis_level"][1] > spectrum["level"][spectrum["frequency"] > 20.0].max()
 
 
-def test_a_zoom_shows_a_line_with_what_stands_beside_it():
-    diagnosis = diagnosed("inner race")
-    part = diagnosis.of("inner race")
-    low, high = window(diagnosis, Zoom("inner race", 2))
-    assert low < 2.0 * part.frequency - part.sideband_spacing
-    assert high > 2.0 * part.frequency + part.sideband_spacing
-    assert high - low < part.frequency
-    view = view_of(heard("inner race"), diagnosis)
-    view.look_changed("zoom", "inner race 2")
-    assert view.all_data(MODEL)[1]["diagnosis_frequency"] == (low, high)
-
-
-def test_the_shaft_speed_can_be_rough_or_unknown():
-    measurement = shown("outer race").measurement
-    measurement.take_form({"speed": ""})
-    assert measurement.question().speed is None
-    assert "speed?" in measurement.state.line
-    measurement.take_form({"speed": "rough"})
-    low, high = measurement.question().speed
-    assert low < heard("outer race").shaft_speed < high
-    measurement.take_form({"speed": "simulated"})
-    assert measurement.question() == asked("outer race")
-
-
 @pytest.mark.parametrize("first", [3.0, 40.3, 107.4, 162.2, 900.0])
 @pytest.mark.parametrize("low", [0.0, 100.0])
 @pytest.mark.parametrize("high", [150.0, 1000.0])
@@ -275,9 +250,3 @@ def test_the_part_does_not_depend_on_the_unit_and_it_is_said_where_it_is_not_kno
     rests = dict(panel_state(question, diagnosis)["facts"])
     assert rests["Unit"] == "not known; the part does not depend on it"
     assert "Unit" not in dict(panel_state(asked("inner race"), known)["facts"])
-
-
-# -- simulated measurements ------------------------------------------------------------------------
-
-
-# -- the tab ---------------------------------------------------------------------------------------

@@ -110,7 +110,7 @@ def test_a_bad_file_among_good_ones_is_named_and_nothing_is_lost(view: TrendOfFi
     assert made.measured is not None
     assert made.measured.recording.name == "day3.csv"
     sentence = view.sentence(MODEL)
-    assert "3 recordings along y" in sentence
+    assert "3 recordings. " in sentence
     assert "6 times that of the baseline, day1.csv" in sentence
     assert "Left out: broken.csv" in sentence
     sources, ranges = view.data(MODEL)

@@ -16,7 +16,6 @@ from bearingcore.measured.diagnosis import (
     NONE_SEEN,
     PARTS,
     DiagnosisStatus,
-    explaining_bearings,
     part_lines,
 )
 from tests.bearingcore.measured.diagnosis.signals_made import (
@@ -111,21 +110,6 @@ def test_a_race_is_no_ball_of_a_bearing_whose_ball_lines_are_there(damaged, part
     assert (diagnosis.fault, diagnosis.status) == (CANNOT_TELL, DiagnosisStatus.UNMODULATED)
     assert diagnosis.of("ball").level > diagnosis.of("ball").noise + 2.0
     assert "Check the bearing's geometry" in diagnosis.sentence
-
-
-def test_listed_bearings_that_explain_a_signal_are_named_the_strongest_lines_first(damaged):
-    recording = Recording(damaged["inner race"], MOTOR.rate, ("y",))
-    names = ("fan-rig", "6205", "6206", "liew-lim", "6203")
-    listed = {name: presets[name].bearing for name in names}
-    bearings = explaining_bearings(recording, listed, MOTOR.shaft_speed)
-    assert {bearing.name for bearing in bearings} == {"6205", "6206"}
-    assert all(bearing.diagnosis.fault == "inner race" for bearing in bearings)
-    assert abs(bearings[0].slip) < 0.02
-    assert bearings[0].level > 5.0
-    cancelled = explaining_bearings(
-        recording, listed, MOTOR.shaft_speed, goes_on=lambda done, of: False
-    )
-    assert cancelled == ()
 
 
 def test_faint_lines_of_a_race_name_none_and_the_sentence_says_what_may_make_them():

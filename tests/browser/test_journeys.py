@@ -66,7 +66,7 @@ TABS = {
     "Load": (4, 3, _most_loaded, "Length of the defect"),
     "Stiffness: Curves": (1, 1, _stiffest, "Length of the defect"),
     "Stiffness: Maps": (1, 1, _now_stiff, "Length of the defect"),
-    "Frequencies": (1, 1, _frequency, "Length of the defect"),
+    "Frequencies": (1, 1, _frequency, "Load, downwards"),  # its sentence is the same at 23°
     "Vibration": (5, 4, _outer_race, "Length of the defect"),
     "Machine: Bearing": (1, 0, _outer_race, None),
     "Machine: Rotor and support": (2, 0, None, None),
@@ -129,6 +129,8 @@ def test_a_tab_shows_its_views_and_follows_a_slider(walk: tuple[Visitor, Watch],
     visitor.steady()
     assert "blank" not in visitor.figures()
     assert not _NOTHING.search(" ".join(visitor.sentences()))
+    for more in visitor.main.get_by_role("button", name=re.compile("^More about")).all():
+        more.click()
     if known is not None:
         visitor.reads(re.compile(re.escape(known(FAN))))
     if moved is not None:

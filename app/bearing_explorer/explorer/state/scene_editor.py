@@ -241,7 +241,8 @@ class SceneEditor:
         """
         usual = scene_of(bearing).replace(defect=_SOUND)
         kept = [part for part in _USUAL if getattr(self.scene, part) != getattr(self.begun, part)]
-        lost = "" if "defect" in kept else _lost_words(self.scene)
+        lost = " and ".join(f"{number(math.degrees(d.extent))}°" for d in self.scene.defects)
+        gone = f"The defect of {lost} is gone. " if lost and "defect" not in kept else ""
         fresh = {part: getattr(usual, part) for part in _USUAL if part not in kept}
         before = self.scene.replace(defect=fresh.get("defect", self.scene.defect))
         if before.dofs == self.begun.dofs:
@@ -252,7 +253,7 @@ class SceneEditor:
         self._take(scene)
         self.limits = limits_of(self.scene)
         self._write_values()
-        self._effects["preset"] = f"{lost} {_usual_words(scene, kept)} {effect}".strip()
+        self._effects["preset"] = f"{gone}{_usual_words(scene, kept)} {effect}".rstrip()
         self.own_name = one_line(name, LONGEST_NAME)
         self.origin = CatalogueOrigin(self.own_name, origin, self.scene.bearing)
 
@@ -532,15 +533,6 @@ class SceneEditor:
             "hidden": hidden,
             "effects": self.effects,
         }
-
-
-def _lost_words(scene: Scene) -> str:
-    """Sentence on the defects that a bearing out of a list does not take over; or empty."""
-    lengths = [f"{number(math.degrees(defect.extent))}°" for defect in scene.defects]
-    if not lengths:
-        return ""
-    gone = f"The defect of {lengths[0]} is" if len(lengths) == 1 else "The defects are"
-    return f"{gone} gone: the bearing comes sound."
 
 
 def _usual_words(scene: Scene, kept: Iterable[str]) -> str:

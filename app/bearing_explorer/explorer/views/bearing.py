@@ -192,9 +192,9 @@ class BearingDrawing(ComparingView):
     about = (
         "Ball loads at the cage angle, seen along the shaft. Rows are side by side. Bars and "
         "colours: loads of the balls. Grey rim: {grey}. The arrow is the load on the shaft; it "
-        "reaches the bore at the load that is named. "
-        "Ticks on the ring are ball spacings from the beginning of the defect. "
-        "Compared scenes have dashed rims. The keyway turns with the shaft; z points towards you."
+        "reaches the bore at the load that is named. Ticks on the ring are ball spacings from the "
+        "beginning of the defect. Compared scenes have dashed rims. The keyway turns with the "
+        "shaft; z points towards you."
     )
     needs = frozenset({"equilibrium", "now", "drop"})
     #: of the names of its sources

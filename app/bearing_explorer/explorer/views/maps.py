@@ -32,7 +32,7 @@ from bearing_explorer.kit.plots import color_scales, style
 from bearing_explorer.kit.plots.element_words import elements
 from bearing_explorer.kit.plots.heat_map import Side, ends, let_point
 from bearing_explorer.kit.plots.ranges import StickyRange
-from bearing_explorer.kit.plots.style import in_degrees, number
+from bearing_explorer.kit.plots.style import in_degrees, number, with_prefix
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources, View
 from bearingcore import STIFFNESS_TERMS
@@ -203,7 +203,7 @@ class StiffnessMaps(View):
         return low, high, False
 
     def sentence(self, results: Results) -> str:
-        """The length at which fewest balls carry load."""
+        """The length at which fewest balls carry load, and the state at the sliders' place."""
         maps = results.maps
         if not maps.converged.any():
             first = np.unravel_index(0, maps.status.shape)
@@ -221,13 +221,14 @@ class StiffnessMaps(View):
             )
             if at == mean.size - 1:
                 where += ", the longest of the map"
-            words = (
-                f"Fewest {names} carry load {where}: "
-                f"{least:.1f} of {n_balls} on average over "
-                f"{'the turn of the shaft shown' if results.over_shaft else 'the cage angle'}"
-            )
+            words = f"Fewest {names} carry load {where}: {least:.1f} of {n_balls} on average"
             if at and np.isfinite(mean[0]):
                 words += f", against {mean[0]:.1f} without the defect"
+        now = results.against(massless(results.scene)).now
+        if now.converged[0]:
+            place = f"{in_degrees(results.extent)}, {in_degrees(results.cage_angle)}"
+            stiff = with_prefix(float(now.term("k_yy")[0]), "N/m")
+            words += f"; at the mark ({place}) {int(now.loaded_balls[0])} do, and k_yy is {stiff}"
         missing = float(np.mean(~maps.converged))
         if missing:
             words += f". {number(100.0 * missing, 2)} % of the points have no answer"

@@ -27,7 +27,6 @@ WORDS_OF = {
     "vibration_spectrum": ["Frequency f (Hz)", "y₂"],
     "vibration_time": ["Time t (ms)", "ball 1 enters"],
     "depth_profile": ["Depth d (µm)"],
-    "orbit": ["Multipliers, real part", "Inner ring along x (µm)"],
     "accuracy": ["Error of spectrum (dB)", "10⁻³"],
     "alternatives": ["Error over what is allowed", "quasi-static"],
     "explore": ["Load, downwards −Fy (N)"],

@@ -1,4 +1,4 @@
-"""Defects as machines have them, for simulated measurements."""
+"""A defect that is small and deep."""
 
 import dataclasses
 import math

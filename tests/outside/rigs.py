@@ -107,9 +107,6 @@ class Machine:
         return np.sort(times[(times > 0.0) & (times < duration)])
 
 
-DISTURBANCES = ("noise", "wander", "path", "knocks")
-
-
 def record(machine: Machine, duration: float, seed: int, disturbed: tuple[str, ...] = ()) -> Array:
     """A record (n, 2) at `RATE`: noise and tones 20 dB below, and the other disturbances named.
 

@@ -265,8 +265,14 @@ _BEARING = (
     Field("row_distance", "pair", "Distance of the rows", "a", "mm", "Rows",
           Range(0.0, 100.0, 0.1, 0.0, 10_000.0),
           "Distance between the centres of the two rows of balls, along the shaft."),
-    Field("preload", "pair", "Axial preload", "", "µm", "Rows", Range(0.0, 50.0, 0.1, 0.0, 1000.0),
-          "Distance by which the inner grooves of both rows are pushed together along the shaft."),
+    Field("preload", "pair", "Axial preload", "", "µm", "Rows",
+          Range(-50.0, 50.0, 0.1, -1000.0, 1000.0),
+          "Distance by which the inner grooves of both rows are pushed together along the shaft. A "
+          "negative value is an axial clearance between them.", sweep_range=(0.0, 50.0)),
+    Field("preload_force", "pair", "Preload force", "F_0", "N", "",
+          Range(0.0, 10_000.0, 1.0, 0.0, 1e6),
+          "Axial force with which both rows press each other at rest and without a load, as makers "
+          "state a preload. The axial preload follows from it."),
     Field("n_balls", "second", "Number of balls, row 2", "N_b2", "", "Second row",
           Range(3.0, 30.0, 1.0, 1.0, 100.0),
           "Balls in the second row." + _FIRST, optional=True, whole=True),
@@ -386,8 +392,8 @@ FIELDS: tuple[Field, ...] = (
 )
 """All fields, in the order of the page."""
 
-FIELD_OF: Mapping[str, Field] = {field.name: field for field in reversed(FIELDS)}
-"""Fields by name; of a name that several parts have, the first of the page."""
+FIELD_OF: Mapping[str, Field] = {field.full_name: field for field in FIELDS}
+"""Fields by their full names."""
 
-SCENE_PARTS = ("scene", "defect", "load", "bearing", "support")
-"""Parts whose fields `Scene.replace` changes."""
+SCENE_FIELDS = tuple(field for field in FIELDS if field.part)
+"""Fields that `Scene.replace`, files and sweeps take, by their full names."""

@@ -10,14 +10,15 @@ def as_markdown() -> str:
         "",
         "All numbers of a scene, printed from `bearingcore.fields.FIELDS`. `Scene.replace` and "
         "sweeps use the name, with a value in SI units; links use the name with the unit of the "
-        "page.",
+        "page. `cage_angle` is no number of a scene: links hold it, and functions take it, as in "
+        "`equilibrium(scene, cage_angles)`.",
         "",
         "| name | of | symbol | SI unit | in links | unit there | meaning |",
         "| --- | --- | --- | --- | --- | --- | --- |",
     ]
     for field in FIELDS:
         cells = (
-            f"`{field.name}`",
+            f"`{field.full_name}`",
             field.part or "page",
             field.symbol,
             field.unit,

@@ -108,11 +108,6 @@ def _frame() -> Any:
     return PageTemplate(asset_text("page.html")).template
 
 
-@cache
-def _for_teachers() -> str:
-    return scene.text_for_teachers(TABS)
-
-
 def lessons_of(folder: Path | None = None) -> Any:
     """The lessons of a folder, or those that come along; read once."""
     if scene is None:
@@ -150,7 +145,6 @@ def page(lessons: Path | None = None) -> PageTemplate:
     }.items():
         template.add_variable(name, text)
     if explorer is not None:
-        explorer.lesson.teachers = _for_teachers()
         template.add_panel("lesson", explorer.lesson)
         template.add_panel("controls", stack(explorer.share, explorer.controls))
     else:

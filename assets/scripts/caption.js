@@ -27,7 +27,7 @@ export function render({ model }) {
     (lead || head).textContent = model.lead ? `${model.title}: ${model.lead}` : model.title
   })
   if (model.compact) {  // the figure says it itself; the rest is a tooltip
-    follow(model, ["line", "rest"], () => { head.title = `${model.line} ${model.rest}`.trim() })
+    follow(model, ["line", "rest"], () => { head.title = `${model.rest} ${model.line}`.trim() })
     root.className = "compact"
     root.replaceChildren(head)
     return root
@@ -42,7 +42,7 @@ export function render({ model }) {
   unfolds(part("more"), part("rest"))
   follow(model, ["line", "rest"], () => {
     part("line").textContent = model.line
-    part("rest").textContent = model.rest
+    part("rest").innerHTML = model.rest
     part("more").hidden = !model.rest
   })
   for (const [id, label] of [["more", "More about"], ["opener", "Export"], ["exports", "Export"],

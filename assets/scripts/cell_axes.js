@@ -33,7 +33,7 @@ const ticks_of = (side, {start, end}, near, [first_end, last_end]) => {
 }
 const label = (side) => {
   const {unit, words} = scale_of(seen[0].k)[side]
-  const own = cell_names[seen[0].k]
+  const own = cell_names[seen[0].k].replace(/^k /, "k_")
   if (seen.length > 1) return words ? `${words} (${unit})` : ""
   const name = !words ? own : side === "x" ? `${own} over ${words[0].toLowerCase()}${words.slice(1)}` : words
   return unit ? `${name} (${unit})` : name

@@ -25,7 +25,8 @@
   let silent = false
   const look = setInterval(() => {
     const now = performance.now()
-    if (!(window.__asked > (window.__mark ?? 0))) heard = now
+    const compiling = document.documentElement.hasAttribute("data-compiling")  // its bar says so
+    if (compiling || !(window.__asked > (window.__mark ?? 0))) heard = now
     if (silent === now - heard > SILENT) return
     silent = !silent
     say(silent && "The server does not answer. What you change is drawn as soon as it does.", "status")

@@ -80,12 +80,6 @@ function on_event(name, part, act) {
   while_there(`explorer-${name}`, part, ({ detail }) => act(detail))
 }
 
-// A sentence in a note; a bad one in its colour.
-function write_note(note, sentence, bad = false) {
-  note.textContent = sentence
-  note.classList.toggle("bad", bad)
-}
-
 // The most quotation marks of a text that is sent: a server takes 20,000.
 const MOST_QUOTES = 15_000
 

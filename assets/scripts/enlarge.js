@@ -23,7 +23,10 @@ function enlarging(model, root) {
   }
 
   let cell = -1  // the one that fills the drawing; -1 if all are shown
-  const explain = () => { part("line").textContent = model.cell_lines[cell] || model.line }
+  const explain = () => {
+    if (model.cell_lines[cell]) part("line").innerHTML = model.cell_lines[cell]
+    else part("line").textContent = model.line
+  }
   model.on("cell_lines", explain)
   const show_cell = (number) => {
     const [view] = figures_on_screen(model.figures)
@@ -36,7 +39,7 @@ function enlarging(model, root) {
     host()?.style.setProperty("--matrix-width", cell < 0 ? "" : "0")  // a cell alone is not scrolled
     x_range.setv({ start: left, end: right })
     y_range.setv({ start: bottom, end: top })
-    name.textContent = cell < 0 ? words : `${words}, ${cell + 1} of ${model.cells.length}`
+    name.innerHTML = cell < 0 ? words : `${words.replace(/^k (.+)/, "k<sub>$1</sub>")}, ${cell + 1} of ${model.cells.length}`
     explain()
   }
   const step = (by) => show_cell(cell < 0 ? (by > 0 ? 0 : model.cells.length - 1) : (cell + by + model.cells.length) % model.cells.length)

@@ -114,7 +114,7 @@ export function render({ model }) {
     send_event()
     if (open) words.querySelector("h2").focus({ preventScroll: true })
   }
-  // The list of all lessons, and the page for those who teach.
+  // The list of all lessons.
   const list = () => {
     listed = steps.hidden = parts.hidden = true
     select.value = "-1"
@@ -123,13 +123,10 @@ export function render({ model }) {
       entry.disabled = fault !== ""
       return element("li", {}, entry)
     })
-    const teachers = element("details", { class: "teachers" }, element("summary", {}, "For teachers"),
-      element("div", { class: "body", html: model.teachers }))
-    teachers.addEventListener("toggle", () => { if (teachers.open) teachers.scrollIntoView() })
     fill(element("h2", { tabindex: "-1" }, "Lessons"),
       element("p", { class: "note" }, "Each asks a question, shows which slider to drag, and gives the "
         + "answer. Beginning one sets its scene; Undo brings yours back."),
-      element("ol", { class: "entries" }, ...entries), ...(hides || !model.teachers ? [] : [teachers]))
+      element("ol", { class: "entries" }, ...entries))
   }
 
   // A prediction: chosen or typed. Until then the figures that would answer it are veiled.

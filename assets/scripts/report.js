@@ -1,8 +1,6 @@
 // The second half of a report: its figures are drawn out of sight, as SVG, and put in their places.
 
-const REPORT_WIDTH = 960
-
-async function make_report({ name, html, items, figures, width = REPORT_WIDTH }) {
+async function make_report({ name, html, items, figures, width }) {
   const place = document.createElement("div")
   place.setAttribute("aria-hidden", "true")
   place.inert = true

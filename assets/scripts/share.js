@@ -18,10 +18,10 @@ function read_kept() {
 
 export function render({ model }) {
   const asks = (message) => () => ask(model, message)
-  const asks_report = (measured) => {
+  const asks_report = () => {
     say("Making the report …")
     const words = Object.fromEntries(new FormData(part("about")))
-    model.send_msg({ report: location.origin + location.pathname, measured, ...words })
+    model.send_msg({ report: location.origin + location.pathname, ...words })
   }
   const copy = async () => {
     const copied = await copy_text(link.value)
@@ -39,7 +39,6 @@ export function render({ model }) {
     },
     copy,
     keep: () => model.send_msg({ keep: name.value || name.placeholder }),
-    report: () => asks_report(false),
     toml: () => model.send_msg({ want: "toml" }),
     close: () => { part("notice").hidden = true },
   })
@@ -143,7 +142,7 @@ export function render({ model }) {
     if (place.tab !== from) announce("show", place.tab)
   })
   on_event("said", root, say)
-  on_event("measured-report", root, () => asks_report(true))
+  on_event("measured-report", root, asks_report)
   on_event("asked", root, (tab) => { if (tab.name !== going) going = null })
   const failed = (error) => {
     console.warn("the report could not be made", error)

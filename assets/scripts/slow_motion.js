@@ -1,8 +1,7 @@
 // The simulated motion, slowly: shows an instant of the stretch that the server has sent in the figures
-// of this view, and plays its acceleration as sound. See app/bearing_explorer/explorer/views/slow_passage.py.
+// of this view. See app/bearing_explorer/explorer/views/slow_passage.py.
 
 const SLOWNESS = [1, 10, 30, 100, 300, 1000]  // times slower than the machine
-const LOWEST = 30  // slower than this what the housing does is too low to hear
 const LONGEST = 100  // ms that a picture stands for at most: a page that was not looked at does not jump
 
 export function render({ model }) {
@@ -22,11 +21,9 @@ export function render({ model }) {
     element("option", { value: String(slow) }, slow === 1 ? "full speed" : `1/${slow}`)))
   speed.value = "100"
   const place = element("input", { type: "range", min: "0", step: "1", class: "place", "aria-label": "Instant" })
-  const volume = element("input", { type: "range", min: "0", max: "100", value: "0" })
-  const now = element("output"), note = element("p", { class: "note" })
+  const now = element("output")
   const root = element("div", { class: "slow", role: "group", "aria-label": "Slow motion" }, play,
-    element("label", {}, "Speed", speed), place, now,
-    element("label", { class: "volume" }, "Sound", volume), note)
+    element("label", {}, "Speed", speed), place, now)
 
   // An instant: numbers of frames are taken between those of its neighbours.
   const show = (wanted) => {
@@ -65,37 +62,8 @@ export function render({ model }) {
     place.setAttribute("aria-valuetext", now.textContent)
   }
 
-  // The stretch as sound, over and over, from the instant that is shown on.
-  let context = null, gain = null, sound = null
-  const be_silent = () => {
-    sound?.stop()
-    sound = null
-  }
-  const be_heard = () => {
-    be_silent()
-    if (!playing || !Number(volume.value)) return
-    const { value } = data_of("sound")
-    const peak = value.reduce((most, one) => Math.max(most, Math.abs(one)), 0)
-    if (!(peak > 0)) return
-    if (!context) {
-      context = new AudioContext()
-      gain = context.createGain()
-      gain.connect(context.destination)
-    }
-    gain.gain.value = (Number(volume.value) / 100) ** 2
-    const rate = Math.max(8000, Math.min(96000, Math.round(value.length / length())))
-    const buffer = context.createBuffer(1, value.length, rate)
-    buffer.copyToChannel(Float32Array.from(value, (one) => one / peak), 0)
-    sound = context.createBufferSource()
-    sound.buffer = buffer
-    sound.loop = true
-    sound.playbackRate.value = value.length / length() / rate / Number(speed.value)
-    sound.connect(gain)
-    sound.start(0, frame / (data_of("frames").time.length - 1) * buffer.duration)
-  }
-
   const step = (passed) => {
-    if (!playing || !root.isConnected) return be_silent()
+    if (!playing || !root.isConnected) return
     const frames = data_of("frames").time.length - 1
     const by = Math.min(passed - last, LONGEST) / 1000 / Number(speed.value) / length() * frames
     last = passed
@@ -106,19 +74,9 @@ export function render({ model }) {
     if (wanted && !(length() > 0)) return
     playing = wanted
     play.textContent = playing ? "Pause" : "Play"
-    be_heard()
     last = performance.now()
     if (playing) requestAnimationFrame(step)
   }
-  const say = () => {
-    const low = Number(speed.value) > LOWEST
-    note.hidden = Number(volume.value) > 0 && !low
-    note.textContent = !Number(volume.value) ? "The sound is off: turn it up to hear the acceleration."
-      : `Slower than 1/${LOWEST} the sound is too low to hear.`
-    be_heard()
-  }
-  speed.addEventListener("change", say)
-  volume.addEventListener("input", say)
   place.addEventListener("input", () => { set_playing(false); show(Number(place.value)) })
   play.addEventListener("keydown", (event) => {
     const by = { ArrowLeft: -1, ArrowRight: 1 }[event.key]
@@ -135,10 +93,8 @@ export function render({ model }) {
     const zero = frames.time.findIndex((one) => one >= -1e-9)
     shown = frames
     show(frame ?? Math.max(zero, 0))
-    if (sound) be_heard()
   }
   on_event("drawn", root, take)
   requestAnimationFrame(take)
-  say()
   return root
 }

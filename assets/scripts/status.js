@@ -25,6 +25,7 @@ export function render({ model }) {
   follow(model, ["progress"], () => {
     const { done = 0, of = 0, words = "", still = false } = model.progress
     progress.hidden = !of
+    document.documentElement.toggleAttribute("data-compiling", of > 0)
     Object.assign(bar, { value: done, max: of || 1 })
     said.textContent = words
     bar.setAttribute("aria-label", words)

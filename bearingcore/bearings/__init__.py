@@ -7,9 +7,6 @@ this package do not import each other in circles.
 from bearingcore.bearings._ball import Ball as Ball
 from bearingcore.bearings._bearing import Bearing as Bearing
 from bearingcore.bearings._catalogue import (
-    CATALOGUE_COLUMNS as CATALOGUE_COLUMNS,
-    MOST_BYTES as MOST_BYTES,
-    NEEDED_COLUMNS as NEEDED_COLUMNS,
     CatalogueBearing as CatalogueBearing,
     catalogue as catalogue,
     read_catalogue as read_catalogue,

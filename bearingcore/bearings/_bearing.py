@@ -11,14 +11,15 @@ from bearingcore.bearings import _drawing as drawing
 from bearingcore.bearings._contact import Contact
 from bearingcore.bearings._hertz import RaceContact
 from bearingcore.bearings._in_rows import InRows
-from bearingcore.bearings._inside import MEASURED
+from bearingcore.bearings._inside import RATIO_SPREAD
 from bearingcore.bearings._kind import Kind
 from bearingcore.bearings._kinds import kind_of
 from bearingcore.bearings._kinematics import check_contact_angle
 from bearingcore.bearings._line_contact import RollerContact
 from bearingcore.bearings._material import BALL_MATERIALS, BallMaterial
+from bearingcore.bearings._preload import ROW_CHANGES, change_rows, preload_force
 from bearingcore.bearings._roller import ROLLER, roller_numbers
-from bearingcore.bearings._row import pair, spaced
+from bearingcore.bearings._row import pair
 from bearingcore.bearings._self_aligning import self_aligning_numbers
 from bearingcore.bearings._tapered import TAPERED
 from bearingcore.common import _checks as checks
@@ -284,11 +285,22 @@ class Bearing(InRows):
 
     @property
     def preload(self) -> float | None:
-        """Displacement [m] of a pair's inner grooves against each other; None without a pair."""
+        """Displacement [m] of a pair's inner grooves against each other; None without a pair.
+
+        Below 0 it is an axial clearance between them.
+        """
         if not self.arrangement:
             return None
         low, high = self.rows
-        return abs(high.offset - low.offset)
+        return (high.offset - low.offset) * high.facing
+
+    @property
+    def preload_force(self) -> float | None:
+        """Axial force F0 [N] with which both rows of a pair press each other at rest, unloaded.
+
+        0 where a clearance parts them. None without a pair, and of one in tandem.
+        """
+        return preload_force(self)
 
     @property
     def arrangement(self) -> str:
@@ -310,9 +322,17 @@ class Bearing(InRows):
     def replace(self, **changes: Any) -> Self:
         """Return the bearing with changed fields; derived fields follow.
 
+        Of two rows it also takes `row_distance` and `preload` [m], or `preload_force` [N] in its
+        place, and what the second row has of its own: `second_n_balls`, `second_contact_angle`,
+        `second_ball_diameter` and `second_pitch_diameter`.
+
         A derived field (A0, r_d, K, R_o, R_i) that differs from the value by the drawing keeps its
         ratio to that value; one that is named in `changes` is taken as it is.
         """
+        of_rows = {name: changes.pop(name) for name in ROW_CHANGES if name in changes}
+        if of_rows:
+            new = self.replace(**changes)
+            return new.replace(rows=change_rows(new, of_rows))
         kept = {"estimated": tuple(name for name in self.estimated if name not in changes)}
         changes = self.kind.completed(self, kept | changes)
         new = dataclasses.replace(self, **changes)
@@ -333,7 +353,8 @@ class Bearing(InRows):
         """Two rows like this one, `distance` [m] apart on the shaft.
 
         `arrangement` is "back-to-back", "face-to-face" or "tandem"; `preload` [m] is how far the
-        inner grooves are pushed along the shaft against each other.
+        inner grooves are pushed along the shaft against each other, below 0 a clearance between
+        them. `replace(preload_force=...)` sets it by its force instead.
 
         Raises
         ------
@@ -342,22 +363,7 @@ class Bearing(InRows):
         """
         if self.rows:
             raise checks.refuse("rows", len(self.rows), "none yet, where a bearing is paired")
-        self._check_preload(preload)
-        return self.replace(rows=pair(distance, arrangement, preload))
-
-    def respaced(self, distance: float | None = None, preload: float | None = None) -> Self:
-        """The pair with another distance of its rows, or another preload [m]; see `paired`.
-
-        ValueError for a bearing that is no pair.
-        """
-        if not self.arrangement:
-            raise checks.refuse("rows", len(self.all_rows), "two rows that form a pair")
-        self._check_preload(preload or 0.0)
-        return self.replace(rows=spaced(self.rows, distance, preload))
-
-    def _check_preload(self, preload: float) -> None:
-        if preload > 0.0 and self.contact_angle == 0.0:
-            raise checks.refuse("preload", preload, "0 m at a contact angle of 0")
+        return self.replace(rows=pair(distance, arrangement)).replace(preload=preload)
 
     @property
     def pressure_centers_apart(self) -> float | None:
@@ -407,7 +413,7 @@ class Bearing(InRows):
         whose number is less sure, it is.
         """
         checks.choice("name", name, ("bpfo", "bpfi", "ftf", "bsf"))
-        ratio, counted = self.kind.estimate_spread or (MEASURED.ratio_spread, 0)
+        ratio, counted = self.kind.estimate_spread or (RATIO_SPREAD, 0)
         spread = 0.0
         if {"ball_diameter", "pitch_diameter"} & set(self.estimated):
             gamma = self.size_ratio

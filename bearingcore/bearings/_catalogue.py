@@ -47,10 +47,6 @@ CATALOGUE_COLUMNS = (
 
 USUAL_CLEARANCE_UM = 10.0
 
-MOST_BYTES = 2**20
-MOST_BEARINGS = 2000
-LONGEST_NAME, LONGEST_NOTE = 80, 2000
-
 _SEPARATORS = (";", "\t", ",")
 """Of columns; the most frequent one in the headings is taken."""
 
@@ -98,32 +94,37 @@ def read_catalogue(table: str | bytes) -> dict[str, CatalogueBearing]:
     ValueError
         naming the first fault by line and column, with its text and the allowed values.
     """
-    lines = _lines(_text(table))
-    if not lines:
-        raise checks.refuse("table of bearings", "empty", "a line of headings and one a bearing")
+    lines = [
+        (number, line)
+        for number, line in enumerate(_decode(table).splitlines(), start=1)
+        if line.strip(" \t;,") and not line.lstrip().startswith("#")
+    ]
+    if len(lines) < 2:
+        raise checks.refuse("table of bearings", "empty", "headings, and a line for each bearing")
     separator = max(_SEPARATORS, key=lines[0][1].count)
-    rows = [(number, _cells(number, line, separator)) for number, line in lines]
-    headings = _headings(*rows[0])
-    if len(rows) - 1 > MOST_BEARINGS:
-        raise checks.refuse(
-            "table of bearings", f"{len(rows) - 1} bearings long", f"at most {MOST_BEARINGS}"
-        )
+    try:
+        texts = (line for _, line in lines)
+        rows = csv.reader(texts, delimiter=separator, strict=True, skipinitialspace=True)
+        headings, *cells = [[cell.strip() for cell in row] for row in rows]
+    except csv.Error as error:
+        raise checks.refuse("table of bearings", str(error), "cells that csv can read") from None
+    columns = _columns(headings)
     entries: dict[str, CatalogueBearing] = {}
-    for number, cells in rows[1:]:
+    for (number, _), row in zip(lines[1:], cells, strict=False):
         at = f"table of bearings: line {number}"
-        entry = _bearing(at, _label_cells(at, headings, cells, separator), separator != ",")
+        if any(row[len(columns) :]):
+            hint = "; numbers with a decimal comma need semicolons between columns"
+            allowed = f"{len(columns)}, as headings{hint if separator == ',' else ''}"
+            raise checks.refuse(f"number of cells in {at}", len(row), allowed)
+        row += [""] * (len(columns) - len(row))
+        entry = _bearing(at, dict(zip(columns, row, strict=False)), separator != ",")
         if entry.name in entries:
             raise checks.refuse(f"{at}, column name", entry.name, "a name of its own for each")
         entries[entry.name] = entry
-    if not entries:
-        raise checks.refuse("table of bearings", "headings alone", "a line for each bearing")
     return entries
 
 
-def _text(table: str | bytes) -> str:
-    size = len(table)
-    if size > MOST_BYTES:
-        raise checks.refuse("table of bearings", f"{size} bytes long", f"at most {MOST_BYTES}")
+def _decode(table: str | bytes) -> str:
     if isinstance(table, str):
         return table.removeprefix("\ufeff")
     try:
@@ -132,58 +133,20 @@ def _text(table: str | bytes) -> str:
         return table.decode("cp1252", errors="replace")  # what spreadsheets in Europe write
 
 
-def _lines(text: str) -> list[tuple[int, str]]:
-    """Lines that say something, with their numbers from 1."""
-    return [
-        (number, line)
-        for number, line in enumerate(text.splitlines(), start=1)
-        if line.strip(" \t;,") and not line.lstrip().startswith("#")
-    ]
-
-
-def _cells(number: int, line: str, separator: str) -> list[str]:
-    try:
-        row = next(csv.reader([line], delimiter=separator, strict=True, skipinitialspace=True))
-    except csv.Error as error:
-        raise ValueError(f"table of bearings: line {number} cannot be read ({error})") from None
-    return [cell.strip() for cell in row]
-
-
-def _headings(number: int, cells: list[str]) -> list[str]:
-    names = ["_".join(cell.lower().replace("µ", "u").split()).replace("-", "_") for cell in cells]
+def _columns(headings: list[str]) -> list[str]:
+    """Columns out of CATALOGUE_COLUMNS that headings name; FieldError for any other."""
+    plain = (heading.lower().replace("µ", "u").replace("-", " ") for heading in headings)
+    names = ["_".join(heading.split()) for heading in plain]
     while names and not names[-1]:
         names.pop()
-    allowed = ", ".join(CATALOGUE_COLUMNS)
-    for position, name in enumerate(names, start=1):
-        if name not in CATALOGUE_COLUMNS:
-            raise checks.refuse(
-                f"heading of column {position} (line {number})", cells[position - 1], allowed
-            )
-        if names.count(name) > 1:
-            raise checks.refuse(f"heading {name} (line {number})", "there twice", "once")
-    missing = [name for name in NEEDED_COLUMNS if name not in names]
-    if missing:
-        others = CATALOGUE_COLUMNS[len(NEEDED_COLUMNS) :]
-        raise checks.refuse(
-            f"table of bearings, headings in line {number}",
-            f"without {', '.join(missing)}",
-            f"{', '.join(NEEDED_COLUMNS)}, and of the others any: {', '.join(others)}",
-        )
+    for position, name in enumerate(names):
+        if name not in CATALOGUE_COLUMNS or name in names[:position]:
+            allowed = f"each of these once: {', '.join(CATALOGUE_COLUMNS)}"
+            raise checks.refuse(f"heading of column {position + 1}", headings[position], allowed)
+    if missing := [name for name in NEEDED_COLUMNS if name not in names]:
+        allowed = f"{', '.join(NEEDED_COLUMNS)}, and any others"
+        raise checks.refuse("headings of the table", f"without {', '.join(missing)}", allowed)
     return names
-
-
-def _label_cells(at: str, headings: list[str], cells: list[str], separator: str) -> dict[str, str]:
-    """The cells of a line by their headings; those at its end may be missing."""
-    while len(cells) > len(headings) and not cells[-1]:
-        cells.pop()
-    if len(cells) > len(headings):
-        hint = "; numbers with a decimal comma need semicolons between columns"
-        raise checks.refuse(
-            f"number of cells in {at}",
-            len(cells),
-            f"{len(headings)}, as headings{hint if separator == ',' else ''}",
-        )
-    return dict(zip(headings, cells + [""] * (len(headings) - len(cells)), strict=True))
 
 
 def _bearing(at: str, texts: Mapping[str, str], decimal_comma: bool) -> CatalogueBearing:
@@ -221,10 +184,8 @@ def _bearing(at: str, texts: Mapping[str, str], decimal_comma: bool) -> Catalogu
         return ratio * ball
 
     name, note = texts["name"], texts.get("note", "")
-    if not name or len(name) > LONGEST_NAME:
-        raise refused("name", f"a name of 1 to {LONGEST_NAME} characters")
-    if len(note) > LONGEST_NOTE:
-        raise refused("note", f"at most {LONGEST_NOTE} characters")
+    if not name:
+        raise refused("name", "a name")
     balls, ball, pitch = (number(column) or 0.0 for column in NEEDED_COLUMNS[1:])
     inner, outer = map(groove, USUAL_GROOVES)
     angle, clearance, rating = map(

@@ -29,7 +29,7 @@ def convert_bearing(bearing: Bearing, variant: str) -> Bearing:
     kinds = {offered.name: kind for kind in KINDS.values() for offered in kind.variants}
     checks.choice("variant", variant, tuple(kinds))
     if kinds[variant] is TAPERED:
-        return _with_tapered_rollers(bearing, variant)
+        return _tapered_rollers(bearing, variant)
     if kinds[variant] is ROLLER:
         diameter, pitch = bearing.ball_diameter, bearing.pitch_diameter
         return bearing.cylindrical(
@@ -37,7 +37,7 @@ def convert_bearing(bearing: Bearing, variant: str) -> Bearing:
         )
     if kinds[variant] is SELF_ALIGNING:
         return _self_aligning(bearing)
-    return _in_one_row(bearing) if kinds[variant] is BALL else _pair_of_balls(bearing, variant)
+    return _single_row(bearing) if kinds[variant] is BALL else _pair_of_balls(bearing, variant)
 
 
 def drawn(bearing: Bearing) -> Bearing:
@@ -57,13 +57,13 @@ def drawn(bearing: Bearing) -> Bearing:
     )
 
 
-def _in_one_row(bearing: Bearing) -> Bearing:
+def _single_row(bearing: Bearing) -> Bearing:
     return bearing.replace(rows=()) if bearing.kind.has_drawing else drawn(bearing)
 
 
 def _pair_of_balls(bearing: Bearing, arrangement: str) -> Bearing:
     distance, preload = bearing.row_distance, bearing.preload
-    made = _in_one_row(bearing).paired(
+    made = _single_row(bearing).paired(
         USUAL_DISTANCE * bearing.ball_diameter if distance is None else distance,
         arrangement,
         0.0 if arrangement == "tandem" or preload is None else preload,
@@ -91,7 +91,7 @@ def _self_aligning(bearing: Bearing) -> Bearing:
     )
 
 
-def _with_tapered_rollers(bearing: Bearing, variant: str) -> Bearing:
+def _tapered_rollers(bearing: Bearing, variant: str) -> Bearing:
     diameter, distance, preload = bearing.ball_diameter, bearing.row_distance, bearing.preload
     made = bearing.tapered(
         bearing.n_balls,

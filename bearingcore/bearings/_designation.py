@@ -243,7 +243,7 @@ def _play(kind: str, size: Boundary, clearance_class: str, assumed: list[str]) -
 
 
 def is_known(text: str) -> bool:
-    """Whether a text names a bearing of the table, also one whose suffix is refused."""
+    """Return True if a text names a bearing of the table, also one whose suffix is refused."""
     form = _FORM.fullmatch(" ".join(text.upper().split()))
     return form is not None and _basic(form["letters"] or "", form["number"]) is not None
 
@@ -409,7 +409,7 @@ def _flange_words(letters: str, basic: str, suffix: str) -> list[str]:
 
 
 def _has_plain_rollers(basic: str) -> bool:
-    """Whether the table has cylindrical rollers without the reinforced inside of the others."""
+    """Return True if the table has cylindrical rollers without the usual reinforced inside."""
     return basic.startswith("NU10") or basic == "NU2319"
 
 

@@ -14,9 +14,9 @@ together give the diameter all the same: C_r^(9/7)/C_0r goes with D^(8/21), and 
 number. What that leaves open, the number against the length, is taken so that rollers fill nine
 tenths of their circle.
 
-The rule has no constant that was fitted to a bearing whose inside is published. What it gives for
-those, which is how far to trust it, is in `MEASURED`, and a test measures it anew. Of tapered
-rollers too few are published: `OTHER_MAKER` is what the ratings of another maker would have given.
+The rule has no constant that was fitted to a bearing whose inside is published. Its errors with
+those, which say how far to trust it, are `FREQUENCY_SPREAD` and `RATIO_SPREAD`; a test measures
+them anew. Too few tapered rollers are published: `TAPERED_SPREAD` compares ratings of two makers.
 """
 
 from __future__ import annotations
@@ -96,57 +96,17 @@ class Inside(NamedTuple):
     roller_length: float | None = None
 
 
-class Measured(NamedTuple):
-    """Errors of the rule on bearings whose inside is published.
+PUBLISHED_BEARINGS, RIGHT_NUMBER = 57, 52
+"""Bearings whose inside is published, and of how many of them the number of balls is right."""
 
-    Attributes
-    ----------
-    right, bearings
-        with how many the number of balls is right, of how many.
-    diameter
-        median relative error of ball over pitch diameter.
-    frequency, frequency_spread
-        relative error of BPFO where the number is right: the median, and what 19 of 20 stay below.
-    ratio_spread
-        relative error of ball over pitch diameter that 19 of 20 stay below.
-    """
+FREQUENCY_SPREAD, RATIO_SPREAD = 0.0176, 0.0590
+"""Relative errors that 19 of 20 of these stay below: of BPFO where the number is right, and of ball
+over pitch diameter."""
 
-    right: int
-    bearings: int
-    diameter: float
-    frequency: float
-    frequency_spread: float
-    ratio_spread: float
-
-
-MEASURED = Measured(
-    right=52,
-    bearings=57,
-    diameter=0.00128,
-    frequency=1.68e-4,
-    frequency_spread=0.0176,
-    ratio_spread=0.0590,
-)
-
-
-class OtherMaker(NamedTuple):
-    """Tapered rollers from the ratings of a second maker against those from the first's.
-
-    Attributes
-    ----------
-    same, bearings
-        with how many the number of rollers is the same, of how many; of the others it is one off.
-    ratio, ratio_spread
-        relative difference of roller over pitch diameter: the median, and what 19 of 20 stay below.
-    """
-
-    same: int
-    bearings: int
-    ratio: float
-    ratio_spread: float
-
-
-OTHER_MAKER = OtherMaker(same=57, bearings=78, ratio=0.00614, ratio_spread=0.0347)
+TAPERED_BEARINGS, SAME_ROLLERS, TAPERED_SPREAD = 78, 57, 0.0347
+"""Tapered bearings with ratings of two makers; how many get the same number of rollers from both,
+the others get one more or less; and the relative difference of roller over pitch diameter that 19
+of 20 stay below."""
 
 
 SPINDLE_BEARINGS, SAME_BALLS, ONE_OFF = 59, 16, 28
@@ -160,13 +120,13 @@ def accuracy(kind: Kind, contact_angle: float) -> str:
         return (
             "No table of the insides of such bearings was found to measure that by. From the "
             "ratings of another maker follows a ratio of roller and pitch diameter within "
-            f"{percent(OTHER_MAKER.ratio_spread, 2)} for 19 of 20, and one roller more or less for "
-            f"{OTHER_MAKER.bearings - OTHER_MAKER.same} of {OTHER_MAKER.bearings}: count them."
+            f"{percent(TAPERED_SPREAD, 2)} for 19 of 20, and one roller more or less for "
+            f"{TAPERED_BEARINGS - SAME_ROLLERS} of {TAPERED_BEARINGS}: count them."
         )
     words = (
-        f"So estimated, {MEASURED.right} of {MEASURED.bearings} bearings whose inside is published "
+        f"So estimated, {RIGHT_NUMBER} of {PUBLISHED_BEARINGS} bearings whose inside is published "
         f"have the right number of balls, and 19 of 20 of those a BPFO within "
-        f"{percent(MEASURED.frequency_spread, 2)}. Makers differ: the number may be one more or "
+        f"{percent(FREQUENCY_SPREAD, 2)}. Makers differ: the number may be one more or "
         "less."
     )
     if not contact_angle or not kind.has_drawing:

@@ -6,7 +6,6 @@ A row whose contact angle has the sign of its place faces one on the other side
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from dataclasses import dataclass
 
@@ -106,7 +105,7 @@ def pair(distance: float, arrangement: str, preload: float = 0.0) -> tuple[Row, 
     """Two rows `distance` [m] apart, the lower one first.
 
     `preload` [m] is how far the inner grooves are pushed along the shaft, together or apart, so
-    that both rows are pressed: half of it each.
+    that both rows are pressed: half of it each. Below 0 it is a clearance between them.
 
     Raises
     ------
@@ -115,9 +114,9 @@ def pair(distance: float, arrangement: str, preload: float = 0.0) -> tuple[Row, 
     """
     checks.choice("arrangement", arrangement, ARRANGEMENTS)
     half = 0.5 * checks.real_number("distance", distance, at_least=0.0, at_most=10.0, unit="m")
-    push = 0.5 * checks.real_number("preload", preload, at_least=0.0, at_most=1e-3, unit="m")
+    push = 0.5 * checks.real_number("preload", preload, at_least=-1e-3, at_most=1e-3, unit="m")
     if arrangement == "tandem":
-        if push > 0.0:
+        if push != 0.0:
             raise checks.refuse("preload", preload, "0: rows in tandem do not press each other")
         return Row(-half), Row(half)
     upper = 1 if arrangement == "face-to-face" else -1
@@ -128,7 +127,7 @@ def pair(distance: float, arrangement: str, preload: float = 0.0) -> tuple[Row, 
 
 
 def arrangement_of(rows: tuple[Row, ...]) -> str:
-    """Which of ARRANGEMENTS two rows are as `pair` makes them; empty where they are none of it."""
+    """Return the one of ARRANGEMENTS in which `pair` makes two rows; empty if it makes none."""
     if len(rows) != 2:
         return ""
     low, high = rows
@@ -138,20 +137,4 @@ def arrangement_of(rows: tuple[Row, ...]) -> str:
         return ""
     if low.facing == high.facing:
         return "tandem" if high.offset == 0.0 else ""
-    if high.offset * high.facing < 0.0:
-        return ""
     return "face-to-face" if high.facing == 1 else "back-to-back"
-
-
-def spaced(rows: tuple[Row, ...], distance: float | None, preload: float | None) -> tuple[Row, ...]:
-    """A pair of rows with another distance or preload [m]; all else of each row stays."""
-    low, high = rows
-    made = pair(
-        high.place - low.place if distance is None else distance,
-        arrangement_of(rows),
-        abs(high.offset - low.offset) if preload is None else preload,
-    )
-    return tuple(
-        dataclasses.replace(row, place=new.place, offset=new.offset)
-        for row, new in zip(rows, made, strict=True)
-    )

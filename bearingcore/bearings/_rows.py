@@ -64,7 +64,10 @@ class Rows(Ball):
 
     def facts(self, bearing: InRows) -> tuple[str, ...]:
         meet = self.variant(bearing) in ("back-to-back", "face-to-face")
-        return (*(("pressure_centers_apart",) if meet else ()), *super().facts(bearing))
+        return (
+            *(("preload_force", "pressure_centers_apart") if meet else ()),
+            *super().facts(bearing),
+        )
 
 
 ROWS = Rows()

@@ -121,12 +121,12 @@ class Suffix(NamedTuple):
 
 
 def is_steep(suffix: str) -> bool:
-    """Whether letters behind the number of tapered rollers make it another bearing."""
+    """Return True if letters behind the number of tapered rollers make it another bearing."""
     return _STEEP.match(_PAIR.sub("", suffix)) is not None
 
 
 def is_reinforced(suffix: str) -> bool:
-    """Whether letters behind the number begin with E, of a reinforced inside."""
+    """Return True if letters behind the number begin with E, of a reinforced inside."""
     return _REINFORCED.match(suffix) is not None
 
 

@@ -78,7 +78,7 @@ class Tapered(Roller):
         "this model. A ring that tilts presses their ends on the races. The friction of the rib, "
         "and the few per cent of the load that it takes, are left out."
     )
-    estimate_spread = (inside.OTHER_MAKER.ratio_spread, 1)
+    estimate_spread = (inside.TAPERED_SPREAD, 1)
     mass_unknown = "tapered rollers: a rib holds them, which is left out"
 
     def recognizes(self, bearing: InRows) -> bool:
@@ -108,7 +108,7 @@ class Tapered(Roller):
         return (*super().inputs(bearing), "contact_angle", *paired)
 
     def facts(self, bearing: InRows) -> tuple[str, ...]:
-        meet = ("pressure_centers_apart",) if self.arrangement(bearing) else ()
+        meet = ("preload_force", "pressure_centers_apart") if self.arrangement(bearing) else ()
         return (*meet, *super().facts(bearing))
 
     def completed(self, bearing: InRows, changes: dict[str, Any]) -> dict[str, Any]:

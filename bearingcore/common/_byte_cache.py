@@ -37,13 +37,13 @@ def lru_cache_by_bytes(
         what a result belongs to, of the arguments; None: the arguments themselves, which are kept.
     """
 
-    def of(*arguments: Any, **named: Any) -> Hashable:
+    def key_of(*arguments: Any, **named: Any) -> Hashable:
         return hashkey(key(*arguments, **named)) if key else hashkey(*arguments, **named)
 
     def decorate(function: Callable[P, Result]) -> Callable[P, Result]:
         kept: LRUCache[Hashable, tuple[Result, int]] = LRUCache(most_bytes, lambda entry: entry[1])
 
-        @cached(kept, of, Lock())
+        @cached(kept, key_of, Lock())
         def sized(*arguments: P.args, **named: P.kwargs) -> tuple[Result, int]:
             result = function(*arguments, **named)
             return result, OVERHEAD + size(result, *arguments, **named)

@@ -68,15 +68,15 @@ def real_number(
     FieldError
         naming `field`, its value and the allowed range.
     """
-    given: object = value
+    shown: object = value
     try:
         if _is_number(value):
-            given = x = float(value)
+            shown = x = float(value)
             if at_least <= x <= at_most and above < x < below and math.isfinite(x):
                 return x
     except (TypeError, ValueError, OverflowError):
         pass
-    raise _error(given)(field, given, Interval(at_least, at_most, above, below, note), unit)
+    raise _error(shown)(field, shown, Interval(at_least, at_most, above, below, note), unit)
 
 
 def keep(part: object, **values: object) -> None:

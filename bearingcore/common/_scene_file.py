@@ -89,17 +89,17 @@ def from_data(kind: type[T], name: str, data: object, *, top: bool = False) -> T
     ValueError
         that names the table and field, what stands there and what is allowed.
     """
-    given = table(name, data)
+    entries = table(name, data)
     fields = {field.name: field for field in dataclasses.fields(kind)}  # type: ignore[arg-type]
-    for asked in given:
+    for asked in entries:
         if asked not in fields:
             raise checks.refuse(f"field of {name}", short(asked), ", ".join(sorted(fields)))
     parts = _parts(kind)
     values = {}
     for field in sorted(fields.values(), key=lambda field: not parts[field.name]):
         called = field.name if top else f"{field.name} of {name}"
-        if field.name in given:
-            values[field.name] = _held(parts[field.name], called, given[field.name])
+        if field.name in entries:
+            values[field.name] = _held(parts[field.name], called, entries[field.name])
         elif field.default is dataclasses.MISSING:
             raise checks.refuse(f"{field.name} of {name}", "missing", "a value")
     try:

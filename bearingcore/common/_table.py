@@ -63,8 +63,8 @@ class Column:
         suffix = UNITS[self.unit].suffix
         return f"{self.name}_{suffix}" if suffix else self.name
 
-    def within(self, unit: str) -> Column:
-        """The column in another unit.
+    def convert(self, unit: str) -> Column:
+        """Return the column in another unit.
 
         Raises
         ------
@@ -117,7 +117,7 @@ class ResultTable(Mapping[str, NDArray[Any]]):
     def in_units(self, units: Mapping[str, str] = READ_UNITS) -> ResultTable:
         """Return the table in other units: `{"rad": "deg"}` converts every column in rad to deg."""
         return ResultTable(
-            column.within(units.get(column.unit, column.unit)) for column in self.columns
+            column.convert(units.get(column.unit, column.unit)) for column in self.columns
         )
 
     def prefixed(self, prefix: str) -> ResultTable:

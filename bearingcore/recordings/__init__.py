@@ -6,7 +6,6 @@ from bearingcore.recordings._recording import (
 )
 from bearingcore.recordings._spectrum import (
     Spectrum as Spectrum,
-    check_samples as check_samples,
     envelope_spectrum as envelope_spectrum,
     spectrum as spectrum,
 )

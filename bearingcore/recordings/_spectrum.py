@@ -15,12 +15,7 @@ from bearingcore.common import (
     _checks as checks,
     shown_as_table,
     table_of,
-    thousands,
 )
-
-MOST_SAMPLES = 100_000_000
-"""Samples of all signals that are taken at most by default: some seconds of one core,
-and some gigabytes."""
 
 
 @shown_as_table
@@ -66,8 +61,6 @@ def spectrum(
     signal: ArrayLike,
     sample_rate: float,
     resolution: float = 32.0,
-    *,
-    most_samples: int = MOST_SAMPLES,
 ) -> Spectrum:
     """Compute a spectrum by Welch's method: Hann window, segments of 1/resolution s, half overlap.
 
@@ -79,21 +72,18 @@ def spectrum(
         [Hz].
     resolution
         [Hz] spacing of the frequencies, rounded so that a segment is a whole number of samples.
-    most_samples
-        limit on the samples of all signals together.
 
     Raises
     ------
     ValueError
-        if a sample is not finite, the signal is shorter than one segment, or it has more samples
-        than `most_samples`.
+        if a sample is not finite, or the signal is shorter than one segment.
     """
     from scipy.signal import welch  # imported late: it would double the time to import this package
 
     rate = checks.real_number("sample_rate", sample_rate, above=0.0, unit="Hz")
     step = checks.real_number("resolution", resolution, above=0.0, at_most=0.5 * rate, unit="Hz")
     segment = round(rate / step)
-    samples = _samples(signal, segment, "one segment", most_samples)
+    samples = _samples(signal, segment, "one segment")
     # one signal after another in memory: a third faster than along the first axis
     rows = np.ascontiguousarray(samples.T)
     frequency, density = welch(rows, fs=rate, nperseg=segment)
@@ -105,8 +95,6 @@ def envelope_spectrum(
     sample_rate: float,
     band: tuple[float, float],
     resolution: float | None = None,
-    *,
-    most_samples: int = MOST_SAMPLES,
 ) -> Spectrum:
     """Compute the spectrum of the envelope of a signal inside a band.
 
@@ -124,14 +112,11 @@ def envelope_spectrum(
         (from, to) [Hz], inside 0 and half the sample rate.
     resolution
         [Hz]; None takes the whole signal as one segment, which is the finest resolution.
-    most_samples
-        limit on the samples of all signals together.
 
     Raises
     ------
     ValueError
-        if a sample is not finite, the signal is too short or longer than `most_samples`, or the
-        band does not fit.
+        if a sample is not finite, the signal is too short, or the band does not fit.
     """
     from scipy.fft import next_fast_len  # imported late, as above
     from scipy.signal import butter, hilbert, sosfiltfilt
@@ -143,27 +128,18 @@ def envelope_spectrum(
         raise checks.refuse("band", band, "two frequencies [Hz]") from None
     low = checks.real_number("lower end of the band", low, above=0.0, below=0.5 * rate, unit="Hz")
     high = checks.real_number("upper end of the band", high, above=low, below=0.5 * rate, unit="Hz")
-    samples = _samples(signal, 64, "a filter's length", most_samples)
+    samples = _samples(signal, 64, "a filter's length")
     sections = butter(4, (low, high), "bandpass", fs=rate, output="sos")
     inside = sosfiltfilt(sections, samples, axis=0)
     size = next_fast_len(len(inside))  # a length with a great prime factor would take for ever
     envelope = np.abs(hilbert(inside, size, axis=0))[: len(inside)]
     if resolution is None:
         resolution = rate / len(samples)
-    return spectrum(envelope - envelope.mean(axis=0), rate, resolution, most_samples=most_samples)
+    return spectrum(envelope - envelope.mean(axis=0), rate, resolution)
 
 
-def check_samples(name: str, signal: ArrayLike, most_samples: int) -> None:
-    """ValueError where a signal has more samples than may be taken."""
-    most = checks.whole_number("most_samples", most_samples, at_least=1, at_most=10**12)
-    if (count := np.size(signal)) > most:
-        allowed = f"at most most_samples = {thousands(most)}"
-        raise checks.refuse(f"number of samples of the {name}", int(count), allowed)
-
-
-def _samples(signal: ArrayLike, least: int, why: str, most: int) -> Array:
+def _samples(signal: ArrayLike, least: int, why: str) -> Array:
     """The signal as floats, or ValueError for a wrong shape, number, or a sample not finite."""
-    check_samples("signal", signal, most)
     samples = np.asarray(signal, dtype=float)
     if samples.ndim not in (1, 2) or len(samples) < least:
         raise checks.refuse(

@@ -1,7 +1,7 @@
 """Comparison of measured signals with the model: length and growth of a spall."""
 
+from bearingcore.measured.diagnosis import ExtentStatus as ExtentStatus
 from bearingcore.sizing._measure_extent import (
-    ExtentStatus as ExtentStatus,
     MeasuredExtent as MeasuredExtent,
     measure_extent as measure_extent,
 )

@@ -9,22 +9,21 @@ import numpy as np
 
 from bearingcore.bearings import Bearing, BearingLike, bearing_of
 from bearingcore.common import ResultTable, _checks as checks, shown_as_table, table_of
-from bearingcore.errors import Status
 from bearingcore.measured.diagnosis import (
     INNER,
     OUTER,
     SLIP,
     Diagnosis,
+    ExtentStatus,
     Knocks,
     MeanPass,
-    Seen,
     diagnose,
     find_knocks,
 )
 from bearingcore.measured.signals import least_passes
 from bearingcore.model.scene import EDGES, RACES
 from bearingcore.recordings import Recording
-from bearingcore.sizing._release import Offsets, plausible_offsets
+from bearingcore.sizing._release import plausible_offset
 
 SLIP_OF_LINES = 0.004
 """By how much balls may pass faster or slower than the lines that a diagnosis has found."""
@@ -37,32 +36,6 @@ NO_ANSWER = "no clear result"
 
 LONGEST_BOUND = 1.0 / 3.0
 """Of a ball spacing, from which a bound would say nothing."""
-
-
-class ExtentStatus(Status):
-    """The outcome of a measurement of the extent."""
-
-    MEASURED = "measured", "Entry and exit are separate in the mean ball pass."
-    EITHER = "either way round", "Entry and exit are separate, but it is not clear which is which."
-    SHORTER = "shorter", "Entry and exit are too close together to be separated."
-    ONE_KNOCK = (
-        "one knock",
-        "There is one impact a ball pass: from a pit, or a longer spall with a faint entry.",
-    )
-    UNCLEAR = (
-        "unclear",
-        "Frequency bands do not agree on two impacts a ball pass: ringing hides them, or the "
-        "balls meet the damage differently.",
-    )
-    BOUNCES = (
-        "bounces",
-        "Two impacts a ball pass differ in height, and the later is no sharper than the "
-        "earlier: a ball that bounces or an echo, not entry and exit.",
-    )
-    NO_RACE = "no race", "No damaged race is named, so there is no extent to measure."
-    NOT_VISIBLE = "not visible", "Nothing repeats clearly with the ball passes of this race."
-    TOO_SHORT = "too short", "The recording holds too few ball passes for a mean."
-    TOO_COARSE = "too coarse", "The sample rate is too low to locate impacts on the race."
 
 
 @shown_as_table
@@ -284,27 +257,16 @@ def measure_extent(
     turns = 0.0 if race == "outer" else 1.0 / (2.0 * math.pi * bearing.bpfi(1.0))
     knocks = find_knocks(recording, nominal, slip, turns)
     needed = math.isfinite(knocks.separation) or math.isfinite(knocks.hidden)
-    offsets = plausible_offsets(bearing, race, load, clearance, edge) if needed else None
-    if offsets is not None and not len(offsets.values):
+    offset = plausible_offset(bearing, race, load, clearance, edge) if needed else (math.nan,) * 3
+    if needed and math.isnan(offset[1]):
         raise checks.refuse("load", load, "one that balls lose in a spall", "N")
-    return _answer(knocks, bearing, race, offsets)
+    return _answer(knocks, bearing, race, offset)
 
 
-_STATUS = {
-    Seen.NOTHING: ExtentStatus.NOT_VISIBLE,
-    Seen.ONE: ExtentStatus.ONE_KNOCK,
-    Seen.UNCLEAR: ExtentStatus.UNCLEAR,
-    Seen.ALIKE: ExtentStatus.BOUNCES,
-    Seen.EITHER: ExtentStatus.EITHER,
-    Seen.TWO: ExtentStatus.MEASURED,
-}
-
-
-def _answer(knocks: Knocks, bearing: Bearing, race: str, offsets: Offsets | None) -> MeasuredExtent:
-    spacing = bearing.ball_spacing
-    least, offset, most = (
-        math.nan if offsets is None else offsets.quantile(share) for share in (0.025, 0.5, 0.975)
-    )
+def _answer(
+    knocks: Knocks, bearing: Bearing, race: str, offsets: tuple[float, float, float]
+) -> MeasuredExtent:
+    spacing, (least, offset, most) = bearing.ball_spacing, offsets
     answer = MeasuredExtent(
         race,
         separation=spacing * knocks.separation,
@@ -318,7 +280,7 @@ def _answer(knocks: Knocks, bearing: Bearing, race: str, offsets: Offsets | None
         exit=knocks.exit,
         frequency=knocks.frequency,
         n_passes=knocks.n_passes,
-        status=_STATUS[knocks.seen],
+        status=knocks.status,
     )
     bound = spacing * knocks.hidden + most
     if bound < LONGEST_BOUND * spacing:

@@ -7,7 +7,7 @@ import re
 from collections.abc import Mapping
 
 from bearingcore.common import _checks as checks
-from bearingcore.measured.files import read_file
+from bearingcore.measured.files import read_text
 from bearingcore.model.scene import MOST_ROWS, MeasuredFloor, measured_floor
 from bearingcore.units import INCH
 
@@ -31,9 +31,7 @@ def read_floor(text: str) -> tuple[MeasuredFloor, float, float, float]:
     lines = "2 or more lines of two numbers, angle [degrees] and depth [µm]"
     if not text.strip() or "\x00" in text:
         raise checks.refuse("floor", "no text" if text.strip() else "empty", lines)
-    about, columns = read_file(
-        "the floor", text.encode("utf-8", "replace"), text_only=True, most_numbers=2 * MOST_ROWS
-    )
+    about, columns = read_text("the floor", text.encode("utf-8", "replace"), 2 * MOST_ROWS, 64)
     if about.get("notes"):
         raise checks.refuse("the floor", about["notes"][0], "numbers in every line")
     if columns.shape[1] != 2:

@@ -16,7 +16,6 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
@@ -57,25 +56,6 @@ somewhere on the way, and mostly where the load is gone."""
 _NORMAL = (-1.96, -1.2816, -0.6745, 0.0, 0.6745, 1.2816, 1.96)
 _WEIGHTS = (0.05, 0.125, 0.2, 0.25, 0.2, 0.125, 0.05)
 """Standard deviations at which loads are computed, and their weights: a normal distribution."""
-
-
-@dataclass(frozen=True)
-class Offsets:
-    """Offsets that are plausible, with their weights.
-
-    Attributes
-    ----------
-    values : (n,) [rad]
-    weights : (n,)
-        that add up to 1.
-    """
-
-    values: Array
-    weights: Array
-
-    def quantile(self, share: float) -> float:
-        """The offset [rad] below which a share of the weight lies, interpolated; NaN of none."""
-        return weighted_quantile(self.values, self.weights, share)
 
 
 def release_offset(
@@ -120,20 +100,20 @@ def release_offset(
 
 
 def _falls_to_zero(place: Array, compression: Array, last: int, away: int) -> float:
-    """Where a compression reaches 0 between its `last` value and the next place, straight on."""
+    """Return the place after the `last` value where a compression reaches 0, straight on."""
     slope = (compression[last + away] - compression[last]) / (place[last + away] - place[last])
     step = abs(compression[last] / slope) if slope else math.inf
     return float(place[last] - away * min(step, abs(place[last + away] - place[last])))
 
 
-def plausible_offsets(
+def plausible_offset(
     bearing: Bearing,
     race: str,
     load: float | None,
     clearance: float | None,
     edge: str | None = None,
-) -> Offsets:
-    """Offsets over loads, clearances and edges that are plausible where they are not given.
+) -> tuple[float, float, float]:
+    """Offset [rad] over plausible loads, clearances and edges: its median between its 95 % limits.
 
     Parameters
     ----------
@@ -143,6 +123,10 @@ def plausible_offsets(
         radial clearance [m], or None: that of the bearing, known to its half.
     edge
         the edge model, or None: all, by `EDGE_WEIGHTS`.
+
+    Returns
+    -------
+    Lower limit, median and upper limit; NaN where no ball loses its load.
     """
     steel = bearing.with_balls_of(BALL_MATERIALS["steel"]) if bearing.is_hybrid else bearing
     middle = TYPICAL_LOAD * dynamic_load_rating(steel) if load is None else load
@@ -166,5 +150,8 @@ def plausible_offsets(
             chance = edge_weight * weight * other_weight
             values += [share * offset for share in SEEN_SHARES]
             weights += [chance * share for share in SEEN_SHARES.values()]
-    total = sum(weights)
-    return Offsets(np.array(values), np.array(weights) / total if total else np.array(weights))
+    low, middle, high = (
+        weighted_quantile(np.array(values), np.array(weights), share)
+        for share in (0.025, 0.5, 0.975)
+    )
+    return low, middle, high

@@ -27,11 +27,11 @@ from bearingcore.common import (
     table_of,
 )
 from bearingcore.errors import Status
-from bearingcore.measured.diagnosis import MOST_SAMPLES, SLIP
+from bearingcore.measured.diagnosis import SLIP
 from bearingcore.measured.signals import BallPasses, average_passes, coefficients, least_passes
 from bearingcore.model.dynamics import SETTLING, modes, simulate
 from bearingcore.model.scene import MASSLESS, Scene
-from bearingcore.recordings import Recording, check_samples
+from bearingcore.recordings import Recording
 
 BAND, FEWEST_LINES = (0.25, 1.35), 6.0
 """Of the lowest and the highest natural frequency of the healthy bearing: what is compared; lines
@@ -214,8 +214,8 @@ def size_defect(
         True if mass and stiffness of the support were measured, or the signal was simulated with
         the scene. Otherwise there is no length, and the status says why.
     progress
-        called before each simulation with the part done and words; an exception from it ends the
-        search.
+        called before and during each simulation with the part done and words; an exception from
+        it ends the search.
 
     Raises
     ------
@@ -224,7 +224,6 @@ def size_defect(
     """
     checks.instance("recording", recording, Recording)
     checks.instance("scene", scene, Scene)
-    check_samples("acceleration", recording.acceleration, MOST_SAMPLES)
     checks.real_number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")
     if not set(recording.directions) <= set(scene.active_dofs):
         raise checks.refuse("dofs", scene.active_dofs, f"with {', '.join(recording.directions)}")
@@ -252,12 +251,9 @@ def size_defect(
     passes = average_passes(
         recording.acceleration, recording.sample_rate, nominal, SLIP, lowest, highest,
         min(2.4 * highest, 0.4 * recording.sample_rate), follow=True,
-        shaft=scene.shaft_speed / (2.0 * math.pi),
     )  # fmt: skip
-    search = _Search(scene, recording, passes, (lowest, highest))
+    search = _Search(scene, recording, passes, (lowest, highest), progress)
     for extent in np.arange(SHORTEST, LONGEST, STEP).tolist():
-        if progress is not None:
-            progress(extent / LONGEST, f"{math.degrees(extent):.1f}°")
         search.misfit(extent)
     if not math.isfinite(min(search.misfits.values())):
         return Sizing(SizingStatus.NOT_SIMULATED)
@@ -275,8 +271,14 @@ class _Search:
     """Mean ball passes of a scene with any extent, held in a band [Hz] against the measured one."""
 
     def __init__(
-        self, scene: Scene, recording: Recording, passes: BallPasses, band: tuple[float, float]
+        self,
+        scene: Scene,
+        recording: Recording,
+        passes: BallPasses,
+        band: tuple[float, float],
+        progress: Progress | None,
     ) -> None:
+        self.progress = progress
         self.passing = passes.frequency
         slip = self.passing / scene.bearing.bpfo(scene.shaft_speed)
         self.scene = scene.replace(shaft_speed=slip * scene.shaft_speed, balls=MASSLESS)
@@ -297,12 +299,20 @@ class _Search:
         averaged = math.ceil(max(AVERAGED * self.passing, 4.0))
         duration = math.ceil(SETTLING * self.passing + averaged) / self.passing
         rate = steps * self.passing
+        self._report(extent)
         motion = simulate(
-            self.scene.replace(extent=extent), duration, rate, step_rate=rate, most_steps=MOST_STEPS
-        )
+            self.scene.replace(extent=extent), duration, rate, step_rate=rate,
+            most_steps=MOST_STEPS, progress=lambda *_: self._report(extent),
+        )  # fmt: skip
         last = motion.instant_acceleration("outer")[-averaged * steps :, self.columns]
         each = coefficients(last.reshape(averaged, steps, -1), int(self.order[-1]))
         return np.asarray(each.mean(axis=0)[self.order - 1])
+
+    def _report(self, extent: float) -> None:
+        """Report the part of the lengths that were tried; the last ones refine the best."""
+        if self.progress is not None:
+            part = min(len(self.misfits) * STEP / (LONGEST - SHORTEST), 0.95)
+            self.progress(part, f"{math.degrees(extent):.1f}°")
 
     def overlaid(self, extent: float) -> tuple[float, NDArray[np.complex128]]:
         """Misfit of an extent, and its lines under the delay that fits best."""

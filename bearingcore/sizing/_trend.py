@@ -356,7 +356,7 @@ def _line_amplitudes(
 
 
 def _is_shaft_line(finest: Spectrum, line: float, turn: float) -> bool:
-    """Whether the highest line next to one of the bearing [Hz] is a multiple of the shaft's turn.
+    """Return True if the highest line near one of the bearing [Hz] is a multiple of the shaft's.
 
     Of gears, vanes and loose parts: what repeats with the shaft is no damage of the bearing.
     """

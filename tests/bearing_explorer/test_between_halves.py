@@ -43,7 +43,7 @@ def test_a_report_that_is_out_of_date_is_refused_in_a_sentence() -> None:
     halves = Halves()
     halves.session.draw = lambda: None  # type: ignore[method-assign]
     halves.diagnosis.measurement.measured = simulated(MOTOR, 20.0, 1)
-    halves.explorer.change_links({"report": "http://localhost", "measured": True})
+    halves.explorer.change_links({"report": "http://localhost"})
     assert halves.explorer.bookmarks.state()["said"]["words"] == f"No report: {NOT_YET}"
 
 

@@ -55,12 +55,15 @@ def test_captions_begin_with_a_short_sentence_and_the_rest_opens() -> None:
     views = [view for view in VIEWS if not view.compact]
     lines = {view.name: re.split(r"(?<=\.) ", view.about)[0] for view in views}
     assert {name: line for name, line in lines.items() if not 8 < len(line) <= 54} == {}
-    assert parts_of("One, 0.5 of it. More. Grey: re 1 (m/s²)². “Three”.") == (
+    text = "One, 0.5 of it. More. Grey: re 1 (m/s²)². “Three”."
+    assert parts_of(text, key_alone=False) == (
         "One, 0.5 of it. Grey: re 1 (m/s²)².",
         "More. “Three”.",
     )
+    assert parts_of(text, key_alone=True)[0] == "Grey: re 1 (m/s²)²."
     for view in VIEWS:
-        assert not re.search(r"\b(Grey|Shaded|Dashed|Blue|Dots): ", parts_of(view.about)[1])
+        rest = parts_of(view.about, key_alone=True)[1]
+        assert not re.search(r"\b(Grey|Shaded|Dashed|Blue|Dots): ", rest)
 
 
 @pytest.mark.parametrize(

@@ -1,7 +1,6 @@
-"""The report: complete, from the same numbers as the page, and closed to what strangers write."""
+"""The report on a signal: complete, from the page's numbers, and closed to what strangers write."""
 
 import dataclasses
-import json
 from datetime import UTC, datetime
 from html.parser import HTMLParser
 from types import SimpleNamespace
@@ -10,37 +9,25 @@ import numpy as np
 import pytest
 from bearing_explorer.diagnosis.diagnoses import ExtentQuestion, Question, answered, extent_of
 from bearing_explorer.diagnosis.measurement_state import AboutMeasurement
+from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.next_steps import ONE_RECORD, PRACTICE, next_steps
 from bearing_explorer.diagnosis.report import NOT_FORESEEN, NOT_JUDGED, measured_report
 from bearing_explorer.diagnosis.simulated import simulated
 from bearing_explorer.diagnosis.views import part_words
 from bearing_explorer.diagnosis.views.measured_indicators import severity, zone_of
 from bearing_explorer.diagnosis.views.trend import growth
-from bearing_explorer.explorer.report import About, mark_of, page, report
-from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.explorer.state.references import Reference
-from bearing_explorer.explorer.state.value_range import SWEEPABLE, Sweep
-from bearing_explorer.explorer.views.load_distribution import LoadDistribution
-from bearing_explorer.explorer.views.modes import NaturalFrequencies
-from bearing_explorer.explorer.views.speed_run import SPEED, FoundRun, SpeedRunSpectra
-from bearing_explorer.kit.serve.packed_source import PackedSource
-from bearing_explorer.page import SECTIONS
-from bokeh.document import Document
+from bearing_explorer.kit.report_page import About, document, heading, mark_of
 
-from bearingcore import Defect, presets
+from bearingcore import presets
 from bearingcore.common import number, probability
 from bearingcore.measured.diagnosis import DiagnosisStatus
-from bearingcore.model.dynamics import speed_run
 from tests.helpers.measuring import measuring
 
-KINDS = [view for section in SECTIONS for view in section.views]
 NASTY = "</title><script>alert('1')</script>\"><img src=x onerror=alert(2)>{{7*7}}"
 
 
 def about(link: str = "http://localhost:5006/?v=1&preset=fan-rig&fy_n=-120") -> About:
-    return About(
-        "fan-rig", "Where its numbers come from.", link, datetime(2026, 5, 4, 12, 30, tzinfo=UTC)
-    )
+    return About("fan-rig", link, datetime(2026, 5, 4, 12, 30, tzinfo=UTC))
 
 
 class Reader(HTMLParser):
@@ -59,68 +46,18 @@ class Reader(HTMLParser):
         self.words += data
 
 
-def test_a_report_has_the_words_of_whoever_makes_it() -> None:
-    own = dataclasses.replace(
-        about(), title="Pump 3", machine="Hall B", remarks="Loud.\nSince May."
-    )
-    words = Reader(page(Results(presets["fan-rig"]), own, [])).words
-    for part in ("Pump 3", "Machine: Hall B", "Loud.", "Since May."):
+def test_the_head_of_a_report_has_the_words_of_whoever_makes_it() -> None:
+    head = dataclasses.replace(about(), machine="Hall B", remarks="Loud.\nSince May.")
+    words = Reader(document(head, "Pump 3", heading(head, "Pump 3"), "")).words
+    for part in ("Pump 3", "Machine: Hall B", "Loud.", "Since May.", "04 May 2026, 12:30 UTC"):
         assert part in words
-    nasty = dataclasses.replace(about(), title=NASTY, machine=NASTY, remarks=NASTY)
-    assert "script" not in Reader(page(Results(presets["fan-rig"]), nasty, [])).tags
 
 
-@pytest.fixture(scope="module")
-def made() -> dict:
-    def current() -> None:
-        raise AssertionError("a report is made in a thread, where that is anybody's document")
-
-    speeds = Sweep(SWEEPABLE[SPEED], np.array([10.0, 20.0, 30.0]))
-    run = speed_run(presets["fan-rig"], speeds.in_si[1], resolution=16.0)
-    results_of_jobs = {"speed-run": FoundRun(run, speeds)}
-    with pytest.MonkeyPatch.context() as patched:
-        patched.setattr("bokeh.io.curdoc", current)
-        return report(Results(presets["fan-rig"], 0.1), KINDS, results_of_jobs, about())
-
-
-def test_every_figure_has_its_place_and_its_numbers(made: dict) -> None:
-    for figure in made["figures"]:
-        assert made["html"].count(mark_of(figure)) == 1
-    assert made["html"].count("<!--figure") == len(made["figures"]) >= 12
-    json.dumps(made["items"])
-    documents = [Document.from_json(item["doc"]) for item in made["items"]]
-    known = {model.id: model for document in documents for model in document.models}
-    assert set(made["figures"]) <= set(known)
-    view = LoadDistribution(PackedSource())
-    curve = view.data(Results(presets["fan-rig"], 0.1))[0]["load_distribution_curve"]["load"]
-    held = [model.data["load"] for model in known.values()
-            if model.name == "load_distribution_curve"]  # fmt: skip
-    np.testing.assert_array_equal(held[0], np.asarray(curve, np.float32))
-
-
-def test_it_says_what_there_is_to_say(made: dict) -> None:
-    words = Reader(made["html"]).words
-    results = Results(presets["fan-rig"], 0.1)
-    for said in (
-        "04 May 2026, 12:30 UTC",
-        "Outer race at 270°: 12.9° (5.97 mm) long, 50 µm deep",
-        "Bearing: fan-rig. Where its numbers come from.",
-        "BPFO",
-        "Computed without problems",
-        LoadDistribution(PackedSource()).sentence(results),
-        NaturalFrequencies(PackedSource()).sentence(results).replace("k_", "k"),
-        SpeedRunSpectra.title,
-        *(limit.sentence for limit in results.limits),
-    ):
-        assert said in words, said
-    assert "nan" not in words.lower().split()
-
-
-def test_what_strangers_write_stays_text() -> None:
-    scene = presets["fan-rig"].replace(defect=(Defect(0.2, 1e-5, 4.7), Defect(0.1, 2e-5, 1.0)))
-    results = Results(scene, 0.0, compared=[Reference(presets["fan-rig"], NASTY)])
-    made = report(results, [LoadDistribution], {}, about(f"http://x/?{NASTY}"))
-    reader = Reader(made["html"])
+def test_words_of_strangers_stay_text() -> None:
+    nasty = dataclasses.replace(
+        about(f"http://x/?{NASTY}"), title=NASTY, machine=NASTY, remarks=NASTY
+    )
+    reader = Reader(document(nasty, NASTY, heading(nasty, NASTY), ""))
     assert NASTY in reader.words
     assert not {"script", "img", "iframe", "object", "link", "base", "form"} & set(reader.tags)
     assert not [name for name, _ in reader.attributes if name.startswith("on")]
@@ -135,13 +72,7 @@ def test_what_strangers_write_stays_text() -> None:
     "link", ["javascript:alert(1)", "data:text/html,x", "//x/y", "", "http://[", "file:///etc"]
 )
 def test_a_link_is_one_of_the_web_or_none(link: str) -> None:
-    text = page(Results(presets["fan-rig"]), about(link), [])
-    assert "href" not in text
-
-
-def test_a_scene_without_an_answer_has_a_report() -> None:
-    made = report(Results(presets["fan-rig"].replace(fy=0.0), 0.0), KINDS[:6], {}, about())
-    assert "No answer" in made["html"]
+    assert "href" not in "".join(heading(about(link), ""))
 
 
 def test_a_measured_signal_has_its_answer_pictures_and_assumptions_on_one_page() -> None:
@@ -154,7 +85,7 @@ def test_a_measured_signal_has_its_answer_pictures_and_assumptions_on_one_page()
     question = Question.about(measured)
     own = dataclasses.replace(about(), machine="Pump 3")
     with pytest.raises(ValueError, match="is being analysed"):
-        measured_report(Results(scene), session.snapshot(), {}, own)
+        measured_report(Model(scene), session.snapshot(), {}, own)
     answer = answered(question)
     asked = ExtentQuestion.about(measured, whole=scene.bearing)
     extent = extent_of(dataclasses.replace(asked, diagnosis=answer))
@@ -168,7 +99,7 @@ def test_a_measured_signal_has_its_answer_pictures_and_assumptions_on_one_page()
     session.about = AboutMeasurement(point="drive end, up", date="2 March")
     session._first = {"unit": "g"}
     session.machine_kind = "medium, rigid"
-    made = measured_report(Results(scene), session.snapshot(), {}, own)
+    made = measured_report(Model(scene), session.snapshot(), {}, own)
     reader = Reader(made["html"])
     for said in (
         "Pump 3, drive end, up",

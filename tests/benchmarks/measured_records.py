@@ -2,13 +2,18 @@
 
 What is true follows from the names of four public collections: Case Western Reserve University
 (`cwru`), Society for Machinery Failure Prevention Technology (`mfpt`), FEMTO-ST (`femto`) and
-HIT-SM (`hitsm`, with spalls of known length on both races).
+HIT-SM (`hitsm`, with spalls of known length on both races). Three further machines had no part in
+choosing anything of the diagnosis (`OTHER_MACHINES`, by the names of their folders): HIT-SM's own
+rig, a machinery fault simulator at Limerick (github.com/analogdevicesinc/CbM-Datasets), and a rig
+of the University of Electronic Science and Technology of China
+(github.com/ChangLiu2024/UESTC-Bearing-Dataset).
 """
 
 import math
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
+from glob import glob
 from pathlib import Path
 
 import numpy as np
@@ -72,14 +77,27 @@ GRADES = {
 """Records of the drive end at 12 kHz, by how Smith and Randall graded them by hand (Mechanical
 Systems and Signal Processing 64-65, 2015): Y1, Y2 clear, P1, P2 probable, N1 not possible."""
 
+OTHER_MACHINES = ("hitsm-self-built", "limerick", "uestc")
+ER_12K = (8, 0.3125 * 25.4, 1.318 * 25.4)
+"""The fault simulator's bearing by its maker, with a shaft of 3/4 inch. The collection does not
+name it; the lines of its damaged races are those of this one, and not of the ER-16K."""
+UC_204 = (8, 7.938, 33.5)
+"""The collection names the series alone; of it, the lines of the damaged races are this one's."""
+LIMERICK = {"G": HEALTHY, "IR": "inner race", "OR": "outer race", "BF": "ball"}
+UESTC = {"N": HEALTHY, "I": "inner race", "O": "outer race", "B": "ball"}
+
 HITSM = re.compile(r"([IO])R(\d+)_(\d+)")
 FEMTO_RPM = {"Bearing1": 1800.0, "Bearing2": 1650.0}
 
 
 def records(folder: Path) -> Iterator[Record]:
     """The records of a folder and its folders, in the order of their names."""
-    for path in sorted(folder.rglob("*")):
-        if path.suffix == ".mat":
+    for path in sorted(Path(file) for file in glob(f"{folder}/**/*.*", recursive=True)):
+        if path.parent.name == "limerick":
+            yield _limerick(path)
+        elif path.parent.parent.name == "uestc":
+            yield _uestc(path)
+        elif path.suffix == ".mat":
             yield _mat(path)
         elif path.suffix == ".csv" and "_acc_" in path.name:
             yield _femto(path)
@@ -96,7 +114,7 @@ def _mat(path: Path) -> Record:
     if spall:
         race, extent_deg, turns = spall.groups()
         return _hitsm(path, {"I": "inner race", "O": "outer race"}[race], turns, float(extent_deg))
-    if path.parent.name == "hitsm":  # healthy by its label, with lines of both races in it
+    if path.parent.name.startswith("hitsm"):  # healthy by its label, with lines of both races in it
         return _hitsm(path, UNKNOWN, path.stem.rpartition("_")[2], None)
     return _cwru(path)
 
@@ -104,12 +122,34 @@ def _mat(path: Path) -> Record:
 def _hitsm(path: Path, truth: str, turns: str, extent_deg: float | None) -> Record:
     content = loadmat(path)
     signal = next(content[key] for key in content if not key.startswith("__"))
+    own_rig = path.parent.name == "hitsm-self-built"
     recording = Recording(
         np.asarray(signal, dtype=float).reshape(-1) * UNITS["g"], 51_200.0, ("y",), path.name
     )
     return Record(
-        path.stem, truth, "HIT-SM 6205", ball_bearing(*CWRU), _speed(float(turns)), recording,
-        extent_deg,
+        path.stem, truth, "HIT-SM own rig" if own_rig else "HIT-SM 6205", ball_bearing(*CWRU),
+        _speed(float(turns)), recording, extent_deg,
+    )  # fmt: skip
+
+
+def _limerick(path: Path) -> Record:
+    """Of three directions the first two; the heading and the limits beside it are no samples."""
+    turns, state, *_ = path.stem.split("_")
+    signal = np.genfromtxt(path, delimiter=";", usecols=(1, 2), skip_header=1) * UNITS["g"]
+    return Record(
+        path.stem.removesuffix(".Wfm"), LIMERICK[state[1:] if state != "GoB" else "G"],
+        "MFS Limerick", ball_bearing(*ER_12K), _speed(float(turns)),
+        Recording(signal, 20_000.0, ("x", "y"), path.name),
+    )  # fmt: skip
+
+
+def _uestc(path: Path) -> Record:
+    """The stated speeds are nominal: the shaft's own lines are up to 7 % beside them."""
+    part, turns, _ = path.stem.split("_")
+    signal = np.asarray(loadmat(path)["Data"], dtype=float).reshape(-1)
+    return Record(
+        path.stem, UESTC[part], "UESTC", ball_bearing(*UC_204), _speed(float(turns)),
+        Recording(signal, 20_000.0, ("y",), path.name),
     )  # fmt: skip
 
 

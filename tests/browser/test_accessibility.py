@@ -71,8 +71,6 @@ def make_ready(page: Page) -> None:
 
 def hold_to_rules(page: Page, theme: str, where: str = "main") -> None:
     """The open tab by the rules of axe in the colours that are on, and on a phone."""
-    # what is hidden is looked at when it is shown, and would only be waded through here
-    page.evaluate("[...deep(document, '.off-screen')].forEach(section => section.remove())")
     expect(page.locator("html")).to_have_attribute("data-theme", theme)
     # a tab is dimmed until it is there
     page.wait_for_function(

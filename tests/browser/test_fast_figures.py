@@ -3,8 +3,8 @@
 import pytest
 from playwright.sync_api import BrowserContext, Page, expect
 
-from tests.browser.explorer_page import open_page, rest, settle, show, slider
-from tests.browser.helpers import Server, move
+from tests.browser.explorer_page import SEEN, open_page, rest, settle, show, slider, source
+from tests.browser.helpers import QUICK_ONLY, Server, move
 
 # Bokeh does not clear half a pixel along two edges: what is there depends on how often it painted.
 _INSIDE = """canvases => canvases.map((canvas) => {
@@ -45,6 +45,38 @@ def test_every_pixel_is_as_bokeh_paints_it(
         shown.append(pixels)
     page.close()
     assert shown[0] == shown[1]
+
+
+#: colours at the places of a curve that are farther than 12 pixels from the curves drawn now
+_COLORS = """(was) => {
+  const [card] = deep(document, ".view-load-distribution")
+  const [figure] = deep(card.shadowRoot, ".bk-Figure"), [canvas] = deep(figure.shadowRoot, "canvas")
+  const [view] = Bokeh.index.query(({ el }) => el === figure)
+  const { x_scale, y_scale } = view.frame, ratio = view.canvas_view.pixel_ratio ?? 1
+  const place = (x, y) => [x_scale.compute(x), y_scale.compute(y)]
+  const places = ({ angle, load }) => Array.from(angle, (at, i) => place(at, load[i]))
+  const named = (name) => Bokeh.documents[0].get_model_by_name(`load_distribution_${name}`).data
+  const now = [...places(named("curve")), ...places(named("healthy"))]
+  const far = places(was).filter(([x, y]) => now.every(([a, b]) => Math.hypot(a - x, b - y) > 12))
+  const drawing = canvas.getContext("2d")
+  return far.map(([x, y]) => [...drawing.getImageData(ratio*x, ratio*y, 1, 1).data])
+}"""
+
+
+@QUICK_ONLY
+def test_the_last_state_stays_faintly_while_a_hand_drags(page: Page, explorer: Server) -> None:
+    page.add_init_script(SEEN)
+    open_page(page, explorer, "load")
+    rest(page)
+    was, extent = source(page, "load_distribution_curve"), slider(page, "extent_deg")
+    move(extent, 60)
+    rest(page)
+    held = page.evaluate(_COLORS, was)
+    extent.dispatch_event("change")  # the hand lets go
+    rest(page)
+    released = page.evaluate(_COLORS, was)
+    assert len(held) == len(released) > 10
+    assert sum(a != b for a, b in zip(held, released, strict=True)) > 0.8 * len(held)
 
 
 def test_buttons_of_a_figure_come_with_the_mouse(page: Page, explorer: Server) -> None:

@@ -74,7 +74,7 @@ TABS = {
     "Diagnosis": (1, 0, lambda _: "No signal yet", None),
     "Accuracy": (2, 1, None, None),
     "More: Explore": (1, 3, None, "Depth"),
-    "More: Over speed": (2, 2, None, "Length of the defect"),
+    "More: Over speed": (1, 1, None, "Length of the defect"),
     "More: Paper": (1, 0, None, None),
 }
 LONG = ("More: Explore", "More: Over speed", "Diagnosis", "Accuracy", "More: Paper")
@@ -343,24 +343,17 @@ def test_a_ball_strikes_where_the_numbers_say(desk: Visitor) -> None:
 
 
 @pytest.mark.proof
-def test_a_fast_shaft_is_unstable_a_long_run_is_cancelled_and_a_short_one_drawn(
-    desk: Visitor,
-) -> None:
+def test_a_long_run_is_cancelled_and_a_short_one_drawn(desk: Visitor) -> None:
     desk.begin("More: Over speed")
-    desk.reads(re.compile("Periodic with each ball pass"))
-    desk.type("Shaft speed", "30")
-    desk.reads(re.compile("is unstable"))
-    desk.press("Undo")
-    desk.reads(re.compile("Periodic with each ball pass"))
     desk.choose("Speeds", "193")
-    desk.press("Run up")
+    desk.press("Compute all speeds")
     cancel = desk.main.get_by_role("button", name="Cancel").last
     expect(desk.main.get_by_role("progressbar")).to_be_visible()
     cancel.click()
     desk.reads(re.compile("Cancelled"))
     expect(cancel).to_be_disabled()
     desk.choose("Speeds", "25")
-    desk.press("Run up")
+    desk.press("Compute all speeds")
     desk.reads(re.compile("25 speeds after"))
     desk.steady()
     before = desk.figures()
@@ -580,9 +573,6 @@ def test_accuracy_is_measured_and_what_less_would_do_is_said_with_its_error(
     desk.press("Compare simpler models", desk.main)
     desk.reads(re.compile(r"\d+ models after"))
     desk.wait(lambda: desk.figures() != before)
-    desk.choose("Model", "balls with mass")
-    desk.press("Take it", desk.main)
-    desk.reads(re.compile("Balls are massless in all charts"))
 
 
 # --- lessons, classes, looks ----------------------------------------------------------------------
@@ -654,7 +644,6 @@ def test_a_link_of_a_teacher_keeps_answers_back(visitor: Visitor) -> None:
     visitor.reads("Noted: 7 N.", lesson)
     lesson.get_by_role("combobox", name="Lesson").select_option("All lessons")
     expect(lesson.get_by_role("listitem")).not_to_have_count(0)
-    expect(lesson.get_by_text("For teachers")).to_have_count(0)
     visitor.page.evaluate("localStorage.clear()")  # other tests share this browser
 
 
@@ -718,7 +707,7 @@ def test_scenes_are_compared_renamed_shared_and_removed(visitor: Visitor, explor
     visitor.page.keyboard.press("Escape")
     visitor.type("Length of the defect", "30")
     names = "12.9°, 50 µm, long"
-    for tab in ("Load", "Stiffness", "Frequencies", "More: Over speed", "Vibration"):
+    for tab in ("Load", "Stiffness", "Frequencies", "Vibration"):
         visitor.go_to(tab)
         visitor.wait(lambda: names in _keys(visitor))
     other = visitor.page.context.new_page()
@@ -845,27 +834,6 @@ def test_a_scene_is_saved_changed_and_opened(desk: Visitor) -> None:
     desk.reads(re.compile("allowed: TOML"), desk.scene)
     desk.bring(desk.scene, "mine.toml", text)
     expect(desk.box("Length of the defect")).to_have_value("38.6")
-
-
-@pytest.mark.proof
-def test_a_report_is_saved_and_read(desk: Visitor, browser: BrowserContext, tmp_path: Path) -> None:
-    desk.begin("Load")
-    desk.type("Length of the defect", "20")
-    desk.steady()
-    dialog = desk.menu("Share")
-    name, text = desk.download(lambda: desk.press(re.compile("^Report"), dialog))
-    assert name.endswith(".html")
-    (tmp_path / name).write_bytes(text)
-    page, watching = browser.new_page(), Watch()
-    watching.follow(page)
-    page.goto((tmp_path / name).as_uri())
-    assert page.locator("svg").count() >= 10
-    wide = page.locator("svg").evaluate_all("all => all.map(e => e.getBoundingClientRect().width)")
-    assert max(wide) > 300
-    scene = FAN.replace(extent=math.radians(20))
-    expect(page.get_by_text(re.compile(re.escape(_most_loaded(scene)))).first).to_be_visible()
-    page.close()
-    watching.assert_clean()
 
 
 def test_first_visits_are_shown_in(visitor: Visitor) -> None:

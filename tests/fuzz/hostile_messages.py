@@ -33,7 +33,6 @@ GOOD: tuple[tuple[str, dict[str, Any]], ...] = (
     ),
     *(("Tabs", {"show": section.name}) for section in SECTIONS),
     ("Controls", {"mark": 1, "choose": {"defect": "add"}}),
-    ("Controls", {"mark": 1, "choose": {"dofs": "x y z"}}),
     ("Controls", {"mark": 1, "reset": True, "released": True}),
     ("Controls", {"search": "62"}),
     ("ShareBar", {"mark": 1, "open": _FILE}),

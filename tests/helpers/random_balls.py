@@ -11,6 +11,7 @@ import numpy as np
 
 from bearingcore import Bearing, Defect, Load, Scene, presets, simulate
 from bearingcore.model import _kernels as kernels
+from bearingcore.model.dynamics import Motion
 from bearingcore.model.scene import WITH_MASS
 from bearingcore.model.statics import BallPositions
 from tests.helpers.contact_law import TwoContacts
@@ -56,7 +57,7 @@ def random_scene(rng: np.random.Generator) -> Scene:
     )
 
 
-def faults(state: BallPositions, i: int, weight: bool) -> str:
+def faults(state: BallPositions, i: int) -> str:
     """What is wrong with a cage angle's answer, "" for nothing: right, or said not to be."""
     if state.status[i] not in (kernels.CONVERGED, kernels.FREE_DIRECTION):
         silent = np.isfinite(state.load[:, i]).any() and state.status[i] >= kernels.NOT_CARRIED
@@ -69,7 +70,7 @@ def faults(state: BallPositions, i: int, weight: bool) -> str:
         scene, state.cage_angles[i], state.displacement[i], np.zeros(5), state.position[i]
     )
     size = max(float(state.load[:, i].max()), float(np.linalg.norm(scene.load.vector[:3])))
-    left = np.abs(sums.on_balls(centrifugal=state.centrifugal_load, weight=weight)).max()
+    left = np.abs(sums.on_balls(centrifugal=state.centrifugal_load, weight=False)).max()
     lever = np.array([1.0, 1.0, 1.0, *[scene.bearing.groove_center_radius] * 2])
     free = [("x", "y", "z", "rx", "ry").index(dof) for dof in state.dofs]
     ring = float(np.abs((sums.force(0) - scene.load.vector) / lever)[free].max())
@@ -78,6 +79,12 @@ def faults(state: BallPositions, i: int, weight: bool) -> str:
     if ring > TOLERANCE * size:
         return f"{ring:.2e} N left on the ring, of {size:.2e} N"
     return ""
+
+
+def ball_places(motion: Motion, i: int) -> np.ndarray:
+    """Radial and axial places (2, N_b) [m] of balls in a sample; axial 0 of a planar motion."""
+    assert motion.ball_place is not None
+    return np.vstack([*motion.ball_place[i], np.zeros(motion.ball_place.shape[2])])[:2]
 
 
 def motion_faults(scene: Scene, rng: np.random.Generator) -> str:
@@ -102,7 +109,7 @@ def motion_faults(scene: Scene, rng: np.random.Generator) -> str:
         rings = np.zeros((2, 5))
         rings[0, number] = motion.inner_displacement[row]
         rings[1, number] = motion.outer_displacement[row]
-        sums = TwoContacts(scene, motion.cage_angle[row], *rings, motion.ball_position[row])
+        sums = TwoContacts(scene, motion.cage_angle[row], *rings, ball_places(motion, row))
         carried = [sums.force(race)[number] for race in (0, 1)]
         held = stiffness * rings[1, number] + damping * motion.outer_velocity[row]
         forces = scene.load.vector[number] - carried[0], carried[1] - held

@@ -12,21 +12,14 @@ from bearingcore.measured.files._child import MOST_COLUMNS, MOST_NUMBERS
 
 
 def read_here(
-    name: str,
-    content: bytes,
-    *,
-    text_only: bool = False,
-    most_numbers: int = MOST_NUMBERS,
-    most_columns: int = MOST_COLUMNS,
-    give_up: object = None,
+    name: str, content: bytes, give_up: object = None
 ) -> tuple[dict[str, Any], NDArray[np.float64]]:
     """Do the work of `read_file` without its child process, which takes a third of a second."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        return formats.read(name, content, most_numbers, most_columns, text_only=text_only)
+        return formats.read(name, content, MOST_NUMBERS, MOST_COLUMNS)
 
 
 def read_in_this_process(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Read tables and floors by `read_here` during a test."""
-    for module in ("bearingcore.measured.files._table", "bearingcore.sizing._read_floor"):
-        monkeypatch.setattr(f"{module}.read_file", read_here)
+    """Read tables by `read_here` during a test."""
+    monkeypatch.setattr("bearingcore.measured.files._table.read_file", read_here)

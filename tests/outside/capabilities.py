@@ -39,7 +39,7 @@ LISTED_BY_RESULT = {
 """Functions whose numbers have rows of their own: outputs of sweeps, charts, signals."""
 
 PARTS = {
-    *("check_samples", "check_directions", "hann", "split", "thinned", "coefficients"),
+    *("check_directions", "hann", "split", "thinned", "coefficients"),
     *("least_passes", "lines_that_count", "third_octave_edges", "smooth_lag", "oversampled"),
     "resample_over_turns",
     *("followed", "load_zone_weights", "local_median", "line_levels", "squared_envelopes"),

@@ -110,12 +110,12 @@ def test_what_is_no_rated_dimension_leaves_the_rating() -> None:
     low, high = bearing.rows
     turned = (low.__class__(low.place, high.facing), low.__class__(high.place, low.facing))
     for kept in (
-        bearing.respaced(preload=1e-6), bearing.respaced(distance=0.1),
+        bearing.replace(preload=1e-6), bearing.replace(row_distance=0.1),
         bearing.replace(rows=turned), bearing.replace(radial_clearance=1e-6, density=7700.0),
         bearing.replace(load_deflection_factor=1e10), bearing.replace(youngs_modulus=200e9),
     ):  # fmt: skip
         assert kept.dynamic_load_rating == rating
-    assert life(scene.replace(bearing=bearing.respaced(preload=1e-6))).hours == pytest.approx(
+    assert life(scene.replace(bearing=bearing.replace(preload=1e-6))).hours == pytest.approx(
         27_359.0, rel=1e-4
     )
     larger = low.__class__(low.place, low.facing, n_balls=11)

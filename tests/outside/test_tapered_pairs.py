@@ -64,7 +64,7 @@ def test_a_pair_resists_tilt_by_its_pressure_centres(number: str, way: str) -> N
     distances at CENTRES_MM, of makers whose a differ by 0.1 to 0.2 mm, the same ratio is up to 7 %
     off face to face, where that is the small difference 2 (T − a).
     """
-    pair = _pair(number, way).respaced(preload=5e-6)
+    pair = _pair(number, way).replace(preload=5e-6)
     scene = presets["30206-back-to-back"].replace(bearing=pair, extent=0.0, fy=0.0, fz=0.0)
     state = equilibrium(scene, [0.0])
     assert state.converged.all()

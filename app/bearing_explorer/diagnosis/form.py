@@ -363,8 +363,7 @@ def said(table: Table) -> str:
     ]
     words = f"The file says: {', '.join(stated)}." if stated else ""
     if contents.load is not None:
-        sure = "" if contents.load.stated else " if it is in pounds"
-        words += f" Its load is {with_prefix(contents.load.value, 'N', 4)}{sure}."
+        words += f" Its load is {with_prefix(contents.load.value, 'N', 4)}."
     return words.strip()
 
 

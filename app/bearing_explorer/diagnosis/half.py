@@ -50,7 +50,7 @@ class DiagnosisOfSignal(Half):
         """Simulate a measurement of the scene."""
         self.measurement.simulate(noise)
 
-    def report(self, about: About) -> Callable[[], dict[str, Any] | None] | str:
+    def report(self, about: About) -> Callable[[], dict[str, Any]] | str:
         """A function that makes the report on the signal, in any thread; or why there is none."""
         measurement = self.measurement.snapshot()
         if why := measurement.out_of_date:

@@ -13,7 +13,6 @@ from bearing_explorer.explorer.state.lessons import (
     faults_in,
     lessons_in,
     own_lessons,
-    text_for_teachers,
 )
 from bearing_explorer.explorer.views.accuracy import Accuracy
 from bearing_explorer.explorer.views.alternatives import OtherModels
@@ -30,7 +29,6 @@ from bearing_explorer.explorer.views.mass_time import MassInTime
 from bearing_explorer.explorer.views.mechanism import WhichMechanism
 from bearing_explorer.explorer.views.model_editor import ModelEditor
 from bearing_explorer.explorer.views.modes import NaturalFrequencies
-from bearing_explorer.explorer.views.orbit import SteadyOrbit
 from bearing_explorer.explorer.views.overview.bearing import OverviewBearing
 from bearing_explorer.explorer.views.overview.change import LastChange
 from bearing_explorer.explorer.views.overview.spectrum import OverviewSpectrum
@@ -57,7 +55,6 @@ __all__ = [
     "help_texts",
     "lessons_in",
     "own_lessons",
-    "text_for_teachers",
 ]
 
 SECTIONS = (
@@ -80,7 +77,7 @@ SECTIONS = (
     Section("life", "Life", (LifeOfBearing,), "Machine"),
     Section("accuracy", "Accuracy", (Accuracy, OtherModels)),
     Section("explore", "Explore", (ExplorePlane,), "More"),
-    Section("over-speed", "Over speed", (SpeedRunSpectra, SteadyOrbit), "More"),
+    Section("over-speed", "Over speed", (SpeedRunSpectra,), "More"),
     Section("paper", "Paper", (PaperFigures,), "More"),
 )
 """Tabs of the scene, and their parts."""

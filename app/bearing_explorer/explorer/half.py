@@ -1,15 +1,26 @@
-"""The scene's half of a session: controls -> Scene -> Results -> views."""
+"""The scene's half of a session: messages -> controls -> Scene -> Results -> views.
+
+Messages are whole: `messages.take` has let none pass that the scripts of the page do not send.
+Words and numbers in them are not to be trusted.
+"""
 
 from __future__ import annotations
 
+import logging
 import math
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Callable, Mapping, Sequence
+from datetime import UTC, datetime
+from typing import Any, TypeVar
 
-from bearing_explorer.explorer.requests import Requests
 from bearing_explorer.explorer.results.endurance import LifeInputs
 from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.explorer.state.bookmarks import Bookmarks
+from bearing_explorer.explorer.state.address import Place
+from bearing_explorer.explorer.state.bookmarks import (
+    Bookmarks,
+    OpenRequest,
+    open_request_of,
+    read_request,
+)
 from bearing_explorer.explorer.state.field_values import CAGE_ANGLE
 from bearing_explorer.explorer.state.history import LastState
 from bearing_explorer.explorer.state.lessons import Fault, Lesson
@@ -17,12 +28,26 @@ from bearing_explorer.explorer.state.references import BEFORE, HEALTHY, Referenc
 from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.explorer.state.settings import Settings
 from bearing_explorer.explorer.state.value_range import focused
-from bearing_explorer.kit.session import Section
-from bearing_explorer.kit.views.base import View
+from bearing_explorer.explorer.widgets.controls import Controls, Rows
+from bearing_explorer.explorer.widgets.lesson import LessonPanel
+from bearing_explorer.explorer.widgets.share import ShareBar
+from bearing_explorer.kit.bearing_list import search_bearings
+from bearing_explorer.kit.compute import compiling
+from bearing_explorer.kit.compute.jobs import OPENING, REPORT, SEARCH
+from bearing_explorer.kit.report_page import About
+from bearing_explorer.kit.session import Half, Section
 from bearingcore import Scene
 
+log = logging.getLogger(__name__)
 
-class Explorer(Requests):
+Result = TypeVar("Result")
+
+_LONGEST_LINK = 2000
+_REPORT_WORDS = {"title": 120, "machine": 200, "remarks": 4000}
+"""Greatest length of the words in a report."""
+
+
+class Explorer(Half):
     """The scene of a session, the panels that change it, and what its views draw of it.
 
     Its views are attached to it: they read `editor` and call its methods.
@@ -33,7 +58,11 @@ class Explorer(Requests):
         its tabs.
     address
         the query of the page's address; it is not trusted.
+    lessons
+        those that the page offers.
     """
+
+    kind_of_content = Results
 
     def __init__(
         self,
@@ -46,11 +75,22 @@ class Explorer(Requests):
         self._settings = Settings()
         self._life_inputs = LifeInputs()
         self._grey = HEALTHY
-        editor = SceneEditor(preset)
-        super().__init__(editor, Bookmarks(editor, address), lessons)
+        self.editor = SceneEditor(preset)
+        self.bookmarks = Bookmarks(self.editor, address)
+        #: number of the newest change of the browser
+        self.mark = 0
+        self.share = ShareBar(self.change_links, state=self.bookmarks.state())
+        self.lesson = LessonPanel(self.change_lesson, lessons)
+        #: returns the maker of the report on the measured signal, or why there is none; and
+        #: simulates a measurement of the scene. The page sets them, where it has that half
+        self.report_on_signal: Callable[[About], Callable[[], dict[str, Any]] | str] = lambda _: (
+            "this page has no Diagnosis."
+        )
+        self.simulate: Callable[[str], None] = lambda noise: None
+        self._open_lesson_of_link()
+        self.controls = Controls(self.change_scene, state=self.editor.state())
+        self.panels: list[Rows] = [self.controls]
         self._last_state = LastState(self.editor.scene)
-
-    kind_of_content = Results
 
     def tab_opened(self, name: str) -> None:
         self.bookmarks.tab = name  # links always say which tab is open
@@ -88,17 +128,6 @@ class Explorer(Requests):
         self.page.mark = self.mark
         super().draw()
 
-    def start_over(self) -> None:
-        self._last_state = LastState(self.scene)
-
-    def for_report(self) -> tuple[Results, list[type[View]], dict[str, Any]]:
-        results = self.content().at_rest()
-        kinds = [view for section in self.sections for view in section.views]
-        of_views = {
-            v.name: v.job_result for v in self.page.views_made() if v.job_result is not None
-        }
-        return results, kinds, of_views
-
     def set_life_inputs(self, inputs: LifeInputs) -> None:
         """Judge life and film with this steel, oil and these surfaces."""
         self._life_inputs = inputs
@@ -108,3 +137,181 @@ class Explorer(Requests):
         """Draw the reference of this kind in grey."""
         self._grey = kind
         self.draw()
+
+    def show_controls(self, **news: Any) -> None:
+        """Show news on all panels of controls; each shows its own part.
+
+        The mark lets a panel pass over what a slider has moved on from meanwhile.
+        """
+        if "state" in news:
+            news["state"] = {**news["state"], "mark": self.mark}
+        for panel in self.panels:
+            panel.show(**news)
+
+    def show_links(self) -> None:
+        """Bring the bar up to date: the address, and what can be undone."""
+        if self.share.state != (state := self.bookmarks.state()):
+            self.share.state = state
+
+    # The scene
+
+    def change_scene(self, message: Any) -> None:
+        """Take a message of the controls: numbers, choices, a reset."""
+        if (text := message.get("search")) is not None:
+            self.jobs.answer(
+                SEARCH,
+                lambda: search_bearings(text),
+                lambda bearings: self.controls.send({"found": bearings}),
+            )
+            return
+        self.mark = message.get("mark", self.mark)
+        if compiling.STATICS in compiling.left():
+            self.draw()  # sliders do not move yet, and the mark is answered
+            return
+        try:
+            if "reset" in message:
+                self.editor.take_preset(self.editor.preset)
+                self._last_state = LastState(self.scene)  # no change with an effect of its own
+                self.show_controls(state=self.editor.state())
+            if "choose" in message:
+                refused = self.editor.choose(message["choose"])
+                self.show_controls(
+                    state=self.editor.state(), **({"refused": refused} if refused else {})
+                )
+            if "set" in message:
+                self._set(message["set"], confirm=False)
+            for name in ("typed", "second"):
+                if name in message:
+                    numbers = self.editor.in_field_units(message[name], second=name == "second")
+                    self._set(numbers, confirm=True)
+        finally:
+            if self.bookmarks.follow(message):
+                self.show_links()
+            self.draw()  # even a refusal is answered, or the browser would wait for its mark
+
+    def _set(self, given: Mapping[Any, Any], confirm: bool) -> None:
+        """Take numbers; what is refused stays as it was, with a sentence.
+
+        A slider knows where it is; what was typed is confirmed as it was understood.
+        """
+        editor = self.editor
+        was_changed, had_effects = editor.changed, editor.effects
+        refused, changed = editor.set(given)
+        names = [name for name in changed if name not in given]
+        if confirm:
+            names += [name for name in given if name in editor.values and name not in refused]
+        if had_effects and not editor.effects:
+            self.show_controls(state=editor.state())
+        elif names or was_changed != editor.changed:
+            self.show_controls(state=editor.state(names))
+        if refused:
+            self.show_controls(refused=refused)
+
+    def _taken(self, take: Callable[[str, Result], object], name: str, answer: Result) -> None:
+        take(name, answer)
+        self.show_controls(state=self.editor.state())
+        self.show_links()
+        self.draw()
+
+    # The bar above the controls
+
+    def change_links(self, message: Any) -> None:
+        """Take a message of the bar: steps, links, kept and compared scenes, files, a report."""
+        if "keep" in message:
+            self.share.answer(kept=self.bookmarks.kept(message["keep"]))
+        if message.get("want") == "toml":
+            self.share.answer(file=self.bookmarks.toml())
+        if "report" in message:
+            self._report(message["report"][:_LONGEST_LINK], message)
+        if "mark" not in message:
+            return
+        tab = self.bookmarks.back() if message.get("back") else ""
+        if self.bookmarks.go(message) or tab:
+            self.show_controls(state=self.editor.state())
+        if tab:
+            self.page.show_tab({"show": tab})
+        self.bookmarks.change_compared(message)
+        if (wanted := open_request_of(message)) is not None:
+            self.jobs.answer(
+                OPENING,
+                lambda: read_request(wanted),
+                lambda answer: self._taken(
+                    lambda _, place: self.bookmarks.take(wanted, place), wanted.name, answer
+                ),
+            )
+        self.change_scene(message)  # the mark, and a reset
+
+    def open_link(self, name: str, text: str) -> None:
+        """Open what a link of the page's own holds, and its tab."""
+        request = OpenRequest("open", name, text)
+        place = read_request(request)
+        self.bookmarks.leave()
+        self._taken(lambda _, opened: self.bookmarks.take(request, opened), name, place)
+        if isinstance(place, Place):
+            self.page.show_tab({"show": place.tab})
+
+    def _report(self, base: str, words: Mapping[Any, Any]) -> None:
+        """Make the report on the measured signal; `base` is the page's address without its query.
+
+        `words` may hold a title, the machine and remarks.
+        """
+        title, machine, remarks = (
+            words.get(name, "")[:most] for name, most in _REPORT_WORDS.items()
+        )
+        link = f"{base}?{self.bookmarks.state()['address']}"
+        about = About(self.editor.name, link, datetime.now(UTC), title, machine, remarks)
+        make = self.report_on_signal(about)
+        if isinstance(make, str):
+            self.bookmarks.say(f"No report: {make}")
+            self.show_links()
+            return
+
+        def report() -> dict[str, Any] | None:
+            try:
+                return make()
+            except Exception:
+                log.exception("a report failed")
+                return None
+
+        self.jobs.answer(REPORT, report, lambda made: self.share.answer(report=made))
+
+    # Lessons
+
+    def _open_lesson_of_link(self) -> None:
+        """Open the lesson of the address, by name or number, with its scene if there is none."""
+        name = self.bookmarks.lesson
+        if not name:
+            return
+        number = name.isdecimal() and len(name) < 4  # Python refuses thousands of digits
+        lesson = self.lesson.begin(int(name) - 1 if number else name)
+        if lesson is None:
+            self.bookmarks.lesson = ""
+            self.bookmarks.say(f"There is no lesson “{name}” here.")
+        else:
+            self.bookmarks.lesson = lesson.name
+            self.lesson.open_first = True
+            if not self.bookmarks.has_scene:
+                lesson.begin(self.editor)
+                self.bookmarks.begin_anew(lesson.tab)
+        self.share.state = self.bookmarks.state()
+
+    def change_lesson(self, message: Any) -> None:
+        """A lesson begins, is shown again or closed, or a button among its words is pressed."""
+        words_only = "words_only" in message
+        closed = message.get("lesson") == ""
+        lesson = self.lesson.begin(message.get("lesson"), again=not words_only)
+        begins = not (words_only or closed)
+        if lesson is not None and begins and not self.bookmarks.lesson:
+            self.bookmarks.leave()
+        if closed and self.bookmarks.lesson and self.bookmarks.can_go_back:
+            self.bookmarks.say("The lesson is closed.")
+        if lesson is not None or closed:
+            self.bookmarks.lesson = "" if lesson is None else lesson.name
+        if begins:
+            if lesson is not None:
+                lesson.begin(self.editor)
+                self.show_controls(state=self.editor.state())
+            self.page.show_tab(message if lesson is None else {"show": lesson.tab})
+        self.change_scene(message)  # the mark, and what a button changes
+        if "simulate" in message and begins:
+            self.simulate(message["simulate"]["noise"])

@@ -65,9 +65,8 @@ class LinksChange(SceneChange, omit_defaults=True):
     want
         kind of a file to download.
     report
-        address of the page, for the link in a report; `title`, `machine` and `remarks` go in it.
-    measured
-        whether it is the page on the measured signal.
+        address of the page, for the link in the report on the measured signal; `title`, `machine`
+        and `remarks` go in it.
     """
 
     undo: bool = False
@@ -83,7 +82,6 @@ class LinksChange(SceneChange, omit_defaults=True):
     keep: str | None = None
     want: str | None = None
     report: str | None = None
-    measured: bool = False
     title: str = ""
     machine: str = ""
     remarks: str = ""

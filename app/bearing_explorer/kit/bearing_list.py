@@ -10,26 +10,21 @@ from typing import Any
 
 from bearing_explorer.kit.sentences import words_of
 from bearingcore import (
-    Bearing,
     CatalogueBearing,
     Designation,
     catalogue,
     preset_notes,
-    presets,
     read_designation,
 )
 from bearingcore.bearings import designations, is_known, series_words
 from bearingcore.common import number
 from bearingcore.model.scene import preset_labels
-from bearingcore.units import read_number
 
 MOST_FOUND = 60
 """Entries that a search lists."""
 MOST_NUMBERS = 12
 """Designations that it lists of those that begin with what was typed."""
 LONGEST_SEARCH = 60
-SAME_LENGTH = 0.003
-"""Part by which a length of a bearing may differ from one that is searched for."""
 
 
 def find_bearing(name: str) -> CatalogueBearing:
@@ -52,7 +47,7 @@ def search_bearings(text: str) -> dict[str, Any]:
 def _found(text: str) -> Iterator[dict[str, Any]]:
     by_number = _designation(text)
     wanted = text.lower() if by_number is None else by_number.basic.lower()
-    ranked = _ranked(wanted, _length(text))
+    ranked = _ranked(wanted)
     best = [entry for rank, entry in ranked if rank == 0]
     # the first one is taken by Enter: the bearing of that very name, then the designation,
     # which may be the first word of longer names; what only has its number comes last
@@ -70,19 +65,15 @@ def _found(text: str) -> Iterator[dict[str, Any]]:
     yield from (entry for rank, entry in ranked if rank == 1)
 
 
-def _ranked(wanted: str, length: float | None) -> list[tuple[int, dict[str, Any]]]:
+def _ranked(wanted: str) -> list[tuple[int, dict[str, Any]]]:
     """Presets and bearings of the catalogue, each with its rank; 0 is the best."""
     ranked: list[tuple[int, dict[str, Any]]] = []
     for name, label in preset_labels.items():
         rank = _rank(wanted, label, preset_notes[name])
-        if length and _has_length(presets[name].bearing, length):
-            rank = 0
         ranked.append((rank, _entry({"preset": name}, label, "", "")))
     for bearing in catalogue().values():
         words = entry_words(bearing)
         rank = _rank(wanted, bearing.name, f"{words} {bearing.note}")
-        if length and _has_length(bearing.bearing, length):
-            rank = 0
         ranked.append((rank, _entry({"bearing": bearing.name}, bearing.name, words, "")))
     return ranked
 
@@ -104,20 +95,6 @@ def _designation(text: str) -> Designation | None:
         return read_designation(text)
     except ValueError:
         return None
-
-
-def _length(text: str) -> float | None:
-    """A length with its unit [m]; None where a text is none."""
-    try:
-        return read_number(text, "m") if not text[-1:].isdecimal() else None
-    except ValueError:
-        return None
-
-
-def _has_length(bearing: Bearing, length: float) -> bool:
-    """Whether a bearing has balls or a pitch circle of a diameter [m]."""
-    lengths = (bearing.ball_diameter, bearing.pitch_diameter)
-    return any(math.isclose(length, number, rel_tol=SAME_LENGTH) for number in lengths)
 
 
 def _rank(wanted: str, name: str, note: str) -> int:

@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from typing import Any
 
 from bearing_explorer.kit.compute import compiling
-from bearing_explorer.kit.compute.cache import Overtaken
 from bearing_explorer.kit.sentences import words_of
 from bearing_explorer.kit.views.base import Ranges, Sources, View
 from bearing_explorer.kit.views.content import Content, Warnings
@@ -71,8 +70,6 @@ def drawing_of(content: Content, view: View) -> Drawing:
     """The drawing of a view, or a sentence with the reason why there is none."""
     try:
         return Drawing(view, view.all_data(content), view.sentence(content))
-    except Overtaken:
-        raise
     except compiling.StillCompiling as wait:
         words = str(wait)
         return Drawing(view, None, f"{words[0].upper()}{words[1:]}. {_DRAWN_LATER}")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from datetime import UTC, datetime
+from datetime import datetime
 from urllib.parse import urlsplit
 
 from bearing_explorer.kit.widgets.facts import html_text
@@ -15,13 +15,12 @@ _POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'"
 
 @dataclass(frozen=True)
 class About:
-    """Head of a report: bearing, source of its numbers, link, day.
+    """Head of a report: bearing, link, day.
 
     `title`, `machine` and `remarks` are free text; they may be empty.
     """
 
     bearing: str
-    note: str
     link: str
     date: datetime
     title: str = ""
@@ -56,11 +55,6 @@ def document(about: About, title: str, body: Iterable[str], style_sheet: str) ->
         f"<title>{html_text(title)}, {html_text(about.date.strftime('%Y-%m-%d'))}</title>"
         f"<style>{style_sheet}</style></head><body>\n" + "\n".join(body) + "\n</body></html>\n"
     )
-
-
-def now() -> datetime:
-    """The day and the hour."""
-    return datetime.now(UTC)
 
 
 def _link(address: str) -> str:

@@ -10,7 +10,7 @@ import re
 
 from bearingcore.common import number, span
 from bearingcore.errors import FieldError
-from bearingcore.fields import FIELD_OF, FIELDS, Field
+from bearingcore.fields import FIELD_OF, Field
 from bearingcore.units import UNITS, read_number
 
 _READ_UNITS = {"m": "mm", "rad": "°", "rad/s": "Hz", "Pa": "GPa"}
@@ -56,8 +56,8 @@ def field_of(error: ValueError) -> Field | None:
     """The field that a refusal is about; None where the page has no such field."""
     if not isinstance(error, FieldError):
         return None
-    second = [field for field in FIELDS if (field.part, field.name) == ("second", error.field)]
-    return second[0] if second and "row 2" in error.where else FIELD_OF.get(error.field)
+    second = FIELD_OF.get(f"second_{error.field}") if "row 2" in error.where else None
+    return second or FIELD_OF.get(error.field)
 
 
 def name_of(name: str) -> str:

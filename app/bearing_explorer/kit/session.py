@@ -5,7 +5,6 @@ from __future__ import annotations
 import asyncio
 import logging
 import math
-import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import nullcontext
@@ -257,12 +256,10 @@ class Session:
 
         Else it would be laid out and painted three times: empty, coarsely and finely.
         """
-        late = threading.Event()
-        fine, views = content.at_rest(give_up=late.is_set), self._views[self._on_screen]
+        fine, views = content.at_rest(), self._views[self._on_screen]
         drawing = asyncio.ensure_future(run_in_thread(picture_of, fine, views, True))
         await asyncio.wait({drawing}, timeout=_SOON)
         if not drawing.done():
-            late.set()
             drawing.add_done_callback(lambda done: done.cancelled() or done.exception())
             await self._send(lambda: None)
             return False
@@ -331,11 +328,10 @@ class Session:
         content = newest if self._is_for_screen(newest) else content
         return content, picture_of(content, views, self._warnings_due(content))
 
-    def _fine_picture(self, content: Content, give_up: Callable[[], bool]) -> Picture | None:
+    def _fine_picture(self, content: Content) -> Picture | None:
         """Views that are finer at rest, with warnings; None where all is drawn finely already."""
         if not content.moving or not self._is_for_screen(content):
             return None
-        fine = content.at_rest(give_up=give_up)
         on_screen = self._views[self._on_screen]
         # views without needs may have waited for the slider to rest
         finer = [
@@ -343,7 +339,7 @@ class Session:
             for view in on_screen
             if view.at_rest or not view.needs or content.is_finer_at_rest(view.needs)
         ]
-        return picture_of(fine, finer, warnings=True, on_screen=on_screen)
+        return picture_of(content.at_rest(), finer, warnings=True, on_screen=on_screen)
 
     async def _draw_fine(self, content: Content, picture: Picture) -> None:
         await self._assign(picture, content.mark)

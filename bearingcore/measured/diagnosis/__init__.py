@@ -1,19 +1,18 @@
 """Diagnosis of the damaged part of a bearing from a measured signal."""
 
-from bearingcore.measured.diagnosis._extent.knocks import (
-    Knocks as Knocks,
-    MeanPass as MeanPass,
-    Pair as Pair,
-    Seen as Seen,
-    find_knocks as find_knocks,
-)
-from bearingcore.measured.diagnosis._of_files import (
+from bearingcore.measured.diagnosis._diagnose_files import (
     FolderDiagnosis as FolderDiagnosis,
     diagnose as diagnose,
 )
+from bearingcore.measured.diagnosis._extent.knocks import (
+    ExtentStatus as ExtentStatus,
+    Knocks as Knocks,
+    MeanPass as MeanPass,
+    Pair as Pair,
+    find_knocks as find_knocks,
+)
 from bearingcore.measured.diagnosis._part.combs import HARMONICS as HARMONICS
 from bearingcore.measured.diagnosis._part.diagnose import (
-    MOST_SAMPLES as MOST_SAMPLES,
     SLIP as SLIP,
 )
 from bearingcore.measured.diagnosis._part.evidence import (

@@ -24,6 +24,7 @@ from bearingcore.measured.files._table import (
     path_in as path_in,
     read_table as read_table,
 )
+from bearingcore.measured.files._text import read_text as read_text
 from bearingcore.measured.files._units import (
     ACCELERATIONS as ACCELERATIONS,
     SPEEDS as SPEEDS,

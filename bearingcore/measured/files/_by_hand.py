@@ -9,8 +9,8 @@ from typing import Any
 
 from bearingcore.common import _checks as checks
 from bearingcore.measured.files._channels import OTHER, SIGNAL, SPEED, TIME, Column
-from bearingcore.measured.files._table import Table, path_in, read_table
-from bearingcore.measured.files._units import PULSE_TRAIN, SPEEDS
+from bearingcore.measured.files._table import Table, check_bytes, path_in, read_table
+from bearingcore.measured.files._units import PULSE_TRAIN, SPEEDS, kind_of
 from bearingcore.recordings import Recording
 
 OneOrMore = int | str | Sequence[int | str] | None
@@ -20,7 +20,7 @@ def read_recording(
     file: str | os.PathLike[str],
     content: bytes | None = None,
     *,
-    columns: Mapping[str, OneOrMore] | None = None,
+    columns: Mapping[str, OneOrMore] | OneOrMore = None,
     directions: str | Sequence[str] | None = None,
     time_unit: str | None = None,
     unit: str | None = None,
@@ -40,9 +40,9 @@ def read_recording(
     content
         the bytes of the file.
     columns
-        roles "signal" (one or more), "time", "speed" and "nothing", each with columns by number
-        from 0 or by name. Roles that are left out follow the file; None under "time" or "speed"
-        means that no column has it.
+        the signals, by number from 0 or by name; or roles "signal" (one or more), "time", "speed"
+        and "nothing", each with its columns. Roles that are left out follow the file; None under
+        "time" or "speed" means that no column has it.
     directions
         "x" or "y" of each signal; "xy" is both.
     time_unit, unit, speed_unit
@@ -71,19 +71,12 @@ def read_recording(
     --------
     ``read_recording("run.csv", columns={"time": 0, "signal": 2}, time_unit="ms", unit="g")``
     """
-    if content is None:
-        try:
-            content = Path(path_in(os.fspath(file))).read_bytes()
-        except OSError as error:
-            raise checks.refuse(
-                "file", os.fspath(file), f"one to read ({error.strerror})"
-            ) from None
-    path = os.fspath(file)
-    table = read_table(path if ".zip/" in path else Path(path).name, content)
-    table = _assign_roles(table, columns or {}, time_unit, unit, speed_unit)
-    return _recording(
+    table = table_at(file) if content is None else read_table(os.fspath(file), content)
+    roles = columns if isinstance(columns, Mapping) else {"signal": columns}
+    table = _assign_roles(table, roles, time_unit, unit, speed_unit)
+    return recording_of(
         table if part is None else table.one_of_recordings(part),
-        _listed((columns or {}).get("signal")),
+        roles.get("signal"),
         directions,
         unit,
         sample_rate=sample_rate,
@@ -91,6 +84,24 @@ def read_recording(
         sensitivity=sensitivity,
         shaft_speed=shaft_speed,
     )
+
+
+def table_at(file: str | os.PathLike[str]) -> Table:
+    """Read the table of a file by its path, which may lead into a zip.
+
+    Raises
+    ------
+    FieldError
+        for a file that is not there, or that `read_table` refuses.
+    """
+    path = os.fspath(file)
+    try:
+        place = Path(path_in(path))
+        check_bytes(place.name, place.stat().st_size)
+        content = place.read_bytes()
+    except OSError as error:
+        raise checks.refuse("file", path, f"one to read ({error.strerror})") from None
+    return read_table(path if ".zip/" in path else Path(path).name, content)
 
 
 def _listed(columns: OneOrMore) -> list[int | str]:
@@ -133,21 +144,54 @@ def _assign_roles(
     return table.with_columns(given)
 
 
-def _recording(
+def recording_of(
     table: Table,
-    signals: Sequence[int | str],
-    directions: str | Sequence[str] | None,
-    unit: str | None,
-    **given: Any,
+    columns: OneOrMore,
+    directions: str | Sequence[str] | None = None,
+    unit: str | None = None,
+    *,
+    sample_rate: float | None = None,
+    sensitivity: float | None = None,
+    with_guesses: bool = False,
+    **more: Any,
 ) -> Recording:
-    """The recording of the signals given, or of those the file speaks for."""
-    choice = table.contents.choice
-    picked = [table.index_of(column) for column in signals] or list(choice.columns.values())
+    """Return the recording of the signals in some columns, or of those that the file speaks for.
+
+    Parameters
+    ----------
+    columns, directions, unit, sample_rate, sensitivity, more
+        see `Table.recording`.
+    with_guesses
+        True where the scale of the signal does not matter: units and directions that are not known
+        are made up, and likely rates are taken.
+
+    Raises
+    ------
+    FieldError
+        for a fact that is missing, naming the argument.
+    """
+    contents = table.contents
+    choice, rate = contents.choice, contents.sample_rate
+    picked = [table.index_of(column) for column in _listed(columns)]
+    picked = picked or list(choice.columns.values())
     if not picked:
-        names = ", ".join(table.names)
-        raise checks.missing("columns", f'"signal" with one or two of {names}. {choice.question}')
+        options = choice.options or range(len(table.names))
+        names = ", ".join(f"{index} (“{table.names[index]}”)" for index in options)
+        question = choice.question or choice.reason
+        raise checks.missing("columns", f"one or two signals of {names}. {table.name}: {question}")
     if directions is None:
-        named = {index: axis for axis, index in choice.columns.items()}
-        known = [named.get(i) or table.contents.columns[i].direction for i in picked]
-        directions = ["y"] if len(picked) == 1 else known
-    return table.recording(picked, list(directions), unit, **given)
+        by_choice = {index: axis for axis, index in choice.columns.items()}
+        known = [by_choice.get(index) or contents.columns[index].direction for index in picked]
+        made_up = len(picked) == 1 or (with_guesses and not all(known))
+        directions = ("x", "y")[-len(picked) :] if made_up else known
+    if with_guesses:
+        if unit is None and not all(contents.columns[index].unit for index in picked):
+            unit = contents.unit.value if contents.unit.taken else "m/s²"
+        units = [unit or contents.columns[index].unit or "" for index in picked]
+        if (sensitivity or contents.sensitivity) is None and "voltage" in map(kind_of, units):
+            unit = "m/s²"  # without the sensor's sensitivity, as they are
+        if sample_rate is None and rate is not None and rate.taken:
+            sample_rate = rate.value
+    return table.recording(
+        picked, list(directions), unit, sample_rate, sensitivity=sensitivity, **more
+    )

@@ -42,12 +42,23 @@ PULSES = {
 }  # fmt: skip
 """Words for a tachometer's signal."""
 
-_NOT_SIGNALS = PULSES | {
-    "rpm", "speed", "drehzahl", "temperature", "temperatur", "temp", "current", "strom",
-    "torque", "drehmoment", "pressure", "druck", "power", "humidity", "flow", "microphone", "mic",
-    "load", "gyro", "gyroscope", "gyr", "magnetic",
-    "magnetometer", "quat", "quaternion", "displacement", "displ", "disp", "proximity", "prox",
-    "weg", "verschiebung", "amps", "courant", "currents", "sound",
+QUANTITIES = {
+    "an envelope": ("gE", ""),
+    "a current": ("A mA kA", "current currents strom amps courant"),
+    "a displacement": ("µm mm mil", "displacement displ disp proximity prox weg verschiebung"),
+    "a sound": ("Pa", "microphone mic sound"),
+    "a pressure": ("bar", "pressure druck"),
+    "a torque": ("Nm", "torque drehmoment"),
+    "a temperature": ("°C", "temperature temperatur temp"),
+    "a rotation": ("deg/s deg rad/s", "gyro gyroscope gyr"),
+    "a level": ("dB", "db"),
+    "a speed": ("rpm", "speed rpm drehzahl"),
+    "a tachometer's signal": ("", " ".join(PULSES)),
+}
+"""What is no vibration: its units, and words of its headings."""
+
+_NOT_SIGNALS = {word for _, words in QUANTITIES.values() for word in words.split()} | {
+    "power", "humidity", "flow", "load", "magnetic", "magnetometer", "quat", "quaternion",
 }  # fmt: skip
 _COUNTS = {"index", "sample", "samples", "row", "no"}
 """Words for a number of rows; in a name's last part alone: "samples.x" is a signal."""
@@ -133,14 +144,14 @@ def _time_unit(first: str, more: Sequence[str]) -> str | None:
 
 
 def _names_a_time(name: str, first: str, more: Sequence[str]) -> bool:
-    """Whether a heading, of which these are the first word and the others, is that of times."""
+    """Return True if a heading with this first word and these others is that of times."""
     if first in _TIMES or (first in _BEFORE_TIME and more and more[0] in _TIMES | {"stamp"}):
         return True
     return bool(re.fullmatch(r"x[_ ]values?", name.strip().lower()))  # LabVIEW's, of each row
 
 
 def names_a_frequency(name: str) -> bool:
-    """Whether a heading is that of frequencies, and not of those of a shaft."""
+    """Return True if a heading is that of frequencies, and not of those of a shaft."""
     words = words_of(name)
     return bool(words & _OF_A_FREQUENCY) and not words & _OF_A_SHAFT
 
@@ -153,7 +164,7 @@ _OF_A_SHAFT = {"shaft", "rotation", "rotational", "rotor", "running", "speed", "
 
 
 def place_in(name: str) -> str:
-    """Where a heading or a variable's name says that the sensor was.
+    """Return the place of the sensor by a heading or a variable's name.
 
     >>> place_in("X105_DE_time"), place_in("Bearing 3 y"), place_in("vertical")
     ('drive end', 'bearing 3', '')

@@ -57,10 +57,6 @@ _ENVIRONMENT = {
 def read_file(
     name: str,
     content: bytes,
-    *,
-    text_only: bool = False,
-    most_numbers: int = MOST_NUMBERS,
-    most_columns: int = MOST_COLUMNS,
     give_up: Callable[[], bool] | None = None,
 ) -> tuple[dict[str, Any], Array]:
     """Words and numbers of a file: text (CSV), WAV, MATLAB or HDF5, as its first bytes show.
@@ -71,10 +67,6 @@ def read_file(
         of the file, for sentences; ".mat" at its end marks MATLAB's version 4.
     content
         the whole file.
-    text_only
-        take the content for text, whatever it begins with.
-    most_numbers, most_columns
-        that are taken.
     give_up
         asked every tenth of a second: True ends the process.
 
@@ -90,7 +82,7 @@ def read_file(
     FieldError
         for a damaged, empty or mis-shaped file, or one that takes too much time or memory.
     """
-    limits = [PROCESSOR_SECONDS, MEMORY, most_numbers, most_columns, text_only]
+    limits = [PROCESSOR_SECONDS, MEMORY, MOST_NUMBERS, MOST_COLUMNS]
     try:
         child = subprocess.Popen(
             [sys.executable, "-I", str(_PROGRAM)],
@@ -110,7 +102,7 @@ def read_file(
     sender.start()
     watch.start()
     try:
-        answer = _received(child.stdout, most_numbers)
+        answer = _received(child.stdout)
         late = not watch.is_alive()
     finally:
         ended.set()
@@ -146,7 +138,7 @@ def _send(pipe: IO[bytes], head: bytes, content: bytes) -> None:
         pipe.close()
 
 
-def _received(pipe: IO[bytes], most_numbers: int) -> tuple[dict[str, Any], Array] | None:
+def _received(pipe: IO[bytes]) -> tuple[dict[str, Any], Array] | None:
     """Output of the process, limited in size; None where it ended early."""
     line = pipe.readline(LONGEST_ANSWER)
     if not line.endswith(b"\n"):
@@ -156,7 +148,7 @@ def _received(pipe: IO[bytes], most_numbers: int) -> tuple[dict[str, Any], Array
     except (ValueError, RecursionError):
         return None
     rows, width = about.pop("shape", (0, 0))
-    if rows * width > most_numbers:
+    if rows * width > MOST_NUMBERS:
         return None
     columns = np.empty((rows, width), order="F")
     rest = columns.ravel(order="K").view(np.uint8).data

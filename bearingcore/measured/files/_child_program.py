@@ -41,9 +41,7 @@ def find_core() -> None:
 
 def main() -> None:
     """Read the file on the standard input and write what it holds to the standard output."""
-    name, seconds, memory, most_numbers, most_columns, text_only = json.loads(
-        sys.stdin.buffer.readline()
-    )
+    name, seconds, memory, most_numbers, most_columns = json.loads(sys.stdin.buffer.readline())
     limit(seconds, memory)
     find_core()
     from bearingcore.errors import FieldError
@@ -52,7 +50,7 @@ def main() -> None:
     parts: tuple[Any, ...] = ()
     try:
         content = sys.stdin.buffer.read()
-        about, columns = read(name, content, most_numbers, most_columns, text_only=text_only)
+        about, columns = read(name, content, most_numbers, most_columns)
         about["shape"] = columns.shape
         parts = tuple(columns.T)
     except FieldError as error:

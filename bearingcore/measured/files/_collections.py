@@ -7,14 +7,13 @@ of COLLECTIONS; the first row whose marks all fit is taken.
 
 from __future__ import annotations
 
-import math
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from bearingcore.measured.files._facts import Finding, Named, T
-from bearingcore.measured.files._units import FORCES, SPEEDS
+from bearingcore.measured.files._units import SPEEDS
 
 
 @dataclass(frozen=True)
@@ -30,15 +29,15 @@ class Collection:
     variable
         regular expression of the whole name of a column.
     file
-        regular expression in the file's name. Groups named as units of speed or force (`rpm`, `Hz`,
-        `hundred_rpm`, `hundred_N`) are the shaft's speed and the load.
+        regular expression in the file's name. Groups named as units of speed (`rpm`, `Hz`,
+        `hundred_rpm`) are the shaft's speed.
     scalars
         last parts of names of single numbers that must be there.
     rows, widths, headed, clock
         count of rows; possible counts of columns without those of a clock; whether the file names
         its columns; columns that are hours, minutes, seconds and their parts.
-    unit, sample_rate, rpm, load_unit
-        of acceleration; [Hz]; of the shaft; of a number named "load".
+    unit, sample_rate, rpm
+        of acceleration; [Hz]; of the shaft.
     bearing
         a name of the catalogue, or a designation.
     orders
@@ -63,7 +62,6 @@ class Collection:
     unit: str = ""
     sample_rate: float | None = None
     rpm: float | None = None
-    load_unit: str = ""
     bearing: str = ""
     orders: tuple[float, float] | None = None
     place: str = ""
@@ -97,7 +95,7 @@ COLLECTIONS = (
         sample_rate=12_000.0, **_DRIVE_END,
     ),
     Collection(
-        "MFPT", "fields", variable=r"(.*\.)?gs", scalars=("sr", "rate"), unit="g", load_unit="lb",
+        "MFPT", "fields", variable=r"(.*\.)?gs", scalars=("sr", "rate"), unit="g",
         bearing="NICE, MFPT",
     ),
     *(
@@ -125,46 +123,8 @@ COLLECTIONS = (
     Collection(
         "Paderborn", "variables named",
         variable=r"N\d\d_M\d\d_F\d\d_K\w+\.Y\.vibration_1", signals=r".*\.vibration_1",
-        file=r"(N(?P<hundred_rpm>\d\d)_M\d\d_F(?P<hundred_N>\d\d)_K)?",
+        file=r"(N(?P<hundred_rpm>\d\d)_M\d\d_F\d\d_K)?",
         sample_rate=64_000.0, bearing="6203, Paderborn",
-    ),
-    Collection(
-        "Ottawa (speeds that change)", "channels and name", variable="Channel_1",
-        file=r"^[HIOBC]-[ABCD]-\d", signals="Channel_1", sample_rate=200_000.0,
-        bearing="ER-16K, Ottawa",
-    ),
-    Collection(
-        "Ottawa (UORED-VAFCLS)", "rows and name", file=r"^[HIOBC]_\d+_\d", rows=420_000,
-        sample_rate=42_000.0, rpm=1750.0, signals=r"(.*\(:,1\)|column 1|[Aa]ccel.*)",
-    ),
-    *(
-        Collection(
-            "DIRG", "variable named", variable=rf"{test}\dA_\d{{3}}_\d{{3}}_\d\(:,\d\)",
-            file=rf"({test}\dA_(?P<Hz>\d{{3}})_)?", widths=(6,), unit="m/s²", sample_rate=rate,
-            orders=(3.889, 6.111), place="bearing 1",
-            places=("bearing 1",) * 3 + ("bearing 2",) * 3,
-            directions=("z", "x", "y") * 2,
-        )
-        for test, rate in (("C", 51_200.0), ("E", 102_400.0))
-    ),
-    *(
-        Collection(
-            "HUST (Hanoi)", "variable and name", variable="data", file=rf"^[BION]+{size}0[024]\.",
-            sample_rate=51_200.0, bearing=f"620{size}",
-        )
-        for size in range(4, 9)
-    ),
-    Collection(
-        "HUST (Huazhong)", "name", file=r"^(0\.5X_)?[HIOBC]_(?P<Hz>\d+)Hz", sample_rate=25_600.0,
-        unit="g", bearing="ER-16K, Ottawa",
-    ),
-    Collection(
-        "JNU", "one column and the name", file=r"^(n|ib|ob|tb)(?P<rpm>\d{3,4})(_\d)*\.",
-        widths=(1,), headed=False, sample_rate=50_000.0, bearing="NU205",
-    ),
-    Collection(
-        "UESTC", "variables and name", variable="Data", scalars=("SampleFrequency",),
-        file=r"(^[NBIO]_(?P<rpm>\d{3,4})_\d)?", sample_rate=20_000.0,
     ),
     Collection(
         "HIT-SM", "variable and name", variable=r"[a-z]+\d+_\d+", rows=262_144, widths=(1,),
@@ -175,7 +135,6 @@ COLLECTIONS = (
 them."""
 
 _SPEEDS = {**SPEEDS, "hundred_rpm": 100.0 * SPEEDS["rpm"]}
-_FORCES = {**FORCES, "hundred_N": 100.0}
 
 
 @dataclass(frozen=True)
@@ -187,7 +146,6 @@ class Known:
     unit: Finding[str] | None = None
     sample_rate: Finding[float] | None = None
     shaft_speed: Finding[float] | None = None
-    load: Finding[float] | None = None
     bearing: Finding[str] | None = None
     orders: Finding[tuple[float, float]] | None = None
 
@@ -229,30 +187,23 @@ def recognize(
             and row.headed in (None, headed)
             and row.clock in (None, clock)
         ):
-            return _known(row, in_name.groupdict(), named)
+            return _known(row, in_name.groupdict())
     return Known()
 
 
-def _known(row: Collection, in_name: dict[str, str | None], named: Sequence[Named]) -> Known:
+def _known(row: Collection, in_name: dict[str, str | None]) -> Known:
     why = f"{row.clue} as in the {row.name} collection"
     speed = None if row.rpm is None else _guess(row.rpm * SPEEDS["rpm"], why, "rpm")
-    load = next((item for item in named if item.name.rpartition(".")[2] == "load"), None)
-    force = None
-    if load is not None and row.load_unit and math.isfinite(load.value):
-        force = _guess(load.value * FORCES[row.load_unit], f"“{load.name}”, {why}")
     for group, text in in_name.items():
-        if text is not None and group in _SPEEDS:
+        if text is not None:
             unit = "Hz" if group == "Hz" else "rpm"
             speed = _guess(float(text) * _SPEEDS[group], f"the file's name, {why}", unit)
-        elif text is not None:
-            force = _guess(float(text) * _FORCES[group], f"the file's name, {why}")
     return Known(
         row,
         why,
         _guess(row.unit, f"{why}, which is in {row.unit}") if row.unit else None,
         _guess(row.sample_rate, f"{why}, which was sampled so") if row.sample_rate else None,
         speed,
-        force,
         _guess(row.bearing, why) if row.bearing else None,
         _guess(row.orders, why) if row.orders else None,
     )

@@ -204,7 +204,7 @@ def contents_of(table: FileColumns) -> FileContents:
         _unit(table, columns, picked, known),
         rate,
         speed or _speed_of_pulses(table, columns, rate, sampling),
-        facts.load_in(named) or known.load,
+        facts.load_in(named),
         sampling,
         said,
         facts.bearing_frequencies_in(named),
@@ -273,7 +273,8 @@ def _columns(
     table: FileColumns, clock: int, known: Known
 ) -> tuple[tuple[Column, ...], Sampling | None]:
     """The columns, and what the times say where some of them are times."""
-    columns = _apply_collection(_add_units(table, _named_columns(table)), known)
+    columns = [_described(column_of(name), table.texts) for name in table.names]
+    columns = _apply_collection(_add_units(table, columns), known)
     for index, column in enumerate(columns if len(columns) > 1 else ()):
         if column.role in (SIGNAL, TIME) and _counts(table.columns[:, index], column):
             columns[index] = Column(column.name, OTHER)
@@ -293,18 +294,6 @@ def _columns(
         return tuple(columns), times_of(values)
     sampling = sampling_of(values, TIMES[unit])
     return tuple(columns), dataclasses.replace(sampling, stated=sampling.sample_rate is not None)
-
-
-def _named_columns(table: FileColumns) -> list[Column]:
-    """The columns by their headings, or by a cell of their names."""
-    columns = [_described(column_of(name), table.texts) for name in table.names]
-    labels = [text for name, text in table.texts.items() if _LABELS.fullmatch(name)]
-    if len(labels) != len(columns):
-        return columns
-    return [
-        dataclasses.replace(column_of(label), name=f"{label}, {column.name}")
-        for label, column in zip(labels, columns, strict=True)
-    ]
 
 
 def _add_units(table: FileColumns, columns: list[Column]) -> list[Column]:
@@ -361,7 +350,7 @@ def _read_times(
 
 
 def _most_certain(samplings: Mapping[int, Sampling], names: Sequence[str]) -> Sampling | None:
-    """What the columns of times say, each by its index; where they disagree it is not sure."""
+    """Return the surest sampling of columns of times; not stated where two disagree."""
     if not samplings:
         return None
     time = max(samplings, key=lambda i: (samplings[i].stated, samplings[i].sample_rate is not None))
@@ -377,10 +366,6 @@ def _differ(rate: float, other: float | None) -> bool:
     return other is not None and abs(rate / other - 1.0) > TWO_RATES
 
 
-_LABELS = re.compile(
-    r"(?i)(.*\.)?([a-z0-9]+[ _]?)?"
-    r"(names?|labels?|channels?|sensors?|columns|items|head(ing|er)?s?|legend|titles?)\{\d+\}"
-)
 _DESCRIBES = ("name", "label", "channel", "position", "location", "place", "sensor", "direction")
 
 
@@ -419,7 +404,7 @@ def _frequencies(table: FileColumns, columns: Sequence[Column], *, timed: bool) 
 
 
 def _counts(time: Array, column: Column) -> bool:
-    """Whether a column counts rows: 0, 1, 2, … is no time in seconds."""
+    """Return True if a column counts rows: 0, 1, 2, … is no time in seconds."""
     whole = bool(np.isfinite(time[0])) and time[0] == np.floor(time[0])
     return column.unit is None and whole and bool(np.all(np.diff(time) == 1.0))
 

@@ -97,7 +97,7 @@ def remove_dates(line: str) -> str:
 
 
 def _is_date(match: re.Match[str]) -> bool:
-    """Whether numbers are a date; its month may be one that nobody can tell."""
+    """Return True if numbers are a date; its month may be one that nobody can tell."""
     return bool(_date(match)) or len(match["year"] or match["last_year"]) == 4
 
 

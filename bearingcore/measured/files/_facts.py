@@ -57,7 +57,7 @@ class Finding(Generic[T]):
 
     @property
     def taken(self) -> bool:
-        """Whether it is taken without a question."""
+        """Return True if it is taken without a question."""
         return self.stated or self.strong
 
 
@@ -78,7 +78,7 @@ _STEADY = 0.02
 
 
 def is_steady(values: Array) -> bool:
-    """Whether numbers, such as those of a speed, vary so little that they count as one."""
+    """Return True if numbers, such as those of a speed, vary so little that they count as one."""
     return values.size > 0 and float(np.ptp(values)) <= _STEADY * float(values.mean())
 
 
@@ -154,23 +154,7 @@ def _read_below(names: str, values: str) -> Iterator[Named]:
             yield Named(name, value, unit_in(name))
 
 
-_RANGE = re.compile(
-    rf"\s*([:=])\s*({_NUMBER})\s*(?:-|–|\.\.\.?|to|bis)\s*({_NUMBER})\s*([\w/]+)", re.IGNORECASE
-)
-MIDDLE = "middle of"
-"""In the name of a number that a file gives as a range, which is a guess."""
-
-
-def _middle(match: re.Match[str]) -> str:
-    """A narrow range, "speed: 1750-1790 rpm", as its middle."""
-    low, high = _number(match[2]), _number(match[3])
-    if low is None or high is None or not low < high <= 1.5 * low:
-        return match[0]
-    return f" ({MIDDLE} {low:g} to {high:g}){match[1]} {0.5 * (low + high):g} {match[4]}"
-
-
 def _read_line(line: str) -> Iterator[Named]:
-    line = _RANGE.sub(_middle, line)
     match = _REMARK.fullmatch(line)
     cells = [cell.strip(' "') for cell in re.split("\t" if "\t" in line else "[;,]", line)]
     several = len(cells) > 2 and re.match(r"[^\W\d]", cells[0]) and _number(cells[1]) is not None
@@ -203,7 +187,7 @@ def _read_unmarked(line: str) -> Iterator[tuple[str, str, str | None]]:
 
 
 def names_a_fact(line: str) -> bool:
-    """Whether a line says a rate, a speed or a load."""
+    """Return True if a line says a rate, a speed or a load."""
     keys = {_rate_key(item.name) for item in named_in([line])}
     return bool(keys & _FACTS) or any("rpm" in key for key in keys) or ":" in line or "=" in line
 
@@ -316,8 +300,7 @@ def _speed_of(named: Named, rated: bool) -> Finding[float] | None:
     if not (math.isfinite(value) and value > 0.0):
         return None
     if "rpm" in key or (unit == "rpm" and not _OTHER_SPEED.search(named.name)):
-        stated = MIDDLE not in named.name
-        return Finding(value * SPEEDS["rpm"], words, stated, strong=True, file_unit="rpm")
+        return Finding(value * SPEEDS["rpm"], words, file_unit="rpm")
     if key in _FREQUENCIES | _SPEEDS and unit is not None and unit in SPEEDS:
         return Finding(value * SPEEDS[unit], words, file_unit=unit)
     if key in _FREQUENCIES:
@@ -391,22 +374,20 @@ def designation_in(lines: Iterable[str]) -> Finding[str] | None:
     return Finding(text, f"“{words}” in the file") if text and not others else None
 
 
-_UNITS = {
-    "unit", "units", "einheit", "einheiten", "yunit", "yunits", "yunitlabel", "unitstring",
-    "verticalunit", "verticalunits", "yaxisunit", "yaxisunits", "accelerationunit", "accunit",
-    "unity", "unitystring", "engineeringunit", "engineeringunits", "unitofmeasure", "ordinateunit",
-    "unitname", "valueunit", "valueunits", "unitdescription", "niunitdescription", "unitlabel",
-    "ylabel", "yaxis", "yaxislabel", "yaxistitle", "quantity", "measurand", "physicalquantity",
-    "dataunit", "dataunits", "signalunit", "channelunit", "sensorunit", "amplitudeunit",
-    "amplitudeunits", "measurementunit", "engunit", "engunits", "eu", "ordinate",
-    "measuredquantity", "zunit", "valueaxis",
-}  # fmt: skip
+_OF_A_UNIT = re.compile(
+    r"(ni|x?y|z|vertical|axis|accel(eration)?|acc|engineering|eng|data|signal|channel|sensor|value"
+    r"|amplitude|measure(d|ment)|physical|ordinate)*"
+    r"(units?|einheit(en)?|eu|quantity|measurand|ordinate)(string|label|name|description|ofmeasure)?"
+    r"|(y|vertical|value)(axis(label|title)?|label)"
+)
+"""The name of a unit or of a quantity, as a key: "yunitlabel", "unitstring", "measuredquantity"."""
 
 
 def unit_of(name: str, text: str) -> str | None:
     """The unit that words with a name such as "unit" or "quantity" give, or None."""
     bare = text.strip(" ;,\t\"'[]()")
-    return unit_named(bare) or unit_in(text.strip(' "')) if _key(name) in _UNITS else None
+    said = _OF_A_UNIT.fullmatch(_key(name))
+    return unit_named(bare) or unit_in(text.strip(' "')) if said else None
 
 
 def units_said(lines: Iterable[str], texts: Mapping[str, str]) -> list[str | None]:

@@ -9,21 +9,19 @@ from __future__ import annotations
 import importlib.util
 import io
 import json
-import math
 import re
 import warnings
 import zlib
-from collections.abc import Callable, Iterator, Sequence
-from itertools import islice
+from collections.abc import Callable, Sequence
 from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bearingcore.common import Array, _checks as checks
+from bearingcore.common import _checks as checks
 from bearingcore.errors import FieldError
 from bearingcore.measured.files import _libraries as libraries
-from bearingcore.measured.files._text import are_sensors, read_text
+from bearingcore.measured.files._text import read_text, refuse_mixed_rows
 from bearingcore.measured.files._variables import (
     LONGEST_TEXT,
     Answer,
@@ -33,9 +31,7 @@ from bearingcore.measured.files._variables import (
 )
 
 
-def read(
-    name: str, content: bytes, most_numbers: int, most_columns: int, *, text_only: bool = False
-) -> Answer:
+def read(name: str, content: bytes, most_numbers: int, most_columns: int) -> Answer:
     """The contents of a file, by its first bytes; see `child.read_file`.
 
     Raises
@@ -43,8 +39,6 @@ def read(
     FieldError
         for a damaged, empty or mis-shaped file.
     """
-    if content and text_only:
-        return read_text(name, content, most_numbers, most_columns)
     if not content:
         raise checks.refuse("file", name, "one that is not empty")
     if content[:4] == b"PK\x03\x04" and not libraries.is_npz(content):
@@ -102,9 +96,9 @@ def _format_of(name: str, content: bytes) -> tuple[str, Walk] | None:
     if re.match(rb'\s*(\{\s*"|\[[\s\[]*(-?\.?\d|\{))', content) and (values := _json(content)):
         return "JSON file", lambda _, variables: _walk_json(values, "", variables, 0)
     if re.search(rb"[\"\t;,] ?\[[-+\d.eE,;\s]{500}", content[:100_000]):
-        return "text with signals in cells", libraries.cells
-    if content[:6] == b"Octave":
-        raise checks.refuse("file", name, "no binary file of Octave: save -v7 in its place")
+        raise checks.refuse("file", name, "a number in each cell, not a whole signal in one")
+    if content[:6] == b"Octave" or content[:19] == b"# Created by Octave":
+        raise checks.refuse("file", name, "no format of Octave's own: save -v7 in its place")
     marked = content[:6] == b"MATLAB" or content[126:128] in (b"IM", b"MI")
     return ("MATLAB file", _walk_matlab) if marked or name.lower().endswith(".mat") else None
 
@@ -152,13 +146,11 @@ def _walk_json(value: Any, path: str, variables: Variables, depth: int) -> None:
         value = list(value.values())  # rows by their numbers, as pandas writes them
     if isinstance(value, list) and value and isinstance(value[0], dict):
         records = [item for item in value if isinstance(item, dict)]
-        if sensor := _name_of_sensor(records):
-            several: dict[str, list[Any]] = {}
-            for one in records:
-                several.setdefault(one.pop(sensor), []).append(one)
-            _walk_json(several, path, variables, depth + 1)
-            return
         value = {name: [record.get(name) for record in records] for name in records[0]}
+        columns = [np.array(c) for c in value.values() if not isinstance(c[0], list | dict)]
+        numbers = [column for column in columns if column.dtype.kind in "if"]
+        for labels in (column for column in columns if column.dtype.kind == "U"):
+            refuse_mixed_rows(path or "the records", labels, numbers)
     if isinstance(value, dict):
         for name, inside in value.items():
             _walk_json(inside, f"{path}.{name}" if path else str(name), variables, depth + 1)
@@ -167,15 +159,6 @@ def _walk_json(value: Any, path: str, variables: Variables, depth: int) -> None:
         variables.add(path or "array", np.array(value, dtype=float))
     except (TypeError, ValueError):
         variables.add(path or "array", np.asarray(value, dtype=object))
-
-
-def _name_of_sensor(records: Sequence[dict[str, Any]]) -> str:
-    """The name under which records of several sensors say of which they are; else empty."""
-    for name, first in records[0].items():
-        words = [record.get(name) for record in records] if isinstance(first, str) else [None]
-        if all(isinstance(word, str) for word in words) and are_sensors(np.array(words)):
-            return name
-    return ""
 
 
 def _wav(name: str, content: bytes, most_numbers: int, most_columns: int) -> Answer:
@@ -312,62 +295,6 @@ def _matlab_values(data: Any) -> NDArray[Any]:
     return values.astype(bool) if kind == b"logical" else values
 
 
-# -- Octave's text, which its `save` writes where no other is asked for ----------------------------
-
-
-def _walk_octave(content: bytes, variables: Variables) -> None:
-    """Each value has a head of lines such as "# type: matrix"."""
-    lines = iter(content.decode("latin-1").splitlines())
-    for line in lines:
-        if line.startswith("# name:"):
-            _octave(lines, line.partition(":")[2].strip(), variables, 0)
-
-
-def _said(lines: Iterator[str], key: str) -> str:
-    """What the next line with a key says."""
-    for line in lines:
-        if line.startswith(f"# {key}"):
-            return line.partition(":")[2].strip()
-    raise ValueError(key)
-
-
-def _numbers(lines: Iterator[str], count: int = 1) -> Array:
-    """The numbers of the next lines in a row."""
-    return np.array(" ".join(islice(lines, count)).split(), dtype=float)
-
-
-def _octave(lines: Iterator[str], path: str, variables: Variables, depth: int) -> None:
-    """A value of any type; those that are no numbers or words are passed over."""
-    check_depth(depth)
-    kind = _said(lines, "type")
-    if "complex" in kind or "sparse" in kind:
-        return
-    if kind in ("scalar struct", "cell"):
-        keys = ("length",) if kind == "scalar struct" else ("rows", "columns")
-        for index in range(math.prod(int(_said(lines, key)) for key in keys)):
-            name = _said(lines, "name")
-            part = f"{path}{{{index + 1}}}" if kind == "cell" else f"{path}.{name}"
-            _octave(lines, part, variables, depth + 1)
-    elif kind in ("string", "sq_string"):
-        if int(_said(lines, "elements")):
-            _said(lines, "length")
-            variables.add(path, np.array([next(lines)]))
-    elif kind.endswith("scalar"):
-        variables.add(path, _numbers(lines))
-    elif kind.endswith("range"):
-        _said(lines, "base, limit, increment")
-        base, limit, step = _numbers(lines)
-        variables.add(path, base + step * np.arange(round((limit - base) / step) + 1))
-    elif kind.endswith("matrix"):
-        head, _, count = next(lines).partition(":")
-        if head == "# rows":
-            shape = int(count), int(_said(lines, "columns"))
-            variables.add(path, _numbers(lines, shape[0]).reshape(shape))
-        elif head == "# ndims":  # of whole numbers, or of more dimensions
-            sizes = _numbers(lines).astype(int).tolist()
-            variables.add(path, _numbers(lines, math.prod(sizes)).reshape(sizes, order="F"))
-
-
 _FORMATS: tuple[tuple[bytes, str, Walk, str], ...] = (
     # MATLAB 7.3 puts text before HDF5
     (rb"(.{512})?\x89HDF\r\n\x1a\n", "HDF5 file", _walk_hdf5, ""),
@@ -377,6 +304,5 @@ _FORMATS: tuple[tuple[bytes, str, Walk, str], ...] = (
     (rb"ARROW1", "Feather file", libraries.data_frame, "pyarrow"),
     (rb"TDSm", "TDMS file", libraries.tdms, "npTDMS"),
     (rb"\s{0,200}-1 *\r?\n +\d{1,4}[ b]*\d*", "UFF file (data set 58)", libraries.uff, "pyuff"),
-    (rb"# Created by Octave", "text of Octave", _walk_octave, ""),
 )
 """Formats by their first bytes, what reads each, and the package that it needs."""

@@ -62,7 +62,7 @@ def unzipped(name: str, content: bytes) -> tuple[list[str], bytes]:
     """
     try:
         with zipfile.ZipFile(io.BytesIO(content)) as packed:
-            files = _to_choose_from(name, packed.infolist())
+            files = _readable_files(name, packed.infolist())
             if len(files) > 1:
                 return [file.filename for file in files[:MOST_INSIDE]], b""
             inside = packed.read(files[0])
@@ -75,7 +75,7 @@ def unzipped(name: str, content: bytes) -> tuple[list[str], bytes]:
         raise checks.refuse("file", name, "a whole zip without a password") from None
 
 
-def _to_choose_from(name: str, packed: list[zipfile.ZipInfo]) -> list[zipfile.ZipInfo]:
+def _readable_files(name: str, packed: list[zipfile.ZipInfo]) -> list[zipfile.ZipInfo]:
     """The file in a zip that its name names, else all that may hold a table.
 
     FieldError where there is none, or where they are more than is unpacked: a small zip may hold
@@ -97,13 +97,13 @@ def _to_choose_from(name: str, packed: list[zipfile.ZipInfo]) -> list[zipfile.Zi
 
 
 def is_npz(content: bytes) -> bool:
-    """Whether a zip is of NumPy's arrays."""
+    """Return True if a zip is of NumPy's arrays."""
     names = _names_in(content)
     return bool(names) and all(name.endswith(".npy") for name in names)
 
 
 def is_workbook(content: bytes) -> bool:
-    """Whether a zip is a file of Excel."""
+    """Return True if a zip is a file of Excel."""
     return "xl/workbook.xml" in _names_in(content)
 
 
@@ -172,19 +172,6 @@ def data_frame(content: bytes, variables: Variables) -> None:
         frame = pd.read_feather(io.BytesIO(content), use_threads=False)
     if not isinstance(frame.index, pd.RangeIndex):
         frame = frame.reset_index()
-    _columns(frame, variables)
-
-
-def cells(content: bytes, variables: Variables) -> None:
-    """Columns of a text that has signals in its cells, each between brackets."""
-    import pandas as pd
-
-    text = content.decode("utf-8", "replace")
-    heading = text.partition("\n")[0]
-    frame = pd.read_csv(io.StringIO(text), sep=max(";\t,", key=heading.count))
-    for name in frame.columns[(frame.iloc[0].astype(str).str.strip().str[:1] == "[").to_numpy()]:
-        signals = [np.array(re.findall(r"[^\s,;\[\]]+", cell), float) for cell in frame[name]]
-        frame[name] = pd.Series(signals, dtype=object)
     _columns(frame, variables)
 
 

@@ -12,7 +12,13 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from bearingcore.common import Array
-from bearingcore.measured.files._channels import OTHER, PULSES, SIGNAL, Column, words_of
+from bearingcore.measured.files._channels import (
+    OTHER,
+    QUANTITIES,
+    SIGNAL,
+    Column,
+    words_of,
+)
 from bearingcore.recordings import FEWEST_SAMPLES
 
 _ENVELOPE = re.compile(
@@ -20,25 +26,6 @@ _ENVELOPE = re.compile(
 )
 _SPECTRUM = re.compile(r"(?i)spe[ck]tr[aue]|\bfft\b|\bpsd\b|auto ?power")
 _OFF = re.compile(r"(?i)\b(off|none|no|false|disabled|0|aus)\W*$")
-
-_QUANTITIES: tuple[tuple[str, set[str], set[str]], ...] = (
-    ("an envelope", {"gE"}, set()),
-    ("a current", {"A", "mA", "kA"}, {"current", "currents", "strom", "amps", "courant"}),
-    (
-        "a displacement",
-        {"µm", "mm", "mil"},
-        {"displacement", "displ", "disp", "proximity", "prox", "weg", "verschiebung"},
-    ),
-    ("a sound", {"Pa"}, {"microphone", "mic", "sound"}),
-    ("a pressure", {"bar"}, {"pressure", "druck"}),
-    ("a torque", {"Nm"}, {"torque", "drehmoment"}),
-    ("a temperature", {"°C"}, {"temperature", "temperatur", "temp"}),
-    ("a rotation", {"deg/s", "deg", "rad/s"}, {"gyro", "gyroscope", "gyr"}),
-    ("a level", {"dB"}, {"db"}),
-    ("a speed", {"rpm"}, {"speed", "rpm", "drehzahl"}),
-    ("a tachometer's signal", set(), PULSES),
-)
-"""What a unit, or a word of a heading, measures."""
 
 BRING = "bring the acceleration of the bearing's housing over time"
 ENVELOPE = (
@@ -66,9 +53,10 @@ def is_lopsided(values: Array) -> bool:
 
 def quantity_of(column: Column) -> str:
     """Return what a column measures, if that is no acceleration, velocity or voltage."""
-    for words, units, names in _QUANTITIES:
-        if column.unit in units or (column.unit is None and words_of(column.name) & names):
-            return words
+    words = words_of(column.name)
+    for quantity, (units, names) in QUANTITIES.items():
+        if column.unit in units.split() or (column.unit is None and words & {*names.split()}):
+            return quantity
     return ""
 
 

@@ -19,9 +19,6 @@ from bearingcore.measured.files._facts import GREATEST_STATED, LEAST_STATED
 from bearingcore.measured.files._units import TIMES
 from bearingcore.recordings import FEWEST_SAMPLES
 
-MOST_NAMED = 4
-"""Recordings of one file whose lengths are named."""
-
 UNEVEN = 0.5
 """Greatest deviation of times from even steps, in steps: printed ones are rounded, but do not
 wander."""
@@ -153,16 +150,6 @@ def single_gaps(whole: NDArray[np.bool_]) -> NDArray[np.intp]:
     return single if single.size <= MOST_SINGLE * whole.size else single[:0]
 
 
-def skipped_rows(time: Array) -> NDArray[np.intp]:
-    """Rows before which exactly one is missing, where times are even but for a few such steps."""
-    steps = np.diff(time)
-    usual = float(np.median(steps)) if steps.size and np.isfinite(steps).all() else 0.0
-    counts = np.round(steps / usual) if usual > 0.0 else steps
-    few = 0 < np.count_nonzero(counts == 2.0) <= MOST_SINGLE * time.size
-    even = few and np.isin(counts, (1.0, 2.0)).all()
-    return np.flatnonzero(counts == 2.0) + 1 if even else np.arange(0)
-
-
 def sampling_of(time: Array, unit: float = 1.0) -> Sampling:
     """Sample rate and faults of a column of times in `unit` [s]."""
     n = len(time)
@@ -266,7 +253,11 @@ def _sample_jumps(time: Array, steps: Array, unit: float) -> Sampling:
             parts = long_parts(pairwise(edges.tolist()))
             said, used = _jumps(steps, jumps, usual, shared), f"rows {first + 1} to {last} of {n}"
             if parts:
-                said = f"{_recordings(time, parts, (first, last), unit)}, {used}, is read. {said}."
+                number_read = parts.index((first, last)) + 1
+                said = (
+                    f"The file holds {len(parts)} recordings, or parts of one; number "
+                    f"{number_read}, {used}, is read unless another is chosen. {said}."
+                )
             else:
                 said += f". Only the longest part without a jump is used: {used}."
             even = _even(part)
@@ -305,34 +296,16 @@ def long_parts(parts: Iterable[Sequence[int]]) -> tuple[tuple[int, int], ...]:
     return kept if len(kept) > 1 else ()
 
 
-def _recordings(
-    time: Array, parts: Sequence[tuple[int, int]], read: tuple[int, int], unit: float
-) -> str:
-    """Beginning of a sentence on several recordings in one file, and on the one that is read."""
-    long = [with_prefix(float(time[b - 1] - time[a]) * unit, "s", 3) for a, b in parts]
-    spans = f"{', '.join(long[:-1])} and {long[-1]}" if len(long) <= MOST_NAMED else "many lengths"
-    return (
-        f"The file holds {len(parts)} recordings, or parts of one, of {spans}; unless another is "
-        f"chosen number {parts.index(read) + 1}"
-    )
-
-
 def _jumps(steps: Array, jumps: NDArray[np.intp], usual: float, shared: bool) -> str:
-    """Words on jumps; where rows share times the number of missing samples is not known."""
-    back = int((steps[jumps] <= 0.0).sum())
+    """Say where times jump; where rows share times the number of missing samples is not known."""
+    back = bool((steps[jumps] <= 0.0).any())
     # rounded times have rounded steps: only their mean is as long as a step is
-    even = np.delete(steps, jumps)
-    step = float(even.mean()) if even.size and not shared else usual
+    step = float(np.delete(steps, jumps).mean()) if len(steps) > len(jumps) else usual
     with np.errstate(over="ignore"):
         missing = float(np.maximum(np.round(steps[jumps] / step) - 1.0, 0.0).sum())
+    many = "" if shared or not missing else f" ({thousands(missing)} samples are missing)"
     times = "once" if jumps.size == 1 else f"{jumps.size} times"
-    words = f"The times jump {times}, first after row {jumps[0] + 1}"
-    remarks = []
-    if missing > 0.0 and not shared:
-        remarks.append(f"{thousands(missing)} sample{'s are' if missing > 1.0 else ' is'} missing")
-    if back:
-        remarks.append("back" if back == jumps.size else f"{back} times back")
-    return words + (f" ({', '.join(remarks)})" if remarks else "")
+    return f"The times jump {times}{', also back' * back}, first after row {jumps[0] + 1}{many}"
 
 
 def clock_columns(columns: Array) -> int:

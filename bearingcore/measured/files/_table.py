@@ -20,7 +20,7 @@ from bearingcore.common import Array, _checks as checks, cached_property, count,
 from bearingcore.measured.files._channels import OTHER, ROLES, SIGNAL, SPEED, TIME, Column
 from bearingcore.measured.files._child import MOST_NUMBERS, read_file
 from bearingcore.measured.files._contents import FileColumns, FileContents, contents_of
-from bearingcore.measured.files._sampling import long_parts, longest_run, single_gaps, skipped_rows
+from bearingcore.measured.files._sampling import long_parts, longest_run, single_gaps
 from bearingcore.measured.files._shaft_angle import angle_columns, shaft_angle
 from bearingcore.measured.files._units import (
     PULSE_TRAIN,
@@ -389,7 +389,7 @@ def path_in(name: str) -> str:
 def read_table(name: str, content: bytes, give_up: Callable[[], bool] | None = None) -> Table:
     """Read the columns of numbers in a file: text (CSV), WAV, MATLAB, HDF5, and others.
 
-    JSON, Octave's text and NumPy's files are read too, and with the packages of the extra `files`
+    JSON and NumPy's files are read too, and with the packages of the extra `files`
     UFF, TDMS, Parquet, Feather and Excel's .xlsx; also a zip or gzip of one of them. The first
     bytes decide the format. The file is read in its own process with limits of time and memory:
     see `bearingcore.measured.files._child`.
@@ -409,14 +409,7 @@ def read_table(name: str, content: bytes, give_up: Callable[[], bool] | None = N
     ValueError
         for a damaged, empty, huge or mis-shaped file, with the reason in one sentence.
     """
-    size = len(content)
-    if size > MOST_BYTES:
-        raise checks.refuse(
-            f"size of {name}",
-            f"{size / 2**20:.0f} MB",
-            f"at most {MOST_BYTES >> 20} MB: split it by rows into files of that size and join "
-            "their tables, or export a shorter part",
-        )
+    check_bytes(name, len(content))
     about, columns = read_file(name, content, give_up=give_up)
     if inside := about.get("inside"):
         raise checks.refuse(
@@ -427,20 +420,18 @@ def read_table(name: str, content: bytes, give_up: Callable[[], bool] | None = N
         )
     for words in ("names", "remarks", "stamps", "notes"):
         about[words] = tuple(about.get(words, ()))
-    return _fill_skipped_rows(Table(columns=columns, **{"name": name, **about}))
+    return Table(columns=columns, **{"name": name, **about})
 
 
-def _fill_skipped_rows(table: Table) -> Table:
-    """The table with a row of gaps wherever the times skip exactly one."""
-    timed = [i for i, column in enumerate(table.contents.columns) if column.role == TIME]
-    rows = skipped_rows(table.columns[:, timed[0]]) if len(timed) == 1 else np.arange(0)
-    if not rows.size:
-        return table
-    columns = np.insert(table.columns, rows, np.nan, axis=0)
-    made = rows + np.arange(rows.size)
-    columns[made, timed[0]] = 0.5 * (columns[made - 1, timed[0]] + columns[made + 1, timed[0]])
-    words = f"The times skip single rows, {rows.size} in all, which count as missing."
-    return dataclasses.replace(table, columns=columns, notes=(*table.notes, words))
+def check_bytes(name: str, size: int) -> None:
+    """Refuse a file of more than MOST_BYTES."""
+    if size > MOST_BYTES:
+        raise checks.refuse(
+            f"size of {name}",
+            f"{size / 2**20:.0f} MB",
+            f"at most {MOST_BYTES >> 20} MB: split it by rows into files of that size and join "
+            "their tables, or export a shorter part",
+        )
 
 
 def join_tables(tables: Sequence[Table]) -> Table:

@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from bearingcore.common import Array, _checks as checks, thousands
 from bearingcore.measured.files._channels import TIME, column_of
-from bearingcore.measured.files._facts import GREATEST_STATED, named_in, names_a_fact, units_said
+from bearingcore.measured.files._facts import named_in, names_a_fact, units_said
 from bearingcore.measured.files._units import UNITS, unit_in, unit_named
 from bearingcore.recordings import FEWEST_SAMPLES
 
@@ -40,7 +40,7 @@ SAMPLE = 30
 """Lines of numbers by which the way of writing is judged."""
 
 READABLE = (
-    "text with numbers (CSV, TXT, LVM, JSON), WAV, MATLAB, Octave, HDF5, NumPy, UFF, TDMS, "
+    "text with numbers (CSV, TXT, LVM, JSON), WAV, MATLAB, HDF5, NumPy, UFF, TDMS, "
     "Parquet, Excel (.xlsx), or a zip of one of these; export it as CSV where it is none of them"
 )
 """Formats of files."""
@@ -80,12 +80,12 @@ def read_text(
     FieldError
         saying what is wrong, and in which line.
     """
-    content = _tabulate_labels(_decode_to_utf8(name, content))
+    content = _decode_to_utf8(name, content)
     # the first lines that are numbers tell how all are written: delimiter, decimal sign, width
     style, begin, remarks = _beginning(name, content)
     if style.width > min(LONG_ROW, most_columns):
         # few long rows are signals, not columns
-        turned = _signals_in_rows(content[begin:], style, remarks, most_numbers, most_columns)
+        turned = _signals_in_rows(name, content[begin:], style, remarks, most_numbers, most_columns)
         if turned is not None:
             return turned
         if style.width > most_columns:
@@ -94,164 +94,72 @@ def read_text(
                 style.width,
                 f"at most {most_columns}: leave out some, or write each signal in a row",
             )
-    read, sensors, said, notes = _read_numbers(name, content, begin, style, remarks, most_numbers)
+    read, said, notes = _read_numbers(name, content, begin, style, remarks, most_numbers)
     headings = _headings(remarks, style, read)  # of the remarks above, the line that names columns
     if headings and any(column_of(name).role == TIME for name in headings):
-        whole = ~np.isnan(read).all(axis=1)  # what is missing there shows in the times
-        read, sensors = read[whole], None if sensors is None else sensors[whole]
+        read = read[~np.isnan(read).all(axis=1)]  # what is missing there shows in the times
     # columns of words were read as gaps; a date is one that the style knows, and stays
     kept = [i for i in range(style.width) if i in style.stamps or not np.isnan(read[:, i]).all()]
     if kept:
         read, headings = read[:, kept], headings and [headings[i] for i in kept]
     stamps = [kept.index(i) for i in style.stamps]
-    if headings is None:
-        # without names the first rows may be no samples but say the start and the rate
-        read, lines, more = _split_start(read)
-        said, notes = said + lines, notes + more
-    elif sensors is None:
-        sensors = _numbers_of_sensors(read, headings)
-    # rows of several sensors one after the other have no common time until they are side by side
-    if sensors is not None and not _goes_through(read, headings, stamps, sensors):
-        read, headings, stamps = _side_by_side(name, read, headings, stamps, sensors)
-        which = ", ".join(dict.fromkeys(sensors))
-        notes.append(f"Rows of several sensors ({which}) are put side by side.")
-    return _about(read, headings, remarks + said, stamps, notes)
+    for index, heading in enumerate(headings or ()):
+        if _SENSOR.fullmatch(heading.strip()):
+            refuse_mixed_rows(name, read[:, index])
+    return _text_fields(read, headings, remarks + said, stamps, notes)
 
 
 def _read_numbers(
     name: str, content: bytes, begin: int, style: _Style, remarks: list[str], most_numbers: int
-) -> tuple[Array, NDArray[Any] | None, list[str], list[str]]:
-    """Numbers from a byte on, the sensors of their rows, words among them, and notes on these."""
+) -> tuple[Array, list[str], list[str]]:
+    """Read the numbers from a byte on, words among them, and notes on these."""
     body = content[begin:]
     said: list[str] = []
     notes: list[str] = []
     most_rows = most_numbers // style.width + 1
-    numbers = _numbers(body, style, most_rows)
-    if numbers is None:  # some lines hold something else
+    read = _numbers(name, body, style, most_rows)
+    if read is None:  # some lines hold something else
         above = content.count(b"\n", 0, begin) + 1
         body, notes, said = _mended(name, body, style, above, remarks)
-        numbers = _numbers(body, style, most_rows)
-    if numbers is None:
+        read = _numbers(name, body, style, most_rows)
+    if read is None:
         raise checks.refuse("file", name, READABLE)
-    read, sensors = numbers
     if read.size > most_numbers:
         raise checks.refuse(
             f"count of numbers in {name}",
             f"over {most_numbers}",
             f"at most {most_numbers}; split it by rows and join the parts",
         )
-    return read, sensors, said, notes
-
-
-_SINCE_1970 = (1e9, 2.2e9)
-"""Seconds since 1970 from 2001 to 2039."""
-
-FAR_ABOVE = 50.0
-"""Times all that follows: a number that is no sample among them."""
-
-
-def _split_start(columns: Array) -> tuple[Array, list[str], list[str]]:
-    """Numbers without lines at the beginning that say start, count and rate; what they say.
-
-    Wristbands of Empatica write the start, in seconds since 1970, and then the rate, in each
-    column; others the count of samples, or what may be the rate.
-    """
-    start = False
-    lines: list[str] = []
-    used: list[str] = []
-    while len(columns) > FEWEST_SAMPLES and len(used) < 3:
-        value = float(columns[0, 0])
-        if not (columns[0] == value).all() or value != round(value):
-            break
-        rest = FAR_ABOVE * float(np.nanmax(np.abs(columns[3:]), initial=0.0))
-        if start and 1.0 <= value <= GREATEST_STATED:
-            lines.append(f"sample rate {value:.10g} Hz")
-        elif value <= rest or value < FEWEST_SAMPLES or not rest:
-            break
-        elif not _SINCE_1970[0] < value < _SINCE_1970[1] and len(columns) - value not in (1, 2):
-            lines.append(f"{value:.10g} Hz")
-        start = not used and _SINCE_1970[0] < value < _SINCE_1970[1]
-        used.append(f"{value:.10g}")
-        columns = columns[1:]
-    words = "They say start, count or rate, and are no samples"
-    return columns, lines, [f"Above the numbers: {', '.join(used)}. {words}."] if used else []
+    return read, said, notes
 
 
 _SENSOR = re.compile(r"(?i)(sensor|channel|axis|device|node)([ _.-]?(id|no|nr|num|number|index))?")
 
 
-def _numbers_of_sensors(columns: Array, headings: Sequence[str]) -> NDArray[Any] | None:
-    """Names of the sensors of all rows where a column counts them; None where none does."""
-    for i, heading in enumerate(headings):
-        if _SENSOR.fullmatch(heading.strip()) and len(headings) > 1:
-            names = np.array([f"{heading} {value:g}" for value in columns[:, i].tolist()])
-            if are_sensors(names):
-                return names
-    return None
+def refuse_mixed_rows(name: str, labels: NDArray[Any], columns: Iterable[Array] = ()) -> None:
+    """Refuse rows whose labels (n,) are those of several sensors, in turn or as equal blocks.
 
-
-def are_sensors(names: NDArray[Any]) -> bool:
-    """Whether words of all rows name the sensors or records that the rows are of, in turn or as
-    blocks of one length.
+    Read as one signal they would be a vibration that no sensor has measured. Where times, in one of
+    the `columns` of numbers, rise through all blocks, they are labels along one signal.
     """
-    labels, counts = np.unique(names, return_counts=True)
-    if not 1 < len(labels) <= MOST_SIGNALS_MIXED or len(names) < FEWEST_SAMPLES:
-        return False
-    changes = int((names[1:] != names[:-1]).sum())
-    blocks = changes + 1 == len(labels) and counts.min() == counts.max() >= FEWEST_SAMPLES
-    return changes > MOST_CHANGES * len(names) or bool(blocks)
-
-
-def _goes_through(
-    columns: Array, headings: Sequence[str] | None, stamps: Sequence[int], names: NDArray[Any]
-) -> bool:
-    """Whether times rise through blocks of words: these are labels along one signal."""
-    timed = {i for i, heading in enumerate(headings or ()) if column_of(heading).role == TIME}
-    blocks = int((names[1:] != names[:-1]).sum()) + 1 == len(np.unique(names))
-    return blocks and any((np.diff(columns[:, i]) > 0.0).all() for i in timed | set(stamps))
-
-
-def _side_by_side(
-    name: str,
-    columns: Array,
-    headings: Sequence[str] | None,
-    stamps: Sequence[int],
-    sensors: NDArray[Any],
-) -> tuple[Array, list[str], list[int]]:
-    """Rows of several sensors as columns of each; times, and what all have alike, once."""
-    names = list(dict.fromkeys(sensors.tolist()))
-    several = [columns[sensors == label] for label in names]
-    size = min(map(len, several))
-    if max(map(len, several)) > size + 1:  # the last row may be of the first
+    names, counts = np.unique(labels, return_counts=True)
+    if not 1 < len(names) <= MOST_SIGNALS_MIXED or len(labels) < FEWEST_SAMPLES:
+        return
+    changes = int((labels[1:] != labels[:-1]).sum())
+    blocks = changes + 1 == len(names) and counts.min() == counts.max() >= FEWEST_SAMPLES
+    rises = any((np.diff(c) > 0.0).all() and not _counts_rows(c) for c in columns)
+    if (blocks and not rises) or changes > MOST_CHANGES * len(labels):
         raise checks.refuse(
-            f"column of {', '.join(names[:4])} in {name}",
-            "words that change from row to row",
-            "as many rows of each: bring those of each word into columns or files of their own",
+            f"column of {', '.join(map(str, names[:4]))} in {name}",
+            "rows of several sensors",
+            "a column for each sensor, or a file for each",
         )
-    several = [part[:size] for part in several]
-    made: list[Array] = []
-    heads: list[str] = []
-    times = []
-    for i, heading in enumerate(headings or [f"column {k + 1}" for k in range(columns.shape[1])]):
-        if _SENSOR.fullmatch(heading.strip()):
-            continue
-        times += [len(made)] * (i in stamps)
-        signals = [part[:, i] for part in several]
-        once = i in stamps or column_of(heading).role == TIME
-        once = once or all(np.array_equal(count, signals[0], equal_nan=True) for count in signals)
-        made += signals[:1] if once else signals
-        heads += [heading] if once else [f"{label}: {heading}" for label in names]
-    return np.column_stack(made), heads, times
 
 
 def _decode_to_utf8(name: str, content: bytes) -> bytes:
     """A text without marks and with ends of lines, in UTF-8 if it had two bytes a character."""
-    start = content[:4096]
-    even, odd = (start[i::2].count(0) for i in (0, 1))
-    if start[:2] in (b"\xff\xfe", b"\xfe\xff"):
+    if content[:2] in (b"\xff\xfe", b"\xfe\xff"):
         content = content.decode("utf-16", "replace").encode()
-    elif start and min(even, odd) == 0 and max(even, odd) >= 0.45 * len(start):
-        content = content.decode("utf-16-le" if odd else "utf-16-be", "replace").encode()
     if b"\x00" in content[:4096]:
         raise checks.refuse("file", name, READABLE)
     content = content.removeprefix(b"\xef\xbb\xbf").rstrip(b"\x00")
@@ -260,36 +168,7 @@ def _decode_to_utf8(name: str, content: bytes) -> bytes:
     return content if b"\n" in content else content.replace(b"\r", b"\n")
 
 
-_LABELLED = re.compile(
-    r"([^\W\d][\w .()-]{0,30}?) ?[:=]\s*([-+]?\d*\.?\d+(?:[eE][-+]?\d+)?) ?([a-zA-Z/²]{1,5}|%)?"
-    r"[,;\s]*(?=[^\W\d]|$)"
-)
-"""A number with its name before it, as Arduinos write all of a line: "ax: 0.12g, ay: 9.81g"."""
-
-
-def _tabulate_labels(content: bytes) -> bytes:
-    """Lines of such numbers as a table with a heading; any other text as it is."""
-
-    def labels(line: str) -> list[tuple[str, str, str]]:
-        matches = [*_LABELLED.finditer(line[:LONGEST_REMARK])] if ":" in line or "=" in line else []
-        whole = "".join(match[0] for match in matches) == line
-        return [(match[1].strip(), match[2], match[3] or "") for match in matches] if whole else []
-
-    first = [_decoded(line).strip() for line in islice(io.BytesIO(content), SAMPLE)]
-    heads = [[(name, unit) for name, _, unit in labels(line)] for line in first]
-    named = heads[-1]
-    if not named or 2 * heads.count(named) < len(heads) or len(heads) < SAMPLE:
-        return content
-    heading = [",".join(f"{name} [{unit}]" if unit else name for name, unit in named)]
-    made: list[str] = []
-    for line in content.splitlines():
-        said = labels(text := _decoded(line).strip())
-        made += [heading.pop()] if said and heading else []
-        made.append(",".join(value for _, value, _ in said) if said else text)
-    return "\n".join(made).encode()
-
-
-def _about(
+def _text_fields(
     columns: Array, headings: list[str] | None, remarks: list[str], *more: list[Any]
 ) -> tuple[dict[str, Any], Array]:
     names = headings or [f"column {i + 1}" for i in range(columns.shape[1])]
@@ -390,12 +269,8 @@ class _Style:
             if not (self.decimal_comma and _QUOTED_DECIMALS.search(text)):
                 text = _QUOTED.sub(lambda match: match[0].replace(",", ""), text)
             text = text.replace('"', "")
-        if " sec" in text:
-            text = re.sub(r"(?<=\d) sec\b", "", text)  # MATLAB's durations
         if self.clock is not None:
             text = self.stamp.sub(self.clock, text)
-        if "D+" in text or "D-" in text:
-            text = re.sub(r"(?<=[\d.])D(?=[+-]\d)", "E", text)  # Fortran's exponents
         if self.delimiter and ("'" in text or (self.decimal_comma and " " in text)):
             text = re.sub(r"(?<=\d)['\xa0 ](?=\d{3}(?!\d))", "", text)
         if not self.decimal_comma:
@@ -526,7 +401,7 @@ _TWO_WHOLE = re.compile(r"\s*(-?\d+),(\d+)\s*")
 
 
 def _looks_decimal(lines: Sequence[str]) -> bool:
-    """Whether "0,051" is one number with a comma rather than two: no one writes 051 or −0."""
+    """Return True if "0,051" is one number: no one writes 051 or −0 as a number of its own."""
     pairs = [_TWO_WHOLE.fullmatch(line) for line in lines]
     parts = [pair.groups() for pair in pairs if pair is not None]
     return len(parts) == len(lines) and any(
@@ -577,7 +452,7 @@ def _beginning(name: str, content: bytes) -> tuple[_Style, int, list[str]]:
 
 
 def _is_numbered(lines: Sequence[str]) -> bool:
-    """Whether the first line is the headings of a data frame with numbers for names: 0, 1, 2."""
+    """Return True if the first line has the headings of a data frame that are numbers: 0, 1, 2."""
     match = re.fullmatch(r'(?:"")?([,;\t]?)"?0"?(?:[,;\t]"?\d+"?)*', lines[0])
     names = re.findall(r"\d+", lines[0])
     counted = names == [str(index) for index in range(len(names))]
@@ -615,9 +490,7 @@ def _headings(remarks: Sequence[str], style: _Style, columns: Array) -> list[str
     lines = [
         line
         for line in remarks
-        if re.search(r"[^\W_]", line)
-        and not _TYPES.fullmatch(line)
-        and not _is_remark(line, style, width)
+        if re.search(r"[^\W_]", line) and not _is_remark(line, style, width)
     ][-3:]
     names = _names(lines[-1], style, columns) if lines else None
     if names is None:
@@ -650,7 +523,7 @@ def _join_units(names: list[str], above: list[str] | None) -> list[str]:
 
 
 def _is_remark(line: str, style: _Style, width: int) -> bool:
-    """Whether a line says something else than the names of columns."""
+    """Return True if a line says something else than the names of columns."""
     said = ":" in line or "=" in line
     if width == 1:
         return not (unit_in(line) in UNITS and re.search(r"[\[(]", line)) and (
@@ -673,9 +546,6 @@ def _is_remark_above_several(line: str, single: Sequence[str], width: int) -> bo
     return (said or any(re.match(_VALUE, cell) for cell in single)) and names_a_fact(line)
 
 
-_TYPES = re.compile(r"(?i)\W*((float|double|single|u?int)\d*\W*)+")
-"""A line of the columns' types of numbers."""
-
 _VALUE = r"[-+]?\d[\d.,]*([eE][-+]?\d+)?(\s*[^\W\d]\S{0,9})?$"
 """A number with or without a unit."""
 
@@ -691,7 +561,7 @@ _UNIT_LIKE = re.compile(r"[\[(]?(?:[a-zA-Zµμ°%]{0,5}(?:[/·*]s(?:\^?2|²|\*\*
 
 
 def _are_units(cells: Sequence[str]) -> bool:
-    """Whether a line is of units: known ones, and others that look like one."""
+    """Return True if a line is of units: known ones, and others that look like one."""
     like = [bool(_UNIT_LIKE.fullmatch(cell)) for cell in cells]
     known = [_unit_alone(cell) is not None for cell in cells]
     return any(known) and all(a or b for a, b in zip(like, known, strict=True))
@@ -754,7 +624,7 @@ def _fit_width(names: list[str], style: _Style, columns: Array) -> list[str]:
 
 
 def _is_a_value(cells: Sequence[str]) -> bool:
-    """Whether cells are a name and its number, such as "block 3", and no names of columns."""
+    """Return True if cells are a name and its number, such as "block 3", not names of columns."""
     values = set(cells[1:])
     same = len(values) == 1 and "" not in values and _number(*values) is not None
     return same and _number(cells[0]) is None and column_of(cells[0]).role != TIME
@@ -767,13 +637,8 @@ def _counts_rows(column: Array) -> bool:
 # -- numbers ---------------------------------------------------------------------------------------
 
 
-def _numbers(
-    body: bytes, style: _Style, most_rows: int
-) -> tuple[Array, NDArray[Any] | None] | None:
-    """The numbers (n, width) of lines; None where one of them is not `width` numbers and gaps.
-
-    With the names (n,) of the sensors that rows are of, where columns of words hold those.
-    """
+def _numbers(name: str, body: bytes, style: _Style, most_rows: int) -> Array | None:
+    """The numbers (n, width) of lines; None where one of them is not `width` numbers and gaps."""
     import pandas as pd
 
     width = style.width
@@ -798,18 +663,16 @@ def _numbers(
         )
     except ValueError:  # of what is no number; pandas' own errors of lines that are too long too
         return None
-    sensors = None
-    for index in style.words:
-        words = frame[index].fillna("").to_numpy(dtype=str)
-        if are_sensors(words):
-            sensors = words if sensors is None else np.char.add(np.char.add(sensors, " "), words)
-        frame[index] = np.nan
+    words = [frame[index].fillna("").to_numpy(dtype=str) for index in style.words]
+    frame[list(style.words)] = np.nan
     columns = frame.to_numpy(dtype=float)
+    for labels in words:
+        refuse_mixed_rows(name, labels, columns.T)
     unsure = not np.isnan(columns[:, width]).all() or np.isnan(columns[:, width - 1]).any()
     lines = io.BytesIO(body)
     if unsure and next(_wrong_lines(lines, style), None) is not None:
         return None  # pandas fills short lines
-    return columns[:, :width], sensors
+    return columns[:, :width]
 
 
 def _wrong_lines(
@@ -889,9 +752,9 @@ def _lacking(lines: Sequence[tuple[int, str]]) -> list[str]:
 
 
 def _signals_in_rows(
-    body: bytes, style: _Style, remarks: list[str], most_numbers: int, most_columns: int
+    name: str, body: bytes, style: _Style, remarks: list[str], most_numbers: int, most_columns: int
 ) -> tuple[dict[str, Any], Array] | None:
-    """Signals that are written in a row each, behind facts of each; None for any other table."""
+    """Read signals that are written in a row each; None for any other table."""
     width = style.width
     most_rows = min(most_columns if width > most_columns else LONG_ROW, width)
     lines = list(islice(_lines_of_numbers(io.BytesIO(body)), most_rows + 1))
@@ -900,25 +763,11 @@ def _signals_in_rows(
     whole = [row[:width] for row in rows if row is not None and len(row) in (width, width + 1)]
     if width < FEWEST_SAMPLES or not len(whole) == len(rows) <= most_rows:
         return None
-    heads = _cells(remarks[-1], style.delimiter) if remarks else []
-    count = _count_of_facts(heads, width)
-    columns = np.delete(np.array(whole).T, [*range(count), *style.words], axis=0)
+    if remarks and len(_cells(remarks[-1], style.delimiter)) >= width:  # facts before the samples
+        allowed = "a column for each signal: turn the table, without the facts before its samples"
+        raise checks.refuse("file", name, allowed)
+    columns = np.delete(np.array(whole).T, style.words, axis=0)
     if columns.size > most_numbers:
         return None
-    cells = [_cells(line, style.delimiter) for line in lines]
-    named = count > 0 or style.words == (0,)
-    names = [row[0] for row in cells] if named else _headings(remarks, style, columns)
-    # what all rows say alike is said of the file
-    facts = [(heads[i], {row[i] for row in cells}) for i in range(count)]
-    said = [f"{head}: {values.pop()}" for head, values in facts if len(values) == 1]
-    return _about(columns, names, (remarks[:-1] if count else remarks) + said)
-
-
-def _count_of_facts(headings: Sequence[str], width: int) -> int:
-    """Count the first columns that are no samples, by headings such as "time, fs, s0, s1, ..."."""
-    ends = [re.search(r"(\d+)\W*$", heading) for heading in headings]
-    numbers = [int(end[1]) if end else None for end in ends]
-    if len(numbers) != width or numbers[-1] is None:
-        return 0
-    first = numbers[-1] - width + 1
-    return max((i + 1 for i, number in enumerate(numbers) if number != first + i), default=0)
+    named = [_cells(line, style.delimiter)[0] for line in lines] if style.words == (0,) else None
+    return _text_fields(columns, named or _headings(remarks, style, columns), remarks)

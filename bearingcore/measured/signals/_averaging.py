@@ -21,7 +21,6 @@ from numpy.typing import NDArray
 from bearingcore.common import Array, _checks as checks
 from bearingcore.measured.signals._order_tracking import followed, smooth_lag
 from bearingcore.measured.signals._resampling import oversampled
-from bearingcore.measured.signals._shaft_tones import without_shaft_tones
 
 FEWEST_PASSES = 6
 """Below this an average says nothing about its own scatter."""
@@ -71,19 +70,6 @@ class BallPasses:
         around = self.power - np.abs(self.harmonics) ** 2
         return np.asarray(np.maximum(around, 0.0) / max(self.n_passes - 1, 1))
 
-    @property
-    def noise_power(self) -> Array:
-        """Noise (N, d) in `power`: the quiet fifth of what differs from pass to pass, half an
-        octave around each harmonic, as what moves irregularly differs too.
-        """
-        around = np.maximum(self.power - np.abs(self.harmonics) ** 2, 0.0)
-        order = np.arange(1, len(around) + 1)
-        noise = np.empty_like(around)
-        for index, number in enumerate(order.tolist()):
-            near = (order >= number / 1.42 - 1.0) & (order <= number * 1.42 + 1.0)
-            noise[index] = np.quantile(around[near], 0.2, axis=0)
-        return noise
-
     def waveform(self, n: int) -> Array:
         """The mean pass as n samples (n, d)."""
         full = np.zeros((n // 2 + 1, self.harmonics.shape[1]), dtype=complex)
@@ -128,7 +114,6 @@ def average_passes(
     widest: float,
     *,
     follow: bool = False,
-    shaft: float | None = None,
     turns: float = 0.0,
 ) -> BallPasses:
     """Find the ball-pass frequency near `nominal` and average the signal over its passes.
@@ -145,8 +130,6 @@ def average_passes(
         how far off nominal the frequency may be, as a fraction of it.
     follow
         whether a cage that wanders is followed, see `order_tracking`.
-    shaft
-        turns a second [Hz] whose tones are taken out first; None to leave them.
     turns
         of the damage through the load zone in a ball pass, but for slip; 0 where it stays in its
         place. Passes of damage that turns are weighted by how loud its angle makes them.
@@ -176,8 +159,6 @@ def average_passes(
     frequency, prominence = _ball_pass_frequency(
         signal, sample_rate, nominal, slip, lowest, highest
     )
-    if shaft is not None:
-        signal = without_shaft_tones(signal, sample_rate, shaft, frequency)
     # with so many samples a cycle that a spline follows the signal
     factor = max(math.ceil(SAMPLES_A_CYCLE * widest / sample_rate), 1)
     signal, sample_rate = oversampled(signal, factor), factor * sample_rate

@@ -161,7 +161,7 @@ def thinned(values: Array, rate: float, highest: float) -> tuple[Array, float]:
 def _dropped_on_grid(
     dropped: NDArray[np.bool_], sample_rate: float, count: int, rate: float, margin: float
 ) -> NDArray[np.bool_]:
-    """Where samples dropped out, on a grid of `count` at `rate` [Hz], with a margin [s] around."""
+    """Mark dropped samples on a grid of `count` at `rate` [Hz], with a margin [s] around."""
     places = np.flatnonzero(dropped) / sample_rate
     steps = np.zeros(count + 1)
     begins = np.clip(((places - margin) * rate).astype(int), 0, count)

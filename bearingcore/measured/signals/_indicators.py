@@ -287,7 +287,7 @@ def severity_zone(velocity: float, machine: str, displacement: float = 0.0) -> s
 
 
 def _no_velocity(recording: Recording, band: tuple[float, float]) -> str:
-    """Why the velocity in a band cannot be had, or an empty text."""
+    """Return the reason why a band has no velocity, or an empty text."""
     low, high = band
     if recording.sample_rate < OVERSAMPLING * high:
         rate, needed = number(recording.sample_rate, 4), number(OVERSAMPLING * high, 4)

@@ -88,12 +88,12 @@ def smooth_lag(lags: Array) -> Callable[[Array], Array]:
     ends = middles[[0, -1]]
     slopes = spline(ends, 1)
 
-    def at(place: Array) -> Array:
+    def lag_at(place: Array) -> Array:
         inside = np.clip(place, ends[0], ends[1])
         before, after = np.minimum(place - ends[0], 0.0), np.maximum(place - ends[1], 0.0)
         return np.asarray(spline(inside) + slopes[0] * before + slopes[1] * after)
 
-    return at
+    return lag_at
 
 
 def _repeating(each: NDArray[np.complex128]) -> float:

@@ -19,13 +19,14 @@ from .codes import (
     TOO_MANY as TOO_MANY,
 )
 from .compiling import all_on_disk as all_on_disk, kept_on_disk as kept_on_disk
+from .in_parts import Watch as Watch, parts as parts
 from .modes import DOUBTFUL as DOUBTFUL, modes_like as modes_like
 from .motion.march import (
     elastic_loads as elastic_loads,
     interpolate_steps as interpolate_steps,
+    lay_side_by_side as lay_side_by_side,
     march as march,
     motion_rates as motion_rates,
-    side_by_side as side_by_side,
     sliding_sums as sliding_sums,
     turn_smooth as turn_smooth,
 )

@@ -153,12 +153,12 @@ _not_kept: list[str] = []
 
 
 def kept_on_disk() -> bool:
-    """Whether machine code is kept for the next start; False where no folder can be written."""
+    """Return True if machine code is kept for the next start; False without a writable folder."""
     return not _not_kept
 
 
 def all_on_disk() -> bool:
-    """Whether machine code of all kernels, made of the present sources, is on disk."""
+    """Return True if machine code of all kernels, made of the present sources, is on disk."""
     if PLAIN:
         return _keep_plain() and any(Path(numba.config.CACHE_DIR).rglob("*.nbi"))
     return bool(_kernels) and all(kernel._cache._cache_file.has_any() for kernel in _kernels)
@@ -239,7 +239,7 @@ class KernelFiles:
         self._base, self._version = base, hashlib.sha256(version.encode()).digest()
 
     def has_any(self) -> bool:
-        """Whether there is machine code of this version for any signature."""
+        """Return True if there is machine code of this version for any signature."""
         files = self._base.parent.glob(f"{glob.escape(self._base.name)}.*.kernel")
         return any(self._read(file) is not None for file in files)
 

@@ -102,7 +102,7 @@ def touch(x, cj, sj, drop, j, contacts):
 
 @inlined
 def has_left(x, cj, sj, j, contacts):
-    """Whether the inner ring at contact j has left the outer one, whatever the ball has sunk by.
+    """Return True if the inner ring has left the outer one at contact j, at any drop of the ball.
 
     Across a fixed line of contact it has moved along the races by more than `Contacts.room`; else
     it has moved back by all of the distance of the groove centres, where no groove is any more.

@@ -275,7 +275,7 @@ def lay_out_turning_force(start, turn, count, rotor, passage):
 
 @called
 def lay_out_balls(start, turn, count, cage_speed, contacts, path, passage):
-    """Where the balls are at `count` cage angles start + i·turn [rad], into a passage.
+    """Put the balls' places at `count` cage angles start + i·turn [rad] into a passage.
 
     Cages are turned by recurrence and each ball is at a fixed angle to its own.
     """

@@ -11,7 +11,7 @@ from bearingcore.model._kernels.path import BLOCK
 
 @inlined
 def all_finite(y):
-    """Whether every number of y (n,) is finite."""
+    """Return True if every number of y (n,) is finite."""
     total = 0.0
     for i in range(y.size):
         total += y[i] - y[i]  # 0, or NaN for what is not finite
@@ -40,16 +40,19 @@ def stepper(
     """
 
     @inlined
-    def runge_kutta(y, h, start_angle, stride, system, out, work):
+    def runge_kutta(y, h, start_angle, stride, system, out, work, span):
         """Steps of h [s] from y, which is moved to the end; the cage begins at start_angle [rad].
 
-        Every `stride` steps a sample is recorded, as many as out.history has. Returns the number of
-        steps after which all was still finite, which is looked at once in half a BLOCK.
+        Every `stride` steps a sample is recorded, as many as out.history has. span holds the first
+        step and that before which to end, whole numbers of half a BLOCK; see `parts`.
+        Returns the number of steps after which all was still finite, which is looked at once in
+        half a BLOCK.
         """
         k = work.k
         n_steps = stride * (out.history.shape[0] - 1)
         half_turn = 0.5 * h * system.rotor.cage_speed
-        for step in range(n_steps + 1):
+        first, end = span
+        for step in range(first, min(end, n_steps + 1)):
             i = (2 * step) % BLOCK
             if i == 0:
                 if not all_finite(y):
@@ -76,6 +79,8 @@ def stepper(
                 break
             for r in range(y.size):
                 y[r] += h / 6.0 * (k[0, r] + 2.0 * (k[1, r] + k[2, r]) + k[3, r])
+        if end <= n_steps:
+            return end
         return n_steps if all_finite(y) else max(n_steps - BLOCK // 2, 0)
 
     return runge_kutta

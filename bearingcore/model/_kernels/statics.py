@@ -258,11 +258,11 @@ def replace_factors(contacts, factor):
 
 @called
 def drop_negligible_contacts(q, noise, place, contacts, load, work, other):
-    """Whether the balls that carry more than `noise` [N] hold the ring on their own.
+    """Least pivot of the Hessian without the balls that carry less than `noise` [N].
 
     The minimum may be an edge of a flat stretch, on which balls that only just touch look as if
-    they held the ring there. Returns the least pivot without them, whose gradient and Hessian are
-    put into work.g[other] and work.H[other].
+    they held the ring there. Gradient and Hessian without them go into work.g[other] and
+    work.H[other].
     """
     factor = work.firm
     x = components(q)
@@ -328,6 +328,34 @@ def has_descended(V, V1, slope, slope1, step, rounding):
 
 
 @inlined
+def shorten_step(step, slope, slope1):
+    """Return the step to try after one that went too far, along a direction of Newton's.
+
+    It goes to where the slope, taken as a straight line from `slope` at 0 to `slope1` at the step,
+    is zero (the secant), but neither to almost 0 nor to almost as far again. Where rounding has
+    left no descent in the direction, that line is of no use.
+    """
+    rise = slope1 - slope
+    return step * (min(max(-slope / rise, 0.05), 0.6) if rise > 0.0 else 0.3)
+
+
+@inlined
+def slope_along(g, p, active):
+    """Slope of V [N·m] along a direction p: g·p over the active directions."""
+    slope = 0.0
+    for i in active:
+        slope += g[i] * p[i]
+    return slope
+
+
+@inlined
+def typical_stiffness(load, factor, exponent):
+    """Stiffness [N/m] of one contact under all of a load [N]."""
+    _, _, stiffness = contact_load(compression_under(load, factor, exponent), factor, exponent)
+    return stiffness
+
+
+@inlined
 def sizes_at(q, g, H, force, active, tight):
     """Sizes by which a gradient is judged: |g|² over the active directions, ...
 
@@ -348,14 +376,35 @@ def sizes_at(q, g, H, force, active, tight):
     return norm, taken, reach, stiffest
 
 
+@inlined
+def judge_minimum(q, noise, least, now, place, contacts, load, work):
+    """Tell a minimum that is held in all directions from one with a free direction.
+
+    H is positive definite at the one, and has a zero pivot at the other. `least` is the least pivot
+    of work.H[now]. Contacts that carry less than `noise` [N] do not count; 0 counts all of them.
+    Returns the status, and which of work.g and work.H belongs to it.
+    """
+    if noise > 0.0:
+        # balls that only just touch must not be what makes the minimum look firm
+        least = drop_negligible_contacts(q, noise, place, contacts, load, work, 1 - now)
+        if not least > NO_PIVOT:
+            now = 1 - now
+    if least < DOUBTFUL_PIVOT:
+        least = least_pivot(work.H[now], load.active, work.L)
+    return CONVERGED if least > NO_PIVOT else FREE_DIRECTION, now
+
+
 @called
 def descend(q, place, contacts, load, work, most):
     """Move q downhill to the minimum of V by Newton's method with a line search, in `most` steps.
 
-    The balance of loads (Eq. 15) is g = ∂V/∂q = 0 and the stiffness (Appendix A) H = ∂²V/∂q². Each
-    step goes along p = −H⁻¹ g as far as V falls. V is convex, so there is one minimum, or a flat
-    stretch of them, or none where nothing carries the load. What is returned is that of
-    `minimise_energy`.
+    V(q) = Σ_j K/(n + 1) δ_j^(n+1) − F·q (see `contact`). The balance of loads (Eq. 15) is
+    g = ∂V/∂q = 0 and the stiffness (Appendix A) H = ∂²V/∂q². Each step goes along p = −H⁻¹ g as far
+    as V falls. V is convex, so there is one minimum, or a flat stretch of them, or none where
+    nothing carries the load: a descent cannot end in a false answer, only in none. What is returned
+    is that of `minimise_energy`.
+
+    work.g and work.H have two places each: `now` is that of q, 1 − now that of the q that is tried.
     """
     F = load.force
     active = load.active
@@ -367,13 +416,10 @@ def descend(q, place, contacts, load, work, most):
     hard = stiffest_contact(contacts)
     K = contacts.factor[hard]
     exponent = contacts.exponent[hard]
+    # lengths that cancel in a compression even where q is 0: their rounding is in every residual
     tight = abs(contacts.offset[hard]) + max(-contacts.clearance[hard], 0.0)
-    axial = False
-    carried_load = 0.0
-    for i in active:
-        carried_load += F[i] * F[i]
-        axial = axial or i == 2
-    size = math.sqrt(carried_load)
+    size = load_size(load)
+    carried_load = size * size
     nothing = 0.0  # load [N] up to which nothing touches: all that rounding leaves of a preload
     k_typical = 0.0
     shift_part = 1e-3
@@ -392,7 +438,9 @@ def descend(q, place, contacts, load, work, most):
     for iteration in range(-1, most):
         g = G[now]
         if iteration >= 0:
-            # the residual: what is out of balance, over all that the bearing carries
+            # Is this the minimum? The residual is what is out of balance, |g|, over all that the
+            # bearing carries: the load, what held directions take, and where only a preload presses
+            # the contacts, that.
             norm, taken, reach, stiffest = sizes_at(q, g, H[now], F, active, tight)
             whole = math.sqrt(carried_load + max(taken, 0.0))
             if preloaded:
@@ -406,24 +454,19 @@ def descend(q, place, contacts, load, work, most):
             # near the minimum a Newton step squares the residual: one that hardly falls is rounding
             settled = residual <= limit and residual >= 0.5 * before
             if residual <= RESIDUAL_AIM or settled or stuck:
-                # balls that only just touch must not be what makes the minimum look firm
                 noise = FAINT * max(residual, RESIDUAL_AIM) * whole
-                if faintest < noise:
-                    least = drop_negligible_contacts(q, noise, place, contacts, load, work, 1 - now)
-                    if not least > NO_PIVOT:
-                        now = 1 - now
-                if least < DOUBTFUL_PIVOT:
-                    least = least_pivot(H[now], active, L)
-                status = CONVERGED if least > NO_PIVOT else FREE_DIRECTION
+                if faintest >= noise:
+                    noise = 0.0
+                status, now = judge_minimum(q, noise, least, now, place, contacts, load, work)
                 return now, status, residual, iteration, evaluations
             if not least > LEAST_PIVOT or stiffest < FAINT_STIFFNESS * k_typical:
-                # too few balls touch: a small spring to ground replaces the missing stiffness
+                # Too few balls touch, so that H has no inverse: a small spring to ground replaces
+                # the missing stiffness, ever weaker so as not to hold q back at the end.
                 newton_direction(H[now], g, active, shift_part * max(k_typical, stiffest), L, p)
                 shift_part = max(0.1 * shift_part, 1e-10)
-            slope = 0.0
-            for i in active:
-                slope += g[i] * p[i]
-        # line search: `short` is a step after which V still falls steeply, `long` one too far
+            slope = slope_along(g, p, active)
+        # Line search along p: `short` is a step after which V still falls steeply, `long` one that
+        # went too far. The first step is Newton's own, which is right near the minimum.
         step = 1.0
         short = 0.0
         long = math.inf
@@ -438,9 +481,7 @@ def descend(q, place, contacts, load, work, most):
             if iteration < 0:
                 accepted = True
                 break
-            slope1 = 0.0
-            for i in active:
-                slope1 += G[1 - now, i] * p[i]
+            slope1 = slope_along(G[1 - now], p, active)
             if has_descended(V, V1, slope, slope1, step, 1e-14 * max(scale, scale1)):
                 if slope1 >= 0.9 * slope or long == math.inf or long < 1.5 * short:
                     accepted = True
@@ -450,10 +491,8 @@ def descend(q, place, contacts, load, work, most):
                 short = step
                 step = math.sqrt(short * long)
             else:
-                # too far: to where the slope, taken as a line, would be zero, but not all too near
                 long = step
-                secant = slope / (slope - slope1) if slope1 > 0.0 else 0.5
-                step *= min(max(secant, 0.05), 0.6)
+                step = shorten_step(step, slope, slope1)
                 if step <= short:
                     step = math.sqrt(short * long)
         if not accepted:
@@ -474,14 +513,16 @@ def descend(q, place, contacts, load, work, most):
                 # clearance so large that the ring, held axially, is wedged: else it slips out
                 preloaded = True
                 size = pressed_load(q, place, contacts)
+                axial = False
+                for i in active:
+                    axial = axial or i == 2
                 slips = axial and contacts.rows.shape[0] == 1 and contacts.clearance[hard] > 0.0
                 if size == 0.0 or slips:
                     return now, NOTHING_TOUCHES, math.nan, 0, 1
                 lost = ROUNDING * (curved_length(contacts, hard) + abs(contacts.clearance[hard]))
                 _, least_load, _ = contact_load(max(lost, 0.0), K, exponent)
                 nothing = max(RESIDUAL_AIM * size, least_load)
-            # of one ball under all of the load
-            _, _, k_typical = contact_load(compression_under(size, K, exponent), K, exponent)
+            k_typical = typical_stiffness(size, K, exponent)
     return now, NOT_CONVERGED, residual, most, evaluations
 
 
@@ -606,6 +647,57 @@ def static_maps(cage_angles, contacts, paths, load, rows, memory, answers):
     return solve_maps(cage_angles, contacts, paths, load, rows, memory, answers, work)
 
 
+@inlined
+def repeat_answer(e, k, answers):
+    """Take the answer of row e at cage angle k from the row before."""
+    answers.status[e, k] = answers.status[e - 1, k]
+    answers.residual[e, k] = answers.residual[e - 1, k]
+    answers.loaded[e, k] = answers.loaded[e - 1, k]
+    answers.greatest[e, k] = answers.greatest[e - 1, k]
+    for term in range(15):
+        answers.stiffness[term, e, k] = answers.stiffness[term, e - 1, k]
+
+
+@inlined
+def keep_answer(e, k, now, contacts, work, memory, answers):
+    """Put what follows from work.state into row e at cage angle k.
+
+    Loads (Eq. 13), the stiffness work.descent.H[now] (Eq. 17), and BEYOND as the status of a
+    balance where no bearing could be: the formulas have those too. There the ring is tilted beyond
+    small angles or has left the other, or a ball is compressed beyond its room.
+    """
+    place = work.place
+    loads = memory.loads
+    status = answers.status
+    count = 0
+    most = 0.0
+    settled = status[e, k] == CONVERGED
+    x = components(work.state)
+    beyond = settled and max(abs(x[3]), abs(x[4])) > contacts.most_tilt
+    for j in range(contacts.angle.size):
+        delta, _, _, bend = touch(x, place.c[j], place.s[j], place.d[j], j, contacts)
+        loads[k, j] = 0.0
+        if delta > 0.0:
+            _, loads[k, j], _ = contact_load(delta, contacts.factor[j], contacts.exponent[j])
+            count += 1
+            most = max(most, loads[k, j])
+            beyond = beyond or delta > contacts.room[j]
+            if settled and bend == 0.0:
+                beyond = beyond or has_left(x, place.c[j], place.s[j], j, contacts)
+    if beyond and (settled or status[e, k] == FREE_DIRECTION):
+        status[e, k] = BEYOND
+    gone = status[e, k] >= NOT_CARRIED
+    loose = status[e, k] == NOTHING_TOUCHES
+    nowhere = gone or loose
+    answers.loaded[e, k] = 0 if nowhere else count
+    answers.greatest[e, k] = math.nan if gone else 0.0 if loose else most
+    term = 0
+    for a in range(5):
+        for b in range(a, 5):
+            answers.stiffness[term, e, k] = math.nan if nowhere else work.descent.H[now, b, a]
+            term += 1
+
+
 @compiled
 def solve_maps(cage_angles, contacts, paths, load, rows, memory, answers, work):
     """Static states of rows (first, last) of a map: the defects differ, cage angles do not.
@@ -622,13 +714,8 @@ def solve_maps(cage_angles, contacts, paths, load, rows, memory, answers, work):
     active = load.active
     q = memory.q
     drops = memory.drops
-    loads = memory.loads
-    stiffness = answers.stiffness
-    loaded = answers.loaded
-    greatest = answers.greatest
     status = answers.status
     residual = answers.residual
-    descent = work.descent
     place = work.place
     d = place.d
     state = work.state
@@ -649,14 +736,10 @@ def solve_maps(cage_angles, contacts, paths, load, rows, memory, answers, work):
                 same = same and drops[k, j] == d[j]
                 drops[k, j] = d[j]
             if same:
-                status[e, k] = status[e - 1, k]
-                residual[e, k] = residual[e - 1, k]
-                loaded[e, k] = loaded[e - 1, k]
-                greatest[e, k] = greatest[e - 1, k]
-                for term in range(15):
-                    stiffness[term, e, k] = stiffness[term, e - 1, k]
+                repeat_answer(e, k, answers)
                 continue
-            known = 0  # answers in a row just before this one
+            # Newton's method begins at the answer before, or at a parabola through three of them
+            known = 0
             while known < min(k, 3) and CONVERGED <= status[e, k - 1 - known] < NOT_CARRIED:
                 known += 1
             for i in active:
@@ -666,44 +749,14 @@ def solve_maps(cage_angles, contacts, paths, load, rows, memory, answers, work):
             circle_c = work.circle_c
             place_balls(cage_angles[k], contacts, circle_c, work.circle_s, place.c, place.s)
             now, status[e, k], residual[e, k], memory.iterations[k], calls = minimise_energy(
-                state, place, contacts, load, descent
+                state, place, contacts, load, work.descent
             )
             solved += 1
             evaluations += calls
             memory.evaluations[k] = calls
             for i in range(5):
                 q[k, i] = state[i]
-            count = 0
-            most = 0.0
-            settled = status[e, k] == CONVERGED
-            x = components(state)
-            # the formulas balance loads also where no bearing could: tilted beyond small angles, a
-            # ball compressed beyond its room, a ring that has left the other
-            beyond = settled and max(abs(x[3]), abs(x[4])) > contacts.most_tilt
-            for j in range(n_contacts):
-                delta, _, _, bend = touch(x, place.c[j], place.s[j], d[j], j, contacts)
-                loads[k, j] = 0.0
-                if delta > 0.0:
-                    _, loads[k, j], _ = contact_load(
-                        delta, contacts.factor[j], contacts.exponent[j]
-                    )
-                    count += 1
-                    most = max(most, loads[k, j])
-                    beyond = beyond or delta > contacts.room[j]
-                    if settled and bend == 0.0:
-                        beyond = beyond or has_left(x, place.c[j], place.s[j], j, contacts)
-            if beyond and (settled or status[e, k] == FREE_DIRECTION):
-                status[e, k] = BEYOND
-            gone = status[e, k] >= NOT_CARRIED
-            loose = status[e, k] == NOTHING_TOUCHES
-            nowhere = gone or loose
-            loaded[e, k] = 0 if nowhere else count
-            greatest[e, k] = math.nan if gone else 0.0 if loose else most
-            term = 0
-            for a in range(5):
-                for b in range(a, 5):
-                    stiffness[term, e, k] = math.nan if nowhere else descent.H[now, b, a]
-                    term += 1
+            keep_answer(e, k, now, contacts, work, memory, answers)
     return solved, evaluations
 
 

@@ -87,6 +87,17 @@ class Contacts(NamedTuple):
         """Angles (n, contacts) [rad] of all contacts at cage angles (n,) [rad]."""
         return cage_angles[:, None] * self.relative_speed + self.angle
 
+    def gradients(self, angles: Array, radial: Array, axial: Array) -> Array:
+        """Derivatives (..., contacts, 5) by q of a motion along (radial, axial) at the contacts.
+
+        Contacts at angles (..., contacts) [rad] move by e·q: e = (er c, er s, ez, τ s, −τ c), with
+        τ as in `contact.tilting`.
+        """
+        c, s = np.cos(angles), np.sin(angles)
+        tilting = self.reach * axial - self.arm * radial
+        along = np.broadcast_to(axial, c.shape)
+        return np.stack([radial * c, radial * s, along, tilting * s, -tilting * c], axis=-1)
+
     def compression(self, load: float, contact: int = 0) -> float:
         """Compression [m] of a contact that carries a load [N]."""
         return float((load / self.factor[contact]) ** (1.0 / self.exponent[contact]))
@@ -108,7 +119,7 @@ class Path(NamedTuple):
 
 
 class Place(NamedTuple):
-    """Where the balls are at one instant, each array (n,): cosine, sine and drop [m]."""
+    """Places of the balls at one instant, each array (n,): cosine, sine and drop [m]."""
 
     c: Array
     s: Array
@@ -116,7 +127,7 @@ class Place(NamedTuple):
 
 
 class Passage(NamedTuple):
-    """Where the balls are at some instants, and what turns with the shaft.
+    """Places of the balls at some instants, and what turns with the shaft.
 
     Attributes
     ----------

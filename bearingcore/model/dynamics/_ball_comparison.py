@@ -9,6 +9,7 @@ import numpy as np
 
 from bearingcore.common import (
     Array,
+    Progress,
     ResultTable,
     _checks as checks,
     level_difference,
@@ -141,7 +142,14 @@ def band_powers(motion: Motion, edges: Array) -> Array:
     return spectrum(signal, motion.sample_rate, 0.1 * LOWEST_COMPARED).powers(edges)
 
 
-def mass_share(scene: Scene, low: float, high: float, duration: float, sample_rate: float) -> float:
+def mass_share(
+    scene: Scene,
+    low: float,
+    high: float,
+    duration: float,
+    sample_rate: float,
+    progress: Progress | None = None,
+) -> float:
     """Share of the housing's power between two frequencies [Hz] that the balls' mass adds.
 
     1 − P(massless)/P(with mass), all of x and y: 0 where mass changes nothing, near 1 where next to
@@ -150,7 +158,7 @@ def mass_share(scene: Scene, low: float, high: float, duration: float, sample_ra
     edges, powers = np.array([low, high]), []
     for at in (scene.replace(balls=balls) for balls in (MASSLESS, WITH_MASS)):
         rate = fine_step_rate(at, sample_rate)
-        motion = simulate(at, duration, sample_rate, step_rate=rate)
+        motion = simulate(at, duration, sample_rate, step_rate=rate, progress=progress)
         powers.append(float(band_powers(motion, edges).sum()))
     massless, heavy = powers
     return 1.0 - massless / heavy if heavy > 0.0 else math.nan

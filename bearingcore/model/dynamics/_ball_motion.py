@@ -46,25 +46,18 @@ def _balls(packed: PackedScene) -> kernels.StaticBalls:
     return packed.balls
 
 
-def ball_system(packed: PackedMotion, *, velocities: bool = False) -> kernels.BallSystem:
-    """System of a scene with heavy balls for the kernels.
-
-    `velocities` takes these as variables, which general-purpose integrators take; places are
-    then radial and axial always.
-    """
+def ball_system(packed: PackedMotion) -> kernels.BallSystem:
+    """System of a scene with heavy balls for the kernels."""
     flat = place_parts(packed.scene, packed.dofs) == 1
-    variables = kernels.VELOCITIES if velocities else kernels.PLANAR if flat else kernels.SMOOTH
+    variables = kernels.PLANAR if flat else kernels.SMOOTH
     return kernels.BallSystem(packed.rotor._replace(variables=variables), *_balls(packed))
 
 
-def ball_start(
-    packed: PackedMotion, massless: Equilibrium, parts: int | None = None
-) -> Array | None:
+def ball_start(packed: PackedMotion, massless: Equilibrium) -> Array | None:
     """State of rings and balls at rest at cage angle 0, at the scene's speed.
 
     Displacements and velocities of both rings, places of the balls, their velocities. None where
-    there is no static state. `massless` is that of massless balls at
-    cage angle 0.
+    there is no static state. `massless` is that of massless balls at cage angle 0.
     """
     dofs = packed.dofs
     if massless.status[0] >= StaticStatus.NOT_CARRIED:
@@ -93,22 +86,29 @@ def ball_start(
     balls = place[0]
     balls[0] += (outer[0] + arm * outer[4]) * c + (outer[1] - arm * outer[3]) * s
     balls[1] += outer[2] + reach * (outer[3] * s - outer[4] * c)
-    moved = balls[: place_parts(packed.scene, dofs) if parts is None else parts]
+    moved = balls[: place_parts(packed.scene, dofs)]
     return np.concatenate([rings.ravel(), moved.ravel(), np.zeros(moved.size)])
 
 
 def march_balls(
-    packed: PackedMotion, massless: Equilibrium, h: float, every: int, history: Array, place: Array
+    packed: PackedMotion,
+    massless: Equilibrium,
+    h: float,
+    every: int,
+    history: Array,
+    place: Array,
+    watch: kernels.Watch | None = None,
 ) -> int | None:
     """Fill `history` and `place` by steps of h [s], a row after `every` of them.
 
     Returns the number of steps after which all was finite; None where there is no static state to
-    start from: `massless` is that of massless balls at cage angle 0.
+    start from: `massless` is that of massless balls at cage angle 0. `watch` is called with the
+    part done.
     """
     y = ball_start(packed, massless)
     if y is None:
         return None
-    return int(kernels.march_balls(y, h, 0.0, every, ball_system(packed), history, place))
+    return int(kernels.march_balls(y, h, 0.0, every, ball_system(packed), history, place, watch))
 
 
 def contact_stiffness(bearing: Bearing, load: float) -> tuple[float, float]:

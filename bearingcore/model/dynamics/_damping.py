@@ -11,7 +11,7 @@ from bearingcore.common import _checks as checks
 from bearingcore.common._byte_cache import lru_cache_by_bytes
 from bearingcore.model.scene import PackedMotion, PackedScene, Scene
 from bearingcore.model.scene._packing import pack, pack_motion
-from bearingcore.model.statics._equilibrium import equilibrium_of, without_defects
+from bearingcore.model.statics._equilibrium import equilibrium_of, remove_defects
 
 DAMPING_OVER_STIFFNESS = 1e-5
 """β [s] of the healthy bearing where a scene does not say its contact damping; the paper takes
@@ -27,7 +27,7 @@ DAMPING_OVER_STIFFNESS = 1e-5
 def _mean_stiffness_a_ball(packed: PackedScene) -> float:
     """mean(k_xx + k_yy) / mean(loaded balls) [N/m] without defects, over a period of the curves."""
     angles = np.arange(120) * (packed.scene.bearing.period / 120)
-    healthy = without_defects(packed)
+    healthy = remove_defects(packed)
     state = equilibrium_of(healthy, angles)
     good = state.converged & (state.loaded_balls > 0)
     if not good.any():

@@ -173,7 +173,7 @@ def low_passed(history: Array, body: int, n: int, sample_rate: float, step_rate:
     nd, stride, columns = history.shape[2], kept.stride, -(-taps // kept.stride)
     out = np.empty((groups, a_step, nd))
     rows = np.zeros((nd, 3 * stride, groups + columns))
-    kernels.side_by_side(history, body, kept.before, rows)
+    kernels.lay_side_by_side(history, body, kept.before, rows)
     padded = np.pad(kept.weights, ((0, 0), (0, columns * stride - taps), (0, 0)))
     joined = padded.reshape(a_step, columns, stride, 3).transpose(0, 3, 2, 1)
     weights = joined.reshape(a_step, 3 * stride, columns)

@@ -15,7 +15,7 @@ from bearingcore.model import _kernels as kernels
 from bearingcore.model.dynamics._damping import contact_damping
 from bearingcore.model.scene import DOF_NAMES, PackedScene, Scene
 from bearingcore.model.scene._defect import floor_bytes
-from bearingcore.model.scene._packing import contacts, pack
+from bearingcore.model.scene._packing import contacts, length_units, pack
 from bearingcore.model.statics import (
     ANGLES_A_PERIOD,
     ROUNDS,
@@ -23,7 +23,7 @@ from bearingcore.model.statics import (
     Equilibrium,
     equilibrium,
 )
-from bearingcore.model.statics._equilibrium import MOST_CONTACTS, equilibrium_of
+from bearingcore.model.statics._equilibrium import equilibrium_of
 from bearingcore.model.statics._positions import equilibrium_over_all, extremes, positions_of
 
 MIXED = 0.25
@@ -54,12 +54,8 @@ class Modes:
         angles.
     label : (m,)
         direction with the largest motion, numbered by rising frequency: "x1", "y1", "x2", "y2".
-    body : (m,)
-        "inner" or "outer": the body with the largest motion in that direction.
-    mean_shape : (m, 2 len(dofs))
-        undamped shapes at the mean stiffness, with which modes are matched.
     cost
-        the number of contacts if they exceeded `most_contacts`; else empty.
+        the number of contacts if they exceeded MOST_CONTACTS; else empty.
     state
         the static states that were linearised.
 
@@ -74,8 +70,6 @@ class Modes:
     undamped_frequency: Array
     shape: Array
     label: tuple[str, ...]
-    body: tuple[str, ...]
-    mean_shape: Array
     cost: str = ""
     state: Equilibrium | None = field(default=None, repr=False, compare=False)
 
@@ -106,9 +100,7 @@ class Modes:
         return dict(zip(self.label, ends, strict=True))
 
 
-def modes(
-    scene: Scene, cage_angles: ArrayLike | None = None, *, most_contacts: int = MOST_CONTACTS
-) -> Modes:
+def modes(scene: Scene, cage_angles: ArrayLike | None = None) -> Modes:
     """Compute natural frequencies, damping and shapes of `scene` at each cage angle (Eqs. 24-29).
 
     Parameters
@@ -117,20 +109,16 @@ def modes(
         the scene; support and inertia must be known along its active directions.
     cage_angles : (n,)
         [rad]; None takes one period, as `equilibrium` does.
-    most_contacts
-        as of `equilibrium`. Beyond it nothing is computed, and `cost` gives the number.
 
     Raises
     ------
     ValueError
         if the support lacks a number; the error names it.
     """
-    return modes_at(equilibrium(scene, cage_angles, most_contacts=most_contacts))
+    return modes_at(equilibrium(scene, cage_angles))
 
 
-def frequency_bands(
-    scene: Scene, *, coarse: bool = False, most_contacts: int = MOST_CONTACTS
-) -> dict[str, tuple[float, float]]:
+def frequency_bands(scene: Scene, *, coarse: bool = False) -> dict[str, tuple[float, float]]:
     """Compute the least and greatest natural frequency [Hz] of each mode over all positions.
 
     The positions are all cage angles and, if a defect turns with the shaft, all shaft angles at
@@ -144,13 +132,11 @@ def frequency_bands(
         as of `modes`.
     coarse
         True for a third of the cage angles and half the refinements.
-    most_contacts
-        as of `equilibrium`, for the first samples. Beyond it nothing is computed.
 
     Returns
     -------
     {label: (least, greatest)} [Hz]
-        NaN for both if no angle has an answer, or nothing was computed.
+        NaN for both if no angle has an answer.
 
     Raises
     ------
@@ -162,7 +148,7 @@ def frequency_bands(
     n, rounds = ((n - 1) // 3 + 1, 2) if coarse else (n, ROUNDS)
     packed = pack(scene)
     positions = positions_of(packed, n)
-    state = equilibrium_over_all(packed, n, most_contacts)
+    state = equilibrium_over_all(packed, n)
     if not state.converged.any():
         return modes_at(state).bands()
     search = BandSearch(scene, stiffness_terms(state), state.shares)
@@ -211,7 +197,7 @@ class BandSearch:
         share = max(float(known.sum()), 1e-300)
         mean[row, column] = mean[column, row] = np.nan_to_num(chosen) @ known / share
         self.template = _undamped(two_body_matrix(mean, self._support), mass)[1]
-        self.labels = _labels(self.template, mass, dofs)[0]
+        self.labels = _labels(self.template, mass, dofs)
 
     def frequencies(self, terms: Array) -> Array:
         """(m, n) [Hz] for stiffness terms (15, n); NaN where one that counts is not known."""
@@ -231,7 +217,7 @@ def modes_at(state: Equilibrium, template: Array | None = None, *, nearly: bool 
     """The modes at static states that are already known.
 
     They are followed by the shapes of a template (m, m), else by those of their mean stiffness.
-    `nearly`: damping by `_nearly_damped`, which is quicker.
+    `nearly`: damping by `_approximate_damping`, which is quicker.
     """
     scene, dofs = state.scene, state.dofs
     nd = len(dofs)
@@ -240,12 +226,10 @@ def modes_at(state: Equilibrium, template: Array | None = None, *, nearly: bool 
     if state.cost:
         support = two_body_matrix(np.zeros((nd, nd)), scene.support.stiffness(dofs))
         _, template = _undamped(support, mass)
-        names = _labels(template, mass, dofs)
+        label = _labels(template, mass, dofs)
         rows = np.broadcast_to(np.float64(math.nan), (len(state.cage_angles), 2 * nd))
         shapes = np.broadcast_to(np.float64(math.nan), (*rows.shape, 2 * nd))
-        return Modes(
-            scene, dofs, state.cage_angles, rows, rows, rows, shapes, *names, template, state.cost
-        )
+        return Modes(scene, dofs, state.cage_angles, rows, rows, rows, shapes, label, state.cost)
     K_b = state.stiffness[:, index][:, :, index]
     C_b = contact_damping(scene) * loaded_directions(state)[:, index][:, :, index]
     K = two_body_matrix(K_b, scene.support.stiffness(dofs))
@@ -264,12 +248,11 @@ def modes_at(state: Equilibrium, template: Array | None = None, *, nearly: bool 
         template = _undamped(mean, mass)[1]
     if known.any():
         undamped[known], shape[known] = _follow(*_undamped(K[known], mass), template, mass)
-        damped = _nearly_damped if nearly else _damped
+        damped = _approximate_damping if nearly else _exact_damping
         frequency[known], ratio[known] = damped(K[known], C[known], mass, shape[known])
-    label, body = _labels(template, mass, dofs)
+    label = _labels(template, mass, dofs)
     return Modes(
-        scene, dofs, state.cage_angles, frequency, ratio, undamped, shape, label, body, template,
-        state=state,
+        scene, dofs, state.cage_angles, frequency, ratio, undamped, shape, label, state=state
     )  # fmt: skip
 
 
@@ -363,21 +346,8 @@ def two_body_matrix(bearing: Array, support: Array) -> Array:
 def loaded_directions(state: Equilibrium) -> Array:
     """Σ e e' over the loaded balls, (n, 5, 5), e the direction of a contact in q (Eq. 27)."""
     alpha, phi = np.nan_to_num(state.contact_angle), state.ball_angle
-    radial, axial = np.cos(alpha), np.sin(alpha)
-    every = contacts(state.scene.bearing)
-    lever = state.scene.bearing.groove_center_radius
-    tilting = lever * (every.reach * axial - every.arm * radial)
-    e = np.stack(
-        [
-            radial * np.cos(phi),
-            radial * np.sin(phi),
-            axial,
-            tilting * np.sin(phi),
-            -tilting * np.cos(phi),
-        ],
-        axis=-1,
-    )
-    e *= state.carries[..., None]
+    e = contacts(state.scene.bearing).gradients(phi, np.cos(alpha), np.sin(alpha))
+    e *= state.carries[..., None] * length_units(state.scene)
     return np.swapaxes(e, 1, 2) @ e
 
 
@@ -428,7 +398,7 @@ def _undamped(K: Array, mass: Array) -> tuple[Array, Array]:
     return frequency, np.swapaxes(vectors, -1, -2) / root
 
 
-def _damped(K: Array, C: Array, mass: Array, shape: Array) -> tuple[Array, Array]:
+def _exact_damping(K: Array, C: Array, mass: Array, shape: Array) -> tuple[Array, Array]:
     """|λ|/2π [Hz] and −Re λ/|λ| of each mode with damping, each in the place of its undamped mode.
 
     State matrix [0, 1; −M⁻¹K, −M⁻¹C]: the signs of Eq. 28 mended.
@@ -449,12 +419,12 @@ def _damped(K: Array, C: Array, mass: Array, shape: Array) -> tuple[Array, Array
     return size / (2.0 * math.pi), -chosen.real / np.maximum(size, 1e-300)
 
 
-def _nearly_damped(K: Array, C: Array, mass: Array, shape: Array) -> tuple[Array, Array]:
-    """`_damped` to the third order in what dampers couple, without an eigenvalue problem.
+def _approximate_damping(K: Array, C: Array, mass: Array, shape: Array) -> tuple[Array, Array]:
+    """`_exact_damping` to the third order in what dampers couple, without an eigenvalue problem.
 
     In modal coordinates, with D_j = λ² + c_jj λ + ω_j² of the other modes j, k ≠ i:
     λ² + c_ii λ + ω_i² = λ² Σ_j c_ij²/D_j − λ³ Σ_jk c_ij c_jk c_ki/(D_j D_k), k ≠ j. Where modes mix
-    by more than MIXED, or one hardly swings, as `_damped` has it.
+    by more than MIXED, or one hardly swings, as `_exact_damping` has it.
     """
     c = shape @ C @ np.swapaxes(shape, 1, 2)
     damping = np.diagonal(c, axis1=1, axis2=2)
@@ -472,14 +442,12 @@ def _nearly_damped(K: Array, C: Array, mass: Array, shape: Array) -> tuple[Array
     frequency, ratio = size / (2.0 * math.pi), -rate.real / np.maximum(size, 1e-300)
     near = (np.abs(there * part) < MIXED).all(axis=(1, 2)) & (damping**2 < squared).all(axis=1)
     if not near.all():
-        frequency[~near], ratio[~near] = _damped(K[~near], C[~near], mass, shape[~near])
+        frequency[~near], ratio[~near] = _exact_damping(K[~near], C[~near], mass, shape[~near])
     return frequency, ratio
 
 
-def _labels(
-    template: Array, mass: Array, dofs: tuple[str, ...]
-) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Direction and number of each mode, two modes a direction, and the body that moves most.
+def _labels(template: Array, mass: Array, dofs: tuple[str, ...]) -> tuple[str, ...]:
+    """Direction and number of each mode, two modes a direction.
 
     `template` (m, m) are shapes in the order of rising frequency.
     """
@@ -491,6 +459,4 @@ def _labels(
     for d in range(nd):
         for number, i in enumerate(np.flatnonzero(direction == d), start=1):
             label[i] = f"{dofs[d]}{number}"
-    mode = np.arange(m)
-    outer = np.abs(template[mode, nd + direction]) > np.abs(template[mode, direction])
-    return tuple(label), tuple("outer" if flag else "inner" for flag in outer)
+    return tuple(label)

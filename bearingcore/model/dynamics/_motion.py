@@ -10,6 +10,7 @@ import numpy as np
 
 from bearingcore.common import (
     Array,
+    Progress,
     ResultTable,
     _checks as checks,
     cached_property,
@@ -37,7 +38,6 @@ from bearingcore.model.scene import (
     MASSLESS,
     WITH_MASS,
     PackedMotion,
-    PackedScene,
     Scene,
     _packing as packing,
 )
@@ -98,11 +98,9 @@ class Motion:
         mass are shorter than a sample.
     bandwidth [Hz]
         frequency up to which accelerations are complete: 0.4 of the lower of sample and step rate.
-    ball_load : (n, N_b) [N] or None
-        elastic contact loads Q_j = K δ_j^1.5 (Eq. 13), if `ball_loads` was True; for balls with
-        mass at the outer race.
     ball_place : (n, 1 or 2, N_b) [m] or None
-        radial place of balls with mass, and their axial place if they move along the shaft.
+        radial place of balls with mass, and their axial place if they move along the shaft, both
+        against the unloaded ball that touches the outer race, with concentric rings.
     """
 
     scene: Scene
@@ -112,7 +110,6 @@ class Motion:
     status: MotionStatus
     right_hand_side_calls: int
     time: Array
-    ball_load: Array | None
     history: Array = field(repr=False)
     ball_place: Array | None = field(default=None, repr=False)
     detail: str = ""
@@ -185,57 +182,27 @@ class Motion:
         signal = self.outer_acceleration[first:]
         return spectrum(signal, self.sample_rate, resolution).up_to(self.bandwidth)
 
-    @cached_property
-    def ball_position(self) -> Array:
-        """(n, 2, N_b) [m] radial and axial place of each ball.
+    def ball_loads(self, start: int = 0, stop: int | None = None) -> Array:
+        """Elastic contact loads (stop − start, N_b) [N] of the samples from start to stop (Eq. 13).
 
-        Relative to the unloaded ball that touches the outer race, with concentric rings.
-
-        Raises
-        ------
-        ValueError
-            for massless balls, whose positions are not computed.
+        For balls with mass they are those at the outer race. Fewer samples cost less.
         """
-        place = self.ball_place
-        if place is None:
-            raise checks.refuse("balls", self.scene.balls, "with mass, for balls with a place")
-        full = np.zeros((len(place), 2, place.shape[2]))
-        full[:, : place.shape[1]] = place
-        return full
+        return self.race_loads(start, stop)[1]
 
     def race_loads(self, start: int = 0, stop: int | None = None) -> Array:
         """Elastic loads (2, stop − start, N_b) [N] at inner and outer race, of some samples.
 
         For massless balls both are the same.
         """
-        return np.stack(self._loads(None, start, stop))
-
-    def ball_loads(self, start: int = 0, stop: int | None = None) -> Array:
-        """Elastic contact loads (stop − start, N_b) [N] of the samples from start to stop.
-
-        For balls with mass they are those at the outer race. Fewer samples cost less.
-        """
-        return self._loads(None, start, stop)[1]
-
-    def with_ball_loads(self, packed: PackedScene) -> Motion:
-        """Return the same motion with the loads of its balls; NaN for a motion without steps."""
-        if not self.right_hand_side_calls:
-            nothing = np.full((len(self.time), packed.contacts.angle.size), math.nan)
-            return replace(self, ball_load=nothing)
-        return replace(self, ball_load=self._loads(packed, 0, None)[1])
-
-    def _loads(
-        self, packed: PackedScene | None, start: int, stop: int | None
-    ) -> tuple[Array, Array]:
-        """Loads at both races; `packed` is the scene, where it is packed already."""
         place, speed, rate = self.ball_place, self.scene.cage_speed, self.sample_rate
-        packed = packed or packing.pack(self.scene, self.dofs, balls=place is not None)
+        packed = packing.pack(self.scene, self.dofs, balls=place is not None)
         first, last = slice(start, stop).indices(len(self.time))[:2]
         begin, turned = float(first * speed / rate), speed / rate
         if place is not None:
             rows = self.history[first:last], place[first:last]
-            at_inner, at_outer = loads_of_races(packed, *rows, (begin, turned))
-            return at_inner, at_outer
+            return loads_of_races(packed, *rows, (begin, turned))
+        if not self.right_hand_side_calls:
+            return np.full((2, last - first, packed.contacts.angle.size), math.nan)
         inner, outer = (self._scaled(body, 0, first, last) for body in ("inner", "outer"))
         loads = np.asarray(
             kernels.elastic_loads(
@@ -243,13 +210,12 @@ class Motion:
             )
         )
         loads[~np.isfinite(inner[:, 0])] = math.nan
-        return loads, loads
+        return np.broadcast_to(loads, (2, *loads.shape))
 
     def table(self) -> ResultTable:
-        """A row for each sample: motion of both rings, and loads if known."""
+        """A row for each sample: motion of both rings."""
         units = {"displacement": ("m", "rad"), "velocity": ("m/s", "rad/s")}
         units["acceleration"] = ("m/s²", "rad/s²")
-        loads = [] if self.ball_load is None else list(enumerate(self.ball_load.T))
         return table_of(
             ("time", "s", self.time),
             *(
@@ -258,7 +224,6 @@ class Motion:
                 for what, unit in units.items()
                 for dof, values in zip(self.dofs, getattr(self, f"{body}_{what}").T, strict=True)
             ),
-            *((f"ball_{j + 1}_load", "N", load, f"load of ball {j + 1}") for j, load in loads),
         )
 
     @property
@@ -304,9 +269,9 @@ def simulate(
     duration: float = 1.4,
     sample_rate: float = 65536.0,
     *,
-    ball_loads: bool = False,
     step_rate: float | None = None,
     most_steps: int = MOST_STEPS,
+    progress: Progress | None = None,
 ) -> Motion:
     """Simulate the motion of `scene` from its static state at cage angle 0 (Runge-Kutta, order 4).
 
@@ -318,8 +283,6 @@ def simulate(
         [s]
     sample_rate
         [Hz] of the returned samples.
-    ball_loads
-        True to return the loads of the balls too.
     step_rate
         [Hz], a multiple or a whole fraction of the sample rate; for balls with mass a multiple. If
         a step is too long for the contacts of balls with mass, no motion is computed and the status
@@ -330,6 +293,9 @@ def simulate(
         limit on the number of steps. Beyond it no motion is computed, and the status gives the
         number. A light body on a stiff support needs hundreds of millions a second. Steps for the
         REACH further samples that the filter needs (`low_pass`) are not counted.
+    progress
+        called about ten times a second with the part done, 0 to 1, and words; an exception from it
+        ends the work. Under the law without tension each number of steps begins at 0 again.
 
     Returns
     -------
@@ -367,16 +333,18 @@ def simulate(
         )
     rest = equilibrium_of(packed, [0.0])
 
-    def at(rate: float) -> Motion:
-        return _marched(packed, rest, duration, sample_rate, rate, most_steps)
+    def march(rate: float) -> Motion:
+        words = f"{duration:g} s at {thousands(rate)} steps a second"
+        watch = None if progress is None else lambda part: progress(part, words)
+        return _marched(packed, rest, duration, sample_rate, rate, most_steps, watch)
 
     if step_rate is not None:
-        motion = at(step_rate)
+        motion = march(step_rate)
     else:
         rate = step_rate_of(packed, sample_rate)
         lets_go = scene.balls != WITH_MASS and scene.contact_law != CONTACT_LAWS[0]
-        motion = _double_steps(at, rate, sample_rate) if lets_go else at(rate)
-    return motion.with_ball_loads(packed) if ball_loads else motion
+        motion = _double_steps(march, rate, sample_rate) if lets_go else march(rate)
+    return motion
 
 
 def _marched(
@@ -386,8 +354,9 @@ def _marched(
     sample_rate: float,
     step_rate: float,
     most_steps: int,
+    watch: kernels.Watch | None = None,
 ) -> Motion:
-    """Motion at one step rate [Hz], without loads of its balls; `rest`: state at cage angle 0."""
+    """Motion at one step rate [Hz]; `rest`: state at cage angle 0."""
     scene, dofs = packed.scene, packed.dofs
     with_mass = scene.balls == WITH_MASS
     a_step, a_sample = _ratio(sample_rate, step_rate)  # refuses a step rate that does not fit
@@ -415,16 +384,16 @@ def _marched(
         nowhere = np.broadcast_to(unknown, (n, parts, n_balls)) if with_mass else None
         status, detail = refusal
         return Motion(
-            scene, dofs, sample_rate, step_rate, status, 0, time, None, nothing, nowhere, detail
+            scene, dofs, sample_rate, step_rate, status, 0, time, nothing, nowhere, detail
         )
     h = 1.0 / step_rate
     place = filtered = None
     history = np.empty((rows, 6, len(dofs)))
     if with_mass:
         place = np.empty((-(-rows // kept), parts, n_balls))
-        marched = march_balls(packed, rest, h, every, history, place)
+        marched = march_balls(packed, rest, h, every, history, place, watch)
     else:
-        marched = march_from(packed, rest, h, history)
+        marched = march_from(packed, rest, h, history, watch)
     done, status, detail = marched or 0, MotionStatus.COMPLETED, ""
     if marched is None:
         status, detail = MotionStatus.NO_START, f": {rest.reason(0)}"
@@ -449,7 +418,6 @@ def _marched(
         status=status,
         right_hand_side_calls=4 * done,
         time=time,
-        ball_load=None,
         history=history,
         ball_place=place,
         detail=detail,
@@ -460,7 +428,7 @@ def _marched(
 def _refusal(
     shown: int, most_steps: int, step_rate: float, least: float
 ) -> tuple[MotionStatus, str] | None:
-    """Why a motion of so many steps, at a rate that has to be `least` [Hz], is not begun; or None.
+    """Reason not to begin a motion of so many steps, at a rate of at least `least` [Hz]; or None.
 
     Explicit steps that are too long for the stiffest mode of a ball grow without end.
     """
@@ -477,19 +445,19 @@ def _refusal(
     return None
 
 
-def _double_steps(at: Callable[[float], Motion], rate: float, sample_rate: float) -> Motion:
+def _double_steps(march: Callable[[float], Motion], rate: float, sample_rate: float) -> Motion:
     """Motion of contacts that let go: steps are doubled until half as many make no difference.
 
     Where they touch and leave their load jumps, so that errors fall with the step itself.
     """
     a_sample = rate / sample_rate
-    before = _level(at(sample_rate * (a_sample // 2) if a_sample >= 2.0 else 0.5 * rate))
+    before = _level(march(sample_rate * (a_sample // 2) if a_sample >= 2.0 else 0.5 * rate))
     for _ in range(MOST_DOUBLINGS + 1):
-        motion = at(rate)
+        motion = march(rate)
         level = _level(motion)
         alike = abs(level - before) <= SAME_LEVEL * max(level, QUIET)
         if alike and motion.completed and level > QUIET:
-            return replace(motion, detail=_bands_apart(motion, at(2.0 * rate)))
+            return replace(motion, detail=_bands_apart(motion, march(2.0 * rate)))
         if alike or not motion.completed:
             return motion
         before, rate = level, 2.0 * rate
@@ -530,17 +498,24 @@ def _level(motion: Motion) -> float:
     return math.sqrt(float(np.mean(late * late)))
 
 
-def march_from(packed: PackedMotion, rest: Equilibrium, h: float, history: Array) -> int | None:
+def march_from(
+    packed: PackedMotion,
+    rest: Equilibrium,
+    h: float,
+    history: Array,
+    watch: kernels.Watch | None = None,
+) -> int | None:
     """Fill `history` (steps + 1, 6, nd) by steps of h [s] from the static state at cage angle 0.
 
     Returns the number of steps after which all was finite; None where there is no static state.
+    `watch` is called with the part done.
     """
     y = static_start(packed, rest)
     if y is None:
         return None
     system = moving_system(packed)
     kernels.turn_smooth(y, 1.0, 0.0, system)
-    return int(kernels.march(y, h, 0.0, system, history))
+    return int(kernels.march(y, h, 0.0, system, history, watch))
 
 
 def moving_system(packed: PackedMotion, *, velocities: bool = False) -> kernels.System:

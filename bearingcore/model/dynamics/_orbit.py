@@ -20,6 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from bearingcore.common import (
     Array,
+    Progress,
     ResultTable,
     _checks as checks,
     shown_as_table,
@@ -47,6 +48,9 @@ MOST_BALL_PASSES = 400
 
 WINDOW_REACH = 6
 """Bins over which the Hann window lets a line be seen: beyond, its side lobes are 60 dB down."""
+
+MOST_ITERATIONS = 25
+"""Newton steps at most."""
 
 MARCHED_BEFORE = (2, 20, 60)
 """Periods marched before Newton's method begins, and before it begins again."""
@@ -125,38 +129,18 @@ class Orbit:
             ("multiplier_size", "1", np.abs(self.multipliers), "above 1 a disturbance grows"),
         )
 
-    def outer_acceleration(self, time: ArrayLike) -> Array:
-        """(n, len(dofs)) [m/s², rad/s²] of the housing at times [s], the period repeated.
-
-        It is unfiltered and jumps as balls touch, so that its samples alias frequencies above half
-        their rate. `spectrum` avoids this.
-        """
-        time = np.asarray(time, dtype=float).ravel() % self.period
-        return self._states(time)[:, 5] / packing.length_units(self.scene, self.dofs)
-
-    def _states(self, time: Array) -> Array:
-        """(n, 6, len(dofs)) rows as those of `history` at times [s] within the period."""
-        parts = [self._sampled(time, body, derivative) for body in (0, 3) for derivative in (0, 1)]
-        # from the equations of motion: it jumps as balls touch, and no interpolation follows that
-        moving = moving_system(packed_motion(self.scene, self.dofs), velocities=True)
-        rates = np.asarray(kernels.motion_rates(time, np.hstack(parts), 0.0, moving))
-        inner, outer = (rates[:, k * len(self.dofs) :][:, : len(self.dofs)] for k in (1, 3))
-        return np.stack([parts[0], parts[1], inner, parts[2], parts[3], outer], axis=1)
-
     def inner_displacement(self, time: ArrayLike) -> Array:
-        """(n, len(dofs)) [m, rad] of the inner ring at times [s], the period repeated."""
-        return self._sampled(time, 0, 0) / packing.length_units(self.scene, self.dofs)
+        """(n, len(dofs)) [m, rad] of the inner ring at times [s], the period repeated.
 
-    def _sampled(self, time: ArrayLike, body: int, derivative: int) -> Array:
-        """Quintic interpolation in the periodic history, tilts times r_d."""
+        By quintic interpolation between steps.
+        """
         steps = len(self.history) - 1
         at = np.asarray(time, dtype=float) / self.period * steps % steps
         step = np.minimum(at.astype(int), steps - 1)
-        weights = hermite_weights(at - step, derivative, self.period / steps)
-        ends = np.concatenate(
-            [self.history[step, body : body + 3], self.history[step + 1, body : body + 3]], axis=1
-        )
-        return np.einsum("nw,nwd->nd", weights, ends)
+        weights = hermite_weights(at - step, 0, self.period / steps)
+        ends = np.concatenate([self.history[step, :3], self.history[step + 1, :3]], axis=1)
+        scaled = np.einsum("nw,nwd->nd", weights, ends)
+        return scaled / packing.length_units(self.scene, self.dofs)
 
     def spectrum(
         self,
@@ -223,13 +207,16 @@ def orbit(
     scene: Scene,
     *,
     start: Orbit | None = None,
-    ball_passes: int | None = None,
     step_rate: float | None = None,
-    most_iterations: int = 25,
     most_steps: int = MOST_STEPS,
     give_up: Callable[[], bool] | None = None,
+    progress: Progress | None = None,
 ) -> Orbit:
     """Find the periodic motion of `scene` by Newton's method on P(y) = y (shooting).
+
+    Its period is the shortest after which all that acts on the rings repeats: one ball pass for
+    healthy bearings and outer-race defects; for an inner-race defect there is one only if shaft and
+    cage return together (`common_ball_passes`).
 
     The variational equations are integrated with the motion. Newton's method finds unstable orbits
     too, so the multipliers are part of the answer: a machine settles to a stable orbit only.
@@ -240,20 +227,17 @@ def orbit(
         the scene; it moves along its active directions.
     start
         an orbit of a similar scene to start from; None starts at the static state.
-    ball_passes
-        number of ball passes in a period: 1 for healthy bearings and outer-race defects, as all
-        ball passes are then alike. None takes the shortest period; an inner-race defect has one
-        only if shaft and cage return together.
     step_rate
         least step rate [Hz]; the period has a whole number of steps. None as in `simulate`.
-    most_iterations
-        limit on the Newton steps.
     most_steps
         limit on all steps of integration. They are counted before each period; beyond the limit the
         search ends and the status says so.
     give_up
         called after every period; True ends the search, which has then not converged unless this
         period was the orbit.
+    progress
+        called after every period, and at least ten times a second, with the used part of
+        `most_steps` and words; an exception from it ends the search.
 
     Raises
     ------
@@ -263,15 +247,7 @@ def orbit(
     checks.instance("scene", scene, Scene)
     checks.real_number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")
     dofs = scene.active_dofs
-    shortest = common_ball_passes(scene)
-    if ball_passes is None:
-        ball_passes = shortest or 0
-    else:
-        ball_passes = checks.whole_number(
-            "ball_passes", ball_passes, at_least=1, at_most=MOST_BALL_PASSES
-        )
-        if shortest is None or ball_passes % shortest:
-            ball_passes = 0
+    ball_passes = common_ball_passes(scene) or 0
     nothing = Orbit(
         scene, dofs, OrbitStatus.NO_PERIOD, "", math.nan, ball_passes, np.zeros(0, complex),
         math.nan, 0, 0, np.full((2, 6, len(dofs)), math.nan),
@@ -288,21 +264,21 @@ def orbit(
         most = thousands(most_steps)
         cost = f"{thousands(steps)} steps a period, allowed are most_steps = {most} in all"
         return replace(nothing, status=OrbitStatus.TOO_MANY_STEPS, period=period, cost=cost)
-    shooting = _Shooting(packed, period, steps, give_up, most_steps)
+    shooting = _Shooting(packed, period, steps, give_up, most_steps, progress)
     rest = equilibrium_of(packed, [0.0])
     y = static_start(packed, rest) if start is None else _state_at_start(start, dofs)
     if y is None:
         why = rest.reason(0)
         return replace(nothing, status=OrbitStatus.NO_START, period=period, cost=why)
-    y = shooting.own(y)
+    y = shooting.smooth_state(y)
     if start is not None:
-        answer = _newton(nothing, shooting, y, period, most_iterations)
+        answer = _newton(nothing, shooting, y, period)
         if answer.status != OrbitStatus.NOT_CONVERGED or shooting.given_up:
             return shooting.reported(answer)
     # where Newton loses its way it begins again, nearer to where the motion itself goes
     for periods in MARCHED_BEFORE:
-        y = shooting.marched(y, periods)
-        answer = _newton(nothing, shooting, y, period, most_iterations)
+        y = shooting.march(y, periods)
+        answer = _newton(nothing, shooting, y, period)
         if answer.status != OrbitStatus.NOT_CONVERGED or shooting.given_up:
             break
     return shooting.reported(answer)
@@ -346,7 +322,9 @@ class _Shooting:
         steps: int,
         give_up: Callable[[], bool] | None = None,
         most_steps: int = MOST_STEPS,
+        progress: Progress | None = None,
     ) -> None:
+        self._progress = progress
         self.steps = steps
         self._most_steps = most_steps
         self._too_many = False
@@ -360,28 +338,34 @@ class _Shooting:
         omega = 2.0 * math.pi * highest_frequency_of(packed)
         self.scale = np.repeat([1.0, 1.0 / omega, 1.0, 1.0 / omega], len(packed.dofs))
 
-    def own(self, y: Array) -> Array:
-        """A state of displacements and velocities in the variables that are marched."""
+    def smooth_state(self, y: Array) -> Array:
+        """Turn displacements and velocities into the variables that are marched."""
         periodic = y.copy()
         kernels.turn_smooth(periodic, 1.0, 0.0, self._system)
         return periodic
 
-    def marched(self, y: Array, periods: int = 1) -> Array:
+    def march(self, y: Array, periods: int = 1) -> Array:
         """P(y), or P of P, or more."""
         end = y.copy()
         for _ in range(periods):
             if self.given_up:
                 break
-            kernels.march(end, self._step, 0.0, self._system, self.history)
+            kernels.march(end, self._step, 0.0, self._system, self.history, self._watch)
             self._count()
         return end
 
-    def with_tangent(self, y: Array) -> tuple[Array, Array]:
+    def march_with_tangent(self, y: Array) -> tuple[Array, Array]:
         """P(y) and its derivative."""
         both = np.concatenate([y, np.eye(y.size).ravel()])
-        kernels.march(both, self._step, 0.0, self._system, self.history)
+        kernels.march(both, self._step, 0.0, self._system, self.history, self._watch)
         self._count()
         return both[: y.size], both[y.size :].reshape(y.size, y.size)
+
+    def _watch(self, part: float) -> None:
+        """Report the steps so far and a part of a period."""
+        if self._progress is not None:
+            steps = self.calls // 4 + round(part * self.steps)
+            self._progress(min(steps / self._most_steps, 1.0), f"{thousands(steps)} steps")
 
     def _count(self) -> None:
         self.calls += 4 * self.steps
@@ -407,11 +391,12 @@ class _Shooting:
         return float(np.linalg.norm((end - y) * self.scale) / max(size, STILL))
 
 
-def _newton(nothing: Orbit, shooting: _Shooting, y: Array, period: float, most: int) -> Orbit:
-    end, tangent = shooting.with_tangent(y)
+def _newton(nothing: Orbit, shooting: _Shooting, y: Array, period: float) -> Orbit:
+    """Solve P(y) = y from y; its Jacobian is the tangent less 1. A step is cut until it helps."""
+    end, tangent = shooting.march_with_tangent(y)
     miss = shooting.miss(y, end)
     iterations = 0
-    while miss > CLOSED and iterations < most and math.isfinite(miss) and not shooting.given_up:
+    while CLOSED < miss < math.inf and iterations < MOST_ITERATIONS and not shooting.given_up:
         iterations += 1
         try:
             step = np.linalg.solve(tangent - np.eye(y.size), y - end)
@@ -420,7 +405,7 @@ def _newton(nothing: Orbit, shooting: _Shooting, y: Array, period: float, most: 
         part = 1.0
         while part > 0.02:
             trial = y + part * step
-            trial_end, trial_tangent = shooting.with_tangent(trial)
+            trial_end, trial_tangent = shooting.march_with_tangent(trial)
             trial_miss = shooting.miss(trial, trial_end)
             if trial_miss < miss or shooting.given_up:
                 break
@@ -428,7 +413,7 @@ def _newton(nothing: Orbit, shooting: _Shooting, y: Array, period: float, most: 
         else:
             # no part of the step helps: let the motion itself move on
             trial = end
-            trial_end, trial_tangent = shooting.with_tangent(trial)
+            trial_end, trial_tangent = shooting.march_with_tangent(trial)
             trial_miss = shooting.miss(trial, trial_end)
         y, end, tangent, miss = trial, trial_end, trial_tangent, trial_miss
     answer = replace(

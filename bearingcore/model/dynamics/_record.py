@@ -7,16 +7,14 @@ The effects are drawn, not derived: what is learned from such records has to be 
 
 from __future__ import annotations
 
-import dataclasses
 import math
 import zlib
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bearingcore.common import Array, _checks as checks
+from bearingcore.common import Array, Progress, _checks as checks
 from bearingcore.model.dynamics._motion import SETTLING, simulate
 from bearingcore.model.scene import Scene
 from bearingcore.model.statics import crossings, equilibrium
@@ -99,12 +97,6 @@ class PathEffects:
     noise: float | None = 20.0
     background: float = 0.0
 
-    def without(self, *names: str) -> PathEffects:
-        """The same with some effects switched off, by the names of their fields."""
-        off: dict[str, Any] = {"cage_wander": 0.0, "resonances": (), "knock": 0.0}
-        off |= {"shaft_tones": 0.0, "noise": None, "background": 0.0}
-        return dataclasses.replace(self, **{name: off[name] for name in names})
-
 
 def simulated_record(
     scene: Scene,
@@ -113,6 +105,7 @@ def simulated_record(
     sample_rate: float = 20_480.0,
     *,
     seed: int | None = None,
+    progress: Progress | None = None,
 ) -> Recording:
     """Simulate the record of a real sensor in a scene, for learning and trials.
 
@@ -132,6 +125,8 @@ def simulated_record(
     seed
         seed of the random numbers; None: a seed made from the scene, so that equal scenes give
         equal records.
+    progress
+        see `simulate`.
 
     Raises
     ------
@@ -146,7 +141,7 @@ def simulated_record(
         resonances, background = drawn_resonances(rng), math.exp(rng.uniform(*_BACKGROUND))
         effects = PathEffects(resonances=resonances, background=background)
     start = SETTLING + float(rng.uniform(0.05, 0.25))
-    motion = simulate(scene, start + 1.02 * duration + 0.05, sample_rate)
+    motion = simulate(scene, start + 1.02 * duration + 0.05, sample_rate, progress=progress)
     if not motion.completed:
         raise checks.refuse("scene", motion.reason, "one whose motion is computed")
     directions = tuple(name for name in DIRECTIONS if name in motion.dofs)

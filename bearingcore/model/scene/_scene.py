@@ -6,14 +6,17 @@ import dataclasses
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any, ClassVar, Self
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
-from bearingcore.bearings import Bearing, bearing_of
+from bearingcore.bearings import Bearing, BearingLike, bearing_of
 from bearingcore.bearings._kind import DIRECTIONS
 from bearingcore.bearings._kinds import recognized
 from bearingcore.bearings._line_contact import mended_factor
+from bearingcore.bearings._preload import ROW_CHANGES
 from bearingcore.common import _checks as checks, _scene_file as scene_file
+from bearingcore.fields import FIELDS
 from bearingcore.model.scene._defect import Defect, path_tables
+from bearingcore.model.scene._floor import RoughFloor
 from bearingcore.model.scene._load import Load
 from bearingcore.model.scene._support import Support
 
@@ -95,6 +98,22 @@ class Scene:
     dofs: tuple[str, ...] | str | None = None
     balls: str = dataclasses.field(default=MASSLESS, metadata=scene_file.LEFT_OUT)
     unbalance: float = dataclasses.field(default=0.0, metadata=scene_file.LEFT_OUT)
+
+    if TYPE_CHECKING:  # the fields say what a scene holds, this what it takes
+
+        def __init__(
+            self,
+            bearing: BearingLike,
+            defect: Defect | Iterable[Defect],
+            load: Load,
+            shaft_speed: float,
+            support: Support,
+            contact_damping: float | None = None,
+            contact_law: str = "published",
+            dofs: Iterable[str] | None = None,
+            balls: str = MASSLESS,
+            unbalance: float = 0.0,
+        ) -> None: ...
 
     def __post_init__(self) -> None:
         checks.keep_number(self, "shaft_speed", at_least=0.0)
@@ -321,7 +340,9 @@ class Scene:
         >>> scene.defect.extent, scene.load.fy
         (0.2, -50.0)
 
-        Fields of a defect change the first of several defects.
+        Fields of a defect change the first of several defects. Those of a rough floor change it,
+        or make one if both its height and its length are given; those of two rows: see
+        `Bearing.replace`.
 
         Raises
         ------
@@ -343,8 +364,10 @@ class Scene:
         for part, values in inside.items():
             old = fields.get(part, getattr(self, part))
             if part == "defect" and not isinstance(old, Defect):
-                first = dataclasses.replace(old[0] if old else Defect.none(), **values)
+                first = _change_defect(old[0] if old else Defect.none(), values)
                 fields[part] = (first, *old[1:])
+            elif part == "defect":
+                fields[part] = _change_defect(old, values)
             elif isinstance(old, Bearing):
                 fields[part] = old.replace(**values)
             else:
@@ -363,6 +386,24 @@ _PART_OF_FIELD = {
     )
     for field in dataclasses.fields(kind)
 }
+_PART_OF_FIELD |= dict.fromkeys(ROW_CHANGES, "bearing")
+_OF_FLOOR = {field.name for field in FIELDS if field.part == "floor"}
+_PART_OF_FIELD |= dict.fromkeys(_OF_FLOOR, "defect")
+
+
+def _change_defect(defect: Defect, values: dict[str, Any]) -> Defect:
+    """A defect with changed fields, those of its rough floor among them."""
+    of_floor = {name: values[name] for name in values if name in _OF_FLOOR}
+    of_defect = {name: values[name] for name in values if name not in _OF_FLOOR}
+    defect = dataclasses.replace(defect, **of_defect)
+    if not of_floor:
+        return defect
+    if isinstance(defect.floor, RoughFloor):
+        return dataclasses.replace(defect, floor=dataclasses.replace(defect.floor, **of_floor))
+    if not {"rms_height", "correlation_length"} <= of_floor.keys():
+        words = "left out, unless the defect has a RoughFloor or both its numbers are given"
+        raise checks.refuse(*next(iter(of_floor.items())), words)
+    return dataclasses.replace(defect, floor=RoughFloor(**of_floor))
 
 
 def check_dofs(dofs: Iterable[str]) -> tuple[str, ...]:

@@ -2,7 +2,6 @@
 
 from bearingcore.model.statics._ball_positions import (
     BallPositions as BallPositions,
-    CentrifugalEffect as CentrifugalEffect,
     EquilibriumWithMass as EquilibriumWithMass,
     ball_positions as ball_positions,
     static_state as static_state,

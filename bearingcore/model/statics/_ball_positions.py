@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,16 +16,12 @@ from bearingcore.common import (
     ResultTable,
     _checks as checks,
     cached_property,
-    number,
-    percent,
     shown_as_table,
     table_of,
-    with_prefix,
 )
 from bearingcore.model import _kernels as kernels
 from bearingcore.model.scene import DOF_NAMES, WITH_MASS, Scene, _packing as packing
 from bearingcore.model.statics._equilibrium import (
-    MOST_CONTACTS,
     TERM_INDICES,
     Equilibrium,
     default_cage_angles,
@@ -39,8 +36,6 @@ BALANCED = 1e-8
 
 CARRYING = 0.05
 """Part of the heaviest load above which a ball counts as carrying."""
-
-UNSETTLED = StaticStatus.NOT_CONVERGED
 
 
 @shown_as_table
@@ -133,14 +128,13 @@ def ball_positions(
     *,
     shaft_angles: ArrayLike | None = None,
     centrifugal_load: float | None = None,
-    weight: bool = False,
-    most_contacts: int = MOST_CONTACTS,
 ) -> BallPositions:
     """Compute the static equilibrium of `scene` under the centrifugal load of its balls.
 
     Each ball finds its place between its two contacts; contact angles, loads and stiffness follow.
-    Without centrifugal load and weight this is `equilibrium` to rounding. The gyroscopic moment of
-    a ball, which has no potential, is left out: `limits` says from what speed it matters.
+    Without centrifugal load this is `equilibrium` to rounding. The weight of the balls is left out,
+    and so is their gyroscopic moment, which has no potential: `limits` says from what speed it
+    matters.
 
     Parameters
     ----------
@@ -148,10 +142,6 @@ def ball_positions(
         as of `equilibrium`.
     centrifugal_load
         F_c [N] of each ball; None: at the scene's speed.
-    weight
-        True if the weight of the balls acts, along −y.
-    most_contacts
-        as of `equilibrium`.
 
     Returns
     -------
@@ -171,11 +161,10 @@ def ball_positions(
         packed = packing.pack(scene, active, balls=True)
     if cage_angles is None:
         cage_angles = default_cage_angles(scene)
-    massless = equilibrium_of(packed, cage_angles, shaft_angles, most_contacts)
+    massless = equilibrium_of(packed, cage_angles, shaft_angles)
     assert packed.balls is not None
     races = packed.balls.races
-    if not weight:
-        races = races._replace(weight=np.zeros_like(races.weight))
+    races = races._replace(weight=np.zeros_like(races.weight))
     if centrifugal_load is not None:
         races = races._replace(centrifugal=np.full_like(races.mass, centrifugal_load))
     if massless.cost:
@@ -197,8 +186,8 @@ def ball_positions(
     status[_exceeds_geometry(packed.balls, q, load, status)] = StaticStatus.BEYOND_GEOMETRY
     for none in (StaticStatus.NOT_CARRIED, StaticStatus.BEYOND_GEOMETRY):
         status[massless.status == none] = none
-    left = _unbalanced(packed.contacts, races, massless.cage_angles, load, angle)
-    status[(status < StaticStatus.NOT_CARRIED) & (left > BALANCED)] = UNSETTLED
+    left = _unbalanced(races, load, angle)
+    status[(status < StaticStatus.NOT_CARRIED) & (left > BALANCED)] = StaticStatus.NOT_CONVERGED
     residual = np.maximum(residual, left)
     units = packed.units
     gone = status >= StaticStatus.NOT_CARRIED
@@ -268,7 +257,6 @@ def static_state(
     dofs: Iterable[str] | None = None,
     *,
     shaft_angles: ArrayLike | None = None,
-    most_contacts: int = MOST_CONTACTS,
 ) -> Equilibrium:
     """Compute the static equilibrium by the scene's own model of the balls.
 
@@ -278,12 +266,8 @@ def static_state(
     """
     checks.instance("scene", scene, Scene)
     if scene.balls != WITH_MASS:
-        return equilibrium(
-            scene, cage_angles, dofs, shaft_angles=shaft_angles, most_contacts=most_contacts
-        )
-    answer = ball_positions(
-        scene, cage_angles, dofs, shaft_angles=shaft_angles, most_contacts=most_contacts
-    )
+        return equilibrium(scene, cage_angles, dofs, shaft_angles=shaft_angles)
+    answer = ball_positions(scene, cage_angles, dofs, shaft_angles=shaft_angles)
     known = answer.status < StaticStatus.NOT_CARRIED
     carries = (answer.load[0] > 0.0) & (answer.load[1] > 0.0)
     return EquilibriumWithMass(
@@ -305,14 +289,11 @@ def static_state(
     )
 
 
-@dataclass(frozen=True)
-class CentrifugalEffect:
+class CentrifugalEffect(NamedTuple):
     """Changes of a scene's static state by centrifugal load, the greatest over its cage angles.
 
     Attributes
     ----------
-    force [N]
-        F_c of a ball of the first row.
     load
         change of a load at the outer race over the heaviest load.
     contact_angle [rad]
@@ -324,23 +305,10 @@ class CentrifugalEffect:
         True where both states have an answer at all cage angles.
     """
 
-    force: float
     load: float
     contact_angle: float
     stiffness: float
     converged: bool
-
-    @property
-    def sentence(self) -> str:
-        """In a line, with the numbers."""
-        if not self.converged:
-            return "Centrifugal load: not known, as a cage angle has no static state."
-        return (
-            f"Centrifugal load of {with_prefix(self.force, 'N')} a ball changes loads by up to "
-            f"{percent(self.load, 2)} of the heaviest, stiffness by up to "
-            f"{percent(self.stiffness, 2)}, and separates the contact angles of the races by up to "
-            f"{number(math.degrees(self.contact_angle), 2)}°."
-        )
 
 
 @contextmanager
@@ -364,8 +332,7 @@ def centrifugal_effect(
     with_load = ball_positions(scene, without.cage_angles, shaft_angles=shaft_angles)
     both = without.converged & with_load.converged
     if not both.all():
-        nan = math.nan
-        return CentrifugalEffect(with_load.centrifugal_load, nan, nan, nan, False)
+        return CentrifugalEffect(math.nan, math.nan, math.nan, False)
     heaviest = max(float(without.load.max()), 1e-300)
     load = np.abs(with_load.load[1] - without.load[1]).max() / heaviest
     parted = np.abs(with_load.contact_angle[0] - with_load.contact_angle[1])
@@ -377,22 +344,17 @@ def centrifugal_effect(
         for name in ("k_xx", "k_yy", "k_zz")
     ]
     apart = float(np.nanmax(parted)) if np.isfinite(parted).any() else 0.0
-    return CentrifugalEffect(
-        with_load.centrifugal_load, float(load), apart, float(max(changes)), True
-    )
+    return CentrifugalEffect(float(load), apart, float(max(changes)), True)
 
 
-def _unbalanced(
-    contacts: kernels.Contacts, races: kernels.Races, cage_angles: Array, load: Array, angle: Array
-) -> Array:
+def _unbalanced(races: kernels.Races, load: Array, angle: Array) -> Array:
     """(n,) greatest force left on a ball over the greatest load at that cage angle.
 
     Looked at once more with the answer at hand: a ball that did not settle must not pass for one.
     """
-    phi = contacts.angles_at(cage_angles)
     known = np.nan_to_num(angle)
     radial, axial = load * np.cos(known), load * np.sin(known)
-    outwards = radial[0] - radial[1] + races.centrifugal - races.weight * np.sin(phi)
+    outwards = radial[0] - radial[1] + races.centrifugal
     left = np.hypot(outwards, axial[0] - axial[1]).max(axis=1)
     # a ball with next to no load in the gap has none left on it
     size = np.maximum(load.max(axis=(0, 2)), np.abs(races.centrifugal).max())

@@ -59,8 +59,8 @@ UNEXPLAINED = (StaticStatus.NOT_CONVERGED, StaticStatus.BEYOND_GEOMETRY)
 """Ends of the descent that it may have come to as no contact can carry the load."""
 
 MOST_CONTACTS = 20_000_000
-"""Contacts, those of all balls at all cage angles, that are solved at most by default:
-some seconds of one core and a gigabyte of answers."""
+"""Contacts, those of all balls at all cage angles, that are solved at most in one call: some
+seconds of one core and a gigabyte of answers."""
 
 
 @shown_as_table
@@ -95,7 +95,7 @@ class Equilibrium:
     leads : (n,) [rad]
         lead of the shaft over its angle by the cage angle: see `shaft_angles`.
     cost
-        the number of contacts if they exceeded `most_contacts`; else empty.
+        the number of contacts if they exceeded MOST_CONTACTS; else empty.
     weights : (n,)
         share of the time of each angle if the angles sample all positions of balls and shaft (see
         `bearingcore.model.statics._positions`); else None.
@@ -293,7 +293,6 @@ def equilibrium(
     dofs: Iterable[str] | None = None,
     *,
     shaft_angles: ArrayLike | None = None,
-    most_contacts: int = MOST_CONTACTS,
 ) -> Equilibrium:
     """Compute the static equilibrium (Eq. 15) and stiffness (Eq. 17) of `scene` at each cage angle.
 
@@ -311,15 +310,13 @@ def equilibrium(
         [rad], angle of the shaft, and of an inner-race defect, at each cage angle. None: ω_s/ω_c
         times the cage angle, which is one of many possible runs: see
         `bearingcore.model.statics._positions`.
-    most_contacts
-        limit on the contacts to solve, cage angles times balls. Beyond it nothing is computed, and
-        `reason` gives the number.
 
     Returns
     -------
     Equilibrium
         with a status for each cage angle. A missing or ambiguous answer is a status, not an error:
-        see `Equilibrium.reason`.
+        see `Equilibrium.reason`. With more than MOST_CONTACTS contacts, cage angles times balls,
+        nothing is computed.
 
     Raises
     ------
@@ -330,19 +327,16 @@ def equilibrium(
     packed = packing.pack(scene, scene.free_dofs(dofs))
     if cage_angles is None:
         cage_angles = default_cage_angles(scene)
-    return equilibrium_of(packed, cage_angles, shaft_angles, most_contacts)
+    return equilibrium_of(packed, cage_angles, shaft_angles)
 
 
-def without_defects(packed: PackedScene) -> PackedScene:
-    """The same scene without its defects, packed."""
+def remove_defects(packed: PackedScene) -> PackedScene:
+    """Return the same packed scene without its defects."""
     return dataclasses.replace(packed, scene=packed.scene.healthy(), path=packing.HEALTHY_PATH)
 
 
 def equilibrium_of(
-    packed: PackedScene,
-    cage_angles: ArrayLike,
-    shaft_angles: ArrayLike | None = None,
-    most_contacts: int = MOST_CONTACTS,
+    packed: PackedScene, cage_angles: ArrayLike, shaft_angles: ArrayLike | None = None
 ) -> Equilibrium:
     """`equilibrium` of a scene that is packed."""
     scene = packed.scene
@@ -354,7 +348,7 @@ def equilibrium_of(
             raise checks.refuse("shaft_angles", leads.size, f"{angles.size}, one a cage angle")
         leads = leads - angles / scene.bearing.cage_ratio
     balls = packed.contacts.angle.size
-    if cost := too_many_contacts(balls * angles.size, most_contacts):
+    if cost := too_many_contacts(balls * angles.size):
         return _not_begun(packed, angles, leads, cost)
     units = packed.units
     q, loads, stiffness, loaded, status, residual, iterations, evaluations = kernels.static_states(
@@ -391,14 +385,12 @@ def equilibrium_of(
     )
 
 
-def too_many_contacts(contacts: int, most: int) -> str:
+def too_many_contacts(contacts: int) -> str:
     """Cost of solving so many contacts in words, where it is too much; else empty."""
-    most = checks.whole_number("most_contacts", most, at_least=1, at_most=10**12)
-    if contacts <= most:
+    if contacts <= MOST_CONTACTS:
         return ""
-    return (
-        f"too many contacts: {thousands(contacts)}, allowed are most_contacts = {thousands(most)}"
-    )
+    most = thousands(MOST_CONTACTS)
+    return f"too many contacts: {thousands(contacts)}, in one call at most {most} are solved"
 
 
 def _not_begun(packed: PackedScene, angles: Array, leads: Array, cost: str) -> Equilibrium:

@@ -65,7 +65,7 @@ class Law(NamedTuple):
     energy: Array
 
     def at(self, compression: Array) -> tuple[Array, Array, Array]:
-        """Load, slope and energy at compressions of any shape."""
+        """Return load, slope and energy at compressions of any shape."""
         return tuple(np.interp(compression, self.compression, y) for y in self[1:])  # type: ignore[return-value]
 
 
@@ -109,13 +109,9 @@ def compressions(state: Equilibrium) -> Array:
     if not known.any():
         return result
     angle = state.ball_angle[known]
-    c, s = np.cos(angle), np.sin(angle)
-    lever = every.arm * every.line_r - every.reach * every.line_z
-    along = np.broadcast_to(every.line_z, c.shape)
-    gradient = np.stack([c * every.line_r, s * every.line_r, along, -lever * s, lever * c], axis=2)
+    gradient = every.gradients(angle, every.line_r, every.line_z)[:, :, numbers.active]
     gap = drops_at(scene, state.cage_angles[known]) + every.clearance * every.line_r
     gap = gap - every.offset * every.line_z
-    gradient = gradient[:, :, numbers.active]
     place = state.state[known][:, numbers.active]
 
     def pressed(q: Array) -> Array:

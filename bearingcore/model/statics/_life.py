@@ -63,13 +63,16 @@ from bearingcore.model.statics._load_rating import (
     rating_and_source,
     ratings_alone,
 )
-from bearingcore.model.statics._race_loads import RaceLoads, race_loads, snapshot_loads, together
+from bearingcore.model.statics._race_loads import (
+    RaceLoads,
+    combined_load,
+    race_loads,
+    snapshot_loads,
+)
 
 POSITIONS = ("load line", "all")
 """Over which places of the balls loads are averaged: one of them on the line of the radial load, as
 the standard's examples do, or everywhere, as it is."""
-
-TURNING = ("inner", "outer")
 
 
 class ContactLife(NamedTuple):
@@ -107,7 +110,7 @@ class Life:
 
     Attributes
     ----------
-    scene, dynamic_load_rating [N], positions, turning_race
+    scene, dynamic_load_rating [N], positions
         arguments of `life`.
     inner_rating, outer_rating [N]
         Q_ci, Q_ce: the ball load under which each race of the first row lasts 10⁶ turns; of a
@@ -139,7 +142,6 @@ class Life:
     scene: Scene
     dynamic_load_rating: float
     positions: str
-    turning_race: str
     inner_rating: float
     outer_rating: float
     inner_load: float
@@ -201,7 +203,6 @@ def life(
     dynamic_load_rating: float | None = None,
     *,
     positions: str = "all",
-    turning_race: str = "inner",
 ) -> Life:
     """Compute the reference rating life L_10r of a bearing under the loads that its defects leave.
 
@@ -219,9 +220,6 @@ def life(
         ball on the line of the radial load (angle 0 without one), as in the standard's examples
         and commercial codes; only for a healthy bearing with rows alike. The two differ by up to
         some 3 % with seven balls.
-    turning_race
-        the race that turns against the load: "inner", as in a scene with a defect; "outer" for a
-        healthy bearing whose load turns with the shaft (an imbalance), or whose hub turns.
 
     Returns
     -------
@@ -233,8 +231,8 @@ def life(
     ------
     ValueError
         for a rating that is missing or not positive; for a ball bearing without groove radii; for
-        "load line" with unlike rows or a damaged bearing; for a turning outer race with a damaged
-        bearing; and for a damaged inner race of unlike rows.
+        "load line" with unlike rows or a damaged bearing; and for a damaged inner race of unlike
+        rows.
 
     Examples
     --------
@@ -248,29 +246,24 @@ def life(
     damaged = bool(scene.defects)
     alike = scene.bearing.rows_are_alike
     checks.choice("positions", positions, POSITIONS)
-    checks.choice("turning_race", turning_race, TURNING)
     if damaged and positions != "all":
         raise checks.refuse("positions", positions, '"all" for a damaged bearing')
     if not alike and positions != "all":
         raise checks.refuse("positions", positions, '"all" for rows that are not alike')
-    if damaged and turning_race != "inner":
-        raise checks.refuse(
-            "turning_race", turning_race, '"inner" for a damaged bearing: its load stands still'
-        )
     contact = LINE_CONTACT if scene.bearing.kind.line_contact else POINT_CONTACT
     rows = range(len(scene.bearing.all_rows))
     rated = np.array([race_ratings(scene.bearing, C, k) for k in rows])
     healthy_scene = dataclasses.replace(scene, defect=()) if damaged else scene
-    healthy = _loads(healthy_scene, positions, turning_race)
-    loads = _loads(scene, positions, turning_race) if damaged else healthy
-    L_healthy = million_revolutions(contact, rated, healthy.of_rows)
-    carried = loads.of_rows
+    healthy = _loads(healthy_scene, positions)
+    loads = _loads(scene, positions) if damaged else healthy
+    L_healthy = million_revolutions(contact, rated, healthy.load_of_rows)
+    carried = loads.load_of_rows
     L = million_revolutions(contact, rated, carried)
     Q_ci, Q_ce = rated[0].tolist()
     # what all rows together do to a race, as a load on that of the first row
     chain = contact.load_exponent * contact.scatter
     parts = (carried / rated).T.tolist()
-    Q_ei, Q_ee = Q_ci * together(parts[0], chain), Q_ce * together(parts[1], chain)
+    Q_ei, Q_ee = Q_ci * combined_load(parts[0], chain), Q_ce * combined_load(parts[1], chain)
     turns_an_hour = scene.shaft_speed / (2.0 * math.pi) * 3600.0
     hours = 1e6 * L / turns_an_hour if turns_an_hour else math.nan
     P = 0.0 if math.isinf(L) else C * L ** (-1.0 / contact.rating_exponent)
@@ -278,7 +271,6 @@ def life(
         scene=scene,
         dynamic_load_rating=C,
         positions=positions,
-        turning_race=turning_race,
         inner_rating=Q_ci,
         outer_rating=Q_ce,
         inner_load=Q_ei,
@@ -302,15 +294,15 @@ def race_ratings(bearing: Bearing, dynamic_load_rating: float, row: int = 0) -> 
     Of one row, from the rating of all rows (ISO 16281). ValueError where a ball bearing does not
     carry its groove radii.
     """
-    own = bearing.of_row(row)
-    cosine = math.cos(own.contact_angle)
+    row_bearing = bearing.of_row(row)
+    cosine = math.cos(row_bearing.contact_angle)
     each = [1.0] if bearing.rows_are_alike else ratings_alone(bearing)
     part = each[row % len(each)] * len(each) / sum(each)  # over the mean of all rows
     return ratings_of_races(
         LINE_CONTACT if bearing.kind.line_contact else POINT_CONTACT,
-        dynamic_load_rating * part / (own.n_balls * cosine),
-        own.ball_diameter * cosine / own.pitch_diameter,
-        1.0 if bearing.kind.line_contact else groove_ratio(*_conformities(own)),
+        dynamic_load_rating * part / (row_bearing.n_balls * cosine),
+        row_bearing.ball_diameter * cosine / row_bearing.pitch_diameter,
+        1.0 if bearing.kind.line_contact else groove_ratio(*_conformities(row_bearing)),
         len(bearing.all_rows),
     )
 
@@ -356,14 +348,14 @@ def ratings_of_races(
 
 
 @lru_cache(maxsize=256)
-def _loads(scene: Scene, positions: str, turning_race: str) -> RaceLoads:
+def _loads(scene: Scene, positions: str) -> RaceLoads:
     contact = LINE_CONTACT if scene.bearing.kind.line_contact else POINT_CONTACT
     law = contact.load_exponent, contact.scatter
     if positions == "all":
-        return race_loads(scene, *law, turning_race)
+        return race_loads(scene, *law)
     load = scene.load
     line = math.atan2(load.fy, load.fx) if load.fx or load.fy else 0.0
-    return snapshot_loads(scene, line % scene.bearing.ball_spacing, *law, turning_race)
+    return snapshot_loads(scene, line % scene.bearing.ball_spacing, *law)
 
 
 def million_revolutions(contact: ContactLife, ratings: ArrayLike, loads: ArrayLike) -> float:

@@ -62,12 +62,13 @@ def summary(limits: Sequence[Limit]) -> str:
     """The limits in a line: "No limit exceeded (4 unchecked: groove radii unknown)"."""
     crossed = sum(limit.crossed for limit in limits)
     words = f"{count(crossed, 'limit') if crossed else 'No limit'} exceeded"
-    open_ones = [limit.sentence for limit in limits if math.isnan(limit.value)]
-    if not open_ones:
+    unchecked = [limit.sentence for limit in limits if math.isnan(limit.value)]
+    if not unchecked:
         return words
-    if len(open_ones) == len(limits):
+    if len(unchecked) == len(limits):
         words = "No limit judged"
-    causes = {why: short for why, short in _SHORTLY.items() if any(why in one for one in open_ones)}
-    known = all(any(why in sentence for why in causes) for sentence in open_ones)
+    text = " ".join(unchecked)
+    causes = {why: short for why, short in _SHORTLY.items() if why in text}
+    known = all(any(why in sentence for why in causes) for sentence in unchecked)
     because = f": {', '.join(causes.values())}" if known else ""
-    return f"{words} ({len(open_ones)} unchecked{because})"
+    return f"{words} ({len(unchecked)} unchecked{because})"

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from bearingcore.bearings import Bearing
 from bearingcore.common import (
     Array,
+    Progress,
     ResultTable,
     _checks as checks,
     cached_property,
@@ -25,7 +26,6 @@ from bearingcore.model import _kernels as kernels
 from bearingcore.model.scene import Defect, Scene, _packing as packing
 from bearingcore.model.scene._defect import TWO_PI, floor_bytes, path_tables
 from bearingcore.model.statics._equilibrium import (
-    MOST_CONTACTS,
     STIFFNESS_TERMS,
     TERM_UNITS,
     UNEXPLAINED,
@@ -38,6 +38,10 @@ from bearingcore.model.statics._status import StaticStatus
 
 GREATEST_EXTENT = math.radians(90.0)
 """Greatest extent of maps by default, as in the paper's Figs. 5 and 6."""
+
+
+FIRST_POINTS = 20_000
+"""Points of a map that are solved before it is looked whether to go on."""
 
 
 @shown_as_table
@@ -70,7 +74,7 @@ class Maps:
     refusals : (m,)
         the reason why a scene with this extent is impossible; empty if it is possible.
     cost
-        the number of contacts if they exceeded `most_contacts`; else empty.
+        the number of contacts if they exceeded MOST_CONTACTS; else empty.
     """
 
     scene: Scene
@@ -134,7 +138,7 @@ def stiffness_maps(
     cage_angles: ArrayLike | None = None,
     dofs: Iterable[str] | None = None,
     *,
-    most_contacts: int = MOST_CONTACTS,
+    progress: Progress | None = None,
 ) -> Maps:
     """Compute stiffness (Eq. 17) and loaded balls of `scene` for each extent of its first defect.
 
@@ -151,15 +155,16 @@ def stiffness_maps(
         [rad]; None takes `default_cage_angles`, which for a defect of the inner race are many.
     dofs
         free directions, names out of x, y, z, rx, ry; None takes the scene's.
-    most_contacts
-        limit on the contacts to solve, extents times cage angles times balls. Beyond it nothing is
-        computed, and `cost` gives the number.
+    progress
+        called about ten times a second with the part done, 0 to 1, and words; an exception from it
+        ends the work.
 
     Returns
     -------
     Maps
         with a status for each point. A missing answer, or defects that overlap at this extent, are
-        a status and not an error.
+        a status and not an error. With more than MOST_CONTACTS contacts, extents times cage angles
+        times balls, nothing is computed, and `cost` gives the number.
 
     Raises
     ------
@@ -183,7 +188,7 @@ def stiffness_maps(
     packed = packing.pack(scene, free)
     contacts, load = packed.contacts, packed.load
     points = sizes.size * angles.size
-    if cost := too_many_contacts(points * contacts.angle.size, most_contacts):
+    if cost := too_many_contacts(points * contacts.angle.size):
         nothing = np.broadcast_to(np.float64(math.nan), (15, *shape))
         return Maps(
             scene, free, sizes, angles, nothing, np.broadcast_to(np.int64(0), shape), nothing[0],
@@ -201,7 +206,12 @@ def stiffness_maps(
     memory = kernels.new_memory(angles.size, contacts)
 
     def solve(begin: int, end: int) -> tuple[int, int]:
-        return kernels.static_maps(angles, contacts, ways, load, (begin, end), memory, answers)
+        counts = np.zeros(2, dtype=np.int64)
+        for rows in kernels.parts(begin, end, max(FIRST_POINTS // max(angles.size, 1), 1)):
+            counts += kernels.static_maps(angles, contacts, ways, load, rows, memory, answers)
+            if progress is not None:
+                progress(rows[1] / sizes.size, f"{rows[1]} of {sizes.size} extents")
+        return int(counts[0]), int(counts[1])
 
     # Whether a load can be carried depends on the cage angle alone, and to find out that it cannot
     # takes long: the first row shows which cage angles the others need not try.

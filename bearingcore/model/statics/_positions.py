@@ -41,10 +41,9 @@ from bearingcore.model.scene._defect import floor_bytes
 from bearingcore.model.scene._packing import pack
 from bearingcore.model.statics._equilibrium import (
     ANGLES_A_PERIOD,
-    MOST_CONTACTS,
     Equilibrium,
     equilibrium_of,
-    without_defects,
+    remove_defects,
 )
 
 TWO_PI = 2.0 * math.pi
@@ -120,8 +119,6 @@ def over_all_positions(
     scene: Scene,
     n: int = ANGLES_A_PERIOD,
     solve: Callable[..., Equilibrium] | None = None,
-    *,
-    most_contacts: int = MOST_CONTACTS,
 ) -> Equilibrium:
     """Static equilibrium at all pairs of `positions`, with their weights.
 
@@ -129,11 +126,9 @@ def over_all_positions(
     """
     packed = pack(scene)
     if solve is None:
-        return equilibrium_over_all(packed, n, most_contacts)
+        return equilibrium_over_all(packed, n)
     places = positions_of(packed, n)
-    state = solve(
-        scene, places.cage_angles, shaft_angles=places.shaft_angles, most_contacts=most_contacts
-    )
+    state = solve(scene, places.cage_angles, shaft_angles=places.shaft_angles)
     return dataclasses.replace(state, weights=places.weights)
 
 
@@ -151,12 +146,10 @@ def state_of(
     return over_all_positions(scene, solve=solve) if state is None else state
 
 
-def equilibrium_over_all(
-    packed: PackedScene, n: int, most_contacts: int = MOST_CONTACTS
-) -> Equilibrium:
+def equilibrium_over_all(packed: PackedScene, n: int) -> Equilibrium:
     """`over_all_positions` of a scene that is packed."""
     places = positions_of(packed, n)
-    state = equilibrium_of(packed, places.cage_angles, places.shaft_angles, most_contacts)
+    state = equilibrium_of(packed, places.cage_angles, places.shaft_angles)
     return dataclasses.replace(state, weights=places.weights)
 
 
@@ -300,7 +293,7 @@ def _places_on_edges(defect: Defect, bearing: Bearing, compression: float) -> Ar
 
 def _greatest_compression(packed: PackedScene, row: int) -> float:
     """Greatest compression [m] in a row of the bearing without defects; 0 where none is known."""
-    healthy, contacts = without_defects(packed), packed.contacts
+    healthy, contacts = remove_defects(packed), packed.contacts
     state = equilibrium_of(healthy, np.linspace(0.0, packed.scene.bearing.period, 13))
     first, count = contacts.rows[row]
     loads = np.nan_to_num(state.ball_load[:, first : first + count])
@@ -362,15 +355,15 @@ def extremes(
         cage = pairs[0][where].ravel()
         shaft = places.shaft_ratio * cage + pairs[1][where].ravel()
         new = evaluate(cage, shaft).reshape(q, where.size, -1)
-        own = np.where(of < q, 1.0, -1.0)[:, None] * new[of % q, back.ravel()]
-        own = np.where(np.isnan(own), math.inf, own)
-        at = own.argmin(axis=1)
+        tried = np.where(of < q, 1.0, -1.0)[:, None] * new[of % q, back.ravel()]
+        tried = np.where(np.isnan(tried), math.inf, tried)
+        at = tried.argmin(axis=1)
         i, k = np.divmod(at, parts.size)
-        lower = own.min(axis=1) <= best[changes]
+        lower = tried.min(axis=1) <= best[changes]
         each = np.arange(of.size)
         c[changes] = np.where(lower, cs[each, k], c[changes])
         u[changes] = np.where(lower, us[each, i], u[changes])
-        best[changes] = np.minimum(best[changes], own.min(axis=1))
+        best[changes] = np.minimum(best[changes], tried.min(axis=1))
         turn, ways = turn / PARTS, ways / PARTS
     better = best.argmin(axis=0)
     least, c, u = (np.take_along_axis(x, better[None], axis=0)[0] for x in (best, c, u))

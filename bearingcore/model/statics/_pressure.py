@@ -30,7 +30,7 @@ RACES = ("inner", "outer")
 
 @dataclass(frozen=True)
 class HeaviestBall:
-    """Where a ball carries most, over the positions looked at. NaN where nothing is known.
+    """Place at which a ball carries most, of some positions. NaN where nothing is known.
 
     Attributes
     ----------
@@ -165,9 +165,7 @@ def contact_pressures(scene: Scene, state: Equilibrium | None = None) -> Contact
     checks.instance("scene", scene, Scene)
     state = state_of(scene, state, static_state)
     answers = [_pressures(scene.bearing.of_row(ball.row), ball) for ball in heaviest_balls(state)]
-    worst = max(
-        answers, key=lambda one: max(one.inner.greatest_pressure, one.outer.greatest_pressure)
-    )
+    worst = max(answers, key=lambda of: max(of.inner.greatest_pressure, of.outer.greatest_pressure))
     unknown = math.isnan(worst.ball.load) and state.cage_angles.size
     return dataclasses.replace(worst, reason=state.reason(0)) if unknown else worst
 

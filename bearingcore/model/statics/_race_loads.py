@@ -97,13 +97,13 @@ class RaceLoads(NamedTuple):
     reason: str = ""
 
     @property
-    def of_rows(self) -> Array:
+    def load_of_rows(self) -> Array:
         """(rows, 2) [N] of the inner and the outer race of each row."""
         return np.stack([self.inner, self.outer], axis=1)
 
 
 def snapshot_loads(
-    scene: Scene, cage_angle: float, load_exponent: float, scatter: float, turning_race: str
+    scene: Scene, cage_angle: float, load_exponent: float, scatter: float
 ) -> RaceLoads:
     """The means over the balls at one cage angle [rad], as a standard takes them.
 
@@ -115,14 +115,10 @@ def snapshot_loads(
     if unknown := _unknown(state, loads):
         return unknown
     heaviest = float(state.ball_load[0].max())
-    return _averaged(
-        scene, loads[:, :1], heaviest, np.full(1, 1.0), load_exponent, scatter, turning_race
-    )
+    return _averaged(scene, loads[:, :1], heaviest, np.full(1, 1.0), load_exponent, scatter)
 
 
-def race_loads(
-    scene: Scene, load_exponent: float, scatter: float, turning_race: str = "inner"
-) -> RaceLoads:
+def race_loads(scene: Scene, load_exponent: float, scatter: float) -> RaceLoads:
     """The means over all cage angles, and over all shaft angles where a defect turns.
 
     ValueError for a defect of the inner race of a bearing whose rows are not alike.
@@ -140,7 +136,7 @@ def race_loads(
         heaviest = max(heaviest, float(state.ball_load.max()))
         weights.append(weight / len(turned))
     all_loads, all_weights = np.concatenate(loads, axis=1), np.concatenate(weights)
-    return _averaged(scene, all_loads, heaviest, all_weights, load_exponent, scatter, turning_race)
+    return _averaged(scene, all_loads, heaviest, all_weights, load_exponent, scatter)
 
 
 def _rows_turned(scene: Scene) -> list[Scene]:
@@ -170,14 +166,13 @@ def _averaged(
     weights: Array,
     load_exponent: float,
     scatter: float,
-    turning_race: str,
 ) -> RaceLoads:
     """Both races under what is `carried` (2, n, balls), where nothing turns against the load."""
     chain = load_exponent * scatter
-    powers = (load_exponent, chain) if turning_race == "inner" else (chain, load_exponent)
+    powers = load_exponent, chain
     inner, outer = (
         tuple(
-            together(
+            combined_load(
                 [_mean(strip, weights, power) for strip in strips(scene.bearing, row, chain)], chain
             )
             for row in (carried_there[:, balls] for balls in scene.bearing.balls_of_rows)
@@ -187,8 +182,8 @@ def _averaged(
     return RaceLoads(inner, outer, heaviest)
 
 
-def together(loads: Sequence[float], power: float) -> float:
-    """The one load that tires as much as all of them do, each a part that has to live."""
+def combined_load(loads: Sequence[float], power: float) -> float:
+    """Return the one load that tires as much as all loads do, each on a part that has to live."""
     size = max(loads)
     if len(loads) == 1 or not size > 0.0:
         return size
@@ -298,7 +293,7 @@ def _average_turning_defects(scene: Scene, load_exponent: float, scatter: float)
     ]
     inner, outer = (
         tuple(
-            together([race(strip, theta) for strip in strips(bearing, row, chain)], chain)
+            combined_load([race(strip, theta) for strip in strips(bearing, row, chain)], chain)
             for theta, row in zip(thetas, np.split(there, len(thetas), axis=2), strict=True)
         )
         for race, there in zip((inner_race, outer_race), loads, strict=True)

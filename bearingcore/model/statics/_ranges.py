@@ -65,10 +65,10 @@ def static_ranges(
     state = over_all_positions(scene, n, static_state)
     names = list(names)
 
-    def at(cage_angles: Array, shaft_angles: Array) -> Array:
+    def evaluate(cage_angles: Array, shaft_angles: Array) -> Array:
         return _numbers(static_state(scene, cage_angles, shaft_angles=shaft_angles), names)
 
-    ends = extremes(grid, _numbers(state, names), at, rounds=rounds)
+    ends = extremes(grid, _numbers(state, names), evaluate, rounds=rounds)
     least, greatest = (dict(zip(names, end.tolist(), strict=True)) for end in ends[:2])
     return StaticRanges(state, least, greatest)
 

@@ -166,19 +166,15 @@ def descent_direction(
     if not load.any():
         return nothing
     phi = contacts.angles_at(np.array([cage_angle]))[0]
-    c, s, zero, one = np.cos(phi), np.sin(phi), np.zeros_like(phi), np.ones_like(phi)
-    arm, reach = contacts.arm, contacts.reach
-    radial = np.stack([c, s, zero, -arm * s, arm * c], axis=1)[:, active]
-    axial = np.stack([zero, zero, one, reach * s, -reach * c], axis=1)[:, active]
-    ca, sa = contacts.line_r[:, None], contacts.line_z[:, None]
-    across = (axial * ca - radial * sa)[~contacts.fixed]
+    ca, sa = contacts.line_r, contacts.line_z
+    across = contacts.gradients(phi, -sa, ca)[~contacts.fixed][:, active]
     across[np.abs(across) < ROUNDING] = 0.0
     _, sizes, vectors = np.linalg.svd(across)
     held = np.count_nonzero(sizes > 1e-10)
     still = vectors[held:]
     if not len(still):
         return nothing
-    pressing = still @ (radial * ca + axial * sa).T
+    pressing = still @ contacts.gradients(phi, ca, sa)[:, active].T
     # what is left free is known to a digit times how unevenly the rest is held
     unevenness = sizes[0] / sizes[held - 1] if held else 1.0
     pressing[np.abs(pressing) < max(ROUNDING, 10.0 * EPSILON * unevenness)] = 0.0

@@ -119,7 +119,6 @@ def limits(
     *,
     dynamic_load: float | None = None,
     step_rate: float | None = None,
-    shoulder_height: float | None = None,
     film: Film | None = None,
 ) -> tuple[Limit, ...]:
     """Check the limits of the model for `scene`, each with its number, its limit and a sentence.
@@ -136,9 +135,6 @@ def limits(
         motion was simulated: limits that depend on it are then not known.
     step_rate
         step rate [Hz] of a simulated motion, e.g. `Motion.step_rate`; None leaves its limit out.
-    shoulder_height
-        height of the shoulders over the bottom of the groove, in ball diameters, above 0 and at
-        most 0.5; None: `usual_shoulder_height`.
     film
         the film of the scene's lubricant, from `film`; None if no oil is given: contact of the
         surfaces is then not known.
@@ -152,12 +148,9 @@ def limits(
     Raises
     ------
     ValueError
-        for an impossible shoulder height, step rate or load, or a `state` or `film` of another
-        scene.
+        for an impossible step rate or load, or a `state` or `film` of another scene.
     """
     checks.instance("scene", scene, Scene)
-    if shoulder_height is not None:
-        checks.real_number("shoulder_height", shoulder_height, above=0.0, at_most=0.5)
     state = state_of(scene, state_of_limits(scene) if state is None else state)
     bearing, turns = scene.bearing, scene.shaft_speed > 0.0
     heaviest = [(bearing.of_row(ball.row), ball) for ball in heaviest_balls(state)]
@@ -180,7 +173,7 @@ def limits(
     if turns:
         name = "contact pressure in motion"
         candidates.append(_pressure(bearing, name, in_motion, RACES, NO_MOTION))
-    candidates.append(_shoulder(scene, state, shoulder_height))
+    candidates.append(_shoulder(scene, state))
     candidates.append(_centrifugal_change(scene))
     candidates.append(_worst(_centrifugal_share(*row, scene, state) for row in bearing.unlike_rows))
     candidates.append(gyroscopic_limit(scene))
@@ -281,7 +274,7 @@ def _pressure(
     return upper_limit(name, p, allowed, "Pa", fact, beyond, f", below {most}.")
 
 
-def _shoulder(scene: Scene, state: Equilibrium, height: float | None) -> Limit:
+def _shoulder(scene: Scene, state: Equilibrium) -> Limit:
     """`_shoulder_of` all rows, or of the one that is nearest to its shoulder where they differ."""
     bearing, kept = scene.bearing, _known(state)
     if words := bearing.kind.tilt_unknown:
@@ -290,7 +283,7 @@ def _shoulder(scene: Scene, state: Equilibrium, height: float | None) -> Limit:
     loads = {"inner": state.inner_load[kept], "outer": state.ball_load[kept]}
     angles = {"inner": state.inner_contact_angle[kept], "outer": state.contact_angle[kept]}
     return _worst(
-        _shoulder_of(row, race, loads[race][:, balls], angles[race][:, balls], height)
+        _shoulder_of(row, race, loads[race][:, balls], angles[race][:, balls])
         for row, balls in bearing.unlike_rows
         for race in bearing.kind.shoulders
     )
@@ -301,17 +294,14 @@ def _worst(limits: Iterable[Limit]) -> Limit:
     return max(limits, key=lambda limit: float(np.nan_to_num(limit.value / limit.limit, nan=-1.0)))
 
 
-def _shoulder_of(
-    bearing: Bearing, race: str, loads: Array, angles: Array, height: float | None
-) -> Limit:
+def _shoulder_of(bearing: Bearing, race: str, loads: Array, angles: Array) -> Limit:
     """Contact angle of loaded balls at a race, with half the contact ellipse where it is known.
 
     The shoulder's edge, a height h over the bottom, is seen from the groove's centre at
     arccos(1 − h/r_b) (Harris, truncated contact ellipse).
     """
     name = "contact angle at the shoulder"
-    if height is None:
-        height = usual_shoulder_height(bearing.contact_angle)
+    height = usual_shoulder_height(bearing.contact_angle)
     limit = math.acos(1.0 - 2.0 * height)
     carries = loads > 0.0
     if not carries.any():

@@ -16,9 +16,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bearingcore.common import _checks as checks, cached_property
+from bearingcore.common import Progress, _checks as checks, cached_property
 from bearingcore.errors import FieldError
-from bearingcore.fields import FIELD_OF, FIELDS, SCENE_PARTS
+from bearingcore.fields import FIELD_OF, SCENE_FIELDS
 from bearingcore.model.scene import DOF_NAMES, MASSLESS, Defect, Scene
 from bearingcore.model.statics._life import race_ratings
 from bearingcore.model.sweeps._outputs import (
@@ -29,9 +29,11 @@ from bearingcore.model.sweeps._outputs import (
     MOVING,
     OUTPUTS,
     PRESSURE,
+    RECORD,
     SAMPLE,
     SECONDS,
     SECONDS_IN_A_ROW,
+    SEED,
     Numbers,
     Settings,
     chosen_outputs,
@@ -59,12 +61,12 @@ LONGEST_ROW = 128
 WORDS = ("race", "edge", "contact_law", "balls")
 """Fields of words that a sweep can go over."""
 
-UNITS = {field.name: field.unit for field in FIELDS if field.part in SCENE_PARTS} | dict.fromkeys(
-    WORDS, ""
-)
+UNITS = {field.full_name: field.unit for field in SCENE_FIELDS} | dict.fromkeys(WORDS, "")
 """Fields that a sweep can vary, and the unit of each; words have none."""
 
-_OF_DEFECTS = {field.name for field in dataclasses.fields(Defect)}
+_OF_DEFECTS = {field.name for field in dataclasses.fields(Defect)} | {
+    field.name for field in SCENE_FIELDS if field.part == "floor"
+}
 
 Slices = tuple[slice, ...]
 
@@ -163,14 +165,17 @@ class Grid:
     def dims_of(self, output: str) -> tuple[str, ...]:
         """Dimensions of an output."""
         if OUTPUTS[output].per_sample:
-            return (*self.dims, SAMPLE)
+            several = isinstance(self.settings.seed, tuple)
+            return (*self.dims, SEED, SAMPLE) if several else (*self.dims, SAMPLE)
         return (*self.dims, MODE) if OUTPUTS[output].per_mode else self.dims
 
     def shape_of(self, output: str, shape: Sequence[int] | None = None) -> tuple[int, ...]:
         """Shape of an output over the grid, or over a region of this shape."""
         part = tuple(self.shape if shape is None else shape)
         if OUTPUTS[output].per_sample:
-            return (*part, len(self.settings.record_time))
+            samples = len(self.settings.record_time)
+            several = isinstance(self.settings.seed, tuple)
+            return (*part, len(self.settings.seeds), samples) if several else (*part, samples)
         return (*part, len(self.labels)) if OUTPUTS[output].per_mode else part
 
     def scene_at(self, index: Sequence[int]) -> Scene:
@@ -188,6 +193,8 @@ class Grid:
         if scenes is None:
             table = SECONDS_IN_A_ROW if self.in_rows else SECONDS
             seconds = sum(table[need] for need in self.needs)
+            if RECORD in self.needs:
+                seconds += table[RECORD] * (len(self.settings.seeds) - 1)
             if len(self.dofs) > 2 and set(self.needs) & MOVING:
                 seconds *= 10.0
             scenes = min(round(TASK_SECONDS / seconds), self.size // TASKS_AT_LEAST)
@@ -224,12 +231,17 @@ class Grid:
         )
         return dataclasses.replace(self, axes=axes)
 
-    def compute(self) -> tuple[NDArray[np.int8], Numbers]:
-        """Codes of STATUSES and the outputs of all scenes, in this thread."""
+    def compute(self, progress: Progress | None = None) -> tuple[NDArray[np.int8], Numbers]:
+        """Codes of STATUSES and the outputs of all scenes, in this thread.
+
+        `progress` is called after each row or scene and during long ones, to end them by raising.
+        """
         status = np.zeros(self.shape, dtype=np.int8)
         numbers = {name: np.full(self.shape_of(name), math.nan) for name in self.outputs}
-        each = ((at, *self._scene(at)) for at in np.ndindex(*self.shape))
-        for at, codes, answers in self._rows() if self.in_rows else each:
+        each = ((at, *self._scene(at, progress)) for at in np.ndindex(*self.shape))
+        for at, codes, answers in self._rows(progress) if self.in_rows else each:
+            if progress is not None:
+                progress(0.0, "scenes")
             status[at] = codes
             for name in self.outputs:
                 if name in answers:
@@ -238,14 +250,14 @@ class Grid:
             values[np.isnan(values)] = math.nan  # one kind of NaN: equal results, equal bytes
         return status, numbers
 
-    def _scene(self, index: Sequence[int]) -> tuple[Any, Numbers]:
+    def _scene(self, index: Sequence[int], progress: Progress | None) -> tuple[Any, Numbers]:
         try:
             scene = self.scene_at(index)
         except ValueError:
             return SweepStatus.SCENE_REFUSED.code, {}
-        return of_scene(scene, self.needs, self.labels, self.settings, self.outputs)
+        return of_scene(scene, self.needs, self.labels, self.settings, self.outputs, progress)
 
-    def _rows(self) -> Iterator[tuple[Any, Any, Numbers]]:
+    def _rows(self, progress: Progress | None) -> Iterator[tuple[Any, Any, Numbers]]:
         row = self.dims.index("extent")
         extents = self.axes[row].values
         # a scene without its defect may have another period: it is not of the row
@@ -268,7 +280,7 @@ class Grid:
                 except ValueError:
                     pass  # what cannot be with one extent may be with another
             for i in alone:
-                yield place(i), *self._scene(place(i))
+                yield place(i), *self._scene(place(i), progress)
 
     # ---------------------------------------------------------------------------- checks
 
@@ -383,8 +395,10 @@ def _axis(name: object, given: Any) -> Axis:
             raise checks.refuse(f"values of {name}", _short(given), allowed)
         array = np.array([checks.real_number(f"value of {name}", value) for value in values])
         if FIELD_OF[name].whole:
+            most = 2**31 - 1 if name == "seed" else 500
+            least = 0 if name == "seed" else 1
             array = np.array(
-                [checks.whole_number(name, value, at_least=1, at_most=500) for value in values]
+                [checks.whole_number(name, value, at_least=least, at_most=most) for value in values]
             )
     if len(np.unique(array)) != len(array):
         raise checks.refuse(f"values of {name}", _short(given), allowed)
@@ -397,7 +411,7 @@ def _all_dofs(scene: Scene, axes: Iterable[Axis]) -> tuple[str, ...]:
     richest = {
         axis.name: max(axis.values.tolist(), key=abs)
         for axis in axes
-        if axis.name in ("contact_angle", "fz", "mx", "my")
+        if axis.name in ("contact_angle", "second_contact_angle", "row_distance", "fz", "mx", "my")
     }
     try:
         return scene.replace(**richest).active_dofs

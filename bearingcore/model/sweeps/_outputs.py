@@ -14,8 +14,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from bearingcore.common import Array, _checks as checks
-from bearingcore.model.dynamics import BandSearch, orbit, simulate, simulated_record
+from bearingcore.common import Array, Progress, _checks as checks
+from bearingcore.model.dynamics import (
+    BandSearch,
+    PathEffects,
+    orbit,
+    simulate,
+    simulated_record,
+)
 from bearingcore.model.dynamics._ball_comparison import mass_share
 from bearingcore.model.dynamics._low_pass import PASSED
 from bearingcore.model.dynamics._modes import stiffness_terms, undamped_bands
@@ -63,6 +69,11 @@ MODE = "mode"
 
 SAMPLE = "sample"
 """Name of the dimension of records; its coordinate is the time [s]."""
+
+SEED = "seed"
+"""Name of the dimension of records that are drawn several times, with several seeds."""
+
+MOST_SEEDS = 100_000
 
 
 @dataclass(frozen=True)
@@ -177,7 +188,7 @@ def _table() -> dict[str, Output]:
         table[f"record_{dof}"] = Output(
             "m/s²",
             f"record of a sensor along {dof}: the settled motion of the housing behind a path, with"
-            " a cage that wanders, tones of the shaft and noise, all drawn by the scene itself",
+            " a cage that wanders, tones of the shaft and noise, drawn with the settings' seed",
             "Records",
             f"record along {dof}",
             RECORD,
@@ -266,6 +277,13 @@ class Settings:
         known, else by ISO 281.
     band_low, band_high
         [Hz] of the band for the share of the power that mass adds.
+    seed
+        of the random numbers of records, the same for all scenes: they then differ by what the
+        scenes do and not by what is drawn. Several seeds draw each scene several times, and
+        records have the further dimension "seed". None: a seed made from each scene, so that each
+        has another path; use it to learn from records.
+    effects
+        of the path of the sensor in records; None draws them, see `simulated_record`.
     """
 
     cage_angles: int = 121
@@ -274,6 +292,8 @@ class Settings:
     dynamic_load_rating: float | None = None
     band_low: float = 2100.0
     band_high: float = 10_000.0
+    seed: int | tuple[int, ...] | None = None
+    effects: PathEffects | None = None
 
     def __post_init__(self) -> None:
         angles = checks.whole_number("cage_angles", self.cage_angles, at_least=3, at_most=10_000)
@@ -283,6 +303,22 @@ class Settings:
         checks.keep_number(self, "band_low", above=0.0, unit="Hz")
         checks.keep_number(self, "band_high", above=self.band_low, unit="Hz")
         checks.keep_number(self, "dynamic_load_rating", optional=True, above=0.0, unit="N")
+        if self.effects is not None:
+            checks.instance("effects", self.effects, PathEffects, "PathEffects, or None")
+        if self.seed is not None:
+            several = isinstance(self.seed, Iterable)
+            seeds = tuple(
+                checks.whole_number("seed", seed, at_least=0, at_most=2**32 - 1)
+                for seed in (self.seed if isinstance(self.seed, Iterable) else (self.seed,))
+            )
+            if not 1 <= len(set(seeds)) == len(seeds) <= MOST_SEEDS:
+                raise checks.refuse("seed", self.seed, f"1 to {MOST_SEEDS:,} different ones")
+            checks.keep(self, seed=seeds if several else seeds[0])
+
+    @property
+    def seeds(self) -> tuple[int | None, ...]:
+        """Seeds with which each record is drawn."""
+        return self.seed if isinstance(self.seed, tuple) else (self.seed,)
 
     @property
     def record_time(self) -> Array:
@@ -299,11 +335,12 @@ def of_scene(
     labels: tuple[str, ...],
     settings: Settings,
     outputs: Iterable[str] = OUTPUTS,
+    progress: Progress | None = None,
 ) -> tuple[int, Numbers]:
     """Code of what became of one scene, and its outputs: those of the computations in `needs`.
 
     `labels` are the modes that the band edges are given for. With a defect that turns the ends of
-    no other stiffness than in `outputs` are looked for.
+    no other stiffness than in `outputs` are looked for. `progress` is called during motions.
     """
     ended: list[SweepStatus] = []
     numbers: Numbers = {}
@@ -329,10 +366,10 @@ def of_scene(
             settings.cage_angles,
             numbers,
         ),
-        MOTION: lambda: _motion(scene, settings, numbers),
-        RECORD: lambda: _record(scene, settings, numbers),
-        MASS: lambda: _mass(scene, settings, numbers),
-        ORBIT: lambda: _orbit(scene, numbers),
+        MOTION: lambda: _motion(scene, settings, numbers, progress),
+        RECORD: lambda: _record(scene, settings, numbers, progress),
+        MASS: lambda: _mass(scene, settings, numbers, progress),
+        ORBIT: lambda: _orbit(scene, numbers, progress),
     }
     for name, compute in computations.items():
         if name not in needs:
@@ -489,36 +526,48 @@ def _pressure(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus
     return OF_STATICS[StaticStatus(int(state.status.max()))]
 
 
-def _mass(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus:
+def _mass(
+    scene: Scene, settings: Settings, numbers: Numbers, progress: Progress | None
+) -> SweepStatus:
     """Put the share that the balls' mass adds into `numbers`."""
     if settings.band_high > PASSED * settings.sample_rate:
         raise checks.refuse(
             "band_high", settings.band_high, f"at most {PASSED:g} of the sample_rate"
         )
     band = settings.band_low, settings.band_high
-    share = mass_share(scene, *band, settings.duration, settings.sample_rate)
+    share = mass_share(scene, *band, settings.duration, settings.sample_rate, progress)
     numbers["mass_share"] = np.array(share)
     return SweepStatus.COMPLETE
 
 
-def _orbit(scene: Scene, numbers: Numbers) -> SweepStatus:
+def _orbit(scene: Scene, numbers: Numbers, progress: Progress | None) -> SweepStatus:
     """Put the largest multiplier of the orbit into `numbers`; say what became of it."""
-    motion = orbit(scene)
+    motion = orbit(scene, progress=progress)
     numbers["floquet_multiplier_greatest"] = np.array(motion.largest_multiplier)
     return OF_ORBIT[motion.status]
 
 
-def _record(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus:
-    """Put records (n,) along each direction into `numbers`."""
-    made = simulated_record(scene, None, settings.duration, settings.sample_rate)
-    pairs = zip(made.directions, made.acceleration.T, strict=True)
-    numbers |= {f"record_{name}": signal for name, signal in pairs}
+def _record(
+    scene: Scene, settings: Settings, numbers: Numbers, progress: Progress | None
+) -> SweepStatus:
+    """Put records (n,), or (seeds, n), along each direction into `numbers`."""
+    effects, duration, rate = settings.effects, settings.duration, settings.sample_rate
+    records = [
+        simulated_record(scene, effects, duration, rate, seed=seed, progress=progress)
+        for seed in settings.seeds
+    ]
+    signals = np.stack([record.acceleration for record in records])  # (seeds, n, directions)
+    for axis, name in enumerate(records[0].directions):
+        several = isinstance(settings.seed, tuple)
+        numbers[f"record_{name}"] = signals[:, :, axis] if several else signals[0, :, axis]
     return SweepStatus.COMPLETE
 
 
-def _motion(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus:
+def _motion(
+    scene: Scene, settings: Settings, numbers: Numbers, progress: Progress | None
+) -> SweepStatus:
     """Put what the motion gives into `numbers`; say what became of it."""
-    motion = simulate(scene, settings.duration, settings.sample_rate)
+    motion = simulate(scene, settings.duration, settings.sample_rate, progress=progress)
     late = motion.outer_acceleration[round(SETTLING_SHARE * len(motion.time)) :]
     for i, dof in enumerate(motion.dofs):
         numbers[f"acceleration_rms_{dof}"] = np.sqrt(np.mean(late[:, i] ** 2))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import errno
 import importlib
 import logging
@@ -9,13 +10,14 @@ import os
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import AbstractContextManager, ExitStack, contextmanager
-from itertools import islice
+from itertools import count, islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from bearingcore.common import Progress, _checks as checks
+from bearingcore.common._progress import CancelledError
 from bearingcore.model.scene import Scene
 from bearingcore.model.sweeps import _store as stores
 from bearingcore.model.sweeps._grid import Grid, program_version
@@ -68,6 +70,7 @@ def sweep(
     processes: bool = False,
     scenes_per_task: int | None = None,
     progress: Progress | None = None,
+    **resolution: Any,
 ) -> xarray.Dataset:
     """Compute outputs for all combinations of values of some fields of `scene`.
 
@@ -87,7 +90,10 @@ def sweep(
         it already holds a part of the same sweep, only the rest is computed. None keeps results
         in memory.
     settings
-        the resolution; see `Settings`.
+        the resolution, and what is drawn for records; see `Settings`.
+    resolution
+        single fields of `Settings` by name, such as ``duration=0.5``, instead of those of
+        `settings`.
     workers, processes
         on this machine: the number of workers (None: one per core), and True for processes instead
         of threads. Processes share nothing and are faster, but take a second or two to
@@ -95,7 +101,8 @@ def sweep(
     scenes_per_task
         None takes about four seconds of work. A store that is taken up keeps its own.
     progress
-        called with the part done, 0 to 1, and a sentence.
+        called about ten times a second with the part done, 0 to 1, and a sentence; an exception
+        from it, as Ctrl-C, stops the sweep at once.
 
     Returns
     -------
@@ -114,6 +121,10 @@ def sweep(
         if the scheduler cannot be reached or is lost. Finished parts are in the store.
     """
     needs_extra()
+    for name in resolution.keys() - {field.name for field in dataclasses.fields(Settings)}:
+        allowed = ", ".join(field.name for field in dataclasses.fields(Settings))
+        raise checks.refuse("argument of sweep", name, f"also {allowed}, of Settings")
+    settings = dataclasses.replace(settings or Settings(), **resolution)
     grid = Grid.of(scene, over, outputs, settings)
     if scenes_per_task is not None:
         scenes_per_task = checks.whole_number(
@@ -155,7 +166,7 @@ def _sweep_to_store(
     done = _Progress(grid.size, progress)
     with cluster as client:
         seen = False
-        for region, computed in _finished(client, stores.finish, regions):
+        for region, computed in _finished(client, stores.finish, regions, done.report):
             if not (seen or stores.is_finished(region)):
                 raise checks.refuse(
                     "store",
@@ -195,7 +206,7 @@ def _sweep_in_memory(
     parts = ((place, grid.part(place)) for place in places)
     done = _Progress(grid.size, progress)
     with cluster as client:
-        for (place, part), (codes, part_numbers) in _finished(client, _compute, parts):
+        for (place, part), (codes, part_numbers) in _finished(client, _compute, parts, done.report):
             status[place] = codes
             for name, values in part_numbers.items():
                 numbers[name][place] = values
@@ -216,8 +227,8 @@ def _sweep_in_memory(
     )
 
 
-def _compute(task: tuple[Any, Grid]) -> Any:
-    return task[1].compute()
+def _compute(task: tuple[Any, Grid], progress: Progress) -> Any:
+    return task[1].compute(progress)
 
 
 class _Progress:
@@ -231,6 +242,9 @@ class _Progress:
     def add(self, scenes: int, kept: bool = False) -> None:
         self._done += scenes
         self._kept += scenes if kept else 0
+        self.report()
+
+    def report(self) -> None:
         if self._progress is not None:
             words = f"{self._done:,} of {self._size:,} scenes"
             if self._kept:
@@ -254,12 +268,12 @@ def _cluster(client: Client | str | None, workers: int | None, processes: bool) 
         with connected:
             yield connected
         return
-    count = workers or os.cpu_count() or 1
+    cores = workers or os.cpu_count() or 1
     shape = (
-        {"n_workers": count, "threads_per_worker": 1}
+        {"n_workers": cores, "threads_per_worker": 1}
         if processes
         # threads share the memory of their host, whose use says nothing of theirs: no limit
-        else {"n_workers": 1, "threads_per_worker": count, "memory_limit": 0}
+        else {"n_workers": 1, "threads_per_worker": cores, "memory_limit": 0}
     )
     here = "localhost:0"  # Dask's pages are for this machine alone, on any free port
     with ExitStack() as open_:
@@ -276,7 +290,7 @@ def _cluster(client: Client | str | None, workers: int | None, processes: bool) 
             )
         except RuntimeError as error:
             raise RuntimeError(
-                f"a worker ended while it was starting ({count} of them were to start): is there "
+                f"a worker ended while it was starting ({cores} of them were to start): is there "
                 "enough memory, and may this program start others? Any message of the "
                 f"worker is above. ({error})"
             ) from error
@@ -284,9 +298,15 @@ def _cluster(client: Client | str | None, workers: int | None, processes: bool) 
 
 
 def _finished(
-    client: Client, work: Callable[[Any], Any], tasks: Iterable[Any]
+    client: Client,
+    work: Callable[[Any, Progress], Any],
+    tasks: Iterable[Any],
+    report: Callable[[], object],
 ) -> Iterator[tuple[Any, Any]]:
-    """Each task with what `work` makes of it on the cluster, in the order of their ends."""
+    """Each task with what `work` makes of it on the cluster, in the order of their ends.
+
+    `report` is called again and again while none ends.
+    """
     from distributed import KilledWorker, as_completed
     from distributed.client import FutureCancelledError
 
@@ -302,13 +322,19 @@ def _finished(
                     threads = max(sum(client.nthreads().values()), 1)
                     looked = time.monotonic()
                 for task in islice(waiting, max(AHEAD * threads - len(going), 0)):
-                    future = client.submit(_same_version, version, work, task, pure=False)
+                    future = client.submit(_on_worker, version, work, task, pure=False)
                     going[future] = task
                     done.add(future)
             except OSError as error:
                 raise ConnectionError(LOST) from error
             if not going:
                 return
+            for waited in count():
+                if done.has_ready():
+                    break
+                time.sleep(0.01)
+                if waited % 10 == 9:
+                    report()
             future = next(done)
             try:
                 result = future.result()
@@ -329,9 +355,20 @@ def _finished(
             client.cancel(list(going), force=True)
 
 
-def _same_version(version: str, work: Callable[[Any], Any], task: Any) -> Any:
-    """On a worker: do the work, if both ends are the same program."""
+def _on_worker(version: str, work: Callable[[Any, Progress], Any], task: Any) -> Any:
+    """On a worker: do the work, if both ends are the same program, while it is wanted."""
+    from distributed import get_worker
+
     here = program_version()
     if here != version:
         raise checks.refuse("version of a worker", here, f"{version}, which started the sweep")
-    return work(task)
+    worker = get_worker()
+    key = worker.get_current_task()
+
+    def still_wanted(*_: object) -> None:
+        """End the task once it is cancelled: Dask lets what runs run on, and waits for it."""
+        state = worker.state.tasks.get(key)
+        if state is None or state.state == "cancelled":
+            raise CancelledError("the sweep was stopped")
+
+    return work(task, still_wanted)

@@ -19,10 +19,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from bearingcore.common import _checks as checks
+from bearingcore.common import Progress, _checks as checks
 from bearingcore.errors import FieldError
 from bearingcore.model.sweeps._grid import Grid, program_version
-from bearingcore.model.sweeps._outputs import MODE, OUTPUTS, SAMPLE, Numbers
+from bearingcore.model.sweeps._outputs import MODE, OUTPUTS, SAMPLE, SEED, Numbers
 from bearingcore.model.sweeps._status import STATUSES
 
 PROGRAM = "bearing-explorer"
@@ -70,6 +70,8 @@ def coordinates(grid: Grid) -> dict[str, NDArray[Any]]:
         values[MODE] = np.array(grid.labels)
     if any(OUTPUTS[name].per_sample for name in grid.outputs):
         values[SAMPLE] = grid.settings.record_time
+        if isinstance(grid.settings.seed, tuple):
+            values[SEED] = np.array(grid.settings.seed)
     return values
 
 
@@ -206,12 +208,15 @@ def region(path: Path, grid: Grid, region_shape: tuple[int, ...], index: tuple[i
     return Region(str(path), grid.part(place), place, index, (grid.shape, region_shape))
 
 
-def finish(region: Region) -> bool:
-    """Bring one region to its end; True where it had to be computed."""
+def finish(region: Region, progress: Progress | None = None) -> bool:
+    """Bring one region to its end; True where it had to be computed.
+
+    An exception from `progress` ends it before anything is written.
+    """
     arrays = _arrays(region.path, region.part.outputs, region.layout)
     if is_finished(region):
         return False
-    status, numbers = region.part.compute()
+    status, numbers = region.part.compute(progress)
     for name, values in numbers.items():
         arrays[name][region.place] = values
     arrays[STATUS][region.place] = status

@@ -179,7 +179,7 @@ def test_the_scene_is_followed_at_once_where_it_is_chosen_and_only_there() -> No
 
 
 def test_an_answer_that_is_out_of_date_is_marked_and_cannot_be_taken() -> None:
-    about = About("fan-rig", "", "http://localhost", NOW, "", "", "")
+    about = About("fan-rig", "http://localhost", NOW, "", "", "")
 
     async def steps() -> None:
         made = measuring()

@@ -5,8 +5,7 @@ import math
 import pytest
 
 from bearingcore import presets
-from bearingcore.bearings import MOST_BYTES, catalogue, read_catalogue
-from bearingcore.bearings._catalogue import MOST_BEARINGS
+from bearingcore.bearings import catalogue, read_catalogue
 from bearingcore.model.statics import dynamic_load_rating
 
 HEAD = "name;balls;ball_diameter_mm;pitch_diameter_mm"
@@ -85,17 +84,17 @@ def test_ways_to_write_a_table(table: str | bytes) -> None:
     ("table", "told"),
     [
         ("", ["empty"]),
-        (HEAD, ["headings alone"]),
-        ("name;balls", ["without ball_diameter_mm, pitch_diameter_mm", "line 1"]),
-        (f"{HEAD};clearence", ["column 5", "clearence", "diametral_clearance_um"]),
-        (f"{HEAD};balls", ["balls", "twice"]),
+        (HEAD, ["headings, and a line"]),
+        ("name;balls\na;9", ["without ball_diameter_mm, pitch_diameter_mm"]),
+        (f"{HEAD};clearence\na;9", ["column 5", "clearence", "diametral_clearance_um"]),
+        (f"{HEAD};balls\na;9", ["column 5", "balls", "once"]),
         (f"{HEAD}\na;9;x;39", ["line 2, column ball_diameter_mm", "'x'", "a number"]),
         (f"{HEAD}\n\na;8.5;7;39", ["line 3, column balls", "8.5", "whole number"]),
         (f"{HEAD}\na;12;12;39", ["line 2, column balls", "do not overlap"]),
         (f"{HEAD}\na;9;7;39\na;9;7;39", ["line 3, column name", "a name of its own"]),
         (f"{HEAD}\na;9;7;39;1", ["cells in table of bearings: line 2 is 5", "4"]),
         ("name,balls,ball_diameter_mm,pitch_diameter_mm\na,9,7,94,39", ["decimal comma"]),
-        (f'{HEAD}\n"a;9;7;39', ["line 2 cannot be read"]),
+        (f'{HEAD}\n"a;9;7;39', ["cells that csv can read"]),
         (f"{HEAD};inner_groove_ratio\na;9;7;39;0.3", ["line 2, column inner_groove", "above"]),
         (
             f"{HEAD};inner_groove_ratio;inner_groove_radius_mm\na;9;7;39;0.52;3.7",
@@ -104,8 +103,6 @@ def test_ways_to_write_a_table(table: str | bytes) -> None:
         (f"{HEAD};diametral_clearance_um\na;9;7;39;-8000", ["clearance_um", "at least -0.007"]),
         (f"{HEAD};dynamic_load_rating_kn\na;9;7;39;0", ["load_rating_kn", "above 0"]),
         (f"{HEAD}\na;9;7;39\nb;9;y;39\nc;x;7;39", ["line 3, column ball_diam"]),
-        (f"{HEAD}\n" + "a;9;7;39\n" * (MOST_BEARINGS + 1), [f"at most {MOST_BEARINGS}"]),
-        (b" " * (MOST_BYTES + 1), [f"at most {MOST_BYTES}"]),
     ],
 )
 def test_faults_are_named(table: str | bytes, told: list[str]) -> None:

@@ -15,8 +15,13 @@ from bearingcore.bearings._designation import CATALOGUE_ANGLE, SERIES, inside_of
 from bearingcore.bearings._designation_tables import boundaries, clearance, series_of
 from bearingcore.bearings._inside import (
     BALL_SIZES,
-    MEASURED,
-    OTHER_MAKER,
+    FREQUENCY_SPREAD,
+    PUBLISHED_BEARINGS,
+    RATIO_SPREAD,
+    RIGHT_NUMBER,
+    SAME_ROLLERS,
+    TAPERED_BEARINGS,
+    TAPERED_SPREAD,
     balls_from_ratings,
     tapered_rollers_from_ratings,
 )
@@ -117,19 +122,14 @@ def test_rule_on_published_insides() -> None:
     all_of_them = judged()
     right = [bearing for bearing in all_of_them if bearing.is_right]
     frequencies = [abs(bearing.frequency) for bearing in right]
-    assert (MEASURED.right, MEASURED.bearings) == (len(right), len(all_of_them))
-    assert MEASURED.right >= 0.85 * MEASURED.bearings
-    assert median(abs(bearing.ratio) for bearing in all_of_them) == pytest.approx(
-        MEASURED.diameter, rel=0.02
-    )
-    assert median(frequencies) == pytest.approx(MEASURED.frequency, rel=0.02)
+    assert (len(right), len(all_of_them)) == (RIGHT_NUMBER, PUBLISHED_BEARINGS)
+    assert RIGHT_NUMBER >= 0.85 * PUBLISHED_BEARINGS
+    assert median(abs(bearing.ratio) for bearing in all_of_them) < 0.002
+    assert median(frequencies) < 2e-4
     nineteen = float(np.quantile(frequencies, 0.95))
-    assert nineteen == pytest.approx(MEASURED.frequency_spread, rel=0.02)
+    assert nineteen == pytest.approx(FREQUENCY_SPREAD, rel=0.02)
     spread = float(np.quantile([abs(bearing.ratio) for bearing in right], 0.95))
-    assert spread == pytest.approx(MEASURED.ratio_spread, rel=0.02)
-    assert MEASURED.frequency_spread == pytest.approx(0.018, abs=5e-4)  # as documents say
-    assert MEASURED.diameter < 0.04
-    assert MEASURED.frequency < 0.01
+    assert spread == pytest.approx(RATIO_SPREAD, rel=0.02)
 
 
 def test_only_insert_bearings_are_off_by_more_than_a_percent() -> None:
@@ -243,7 +243,7 @@ def test_an_angle_that_is_not_said_is_assumed_and_said() -> None:
 def test_entry_says_what_is_estimated() -> None:
     entry = read_designation("6208").entry
     assert "Estimated" in entry.note
-    assert f"{MEASURED.right} of {MEASURED.bearings}" in entry.note
+    assert f"{RIGHT_NUMBER} of {PUBLISHED_BEARINGS}" in entry.note
     assert entry.bearing.estimated == ("n_balls", "ball_diameter", "pitch_diameter")
 
 
@@ -264,7 +264,7 @@ def test_spread_of_frequencies() -> None:
     larger = bearing.replace(ball_diameter=bearing.ball_diameter * (1.0 + step))
     for name in ("bpfo", "bpfi", "ftf", "bsf"):
         change = getattr(larger, name)(100.0) / getattr(bearing, name)(100.0) - 1.0
-        expected = MEASURED.ratio_spread * abs(change) / step
+        expected = RATIO_SPREAD * abs(change) / step
         assert bearing.frequency_spread(name) == pytest.approx(expected, rel=1e-3)
         assert presets["6205"].bearing.frequency_spread(name) == 0.0
         assert read_designation("NU208").bearing.frequency_spread(name) == 0.0
@@ -344,11 +344,9 @@ def test_another_makers_ratings_give_nearly_the_same_tapered_rollers() -> None:
         assert abs(other.n_balls - own.n_balls) <= 1
         same += other.n_balls == own.n_balls
         ratios.append(abs(other.ball_diameter / own.ball_diameter - 1.0))
-    assert (OTHER_MAKER.same, OTHER_MAKER.bearings) == (same, len(ratios))
-    assert median(ratios) == pytest.approx(OTHER_MAKER.ratio, rel=0.02)
-    assert float(np.quantile(ratios, 0.95)) == pytest.approx(OTHER_MAKER.ratio_spread, rel=0.02)
-    said = OTHER_MAKER.ratio, OTHER_MAKER.ratio_spread
-    assert said == pytest.approx((0.006, 0.035), abs=5e-4)  # as documents say
+    assert (same, len(ratios)) == (SAME_ROLLERS, TAPERED_BEARINGS)
+    assert median(ratios) == pytest.approx(0.006, abs=5e-4)  # as documents say
+    assert float(np.quantile(ratios, 0.95)) == pytest.approx(TAPERED_SPREAD, rel=0.02)
 
 
 def test_narrow_and_wide_tapered_bearings_of_one_section_have_one_roller_diameter() -> None:

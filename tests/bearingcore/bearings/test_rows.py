@@ -76,12 +76,12 @@ def test_a_pair_knows_how_it_stands_and_can_be_moved(arrangement: str) -> None:
     assert pair.arrangement == arrangement
     assert (pair.row_distance, pair.preload) == (pytest.approx(16e-3), pytest.approx(preload))
     assert pair.total_balls == 24
-    assert pair.respaced(20e-3) == LIEW_LIM.bearing.paired(20e-3, arrangement, preload)
+    assert pair.replace(row_distance=20e-3) == LIEW_LIM.bearing.paired(20e-3, arrangement, preload)
     if preload:
-        assert pair.respaced(preload=2e-6) == LIEW_LIM.bearing.paired(16e-3, arrangement, 2e-6)
+        assert pair.replace(preload=2e-6) == LIEW_LIM.bearing.paired(16e-3, arrangement, 2e-6)
     assert LIEW_LIM.bearing.arrangement == ""
     with pytest.raises(ValueError, match="two rows that form a pair"):
-        LIEW_LIM.bearing.respaced(20e-3)
+        LIEW_LIM.bearing.replace(row_distance=20e-3)
 
 
 def test_a_self_aligning_bearing_carries_its_contacts() -> None:

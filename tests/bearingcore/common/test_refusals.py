@@ -17,7 +17,7 @@ import bearingcore as core
 from bearingcore.bearings import Row, bearing_of_frequencies
 from bearingcore.bearings._hertz import race_contact
 from bearingcore.bearings._kinds import kind_named
-from bearingcore.common import LARGEST_TEXT, thousands
+from bearingcore.common import LARGEST_TEXT
 from bearingcore.errors import FieldError
 from bearingcore.measured.files._text import read_text
 from bearingcore.measured.signals import order_map, severity_zone, spectrogram
@@ -38,9 +38,6 @@ RNG = np.random.default_rng(5)
 NOISE = core.Recording(RNG.standard_normal((12_000, 1)), 12_000.0, ("y",))
 TWO = RNG.standard_normal((3000, 2))
 TIME = np.arange(48_000) / 6000.0
-ENDLESS = np.broadcast_to(np.float64(0.0), (200_000_000,))
-"""Of a length that would be gigabytes, and takes none."""
-TOO_MANY = f"samples of the signal is 200000000; allowed: at most most_samples = {thousands(1e8)}"
 
 oil = partial(core.film, DRAWN, viscosity=0.02, pressure_viscosity=2e-8)
 record = partial(core.Recording, sample_rate=12_800.0, directions=("x", "y"))
@@ -146,12 +143,8 @@ REFUSED: dict[str, list[tuple[Callable[[], object], str]]] = {
         (lambda: lasts(INF), "dynamic_load_rating"),
         (lambda: lasts(14e3, positions="load line"), "positions"),
         (lambda: lasts(14e3, positions="some"), "positions"),
-        (lambda: lasts(14e3, turning_race="outer"), "turning_race"),
-        (lambda: lasts(14e3, turning_race="cage"), "turning_race"),
     ],
     "limits": [
-        (lambda: core.limits(HEALTHY, shoulder_height=0.0), "shoulder_height is 0; "),
-        (lambda: core.limits(HEALTHY, shoulder_height=0.6), "shoulder_height is 0.6; "),
         (lambda: core.limits(HEALTHY, step_rate=0.0), "step_rate is 0; "),
         (lambda: core.limits(HEALTHY, step_rate=NAN), "step_rate is nan; "),
     ],
@@ -247,8 +240,6 @@ REFUSED: dict[str, list[tuple[Callable[[], object], str]]] = {
         (lambda: core.spectrum(np.zeros(4096), NAN), "^sample_rate is .*; allowed: "),
         (lambda: core.spectrum(np.zeros(4096), 65536.0, 40e3), "^resolution is .*; allowed: "),
         (lambda: core.spectrum(np.zeros(4096), 65536.0, NAN), "^resolution is .*; allowed: "),
-        (lambda: core.spectrum(ENDLESS, 65536.0), TOO_MANY),
-        (lambda: core.envelope_spectrum(ENDLESS, 65536.0, (2000.0, 4000.0)), TOO_MANY),
         (lambda: envelope((3000.0, 2000.0)), "upper end of the band is 2000"),
         (lambda: envelope((0.0, 2000.0)), "lower end of the band is 0"),
         (lambda: envelope((100.0, 10_000.0)), "below 10000"),
@@ -280,7 +271,7 @@ REFUSED: dict[str, list[tuple[Callable[[], object], str]]] = {
         (lambda: diagnosis(150.0, speed_source="rumour"), "speed_source is 'rumour'"),
         (lambda: diagnosis(150.0, bearing_source="rumour"), "bearing_source is 'rumour'"),
         (lambda: diagnosis(150.0, unit="g"), "unit is 'g'; allowed: None for a recording"),
-        (lambda: core.diagnose("no/such.csv", "6205"), "the path of a file or folder that is ther"),
+        (lambda: core.diagnose("no/such.csv", "6205"), "one to read \\(No such file"),
         (lambda: extent(race="cage"), "race"),
         (lambda: extent(load=0.0), "load"),
         (lambda: extent(load=NAN), "load"),

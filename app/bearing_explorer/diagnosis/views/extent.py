@@ -76,7 +76,6 @@ class SpallExtent(LookView, MeasuredView):
         "at high frequency. The card below simulates the lengths that remain."
     )
     finds_speed = True
-    in_report = True
     computes = True
     look_fields = FIELDS
     first_look: ClassVar[dict[str, Any]] = {"race": ""}

@@ -62,13 +62,13 @@ class MeasuredView(View[Model]):
     is on the page.
     """
 
-    in_report = False
     needs = frozenset()
     hidden: Any = None
     #: whether what it computes looks for a speed that is not known
     finds_speed: ClassVar[bool] = False
     #: whether its card comes with a signal
     waits: ClassVar[bool] = True
+    is_brief = False  # what a result of a signal rests on is seen with it
     measurement: Measurement = NO_MEASUREMENT
 
     def __init__(self, packed: PackedSource) -> None:

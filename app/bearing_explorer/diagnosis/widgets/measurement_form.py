@@ -40,7 +40,7 @@ LABELS = {
     "sample_rate": "Sample rate (Hz)",
 }
 FORMATS = (
-    "CSV or other text, WAV, MATLAB (.mat), Octave, HDF5, NumPy, UFF, TDMS, Parquet, Excel "
+    "CSV or other text, WAV, MATLAB (.mat), HDF5, NumPy, UFF, TDMS, Parquet, Excel "
     f"(.xlsx), or a zip of some of them; at most {MOST_BYTES // 2**20} MB. Or drop it here. "
     "Several, or a folder, become a trend."
 )

@@ -106,6 +106,7 @@ def matrix_figure(
     `least_width` [px] is that at which its words have room.
     """
     plot = style.bare_figure(Range1d(*x), Range1d(*y), **options)
+    plot.toolbar_location = "left"  # on the right it would lie on the last column
     # as a property of the figure Panel would give the width to the whole card
     plot.min_width = None
     least = f"min-width: var(--matrix-width, {least_width}px);"

@@ -135,7 +135,8 @@ class Field:
         (side, at), (_, places) = (self.x, self.y) if way == "up" else (self.y, self.x)
         values = self.scaled[0][:, column] if way == "up" else self.scaled[0][row]
         fixed = with_unit(at[column if way == "up" else row], side.unit, 4)
-        return places, values, f"{self.words} at {side.words} {fixed}"
+        where = f"{side.words[:1].lower()}{side.words[1:]}"
+        return places, values, f"{self.words} at {where} {fixed}"
 
 
 def _page_numbers(output: DataArray) -> tuple[tuple[str, str, str], NDArray[np.float64]]:

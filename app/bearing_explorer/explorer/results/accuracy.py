@@ -21,8 +21,6 @@ from bearingcore.model.experiments import (
 
 SUBJECTS = {"motion": "Motion", "statics": "Statics", STABILITY: "Stability"}
 """Labels of what is measured, by name."""
-PARTS = {"everything": MEASURED, STABILITY: (STABILITY, ORBITS)}
-"""What several experiments are for; each other subject is one."""
 
 
 @dataclass(frozen=True)
@@ -48,7 +46,7 @@ def preset_like(scene: Scene) -> str:
 
 def compute(job: Work, scene: Scene, name: str) -> str:
     """Measure and show it point by point. Runs in a job's thread."""
-    names = PARTS.get(name, (name,))
+    names = (STABILITY, ORBITS) if name == STABILITY else (name,)
     if not set(names) <= set(MEASURED):
         raise ValueError("There is no such experiment.")
     started = time.perf_counter()

@@ -7,9 +7,7 @@ of a ball. While a slider moves, a motion that takes too long for that is shorte
 from __future__ import annotations
 
 import dataclasses
-import itertools
 import math
-from collections.abc import Callable
 from typing import NamedTuple
 
 import bearingcore as core
@@ -17,8 +15,8 @@ from bearing_explorer.explorer.results.ball_mass import BallMass, compare_motion
 from bearing_explorer.explorer.results.excerpt import Excerpt, excerpt_of
 from bearing_explorer.explorer.state.settings import Marching
 from bearing_explorer.kit.compute import compiling
-from bearing_explorer.kit.compute.cache import Overtaken, cached
-from bearingcore import Motion, Orbit, Scene, Spectrum
+from bearing_explorer.kit.compute.cache import cached
+from bearingcore import Motion, Scene, Spectrum
 from bearingcore.common import thousands
 from bearingcore.model.dynamics import default_step_rate, fine_step_rate, highest_natural_frequency
 from bearingcore.model.scene import MASSLESS, WITH_MASS, is_planar
@@ -41,9 +39,6 @@ PREVIEW_DURATION, PREVIEW_PASSES, PREVIEW_TRANSIENT_SHARE = 0.05, 2.36, 0.3
 of it that counts as its start and is not shown. What is shown is as long as one stretch of a
 spectrum takes, 31 ms, and a ball's way through the defect can begin anywhere in its first pass and
 ends within six tenths of the next."""
-
-FEW_PERIODS = 30
-"""Periods that are integrated at most to find an orbit while a slider moves; most take 5 to 12."""
 
 GENERAL_COST = 4.0
 """Cost of a contact that is not that of a flat bearing, over the cost of one that is."""
@@ -139,10 +134,6 @@ def _affordable(scene: Scene, duration: float, rate: float) -> float:
     return most / rate
 
 
-def _coarse_step_rate(scene: Scene, sample_rate: float) -> float:
-    return default_step_rate(scene, sample_rate, COARSE_STEPS)
-
-
 # Motions and what is made of them
 
 
@@ -152,7 +143,7 @@ def motion(scene: Scene, how: Marching) -> SettledMotion:
     compiling.need(compiling.MOTION, scene)
     rate = how.step_rate or step_rate_of(scene, how.sample_rate)
     if how.coarse:
-        rate = _coarse_step_rate(scene, how.sample_rate)
+        rate = default_step_rate(scene, how.sample_rate, COARSE_STEPS)
     duration = quick_duration(scene, how)
     if rate is not None:
         duration = _affordable(scene, duration, rate)
@@ -220,42 +211,3 @@ def ball_mass(scene: Scene, how: Marching) -> BallMass:
     light = scene.replace(balls=MASSLESS)
     massless = motion(light, limit_to_known(light, alike))
     return compare_motions(massless.motion, moved.motion, moved.since)
-
-
-# Orbits
-
-
-@cached
-def orbit(scene: Scene, how: Marching, give_up: Callable[[], bool] | None = None) -> Orbit:
-    """The orbit, looked for with steps as those of the motion.
-
-    Raises `Overtaken` where `give_up` ended the search.
-    """
-    compiling.need(compiling.ORBITS)
-    given_up = False
-
-    def stop() -> bool:
-        nonlocal given_up
-        given_up = give_up is not None and give_up()
-        return given_up
-
-    answer = core.orbit(scene, step_rate=_orbit_step_rate(scene, how), give_up=stop)
-    if given_up:
-        raise Overtaken
-    return answer
-
-
-@cached
-def quick_orbit(scene: Scene, how: Marching) -> Orbit:
-    """The orbit, or what a search of FEW_PERIODS has come to."""
-    compiling.need(compiling.ORBITS)
-    periods = itertools.count(1)
-    return core.orbit(
-        scene,
-        step_rate=_orbit_step_rate(scene, how),
-        give_up=lambda: next(periods) >= FEW_PERIODS,
-    )
-
-
-def _orbit_step_rate(scene: Scene, how: Marching) -> float | None:
-    return _coarse_step_rate(scene, how.sample_rate) if how.coarse else None

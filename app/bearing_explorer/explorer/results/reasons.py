@@ -76,7 +76,7 @@ def most_loaded(
     text += "" if briefly else f", {what}"
     apart = np.abs((states.ball_angle[state] - line + math.pi) % (2.0 * math.pi) - math.pi)
     nearer = np.flatnonzero(apart < apart[most].min() - 1e-6)  # none without a line, which is NaN
-    where, brief = _place_words(float(apart[most].min()), bool(nearer.size))
+    where, brief = _place_words(float(apart[most].min()), bool(nearer.size), not several)
     # in a defect, farther than those that carry most, and with less load
     lost = (drop > drop[most].max()) & (load < (1.0 - ALIKE) * load.max())
     inside, adjacent = nearer[lost[nearer]], _neighbours(bearing, most)
@@ -104,7 +104,7 @@ def _carried_at_most(load: float, single: bool) -> str:
     return f"only {text}" if single else f"at most {text} each"
 
 
-def _place_words(apart: float, is_off: bool) -> tuple[str, str]:
+def _place_words(apart: float, is_off: bool, single: bool) -> tuple[str, str]:
     """Where the elements are that carry most, `apart` [rad] from the load's line, also in short.
 
     `is_off`: others are nearer to it. NaN where there is no line.
@@ -114,7 +114,8 @@ def _place_words(apart: float, is_off: bool) -> tuple[str, str]:
     off = style.in_degrees(apart, 0)
     on = "on the line of the load"
     near = on if off == "0°" else f"nearest the line of the load ({off})"
-    return f"{near}, where the rings are pressed together most", "nearest the load"
+    lies = "it lies" if single else "they lie"
+    return f"{lies} {near}, where the rings are pressed together most", f"{lies} nearest the load"
 
 
 def _neighbours(bearing: Bearing, which: NDArray[np.int64]) -> NDArray[np.int64]:
@@ -139,7 +140,9 @@ def greatest_load(results: Results) -> str:
     angle = states.cage_angles[state]
     drop = drops_at(results.scene, angle, None, states.leads[state])[0]
     why = most_loaded(results.scene, states, state[0], drop)
-    return f"That is with the cage at {style.in_degrees(angle[0])}: {why[0].lower()}{why[1:]}"
+    return (
+        f"It occurs with the cage at {style.in_degrees(angle[0])}. There {why[0].lower()}{why[1:]}"
+    )
 
 
 def _named(bearing: Bearing, which: NDArray[np.int64]) -> str:
@@ -330,15 +333,16 @@ def _why_held(scene: Scene, held: list[str], briefly: bool) -> str:
         return f"{names} are held, as by the shaft's other bearing."
     if scene.active_dofs != scene.needed_dofs:
         return f"{names} {'is' if len(held) == 1 else 'are'} held by choice."
+    free = style.list_words([DOF_SYMBOLS[dof] for dof in DOF_NAMES if dof not in held])
+    text = f"Only {free} matter here"
     if briefly:
-        free = style.list_words([DOF_SYMBOLS[dof] for dof in DOF_NAMES if dof not in held])
-        return f"Only {free} matter here."
+        return f"{text}."
     kind = scene.bearing.kind
     why = [kind.left_out] if set(held) - set(kind.needed_directions) and kind.left_out else []
     if scene.active_dofs != kind.needed_directions:
         tilts = "rx" in kind.needed_directions
         why.append("no load along the shaft" + (", no moment" if tilts else ""))
-    return f"Not needed here: {names} ({'; '.join(why)})." if why else f"Not needed here: {names}."
+    return f"{text}: {'; '.join(why)}." if why else f"{text}."
 
 
 def play(now: Bearing, before: Bearing) -> str:
@@ -385,11 +389,8 @@ def frequencies(results: Results) -> str:
     if power > 0.55:
         return f"{text}, and other terms with it."
     if power >= 0.45:
-        return f"{text}: a frequency goes with the square root of the stiffness."
-    return (
-        f"{text}: less than its square root, as the support, whose stiffness stays, has a part "
-        "in it."
-    )
+        return f"{text}: a frequency follows the square root of the stiffness."
+    return f"{text}: less than its square root, as the support's stiffness does not vary."
 
 
 # --- vibration ------------------------------------------------------------------------------------
@@ -417,9 +418,9 @@ def passes(
         if briefly:
             return ""
         return (
-            f"No peak at {hertz}, as often as balls pass: lines are {spacing:.0f} Hz apart. See "
-            f"each pass in time (Vibration, every {style.with_prefix(1.0 / rate, 's')}) or in the "
-            "envelope (Diagnosis)."
+            f"No peak at the ball-pass frequency, {hertz}: this spectrum resolves only "
+            f"{spacing:.0f} Hz. Each pass is seen in time (Vibration, every "
+            f"{style.with_prefix(1.0 / rate, 's')}) and in the envelope (Diagnosis)."
         )
     level = 10.0 * np.log10(np.maximum(density, 1e-20))
     at = round(rate / spacing)
@@ -427,15 +428,15 @@ def passes(
     valleys = [level[round(share * rate / spacing)] for share in (0.5, 1.5)]
     below = f"{style.number(float(level.max() - height), 2)} dB below the largest peak"
     if height - max(valleys) < STANDS_OUT:
-        text = f"No peak stands out at {hertz}, as often as balls pass: "
+        text = f"No peak stands out at the ball-pass frequency, {hertz}: "
         if not rate < lowest_mode:
             return f"{text}there the level is {below}."
         return f"{text}so slow a force moves the housing little, {below}."
     most = float(frequency[int(np.argmax(level))])
     why = " No defect: a healthy bearing shakes too as its balls pass." if healthy else ""
     if abs(most - max(round(most / rate), 1) * rate) <= 0.51 * spacing:
-        return f"Peaks stand {hertz} apart, as often as balls pass.{why}"
-    return f"A peak stands at {hertz}, as often as balls pass, {below}.{why}"
+        return f"Peaks stand {hertz} apart, the ball-pass frequency.{why}"
+    return f"A peak stands at the ball-pass frequency, {hertz}, {below}.{why}"
 
 
 def peak(results: Results, rates: Sequence[float], *, briefly: bool = False) -> str:
@@ -456,7 +457,7 @@ def peak(results: Results, rates: Sequence[float], *, briefly: bool = False) -> 
         if briefly:
             name = mode_symbol(alike[0])
             return f"The highest peak{above} is the {name} resonance, struck by every passing ball."
-        return f"{text} {_lies(most, alike[0], bands)}: balls that pass make this mode swing."
+        return f"{text} {_lies(most, alike[0], bands)}: each passing ball excites this mode."
     if times := _in_ball_passes(most, rates):
         if briefly:
             return f"The highest peak{above} is at {times}."
@@ -490,7 +491,7 @@ def _in_ball_passes(most: Peak, rates: Sequence[float]) -> str:
         if resolved and abs(most.frequency - 0.5 * halves * rate) <= 0.51 * most.resolution:
             hertz = f"{style.number(rate, 4)} Hz"
             if halves == 2:
-                return f"{hertz}, as often as balls pass"
+                return f"{hertz}, the ball-pass frequency"
             why = "a multiple of the ball passes"
             why = "so the motion does not repeat with each ball pass" if halves % 2 else why
             return f"{style.number(0.5 * halves)} × {hertz}, {why}"

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable, Sequence, Set
+from collections.abc import Sequence, Set
 from dataclasses import KW_ONLY, dataclass, field
-from typing import Any, ClassVar, TypeVar
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -38,9 +38,8 @@ from bearing_explorer.kit.compute.executors import PICTURES
 from bearing_explorer.kit.sentences import words_of
 from bearing_explorer.kit.views.content import SceneContent, Warnings
 from bearing_explorer.kit.views.python_lines import changed_fields, code_of, scene_code, short
-from bearingcore import Equilibrium, Limit, Maps, Modes, Motion, Orbit, Scene, Spectrum
+from bearingcore import Equilibrium, Limit, Maps, Modes, Motion, Scene, Spectrum
 from bearingcore.common import cached_property
-from bearingcore.model.dynamics import OrbitStatus, common_ball_passes
 from bearingcore.model.scene import MASSLESS, WITH_MASS
 from bearingcore.model.statics import (
     EquilibriumWithMass,
@@ -51,32 +50,13 @@ from bearingcore.model.statics import (
     summary,
 )
 
-Compute = TypeVar("Compute", bound=Callable[..., object])
-
 MAP_REACHES = tuple(math.radians(reach) for reach in (90.0, 120.0, 180.0, 360.0))
 """Greatest extents of maps [rad]: the first that holds the extent shown. 90° as in the paper."""
 
-SLOW: set[str] = set()
-"""Attributes of `Results` that take long enough to be drawn after the others."""
-OF_MOTION: set[str] = set()
-"""Attributes that are made of a simulated motion."""
-OVER_STRETCH: set[str] = set()
+OF_MOTION = frozenset({"motion", "excerpt", "late_spectra", "ball_mass", "chain"})
+"""Attributes of `Results` that are made of a simulated motion, and are drawn after the others."""
+OVER_STRETCH = frozenset({"equilibrium", "ranges", "modes", "bands", "chain"})
 """Attributes over the cage angles of the curves, fewer while a slider moves."""
-
-
-def note_kinds(*kinds: set[str]) -> Callable[[Compute], Compute]:
-    """Note the name of an attribute in these sets."""
-
-    def note(compute: Compute) -> Compute:
-        for kind in kinds:
-            kind.add(compute.__name__)
-        return compute
-
-    return note
-
-
-LONGEST_ORBIT = 60
-"""Ball passes of the longest orbit that is looked for while sliders move."""
 
 
 @cached
@@ -115,13 +95,11 @@ class Results(SceneContent):
         term of the stiffness that the open lesson compares between scenes; empty without one.
     mark
         number of the newest change of the browser that they hold.
-    give_up
-        called in long searches: whether the results are no longer wanted.
     like
         other results, over whose stretch and with whose steps these are computed.
     """
 
-    slow: ClassVar[Set[str]] = SLOW
+    slow: ClassVar[Set[str]] = OF_MOTION
 
     scene: Scene
     cage_angle: float = 0.0
@@ -136,7 +114,6 @@ class Results(SceneContent):
     life_inputs: LifeInputs = field(default_factory=LifeInputs)
     lesson_term: str = ""
     mark: int = 0
-    give_up: Callable[[], bool] | None = None
     like: Results | None = None
     _against: dict[tuple[Scene, bool], Results] = field(default_factory=dict, init=False)
 
@@ -144,9 +121,6 @@ class Results(SceneContent):
     def fine_key(self) -> tuple[object, ...]:
         """All that a fine picture depends on: turning the bearing leaves one fine."""
         return self.scene, self.settings, self.compared, self.grey_kind
-
-    def at_rest(self, rested: bool = True, give_up: Callable[[], bool] | None = None) -> Results:
-        return dataclasses.replace(self, moving=not rested, give_up=give_up)
 
     def against(self, reference: Reference, *, own_period: bool = False) -> Results:
         """Results of another scene, to be compared with these.
@@ -160,17 +134,9 @@ class Results(SceneContent):
                 self.cage_angle,
                 self.settings,
                 moving=self.moving,
-                give_up=self.give_up,
-                life_inputs=self._life_inputs_of(reference.scene),
                 like=None if own_period else self,
             )
         return self._against[key]
-
-    def _life_inputs_of(self, scene: Scene) -> LifeInputs:
-        """Of another scene: the same oil and surfaces; a rating is that of its own bearing."""
-        if scene.bearing == self.scene.bearing:
-            return self.life_inputs
-        return dataclasses.replace(self.life_inputs, dynamic_load_rating=None)
 
     @cached_property
     def editor(self) -> SceneEditor:
@@ -238,13 +204,11 @@ class Results(SceneContent):
         return np.degrees(inside)
 
     @cached_property
-    @note_kinds(OVER_STRETCH)
     def equilibrium(self) -> Equilibrium:
         """Static answers over the stretch."""
         return statics.curves(self.scene, *self.stretch)
 
     @cached_property
-    @note_kinds(OVER_STRETCH)
     def ranges(self) -> StaticRanges:
         """Least, greatest and mean of static answers, over all positions of the bearing.
 
@@ -275,13 +239,11 @@ class Results(SceneContent):
         return statics.equilibrium_at(self.scene, self.cage_angle)
 
     @cached_property
-    @note_kinds(OVER_STRETCH)
     def modes(self) -> Modes:
         """Natural frequencies over the stretch."""
         return statics.modes(self.scene, *self.stretch)
 
     @cached_property
-    @note_kinds(OVER_STRETCH)
     def bands(self) -> dict[str, tuple[float, float]]:
         """Between which frequencies [Hz] each mode moves, over all positions of the bearing.
 
@@ -340,9 +302,7 @@ class Results(SceneContent):
     def verdict(self, shown: frozenset[str]) -> Verdict:
         """The verdict on what is on screen: `shown` are the attributes that its views read.
 
-        The first failure counts: without a static state there is no motion, and a motion that
-        broke off has no orbit. An orbit that is shown is judged, converged or not: an unstable one
-        is no place where a machine stays.
+        The first failure counts: without a static state there is no motion.
         """
         bad = verdict.statics_words(self.equilibrium)
         if not bad and "now" in shown:
@@ -356,8 +316,6 @@ class Results(SceneContent):
                 return Verdict("bad", f"No motion: {self.ball_mass.broke_off}")
             if shown & verdict.MOTIONS and self.fault:
                 return Verdict("bad", f"The motion {self.fault}")
-            if shown & verdict.ORBITS:
-                return verdict.orbit_verdict(self.orbit, self.moving)
         except StillCompiling as wait:
             return Verdict("busy", f"Not ready: {wait}")
         except ValueError as error:  # the view gives the whole sentence
@@ -406,14 +364,7 @@ class Results(SceneContent):
 
     def is_finer_at_rest(self, shown: frozenset[str]) -> bool:
         """Whether any of these attributes is computed more finely once the slider rests."""
-        if shown & OVER_STRETCH or self.is_coarse(shown):
-            return True
-        if "orbit" not in shown:
-            return False
-        try:
-            return self.orbit is not None and self.orbit.status is OrbitStatus.NOT_CONVERGED
-        except ValueError:
-            return False  # there is no motion, and none at rest
+        return bool(shown & OVER_STRETCH) or self.is_coarse(shown)
 
     def coarse_words(self, shown: frozenset[str]) -> str:
         """In which way motions shown are coarse."""
@@ -441,7 +392,6 @@ class Results(SceneContent):
         return how
 
     @cached_property
-    @note_kinds(SLOW, OF_MOTION)
     def motion(self) -> Motion:
         """Simulated motion of rotor and housing."""
         return motions.motion(self.scene, self.marching).motion
@@ -456,19 +406,12 @@ class Results(SceneContent):
         """Words on bands of the spectrum that are not known within 1 dB; or empty."""
         return motions.ending(self.scene, self.marching).doubt
 
-    @property
-    def settled_since(self) -> float:
-        """Time [s] of the motion after which it counts as settled."""
-        return motions.ending(self.scene, self.marching).since
-
     @cached_property
-    @note_kinds(SLOW, OF_MOTION)
     def excerpt(self) -> Excerpt:
         """Some ball passes of the settled motion, with static loads for comparison."""
         return motions.excerpt(self.scene, self.marching)
 
     @cached_property
-    @note_kinds(SLOW, OF_MOTION)
     def late_spectra(self) -> dict[str, Spectrum]:
         """Spectrum of the housing's acceleration along each direction, once the motion has settled.
 
@@ -483,34 +426,12 @@ class Results(SceneContent):
         return {dof: loudest(spectra[dof]) for dof in ("x", "y") if dof in spectra}
 
     @cached_property
-    @note_kinds(SLOW, OF_MOTION)
     def ball_mass(self) -> BallMass:
         """The motions without and with the balls' mass, marched alike; whatever the scene has."""
         if kind := self.scene.bearing.kind.mass_unknown:
             raise ValueError(f"the model has no mass of {kind}")
         how = self._marching_of(self.scene.replace(balls=WITH_MASS))
         return motions.ball_mass(self.scene.replace(balls=MASSLESS), how)
-
-    @property
-    def ball_passes(self) -> int | None:
-        """After how many ball passes all is as before; None where it never is."""
-        return common_ball_passes(self.scene)
-
-    @cached_property
-    @note_kinds(SLOW, OF_MOTION)
-    def orbit(self) -> Orbit | None:
-        """The motion that repeats itself; None where it takes too many ball passes to look for.
-
-        The search is short while a slider moves.
-        """
-        if (self.ball_passes or 0) > LONGEST_ORBIT:
-            return None
-        # balls without mass, whatever the scene has
-        key = self.scene.replace(balls=MASSLESS), self.marching
-        answer = motions.quick_orbit(*key)
-        if self.moving or answer.status is not OrbitStatus.NOT_CONVERGED:
-            return answer
-        return motions.orbit(*key, give_up=self.give_up)
 
     @cached_property
     def contact_damping(self) -> float:
@@ -550,7 +471,6 @@ class Results(SceneContent):
         return load if math.isfinite(load) else None
 
     @cached_property
-    @note_kinds(SLOW, OF_MOTION, OVER_STRETCH)
     def chain(self) -> Chain:
         """Results from the loads of the balls to the vibration."""
         bands: dict[str, tuple[float, float]] = {}

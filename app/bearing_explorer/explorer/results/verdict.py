@@ -8,31 +8,16 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from bearing_explorer.explorer.results.chain import Chain
-from bearingcore import Equilibrium, Limit, Orbit
+from bearingcore import Equilibrium, Limit
 from bearingcore.common import count, number, scientific, with_prefix
-from bearingcore.model.dynamics import OrbitStatus
 from bearingcore.model.scene import DOF_SYMBOLS
 from bearingcore.model.statics import NO_OIL
 
-ORBITS = frozenset({"orbit"})
-"""Attributes of the results that are of the steady orbit."""
 MOTIONS = frozenset({"motion", "excerpt", "late_spectra"})
 """Attributes that are of a simulated motion."""
 
 BALLS = frozenset({"ball_mass"})
 """Attributes that compare motions without and with the mass of balls."""
-
-LOST = {
-    "-1": "Unstable: period doubling (flip)",
-    "pair": "Unstable: second frequency (Neimark–Sacker)",
-    "+1": "Unstable: jump to another orbit (fold)",
-}
-"""Losses of stability, by the place where the largest multiplier leaves the unit circle."""
-
-_NO_ORBIT = {
-    OrbitStatus.NO_PERIOD: "No common period",
-    OrbitStatus.NO_START: "No static state",
-}
 
 
 class Verdict(NamedTuple):
@@ -64,19 +49,6 @@ def chain_words(chain: Chain) -> str:
         return ""
     share = number(100.0 * (1.0 - chain.answered), 2)
     return f"No answer at {share} % of the cage angles: {chain.reason}"
-
-
-def orbit_verdict(orbit: Orbit | None, moving: bool) -> Verdict:
-    """Whether there is a steady orbit, and whether it is stable."""
-    if orbit is None:
-        return Verdict("bad", "Orbit not searched")
-    if orbit.multipliers.size:
-        if orbit.stable:
-            return Verdict("good", "Stable orbit")
-        return Verdict("bad", LOST[orbit.through])
-    if orbit.status in _NO_ORBIT:
-        return Verdict("bad", _NO_ORBIT[orbit.status])
-    return Verdict("busy", "No orbit found yet") if moving else Verdict("bad", "No orbit found")
 
 
 def details_of(state: Equilibrium) -> list[str]:

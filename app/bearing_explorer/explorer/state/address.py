@@ -25,7 +25,8 @@ The rules of version 1, which later versions go on reading:
 - `rows` is ``one``, or of each row place, facing, clearance, offset and turn in SI with ``_``
   between them, and ``~`` between rows; behind them what a row has of its own: contact angle, number
   of balls, ball and pitch diameter, inner and outer groove radius, nothing between the ``_`` of one
-  it has not, and none of the last ones. `name` is what a person calls the bearing, `estimated` the
+  it has not, and none of the last ones. `row_distance_mm`, `preload_um` and numbers of the second
+  row are read too, and change two rows. `name` is what a person calls the bearing, `estimated` the
   dimensions that are estimates, with dots between them, `rating` a catalogue's C_r [N].
 - What has ``compare1.`` in front are the first scene that is compared, by
   the same rules; `compare1.label` is the name of its curves.
@@ -63,7 +64,7 @@ from bearing_explorer.kit.sentences import one_line, sentence_of
 from bearing_explorer.kit.serve.address import TOO_LONG
 from bearingcore import DOF_NAMES, Defect, MeasuredFloor, RoughFloor, Scene, presets
 from bearingcore.bearings import BALL_MATERIAL, OPTIONAL_FIELDS, Row
-from bearingcore.fields import SCENE_PARTS, Field, Range
+from bearingcore.fields import Field, Range
 from bearingcore.model.scene import MOST_ROWS, TILT_FREE, TILT_HELD
 
 VERSION = "1"
@@ -380,6 +381,7 @@ def _read(pairs: dict[str, str]) -> Place:
             note += " A measured floor was too long for the address; here it is flat."
         defects.append(_defect(defect_pairs, defects_of(base)[0]))
     fields = {part: _taken(entries, pairs) for part, entries in _SCENE.items()}
+    of_rows = _taken(_TWO_ROWS, pairs)
     if pairs:
         raise ValueError(f"“{_shown(next(iter(pairs)))}” belongs to a defect that is missing.")
     own_fields = fields.pop("scene")
@@ -394,6 +396,7 @@ def _read(pairs: dict[str, str]) -> Place:
     if said == TILT_HELD:
         own_fields["dofs"] = None
     scene = dataclasses.replace(base, defect=defect, **parts, **own_fields).with_tilts_as(said)
+    scene = scene.replace(**of_rows)
     tab = OTHER_NAMES_OF_TABS.get(tab, tab)[:40]
     return Place(scene, preset, selected, cage_angle, tab, note.strip(), name, compared)
 
@@ -430,7 +433,7 @@ def _rows(text: str) -> tuple[Row, ...]:
 
 def _defect(pairs: dict[str, str], usual: Defect) -> Defect:
     fields = _taken(_DEFECT, pairs)
-    kind = pairs.get("floor", "flat")
+    kind = pairs.get("floor", "rough" if any(entry.name in pairs for entry in _FLOOR) else "flat")
     if kind == "rough":
         fields["floor"] = RoughFloor(
             **{entry.field: entry.value_of(pairs.get(entry.name, "")) for entry in _FLOOR}
@@ -540,7 +543,7 @@ class Entry:
 
 def _numbers_of(part: str) -> list[Entry]:
     return [
-        Entry(field.key, field.name, partial(number_text, field), partial(_number, field))
+        Entry(field.key, field.full_name, partial(number_text, field), partial(_number, field))
         for field in SHOWN_FIELDS
         if field.part == part
     ]
@@ -553,7 +556,7 @@ def _choices_of(choices: Iterable[Choice]) -> list[Entry]:
     ]
 
 
-_SCENE = {part: _numbers_of(part) for part in SCENE_PARTS if part != "defect"}
+_SCENE = {part: _numbers_of(part) for part in ("scene", "load", "bearing", "support")}
 _SCENE["bearing"] += [
     Entry("rows", "rows", rows_text, _rows),
     Entry("estimated", "estimated", ".".join, lambda text: tuple(text.split("."))),
@@ -563,10 +566,13 @@ _SCENE["scene"] += [*_choices_of(OF_SCENE), Entry("dofs", "dofs", _dofs_text, _d
 """Entries of each part of a scene."""
 _DEFECT = [*_numbers_of("defect"), *_choices_of(OF_DEFECT)]
 _FLOOR = _numbers_of("floor")
+_TWO_ROWS = [*_numbers_of("pair"), *_numbers_of("second")]
+"""Numbers that `rows` holds too: links have that, a person may write these."""
 
 _PLACE_ONLY = {"v", "tab", CAGE_ANGLE}
 _PLACE_NAMES = {
     *("preset", "defects", "selected", "name"),
+    *(entry.name for entry in _TWO_ROWS),
     *(entry.name for entries in _SCENE.values() for entry in entries),
 }
 _DEFECT_NAMES = ["floor", "points", *(entry.name for entry in (*_DEFECT, *_FLOOR))]

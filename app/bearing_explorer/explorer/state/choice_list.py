@@ -1,6 +1,6 @@
 """Every choice of the page that is taken out of a list: its options, and what it is of a scene.
 
-The controls, what the browser may ask for, links, lessons and reports all come from this table. A
+The controls, what the browser may ask for, links and lessons all come from this table. A
 choice that is a field of a scene or of its defects needs an entry here and nothing else.
 """
 
@@ -54,8 +54,6 @@ class Choice:
         that field.
     all_alike
         all defects have it alike.
-    said
-        how a report says it, "{}" standing for what is chosen.
     not_in_lessons
         options that a lesson cannot set; all of them where it cannot choose at all.
     lesson_control
@@ -70,7 +68,6 @@ class Choice:
     field: str = ""
     first: bool = False
     all_alike: bool = False
-    said: str = ""
     not_in_lessons: frozenset[str] = frozenset()
     lesson_control: bool = False
 
@@ -100,11 +97,6 @@ class Choice:
             owner = next(part for part in parts if hasattr(part, self.field))
         value = getattr(owner, self.field)
         return next(option.name for option in self.options if option.value == value)
-
-    def sentence(self, owner: Any) -> str:
-        """The sentence of a report about a scene or a defect; empty without one."""
-        labels = {option.name: option.label for option in self.options}[self.name_of(owner)]
-        return self.said.format(labels) if self.said else ""
 
 
 RACE = Choice(
@@ -166,7 +158,6 @@ EDGE = Choice(
     of="defect",
     field="edge",
     all_alike=True,  # defects that run into one another need one edge model
-    said="balls roll over its edges “{}”",
     lesson_control=True,
 )
 
@@ -210,7 +201,6 @@ LAW = Choice(
     ),
     of="scene",
     field="contact_law",
-    said="Contact law: {}",
 )
 
 BALLS = Choice(
@@ -234,7 +224,6 @@ BALLS = Choice(
     ),
     of="scene",
     field="balls",
-    said="Balls: {}",
     lesson_control=True,
 )
 
@@ -258,7 +247,7 @@ DIRECTIONS = Choice(
         Option(
             IN_PART,
             "Held in some directions by choice",
-            "As a simpler model is taken on the Accuracy tab, or by a link or a file.",
+            "As a link or a file has it.",
         ),
     ),
     first=True,

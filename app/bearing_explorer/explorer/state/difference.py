@@ -11,15 +11,13 @@ from bearing_explorer.explorer.state.field_values import (
     Values,
     defects_of,
     differ,
-    number_of,
-    scene_with_fields,
     values_of,
 )
 from bearing_explorer.explorer.state.references import usual_name
 from bearing_explorer.kit.sentences import label_inside
 from bearingcore import Scene
 from bearingcore.common import number, with_prefix
-from bearingcore.fields import FIELD_OF, SCENE_PARTS, Field
+from bearingcore.fields import Field
 
 MOST_NUMBERS = 3
 """Numbers that are named one by one; more are said to be another bearing, or several at once."""
@@ -51,34 +49,6 @@ def difference(now: Scene, before: Scene, focus: int = 0) -> str:
         return "Another defect has changed" if defects != earlier else "The scene has changed"
     first, *others = words
     return ", ".join([first, *(word[0].lower() + word[1:] for word in others)])
-
-
-def separated(now: Scene, before: Scene, focus: int = 0) -> dict[str, Scene]:
-    """Each of several causes of a difference alone: `before` with it, by its name.
-
-    The parts of a load are one cause, and so is a defect that is longer at one end. Empty where
-    there are fewer than two, or more than numbers have changed.
-    """
-    if len(now.defects) != len(before.defects):
-        return {}
-    focus = min(focus, len(defects_of(now)) - 1)
-    changed = [field for field, _ in _numbers(values_of(now, focus), values_of(before, focus))]
-    if len(changed) > MOST_NUMBERS or {field.part for field in changed} - set(SCENE_PARTS):
-        return {}
-    longer = any(field.name == "extent" for field in changed)
-    causes: dict[str, dict[str, float | None]] = {}
-    for field in changed:
-        at_one_end = longer and field.name == "center"
-        name = label_inside(FIELD_OF["extent"] if at_one_end else field)
-        name = "load" if field.part == "load" else name
-        causes.setdefault(name, {})[field.name] = number_of(now, field, focus)
-    together = {name: value for cause in causes.values() for name, value in cause.items()}
-    try:
-        if len(causes) < 2 or scene_with_fields(before, together, focus) != now:
-            return {}
-        return {name: scene_with_fields(before, cause, focus) for name, cause in causes.items()}
-    except ValueError:
-        return {}
 
 
 def distinct_name(scene: Scene, others: Iterable[Scene], focus: int = 0, bearing: str = "") -> str:

@@ -28,6 +28,11 @@ SCENE_GROUPS = ("Defect", "Turning", "Load")
 BEARING_GROUPS = ("Balls", "Rows", "Second row", "Drawing", "Contact", "Races")
 MODEL_GROUPS = ("Bodies", "Contacts in motion", "Support, stiffness", "Support, damping")
 
+_OF_DEFECT = {
+    *Defect.__dataclass_fields__,
+    *(field.name for field in FIELDS if field.part == "floor"),
+}
+
 Values = dict[str, float]
 """A value for each key, in the shown unit of the field; NaN for an optional one left open."""
 
@@ -89,7 +94,7 @@ def in_si(field: Field, value: float) -> float | None:
 
 def scene_with_fields(scene: Scene, fields: Mapping[str, Any], selected: int = 0) -> Scene:
     """`scene` with fields changed by their names, those of a defect in the `selected` one."""
-    of_defect = {name: fields[name] for name in fields if name in Defect.__dataclass_fields__}
+    of_defect = {name: fields[name] for name in fields if name in _OF_DEFECT}
     others = {name: fields[name] for name in fields if name not in of_defect}
     defects = list(defects_of(scene))
     if of_defect:

@@ -270,30 +270,6 @@ def _name_of(path: Path) -> str:
     return (re.sub(r"^\d+-", "", plain) or plain)[:LONGEST_NAME]
 
 
-def text_for_teachers(tabs: Tabs) -> str:
-    """The page for teachers as safe HTML."""
-    tokens = _markdown().parse(asset_path("docs/TEACHING.md").read_text(encoding="utf-8"))
-    preset = next(iter(presets))
-    checks = _Checks(['title = "-"', 'tab = "load"', f'preset = "{preset}"'], tabs)
-    for token in tokens:
-        if token.type in ("heading_open", "heading_close"):
-            _lower(token, by=2)  # below the title of the list of lessons
-        if token.children:
-            _drop_file_links(token.children)
-            _mend(token.children, 1, checks)
-    return str(_markdown().renderer.render(tokens, _markdown().options, {}))
-
-
-def _drop_file_links(tokens: list[Token]) -> None:
-    """Links that lead somewhere in the repository only become their words."""
-    inside = False
-    for token in tokens:
-        opens = token.type == "link_open" and ":" not in str(token.attrGet("href") or "")
-        if opens or (token.type == "link_close" and inside):
-            inside = opens
-            token.type, token.content, token.nesting = "text", "", 0
-
-
 def _text(path: Path, size: int) -> str:
     if not path.is_file():
         raise LessonError(1, "this is not a regular file")
@@ -492,9 +468,9 @@ def _parts(text: str, offset: int, checks: _Checks) -> tuple[Part, ...]:
     return tuple(sections)
 
 
-def _lower(token: Token, by: int = 1) -> None:
+def _lower(token: Token) -> None:
     """Lower a heading: the lesson's own title is above it."""
-    token.tag = f"h{min(max(int(token.tag[1]) + by, 3), 6)}"
+    token.tag = f"h{min(max(int(token.tag[1]) + 1, 3), 6)}"
 
 
 def _mend(tokens: list[Token], line: int, checks: _Checks) -> None:
@@ -517,7 +493,7 @@ def _mend(tokens: list[Token], line: int, checks: _Checks) -> None:
                 token.attrSet("target", "_blank")
                 token.attrSet("rel", "noopener noreferrer")
             else:
-                known = "links go to set:, show:, simulate:, lesson: or https:"
+                known = "links go to set:, show:, simulate: or https:"
                 raise LessonError(line, f"a link goes to “{address[:60]}”; {known}")
         elif token.type == "link_close" and closing:
             token.type, token.content, closing = "html_inline", closing, ""
@@ -553,12 +529,7 @@ def _show(rest: str, line: int, checks: _Checks) -> dict[str, Any]:
     return {"show": name}
 
 
-def _lesson(rest: str, _: int, __: _Checks) -> dict[str, Any]:
-    """The message of a button that opens a lesson."""
-    return {"lesson": unquote(rest)[:LONGEST_NAME]}
-
-
-_BUTTONS = {"set": _set, "simulate": _simulate, "show": _show, "lesson": _lesson}
+_BUTTONS = {"set": _set, "simulate": _simulate, "show": _show}
 """The message of a button for what is behind the colon of a link, by what is before it."""
 
 

@@ -21,7 +21,13 @@ from bearing_explorer.explorer.state.bearing_kinds import (
     hidden_of,
     scene_with,
 )
-from bearing_explorer.explorer.state.choice_list import CHOICE_LIST, DIRECTIONS, Choice, chosen_of
+from bearing_explorer.explorer.state.choice_list import (
+    CHOICE_LIST,
+    IN_PART,
+    Choice,
+    chosen_of,
+    floor_name,
+)
 from bearing_explorer.explorer.state.field_values import (
     CAGE_ANGLE,
     FIELD_BY_KEY,
@@ -32,7 +38,6 @@ from bearing_explorer.explorer.state.field_values import (
     defects_of,
     differ,
     groove_limits,
-    in_shown_unit,
     in_si,
     limits_of,
     read,
@@ -43,10 +48,8 @@ from bearing_explorer.explorer.state.field_values import (
 from bearing_explorer.kit.bearing_list import find_bearing, origin_words
 from bearing_explorer.kit.sentences import one_line, sentence_of
 from bearingcore import (
-    DOF_NAMES,
     Bearing,
     Defect,
-    MeasuredFloor,
     RoughFloor,
     Scene,
     preset_notes,
@@ -76,24 +79,10 @@ _USUAL = {"defect": "defect", "load": "load", "shaft_speed": "speed", "support":
 _SOUND = Defect(0.0, 50e-6, math.radians(270.0), edge="exact")
 """No defect yet: a longer one lies in the middle of the load zone."""
 _FIRST_DEFECT = (math.radians(10.0), 50e-6)
-_OF_FLOOR = [field for field in SHOWN_FIELDS if field.part == "floor"]
+_OF_FLOOR = [field.key for field in SHOWN_FIELDS if field.part == "floor"]
 
 Refused = dict[str, str]
 """Sentences by the names of the controls that they belong to."""
-
-
-@dataclass(frozen=True)
-class FloorChoice:
-    """The floor of one defect, and what it goes back to when another kind was looked at."""
-
-    kind: str = "flat"
-    rough: RoughFloor = FIRST_ROUGHNESS
-    measured: MeasuredFloor | None = None
-
-    @property
-    def floor(self) -> RoughFloor | MeasuredFloor | None:
-        """The floor of the defect; None for a flat one."""
-        return {"rough": self.rough, "measured": self.measured}.get(self.kind)
 
 
 @dataclass(frozen=True)
@@ -113,11 +102,10 @@ class Snapshot:
         self.held = {
             name: value.copy() if isinstance(value := getattr(editor, name), list | dict) else value
             for name in ("scene", "preset", "selected", "own_name", "origin", "begun",
-                         "values", "limits", "usual", "floors")
+                         "values", "limits")
         }  # fmt: skip
-        kinds = tuple(floor.kind for floor in editor.floors)
         seen = (editor.scene, editor.preset, editor.own_name, editor.origin)
-        self._seen = *seen, editor.values[CAGE_ANGLE], kinds
+        self._seen = *seen, editor.values[CAGE_ANGLE]
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Snapshot) and self._seen == other._seen
@@ -133,10 +121,7 @@ class SceneEditor:
     scene: Scene = field(init=False)
     values: Values = field(init=False)
     limits: dict[str, Range] = field(init=False)
-    usual: dict[str, Range] = field(init=False)
-    """The limits while no number lies outside of its slider."""
     selected: int = field(init=False)
-    floors: list[FloorChoice] = field(init=False)
     own_name: str = field(init=False, default="")
     """The name that a person gave the bearing; may be empty."""
     origin: CatalogueOrigin | None = field(init=False, default=None)
@@ -184,8 +169,7 @@ class SceneEditor:
         self.preset, self.scene, self.selected = preset, scene, selected
         self.begun = presets[preset]
         self.own_name, self.origin = one_line(name, LONGEST_NAME), None
-        self.floors = [_choice_of(defect) for defect in defects]
-        self._begin_limits(limits)
+        self.limits = limits
         self.values = {}
         self._write_values(cage_angle)
 
@@ -257,18 +241,18 @@ class SceneEditor:
         """
         usual = scene_of(bearing).replace(defect=_SOUND)
         kept = [part for part in _USUAL if getattr(self.scene, part) != getattr(self.begun, part)]
+        lost = "" if "defect" in kept else _lost_words(self.scene)
         fresh = {part: getattr(usual, part) for part in _USUAL if part not in kept}
         before = self.scene.replace(defect=fresh.get("defect", self.scene.defect))
         if before.dofs == self.begun.dofs:
             before = before.replace(dofs=None)
         scene, effect = held(scene_with(before, bearing).replace(**fresh))
-        floors = self.floors if "defect" in kept else [FloorChoice()]
-        selected = self.selected if "defect" in kept else 0
-        self.floors, self.selected, self.begun = floors, selected, usual
+        self.selected = self.selected if "defect" in kept else 0
+        self.begun = usual
         self._take(scene)
-        self._begin_limits(limits_of(self.scene))
+        self.limits = limits_of(self.scene)
         self._write_values()
-        self._effects["preset"] = f"{_usual_words(scene, kept)} {effect}".rstrip()
+        self._effects["preset"] = f"{lost} {_usual_words(scene, kept)} {effect}".strip()
         self.own_name = one_line(name, LONGEST_NAME)
         self.origin = CatalogueOrigin(self.own_name, origin, self.scene.bearing)
 
@@ -281,7 +265,7 @@ class SceneEditor:
 
     # Numbers
 
-    def in_own_units(self, texts: Mapping[str, Any], second: bool) -> dict[str, Any]:
+    def in_field_units(self, texts: Mapping[str, Any], second: bool) -> dict[str, Any]:
         """Texts as typed, in the units of the fields; in the box of the `second` unit or not.
 
         A number may name either unit in both boxes. What is a number in neither stays as it is, to
@@ -327,30 +311,15 @@ class SceneEditor:
         }
         return refused, changed
 
-    def narrow(self) -> list[str]:
-        """Give sliders that a number had widened their usual length where it is back on it.
-
-        Returns their names. Not while one is dragged: it would move under the pointer.
-        """
-        names = [
-            name
-            for name, limit in self.limits.items()
-            if limit != (usual := self.usual[name]) and usual.holds(self.values[name])
-        ]
-        self.limits |= {name: self.usual[name] for name in names}
-        return names
-
-    def _begin_limits(self, usual: dict[str, Range]) -> None:
-        self.limits, self.usual = dict(usual), dict(usual)
-
     def _scene_with(self, taken: Values) -> Scene:
         fields: dict[str, Any] = {}
-        parts: dict[str, dict[str, Any]] = {"floor": {}, "pair": {}, "second": {}}
+        rough: dict[str, Any] = {}
         for name, value in taken.items():
             field = FIELD_BY_KEY[name]
             if field.part:
-                parts.get(field.part, fields)[field.name] = in_si(field, value)
-        rough, bearing = parts["floor"], self.scene.bearing
+                numbers = rough if field.part == "floor" else fields
+                numbers[field.full_name] = in_si(field, value)
+        bearing = self.scene.bearing
         if "ball_diameter" in fields:
             # grooves are made for their ball: they keep what they are to it
             ratio = fields["ball_diameter"] / bearing.ball_diameter
@@ -360,33 +329,23 @@ class SceneEditor:
                 if name in inputs and radius is not None:
                     fields.setdefault(name, radius * ratio)
         if rough:
-            choice = self.floors[self.selected]
-            floor = dataclasses.replace(choice.rough, **rough)
-            if choice.kind == "rough":
-                fields["floor"] = floor
+            floor = self.defects[self.selected].floor
+            if not isinstance(floor, RoughFloor):
+                raise refuse("floor of the defect", floor_name(floor), "rough")
+            fields["floor"] = dataclasses.replace(floor, **rough)
         scene = scene_with_fields(self.scene, fields, self.selected)
-        if parts["pair"] or parts["second"]:
-            scene = scene.replace(bearing=_change_rows(scene.bearing, **parts))
-        if rough:
-            self.floors[self.selected] = dataclasses.replace(choice, rough=floor)
         return scene
 
     def _take(self, scene: Scene, cage_angle: float | None = None) -> None:
         """Make `scene` the one that is shown."""
         if scene.bearing != self.scene.bearing:
-            grooves = groove_limits(scene)
-            self.limits, self.usual = self.limits | grooves, self.usual | grooves
+            self.limits = self.limits | groove_limits(scene)
         self.scene = scene
         self._write_values(cage_angle)
 
     def _write_values(self, cage_angle: float | None = None) -> None:
         turned = self.values.get(CAGE_ANGLE, 0.0) if cage_angle is None else cage_angle
-        rough = self.floors[self.selected].rough
-        fresh = {
-            **values_of(self.scene, self.selected),
-            **{field.key: in_shown_unit(field, getattr(rough, field.name)) for field in _OF_FLOOR},
-            CAGE_ANGLE: turned,
-        }
+        fresh = {**values_of(self.scene, self.selected), CAGE_ANGLE: turned}
         # a typed number stays as typed, whatever its last digit is in SI
         self.values = {
             name: self.values[name]
@@ -414,7 +373,7 @@ class SceneEditor:
             self.take_preset(preset)
         for known in CHOICE_LIST:
             name = choice.get(known.name, "")
-            if name in known.names or (name and known is DIRECTIONS):
+            if name in known.names:
                 act = takers.get(known.name, partial(self._take_option, known))
                 refused |= self._tried(known.name, act, name)
         if "name" in choice:
@@ -460,28 +419,23 @@ class SceneEditor:
         self._take(scene)
         if effect:
             self._effects["kind"] = effect
-        self._begin_limits({**limits_of(self.scene), **groove_limits(self.scene)})
+        self.limits = {**limits_of(self.scene), **groove_limits(self.scene)}
         self._write_values()
 
     def _take_floor_kind(self, kind: str) -> None:
-        floors = self.floors[self.selected]
-        new = dataclasses.replace(floors, kind=kind)
-        if kind == "measured" and floors.measured is None:
+        if kind == floor_name(self.defects[self.selected].floor):
+            return
+        if kind == "measured":
             raise ValueError(
                 "A measured floor comes with a scene's link or file: `read_floor` makes it in "
                 "Python."
             )
-        self._change(floor=new.floor)
-        self.floors[self.selected] = new
+        self._change(floor=FIRST_ROUGHNESS if kind == "rough" else None)
 
     def _take_dofs(self, dofs: str) -> None:
-        named = tuple(name for name in DOF_NAMES if name in dofs.split())
-        known = {"auto": None, TILT_FREE: TILT_FREE}
-        if not named and dofs not in known:
-            raise ValueError(
-                "Single directions are held by a simpler model, a link or a file: see Accuracy."
-            )
-        self._change(dofs=known.get(dofs, named))
+        if dofs == IN_PART:
+            raise ValueError("Single directions are held by a link or a file.")
+        self._change(dofs=None if dofs == "auto" else TILT_FREE)
 
     def _take_defect(self, which: str) -> None:
         if which == "add":
@@ -508,15 +462,11 @@ class SceneEditor:
     def _remove_defect(self) -> None:
         if len(self.defects) > 1:
             rest = [d for i, d in enumerate(self.defects) if i != self.selected]
-            self._change_defects(rest, min(self.selected, len(rest) - 1), removed=self.selected)
+            self._change_defects(rest, min(self.selected, len(rest) - 1))
 
-    def _change_defects(
-        self, defects: list[Defect], selected: int, removed: int | None = None
-    ) -> None:
+    def _change_defects(self, defects: list[Defect], selected: int) -> None:
         scene = self.scene.replace(defect=defects[0] if len(defects) == 1 else tuple(defects))
-        floors = [floor for i, floor in enumerate(self.floors) if i != removed]
-        floors += [FloorChoice() for _ in range(len(defects) - len(floors))]
-        self.floors, self.selected = floors, selected
+        self.selected = selected
         self._take(scene)
 
     def _take_numbers(self, how: str) -> None:
@@ -563,10 +513,10 @@ class SceneEditor:
         return state if values is not None else state | self._choices_state()
 
     def _choices_state(self) -> dict[str, Any]:
-        scene, floor = self.scene, self.floors[self.selected]
+        scene, floor = self.scene, self.defects[self.selected].floor
         usual = {k: v for k, v in values_of(presets[self.preset]).items() if not math.isnan(v)}
-        hidden = [] if floor.kind == "rough" else [field.key for field in _OF_FLOOR]
-        hidden += hidden_of(scene.bearing)
+        hidden = [] if isinstance(floor, RoughFloor) else _OF_FLOOR
+        hidden = [*hidden, *hidden_of(scene.bearing)]
         return {
             "usual": {**usual, **chosen_of(presets[self.preset])},
             "choices": {
@@ -585,18 +535,13 @@ class SceneEditor:
         }
 
 
-def _change_rows(
-    bearing: Bearing, pair: Mapping[str, Any], second: Mapping[str, Any], **_: object
-) -> Bearing:
-    """A bearing of two rows with numbers of both, and of the second row alone, changed."""
-    if pair:
-        bearing = bearing.respaced(pair.get("row_distance"), pair.get("preload"))
-    if not second:
-        return bearing
-    if len(bearing.rows) != 2:
-        raise refuse("rows of balls", len(bearing.all_rows), "two of them")
-    low, high = bearing.rows
-    return bearing.replace(rows=(low, dataclasses.replace(high, **second)))
+def _lost_words(scene: Scene) -> str:
+    """Sentence on the defects that a bearing out of a list does not take over; or empty."""
+    lengths = [f"{number(math.degrees(defect.extent))}°" for defect in scene.defects]
+    if not lengths:
+        return ""
+    gone = f"The defect of {lengths[0]} is" if len(lengths) == 1 else "The defects are"
+    return f"{gone} gone: the bearing comes sound."
 
 
 def _usual_words(scene: Scene, kept: Iterable[str]) -> str:
@@ -613,14 +558,6 @@ def _usual_words(scene: Scene, kept: Iterable[str]) -> str:
     stays = [name for part, name in _USUAL.items() if part in kept]
     usual = f"Usual for it, and assumed: {', '.join(came)}." if came else ""
     return f"{usual} Kept as you set it: {', '.join(stays)}.".strip() if stays else usual
-
-
-def _choice_of(defect: Defect) -> FloorChoice:
-    if isinstance(defect.floor, RoughFloor):
-        return FloorChoice("rough", defect.floor)
-    if isinstance(defect.floor, MeasuredFloor):
-        return FloorChoice("measured", measured=defect.floor)
-    return FloorChoice()
 
 
 def _turned(defect: Defect) -> Defect:

@@ -21,11 +21,9 @@ from bearing_explorer.explorer.state.field_values import (
     read,
 )
 from bearingcore import Scene
-from bearingcore.fields import SCENE_PARTS, Field, Range
+from bearingcore.fields import Field, Range
 
-SWEEPABLE: Mapping[str, Field] = {
-    field.key: field for field in SHOWN_FIELDS if field.part in SCENE_PARTS
-}
+SWEEPABLE: Mapping[str, Field] = {field.key: field for field in SHOWN_FIELDS if field.part}
 """Fields that `Scene.replace` changes, by key."""
 
 
@@ -44,7 +42,7 @@ class Sweep:
     @property
     def in_si(self) -> tuple[str, NDArray[np.float64]]:
         """The field of the scene and its values [SI], as the core takes them."""
-        return self.field.name, np.array([in_si(self.field, v) for v in self.own_values])
+        return self.field.full_name, np.array([in_si(self.field, v) for v in self.own_values])
 
     def every(self, stride: int) -> Sweep:
         """The same with every `stride`-th value, first and last among them, where that is even."""

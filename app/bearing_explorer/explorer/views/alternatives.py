@@ -25,7 +25,6 @@ from bearing_explorer.kit.compute.jobs import Work
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.layers import by_number
 from bearing_explorer.kit.serve.packed_source import PackedSource
-from bearing_explorer.kit.widgets.form import Fields, button, choices, row, select
 from bearingcore.common import decibels, percent
 from bearingcore.model.experiments import SPECTRUM, Alternative, Alternatives, alternatives
 
@@ -55,11 +54,7 @@ class OtherModels(SceneJobView[Alternatives]):
 
     def build(self, packed: PackedSource) -> Any:
         self.plot = self._figure()
-        self._models = Fields(lambda _: None)
-        self._models.add("model", select("Model", [["", "none"]]))
-        take = button("Take it", lambda: self._use(self._models.values["model"]))
-        self._taking = row(self._models.widgets["model"], take, visible=False)
-        return [self.plot, row(self.job, self._taking)]
+        return [self.plot, self.job]
 
     def _figure(self) -> Any:
         """A row for each model, from the top; `_fill` sets their names."""
@@ -107,24 +102,6 @@ class OtherModels(SceneJobView[Alternatives]):
         set_range(self.plot.y_range, 0.4 - len(rows), 0.6)
         self.plot.update(height=LEAST_HEIGHT + 22 * len(rows), visible=bool(rows))
 
-    def _use(self, name: str) -> None:
-        """Change the scene to that of the model with this name."""
-        if self.parts is None or self.job_result is None:
-            return
-        for one in takeable(self.job_result.rows):
-            if one.name == name:
-                words = {k: " ".join(v) if k == "dofs" else v for k, v in one.changes.items()}
-                self.parts.change_scene({"choose": words})
-
-    def _offer(self, rows: Sequence[Alternative]) -> None:
-        """Fill the list of what can be taken."""
-        names = [one.name for one in takeable(rows)]
-        chosen = self._models.values["model"]
-        self._models.values["model"] = chosen = chosen if chosen in names else "".join(names[:1])
-        options = choices([[name, name] for name in names])
-        self._models.widgets["model"].param.update(**options, value=chosen)
-        self._taking.visible = bool(names)
-
     def prepare(self, given: Mapping[str, str], editor: SceneEditor) -> Callable[[Work], str]:
         scene = editor.scene
 
@@ -139,10 +116,7 @@ class OtherModels(SceneJobView[Alternatives]):
 
     def sentence(self, results: Results) -> str:
         if self.job_result is None:
-            return (
-                f"Drawn are {results.settings.n_cage_angles} cage angles a ball spacing and "
-                f"{results.settings.duration:g} s of motion, whatever the scene."
-            )
+            return "No model is compared yet."
         enough = [
             row.name
             for row in self.job_result.rows
@@ -159,16 +133,9 @@ class OtherModels(SceneJobView[Alternatives]):
         super().say(results, sentence)
         if self.job_result is not None:
             self._fill(self.job_result.rows)
-            self._offer(self.job_result.rows)
 
     def columns(self, models: Alternatives) -> dict[str, np.ndarray]:
         return models.table().named()
-
-
-def takeable(rows: Sequence[Alternative]) -> list[Alternative]:
-    """The models that a scene can have, each once."""
-    known = {one.name: one for one in rows if one.changes and math.isfinite(one.error)}
-    return list(known.values())
 
 
 def error_words(row: Alternative) -> str:

@@ -191,8 +191,8 @@ class BearingDrawing(ComparingView):
     title = "The bearing"
     about = (
         "Ball loads at the cage angle, seen along the shaft. Rows are side by side. Bars and "
-        "colours: loads of the balls. Grey rim: {grey}. Arrow: the load on the shaft, "
-        "as long as the bore's radius for the load that is said. "
+        "colours: loads of the balls. Grey rim: {grey}. Arrow: the load on the shaft; it reaches "
+        "the bore at the load that is named. "
         "Ticks on the ring: ball spacings from the beginning of the defect. "
         "Compared scenes have dashed rims. The keyway turns with the shaft; z points towards you."
     )
@@ -336,10 +336,8 @@ class BearingDrawing(ComparingView):
         if loaded == 0:
             return f"{where} none of the {total} {names} carries load{inside}."
         why = reasons.most_loaded(results.scene, now, 0, drop)
-        return (
-            f"{where}, {loaded} of {total} {names} {'carry' if loaded > 1 else 'carries'} load"
-            f"{inside}. {why}"
-        )
+        carry = "carry" if loaded > 1 else "carries"
+        return f"{why} {where}, {loaded} of {total} {names} {carry} load{inside}.".lstrip()
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         bearing, now = results.scene.bearing, results.now

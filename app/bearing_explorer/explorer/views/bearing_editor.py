@@ -200,6 +200,12 @@ FACTS = {
         "against tilt.",
         of_all=_length("pressure_centers_apart", 4),
     ),
+    "preload_force": Fact(
+        FIELD_OF["preload_force"].label,
+        FIELD_OF["preload_force"].symbol_html,
+        FIELD_OF["preload_force"].meaning,
+        of_all=lambda bearing: style.with_prefix(bearing.preload_force or 0.0, "N", 3),
+    ),
     "sphere_rows_apart": Fact(
         "Rows apart",
         "a",

@@ -27,7 +27,6 @@ def table_of_fields(groups: Sequence[str], values: Mapping[str, float]) -> dict[
 class ControlView(View):
     """A view with a panel of controls in it; `build` makes `rows` and gives it `forward`."""
 
-    in_report = False
     rows: Rows
 
     def attach(self, parts: SessionParts) -> None:

@@ -3,19 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
 
 from bearing_explorer.explorer.results import reasons
 from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.explorer.views.side_by_side import (
-    THIS_SCENE,
-    Rows,
-    scenes_of,
-    side_by_side_html,
-)
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import View
@@ -37,40 +30,21 @@ class Displacement(View):
     name = "displacement"
     title = "Displacement of the inner ring"
     about = (
-        "How far the load moves the inner ring. Against the outer one, in the middle of which it "
-        "would be without a load and without clearance; y counts upwards. Least, mean in time and "
-        "greatest are those of one period, with a defect of the inner race of all turns of the "
-        "shaft."
+        "How far the load moves the inner ring. It is measured from the middle of the outer ring; "
+        "y counts upwards. Least, mean in time and greatest are those of one period, and with an "
+        "inner-race defect of all turns of the shaft."
     )
     needs = frozenset({"equilibrium", "now", "ranges"})
-    in_report = False
-
-    @property
-    def compares(self) -> bool:
-        return True
 
     def build(self, packed: PackedSource) -> Any:
         self._numbers = LiveFacts()
         return self._numbers
 
     def show(self, results: Results) -> None:
-        compared = bool(results.compared)
-        html = side_by_side_html(results, self.rows) if compared else self.html(results)
-        self._numbers.put(text=html + self.more(results))
-
-    def more(self, results: Results) -> str:
-        """Tables of the scene alone, below."""
-        return ""
-
-    @staticmethod
-    def rows(results: Results) -> Rows:
-        """Its numbers one below the other, to stand beside those of other scenes."""
-        for when, line in zip(_WHEN, displacements(results).tolist(), strict=True):
-            for dof, (unit, _), value in zip(DOF_NAMES, _UNITS, line, strict=True):
-                yield f"Displacement {DOF_SYMBOLS[dof]}, {when} ({unit})", _digits(value)
+        self._numbers.put(text=self.html(results))
 
     def html(self, results: Results) -> str:
-        """The table of a scene."""
+        """The numbers as tables."""
         heads = (
             "",
             *(f"{DOF_SYMBOLS[d]} ({u})" for d, (u, _) in zip(DOF_NAMES, _UNITS, strict=True)),
@@ -103,16 +77,13 @@ class Displacement(View):
         return f"{words}. {results.scene.tilt_words()}".rstrip()
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
-        scenes = list(scenes_of(results))
-        values = np.concatenate([displacements(one) for _, one in scenes])
         names = [
             f"{dof}_{'um' if unit == 'µm' else unit}"
             for dof, (unit, _) in zip(DOF_NAMES, _UNITS, strict=True)
         ]
         return {
-            "scene": np.repeat([name or THIS_SCENE for name, _ in scenes], len(_WHEN)),
-            "when": np.tile(_WHEN, len(scenes)),
-            **dict(zip(names, values.T, strict=True)),
+            "when": np.array(_WHEN),
+            **dict(zip(names, displacements(results).T, strict=True)),
         }
 
 
@@ -128,52 +99,32 @@ class OperatingPoint(Displacement):
         f"{reasons.STIFF_WHERE_HELD}"
     )
 
-    @staticmethod
-    def rows(results: Results) -> Rows:
-        yield from Displacement.rows(results)
-        for when, table in _stiffnesses(results):
-            lines = _stiffness(table)
-            for i, k in zip(*np.triu_indices(len(DOF_NAMES)), strict=True):
-                name = "".join(DOF_SYMBOLS[DOF_NAMES[one]] for one in (i, k))
-                yield f"Stiffness k<sub>{name}</sub>, {when}", _digits(float(lines[i, k]), 5)
-
-    def more(self, results: Results) -> str:
-        return "".join(_stiffness_html(*one) for one in _stiffnesses(results))
+    def html(self, results: Results) -> str:
+        now = _stiffness_html(_WHEN[0], results.now.stiffness_table(0))
+        mean = _stiffness_html("mean in time", results.ranges.state.stiffness_table())
+        return super().html(results) + now + mean
 
     def sentence(self, results: Results) -> str:
         state = results.ranges.state
         return state.sentence if state.converged.any() else super().sentence(results)
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
-        numbers: dict[str, list[Any]] = {"scene": [], "when": []}
-        for name, one in scenes_of(results):
-            over = one.ranges.state
-            moved = over.displacement_table().named()["mean"], one.now.displacement[0]
-            tables = over.stiffness_table(), one.now.stiffness_table(0)
-            for when, displacement, table in zip(("mean", _WHEN[0]), moved, tables, strict=True):
-                numbers["scene"] += len(DOF_NAMES) * [name or THIS_SCENE]
-                numbers["when"] += len(DOF_NAMES) * [when]
-                columns = table.named() | {"displacement_in_si": displacement}
-                for column, values in columns.items():
-                    numbers.setdefault(column, []).extend(values)
-        return {column: np.array(values) for column, values in numbers.items()}
-
-
-def _stiffnesses(results: Results) -> Iterable[tuple[str, ResultTable]]:
-    yield _WHEN[0], results.now.stiffness_table(0)
-    yield "mean in time", results.ranges.state.stiffness_table()
-
-
-def _stiffness(table: ResultTable) -> np.ndarray:
-    """(5, 5) without rounding noise."""
-    _, *columns = table.named().values()
-    return _without_noise(np.stack(columns, axis=1))
+        over = results.ranges.state
+        mean = over.stiffness_table().named()
+        now = results.now.stiffness_table(0).named()
+        moved = over.displacement_table().named()["mean"], results.now.displacement[0]
+        return {
+            "when": np.repeat(["mean", _WHEN[0]], len(DOF_NAMES)),
+            **{column: np.append(mean[column], now[column]) for column in mean},
+            "displacement_in_si": np.concatenate(moved),
+        }
 
 
 def _stiffness_html(when: str, table: ResultTable) -> str:
+    _, *columns = table.named().values()
     rows = (
-        (html_text(str(one)), *(_digits(float(value), 5) for value in line))
-        for one, line in zip(table["load"], _stiffness(table), strict=True)
+        (html_text(str(load)), *(_digits(float(value), 5) for value in line))
+        for load, line in zip(table["load"], _without_noise(np.stack(columns, axis=1)), strict=True)
     )
     per = (f"{DOF_SYMBOLS[dof]} ({'rad' if dof.startswith('r') else 'm'})" for dof in DOF_NAMES)
     return f"<h3>Stiffness {when}</h3>{html_table(('', *per), rows, named=True)}"

@@ -73,10 +73,10 @@ class ExplorePlane(SceneJobView[Plane]):
     """A map of one output over two quantities, with lines across it."""
 
     name = "explore"
-    title = "Explore a plane"
+    title = "Map of an output over two quantities"
     about = (
-        "Any output over any two quantities. All else is as the sliders are set. Point at the "
-        "map to move the curves, click to go there. Hatched: no answer. Ring: this scene."
+        "Any output over any two quantities. The sliders set all else. Hatched: no answer. "
+        "Ring: this scene. Point at the map to move the curves, click to go there."
     )
     start = "Compute the map"
     noun = "map"
@@ -96,7 +96,7 @@ class ExplorePlane(SceneJobView[Plane]):
         self._plane = PlaneFigures("explore", self._go)
         panes = [pn.pane.HoloViews(plot, margin=0) for plot in self._plane.plots]
         maps = stack(*panes, stylesheets=[style.SIDE_BY_SIDE])
-        return [self.job, self.only_with_numbers(maps)]
+        return [self.only_with_numbers(maps), self.job]
 
     @property
     def is_empty(self) -> bool:
@@ -293,7 +293,8 @@ def field_of(plane: Plane) -> Field:
     from bearing_explorer.explorer.plots.plane import Field
 
     output = plane.question.output
-    words = output.label[0].upper() + output.label[1:] if output.label[:2] != "k " else output.label
+    words = re.sub("^k ", "k_", output.label)  # with its directions below
+    words = words if words.startswith("k_") else words[0].upper() + words[1:]
     x, y = ((Side.of(sweep.field), sweep.values) for sweep in (plane.x, plane.y))
     return Field(x, y, words, output.unit, plane.values, plane.reasons)
 
@@ -315,8 +316,7 @@ def summary(plane: Plane) -> str:
         np.unravel_index(int(find(values)), values.shape) for find in (np.nanargmin, np.nanargmax)
     )
     ends = f"least {_place(plane, least)}, greatest {_place(plane, most)}"
-    words = re.sub("^k ", "k_", words)  # with its directions below
-    return f"{size}. {words}: {ends}.{missing}"
+    return f"{words}: {ends}. {size}.{missing}"
 
 
 def _place(plane: Plane, at: tuple[Any, ...]) -> str:

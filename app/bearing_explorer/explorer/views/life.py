@@ -18,12 +18,6 @@ from bearing_explorer.explorer.results.endurance import (
     LifeInputs,
 )
 from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.explorer.views.side_by_side import (
-    Rows,
-    scenes_of,
-    side_by_side,
-    side_by_side_html,
-)
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.sentences import number_of
 from bearing_explorer.kit.serve.packed_source import PackedSource
@@ -105,11 +99,6 @@ class LifeOfBearing(View):
         "of all balls; the greatest pressure by Hertz; the film where a ball or roller carries "
         "most, by Hamrock and Dowson."
     )
-    in_report = False
-
-    @property
-    def compares(self) -> bool:
-        return True
 
     def build(self, packed: PackedSource) -> Any:
         self.inputs = LifeInputs()
@@ -145,8 +134,7 @@ class LifeOfBearing(View):
             self.parts.set_life_inputs(self.inputs)
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
-        for _, one in scenes_of(results):
-            _ = one.endurance  # computed here, in a thread
+        _ = results.endurance  # computed here, in a thread
         return {}, {}
 
     def sentence(self, results: Results) -> str:
@@ -159,7 +147,7 @@ class LifeOfBearing(View):
         return f"{healthy}{answer.healthy.sentence}"
 
     def show(self, results: Results) -> None:
-        self._answers.put(text=answers_html(results))
+        self._answers.put(text=groups_html(groups_of(results)))
         if not self._refusal.visible:
             self._fields.put(self._values())
 
@@ -171,12 +159,6 @@ class LifeOfBearing(View):
         return texts
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
-        if results.compared:
-            heads = ["quantity"]
-            for name, _ in scenes_of(results):  # two may have been given one name
-                heads.append(f"{name} ({len(heads)})" if name in heads else name)
-            both = [(_text(name), *values) for name, *values in side_by_side(results, facts_of)]
-            return dict(zip(heads, map(np.array, zip(*both, strict=True)), strict=True))
         groups = groups_of(results)
         rows = [
             (group.title, _text(fact.name), fact.value)
@@ -199,23 +181,6 @@ def read(field: Field, given: object) -> float | None:
         return None
     words = f"The {field.label.lower()}"
     return number_of(text, words, field.unit, field.least, field.most) * field.unit_si
-
-
-def answers_html(results: Results) -> str:
-    """The answers; of several scenes one table, and what is assumed of each below it."""
-    if not results.compared:
-        return groups_html(groups_of(results))
-    words = [
-        FactGroup(html.escape(name), " ".join(group.words for group in groups_of(one)), [])
-        for name, one in scenes_of(results)
-    ]
-    return side_by_side_html(results, facts_of) + groups_html(words)
-
-
-def facts_of(results: Results) -> Rows:
-    """Names, as HTML, and values of all facts; those of pressure and film say which they are."""
-    for group, about in zip(groups_of(results), ("", "Pressure: ", "Film: "), strict=False):
-        yield from ((about + fact.name, fact.value) for fact in group.facts)
 
 
 def groups_of(results: Results) -> list[FactGroup]:

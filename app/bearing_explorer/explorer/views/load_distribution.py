@@ -16,7 +16,6 @@ from bearing_explorer.explorer.results.load_curve import Curve, curves_table, lo
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.views.comparing_view import ComparingView
 from bearing_explorer.kit.plots import style
-from bearing_explorer.kit.plots.element_words import elements
 from bearing_explorer.kit.plots.layers import (
     Layer,
     Words,
@@ -68,10 +67,10 @@ class LoadDistribution(ComparingView):
     title = "Load distribution"
     about = (
         "Ball load against angular position. Blue: this scene. Grey: {grey}. Shaded: the "
-        "defect. Dots: balls now. With a defect of the inner race the curve is the most in "
-        "all turns of the shaft. A second row is orange, and in grey dashed. Of balls with mass "
-        "the full line is the load at the outer race, where their centrifugal load comes on top, "
-        "the dashed one that at the inner race."
+        "defect. Dots: balls now. For an inner-race defect, the curve is the greatest load in "
+        "all turns of the shaft. A second row is orange, its reference dashed. For balls with "
+        "mass, the full line is the load at the outer race, which also carries their centrifugal "
+        "force, and the dashed line that at the inner race."
     )
     needs = frozenset({"equilibrium", "now", "ranges"})
 
@@ -143,24 +142,17 @@ class LoadDistribution(ComparingView):
                 f"{style.with_prefix(load[most], 'N')}, at {style.in_degrees(angle[most])}"
             )
             if results.reference_label and np.isfinite(healthy).any():
-                part += f"; {results.reference_label} {style.with_prefix(np.nanmax(healthy), 'N')}"
+                most_there = style.with_prefix(np.nanmax(healthy), "N")
+                part += f" ({results.reference_label} {most_there})"
             parts.append(part)
-        words = ", ".join(parts)
+        words = "; ".join(parts)
         if results.over_shaft:
             words += " (the most at each angle in all turns of the shaft)"
         why = reasons.greatest_load(results)
         words += f". {why[:-1]}" if why else ""
         now = results.now
-        if now.converged[0]:
-            count = int(now.loaded_balls[0])
-            words += (
-                f". Now, at {style.in_degrees(results.cage_angle)}, {count} of "
-                f"{bearing.total_balls} {elements(bearing)} "
-                f"{'carries' if count == 1 else 'carry'} load, at most "
-                f"{style.with_prefix(now.ball_load[0].max(), 'N')}"
-            )
-            if isinstance(now, EquilibriumWithMass) and results.inner_load_curves:
-                words += f". {_both_races(now)}"
+        if isinstance(now, EquilibriumWithMass) and now.converged[0] and results.inner_load_curves:
+            words += f". {_both_races(now)}"
         return words + "."
 
     def table(self, results: Results) -> dict[str, np.ndarray]:

@@ -32,7 +32,7 @@ from bearing_explorer.kit.plots import color_scales, style
 from bearing_explorer.kit.plots.element_words import elements
 from bearing_explorer.kit.plots.heat_map import Side, ends, let_point
 from bearing_explorer.kit.plots.ranges import StickyRange
-from bearing_explorer.kit.plots.style import in_degrees, number, with_prefix
+from bearing_explorer.kit.plots.style import in_degrees, number
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources, View
 from bearingcore import STIFFNESS_TERMS
@@ -94,10 +94,10 @@ class StiffnessMaps(View):
     """All stiffness terms and the loaded balls over extent and cage angle."""
 
     name = "maps"
-    title = "Maps over extent and cage angle"
+    title = "Stiffness over length and cage angle"
     about = (
-        "Every stiffness term, over extent and cage angle. Up: the extent of the defect; right: "
-        "the cage angle. The large map counts the balls that carry load. Lines that slope are "
+        "Every stiffness term over length and cage angle. Upwards: length of the defect. To the "
+        "right: cage angle. The large map counts the balls that carry load. Sloping lines are "
         "balls that enter and leave the defect. Click in a map to go there."
     )
     needs = frozenset({"maps", "now"})
@@ -203,7 +203,7 @@ class StiffnessMaps(View):
         return low, high, False
 
     def sentence(self, results: Results) -> str:
-        """The extent at which fewest balls carry load, and the state at the sliders' place."""
+        """The length at which fewest balls carry load."""
         maps = results.maps
         if not maps.converged.any():
             first = np.unravel_index(0, maps.status.shape)
@@ -213,11 +213,11 @@ class StiffnessMaps(View):
         n_balls, names = bearing.total_balls, elements(bearing)
         least, most = np.nanmin(mean), np.nanmax(mean)
         if most - least < 0.05:
-            words = f"Whatever the extent, about {least:.1f} of {n_balls} {names} carry load"
+            words = f"Whatever the length, about {least:.1f} of {n_balls} {names} carry load"
         else:
             at = int(np.nanargmin(mean))
             where = (
-                f"at an extent of {in_degrees(maps.extents[at], 0)}" if at else "without a defect"
+                f"at a length of {in_degrees(maps.extents[at], 0)}" if at else "without a defect"
             )
             if at == mean.size - 1:
                 where += ", the longest of the map"
@@ -228,14 +228,6 @@ class StiffnessMaps(View):
             )
             if at and np.isfinite(mean[0]):
                 words += f", against {mean[0]:.1f} without the defect"
-        words += f". Marked: extent {in_degrees(results.extent)}, cage angle "
-        words += in_degrees(results.cage_angle)
-        now = results.against(massless(results.scene)).now
-        if now.converged[0]:
-            count = int(now.loaded_balls[0])
-            carries = f"{elements(bearing, count)} {'carries' if count == 1 else 'carry'}"
-            words += f", where {count} {carries} load"
-            words += f" and k_yy is {with_prefix(float(now.term('k_yy')[0]), 'N/m')}"
         missing = float(np.mean(~maps.converged))
         if missing:
             words += f". {number(100.0 * missing, 2)} % of the points have no answer"
@@ -443,7 +435,7 @@ if (!unit) return row.now + (row.now == 1 ? ' ball' : ' balls') + ' at the cross
 return rounded(row.now/10**e, 3) + '\\u00a0' + names[e] + unit
 """
 _ZERO = f"{_UNIT}return unit && row.kind == 1 ? '0' : ''"
-_FLAT = f"return row.kind == 3 ? '{matrix_cells.ZERO}' : ''"
+_FLAT = f"return row.kind != 3 ? '' : narrow ? '0' : '{matrix_cells.ZERO}'"
 _ONLY = "return row.at == %d ? String(Number(row.value.toPrecision(4))) + '%s' : ''"
 
 
@@ -459,7 +451,7 @@ def _scales(plot: figure, cells: ColumnDataSource) -> None:
     above = {"x": "bar", "y": "top", "x_offset": 20, "y_offset": -6}
     write(plot, cells, _NOW, fitting=NARROWEST, text_align="right", **above)
     inside = {"x": "left", "y": "top", "x_offset": 8, "y_offset": 8}
-    write(plot, cells, _FLAT, text_baseline="top", **inside)
+    write(plot, cells, _FLAT, fitting=NARROWEST, text_baseline="top", **inside)
 
 
 def _ticks(plot: figure, ticks: ColumnDataSource) -> None:

@@ -51,7 +51,7 @@ class MassInTime(FoldedView[Results], PassageView):
     name = "mass-time"
     title = "A ball with mass passes the defect"
     about = (
-        "In colour with mass of the balls, in grey without. Above: acceleration of the housing. "
+        "In colour with the mass of the balls, in grey without. Above: housing acceleration. "
         "Below: loads of the balls near the defect, full at the outer race, dashed at the inner. "
         "Shaded: a ball touches neither race."
     )
@@ -110,16 +110,16 @@ class MassInTime(FoldedView[Results], PassageView):
             words = shown.broke_off
             return f"{words[0].upper()}{words[1:]}."
         peaks = [
-            "the housing's acceleration peaks at "
+            "The housing's acceleration peaks at "
             f"{style.number(float(np.max(np.abs(shown.with_mass[dof]))), 2)} m/s² along {dof} with "
-            f"mass, {style.number(float(np.max(np.abs(shown.massless[dof]))), 2)} without"
+            f"the mass, {style.number(float(np.max(np.abs(shown.massless[dof]))), 2)} without"
             for dof in ("y", "x")
             if dof in shown.with_mass
         ][:1]
         words = way_of_the_ball(shown)
         free = style.number(100.0 * shown.free_share, 2)
-        flying = f"; the balls drawn fly free for {free} % of the time"
-        return "; ".join([words, *peaks]) + flying + "."
+        flying = f"The balls drawn touch neither race for {free} % of the time"
+        return ". ".join([words, *peaks, flying]) + "."
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         return results.ball_mass.table().named()

@@ -129,20 +129,20 @@ def in_words(mass: BallMass) -> str:
         at = int(np.argmax(share))
         most = f"{_percent(share[at])} from {_hertz(low[at])} to {_hertz(high[at])}"
         adds = f"mass adds at most {most}" if share[at] > 0.0 else "mass adds nothing"
-        return f"Stiffness that varies gives most of the power in every octave; {adds}."
+        return f"The varying stiffness gives most of the power in every octave; {adds}."
     most = _percent(share[struck].max())
     if struck.size < low.size - struck[0]:  # others lie between
         named = style.list_words([_hertz(low[i]) for i in struck])
         return (
             f"The mass of the balls gives most of the power in the octaves that begin at {named}, "
-            f"up to {most}; in the others stiffness that varies does."
+            f"up to {most}; in the others the varying stiffness does."
         )
     words = f"From {_hertz(low[struck[0]])} up the mass of the balls gives most of the power"
     below = share[: struck[0]]
     if not below.size:
         return f"{words}, up to {most}."
     return (
-        f"{words}, up to {most}; below, stiffness that varies does, and mass adds at most "
+        f"{words}, up to {most}; below it the varying stiffness does, and mass adds at most "
         f"{_percent(max(below.max(), 0.0))}."
     )
 

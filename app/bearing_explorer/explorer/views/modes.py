@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from bearing_explorer.explorer.plots import compared_curves
 from bearing_explorer.explorer.plots.frequency_bands import BAND_NAME, BAND_SPAN, band_rows, spread
 from bearing_explorer.explorer.results import reasons
-from bearing_explorer.explorer.results.chain import in_same_order
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.views.comparing_view import ComparingView
 from bearing_explorer.kit.plots import style
@@ -86,9 +85,9 @@ class NaturalFrequencies(ComparingView):
     title = "Natural frequencies"
     about = (
         "Each natural frequency as the bearing turns. Blue x, orange y. A mode is named after the "
-        "direction that moves most. Shaded: the band in which it moves. Grey: {grey}. Upright: "
-        "now. With a defect of the inner race lines are those of the turn of now, bands of all "
-        "turns."
+        "direction that moves most. Shaded: the band in which it moves. Grey: {grey}. Vertical "
+        "line: current cage angle. For an inner-race defect, curves show the current turn of the "
+        "shaft and bands all turns."
     )
     needs = frozenset({"modes", "bands", "ranges"})
 
@@ -152,7 +151,7 @@ class NaturalFrequencies(ComparingView):
         return sources, ranges
 
     def sentence(self, results: Results) -> str:
-        bands, healthy = results.bands, results.reference.bands
+        bands = results.bands
         known = {label: band for label, band in bands.items() if np.isfinite(band[0])}
         if not known:
             why = results.equilibrium.reason(0)
@@ -161,12 +160,8 @@ class NaturalFrequencies(ComparingView):
         words = [f"{mode_symbol(label)} {_from_to(known[label])}" for label in named]
         turning = "In all turns of the shaft" if results.over_shaft else "As the cage turns"
         text = f"{turning} the natural frequencies move: {style.list_words(words)}"
-        first = named[0]
-        is_known = np.isfinite(healthy.get(first, (np.nan,))[0])
-        if results.reference_label and is_known and in_same_order(first, known, healthy):
-            text += f"; {results.reference_label} {mode_symbol(first)} {_from_to(healthy[first])}"
         why = with_elements_of(results.scene.bearing, reasons.frequencies(results))
-        return f"{text}. {why}".rstrip()
+        return f"{why} {text}.".lstrip()
 
     def show(self, results: Results) -> None:
         over = style.SHAFT_ANGLE if results.over_shaft else style.CAGE_ANGLE

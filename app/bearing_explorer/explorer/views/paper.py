@@ -46,7 +46,6 @@ class PaperFigures(View[Results]):
         "scene stays as it is until a figure or Section 4 is opened, which simulates the signal "
         "of a spall and finds its length on the Diagnosis tab."
     )
-    in_report = False
     computes = True
 
     def build(self, packed: PackedSource) -> Any:
@@ -106,8 +105,8 @@ class PaperFigures(View[Results]):
         self.rows()
         bearing = "Liew and Lim's bearing" if figure.preset == "liew-lim" else "the fan rig"
         return (
-            f"Figure {figure.number}, {figure.title.lower()}, is of {bearing}, independent of the "
-            f"sliders; the tab {TAB_TITLES[figure.tab]} draws it."
+            f"Figure {figure.number}, {figure.title.lower()}, shows {bearing}, whatever the "
+            f"sliders say; the tab {TAB_TITLES[figure.tab]} draws it."
         )
 
     def say(self, results: Results | None, sentence: str) -> None:

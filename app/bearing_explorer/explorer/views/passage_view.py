@@ -38,6 +38,7 @@ PIXELS = 500  # stretches of a line that are kept apart
 LABEL_WIDTH = 0.3  # of the width of the figure: "ball 12 leaves" on a narrow one
 NAME_WIDTH, LONG_NAME_WIDTH = 0.17, 0.24  # of "ball 12", and of "ball 12 of row 2"
 ROW_HEIGHT = 0.065  # of its height
+ROW_PIXELS = 17.0  # of the names of events
 EVENT_ROWS = 3
 
 NAMED = ("element", "ball", "row", "roller")  # columns that name a ball
@@ -142,10 +143,10 @@ def event_names(prefix: str, code: str, reads: tuple[str, ...]) -> Layer:
         "label_from",
         "label_at",
         code,
-        reads=(*NAMED, *reads),
+        reads=(*NAMED, *reads, "label_down"),
         y_share=True,
         fitting=style.NARROW,
-        look={"x_offset": 4, **ON_PAPER},
+        look={"x_offset": 4, "y_offset": style.text_offset("label_down"), **ON_PAPER},
     )
 
 
@@ -197,15 +198,15 @@ def places_of_labels(
 
     At the end of the stretch a label moves left as far as it needs. One that has room in no row
     gets NaN; the first ones are served first. `share` is the width of a label over that of the
-    figure, `apart` the distance of the rows over their height.
+    figure, `apart` the distance of the rows over their height [px].
     """
     width = share * (end - start)
     lefts = np.array([min(time, end - width) for time in times])
     rows: list[list[float]] = [[] for _ in range(EVENT_ROWS)]
-    places = np.full(len(times), np.nan)
+    places, down = np.full(len(times), np.nan), np.zeros(len(times))
     for event, left in enumerate(lefts):
         free = (r for r in range(EVENT_ROWS) if all(abs(left - x) >= width for x in rows[r]))
         if (row := next(free, None)) is not None:
             rows[row].append(left)
-            places[event] = 1.0 - ROW_HEIGHT * (apart * row + 0.8)
-    return {"label_from": lefts, "label_at": places}
+            places[event], down[event] = 1.0, ROW_PIXELS * (apart * row + 0.8)
+    return {"label_from": lefts, "label_at": places, "label_down": down}

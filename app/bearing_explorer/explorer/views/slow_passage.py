@@ -1,4 +1,4 @@
-"""The simulated motion as balls cross the defect, slowly, with the acceleration as sound."""
+"""The simulated motion as balls cross the defect, slowly."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ from bearingcore.model.scene import ball_angles
 
 
 class SlowMotion(LiveComponent):
-    """Play, speed, place and volume. It moves the figures in the browser alone."""
+    """Play, speed and place. It moves the figures in the browser alone."""
 
     _esm = scripts("element.js", "slow_motion.js")
     _stylesheets: ClassVar[list[str]] = [
@@ -60,14 +60,12 @@ class SlowPassage(BearingDrawing):
     title = "A ball crosses the defect, slowly"
     about = (
         "Ball loads in motion, and the housing acceleration. Blue: x. Orange: y. Line: the instant "
-        "drawn. Arrow keys step; turn the sound up to hear the acceleration, at the speed of the "
-        "picture."
+        "drawn. Arrow keys step."
     )
     needs = frozenset({"excerpt"})
     prefix = "slow"
     grabbed = False
     at_rest = True
-    in_report = False
 
     def build(self, packed: PackedSource) -> Any:
         bearing = super().build(packed)
@@ -79,7 +77,6 @@ class SlowPassage(BearingDrawing):
             "base_rings": ("x", "y", "turns"),
             "base_defect": ("x", "y", "turns"),
             "scale": ("bar_start", "bar_length", "number_right", "number_up"),
-            "sound": ("value",),
         }.items():
             packed.source(f"slow_{name}", *columns)
         motion = style.make_figure(
@@ -116,7 +113,6 @@ class SlowPassage(BearingDrawing):
             "turned": turned[:, 0] - turned[at, 0],
             "shaft": (cage - cage[at]) / scene.bearing.cage_ratio,
         }
-        loudest = max(shown.acceleration.values(), key=_peak, default=np.zeros(2))
         signals = along_both(shown.time, shown.acceleration)
         start, end = float(shown.time[0]), float(shown.time[-1])
         sources = {f"slow_{name}": columns for name, columns in shapes.items()} | {
@@ -134,7 +130,6 @@ class SlowPassage(BearingDrawing):
                 "number_right": np.array([NUMBER_RIGHT]),
                 "number_up": np.array([NUMBER_UP]),
             },
-            "slow_sound": {"value": loudest},
             "slow_motion": traces(shown.time, signals),
             "slow_events": event_rows(shown.events, start, end, scene.bearing, 1.5),
             "slow_cursor": {"now": shown.static_time[[at]]},
@@ -155,8 +150,8 @@ class SlowPassage(BearingDrawing):
         at, ball = np.unravel_index(np.argmax(loads), loads.shape)
         length = float(shown.time[-1] - shown.time[0])
         return (
-            f"{style.with_prefix(length, 's')} of motion; {element_name(bearing, int(ball))} "
-            f"carries the most, {style.with_prefix(loads[at, ball], 'N')} at "
+            f"In these {style.with_prefix(length, 's')} {element_name(bearing, int(ball))} "
+            f"carries most: {style.with_prefix(loads[at, ball], 'N')} at "
             f"{style.with_prefix(float(shown.static_time[at]), 's')}."
         )
 

@@ -136,13 +136,13 @@ class SpeedRunSpectra(SceneJobView[FoundRun]):
     name = "speed-run"
     title = "Spectrum over shaft speed"
     about = (
-        "Spectrum of the vibration at each shaft speed. It is that of the steady vibration. "
-        "Vertical: the bands of the natural frequencies, which speed does not move. Slanted: the "
-        "ball-pass frequency and its harmonics; where they cross a band vibration is strong. "
-        "Horizontal line: current speed. Click to go to a speed."
+        "Spectrum of the steady vibration at each shaft speed. Speed does not move the bands of "
+        "the natural frequencies; where the ball-pass frequency or a harmonic crosses one, "
+        "vibration is strong. Vertical: bands. Slanted: ball-pass harmonics. Horizontal: current "
+        "speed. Click in the map to go to a speed."
     )
     noun = "run"
-    start = "Run up"
+    start = "Compute all speeds"
     bounds = f"At most {COUNTS[-1]} speeds; a coarse picture comes by itself."
 
     _begun = False
@@ -281,7 +281,8 @@ def words_of(answer: FoundRun) -> str:
                 f"{style.number(answer.speeds.values[i])} Hz"
             )
     top = style.with_prefix(float(run.frequency[seen][-1]), "Hz", 2)
-    text = f"Up to {top} loudest {style.list_words(words)}." if words else "Nothing moves."
+    text = f"Up to {top} the loudest vibration is {style.list_words(words)}."
+    text = text if words else "Nothing moves."
     marched = int(np.sum(~run.from_orbit))
     if marched:
         text += (
@@ -321,7 +322,7 @@ def compute(job: Work, scene: Scene, speeds: Sweep) -> str:
             job.show(FoundRun(run, one))
             shown = f"{size} speeds after {time.perf_counter() - started:.1f} s."
             if size == FIRST_COUNT:
-                shown = f"A coarse picture: {shown} “Run up” computes as many as chosen."
+                shown = f"A coarse picture: {shown} “Compute all speeds” makes it finer."
         if not run.completed:
             break
         done += size

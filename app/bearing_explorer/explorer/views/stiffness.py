@@ -21,7 +21,7 @@ from bearing_explorer.explorer.views.comparing_view import ComparingView
 from bearing_explorer.kit.plots import layers, style
 from bearing_explorer.kit.plots.element_words import elements, with_elements_of
 from bearing_explorer.kit.plots.ranges import ROOM, StickyRange
-from bearing_explorer.kit.plots.style import in_degrees, with_prefix
+from bearing_explorer.kit.plots.style import with_prefix
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
 from bearingcore import STIFFNESS_TERMS, Scene
@@ -56,9 +56,9 @@ class Stiffness(ComparingView):
     title = "Stiffness of the bearing"
     about = (
         "The 15 stiffness terms as the cage turns. They are the independent ones of the symmetric "
-        "5×5 stiffness matrix: displacements are the columns, "
-        "loads the rows. A click enlarges a term. Blue: this scene. Grey: {grey}. A defect that "
-        "turns with the shaft meets the balls elsewhere in each turn: drawn is the turn of now."
+        "5×5 stiffness matrix: displacements are the columns, loads the rows. Blue: this scene. "
+        "Grey: {grey}. Click: enlarges a term and says why it varies. For an inner-race defect, "
+        "curves show the current turn of the shaft."
     )
     needs = frozenset({"equilibrium", "now", "ranges"})
     cells = matrix_cells.named_cells(_FRAMES)
@@ -169,7 +169,7 @@ class Stiffness(ComparingView):
         return self._lesson_limits
 
     def sentence(self, results: Results) -> str:
-        """The range of the radial stiffness and of the number of loaded balls."""
+        """Why the radial stiffness is as it is, its range, and the number of loaded balls."""
         ranges, healthy = results.ranges, results.reference.ranges
         states = ranges.state
         if not states.converged.any():
@@ -185,13 +185,12 @@ class Stiffness(ComparingView):
             parts.append(line)
         balls = states.loaded_balls[states.converged]
         count = str(balls.min()) if balls.min() == balls.max() else f"{balls.min()}–{balls.max()}"
-        at = in_degrees(results.cage_angle)
         over = " Ranges are over all turns of the shaft, curves over the one shown."
         carry = f"{elements(states.scene.bearing)} carry load"
         why = with_elements_of(states.scene.bearing, reasons.stiffness(results))
-        said = f"{'; '.join(parts)}.", why, reasons.not_needed(results.scene), f"{count} {carry}."
-        text = f"{' '.join(filter(None, said))} Marked: cage angle {at}."
-        return text + (over if results.over_shaft else "")
+        held = reasons.not_needed(results.scene)
+        said = why, f"{'; '.join(parts)}; {count} {carry}.", held
+        return " ".join(filter(None, said)) + (over if results.over_shaft else "")
 
     def cell_lines(self, content: Results) -> list[str]:
         return [reasons.stiffness_term(content, term) for term in STIFFNESS_TERMS]
@@ -274,10 +273,9 @@ const e = power(Math.max(Math.abs(row.low), Math.abs(row.high)))
 return rounded(row.now/10**e, 4) + '\\u00a0' + names[e] + unit
 """
 _FLAT = f"""
-const words = '{matrix_cells.ZERO}'
-return !row.flat ? '' : narrow ? words.replace(/ (?!.* )/, '\\n') : words
+return !row.flat ? '' : narrow ? '0' : '{matrix_cells.ZERO}'
 """
-_FOOT = "return row.foot ? rounded(%s, 4) + '°' : ''"
+_FOOT = "return row.foot ? rounded(%s, narrow ? 3 : 4) + '°' : ''"
 
 
 def _moving_parts(plot: figure, cells: ColumnDataSource, axis: ColumnDataSource) -> None:
@@ -291,7 +289,7 @@ def _moving_parts(plot: figure, cells: ColumnDataSource, axis: ColumnDataSource)
     # below the zero line, which runs through the middle
     inside = {"x": "left", "y": "bottom", "x_offset": 3, "y_offset": -1}
     write(plot, cells, _FLAT, fitting=NARROWEST, **inside)
-    below = {"y": "bottom", "y_offset": 4, "text_baseline": "top"}
+    below = {"y": "bottom", "y_offset": 4, "text_baseline": "top", "fitting": NARROWEST}
     write(plot, cells, _FOOT % "0*row.foot", x="left", **below)
     write(plot, cells, _FOOT % "row.foot", x="right", text_align="right", **below)
     middle = {"x": 0.5 * (_BALLS.left + _BALLS.right), "text_align": "center"}

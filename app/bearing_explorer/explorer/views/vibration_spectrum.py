@@ -135,8 +135,8 @@ class VibrationSpectra(ComparingView, LookView[Results]):
     name = "vibration-spectrum"
     title = "Spectrum of the vibration"
     about = (
-        "Spectrum of the housing's acceleration. Power spectral density along x and y after the "
-        "start has died away, 32 Hz resolution. Grey: {grey}. Shaded: the bands of the natural "
+        "Spectrum of the housing's acceleration. Power spectral density along x and y once the "
+        "start has died away; it resolves 32 Hz. Grey: {grey}. Shaded: the bands of the natural "
         "frequencies."
     )
     needs = frozenset({"motion", "late_spectra", "reference", "bands", "ranges"})
@@ -238,7 +238,7 @@ class VibrationSpectra(ComparingView, LookView[Results]):
         return sources, ranges
 
     def sentence(self, results: Results) -> str:
-        return f"{loudest_words(results)} {why_words(results)}".rstrip()
+        return f"{why_words(results)} {loudest_words(results)}".lstrip()
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         table: dict[str, np.ndarray] = {}
@@ -265,9 +265,7 @@ def loudest_words(results: Results) -> str:
     for dof, peak in results.peaks.items():
         words.append(f"{style.number(peak.level, 2)} dB at {peak.frequency:.0f} Hz along {dof}")
     text = (
-        "Above 100 Hz the housing vibrates most with "
-        + style.list_words(words)
-        + " (re 1 (m/s²)²/Hz)"
+        f"The highest levels above 100 Hz are {style.list_words(words)} (re 1 (m/s²)²/Hz)"
         if words
         else "The housing cannot move along x or y in this scene"
     )
@@ -279,11 +277,7 @@ def loudest_words(results: Results) -> str:
     )
     estimated = ", as estimated" if results.scene.bearing.estimated else ""
     text += with_elements_of(results.scene.bearing, f"; balls pass a point {passing}{estimated}")
-    text += results.doubt
-    if results.moving:
-        return f"{text}."
-    start = style.with_prefix(results.settled_since, "s")
-    return f"{text}. Computed by time integration, without the first {start}."
+    return f"{text}{results.doubt}."
 
 
 def why_words(results: Results, *, briefly: bool = False) -> str:

@@ -114,14 +114,13 @@ class VibrationInTime(PassageView):
             (e for e in shown.events if entry and not e.enters and e.time >= entry.time), None
         )
         if entry and leaving:
-            text += (
-                f"; {element_name(bearing, entry.ball)} enters the defect and "
-                f"{style.with_prefix(leaving.time - entry.time, 's', 4)} later "
-                + ("it" if leaving.ball == entry.ball else element_name(bearing, leaving.ball))
-                + " leaves it"
-            )
+            name = element_name(bearing, entry.ball)
+            other = "it" if leaving.ball == entry.ball else element_name(bearing, leaving.ball)
+            later = style.with_prefix(leaving.time - entry.time, "s", 4)
+            text += f". {name[0].upper()}{name[1:]} enters the defect, and {later} later {other} "
+            text += "leaves it"
         why = with_elements_of(bearing, reasons.jolt(shown, bearing))
-        return f"{text}. {why}".rstrip()
+        return f"{why} {text}.".lstrip()
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         return results.excerpt.table().named()

@@ -38,10 +38,6 @@ ALLOWED = {"dB": 0.1, "1": 0.01}
 UNORDERED = 1.0
 """Order of convergence below which shorter steps gain little."""
 BEYOND = "no vibration at all, so no error in dB"
-ABOVE = (
-    "The page takes its steps from the highest natural frequency, not from an error, and filters "
-    "accelerations, which are compared unfiltered here: “twice as many steps” below has the rest"
-)
 NOT_YET = "Nothing was measured beforehand for this chart: “Measure on this machine” draws it."
 SHORTEST = 100.0
 """Least quotient of the ends of an axis."""
@@ -63,16 +59,20 @@ const places = Array.from(cost, (value, i) =>
 const taken = places.map(([x, y]) => [x - 5, y - 5, x + 5, y + 5])
 const line = (1 - part(limit.y, y_range))*inner_height
 taken.push([0, line - 2, inner_width, line + 2], [0, line - 18*larger, 100*larger, line])
-const free = ([left, top, end, bottom]) => left >= 0 && end <= inner_width && top >= 0
-  && bottom <= inner_height && taken.every((other) =>
+const free = ([left, top, end, bottom], boxes) => left >= 0 && end <= inner_width && top >= 0
+  && bottom <= inner_height && boxes.every((other) =>
     end <= other[0] || left >= other[2] || bottom <= other[1] || top >= other[3])
-const beside = (i, words, letter) => {
+// small boxes along the line from each point to the next of its method
+const lines = places.slice(1).flatMap(([x, y], i) => method[i + 1] != method[i] ? [] :
+  Array.from({length: 40}, (_, k) => [x + (places[i][0] - x)*k/40, y + (places[i][1] - y)*k/40])
+    .map(([at, height]) => [at - 1, height - 1, at + 1, height + 1]))
+const beside = (i, words, letter, over_lines = false) => {
   const [x, y] = places[i]
   const width = letter*larger*words.length + 4, half = letter*larger
   for (const height of [-7, 7, 0, -18, 18, -30, 30, -42, 42, 54, 66]) {
     for (const side of [11, -11 - width]) {
       const box = [x + side, y + height - half, x + side + width, y + height + half]
-      if (!free(box)) continue
+      if (!free(box, over_lines ? taken : [...taken, ...lines])) continue
       taken.push(box)
       return [side, height]
     }
@@ -81,8 +81,9 @@ const beside = (i, words, letter) => {
 const own = names.data
 for (const k of own.name.keys()) {
   own.text[k] = ""
-  for (const i of places.keys()) {
-    const place = own.name[k] && method[i] == own.name[k] && beside(i, own.name[k], 6.6)
+  const its = places.map((_, i) => i).filter((i) => own.name[k] && method[i] == own.name[k])
+  for (const [i, over] of [...its.map((i) => [i, false]), ...its.map((i) => [i, true])]) {
+    const place = beside(i, own.name[k], 6.6, over)
     if (!place) continue
     ;[own.cost[k], own.error[k], own.text[k]] = [cost[i], error[i], own.name[k]]
     ;[own.right[k], own.down[k]] = place
@@ -91,8 +92,9 @@ for (const k of own.name.keys()) {
 }
 const order = places.map((_, i) => i).sort((a, b) => first[b] - first[a])
 for (const i of order) {
-  const place = label[i] && beside(i, label[i], 6)
-  text[i] = place ? label[i] : ""
+  const words = label[i], used = words.startsWith("in use")
+  const place = words && (beside(i, words, 6) ?? (used && beside(i, words, 6, true)))
+  text[i] = place ? words : ""
   if (place) [right[i], down[i]] = place
 }
 points.change.emit()
@@ -325,11 +327,9 @@ def sentence(one: Experiment, error: str) -> str:
         parts.append(f"Fastest within {limit}{also}: {said(one, error, within[0])}")
     elif frontier:
         parts.append(f"None is within {limit}; the nearest is {said(one, error, frontier[-1])}")
-    for point in (p for p in one.points if p.in_use and error in p.errors and p not in within[:1]):
-        parts.append(f"In use: {said(one, error, point)}")
-        if point.errors[error] > allowed and one.name == "motion":
-            parts += [ABOVE]
-    return ". ".join(parts) + "."
+    used = [p for p in one.points if p.in_use and error in p.errors and p not in within[:1]]
+    parts += [f"in use: {said(one, error, point)}" for point in used]
+    return "; ".join(parts) + "."
 
 
 def details(one: Experiment, error: str) -> str:

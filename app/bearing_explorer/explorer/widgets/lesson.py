@@ -28,8 +28,6 @@ class LessonPanel(JSComponent):
     lesson = param.Dict(default={})
     #: whether it is open when the page loads
     open_first = param.Boolean(default=False)
-    #: the page for teachers, as safe HTML
-    teachers = param.String()
 
     _esm = scripts("element.js", "asking.js", "lesson.js")
     _stylesheets: ClassVar[list[str]] = [asset_text("lesson.css")]

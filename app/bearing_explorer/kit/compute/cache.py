@@ -28,10 +28,6 @@ _LONG = 256  # items from which a list counts as one of numbers, and is not look
 _A_NUMBER = 32  # bytes of one in such a list, and of what points to it
 
 
-class Overtaken(Exception):  # noqa: N818
-    """A computation was given up, as its result is no longer wanted."""
-
-
 _results: LRUCache[tuple[Any, ...], tuple[Any, int]] = LRUCache(
     MOST_BYTES, getsizeof=lambda kept: kept[1]
 )
@@ -49,38 +45,29 @@ class Cached(Generic[Result]):
         self.name = f"{compute.__module__}.{compute.__qualname__}"
         _functions[self.name] = self
 
-    def __call__(self, *key: Hashable, give_up: Callable[[], bool] | None = None) -> Result:
-        """The result for these arguments.
-
-        `give_up` is passed on to a function that takes it; it is no part of the key. Such a
-        function raises `Overtaken` where it has been given up.
-        """
+    def __call__(self, *key: Hashable) -> Result:
+        """The result for these arguments."""
         full_key = (self, *key)
-        while True:
-            with _lock:
-                if full_key in _results:
-                    result: Result = _results[full_key][0]
-                    return result
-                future = _under_way.get(full_key)
-                mine = future is None
-                if future is None:
-                    future = _under_way[full_key] = Future()
-            if mine:
-                more = {} if give_up is None else {"give_up": give_up}
-                return self._find(full_key, future, more)
-            with suppress(Overtaken):  # by the other thread: this one begins anew
-                return future.result()  # type: ignore[no-any-return]
+        with _lock:
+            if full_key in _results:
+                result: Result = _results[full_key][0]
+                return result
+            future = _under_way.get(full_key)
+            mine = future is None
+            if future is None:
+                future = _under_way[full_key] = Future()
+        if mine:
+            return self._find(full_key, future)
+        return future.result()  # type: ignore[no-any-return]
 
     def knows(self, *key: Hashable) -> bool:
         """Whether the result is there already."""
         with _lock:
             return (self, *key) in _results
 
-    def _find(
-        self, full_key: tuple[Hashable, ...], future: Future[Result], more: Mapping[str, Any]
-    ) -> Result:
+    def _find(self, full_key: tuple[Hashable, ...], future: Future[Result]) -> Result:
         try:
-            result = self._compute(*full_key[1:], **more)
+            result = self._compute(*full_key[1:])
         except BaseException as error:
             with _lock:
                 del _under_way[full_key]

@@ -30,8 +30,7 @@ class DrawingLoop(Generic[Inputs, Fine]):
         draws inputs on the event loop, and returns those that it has drawn: `newest` may have given
         it newer ones.
     refine
-        computes the fine picture of inputs, in a thread; None where there is nothing finer. Its
-        second argument says whether newer inputs have come: then the picture is no longer wanted.
+        computes the fine picture of inputs, in a thread; None where there is nothing finer.
     draw_fine
         draws such a picture, on the event loop.
     failed
@@ -41,7 +40,7 @@ class DrawingLoop(Generic[Inputs, Fine]):
     def __init__(
         self,
         draw: Callable[[Inputs], Awaitable[Inputs]],
-        refine: Callable[[Inputs, Callable[[], bool]], Fine | None],
+        refine: Callable[[Inputs], Fine | None],
         draw_fine: Callable[[Inputs, Fine], Awaitable[None]],
         failed: Callable[[Exception], Awaitable[None]],
     ) -> None:
@@ -122,9 +121,7 @@ class DrawingLoop(Generic[Inputs, Fine]):
 
     async def _draw_finely(self, inputs: Inputs) -> None:
         """Unless newer inputs come first: they do not wait for it."""
-        fine = asyncio.ensure_future(
-            run_in_thread(self._refine, inputs, lambda: self.waiting or self._stopped, pool=FINE)
-        )
+        fine = asyncio.ensure_future(run_in_thread(self._refine, inputs, pool=FINE))
         newer = asyncio.ensure_future(self._submitted.wait())
         try:
             await asyncio.wait({fine, newer}, return_when=asyncio.FIRST_COMPLETED)

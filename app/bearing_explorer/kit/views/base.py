@@ -3,14 +3,14 @@
 A view never computes physics. It says in `needs` which attributes of its results, the content of
 its half, it reads; only those are computed, and only while the view is on screen.
 
-To write one, subclass `View`, set the class attributes (the first sentence of `about` is short: it
-is seen above the figure with the sentences of the key, “Blue: ...”, and the rest opens on a click),
-and give it
+To write one, subclass `View`, set the class attributes (the key of `about`, sentences such as
+“Grey: ...”, is seen above the figure; all else opens behind "?"), and give it
 
 - `build(packed)`: make figures, sources and ranges, once, and return what goes on the page;
 - `data(results)`: numbers to send, ``({source: {column: array}}, {range: (start, end)})``; pure;
   sources of the view that it leaves out are empty;
-- `sentence(results)`: one sentence on the figure in plain words;
+- `sentence(results)`: plain words on the figure, of which the first sentence is seen below it and
+  all others open behind "?";
 - `table(results)`: the numbers behind the figure, units in the names, for the CSV file;
 - `show(results)`, where something in it is not in the packed source.
 
@@ -69,7 +69,7 @@ class Caption(LiveComponent):
     figures = param.List(default=[])
     #: name, left, right, bottom and top of the cells that it enlarges one by one
     cells = param.List(default=[])
-    #: what is said above each of them; empty strings for nothing
+    #: HTML above each of them; empty strings for nothing
     cell_lines = param.List(default=[])
     #: a small one: a title that leads to the tab of this name, and a sentence
     compact = param.Boolean(default=False)
@@ -121,12 +121,12 @@ class View(Generic[C]):
     needs: frozenset[str] = frozenset()
     #: whether it draws an SVG of the class "picture" by itself instead of Bokeh's figures
     picture: ClassVar[bool] = False
-    #: whether it is in a report; one without `needs` only with the result of its job
-    in_report: ClassVar[bool] = True
     #: whether it is drawn only once the slider rests, and does not follow a drag
     at_rest: ClassVar[bool] = False
     #: whether it is a small card of the overview; `leads_to` is the tab that shows it in full
     compact: ClassVar[bool] = False
+    #: whether of all words on a figure only the key and one sentence are seen
+    is_brief: ClassVar[bool] = True
     #: "unseen": for screen readers alone
     sentence_looks: ClassVar[tuple[str, ...]] = ()
     leads_to: ClassVar[str] = ""
@@ -173,11 +173,8 @@ class View(Generic[C]):
         if not self.needs:
             for picture in self._pictures:
                 self.withhold(picture)
-        line, rest = parts_of(self.caption())
         self._caption = Caption(
             title=self.title,
-            line=line,
-            rest=rest,
             name_of_files=self.name,
             figures=[plot.id for plot in self.figures],
             picture=self.picture,
@@ -186,6 +183,9 @@ class View(Generic[C]):
             leads_to=self.leads_to,
             lead=self.lead,
         )
+        #: how to read the figure, and further sentences on it as it was last at rest
+        self._rest, self._others = "", ""
+        self._put_words(self.caption())
         self._caption.on_msg(self._answer)
         for plot in self.figures:
             zoomable(plot)
@@ -273,13 +273,19 @@ class View(Generic[C]):
             # hidden figures are not to be saved
             shown = [plot.id for plot in self.figures] if self._has_drawn else []
             self._caption.put(figures=shown)
-        self._sentence.put(text=sentence_html(sentence))
+        brief = self.is_brief and self._has_drawn and results is not None and self.figures
+        first, *others = _sentences(sentence) if brief else [sentence]
+        self._sentence.put(text=sentence_html(first))
+        if results is None or not results.moving:
+            self._others = " ".join(others)
+            self._put_rest()
         self._caption.put(
             empty=self._results is None or self.is_empty, nothing=self._results is None
         )
         if results is not None:
             if self.cells and not results.moving:
-                self._caption.put(cell_lines=self.cell_lines(results))
+                lines = [sentence_html(line) for line in self.cell_lines(results)]
+                self._caption.put(cell_lines=lines)
             self.show(results)
 
     def cell_lines(self, content: C) -> list[str]:
@@ -292,8 +298,17 @@ class View(Generic[C]):
     def put_head(self, content: C) -> None:
         """Show title and caption in the words of the content."""
         self._key = content.picture_key
-        line, rest = parts_of(content.in_words(self.caption(content)))
-        self._caption.put(title=content.in_words(self.title_of(content)), line=line, rest=rest)
+        self._caption.put(title=content.in_words(self.title_of(content)))
+        self._put_words(content.in_words(self.caption(content)))
+
+    def _put_words(self, caption: str) -> None:
+        line, self._rest = parts_of(caption, key_alone=self.is_brief and bool(self.figures))
+        self._caption.put(line=line)
+        self._put_rest()
+
+    def _put_rest(self) -> None:
+        words = f"{self._others} {self._rest}".strip()
+        self._caption.put(rest=words if self.compact else sentence_html(words))
 
     def title_of(self, content: C) -> str:
         """The title over this content."""
@@ -388,19 +403,26 @@ def _only_figures(body: pn.viewable.Viewable) -> bool:
     return all(isinstance(part, pn.pane.Bokeh) for part in leaves)
 
 
-_BETWEEN = re.compile(r"(?<=[.!?])\s+(?=[A-Z“])")
 _IS_KEY = re.compile(r"[A-Z][^:.]{0,26}: ")
 
 
-def parts_of(text: str) -> tuple[str, str]:
+def _sentences(text: str) -> list[str]:
+    """The sentences of a text; one that begins with a number goes with the one before."""
+    return re.split(r"(?<=[.!?])\s+(?=\D)", text)
+
+
+def parts_of(text: str, *, key_alone: bool) -> tuple[str, str]:
     """The part of a caption that is seen, and the part that opens on a click.
 
-    The first sentence and the key are seen: sentences such as “Shaded: the defect.”
+    The key is seen, sentences such as “Shaded: the defect.”, and the first sentence unless
+    `key_alone`.
     """
-    first, *others = _BETWEEN.split(text)
-    key = [sentence for sentence in others if _IS_KEY.match(sentence)]
-    rest = [sentence for sentence in others if sentence not in key]
-    return " ".join([first, *key]), " ".join(rest)
+    seen: list[str] = []
+    rest: list[str] = []
+    for number, sentence in enumerate(_sentences(text)):
+        is_seen = _IS_KEY.match(sentence) or (number == 0 and not key_alone)
+        (seen if is_seen else rest).append(sentence)
+    return " ".join(seen), " ".join(rest)
 
 
 def figures_in(layout: Any) -> list[Plot]:

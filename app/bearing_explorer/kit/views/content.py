@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Set
+from collections.abc import Mapping, Set
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar, Self
 
@@ -50,8 +50,8 @@ class Content:
         """Return a title or caption in the words of this content."""
         return text
 
-    def at_rest(self, rested: bool = True, give_up: Callable[[], bool] | None = None) -> Self:
-        """The same, as it is once the slider rests; `give_up` may end long searches."""
+    def at_rest(self, rested: bool = True) -> Self:
+        """The same, as it is once the slider rests."""
         return replace(self, moving=not rested)  # type: ignore[type-var]
 
     @property

@@ -143,7 +143,10 @@ class SearchedSelect(pn.Column):
     def __init__(self, select: pn.widgets.Select, options: Sequence[Sequence[str]]) -> None:
         self._select, self._all = select, options
         search = entry(
-            "", placeholder=f"Search {len(options)}", css_classes=["search"], align="start"
+            "",
+            placeholder=f"Search {len(options)} quantities",
+            css_classes=["search"],
+            align="start",
         )
         search.param.watch(lambda event: self._filter(event.new), "value_input")
         super().__init__(search, select, align="end", margin=0, stylesheets=[_OWN_LINE])

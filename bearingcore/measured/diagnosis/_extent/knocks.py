@@ -17,11 +17,11 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from enum import StrEnum
 
 import numpy as np
 
 from bearingcore.common import Array
+from bearingcore.errors import Status
 from bearingcore.measured.diagnosis._part.listened_signal import MOST_DROPPED
 from bearingcore.measured.signals import BallPasses, average_passes
 from bearingcore.measured.signals._dropouts import signal_faults
@@ -166,15 +166,30 @@ class Pair:
         return min(self.ratio, 1.0 / self.ratio)
 
 
-class Seen(StrEnum):
-    """Findings in mean passes."""
+class ExtentStatus(Status):
+    """The outcome of a measurement of the extent."""
 
-    NOTHING = "nothing"
-    ONE = "one knock"
-    UNCLEAR = "unclear"
-    ALIKE = "alike"
-    EITHER = "either way round"
-    TWO = "two knocks"
+    MEASURED = "measured", "Entry and exit are separate in the mean ball pass."
+    EITHER = "either way round", "Entry and exit are separate, but it is not clear which is which."
+    SHORTER = "shorter", "Entry and exit are too close together to be separated."
+    ONE_KNOCK = (
+        "one knock",
+        "There is one impact a ball pass: from a pit, or a longer spall with a faint entry.",
+    )
+    UNCLEAR = (
+        "unclear",
+        "Frequency bands do not agree on two impacts a ball pass: ringing hides them, or the "
+        "balls meet the damage differently.",
+    )
+    BOUNCES = (
+        "bounces",
+        "Two impacts a ball pass differ in height, and the later is no sharper than the "
+        "earlier: a ball that bounces or an echo, not entry and exit.",
+    )
+    NO_RACE = "no race", "No damaged race is named, so there is no extent to measure."
+    NOT_VISIBLE = "not visible", "Nothing repeats clearly with the ball passes of this race."
+    TOO_SHORT = "too short", "The recording holds too few ball passes for a mean."
+    TOO_COARSE = "too coarse", "The sample rate is too low to locate impacts on the race."
 
 
 @dataclass(frozen=True)
@@ -189,7 +204,7 @@ class Knocks:
         ball passes a second [Hz].
     n_passes
         how many were averaged.
-    seen
+    status
         what the bands show together.
     separation, deviation
         from entry to exit as a share of a ball pass, the shorter way round, and its standard
@@ -205,7 +220,7 @@ class Knocks:
     passes: tuple[MeanPass, ...]
     frequency: float
     n_passes: int
-    seen: Seen
+    status: ExtentStatus
     separation: float = math.nan
     deviation: float = math.nan
     entry: float = math.nan
@@ -231,7 +246,7 @@ def find_knocks(recording: Recording, nominal: float, slip: float, turns: float 
     """
     names, envelopes, rate = _envelopes(recording, nominal)
     if not names:
-        return Knocks((), nominal, 0, Seen.NOTHING)
+        return Knocks((), nominal, 0, ExtentStatus.NOT_VISIBLE)
     widest = min(0.9 * HARMONICS * nominal, 0.38 * rate)
     highest = min(20.0 * nominal, widest)
     left = envelopes
@@ -247,11 +262,11 @@ def find_knocks(recording: Recording, nominal: float, slip: float, turns: float 
         left = left[:place] if place > len(left) // 2 else left[place:]
         if len(left) < LEAST_LEFT * len(envelopes):
             break
-    return Knocks(tuple(passes), ball_passes.frequency, ball_passes.n_passes, Seen.UNCLEAR)
+    return Knocks(tuple(passes), ball_passes.frequency, ball_passes.n_passes, ExtentStatus.UNCLEAR)
 
 
 def _jump(passes: BallPasses) -> float | None:
-    """When [s] the passes jump most; None where they are steady."""
+    """Return the time [s] at which passes jump most; None if they are steady."""
     if passes.begins is None:
         return None
     away = np.abs(np.diff(passes.begins) * passes.frequency - 1.0)
@@ -338,12 +353,13 @@ def judged(passes: Sequence[MeanPass], frequency: float, n_passes: int) -> Knock
     """
     passes = tuple(sorted(passes, key=lambda mean_pass: -mean_pass.contrast))
     if not passes or passes[0].contrast < LEAST_CONTRAST:
-        return Knocks(passes, frequency, n_passes, Seen.NOTHING)
+        return Knocks(passes, frequency, n_passes, ExtentStatus.NOT_VISIBLE)
     shown = [(one, pair) for one in passes if (pair := two_peaks(one, frequency)) is not None]
     agreeing = _agreeing(shown)
     if not agreeing:
-        seen = Seen.UNCLEAR if len(shown) > ONLY_ONE * len(passes) else Seen.ONE
-        return Knocks(passes, frequency, n_passes, seen, hidden=_hidden(passes))
+        several = len(shown) > ONLY_ONE * len(passes)
+        status = ExtentStatus.UNCLEAR if several else ExtentStatus.ONE_KNOCK
+        return Knocks(passes, frequency, n_passes, status, hidden=_hidden(passes))
     height = np.array([pair.height for _, pair in agreeing])
     ratios = np.log([pair.ratio for _, pair in agreeing])
     # a release is soft: above the bands that show it only the exit may be left
@@ -351,9 +367,9 @@ def judged(passes: Sequence[MeanPass], frequency: float, n_passes: int) -> Knock
     counted = sum(mean_pass.band.low <= reached for mean_pass in passes)
     showing = sum(pair.height for mean_pass, pair in shown if mean_pass.band.low <= reached)
     if len(agreeing) < SHOWING * counted or height.sum() < AGREEING * showing:
-        return Knocks(passes, frequency, n_passes, Seen.UNCLEAR, hidden=_hidden(passes))
+        return Knocks(passes, frequency, n_passes, ExtentStatus.UNCLEAR, hidden=_hidden(passes))
     if np.ptp(np.quantile(ratios, (0.1, 0.9))) < ALIKE and abs(np.median(ratios)) > UNLIKE:
-        return Knocks(passes, frequency, n_passes, Seen.ALIKE)
+        return Knocks(passes, frequency, n_passes, ExtentStatus.BOUNCES)
     return _two_knocks(passes, agreeing, frequency, n_passes)
 
 
@@ -378,11 +394,11 @@ def _two_knocks(
     trend = _trend([mean_pass.band for mean_pass, _ in agreeing], ratios, height)
     rare = 1.0 - separation > RARE * separation
     if rare and (trend < -FADES or (trend < 0.0 and _fades(passes, reached, ratios))):
-        return Knocks(passes, frequency, n_passes, Seen.ALIKE)
-    seen = Seen.TWO if rare else Seen.EITHER
+        return Knocks(passes, frequency, n_passes, ExtentStatus.BOUNCES)
+    status = ExtentStatus.MEASURED if rare else ExtentStatus.EITHER
     others = tuple(mean_pass for mean_pass in passes if mean_pass is not best)
     return Knocks(
-        (best, *others), frequency, n_passes, seen, separation, deviation, pair.first, pair.second
+        (best, *others), frequency, n_passes, status, separation, deviation, pair.first, pair.second
     )
 
 
@@ -407,7 +423,7 @@ def _hidden(passes: Sequence[MeanPass]) -> float:
 
 
 def _fades(passes: Sequence[MeanPass], reached: float, ratios: Array) -> bool:
-    """Whether the later peak is fainter and gone in a clear band above those that show both.
+    """Return True if the later peak is fainter and gone in a clear band above those that show both.
 
     An exit is the sharper of the two. A ball that bounces and an echo fade so with frequency.
     """
@@ -416,7 +432,7 @@ def _fades(passes: Sequence[MeanPass], reached: float, ratios: Array) -> bool:
 
 
 def _is_clear(mean_pass: MeanPass) -> bool:
-    """Whether a second peak of the faintest kind would stand out of a band's noise."""
+    """Return True if a second peak of the faintest kind would stand out of a band's noise."""
     return FAINTEST * mean_pass.contrast > LEAST_SEEN
 
 

@@ -51,7 +51,7 @@ def cut(levels: LineLevels, hidden: NDArray[np.bool_]) -> NDArray[np.float64]:
 def mark_multiples(
     levels: LineLevels, spacing: float, width: float, error: float
 ) -> NDArray[np.bool_]:
-    """Which frequencies (m,) are within `width` [Hz] of multiples of a spacing with an `error`."""
+    """Mark frequencies (m,) within `width` [Hz] of multiples of a spacing with an `error`."""
     frequency = levels.step * np.arange(len(levels.level))
     if spacing <= 0.0:
         return np.zeros(len(frequency), dtype=bool)

@@ -23,7 +23,10 @@ from bearingcore.measured.diagnosis._part.decide import ENOUGH_SWING, decide, si
 from bearingcore.measured.diagnosis._part.evidence import CANNOT_TELL, NONE_SEEN, Diagnosis
 from bearingcore.measured.diagnosis._part.judged import judge
 from bearingcore.measured.diagnosis._part.listened_signal import ListenedSignal, unfit
-from bearingcore.measured.diagnosis._part.over_turns import at_steady_speed, followed_change
+from bearingcore.measured.diagnosis._part.over_turns import (
+    followed_change,
+    resample_to_steady_speed,
+)
 from bearingcore.measured.diagnosis._part.parts import BALL, INNER, OUTER, PartLines, part_lines
 from bearingcore.measured.diagnosis._part.status import DiagnosisStatus
 from bearingcore.measured.diagnosis._part.unknown_speed import NARROW, diagnose_in_range
@@ -48,52 +51,18 @@ CONTRADICTED = 0.5
 SOURCES = ("given", "from the file", "assumed")
 """Origins of a speed and a bearing; "given" is what a person has said of this measurement."""
 
-MOST_SAMPLES = 20_000_000
-"""Samples of all directions that are analysed at most by default: about a minute of
-one core, and some gigabytes."""
 
-
-def diagnose(
+def diagnose_recording(
     recording: Recording,
     bearing: BearingLike | None = None,
     shaft_speed: float | tuple[float, float] | None = None,
     *,
     slip: float = SLIP,
     shaft_ratio: float = 1.0,
-    most_samples: int = MOST_SAMPLES,
     speed_source: str = "given",
     bearing_source: str = "given",
 ) -> Diagnosis:
-    """Diagnosis of the damaged part of a bearing from a signal.
-
-    Parameters
-    ----------
-    recording
-        acceleration of the housing, one direction or two.
-    bearing
-        its geometry, or its designation; only balls, diameters and contact angle count. None if it
-        is unknown: then no part is named, and the status says so.
-    shaft_speed
-        [rad/s], good to `slip`; a pair (from, to) if it is rough; None if it is unknown: then that
-        of the recording is taken if it carries one, else it is looked for between 300 and 6000
-        turns a minute.
-    slip
-        by how much balls may pass faster or slower than the shaft speed says, as a fraction.
-    shaft_ratio
-        turns of the bearing's shaft for each turn of the shaft whose speed, or angle in the
-        recording, is given: 23/47 behind a gear of 23 and 47 teeth.
-    most_samples
-        of all directions that may be listened to. Where there are more nothing is begun, and the
-        status says how many there are.
-    speed_source, bearing_source
-        where a speed and a bearing are from, one of `SOURCES`, perhaps with its words behind a
-        colon, as in "assumed: the scene's". The answer says it.
-
-    Raises
-    ------
-    ValueError
-        for a speed, slip or source that cannot be, and for rows that are not alike.
-    """
+    """Diagnose a recording; `diagnose` describes the arguments."""
     checks.instance("recording", recording, Recording)
     bearing = None if bearing is None else bearing_of(bearing)
     for name, said in (("speed_source", speed_source), ("bearing_source", bearing_source)):
@@ -101,7 +70,7 @@ def diagnose(
     ratio = checks.real_number("shaft_ratio", shaft_ratio, at_least=0.01, at_most=100.0)
     speeds = _speeds(recording, shaft_speed, speed_source, ratio)
     behind_gear = recording if ratio == 1.0 else recording.scale_shaft(ratio)
-    diagnosis = _diagnose(behind_gear, bearing, speeds, ratio, slip, most_samples, speed_source)
+    diagnosis = _diagnose(behind_gear, bearing, speeds, ratio, slip, speed_source)
     source = "unknown" if bearing is None else bearing_source
     return replace(diagnosis, bearing_source=source, shaft_ratio=ratio)
 
@@ -112,17 +81,12 @@ def _diagnose(
     speeds: tuple[float, float, str],
     ratio: float,
     slip: float,
-    most_samples: int,
     speed_source: str,
 ) -> Diagnosis:
     slip = checks.real_number("slip", slip, at_least=0.0, at_most=0.1)
     low, high, source = speeds
-    most = checks.whole_number("most_samples", most_samples, at_least=1, at_most=10**12)
-    if recording.acceleration.size > most:
-        words = say.too_many(recording.acceleration.size, most)
-        return silent(DiagnosisStatus.TOO_LONG, words, source)
     measured = recording.shaft_angle is not None
-    recording, low, high, source = at_steady_speed(recording, low, high, source)
+    recording, low, high, source = resample_to_steady_speed(recording, low, high, source)
     signal = ListenedSignal(recording)
     if signal.unusable is not None:
         return silent(*signal.unusable, source)

@@ -45,9 +45,9 @@ from bearingcore.measured.diagnosis._part.search import (
     Combs,
     Listened,
     listen,
-    near,
+    mark_near,
+    mark_window,
     tolerance,
-    within,
 )
 from bearingcore.measured.diagnosis._part.spin import AHEAD, LAG, may_be, spin
 
@@ -153,7 +153,7 @@ class Judged:
             self, evidence=_weighed(replace(one, swing=share * one.swing) for one in self.evidence)
         )
 
-    def among(self, speeds: float) -> Judged:
+    def discounted(self, speeds: float) -> Judged:
         """The same where so many speeds were open: another source fits one of them as often more.
 
         The odds that lines are those of the bearing fall by that number.
@@ -324,7 +324,7 @@ class _Comparison:
         are no rivals.
         """
         combs = self.combs
-        near_it = within(combs, lines, self.slip, self.given, combs.frequency)
+        near_it = mark_window(combs, lines, self.slip, self.given, combs.frequency)
         if around is not None:  # a race's own lines are none of a ball's
             near_it |= np.abs(combs.frequency - around) <= combs.shaft / TURNS[0]
             near_it &= ~self._windows_of(OUTER, INNER)
@@ -356,7 +356,7 @@ class _Comparison:
         # a ball's spin itself is half its line
         firsts = (1.0, 0.5) if lines.part == BALL else (1.0,)
         factors = (1.0, 2.0, 3.0, 0.5, 1.5) if lines.part == BALL else (1.0, 2.0, 3.0)
-        free = near(self.combs, (factor * frequency for factor in factors))
+        free = mark_near(self.combs, (factor * frequency for factor in factors))
         free |= self._windows_of(*PARTS) | self._slower(frequency)
         sidebands = (
             abs(first * frequency + order * spacing)
@@ -364,21 +364,21 @@ class _Comparison:
             for spacing in (self.combs.shaft, self.cage)
             for order in (-3, -2, -1, 1, 2, 3)
         )
-        follows = near(self.combs, sidebands)
+        follows = mark_near(self.combs, sidebands)
         return np.where(free, np.inf, np.where(follows, SIDEBAND_EXCESS, 0.0))
 
     def _windows_of(self, *names: str) -> NDArray[np.bool_]:
-        """Which combs (n,) some parts may have."""
+        """Mark the combs (n,) that some parts may have."""
         combs, slip = self.combs, self.slip + 0.005
         windows = [
-            within(combs, lines, slip, self.given, combs.frequency)
+            mark_window(combs, lines, slip, self.given, combs.frequency)
             for lines in self.parts
             if lines.part in names
         ]
         return np.asarray(np.any(windows, axis=0))
 
     def _slower(self, frequency: float) -> NDArray[np.bool_]:
-        """Which combs (n,) are those of a frequency [Hz], seen at a half or a third of it.
+        """Mark the combs (n,) of a frequency [Hz] that are seen at a half or a third of it.
 
         A motion may repeat every second or third knock only, and then lines are between the knocks'
         own; they are the fainter ones. Of a source that itself knocks that seldom all are alike.
@@ -386,7 +386,7 @@ class _Comparison:
         combs = self.combs
         slower = np.zeros(len(combs.frequency), dtype=bool)
         for part in SLOWER:
-            near_it = np.flatnonzero(near(combs, (frequency / part,)))
+            near_it = np.flatnonzero(mark_near(combs, (frequency / part,)))
             if not len(near_it):
                 continue
             column = int(near_it[combs.level[:, near_it].max(axis=0).argmax()])
@@ -526,8 +526,10 @@ class _Comparison:
         where this one has its lines.
         """
         combs = self.combs
-        sources = near(combs, (abs(frequency + k * combs.shaft) for k in (-3, -2, -1, 1, 2, 3)))
-        sources &= ~near(combs, (frequency * factor for factor in (0.5, 1.0, 1.5, 2.0, 3.0)))
+        sources = mark_near(
+            combs, (abs(frequency + k * combs.shaft) for k in (-3, -2, -1, 1, 2, 3))
+        )
+        sources &= ~mark_near(combs, (frequency * factor for factor in (0.5, 1.0, 1.5, 2.0, 3.0)))
         if not sources.any():
             return math.inf
         level = float(combs.level[self._loudest(frequency)])

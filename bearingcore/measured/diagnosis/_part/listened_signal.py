@@ -75,7 +75,7 @@ class ListenedSignal:
 
     @property
     def only_rounding(self) -> bool:
-        """Whether it holds nothing between its tones, along any direction."""
+        """Return True if it holds nothing between its tones, along any direction."""
         return all(_only_rounding(samples, self.rate) for samples in self._measured)
 
     def envelopes(self, shaft: float, highest: float) -> list[tuple[str, Envelope]]:
@@ -118,7 +118,7 @@ def _add_noise(samples: np.ndarray) -> np.ndarray:
 
 
 def _only_rounding(samples: np.ndarray, rate: float) -> bool:
-    """Whether between tones there is no more than the steps of the numbers and our own noise.
+    """Return True if between tones there are only the steps of the numbers and our own noise.
 
     Rounding to steps Δ has the power Δ²/12, alike at all frequencies.
     """
@@ -131,7 +131,7 @@ def _only_rounding(samples: np.ndarray, rate: float) -> bool:
 
 
 def unfit(signal: ListenedSignal, parts: Sequence[PartLines], shaft: float) -> Reason | None:
-    """Why nothing can be said, or None."""
+    """Return the reason why nothing can be said, or None."""
     slowest = min(lines.order for lines in parts) * shaft
     top = max(lines.order for lines in parts) * shaft
     if signal.duration * slowest < FEWEST_PASSES:

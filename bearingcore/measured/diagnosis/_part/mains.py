@@ -23,7 +23,7 @@ clock adds to it."""
 
 
 def mains_lines(levels: LineLevels, mains: float, resolution: float) -> NDArray[np.bool_]:
-    """Which frequencies (m,) multiples of a mains frequency [Hz] may have, loud as they are.
+    """Mask of the frequencies (m,) that harmonics of the mains [Hz] can explain.
 
     Hann's window lets a tone show at d times the resolution with 1/(π d (d² − 1)) of its height,
     at which it is hidden in the noise when that is 1/height.

@@ -47,7 +47,7 @@ BESIDE = 0.02
 """By how much a given speed may be outside those that were measured, as a fraction."""
 
 
-def at_steady_speed(
+def resample_to_steady_speed(
     recording: Recording, low: float, high: float, source: str
 ) -> tuple[Recording, float, float, str]:
     """The record at the mean speed, with the speed from, to [Hz], and where that is from.

@@ -12,13 +12,11 @@ from bearingcore.common import (
     percent_off,
     probability,
     span,
-    thousands,
 )
 from bearingcore.measured.diagnosis._part.evidence import OtherLines, PartEvidence
 from bearingcore.measured.diagnosis._part.mains import twice_mains
 from bearingcore.measured.diagnosis._part.parts import BALL
 from bearingcore.measured.diagnosis._part.probability import DEVIATIONS
-from bearingcore.measured.diagnosis._part.status import DiagnosisStatus
 
 FAR = 0.01
 """Of a race's frequency, by which its lines are off in 2 of 52 measured records that name one."""
@@ -47,11 +45,6 @@ def too_short(duration: float, passes: float, fewest: int) -> str:
         f"{count(int(passes), 'ball pass', 'ball passes')}, and at least {fewest} are "
         "needed."
     )
-
-
-def too_many(samples: int, most: int) -> str:
-    """More to listen to than may be."""
-    return f"Too many samples: {thousands(samples)}, allowed are most_samples = {thousands(most)}."
 
 
 def too_slow(rate: float, needed: float) -> str:
@@ -282,8 +275,8 @@ def faint(part: PartEvidence) -> str:
 def which_bearing() -> str:
     """A signal, but no bearing."""
     return (
-        f"{DiagnosisStatus.BEARING_OPEN.sentence} Choose one of the list, or enter its designation "
-        "or its frequencies."
+        "Which part is damaged depends on the bearing, which is not known. Choose one of the list, "
+        "or enter its designation or its frequencies."
     )
 
 

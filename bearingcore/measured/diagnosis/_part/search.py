@@ -54,7 +54,7 @@ class Listened:
     cleared: NDArray[np.float64] = field(repr=False)
     """Levels [dB] without the lines of the shaft."""
     hidden: NDArray[np.bool_] = field(repr=False)
-    """Where lines of the shaft are."""
+    """Mask of the lines of the shaft."""
 
 
 @dataclass(frozen=True)
@@ -143,17 +143,17 @@ def listen(
     )
     combs = Combs(turns, shaft, tuple(listened), frequency, level, {})
     for lines in parts:
-        inside = np.flatnonzero(within(combs, lines, slip, given or shaft, frequency))
+        inside = np.flatnonzero(mark_window(combs, lines, slip, given or shaft, frequency))
         highest_of = level[:, inside].max(axis=0)
         column = int(highest_of.argmax())
         combs.best[lines] = float(frequency[inside[column]]), float(highest_of[column])
     return combs
 
 
-def within(
+def mark_window(
     combs: Combs, lines: PartLines, slip: float, given: float, frequency: NDArray[np.float64]
 ) -> NDArray[np.bool_]:
-    """Which frequencies [Hz] may be a part's first line.
+    """Mark the frequencies [Hz] that may be a part's first line.
 
     Within the slip of the speed that the shaft's lines show and of the speed as given: otherwise a
     shaft found wrongly would open the window to twice the slip.
@@ -170,7 +170,7 @@ def tolerance(combs: Combs, frequency: NDArray[np.float64] | float) -> NDArray[n
     return np.asarray(resolution + WANDER * np.asarray(frequency))
 
 
-def near(combs: Combs, frequencies: Iterable[float]) -> NDArray[np.bool_]:
-    """Which combs (n,) cannot be distinguished from one at any of some frequencies [Hz]."""
+def mark_near(combs: Combs, frequencies: Iterable[float]) -> NDArray[np.bool_]:
+    """Mark the combs (n,) that cannot be distinguished from one at a frequency [Hz]."""
     lines = np.array(list(frequencies))[:, None]
     return np.asarray((np.abs(combs.frequency - lines) <= tolerance(combs, lines)).any(axis=0))

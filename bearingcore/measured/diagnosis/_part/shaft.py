@@ -48,7 +48,7 @@ standard errors each they are lines of several sources."""
 
 
 class ShaftLines(NamedTuple):
-    """Where a signal repeats once a turn.
+    """The frequency at which a signal repeats once a turn.
 
     Attributes
     ----------
@@ -66,7 +66,7 @@ class ShaftLines(NamedTuple):
 
     @property
     def clear(self) -> bool:
-        """Whether the lines count as found, and give the speed."""
+        """Return True if the lines count as found, and give the speed."""
         return self.excess >= CLEAR and 2.0 * self.error <= ERROR
 
 

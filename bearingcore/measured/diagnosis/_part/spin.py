@@ -88,7 +88,7 @@ class Spin:
 
 
 def may_be(frequency: NDArray[np.float64] | float, nominal: float) -> NDArray[np.bool_]:
-    """Which frequencies [Hz] the line of a ball may have that rolling would give the nominal."""
+    """Mark the frequencies [Hz] of a ball that would roll at the nominal one."""
     ratio = np.asarray(frequency) / nominal
     return np.asarray((ratio >= 1.0 - LAG) & (ratio <= 1.0 + AHEAD))
 

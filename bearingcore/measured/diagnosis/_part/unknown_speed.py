@@ -59,7 +59,7 @@ def diagnose_in_range(
         for lines in parts:
             speed = strongest / lines.order
             if low * (1.0 - slip) <= speed <= high * (1.0 + slip):
-                hypotheses.append(_Hypothesis.at(signal, parts, speed, slip, low, high))
+                hypotheses.append(_Hypothesis.judge_at(signal, parts, speed, slip, low, high))
     holding = sorted((one for one in hypotheses if one.holds), key=lambda one: -one.shaft.excess)
     if holding:
         return _choose(signal, holding, slip, low, high, source)
@@ -81,7 +81,7 @@ def diagnose_in_range(
 def _unfit_in_range(
     signal: ListenedSignal, parts: Sequence[PartLines], low: float, high: float
 ) -> tuple[DiagnosisStatus, str] | None:
-    """Why a signal does not serve at one end of the speeds [Hz], or at any between; else None."""
+    """Return the reason why a signal does not serve at some speed [Hz] of a range, or None."""
     slow, fast = unfit(signal, parts, low), unfit(signal, parts, high)
     if slow is not None and fast is not None and slow[0] == fast[0]:  # at any speed between
         return fast if slow[0] == DiagnosisStatus.TOO_SHORT else slow
@@ -113,7 +113,7 @@ def _choose(
         return decide(signal, first.judged, first.judged.shaft, _FOUND)
     # any source with lines somewhere in the range would have been taken for the part's
     width = 2.0 * math.atanh(max(slip, ERROR))
-    judged = first.judged.among(1.0 + math.log(high / low) / width)
+    judged = first.judged.discounted(1.0 + math.log(high / low) / width)
     part = first.judged.own.part
     return decide(signal, judged, judged.shaft, f"taken from the lines of the {part}")
 
@@ -150,7 +150,7 @@ class _Hypothesis:
     judged: Judged
 
     @classmethod
-    def at(
+    def judge_at(
         cls,
         signal: ListenedSignal,
         parts: Sequence[PartLines],
@@ -166,11 +166,11 @@ class _Hypothesis:
 
     @property
     def holds(self) -> bool:
-        """Whether a part would be named at that speed."""
+        """Return True if a part would be named at that speed."""
         return self.judged.own.probability >= NAMED
 
     def agrees(self, other: _Hypothesis, slip: float) -> bool:
-        """Whether another speed is the same, and the part."""
+        """Return True if another speed is the same, and the part."""
         ratio = self.judged.shaft / other.judged.shaft
         same = self.judged.own.part == other.judged.own.part
         return same and abs(ratio - 1.0) <= 2.0 * slip

@@ -39,6 +39,7 @@ from bearingcore.model._kernels.balls.contacts import (
 from bearingcore.model._kernels.balls.release import smooth_start, true_forces, update_released
 from bearingcore.model._kernels.balls.structs import INNER, OUTER, BallForces, BallSteps
 from bearingcore.model._kernels.compiling import called, compiled, inlined
+from bearingcore.model._kernels.in_parts import march_in_parts
 from bearingcore.model._kernels.motion.rings import record, ring_accelerations
 from bearingcore.model._kernels.path import (
     BLOCK,
@@ -48,17 +49,17 @@ from bearingcore.model._kernels.path import (
     new_passage,
 )
 from bearingcore.model._kernels.runge_kutta import stepper, try_state
-from bearingcore.model._kernels.structs import PLANAR, VELOCITIES, Recorded
+from bearingcore.model._kernels.structs import PLANAR, Recorded
 
 
 @inlined
-def ring_velocities(y, k, rotor, work, sign):
-    """ẋ of both rings into k from w (sign 1), Σ c δ e being in work.S; into work.v too."""
+def ring_velocities(y, k, rotor, work):
+    """ẋ of both rings into k from w, Σ c δ e being in work.S; into work.v too."""
     active = rotor.active
     n = active.size
     for a in range(n):
-        k[a] = y[n + a] - sign * rotor.inverse_inner[a] * work.S[INNER, active[a]]
-        k[2 * n + a] = y[3 * n + a] + sign * rotor.inverse_outer[a] * work.S[OUTER, active[a]]
+        k[a] = y[n + a] - rotor.inverse_inner[a] * work.S[INNER, active[a]]
+        k[2 * n + a] = y[3 * n + a] + rotor.inverse_outer[a] * work.S[OUTER, active[a]]
         work.v[INNER, active[a]] = k[a]
         work.v[OUTER, active[a]] = k[2 * n + a]
 
@@ -75,10 +76,8 @@ def ball_rates(y, k, passage, inner, at, system, work):
     n = rotor.active.size
     n_balls = contacts.angle.size
     first = 4 * n
-    planar = rotor.variables == PLANAR
-    smooth = rotor.variables != VELOCITIES
     ring_state(y, rotor, work.x)
-    if planar:
+    if rotor.variables == PLANAR:
         planar_contacts(y, first, passage, inner, at, system, work)
         speeds = first + n_balls
         for j in range(n_balls):
@@ -88,26 +87,24 @@ def ball_rates(y, k, passage, inner, at, system, work):
             )
             k[first + j] = y[speeds + j] + damped * races.inverse_mass[j]
             k[speeds + j] = work.ball[0, j] * races.inverse_mass[j]
-        ring_velocities(y, k, rotor, work, 1.0)
+        ring_velocities(y, k, rotor, work)
     else:
         find_contacts(y, first, passage, inner, at, system, work)
         speeds = first + 2 * n_balls
         for j in range(n_balls):
             for part in range(2):
-                damped = 0.0
-                if smooth:
-                    damped = (
-                        races.damping[INNER, j]
-                        * work.contact[INNER, j, 0]
-                        * work.contact[INNER, j, 1 + part]
-                        - races.damping[OUTER, j]
-                        * work.contact[OUTER, j, 0]
-                        * work.contact[OUTER, j, 1 + part]
-                    )
+                damped = (
+                    races.damping[INNER, j]
+                    * work.contact[INNER, j, 0]
+                    * work.contact[INNER, j, 1 + part]
+                    - races.damping[OUTER, j]
+                    * work.contact[OUTER, j, 0]
+                    * work.contact[OUTER, j, 1 + part]
+                )
                 i = part * n_balls + j
                 k[first + i] = y[speeds + i] + damped * races.inverse_mass[j]
-        ring_velocities(y, k, rotor, work, 1.0 if smooth else 0.0)
-        push_contacts(k, first, passage, inner, at, system, work, smooth)
+        ring_velocities(y, k, rotor, work)
+        push_contacts(k, first, passage, inner, at, system, work, True)
         for j in range(n_balls):
             for part in range(2):
                 k[speeds + part * n_balls + j] = work.ball[part, j] * races.inverse_mass[j]
@@ -137,9 +134,8 @@ def rates(y, part, before, k, at, system, work):
 
 @inlined
 def changed(y, at, system, work):
-    """Whether contacts have been released or taken up, and y with them, as a step begins."""
-    rotor = system.rotor
-    if rotor.tension or rotor.variables == VELOCITIES:
+    """Release and take up contacts as a step begins; True where that has changed y."""
+    if system.rotor.tension:
         return False
     return update_released(y, work.k[0], work.passage, work.inner, at, system, work.forces)
 
@@ -186,23 +182,30 @@ def new_ball_steps(size, instants, angle):
     )
 
 
-def march_balls(y, h, start_angle, stride, system, history, places):
+def march_balls(y, h, start_angle, stride, system, history, places, watch=None):
     """Steps of h [s] from y, velocities in it, which is moved to the end.
 
     Every `stride` steps history (samples, 6, n) takes displacement, velocity and acceleration of
     the inner ring, then of the outer one, and places (samples, k, n_balls) those of the balls:
     radial, and axial unless the motion is planar. Fewer rows of places, the samples over a whole
     number and rounded up, take those of every so many samples. Returns the number of steps after
-    which all was still finite, which is looked at once in half a BLOCK.
+    which all was still finite, which is looked at once in half a BLOCK. `watch`: see
+    `march_in_parts`.
     """
     work = new_ball_steps(y.size, BLOCK + 1, system.contacts.angle)
     out = Recorded(history, places, -(-len(history) // max(len(places), 1)))
-    return march_with_balls(y, h, start_angle, stride, system, out, work)
+    return march_in_parts(
+        stride * (len(history) - 1),
+        y.size * system.contacts.angle.size,
+        lambda span: march_with_balls(y, h, start_angle, stride, system, out, work, span),
+        watch,
+    )
 
 
 @compiled
-def march_with_balls(y, h, start_angle, stride, system, out, work):
-    """Body of `march_balls`."""
-    lay_out(start_angle, 0.0, 1, system, work)
-    smooth_start(y, work.passage, work.inner, system, work.forces)
-    return runge_kutta(y, h, start_angle, stride, system, out, work)
+def march_with_balls(y, h, start_angle, stride, system, out, work, span):
+    """Body of `march_balls`; span: see `runge_kutta`."""
+    if span[0] == 0:
+        lay_out(start_angle, 0.0, 1, system, work)
+        smooth_start(y, work.passage, work.inner, system, work.forces)
+    return runge_kutta(y, h, start_angle, stride, system, out, work, span)

@@ -50,8 +50,13 @@ from bearingcore.model._kernels.statics import (
     ROUNDING,
     has_descended,
     least_pivot,
+    load_size,
     new_map_work,
     newton_direction,
+    shorten_step,
+    sizes_at,
+    slope_along,
+    typical_stiffness,
 )
 from bearingcore.model._kernels.structs import Array, Contacts, Integers, Path
 
@@ -70,7 +75,7 @@ class StaticBalls(NamedTuple):
 
 
 class BallPlaces(NamedTuple):
-    """Where balls are and what they carry, each array (n,), or (2, n) by race.
+    """Places of balls and what they carry, each array (n,), or (2, n) by race.
 
     Attributes
     ----------
@@ -177,14 +182,17 @@ def series_stiffness(i_rr, i_rz, i_zz, e_rr, e_rz, e_zz, i_r, i_z):
 def settle_ball(r, z, j, balls, places):
     """Move ball j to its minimum; (r, z) is the displacement of the inner groove's centre.
 
-    The minimum over its place b = (br, bz) of W = E_i(δ_i) + E_e(δ_e) − F b_r, by Newton's method
-    in the plane: there Q_e e_e − Q_i e_i = (F, 0), the ball's balance. The names begin with i (or
-    a, at the place that is tried) at the inner contact and e (or o) at the outer one.
+    Its place b = (br, bz) minimises W(b) = E_i(δ_i) + E_e(δ_e) − F b_r, which is convex, by
+    Newton's method in the plane: g = ∂W/∂b = Q_e e_e − Q_i e_i − (F, 0) is 0 where the ball's loads
+    balance, and H = M_i + M_e is what both contacts stiffen it by. A move of b closes the outer
+    contact and opens the inner one, hence the signs.
 
-    Returns its energy [N·m], whether it settled, and the stiffness (rr, rz, zz) [N/m] that the
-    inner ring feels. Loads and directions go into `places`.
+    Returns W [N·m], whether the ball settled, and the stiffness (rr, rz, zz) [N/m] that the inner
+    ring feels. Loads and directions go into `places`.
     """
     races = balls.races
+    factor = races.factor[OUTER, j]
+    exponent = balls.contacts.exponent[j]
     force = races.centrifugal[j] - races.weight[j] * places.s[j]
     if places.known[j] > 0.0:
         br = places.place[0, j]
@@ -197,85 +205,69 @@ def settle_ball(r, z, j, balls, places):
             places.load[INNER, j] = 0.0
             places.load[OUTER, j] = 0.0
             return 0.0, True, 0.0, 0.0, 0.0
-    di = places.drop[INNER, j]
-    de = places.drop[OUTER, j]
-    energy = 0.0
+    # `contact_terms` of both contacts at (br, bz)
+    inner = outer = (0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0)
+    W = 0.0
+    scale = 0.0
     slope = 0.0
     pr = 0.0
     pz = 0.0
     shift = 1e-6
     settled = False
     step = 0.0
-    scale = 0.0
     before = math.inf
     residual = math.inf
-    Qi = 0.0
-    Qe = 0.0
-    i_r = 1.0
-    i_z = 0.0
-    e_r = 1.0
-    e_z = 0.0
-    i_rr = 0.0
-    i_rz = 0.0
-    i_zz = 0.0
-    e_rr = 0.0
-    e_rz = 0.0
-    e_zz = 0.0
     x = br
     y = bz
     tries = 0
     for _ in range(MOST_BALL_STEPS):
-        # the first time round only evaluates where the ball is
-        Ei, ti, a_r, a_z, a_rr, a_rz, a_zz = contact_terms(r - x, z - y, di, INNER, j, balls)
-        Ee, te, o_r, o_z, o_rr, o_rz, o_zz = contact_terms(x, y, de, OUTER, j, balls)
-        V = Ei + Ee - force * x
-        gr = te * o_r - ti * a_r - force
-        gz = te * o_z - ti * a_z
+        # Evaluate at the place (x, y) that is tried; the first time that is where the ball is, and
+        # no step has been made.
+        inner1 = contact_terms(r - x, z - y, places.drop[INNER, j], INNER, j, balls)
+        outer1 = contact_terms(x, y, places.drop[OUTER, j], OUTER, j, balls)
+        Ei, Qi, i_r, i_z, i_rr, i_rz, i_zz = inner1
+        Ee, Qe, e_r, e_z, e_rr, e_rz, e_zz = outer1
+        W1 = Ei + Ee - force * x
+        gr = Qe * e_r - Qi * i_r - force
+        gz = Qe * e_z - Qi * i_z
         slope1 = gr * pr + gz * pz
-        rounding = 1e-14 * (scale + abs(V))
-        if not (step == 0.0 or has_descended(energy, V, slope, slope1, step, rounding)):
-            # a shorter step along (pr, pz): to where the slope, taken as a line, would be zero
+        rounding = 1e-14 * (scale + abs(W1))
+        if not (step == 0.0 or has_descended(W, W1, slope, slope1, step, rounding)):
             tries += 1
-            rise = slope1 - slope  # 0 where rounding has left no descent in the direction
-            step *= min(max(-slope / rise, 0.05), 0.6) if rise > 0.0 else 0.3
             if tries > 60:
                 break
+            step = shorten_step(step, slope, slope1)
             x = br + step * pr
             y = bz + step * pz
             continue
-        # the step is taken: the ball is at (x, y), with these loads Q and stiffnesses M
+        # The step is taken. Does the ball balance here?
         br = x
         bz = y
-        energy = V
+        W = W1
+        inner = inner1
+        outer = outer1
         scale = Ei + Ee + abs(force * x)
-        Qi, i_r, i_z, i_rr, i_rz, i_zz = ti, a_r, a_z, a_rr, a_rz, a_zz
-        Qe, e_r, e_z, e_rr, e_rz, e_zz = te, o_r, o_z, o_rr, o_rz, o_zz
         size = Qi + Qe + abs(force)
         norm = math.sqrt(gr * gr + gz * gz)
         if norm == 0.0:
             settled = True
             break
         residual = norm / size
-        stiff = max(i_rr + e_rr, i_zz + e_zz)
-        lost = ROUNDING * (abs(r) + abs(z) + abs(br) + abs(bz)) * stiff / size
+        h_rr = i_rr + e_rr
+        h_rz = i_rz + e_rz
+        h_zz = i_zz + e_zz
+        lost = ROUNDING * (abs(r) + abs(z) + abs(br) + abs(bz)) * max(h_rr, h_zz) / size
         # a residual that no longer halves at what lost digits of the places make of it is rounding
         if residual <= BALL_AIM or (residual <= max(BALL_LIMIT, lost) and residual >= 0.5 * before):
             settled = True
             break
         before = residual
-        h_rr = i_rr + e_rr
-        h_rz = i_rz + e_rz
-        h_zz = i_zz + e_zz
+        # Newton's step p = −H⁻¹ g, a system of two equations.
         det = h_rr * h_zz - h_rz * h_rz
         trace = h_rr + h_zz
         if not det > 1e-13 * trace * trace:
-            # a small spring replaces stiffness that is missing
-            _, _, k_typical = contact_load(
-                compression_under(size, races.factor[OUTER, j], balls.contacts.exponent[j]),
-                races.factor[OUTER, j],
-                balls.contacts.exponent[j],
-            )
-            spring = shift * max(k_typical, trace)
+            # one contact alone holds nothing across its line: a small spring does, ever weaker
+            spring = shift * max(typical_stiffness(size, factor, exponent), trace)
             shift = max(0.1 * shift, 1e-12)
             h_rr += spring
             h_zz += spring
@@ -288,6 +280,8 @@ def settle_ball(r, z, j, balls, places):
         x = br + pr
         y = bz + pz
     settled = settled or residual <= BALL_LIMIT
+    _, Qi, i_r, i_z, i_rr, i_rz, i_zz = inner
+    _, Qe, e_r, e_z, e_rr, e_rz, e_zz = outer
     places.place[0, j] = br
     places.place[1, j] = bz
     places.known[j] = 1.0 if settled and Qi + Qe > 0.0 else 0.0
@@ -298,9 +292,9 @@ def settle_ball(r, z, j, balls, places):
     places.er[OUTER, j] = e_r
     places.ez[OUTER, j] = e_z
     if Qi == 0.0 or Qe == 0.0:
-        return energy, settled, 0.0, 0.0, 0.0
+        return W, settled, 0.0, 0.0, 0.0
     w_rr, w_rz, w_zz = series_stiffness(i_rr, i_rz, i_zz, e_rr, e_rz, e_zz, i_r, i_z)
-    return energy, settled, w_rr, w_rz, w_zz
+    return W, settled, w_rr, w_rz, w_zz
 
 
 @called
@@ -354,12 +348,14 @@ def ring_energy(q, force, balls, places, g, H):
 
 @called
 def settle_ring(q, load, balls, places, work):
-    """Move q to the minimum of V. Returns (which, status, residual, iterations).
+    """Move q to the minimum of V(q) = Σ_j W_j(q) − F·q. Returns (which, status, residual, steps).
 
-    The balls are left where they settled at q.
+    Newton's method as in `descend`, but each evaluation settles all balls first. They are left
+    where they settled at q; work.g[which] and work.H[which] belong to it.
     """
     F = load.force
     active = load.active
+    carried_load = load_size(load) ** 2
     now = 0
     V, scale, settled = ring_energy(q, F, balls, places, work.g[0], work.H[0])
     residual = math.inf
@@ -367,19 +363,9 @@ def settle_ring(q, load, balls, places, work):
     for iteration in range(MOST_RING_STEPS):
         g = work.g[now]
         H = work.H[now]
-        norm = 0.0
-        whole = 0.0
-        reach = 0.0
-        stiffest = 0.0
-        for a in range(5):
-            # what the held directions take counts to the load
-            whole += (g[a] + F[a]) ** 2
-            reach = max(reach, abs(q[a]))
-        for a in active:
-            whole += F[a] * F[a] - (g[a] + F[a]) ** 2
-            norm += g[a] * g[a]
-            stiffest = max(stiffest, H[a, a])
-        whole = math.sqrt(max(whole, 0.0))
+        norm, taken, reach, stiffest = sizes_at(q, g, H, F, active, 0.0)
+        # what the held directions take counts to the load
+        whole = math.sqrt(max(carried_load + taken, 0.0))
         if norm == 0.0 and whole == 0.0:
             return now, NOTHING_TOUCHES, math.nan, iteration
         # balls press the ring from both sides where it is preloaded: no load says how hard
@@ -396,9 +382,7 @@ def settle_ring(q, load, balls, places, work):
             # too few balls touch: a small spring to ground replaces the missing stiffness
             newton_direction(H, g, active, shift * max(stiffest, 1.0), work.L, work.p)
             shift = max(0.1 * shift, 1e-12)
-        slope = 0.0
-        for a in active:
-            slope += g[a] * work.p[a]
+        slope = slope_along(g, work.p, active)
         step = 1.0
         accepted = False
         for _ in range(50):
@@ -409,14 +393,11 @@ def settle_ring(q, load, balls, places, work):
             V1, scale1, settled = ring_energy(
                 work.trial, F, balls, places, work.g[1 - now], work.H[1 - now]
             )
-            slope1 = 0.0
-            for a in active:
-                slope1 += work.g[1 - now, a] * work.p[a]
+            slope1 = slope_along(work.g[1 - now], work.p, active)
             if has_descended(V, V1, slope, slope1, step, 1e-13 * max(scale, scale1)):
                 accepted = True
                 break
-            rise = slope1 - slope  # 0 where rounding has left no descent in the direction
-            step *= min(max(-slope / rise, 0.05), 0.6) if rise > 0.0 else 0.3
+            step = shorten_step(step, slope, slope1)
         if not accepted:
             _, _, settled = ring_energy(q, F, balls, places, work.g[now], work.H[now])
             status = CONVERGED if settled and residual <= limit else NOT_CONVERGED

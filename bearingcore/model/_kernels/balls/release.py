@@ -12,7 +12,7 @@ from bearingcore.model._kernels.balls.contacts import (
 from bearingcore.model._kernels.balls.structs import INNER
 from bearingcore.model._kernels.compiling import called
 from bearingcore.model._kernels.contact import tilting
-from bearingcore.model._kernels.structs import PLANAR, VELOCITIES
+from bearingcore.model._kernels.structs import PLANAR
 
 
 @called
@@ -82,17 +82,14 @@ def update_released(y, k, passage, inner, at, system, work):
         for j in range(n_balls):
             before[race, j] = released[race, j]
             some = some or released[race, j]
-            if not released[race, j] and work.contact[race, j, 0] < 0.0:
+            # those that were released before are looked at again below, as if they pushed
+            released[race, j] = not released[race, j] and work.contact[race, j, 0] < 0.0
+            if released[race, j]:
                 change_variable(y, race, j, 1.0, passage, at, system, work)
-                released[race, j] = True
                 changed = True
     if not some:
         return changed
     # those that were released before: are they still compressed, and would they still pull?
-    for race in range(2):
-        for j in range(n_balls):
-            if before[race, j]:
-                released[race, j] = False
     locate_contacts(y, passage, inner, at, system, work)
     true_forces(k, passage, inner, at, system, work)
     for race in range(2):
@@ -110,10 +107,7 @@ def update_released(y, k, passage, inner, at, system, work):
 @called
 def smooth_start(y, passage, inner, system, work):
     """Turn the velocities in y into w: everything that is compressed counts as pushing."""
-    rotor = system.rotor
-    if rotor.variables == VELOCITIES:
-        return
-    ring_state(y, rotor, work.x)
+    ring_state(y, system.rotor, work.x)
     locate_contacts(y, passage, inner, 0, system, work)
     for race in range(2):
         for j in range(system.contacts.angle.size):

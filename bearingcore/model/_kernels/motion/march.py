@@ -34,6 +34,7 @@ from bearingcore.model._kernels.contact import (
     tilting,
     touch,
 )
+from bearingcore.model._kernels.in_parts import march_in_parts
 from bearingcore.model._kernels.motion.planar import planar_equations_of_motion, planar_forces
 from bearingcore.model._kernels.motion.rings import record, ring_accelerations
 from bearingcore.model._kernels.motion.tangent import march_tangent, new_slopes
@@ -217,7 +218,7 @@ def rates(y, part, before, k, at, system, work):
 
 @inlined
 def changed(y, at, system, work):
-    """A state of massless balls is never changed between steps."""
+    """Return False: a state of massless balls is never changed between steps."""
     return False
 
 
@@ -249,7 +250,7 @@ def new_steps(size, instants, system):
     )
 
 
-def march(y, h, start_angle, system, history):
+def march(y, h, start_angle, system, history, watch=None):
     """Steps of h [s] from y, which is moved to the end; the cage begins at start_angle.
 
     Behind the 4 n numbers of a state y may hold the tangent (4 n, columns), row by row: how the end
@@ -258,19 +259,29 @@ def march(y, h, start_angle, system, history):
 
     history (steps + 1, 6, n) takes displacement, velocity and acceleration of the inner ring, then
     of the outer ring, at every step. Returns the number of steps after which all was still finite,
-    which is looked at once in half a BLOCK.
+    which is looked at once in half a BLOCK. `watch`: see `march_in_parts`.
     """
-    work = new_steps(y.size, min(2 * (history.shape[0] - 1), BLOCK) + 1, system)
-    return march_each(y[None], h, np.array([start_angle]), system, history[None], work)
+    n_steps = history.shape[0] - 1
+    work = new_steps(y.size, min(2 * n_steps, BLOCK) + 1, system)
+    states, angles, histories = y[None], np.array([start_angle]), history[None]
+    return march_in_parts(
+        n_steps,
+        y.size * system.contacts.angle.size,
+        lambda span: march_each(states, h, angles, system, histories, work, span),
+        watch,
+    )
 
 
 @compiled
-def march_each(states, h, start_angles, system, histories, work):
-    """`march` of each row of states, from each start angle; returns what the last one does."""
+def march_each(states, h, start_angles, system, histories, work, span):
+    """`march` of each row of states, from each start angle; returns what the last one does.
+
+    span: see `runge_kutta`.
+    """
     done = 0
     for i in range(start_angles.size):
         out = Recorded(histories[i], histories[i, :0], 1)
-        done = runge_kutta(states[i], h, start_angles[i], 1, system, out, work)
+        done = runge_kutta(states[i], h, start_angles[i], 1, system, out, work, span)
     return done
 
 
@@ -295,7 +306,7 @@ def motion_rates(times, states, start_angle, system):
     angles = start_angle + system.rotor.cage_speed * times
     histories = np.empty((times.size, 1, 6, system.rotor.active.size))
     work = new_steps(states.shape[1], 1, system)
-    march_each(states.copy(), 0.0, angles, system, histories, work)
+    march_each(states.copy(), 0.0, angles, system, histories, work, (0, 1))
     return histories[:, 0, [1, 2, 4, 5]].reshape(states.shape)
 
 
@@ -312,23 +323,17 @@ def elastic_loads(x, active, start_angle, turn, contacts, path):
 
 @compiled
 def fill_loads(active, start_angle, turn, contacts, path, loads, work):
-    """Body of `elastic_loads`; work holds x, a place for a displacement, and a passage."""
+    """Body of `elastic_loads`; work holds x, a place (5,) for a displacement, 0, and a passage."""
     x, q, passage = work
     for first in range(0, x.shape[0], BLOCK):
         instants = min(BLOCK, x.shape[0] - first)
         lay_out_balls(start_angle + first * turn, turn, instants, 1.0, contacts, path, passage)
-        loads_of_block(x, active, first, contacts, passage, q, loads)
-
-
-@called
-def loads_of_block(x, active, first, contacts, passage, q, loads):
-    """Loads of the instants from `first` on that a passage holds; q (5,) is work space, 0."""
-    for i in range(min(BLOCK, x.shape[0] - first)):
-        for a in range(active.size):
-            q[active[a]] = x[first + i, a]
-        place = Place(passage.c[i], passage.s[i], passage.d[i])
-        for j in range(loads.shape[1]):
-            loads[first + i, j], _, _ = carried(components(q), place, j, contacts)
+        for i in range(instants):
+            for a in range(active.size):
+                q[active[a]] = x[first + i, a]
+            place = Place(passage.c[i], passage.s[i], passage.d[i])
+            for j in range(loads.shape[1]):
+                loads[first + i, j], _, _ = carried(components(q), place, j, contacts)
 
 
 @compiled
@@ -361,8 +366,8 @@ def interpolate_steps(history, body, weights, first, out):
 
 
 @compiled
-def side_by_side(history, body, before, rows):
-    """Displacement since the first row, v and a of a body into rows (n, 3 stride, m), which is 0.
+def lay_side_by_side(history, body, before, rows):
+    """Put displacement since the first row, v and a of a body into rows (n, 3 stride, m), all 0.
 
     Row i of the history is column (before + i)//stride, of each quantity the (before + i) mod
     stride-th row: what is `stride` rows apart in time then lies side by side.

@@ -125,7 +125,7 @@ def test_verdict_summary_and_report_carry_the_length(view: WhichLength) -> None:
     part.say(MODEL, part.sentence(MODEL))
     assert f"{TRUE}° (" in part.part.state["extent"]
     assert f"Its spall is {TRUE}° (" in part.part.state["work_order"]
-    about = About("", "", "", datetime(2026, 11, 29))
+    about = About("", "", datetime(2026, 11, 29))
     page = measured_report(MODEL, view.measurement.snapshot(), {view.name: view.job_result}, about)
     assert f"{TRUE}° (" in page["html"]
     assert "Which length" in page["html"]

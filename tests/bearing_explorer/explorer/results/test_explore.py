@@ -169,7 +169,7 @@ def test_the_view_marks_the_scene_and_says_what_is_to_be_seen() -> None:
     image, _, ring, _ = (renderer for renderer in view.figures[0].renderers)
     assert ring.data_source.data["x"] == pytest.approx([20.0])
     assert image.glyph.global_alpha == 1.0  # as opaque as can be
-    assert words.startswith("9 × 7 points. k_yy, mean: least")
+    assert words.startswith("k_yy, mean: least")
     assert "9 points have no answer, most often: nothing touches" in words
     view.job_result = coarse(view._request.of(results))
     table = view.table(results)

@@ -6,20 +6,16 @@ import numpy as np
 import pytest
 from bearing_explorer.explorer.plots import compared_curves
 from bearing_explorer.explorer.plots.spectra import levels_of_compared
-from bearing_explorer.explorer.results import motions
 from bearing_explorer.explorer.results.motions import MOST_STEPS, SHORTEST
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.references import Reference
 from bearing_explorer.explorer.views.mass_time import MassInTime
-from bearing_explorer.explorer.views.orbit import SteadyOrbit
 from bearing_explorer.explorer.views.overview.spectrum import OverviewSpectrum
 from bearing_explorer.explorer.views.vibration_time import VibrationInTime
-from bearing_explorer.kit.compute.cache import Overtaken
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import View
 
 from bearingcore import equilibrium, presets
-from bearingcore.model.dynamics import OrbitStatus
 
 
 def test_equal_scenes_share_their_answers() -> None:
@@ -55,7 +51,6 @@ def test_compared_scenes_have_results_of_their_own() -> None:
 @pytest.mark.parametrize(
     ("view", "drawn", "compared"),
     [
-        (SteadyOrbit, "orbit_path", "orbit_path_compared_0"),
         (MassInTime, "mass_motion", "mass_motion_compared_0"),
     ],
 )
@@ -82,27 +77,6 @@ def test_a_compared_scene_without_a_motion_has_no_curve_and_the_others_have_thei
     assert sizes[0] == sizes[2] == sizes[3] == 0
     assert np.isfinite(list(drawn.values())[1]["y"]).all()
     assert sizes[1]
-
-
-def test_a_long_search_for_an_orbit_can_be_given_up_and_is_not_made_twice(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    hopeless = presets["fan-rig"].replace(shaft_speed=200.0 * math.pi, depth=49e-6)
-    looks: list[None] = []
-
-    def overtaken() -> bool:
-        looks.append(None)
-        return len(looks) > 40
-
-    with pytest.raises(Overtaken):
-        _ = Results(hopeless, give_up=overtaken).orbit
-    assert len(looks) == 41
-    cycle = Results(hopeless).orbit
-    assert cycle is not None
-    assert cycle.status == OrbitStatus.NOT_CONVERGED
-    assert cycle.right_hand_side_calls > 100 * len(looks)
-    monkeypatch.setattr(motions.core, "orbit", None)
-    assert Results(hopeless).orbit is cycle
 
 
 @pytest.mark.parametrize("name", ["fan-rig", "liew-lim", "6205"])

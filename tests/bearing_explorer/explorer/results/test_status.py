@@ -1,13 +1,9 @@
 """The line under the page: how the newest answer went."""
 
-import math
-
 import pytest
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.results.verdict import rows_of
 from bearing_explorer.explorer.state.settings import Settings
-from bearing_explorer.explorer.views.modes import NaturalFrequencies
-from bearing_explorer.explorer.views.orbit import SteadyOrbit
 from bearing_explorer.kit.widgets.limits import judged
 
 import bearingcore
@@ -33,19 +29,6 @@ def test_the_status_line_says_what_happened() -> None:
     warned = judged(good, crossed)
     assert (warned["mood"], warned["words"]) == ("warn", "Computed, limits exceeded")
     assert judged(bad, crossed) == bad
-
-
-@pytest.mark.parametrize(
-    ("hertz", "mood", "words"),
-    [(7.0, "good", "Stable orbit"), (30.0, "bad", "Unstable: period doubling (flip)")],
-)
-def test_the_status_line_is_of_what_is_on_screen(hertz: float, mood: str, words: str) -> None:
-    """An orbit that no machine stays on is a problem, though its static states are none."""
-    rig = presets["fan-rig"].replace(contact_damping=130.0, shaft_speed=2.0 * math.pi * hertz)
-    results = Results(rig)
-    line = results.status(0.0, SteadyOrbit.needs)
-    assert (line["mood"], line["words"]) == (mood, words)
-    assert results.status(0.0, NaturalFrequencies.needs)["words"] == "Computed without problems"
 
 
 def test_a_motion_that_breaks_off_is_not_converged(monkeypatch: pytest.MonkeyPatch) -> None:

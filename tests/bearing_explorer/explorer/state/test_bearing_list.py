@@ -39,8 +39,6 @@ def matches(text: str) -> list[tuple[str, str]]:
         ("nj 2", ("NJ204", "estimated")),
         ("32208", ("32208", "estimated")),
         ("30308 face to face", ("30308 face to face", "estimated")),
-        ("0.235 in", ("NICE, MFPT", "")),
-        ("5,97 mm", ("NICE, MFPT", "")),
         ("paderborn", ("6203, Paderborn", "")),
     ],
 )

@@ -31,11 +31,12 @@ def test_a_shaft_is_held_freed_or_held_in_part() -> None:
     for sent, dofs, chosen in (
         ("auto", None, "auto"),
         (TILT_FREE, TILT_FREE, TILT_FREE),
-        ("x y", ("x", "y"), IN_PART),
     ):
         assert editor.choose({"dofs": sent}) == {}
         assert (editor.scene.dofs, editor.state()["choices"]["dofs"]) == (dofs, chosen)
-    assert "simpler model" in editor.choose({"dofs": IN_PART})["dofs"]
+    editor.take_scene(editor.scene.replace(dofs=("x", "y")))
+    assert editor.state()["choices"]["dofs"] == IN_PART
+    assert "a link or a file" in editor.choose({"dofs": IN_PART})["dofs"]
     assert editor.scene.dofs == ("x", "y"), "what is refused changes nothing"
 
 

@@ -26,7 +26,6 @@ from bearing_explorer.explorer.state.lessons import (
     own_folder,
     own_lessons,
     read_lesson,
-    text_for_teachers,
 )
 from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.page import SECTIONS, TABS
@@ -568,13 +567,6 @@ def test_scenes_of_lessons_lie_inside_the_limits_or_the_lesson_says_so(path: Pat
         assert not crossed or "page warns" in before, (message, crossed)
 
 
-def test_the_page_for_teachers_can_be_shown() -> None:
-    html = text_for_teachers(TABS)
-    Judge().feed(html)
-    assert "45 minutes" in html
-    assert ".md" not in html, "links to files of the repository lead nowhere on the page"
-
-
 def test_words_asked_for_again_leave_the_scene_alone() -> None:
     explorer = SceneSession(SECTIONS, lessons=lessons_in(own_folder(), TABS))
     explorer.draw = lambda: None  # type: ignore[method-assign]
@@ -689,7 +681,7 @@ def test_a_lesson_sets_a_scene_and_its_buttons_change_it() -> None:
         ("So $x < y$ it is.", "", 21, "this part is empty"),
         ("set:extent_deg=62", "set:extent_deg=6200", 18, "6200° is out of range"),
         ("show:maps", "show:map", 18, "“map” is not a tab"),
-        ("show:maps", "ftp://a/b", 18, "links go to set:, show:, simulate:, lesson: or https:"),
+        ("show:maps", "ftp://a/b", 18, "links go to set:, show:, simulate: or https:"),
         ("show:maps", "simulate:noise=5", 18, "noise is “5”; there are 40, 20, 10, none"),
         ("3/2}", "3/2", 20, "its braces do not match"),
         ("So $x", "So\n$\\href{https://a}{x}$ $x", 23, "holds what a formula may not"),

@@ -7,9 +7,7 @@ import pytest
 from bearing_explorer.explorer.results.endurance import LifeInputs, endurance, with_usual_grooves
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.results.verdict import rows_of
-from bearing_explorer.explorer.state.references import Reference
-from bearing_explorer.explorer.views.life import LifeOfBearing, groups_of
-from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.explorer.views.life import groups_of
 
 from bearingcore import Limit, contact_pressures, dynamic_load_rating, life, presets
 from bearingcore.model.statics import state_of_limits
@@ -93,12 +91,3 @@ def test_every_preset_has_an_answer_or_a_sentence(name: str) -> None:
         assert rated.life is not None
         assert math.isfinite(rated.life.million_revolutions)
         assert rated.pressures is not None
-
-
-def test_scenes_of_one_name_keep_a_column_each() -> None:
-    rig, other = presets["fan-rig"], presets["6205"]
-    compared = Reference(rig, "new"), Reference(other.replace(shaft_speed=100.0), "new")
-    columns = LifeOfBearing(PackedSource()).table(Results(other, compared=compared))
-    assert list(columns) == ["quantity", "this scene", "new", "new (3)"]
-    speed = columns["quantity"].tolist().index("Shaft speed fs")
-    assert len({values[speed] for values in columns.values()}) == 4

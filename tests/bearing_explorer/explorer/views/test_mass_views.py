@@ -37,7 +37,7 @@ def test_a_ball_over_a_small_pit_meets_its_far_edge_half_way() -> None:
     assert small.strikes == ()
     assert small.exit is not None
     assert small.far_edge == pytest.approx(0.5 * small.exit.time, rel=0.02)
-    assert in_words(small).startswith("Stiffness that varies gives most of the power in every")
+    assert in_words(small).startswith("The varying stiffness gives most of the power in every")
 
 
 def test_shares_are_those_of_the_core(ball_mass: BallMass) -> None:

@@ -29,8 +29,8 @@ def test_labels_of_events_never_overlap_and_stay_inside(times: list[float]) -> N
     rows = event_rows(events, 0.0, 1.0, presets["fan-rig"].bearing)
     labelled = np.isfinite(rows["label_at"])
     assert labelled.sum() >= min(len(times), EVENT_ROWS)
-    for at in set(rows["label_at"][labelled]):
-        left = np.sort(rows["label_from"][rows["label_at"] == at])
+    for down in set(rows["label_down"][labelled]):
+        left = np.sort(rows["label_from"][labelled & (rows["label_down"] == down)])
         assert np.all(np.diff(left) >= LABEL_WIDTH - 1e-9)
         assert left[-1] + LABEL_WIDTH <= 1.0 + 1e-9
 
@@ -43,9 +43,9 @@ def test_the_picture_holds_the_signal_and_leaves_room_for_the_labels(results: Re
     assert np.nanmax(np.abs(drawn)) == top
     low, high = ranges["vibration_acceleration"]
     assert low == -high
-    rows = sources["vibration_events"]["label_at"]
-    lowest = low + (high - low) * np.nanmin(rows)
-    assert lowest > top
+    down = sources["vibration_events"]["label_down"].max()
+    frame = 270.0 - 60.0  # px
+    assert high - (high - low) * down / frame > top
     assert ranges["vibration_load"][1] >= results.excerpt.ball_load.max()
 
 

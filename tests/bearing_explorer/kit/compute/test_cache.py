@@ -7,7 +7,7 @@ import cachetools
 import numpy as np
 import pytest
 from bearing_explorer.kit.compute import cache
-from bearing_explorer.kit.compute.cache import Overtaken, cached
+from bearing_explorer.kit.compute.cache import cached
 
 
 @pytest.fixture(autouse=True)
@@ -104,25 +104,3 @@ def test_bytes_are_bounded_and_the_least_used_go_first() -> None:
     assert too_large().size == 200_000
     assert not too_large.knows()
     assert large.knows(1), "and nothing had to go for it"
-
-
-def test_who_waits_for_what_another_gave_up_computes_it() -> None:
-    begun = threading.Event()
-    given_up = threading.Event()
-
-    @cached
-    def search(key: int, give_up: Callable[[], bool] | None = None) -> str:
-        if give_up is None:
-            return "found"
-        begun.set()
-        assert given_up.wait(30.0)
-        raise Overtaken
-
-    def late() -> str:
-        assert begun.wait(30.0)
-        threading.Timer(0.05, given_up.set).start()
-        return search(1)
-
-    first, second = run_in_threads(lambda: search(1, give_up=lambda: True), late)
-    assert isinstance(first, Overtaken)
-    assert second == "found"

@@ -33,7 +33,7 @@ class Page:
         self.drawn.append(inputs)
         return inputs
 
-    def refine(self, inputs: int, overtaken: Callable[[], bool]) -> int | None:
+    def refine(self, inputs: int) -> int | None:
         self.refining.append(inputs)
         assert self.gate.wait(30.0)
         return None if inputs == 0 else 10 * inputs

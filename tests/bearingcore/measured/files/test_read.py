@@ -204,8 +204,9 @@ def test_huge_files_are_refused_before_they_are_read(monkeypatch):
     monkeypatch.setattr(table, "MOST_BYTES", 2**20)
     with pytest.raises(ValueError, match=r"size of a.csv is '2 MB'.*split it by rows .* join"):
         read_table("a.csv", bytes(2**21))
+    monkeypatch.setattr(child, "MOST_NUMBERS", 5000)
     with pytest.raises(ValueError, match=r"count of numbers in a\.csv is 'over 5000'"):
-        child.read_file("a.csv", text(TABLE), most_numbers=5000)
+        child.read_file("a.csv", text(TABLE))
 
 
 def test_what_is_missing_is_counted_in_whole_steps_of_rounded_times():

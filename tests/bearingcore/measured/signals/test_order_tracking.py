@@ -55,19 +55,3 @@ def test_a_steady_cage_is_left_alone(decibels: float) -> None:
     with_it, without = averaged(signal, True), averaged(signal, False)
     assert with_it.begins is None
     assert np.array_equal(with_it.harmonics, without.harmonics)
-
-
-def test_coloured_noise_is_known_by_frequency() -> None:
-    """Noise whose density falls with frequency, over passes that repeat: known within 3 dB."""
-    signal, _ = passing(0.0, 60.0)
-    rng = np.random.default_rng(2)
-    transform = np.fft.rfft(rng.standard_normal(signal.shape), axis=0)
-    frequency = np.fft.rfftfreq(len(signal), 1.0 / RATE)
-    noise = np.fft.irfft(transform / np.sqrt(1.0 + frequency / 100.0)[:, None], len(signal), axis=0)
-    passes = average_passes(signal + noise, RATE, 57.0, 0.02, 60.0, 2250.0, 2250.0)
-    assert passes.noise_power.shape == passes.power.shape
-    # power of a coefficient: two-sided density 1/rate, over a pass
-    expected = FREQUENCY / RATE / (1.0 + passes.harmonic_frequency / 100.0)
-    off = 10.0 * np.log10(passes.noise_power[2:38] / expected[2:38, None])
-    assert np.abs(off.mean()) < 1.5
-    assert np.abs(off).max() < 4.0

@@ -82,5 +82,3 @@ def test_without_an_answer_there_is_no_band() -> None:
     bands = frequency_bands(RIG.replace(fy=0.0))
     assert list(bands) == list(frequency_bands(RIG))
     assert np.isnan(list(bands.values())).all()
-    refused = frequency_bands(RIG, most_contacts=10)
-    assert np.isnan(list(refused.values())).all()

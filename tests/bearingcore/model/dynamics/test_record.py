@@ -3,17 +3,20 @@
 import dataclasses
 import math
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
+import xarray
 
 from bearingcore import diagnose, scene_of, simulated_record, spectrum
+from bearingcore.errors import FieldError
 from bearingcore.model.dynamics import PathEffects
 from bearingcore.model.sweeps import OUTPUTS, Settings, sweep
 from bearingcore.model.sweeps._outputs import chosen_outputs
 
 SCENE = scene_of("6205").replace(extent=0.03, depth=5e-5, center=math.radians(270.0))
-BARE = PathEffects().without("cage_wander", "resonances", "knock", "shaft_tones", "noise")
+BARE = PathEffects(0.0, (), 0.0, shaft_tones=0.0, noise=None)
 
 
 def rms(record) -> float:
@@ -31,6 +34,44 @@ def test_equal_scenes_give_equal_records_and_a_seed_another_one() -> None:
         simulated_record(SCENE.replace(fy=-900.0), duration=0.3),
     ):
         assert not np.allclose(other.acceleration, record.acceleration, rtol=0.1)
+
+
+def test_a_seed_of_a_sweep_keeps_the_path_and_several_are_a_dimension() -> None:
+    """A path drawn anew for each scene hides what the length of a spall does to the level."""
+    lengths = np.linspace(0.01, 0.12, 16)
+    kept: dict[str, Any] = {"duration": 0.4, "sample_rate": 20_480.0}
+
+    def level(**drawn: Any) -> xarray.DataArray:
+        records = sweep(SCENE, {"extent": lengths}, ["record_y"], **kept, **drawn)["record_y"]
+        return np.sqrt((records**2).mean("sample"))
+
+    assert abs(np.corrcoef(level(), lengths)[0, 1]) < 0.6
+    levels = level(seed=(1, 2))
+    assert levels.dims == ("extent", "seed")
+    assert levels["seed"].values.tolist() == [1, 2]
+    for seed in (1, 2):
+        assert np.corrcoef(levels.sel(seed=seed), lengths)[0, 1] > 0.9
+    np.testing.assert_array_equal(levels.sel(seed=2), level(seed=2))
+    bare = level(seed=5, effects=BARE)
+    single = simulated_record(SCENE.replace(extent=lengths[3]), BARE, 0.4, seed=5)
+    assert bare[3] == pytest.approx(np.sqrt(np.mean(single.acceleration[:, 1] ** 2)), rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("settings", "words"),
+    [
+        ({"seed": -1}, "seed is"),
+        ({"seed": (1, 1)}, "different"),
+        ({"seed": ()}, "different"),
+        ({"effects": 3.0}, "PathEffects"),
+        ({"durration": 1.0}, "durration.*duration"),
+    ],
+)
+def test_settings_of_a_sweep_that_cannot_be_are_refused(
+    settings: dict[str, Any], words: str
+) -> None:
+    with pytest.raises(FieldError, match=words):
+        sweep(SCENE, {"extent": [0.1]}, ["record_y"], **settings)
 
 
 def test_effects_add_what_they_say() -> None:

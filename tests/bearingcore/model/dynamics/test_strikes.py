@@ -12,16 +12,10 @@ def loads(inner: list[float], outer: list[float]) -> np.ndarray:
     return np.array([inner, outer], dtype=float)[:, :, None]
 
 
-def test_a_ball_flies_where_it_touches_neither_race() -> None:
+def test_a_ball_flies_where_it_touches_neither_race_and_strikes_where_it_comes_down() -> None:
     inner = [5, 4, 0, 0, 0, 0, 0, 0, 3, 3]
     outer = [5, 4, 2, 0, 0, 0, 7, 8, 6, 0]
-    (flight,) = flights(TIME, loads(inner, outer))
-    assert flight == Flight(0, TIME[3], TIME[5])
-
-
-def test_a_strike_is_told_with_its_first_touch_and_its_peak() -> None:
-    inner = [5, 4, 0, 0, 0, 0, 0, 0, 3, 3]
-    outer = [5, 4, 2, 0, 0, 0, 7, 8, 6, 0]
+    assert flights(TIME, loads(inner, outer)) == (Flight(0, TIME[3], TIME[5]),)
     assert ball_strikes(TIME, loads(inner, outer)) == (
         Strike(0, "outer", TIME[6], 8.0, TIME[7]),
         Strike(0, "inner", TIME[8], 3.0, TIME[8]),

@@ -28,7 +28,7 @@ def test_each_preset_has_a_note_and_a_name_for_addresses(name: str) -> None:
 @every_preset
 def test_each_preset_moves(name: str) -> None:
     """Motion runs to its end, and the defect is felt in it."""
-    motion = simulate(presets[name], duration=0.25, ball_loads=True)
+    motion = simulate(presets[name], duration=0.25)
     assert motion.completed, motion.status
     assert np.isfinite(motion.outer_acceleration).all()
     late = motion.time > 0.15

@@ -593,7 +593,7 @@ def test_without_the_extra_the_rest_works_and_sweeps_name_it() -> None:
 def test_a_full_disk_is_said_in_one_sentence(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    def full(region: object) -> bool:
+    def full(region: object, progress: object) -> bool:
         raise OSError(errno.ENOSPC, "No space left on device")
 
     monkeypatch.setattr(stores, "finish", full)

@@ -19,7 +19,6 @@ class OverviewBearing(BearingDrawing):
     title = "Ball loads"
     compact = True
     leads_to = "load"
-    in_report = False
 
     def sentence(self, results: Results) -> str:
         drop = results.drop["outer"] + results.drop["inner"]

@@ -9,9 +9,8 @@ import panel as pn
 
 from bearing_explorer.explorer.results import reasons
 from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.explorer.state.difference import difference, separated
-from bearing_explorer.explorer.state.references import Reference
-from bearing_explorer.explorer.views.overview.words import Cause, each_alone, story
+from bearing_explorer.explorer.state.difference import difference
+from bearing_explorer.explorer.views.overview.words import Cause, story
 from bearing_explorer.kit.plots.element_words import with_elements_of
 from bearing_explorer.kit.sentences import label_inside
 from bearing_explorer.kit.serve.packed_source import PackedSource
@@ -42,7 +41,6 @@ class LastChange(View):
     )
     needs = frozenset({"chain", "before", "late_spectra", "reference"})
     compact = True
-    in_report = False
 
     def build(self, packed: PackedSource) -> Any:
         return pn.Spacer(height=0, margin=0)
@@ -68,11 +66,7 @@ class LastChange(View):
             why_not="" if before is None else why_not(now, then),
             play=reasons.play(now.bearing, then.bearing) if only_play else "",
         )
-        former = results.chain_of(reference)
-        text = story(cause, results.chain, former)
-        if before is not None and (causes := separated(now, then, results.focus)):
-            alone = {name: results.chain_of(Reference(own, "")) for name, own in causes.items()}
-            text = f"{text} {each_alone(alone, results.chain, former)}".rstrip()
+        text = story(cause, results.chain, results.chain_of(reference))
         return with_elements_of(now.bearing, text)
 
     def title_of(self, results: Results) -> str:

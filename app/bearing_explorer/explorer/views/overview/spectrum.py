@@ -107,7 +107,6 @@ class OverviewSpectrum(ComparingView):
     needs = VibrationSpectra.needs | {"bands"}
     compact = True
     leads_to = "vibration"
-    in_report = False
 
     def build(self, packed: PackedSource) -> Any:
         self._frequency = StickyRange(0.0, HIGHEST, anchor="zero")

@@ -106,7 +106,6 @@ class OverviewStiffness(ComparingView):
     compact = True
     leads_to = "stiffness"
     lead = "all fifteen"
-    in_report = False
 
     def build(self, packed: PackedSource) -> Any:
         self._limits = [StickyRange(0.0, 1.0, room=ROOM) for _ in SYMBOLS]

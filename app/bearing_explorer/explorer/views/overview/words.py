@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -25,7 +24,6 @@ LEAST_LEVEL = 2.0
 ALMOST_NONE = 30.0
 """[dB] below another level: next to it there is nothing."""
 _SAME = 1e-7  # of a number: rounding
-_MOSTLY = 3.0  # times the effect of the next cause, from which one is the main one
 _OF_STIFFNESS, _SHIFT = 0.75, 0.15  # of a logarithm: its root has 0.5, and masses may change too
 _SECOND = 1.5  # times the change of a stiffness that another one has to have to be named too
 
@@ -70,13 +68,13 @@ def story(by: Cause, now: Chain, before: Chain) -> str:
         return f"{by.words or 'With the defect'}: {gone} ({now.reason})."
     if before.answered == 0.0:
         whose = by.words or "With the defect"
-        return f"{whose}: now there is an equilibrium, which there was not before."
+        return f"{whose}: now there is an equilibrium."
     along = direction(now, before)
     stiff = stiffness_words(now, before, along)
     text = _load_and_stiffness(by, now, before, along, stiff)
     text = _with_band_and_peak(text, by, now, before, along, stiff)
     if before.silent and not now.silent:
-        text += f"{'; ' if text else ''}now there is a spectrum, which there was not before"
+        text += f"{'; ' if text else ''}now there is a spectrum"
     text = text or unchanged(now, before, by.why_not)
     text = f"{by.words}: {text}" if by.words else text[0].upper() + text[1:]
     if now.answered < 1.0:
@@ -123,50 +121,6 @@ def _with_band_and_peak(
         follows = own and band_follows(now, before, label) and any(own in words for words in stiff)
         text += ". Therefore " if band and follows and not by.masses else "; "
     return text + (" and " if "with it" in heard else "; ").join(last)
-
-
-def each_alone(causes: Mapping[str, Chain], now: Chain, before: Chain) -> str:
-    """The effect of each of several causes alone, and which of them made the change.
-
-    Judged by the first of these that has changed: the stiffness that is named, the greatest load
-    of a ball, the level of the loudest line.
-    """
-    term = next(iter(named_terms(now, before, direction(now, before))), "")
-    dof = now.loudest
-    if term:
-        what, unit = f"k_{TERM_SYMBOLS[term][2:]}", "%"
-        effect = {name: 100.0 * _change(own, before, term) for name, own in causes.items()}
-    elif abs(_ratio(now.greatest_load, before.greatest_load)) >= LEAST_LOAD:
-        what, unit = "the greatest load of a ball", "%"
-        effect = {
-            name: 100.0 * _ratio(own.greatest_load, before.greatest_load)
-            for name, own in causes.items()
-        }
-    elif dof and all(dof in of.peaks for of in (before, *causes.values())):
-        what, unit = "the spectrum's peak", "dB"
-        effect = {
-            name: own.peaks[dof].level - before.peaks[dof].level for name, own in causes.items()
-        }
-    else:
-        return ""
-    least = LEAST_LEVEL if unit == "dB" else 100.0 * LEAST
-    said = [f"{name} {_signed(value, unit)}" for name, value in effect.items()]
-    most, *others = sorted(effect, key=lambda name: -abs(effect[name]))
-    if abs(effect[most]) < least:
-        why = "only both together do it"
-    elif abs(effect[most]) >= _MOSTLY * abs(effect[others[0]]):
-        why = f"it is mostly the {most}"
-    elif effect[most] * effect[others[0]] < 0.0:
-        why = "they work against each other"
-    else:
-        why = "each has a part in it"
-    return f"Alone, each would change {what}: {style.list_words(said)}; {why}."
-
-
-def _signed(value: float, unit: str) -> str:
-    if abs(value) < 0.05:
-        return "not at all"
-    return f"by {'−' if value < 0.0 else '+'}{style.number(abs(value), 2)} {unit}"
 
 
 def direction(now: Chain, before: Chain) -> str:

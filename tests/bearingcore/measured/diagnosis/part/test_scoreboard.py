@@ -7,11 +7,23 @@ import pytest
 from bearing_explorer.diagnosis.views.diagnosis import PartDiagnosis
 
 from bearingcore.measured.diagnosis._part.probability import CALIBRATION
-from tests.benchmarks.scoreboard import CANNOT, FILE, WRONG, fitted, left_out, stated, tables
+from tests.benchmarks.scoreboard import (
+    CANNOT,
+    FILE,
+    OTHERS_FILE,
+    WRONG,
+    alarms,
+    fitted,
+    left_out,
+    other_tables,
+    stated,
+    tables,
+)
 from tests.outside.witness import witness
 
 ROOT = Path(__file__).parents[5]
 ROWS = json.loads(FILE.read_text(encoding="utf-8"))["records"]
+OTHERS = json.loads(OTHERS_FILE.read_text(encoding="utf-8"))["records"]
 
 
 @witness(
@@ -33,6 +45,22 @@ def test_documents_say_what_the_scoreboard_says(document: str, names: tuple[str,
     assert f"{len(ROWS)} records" in text
     assert [name for name in names if tables(ROWS)[name] not in text] == []
     assert WRONG not in {row.get(kind) for row in ROWS for kind in ("verdict", "extent_verdict")}
+
+
+@witness(
+    "function: diagnose",
+    by="answers on 231 measured records of three machines that had no part in choosing",
+    compared="part named with 90 % or more; alarms on healthy records",
+    within="two wrong of 66, one alarm of 90",
+)
+def test_other_machines_are_told_of_as_they_came_out() -> None:
+    text = (ROOT / "assets" / "docs" / "DIAGNOSIS.md").read_text(encoding="utf-8")
+    assert [words for words in other_tables(OTHERS).values() if words not in text] == []
+    assert f"{len(OTHERS)} records are judged" in text
+    (count, right), (before, good) = stated(OTHERS), stated(ROWS)
+    assert f"{good + right} of {before + count} sure answers on eight machines are right" in text
+    assert f"{right} of {count}" in PartDiagnosis.about
+    assert f"{alarms(OTHERS)} of 90 healthy" in PartDiagnosis.about
 
 
 def test_the_calibration_is_what_the_records_set() -> None:

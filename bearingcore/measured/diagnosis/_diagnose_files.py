@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from textwrap import fill
@@ -12,11 +11,11 @@ from typing import Any, overload
 
 from bearingcore.bearings import BearingLike, read_designation
 from bearingcore.common import ResultTable, _checks as checks, shown_as_table, table_of
-from bearingcore.measured.diagnosis._part.diagnose import diagnose as diagnose_recording
+from bearingcore.measured.diagnosis._part.diagnose import diagnose_recording
 from bearingcore.measured.diagnosis._part.evidence import Diagnosis
-from bearingcore.measured.files import Finding, Table, kind_of, read_table
+from bearingcore.measured.files import Finding
+from bearingcore.measured.files._by_hand import recording_of, table_at
 from bearingcore.measured.files._libraries import DOCUMENT
-from bearingcore.measured.files._table import MOST_BYTES
 from bearingcore.recordings import Recording
 
 FILE_OR_FOLDER = "a Recording, or the path of a file or folder that is there"
@@ -78,7 +77,7 @@ def diagnose(
     bearing: BearingLike | None = None,
     shaft_speed: float | tuple[float, float] | None = None,
     **more: Any,
-) -> Diagnosis | FolderDiagnosis: ...
+) -> Diagnosis | Any: ...  # of a folder a FolderDiagnosis, which the type of a path does not say
 def diagnose(
     recording: Recording | str | os.PathLike[str],
     bearing: BearingLike | None = None,
@@ -113,9 +112,8 @@ def diagnose(
         `slip` (0.02): largest relative difference between the true passing rate of the balls and
         that by the shaft speed. `shaft_ratio` (1): turns of the bearing's shaft for each turn of
         the shaft whose speed is given, such as 0.657 or 23/47, behind a gear or a belt.
-        `most_samples` (20,000,000): limit on the samples of all directions; a longer signal is not
-        analysed, and the status says so. `speed_source`, `bearing_source`: "given", "from the
-        file" or "assumed", with more words after a colon.
+        `speed_source`, `bearing_source`: "given", "from the file" or "assumed", with more words
+        after a colon.
 
     Returns
     -------
@@ -168,12 +166,7 @@ def _diagnose_folder(
 def _diagnose_file(
     path: Path, bearing: BearingLike | None, shaft_speed: Any, choices: Any, more: Any
 ) -> Diagnosis:
-    if not path.is_file():
-        raise checks.refuse("recording", str(path), FILE_OR_FOLDER)
-    if (size := path.stat().st_size) > MOST_BYTES:
-        most = f"at most {MOST_BYTES // 2**20} MB: split it, or export less of it"
-        raise checks.refuse(f"size of {path.name}", f"{size / 2**20:.0f} MB", most)
-    table = read_table(path.name, path.read_bytes())
+    table = table_at(path)
     says = table.contents
     named = says.bearing or _known(says.designation)
     if bearing is None and named is not None and named.taken:
@@ -182,7 +175,8 @@ def _diagnose_file(
     if shaft_speed is None and says.shaft_speed is not None and says.shaft_speed.taken:
         shaft_speed = says.shaft_speed.value
         more = {"speed_source": _source(says.shaft_speed)} | more
-    return diagnose_recording(_recording(table, **choices), bearing, shaft_speed, **more)
+    recording = recording_of(table, with_guesses=True, **choices)
+    return diagnose_recording(recording, bearing, shaft_speed, **more)
 
 
 def _known(designation: Finding[str] | None) -> Finding[str] | None:
@@ -196,50 +190,5 @@ def _known(designation: Finding[str] | None) -> Finding[str] | None:
 
 
 def _source(finding: Finding[Any], words: str = "") -> str:
-    """Where a fact is from, as `diagnose` says it."""
+    """Return the origin of a fact in the words of `diagnose`."""
     return "from the file" if finding.stated else f"assumed: {words}{finding.reason}"
-
-
-def _recording(
-    table: Table,
-    columns: int | str | tuple[int | str, ...] | None,
-    directions: tuple[str, ...] | None,
-    unit: str | None,
-    sample_rate: float | None,
-    sensitivity: float | None,
-) -> Recording:
-    """The recording in a table, with what the file says where nothing else is given."""
-    says = table.contents
-    if isinstance(columns, (int, str)):
-        columns = (columns,)
-    if columns is None:
-        chosen = _chosen_columns(table)
-        directions, columns = directions or tuple(chosen), tuple(chosen.values())
-    if directions is None:
-        directions = ("x", "y")[-len(columns) :]
-    units: dict[int | str, str | None] = {column.name: column.unit for column in says.columns}
-    units |= {number: column.unit for number, column in enumerate(says.columns)}
-    if unit is None and not all(units.get(column) for column in columns):
-        unit = says.unit.value if says.unit.taken else "m/s²"
-    used = {unit or units.get(column) or "" for column in columns} - {""}
-    if sensitivity is None and "voltage" in map(kind_of, used):
-        unit = "m/s²"  # without the sensor's sensitivity, as they are
-    rate = says.sample_rate
-    if sample_rate is None and rate is not None and rate.taken:
-        sample_rate = rate.value
-    return table.recording(columns, directions, unit, sample_rate, sensitivity=sensitivity)
-
-
-def _chosen_columns(table: Table) -> Mapping[str, int]:
-    """Columns of the signal by direction, if the file says them; else ValueError."""
-    choice = table.contents.choice
-    if choice.columns:
-        return choice.columns
-    options = choice.options or range(len(table.names))
-    names = ", ".join(f'"{table.names[i]}"' for i in options)
-    why = choice.question or choice.reason or "Which column is the signal?"
-    way = "Say it with" if choice.options else "If one is a signal all the same, use"
-    raise ValueError(
-        f"{table.name}: {why} {way} columns=[...], one or two of {names}, or by "
-        f"numbers from 0: {', '.join(map(str, options))}."
-    )

@@ -36,6 +36,7 @@ from .measured.signals import (
 )
 from .model import warm as warm
 from .model.dynamics import (
+    ForceSamples as ForceSamples,
     Modes as Modes,
     Motion as Motion,
     MotionStatus as MotionStatus,

@@ -119,15 +119,21 @@ def whole_number(field: str, value: object, *, at_least: int, at_most: int) -> i
     return round(x)
 
 
-def finite(field: str, values: ArrayLike, unit: str) -> Array:
-    """Return a number or array as a copy (n,) of finite floats, else raise ValueError."""
+def finite(field: str, values: ArrayLike, unit: str, columns: int | None = None) -> Array:
+    """Return a number or array as a copy (n,) of finite floats, else raise ValueError.
+
+    With `columns` it is one of shape (n, columns), n > 0; a row may stand for a single column.
+    """
     allowed = f"finite numbers [{unit}]"
     try:
         row = np.array(values, dtype=float, ndmin=1)
     except (TypeError, ValueError, OverflowError):
         raise FieldTypeError(field, values, allowed) from None
-    if row.ndim > 1:
-        raise refuse(field, f"an array of shape {row.shape}", f"{allowed} in a row, shape (n,)")
+    if columns == 1 and row.ndim == 1:
+        row = row[:, None]
+    if row.shape[1:] != (() if columns is None else (columns,)) or (columns and not len(row)):
+        form = "in a row, shape (n,)" if columns is None else f"of shape (n, {columns})"
+        raise refuse(field, f"an array of shape {row.shape}", f"{allowed} {form}")
     if not np.all(np.isfinite(row)):
         raise refuse(field, reprlib.repr(values), allowed)
     return row

@@ -260,14 +260,24 @@ def new_passage(instants, angle):
 
 
 @called
-def lay_out_turning_force(start, turn, count, rotor, passage):
-    """The force that turns with the shaft at `count` cage angles start + i·turn [rad]."""
-    if rotor.turning_force == 0.0:
+def lay_out_forces(start, turn, count, rotor, passage):
+    """Forces that turn with the shaft, and in time, at `count` cage angles start + i·turn [rad]."""
+    samples = rotor.samples
+    if rotor.turning_force == 0.0 and samples.shape[0] == 0:
         return
+    push = passage.push
     for i in range(count):
         shaft = rotor.shaft_ratio * (start + i * turn)
-        passage.push[i, 0] = rotor.turning_force * math.cos(shaft)
-        passage.push[i, 1] = rotor.turning_force * math.sin(shaft)
+        push[i, 0] = rotor.turning_force * math.cos(shaft)
+        push[i, 1] = rotor.turning_force * math.sin(shaft)
+        if samples.shape[0] == 0:
+            continue
+        place = (start + i * turn) * rotor.samples_a_radian
+        k = min(int(place), samples.shape[0] - 2)
+        part = min(place - k, 1.0)
+        for a in range(5):
+            pushed = samples[k, a] + part * (samples[k + 1, a] - samples[k, a])
+            push[i, a] = pushed + (push[i, a] if a < 2 else 0.0)
 
 
 @called

@@ -127,14 +127,14 @@ class Place(NamedTuple):
 
 
 class Passage(NamedTuple):
-    """Places of the balls at some instants, and what turns with the shaft.
+    """Places of the balls at some instants, and the changing forces.
 
     Attributes
     ----------
     c, s, d [m], d_rate [m/s] : (instants, n)
         cosine, sine, drop and its rate.
     push : (instants, 5) [N]
-        that turns with the shaft, on the inner ring; zero in directions other than x and y.
+        on the inner ring, from unbalance and from samples; moments over r_d.
     circle_c, circle_s : (n,)
         cosine and sine of the angle from the first ball.
     """
@@ -280,6 +280,10 @@ class Rotor(NamedTuple):
         that turns with the shaft, along x at cage angle 0.
     shaft_ratio
         how fast the shaft turns, over the cage.
+    samples : (m, 5) [N]
+        of a force on the inner ring, moments over r_d, the last one 0; none, or two and more.
+    samples_a_radian [1/rad]
+        samples while the cage turns by one radian, the first one at cage angle 0.
     """
 
     force: Array
@@ -294,6 +298,8 @@ class Rotor(NamedTuple):
     tension: bool
     turning_force: float
     shaft_ratio: float
+    samples: Array
+    samples_a_radian: float
 
 
 class System(NamedTuple):

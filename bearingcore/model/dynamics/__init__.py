@@ -16,6 +16,7 @@ from bearingcore.model.dynamics._ball_motion import (
     flights as flights,
 )
 from bearingcore.model.dynamics._damping import contact_damping as contact_damping
+from bearingcore.model.dynamics._force import ForceSamples as ForceSamples
 from bearingcore.model.dynamics._modes import (
     BandSearch as BandSearch,
     Modes as Modes,

@@ -12,6 +12,7 @@ from bearingcore.bearings import Bearing
 from bearingcore.common import Array, runs
 from bearingcore.common._byte_cache import lru_cache_by_bytes
 from bearingcore.model import _kernels as kernels
+from bearingcore.model.dynamics._force import peak_force
 from bearingcore.model.scene import DOF_NAMES, PackedMotion, PackedScene, Scene
 from bearingcore.model.scene._defect import floor_bytes
 from bearingcore.model.scene._packing import pack
@@ -173,7 +174,7 @@ def _steps_needed(packed: PackedMotion, a_cycle: float, decay: float) -> float:
     """Steps a second [Hz]: `a_cycle` of the resonance, and `decay` of the fastest decay each."""
     races = _balls(packed).races
     fastest = float((races.damping.sum(axis=0) / races.mass).max())  # [1/s]
-    resonance = max(resonances(packed.scene, heaviest_load(packed)))
+    resonance = max(resonances(packed.scene, heaviest_load(packed) + peak_force(packed)))
     return max(a_cycle * resonance, fastest / decay)
 
 

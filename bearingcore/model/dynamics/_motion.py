@@ -29,6 +29,7 @@ from bearingcore.model.dynamics._ball_motion import (
     place_parts,
 )
 from bearingcore.model.dynamics._damping import damped
+from bearingcore.model.dynamics._force import ForceSamples, with_force
 from bearingcore.model.dynamics._low_pass import bandwidth, hermite_weights, low_passed, rows_needed
 from bearingcore.model.dynamics._modes import highest_frequency_of
 from bearingcore.model.dynamics._status import MotionStatus
@@ -267,6 +268,7 @@ def simulate(
     duration: float = 1.4,
     sample_rate: float = 65536.0,
     *,
+    force: ForceSamples | None = None,
     step_rate: float | None = None,
     most_steps: int = MOST_STEPS,
     progress: Progress | None = None,
@@ -281,6 +283,11 @@ def simulate(
         [s]
     sample_rate
         [Hz] of the returned samples.
+    force
+        a force in time on the inner ring, beside the scene's load, from the static state without it
+        on. Its rate is at most twice the step rate, as each step takes the force at its begin,
+        middle and end. The filter looks REACH samples ahead: a force that is not zero at the end of
+        the motion lasts as much longer, or accelerations hold the fall to zero.
     step_rate
         [Hz], a multiple or a whole fraction of the sample rate; for balls with mass a multiple. If
         a step is too long for the contacts of balls with mass, no motion is computed and the status
@@ -305,7 +312,8 @@ def simulate(
     ------
     ValueError
         for a sample rate below twice the highest natural frequency, a step rate that does not fit
-        the sample rate, a shaft that stands still, or a support that lacks a number.
+        the sample rate, a shaft that stands still, a support that lacks a number, or a force along
+        a direction in which the scene does not move.
     """
     checks.instance("scene", scene, Scene)
     duration = checks.real_number("duration", duration, above=0.0, unit="s")
@@ -330,19 +338,22 @@ def simulate(
             f"at most {MOST_SAMPLES / sample_rate:.3g} s at a sample_rate of {sample_rate:g} Hz",
         )
     rest = equilibrium_of(packed, [0.0])
+    if force is not None:
+        packed = with_force(packed, force)
+    rate = step_rate_of(packed, sample_rate) if step_rate is None else step_rate
+    if force is not None:
+        most = 2.0 * checks.real_number("step_rate", rate, above=0.0, unit="Hz")
+        checks.real_number("sample_rate of the force", force.sample_rate, at_most=most, unit="Hz")
 
     def march(rate: float) -> Motion:
         words = f"{duration:g} s at {thousands(rate)} steps a second"
         watch = None if progress is None else lambda part: progress(part, words)
         return _marched(packed, rest, duration, sample_rate, rate, most_steps, watch)
 
-    if step_rate is not None:
-        motion = march(step_rate)
-    else:
-        rate = step_rate_of(packed, sample_rate)
-        lets_go = scene.balls != WITH_MASS and scene.contact_law != CONTACT_LAWS[0]
-        motion = _double_steps(march, rate, sample_rate) if lets_go else march(rate)
-    return motion
+    lets_go = scene.balls != WITH_MASS and scene.contact_law != CONTACT_LAWS[0]
+    if step_rate is None and lets_go:
+        return _double_steps(march, rate, sample_rate)
+    return march(rate)
 
 
 def _marched(

@@ -9,6 +9,7 @@ import numpy as np
 from bearingcore.common import _checks as checks
 from bearingcore.model.dynamics._ball_motion import STABLE_DECAY, ball_step_rate
 from bearingcore.model.dynamics._damping import packed_motion
+from bearingcore.model.dynamics._force import peak_force
 from bearingcore.model.dynamics._modes import highest_frequency_of
 from bearingcore.model.scene import WITH_MASS, PackedMotion, Scene
 from bearingcore.model.scene._packing import pack
@@ -57,9 +58,9 @@ def step_rate_of(packed: PackedMotion, sample_rate: float, part: float = 1.0) ->
 
 
 def _highest_loaded_frequency(packed: PackedMotion) -> float:
-    """`highest_frequency_of`, or that of a load greater by the force that turns with the shaft."""
+    """`highest_frequency_of`, or that of a load greater by the force of unbalance and samples."""
     scene, highest = packed.scene, highest_frequency_of(packed)
-    if not (force := scene.turning_force):
+    if not (force := scene.turning_force + peak_force(packed)):
         return highest
     still = np.array([scene.load.fx, scene.load.fy, scene.load.fz])
     size = float(np.linalg.norm(still))

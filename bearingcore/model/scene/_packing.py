@@ -271,6 +271,8 @@ def rotor(
         tension=published,
         turning_force=float(scene.turning_force),
         shaft_ratio=1.0 / scene.bearing.cage_ratio,
+        samples=np.zeros((0, 5)),
+        samples_a_radian=0.0,
     )
 
 

@@ -45,7 +45,7 @@ from bearingcore.model._kernels.path import (
     BLOCK,
     lay_out_balls,
     lay_out_drops_and_rates,
-    lay_out_turning_force,
+    lay_out_forces,
     new_passage,
 )
 from bearingcore.model._kernels.runge_kutta import stepper, try_state
@@ -116,11 +116,11 @@ def ball_rates(y, k, passage, inner, at, system, work):
 
 @called
 def lay_out(angle, turn, count, system, work):
-    """Balls, drops into both races and unbalance at `count` cage angles [rad], into work."""
+    """Balls, drops into both races and outer forces at `count` cage angles [rad], into work."""
     speed = system.rotor.cage_speed
     contacts = system.contacts
     lay_out_balls(angle, turn, count, speed, contacts, system.outer_path, work.passage)
-    lay_out_turning_force(angle, turn, count, system.rotor, work.passage)
+    lay_out_forces(angle, turn, count, system.rotor, work.passage)
     if system.inner_path.defects.shape[0] > 0:
         lay_out_drops_and_rates(angle, turn, count, speed, contacts, system.inner_path, work.inner)
 

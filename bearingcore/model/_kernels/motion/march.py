@@ -38,7 +38,7 @@ from bearingcore.model._kernels.in_parts import march_in_parts
 from bearingcore.model._kernels.motion.planar import planar_equations_of_motion, planar_forces
 from bearingcore.model._kernels.motion.rings import record, ring_accelerations
 from bearingcore.model._kernels.motion.tangent import march_tangent, new_slopes
-from bearingcore.model._kernels.path import BLOCK, lay_out_balls, lay_out_turning_force, new_passage
+from bearingcore.model._kernels.path import BLOCK, lay_out_balls, lay_out_forces, new_passage
 from bearingcore.model._kernels.runge_kutta import stepper, try_state
 from bearingcore.model._kernels.structs import (
     PLANAR,
@@ -179,11 +179,11 @@ def equations_of_motion(y, k, passage, at, rotor, contacts, work):
 
 @called
 def lay_out(angle, turn, count, system, work):
-    """Balls and unbalance at `count` cage angles angle + i·turn [rad], into work."""
+    """Balls and outer forces at `count` cage angles angle + i·turn [rad], into work."""
     rotor = system.rotor
     passage = work.passage
     lay_out_balls(angle, turn, count, rotor.cage_speed, system.contacts, system.path, passage)
-    lay_out_turning_force(angle, turn, count, rotor, passage)
+    lay_out_forces(angle, turn, count, rotor, passage)
 
 
 @inlined

@@ -10,7 +10,7 @@ def accelerations(rotor, a, inner_force, outer_force, push, xo, vo):
     """Accelerations of inner and outer ring along active direction a (Eq. 18).
 
     inner_force, outer_force: force [N] of the contacts of each ring, as it acts on the outer ring;
-    one and the same for massless balls. push: force on the inner ring that turns with the shaft;
+    one and the same for massless balls. push: force on the inner ring from unbalance and samples;
     xo, vo: displacement and velocity of the outer ring.
     """
     inner = (rotor.force[a] + push - inner_force) * rotor.inverse_inner[a]

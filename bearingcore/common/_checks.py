@@ -122,7 +122,7 @@ def whole_number(field: str, value: object, *, at_least: int, at_most: int) -> i
 def finite(field: str, values: ArrayLike, unit: str, columns: int | None = None) -> Array:
     """Return a number or array as a copy (n,) of finite floats, else raise ValueError.
 
-    With `columns` it is one of shape (n, columns), n > 0; a row may stand for a single column.
+    With `columns` its shape is (n, columns), n > 0; a row may stand for a single column.
     """
     allowed = f"finite numbers [{unit}]"
     try:

@@ -12,8 +12,9 @@ from numba import njit
 from scipy.integrate import solve_ivp
 from scipy.signal import welch
 
-from bearingcore import presets, simulate
+from bearingcore import ForceSamples, presets, simulate
 from bearingcore.model.sweeps import Grid, Settings
+from tests.outside import march
 from tests.outside.test_charts import problem
 from tests.outside.witness import witness
 
@@ -72,23 +73,38 @@ def heavy_rates(t: float, y: np.ndarray, least: float) -> np.ndarray:
 
 
 RATE = 65_536.0
+PUSHED = np.arange(2000) / 40_000.0
+SHOCK = np.where(PUSHED < 5e-3, -300.0 * np.sin(math.pi * PUSHED / 5e-3), 0.0)
+SWEEP = 40.0 * np.sin(2.0 * math.pi * (50.0 + 15_000.0 * PUSHED) * PUSHED)
 RIG = presets["fan-rig"].replace(contact_damping=DAMPING, balls="with mass")
 
 
+def pushed(t: float) -> np.ndarray:
+    """Force [N] on the shaft: a swept sine up to 950 Hz along x, a half sine along y."""
+    return np.array([np.interp(t, PUSHED, SWEEP), np.interp(t, PUSHED, SHOCK)])
+
+
 def marched(
-    duration: float, law: str = "published", rate: float = RATE
+    duration: float, law: str = "published", rate: float = RATE, *, is_pushed: bool = False
 ) -> tuple[np.ndarray, np.ndarray]:
     """Housing (n, 2): velocity [m/s] and acceleration [m/s²], from where our motion begins."""
     first = simulate(RIG.replace(contact_law=law), 1e-3)
     start = [first.inner_displacement[0], first.outer_displacement[0], first.ball_place[0, 0]]
     start, least = 1e6 * np.concatenate(start), 0.0 if law == "no tension" else -math.inf
     time = np.arange(round(duration * rate)) / rate
+    n = start.size
+
+    def rates(t: float, y: np.ndarray) -> np.ndarray:
+        out = heavy_rates(t, y, least)
+        if is_pushed:
+            out[n : n + 2] += 1e6 * pushed(t) / MASS
+        return out
+
     made = solve_ivp(
-        heavy_rates, (0.0, time[-1]), np.concatenate([start, 0.0 * start]), "DOP853", time,
-        rtol=1e-8, atol=1e-7, args=(least,),
+        rates, (0.0, time[-1]), np.concatenate([start, 0.0 * start]), "DOP853", time,
+        rtol=1e-8, atol=1e-7,
     )  # fmt: skip
     assert made.success
-    n = start.size
     late = [
         1e-6 * heavy_rates(t, y, least)[n + 2 : n + 4] for t, y in zip(time, made.y.T, strict=True)
     ]
@@ -106,6 +122,37 @@ def test_motion_of_heavy_balls(law: str, within: float) -> None:
     own, _ = marched(0.02, law)
     velocity = simulate(RIG.replace(contact_law=law), 0.02, RATE).outer_velocity
     off = np.sqrt(np.mean((velocity - own) ** 2, axis=0) / np.mean(own**2, axis=0))
+    assert off.max() < within
+
+
+@witness(
+    "balls: *", "function: simulate",
+    by="SciPy's DOP853 on the equations of `march.py`, and on those of heavy balls",
+    compared="housing's velocity, the fan rig under a half-sine shock of three times its load and "
+    "a swept sine: root mean square of what differs", within=1e-3,
+)  # fmt: skip
+@pytest.mark.parametrize(("balls", "within"), [("massless", 1e-4), ("with mass", 1e-3)])
+def test_a_shock_and_a_swept_sine(balls: str, within: float) -> None:
+    force = ForceSamples(np.column_stack([SWEEP, SHOCK]), 40_000.0)
+    steps = 2.0 * RATE if balls == "massless" else None
+    motion = simulate(RIG.replace(balls=balls), 0.03, RATE, force=force, step_rate=steps)
+    one = replace(problem("fan-rig"), c=DAMPING)
+    packed = one.packed()
+
+    def rates(t: float, y: np.ndarray) -> np.ndarray:
+        out = march.rates(t, y, *packed)
+        out[4:6] += 1e6 * pushed(t) / MASS
+        return out
+
+    if balls == "massless":
+        made = solve_ivp(
+            rates, (0.0, 0.03), one.start(), "DOP853", motion.time, rtol=1e-8, atol=1e-8,
+            max_step=1e-4,
+        )  # fmt: skip
+        own = 1e-6 * made.y[6:8].T
+    else:
+        own, _ = marched(0.03, is_pushed=True)
+    off = np.sqrt(np.mean((motion.outer_velocity - own) ** 2, axis=0) / np.mean(own**2, axis=0))
     assert off.max() < within
 
 

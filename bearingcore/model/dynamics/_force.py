@@ -9,6 +9,7 @@ import numpy as np
 from bearingcore.common import Array, _checks as checks
 from bearingcore.model.scene import DOF_NAMES, PackedMotion
 from bearingcore.model.scene._packing import direction_numbers, length_units
+from bearingcore.model.scene._scene import check_dofs
 
 
 @dataclass(frozen=True, eq=False)
@@ -20,13 +21,13 @@ class ForceSamples:
 
     Attributes
     ----------
-    samples : (n, len(directions)) [N, N·m]
-        force along x, y and z, moments about rx and ry; (n,) for one direction. The first sample is
-        at time 0.
+    samples : (n, len(dofs)) [N, N·m]
+        force along x, y and z, moments about rx and ry, the first sample at time 0; (n,) for one
+        direction.
     sample_rate
         [Hz]
-    directions
-        of the columns, names out of `DOF_NAMES`.
+    dofs
+        directions of the columns, names out of `DOF_NAMES`.
 
     Raises
     ------
@@ -36,36 +37,26 @@ class ForceSamples:
 
     samples: Array = field(repr=False)
     sample_rate: float
-    directions: tuple[str, ...] = ("x", "y")
+    dofs: tuple[str, ...] = ("x", "y")
 
     def __post_init__(self) -> None:
         checks.keep_number(self, "sample_rate", above=0.0, unit="Hz")
-        given = self.directions
-        names = (given,) if isinstance(given, str) else tuple(given)
-        if not names or len(set(names)) != len(names) or not set(names) <= set(DOF_NAMES):
-            allowed = f"different names out of {', '.join(DOF_NAMES)}"
-            raise checks.refuse("directions", given, allowed)
-        samples = checks.finite("samples", self.samples, "N, N·m", len(names))
+        check_dofs(self.dofs)
+        dofs = (self.dofs,) if isinstance(self.dofs, str) else tuple(self.dofs)
+        samples = checks.finite("samples", self.samples, "N, N·m", len(dofs))
         samples.setflags(write=False)
-        checks.keep(self, samples=samples, directions=names)
+        checks.keep(self, samples=samples, dofs=dofs)
 
 
 def with_force(packed: PackedMotion, force: ForceSamples) -> PackedMotion:
-    """Return the motion with a force in time.
-
-    Raises
-    ------
-    FieldError
-        for a direction in which the scene does not move.
-    """
+    """Return the motion with a force in time; FieldError where it cannot move along that."""
     checks.instance("force", force, ForceSamples)
-    for name in force.directions:
-        if name not in packed.dofs:
-            allowed = f"directions in which the scene moves: {', '.join(packed.dofs)}"
-            raise checks.refuse("force", f"along {name}", allowed)
+    if not set(force.dofs) <= set(packed.dofs):
+        allowed = f"directions in which the scene moves: {', '.join(packed.dofs)}"
+        raise checks.refuse("force", f"along {', '.join(force.dofs)}", allowed)
     samples = np.zeros((len(force.samples) + 1, len(DOF_NAMES)))
-    units = length_units(packed.scene, force.directions)
-    samples[:-1, direction_numbers(force.directions)] = force.samples / units
+    units = length_units(packed.scene, force.dofs)
+    samples[:-1, direction_numbers(force.dofs)] = force.samples / units
     a_radian = force.sample_rate / packed.scene.cage_speed
     rotor = packed.rotor._replace(samples=samples, samples_a_radian=a_radian)
     return replace(packed, rotor=rotor)

@@ -260,6 +260,17 @@ REFUSED: dict[str, list[tuple[Callable[[], object], str]]] = {
         (lambda: order_map(TIME[:0], 6000.0, [0.0], [20.0]), "a row"),
         (lambda: order_map(TIME * NAN, 6000.0, [0.0], [20.0]), "finite"),
     ],
+    "forces in time": [
+        (lambda: core.ForceSamples([[0.0, NAN]], 1e3), "samples"),
+        (lambda: core.ForceSamples([0.0, 1.0], 1e3), "of shape \\(n, 2\\)"),
+        (lambda: core.ForceSamples(np.zeros((0, 2)), 1e3), "of shape \\(n, 2\\)"),
+        (lambda: core.ForceSamples("much", 1e3), "finite numbers"),
+        (lambda: core.ForceSamples([[0.0, 1.0]], 0.0), "sample_rate"),
+        (lambda: core.ForceSamples([[0.0, 1.0]], 1e3, ("x", "x")), "different names"),
+        (lambda: core.simulate(RIG, force=core.ForceSamples([1.0], 1e3, "z")), "moves: x, y"),
+        (lambda: core.simulate(RIG, force=core.ForceSamples([[1.0, 2.0]], 1e9)), "of the force"),
+        (lambda: core.simulate(RIG, force=[[1.0, 2.0]]), "a ForceSamples"),
+    ],
     "diagnoses": [
         (lambda: diagnosis(0.0), "shaft_speed is 0"),
         (lambda: diagnosis(NAN), "shaft_speed is nan"),

@@ -1,12 +1,9 @@
-"""Forces in time beside those that a scene has itself, and what is refused."""
-
-import math
-from typing import Any
+"""Forces in time beside those that a scene has itself."""
 
 import numpy as np
 import pytest
 
-from bearingcore import FieldError, ForceSamples, presets, simulate
+from bearingcore import ForceSamples, presets, simulate
 
 RIG = presets["fan-rig"]
 RATE = 65536.0
@@ -60,34 +57,3 @@ def test_a_strong_shock_has_the_steps_of_its_peak() -> None:
     for scene in (RIG, RIG.replace(balls="with mass")):
         rate = simulate(scene, 0.01).step_rate
         assert simulate(scene, 0.01, force=shock).step_rate > 2.0 * rate
-
-
-@pytest.mark.parametrize(
-    ("values", "words"),
-    [
-        ({"samples": [[0.0, 1.0], [math.nan, 0.0]]}, "samples"),
-        ({"samples": [0.0, 1.0]}, "samples .* finite numbers .* of shape \\(n, 2\\)"),
-        ({"samples": np.zeros((0, 2))}, "samples"),
-        ({"samples": "much"}, "samples"),
-        ({"sample_rate": 0.0}, "sample_rate"),
-        ({"sample_rate": math.inf}, "sample_rate"),
-        ({"directions": ("x", "x")}, "directions"),
-        ({"directions": ("x", "w")}, "directions"),
-    ],
-)
-def test_no_force_is_made_of_bad_numbers(values: dict[str, Any], words: str) -> None:
-    with pytest.raises(FieldError, match=words):
-        ForceSamples(**{"samples": [[0.0, 1.0]], "sample_rate": 1000.0} | values)
-
-
-@pytest.mark.parametrize(
-    ("force", "words"),
-    [
-        (ForceSamples([1.0, 2.0], 1000.0, ("z",)), "force .* x, y"),
-        (ForceSamples([[1.0, 2.0]], 1e9), "sample_rate of the force"),
-        ([[1.0, 2.0]], "a ForceSamples"),
-    ],
-)
-def test_forces_that_a_motion_cannot_have(force: Any, words: str) -> None:
-    with pytest.raises(FieldError, match=words):
-        simulate(RIG, 0.01, force=force)

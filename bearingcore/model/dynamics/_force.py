@@ -11,6 +11,9 @@ from bearingcore.model.scene import DOF_NAMES, PackedMotion
 from bearingcore.model.scene._packing import direction_numbers, length_units
 from bearingcore.model.scene._scene import check_dofs
 
+MOST = 1e12
+"""[N, N·m] Of what is greater, squares are no numbers any more."""
+
 
 @dataclass(frozen=True, eq=False)
 class ForceSamples:
@@ -44,6 +47,8 @@ class ForceSamples:
         check_dofs(self.dofs)
         dofs = (self.dofs,) if isinstance(self.dofs, str) else tuple(self.dofs)
         samples = checks.finite("samples", self.samples, "N, N·m", len(dofs))
+        if (peak := float(np.abs(samples).max())) > MOST:
+            raise checks.refuse("samples", f"up to {peak:.3g}", f"at most {MOST:g} N or N·m")
         samples.setflags(write=False)
         checks.keep(self, samples=samples, dofs=dofs)
 

@@ -265,6 +265,7 @@ REFUSED: dict[str, list[tuple[Callable[[], object], str]]] = {
         (lambda: core.ForceSamples([0.0, 1.0], 1e3), "of shape \\(n, 2\\)"),
         (lambda: core.ForceSamples(np.zeros((0, 2)), 1e3), "of shape \\(n, 2\\)"),
         (lambda: core.ForceSamples("much", 1e3), "finite numbers"),
+        (lambda: core.ForceSamples([[0.0, -1e300]], 1e3), "samples is 'up to 1e\\+300'"),
         (lambda: core.ForceSamples([[0.0, 1.0]], 0.0), "sample_rate"),
         (lambda: core.ForceSamples([[0.0, 1.0]], 1e3, ("x", "x")), "different names"),
         (lambda: core.simulate(RIG, force=core.ForceSamples([1.0], 1e3, "z")), "moves: x, y"),

@@ -1,6 +1,6 @@
 """The page: the two halves of the program and the frame around them.
 
-The only file that knows both halves; each serves without the other, too.
+Only this file knows both halves; each half also works without the other.
 """
 
 from __future__ import annotations
@@ -27,13 +27,13 @@ from bearingcore import presets
 try:
     from bearing_explorer.explorer import front as scene
 except ModuleNotFoundError as error:
-    if error.name != "bearing_explorer.explorer":  # it is there, and broken
+    if error.name != "bearing_explorer.explorer":  # the half exists but is broken
         raise
     scene = None  # type: ignore[assignment]
 try:
     from bearing_explorer.diagnosis import front as signal
 except ModuleNotFoundError as error:
-    if error.name != "bearing_explorer.diagnosis":  # it is there, and broken
+    if error.name != "bearing_explorer.diagnosis":  # the half exists but is broken
         raise
     signal = None  # type: ignore[assignment]
 
@@ -51,19 +51,19 @@ def _ordered_sections() -> tuple[Section, ...]:
 
 
 SECTIONS = _ordered_sections()
-"""The tabs. What is not on the tab that is open is neither computed nor sent."""
+"""The tabs. Only the views of the open tab are computed and sent."""
 
 TABS = tuple((s.name, tuple(view.name for view in s.views)) for s in SECTIONS)
-"""Names of the tabs and of their views, as lessons speak of them."""
+"""Names of the tabs and of their views, as used in lessons."""
 
 PYTHON_INSTALL = "pip install ."
-"""The page's note on how to install it."""
+"""Command that installs the program, as the page shows it."""
 
 
 class Halves:
-    """A session with its halves, each None where the program is without it.
+    """A session with its halves; a half that is not installed is None.
 
-    `address`: the query of the page's address; it is not trusted.
+    `address` is the query of the page's address; it is not trusted.
     """
 
     def __init__(self, address: str = "", lessons: Any = ()) -> None:
@@ -84,44 +84,44 @@ class Halves:
             self.diagnosis.measurement.can_simulate = True
 
     def _scene_of_signal(self) -> Any:
-        """The scene with which a signal is compared."""
+        """Return the scene with which a signal is compared."""
         return self.explorer.focused_scene if self.explorer else presets["fan-rig"]
 
 
-def figure_of(view: type[View], *given: Any, **more: Any) -> Figure:
-    """The figure of a view, made by the half that it is of."""
-    of_signal = signal is not None and any(view in one.views for one in signal.SECTIONS)
+def figure_of(view: type[View], *arguments: Any, **options: Any) -> Figure:
+    """Make the figure of a view, in the half to which the view belongs."""
+    of_signal = signal is not None and any(view in tab.views for tab in signal.SECTIONS)
     half = signal if of_signal else scene
-    made: Figure = half.figure_of(view, *given, **more)
-    return made
+    figure: Figure = half.figure_of(view, *arguments, **options)
+    return figure
 
 
 def address() -> str:
-    """The part of this page's address behind the question mark."""
-    given = pn.state.session_args or {}
-    return urlencode([(name, value) for name, values in given.items() for value in values])
+    """Query of this page's address: the part behind the question mark."""
+    query = pn.state.session_args or {}
+    return urlencode([(name, value) for name, values in query.items() for value in values])
 
 
 @cache
 def _frame() -> Any:
-    """The frame of all pages, read once a process."""
+    """The frame of all pages, read once per process."""
     return PageTemplate(asset_text("page.html")).template
 
 
 def lessons_of(folder: Path | None = None) -> Any:
-    """The lessons of a folder, or those that come along; read once."""
+    """Lessons of a folder, or the program's own."""
     if scene is None:
         return ()
     return scene.lessons_in(folder, TABS) if folder else scene.own_lessons(TABS)
 
 
 def faults_of(folder: Path) -> tuple[str, ...]:
-    """Sentences on lessons of a folder that cannot be read."""
+    """Sentences on those lessons of a folder that cannot be read."""
     return tuple(scene.faults_in(folder, TABS)) if scene else ()
 
 
 def page(lessons: Path | None = None) -> PageTemplate:
-    """The page of a new session; `lessons` is a folder with other ones."""
+    """Make the page of a new session; lessons of the folder `lessons` replace the program's own."""
     if scene is not None:
         scene.begin_compiling()
     halves = Halves(address(), lessons_of(lessons))

@@ -14,27 +14,27 @@ from bearing_explorer.diagnosis.signal import Measured, Origin
 from bearingcore import Recording, Table, Trend
 
 MOST_FILES = 200
-"""Of a series."""
+"""Largest number of files in a series."""
 
 MOST_NUMBERS = 4_000_000
-"""Of all tables of a series that a session keeps."""
+"""Largest count of numbers that a session keeps, in all tables of a series together."""
 
 ROOM_FOR = 8
-"""Files at least for which there is room in a series."""
+"""Number of files for which a series keeps room: a long table is cut to its share."""
 
 
 @dataclass(frozen=True, eq=False)
 class Series:
-    """Files of a session, a table each.
+    """Files of a session, each as a table.
 
     Attributes
     ----------
     tables
-        what they hold, shortened where all would be too long.
+        of the files, cut short where all together would be too long.
     left_out
         sentences on files that could not be read.
     together
-        whether they were chosen together, as a series.
+        True if the files were chosen together, as a series.
     """
 
     tables: tuple[Table, ...] = ()
@@ -42,25 +42,25 @@ class Series:
     together: bool = False
 
     def with_table(self, table: Table, count: int = 1) -> Series:
-        """With a further file, of `count` that come; it replaces an earlier one of its name."""
+        """Return the series with one more file of `count`; it replaces a file of the same name."""
         rows, columns = table.columns.shape
-        most = MOST_NUMBERS // max(count, ROOM_FOR) // columns
-        if rows > most:
-            table = dataclasses.replace(table, columns=table.columns[:most].copy())
-        others = [one for one in self.tables if one.name != table.name]
+        most_rows = MOST_NUMBERS // max(count, ROOM_FOR) // columns
+        if rows > most_rows:
+            table = dataclasses.replace(table, columns=table.columns[:most_rows].copy())
+        others = [other for other in self.tables if other.name != table.name]
         tables = [*others, table]
-        while sum(one.columns.size for one in tables) > MOST_NUMBERS or len(tables) > MOST_FILES:
+        while sum(kept.columns.size for kept in tables) > MOST_NUMBERS or len(tables) > MOST_FILES:
             tables.pop(0)
         return dataclasses.replace(self, tables=tuple(tables))
 
     def without(self, sentence: str) -> Series:
-        """With a sentence on a file that could not be read."""
+        """Return the series with a sentence on a file that could not be read."""
         return dataclasses.replace(self, left_out=(*self.left_out, sentence))
 
 
 @dataclass(frozen=True)
 class SeriesRecordings:
-    """The recordings of a series, each with the origin of its numbers, and files left out."""
+    """Recordings of a series, the origin of each, and sentences on the files left out."""
 
     recordings: tuple[Recording, ...]
     origins: tuple[Origin | None, ...]
@@ -69,7 +69,7 @@ class SeriesRecordings:
 
 @dataclass(frozen=True, eq=False)
 class FoundTrend:
-    """A trend, of which files it is, and what was left out."""
+    """A trend, and the files and the shown signal that it was computed from."""
 
     trend: Trend
     recordings: SeriesRecordings
@@ -78,7 +78,7 @@ class FoundTrend:
 
     @property
     def complete(self) -> bool:
-        """True once all recordings are in it."""
+        """True once the trend has a point for each recording."""
         return len(self.trend.points) == len(self.recordings.recordings)
 
 
@@ -90,13 +90,13 @@ def recordings_of(
     direction: str,
     scene: Machine,
 ) -> SeriesRecordings:
-    """The recordings of a series along a direction; without files the one that is shown.
+    """Return the recordings of a series along a direction; without files, the `shown` one.
 
-    Each file is read as it proposes itself, but for the fields that a person `changed` for the one
-    that is `shown`; `kept` are answers on the machine for those that say nothing of it. Columns and
-    a unit that a person gave hold for files of the same kind and columns. In another unit, or one
-    that is not known, a file cannot be compared and is left out. They are in the order of their
-    dates where all have one.
+    The form of each file is filled in from the file. Fields that a person `changed` for the shown
+    file replace its values: columns and unit only in files of the same suffix and column names.
+    `kept` holds answers on the machine for files that do not name theirs. A file whose unit differs
+    or is not known cannot be compared and is left out. Recordings are sorted by date if all have
+    one.
     """
     if not series.tables:
         return SeriesRecordings((shown.recording,), (shown.origin,), ())
@@ -110,11 +110,11 @@ def recordings_of(
         if table.name != shown.recording.name:
             answers.pop("part", None)
         try:
-            told, form = fill(table, answers)
-            answer = read_form(told, {**form, **kept_answers(form, kept)}, scene)
+            chosen, form = fill(table, answers)
+            answer = read_form(chosen, {**form, **kept_answers(form, kept)}, scene)
         except FormError as error:
-            words = str(error)
-            left_out.append(words if words.startswith(table.name) else f"{table.name}: {words}")
+            why = str(error)
+            left_out.append(why if why.startswith(table.name) else f"{table.name}: {why}")
             continue
         if answer.in_si != shown.in_si:
             left_out.append(f"{table.name}: its unit is not that of {shown.recording.name}.")

@@ -1,6 +1,6 @@
 """A measured signal: its spectra and envelopes, computed when first used.
 
-As with `results.results`, everything that is drawn of a measurement passes through here.
+All drawings of a measurement take their numbers here, as those of a scene do in `results.results`.
 """
 
 from __future__ import annotations
@@ -21,21 +21,22 @@ from bearingcore.measured.files import Column
 from bearingcore.measured.signals import shaft_share
 
 ENVELOPE_TOP = 1000.0
-"""[Hz] up to which the spectrum of an envelope is drawn of an unknown machine."""
+"""Highest frequency [Hz] of an envelope spectrum that is drawn for an unknown machine."""
 
 ENVELOPE_LINES = 1600
-"""Frequencies of an envelope spectrum that are drawn, at most."""
+"""Largest number of frequencies of an envelope spectrum that are drawn."""
 
 
 @dataclass(frozen=True)
 class Origin:
-    """The origin of a recording: columns of a file, and the value of a 1 in it [unit].
+    """The origin of a recording: columns of a file, and the meaning of their numbers.
 
-    `unit` is None where the columns have units of their own, empty where it is not known.
-    `sensitivity` [V/(m/s²)] is that of the sensor, where the file holds voltages. `given` is the
-    meaning of columns that a person gave, `place` is that of the sensors, as given or by the file.
-    `part` is which of several recordings in the file was chosen, 0 where none was; `which` is the
-    one that was read, in words. `machine` is its name, by the file.
+    `unit` is None if the columns have units of their own, empty if it is not known. A 1 in the file
+    stands for `full_scale` units. If the file holds voltages, `sensitivity` [V/(m/s²)] is that of
+    the sensor. `given` holds the meaning of columns that a person gave. `place` is the place of the
+    sensors, as given or as named in the file. `part` is the number of the recording chosen among
+    several in the file, 0 if none was chosen; `which` names the recording that was read. `machine`
+    is the name of the machine in the file.
     """
 
     file: str
@@ -52,7 +53,7 @@ class Origin:
 
 @dataclass(frozen=True, eq=False)
 class Measured:
-    """A recording, and the machine on which it was measured, as far as that was said.
+    """A recording, and the machine on which it was measured, as far as it is known.
 
     Attributes
     ----------
@@ -61,23 +62,23 @@ class Measured:
     machine
         bearing and shaft speed, where they are known.
     true_extent
-        [rad] of the defect where the signal is a simulated one, else None.
+        [rad] of the defect in a simulated signal, else None.
     origin
         the file, where it comes from one.
     true_part
-        the part that is damaged, or "none", where the signal is a simulated one; else "".
+        damaged part in a simulated signal, or "none"; "" for a measured one.
     true_speed
-        [rad/s] of the shaft, where the signal is a simulated one.
+        [rad/s] of the shaft in a simulated signal, else None.
     true_load, true_edge
-        radial load [N] that presses balls into the defect, and how they roll over its edges, where
-        the signal is a simulated one of one defect, else None.
+        radial load [N] that presses balls into the defect, and model of its edges, in a simulated
+        signal with one defect; else None.
     true_scene
-        the scene that was simulated, where the signal is a simulated one, else None.
+        scene of a simulated signal, else None.
     noiseless
-        whether it is simulated without any noise.
+        True for a simulated signal without noise.
     in_si
-        True for a recording in m/s². Else its unit or its sensor is not known, and its numbers are
-        those of the file: everything that needs their size waits for the answer.
+        True for a recording in m/s². Otherwise its unit or sensor is not known, and its numbers are
+        those of the file; whatever depends on their size waits until a person gives the unit.
     """
 
     recording: Recording
@@ -113,11 +114,11 @@ class Measured:
         return self.recording.directions
 
     def along(self, direction: str) -> str:
-        """A direction in a sentence, " along x"; empty of the only one, which may be any."""
+        """Words for a direction, " along x"; empty for a single one, which may be any direction."""
         return f" along {direction}" if len(self.directions) > 1 else ""
 
     def finest(self, wanted: float) -> float:
-        """The resolution [Hz] nearest to `wanted` that the recording has: two segments at least."""
+        """Resolution [Hz] nearest to `wanted` that leaves the recording at least two segments."""
         coarsest = self.recording.sample_rate / 64.0
         return max(min(wanted, coarsest), 2.0 / self.recording.duration)
 
@@ -125,7 +126,7 @@ class Measured:
         """Spectrum along a direction."""
         if resolution not in self._spectra:
             recording = self.recording
-            signal = recording.acceleration - self._middle
+            signal = recording.acceleration - self._mean
             lines = core.spectrum(signal, recording.sample_rate, resolution)
             _put(self._spectra, resolution, lines)
         frequency, density = self._spectra[resolution]
@@ -136,9 +137,9 @@ class Measured:
         key = self.directions.index(direction), self.shaft_speed
         if key not in self._kurtograms:
             recording = self.recording
-            turning = NARROWEST * (self.shaft_speed or 0.0) / (2.0 * math.pi)
+            narrowest = NARROWEST * (self.shaft_speed or 0.0) / (2.0 * math.pi)
             signal = self.column(direction)
-            self._kurtograms[key] = core.kurtogram(signal, recording.sample_rate, turning)
+            self._kurtograms[key] = core.kurtogram(signal, recording.sample_rate, narrowest)
         return self._kurtograms[key]
 
     def envelope_resolution(self, top: float) -> float:
@@ -146,13 +147,13 @@ class Measured:
         return max(1.0 / self.recording.duration, top / ENVELOPE_LINES)
 
     def envelope(self, direction: str, band: tuple[float, float], top: float) -> Spectrum:
-        """Envelope spectrum of a band [Hz] along a direction, to be drawn up to `top` [Hz]."""
+        """Envelope spectrum of a band [Hz] along a direction, for a drawing up to `top` [Hz]."""
         column = self.directions.index(direction)
         key = (column, *band, top)
         if key not in self._envelopes:
             recording = self.recording
             resolution = self.envelope_resolution(top)
-            signal = recording.acceleration[:, column] - self._middle[column]
+            signal = recording.acceleration[:, column] - self._mean[column]
             lines = core.envelope_spectrum(signal, recording.sample_rate, band, resolution)
             _put(self._envelopes, key, lines)
         return self._envelopes[key]
@@ -168,26 +169,26 @@ class Measured:
 
     @cached_property
     def speeds(self) -> NDArray[np.float64] | None:
-        """Speed (n,) [rad/s] of the bearing's shaft, if measured beside the signal; else None."""
+        """Speed (n,) [rad/s] of the bearing's shaft, if measured with the signal; else None."""
         return speed_over_time(self.recording, self.shaft_speed)
 
     @cached_property
     def shaft_share(self) -> float:
-        """Share of the velocity's power that the shaft's own lines carry; NaN: not known."""
+        """Share of the velocity's power in the shaft's own lines; NaN if it is not known."""
         if self.shaft_speed is None or not self.in_si:
             return math.nan
-        along = int(self.indicators.velocity_rms.argmax())
-        return float(shaft_share(self.recording, self.shaft_speed)[along])
+        loudest = int(self.indicators.velocity_rms.argmax())
+        return float(shaft_share(self.recording, self.shaft_speed)[loudest])
 
     @cached_property
-    def _middle(self) -> NDArray[np.float64]:
+    def _mean(self) -> NDArray[np.float64]:
         return np.asarray(self.recording.acceleration.mean(axis=0))
 
     def scene(self, scene: Scene) -> Scene:
-        """A scene with the bearing and the speed of the measurement, where these are known.
+        """Return a scene with the bearing and the speed of the measurement, as far as known.
 
-        Without its defect where that bearing cannot have it; ValueError where it cannot be in the
-        scene at all.
+        The defect is dropped if the bearing cannot have it. Raises ValueError if the scene cannot
+        have the bearing at all.
         """
         known = {"shaft_speed": self.shaft_speed, "bearing": self.bearing}
         changes = {name: value for name, value in known.items() if value is not None}
@@ -198,7 +199,7 @@ class Measured:
 
 
 def _put(known: dict, key: object, value: object) -> None:
-    """Keep a result, six at most; the oldest leaves."""
+    """Keep a result; of more than six the oldest is dropped."""
     if len(known) >= 6:
         known.pop(next(iter(known)))
     known[key] = value

@@ -1,6 +1,6 @@
-"""Contents of text, WAV, MATLAB and HDF5 files. Runs in the process of `child` alone.
+"""Contents of text, WAV, MATLAB and HDF5 files. Runs in the process of `_child` alone.
 
-Each reader gives the fields of `contents.FileColumns`: words and single numbers, and a matrix.
+Each reader gives the fields of `_contents.FileColumns`: words and single numbers, and a matrix.
 Fields of structs are named as in MATLAB: "bearing.gs", "runs(2).gs", "parts{3}".
 """
 
@@ -32,7 +32,7 @@ from bearingcore.measured.files._variables import (
 
 
 def read(name: str, content: bytes, most_numbers: int, most_columns: int) -> Answer:
-    """The contents of a file, by its first bytes; see `child.read_file`.
+    """The contents of a file, by its first bytes; see `_child.read_file`.
 
     Raises
     ------

@@ -1,7 +1,7 @@
-"""Tables that hold something else than a vibration over time, and what to bring instead.
+"""Recognition of tables that hold no vibration over time, and sentences that ask for one.
 
-Spectra, envelopes, currents and displacements are laid out as signals are. A diagnosis that took
-one for the acceleration of a housing would be a guess.
+Tables of spectra, envelopes, currents and displacements look like tables of signals. A diagnosis
+that took one for the acceleration of a housing would be a guess.
 """
 
 from __future__ import annotations
@@ -29,20 +29,20 @@ _OFF = re.compile(r"(?i)\b(off|none|no|false|disabled|0|aus)\W*$")
 
 BRING = "bring the acceleration of the bearing's housing over time"
 ENVELOPE = (
-    f"{{}} an envelope already: {BRING} (the waveform before demodulation), or look in the "
-    "spectrum of this for the lines of the bearing's parts."
+    f"{{}} an envelope already: {BRING} (the waveform before demodulation), or look for "
+    "the lines of the bearing's parts in the spectrum of this envelope."
 )
 SPECTRUM = f"{{}} a spectrum{{}}, not a signal over time: export the waveform, or {BRING}."
 
 NEAR_ZERO, LOPSIDED = 0.5, 0.3
-"""Of a signal that never changes its sign: least size, in medians, and place of the median between
-least and greatest size, up to which it is no vibration about a mean."""
+"""Limits for numbers of one sign: below both they are no vibration about a mean. The first is for
+the least size in medians, the second for the median's place between least and greatest size."""
 
 
 def is_lopsided(values: Array) -> bool:
-    """Return whether numbers never change their sign and crowd at zero.
+    """Return True if numbers never change their sign and crowd near zero.
 
-    Spectra, envelopes and trends do. A vibration, with an offset or not, is about its mean.
+    Spectra, envelopes and trends do. A vibration swings about its mean, even with an offset.
     """
     finite = values[np.isfinite(values)]
     if finite.size < FEWEST_SAMPLES or finite.min() < 0.0 < finite.max():
@@ -52,7 +52,7 @@ def is_lopsided(values: Array) -> bool:
 
 
 def quantity_of(column: Column) -> str:
-    """Return what a column measures, if that is no acceleration, velocity or voltage."""
+    """Return the quantity of a column if it is no acceleration, velocity or voltage; else ""."""
     words = words_of(column.name)
     for quantity, (units, names) in QUANTITIES.items():
         if column.unit in units.split() or (column.unit is None and words & {*names.split()}):
@@ -61,9 +61,9 @@ def quantity_of(column: Column) -> str:
 
 
 def leave_out_spectra(columns: Sequence[Column], values: Array, axis: int | None) -> list[Column]:
-    """Return the columns of a table with times, where those of a spectrum are no signals.
+    """Return the columns of a table; those of spectra are no longer marked as signals.
 
-    A spectrum beside its waveform is shorter, follows its own `axis`, or never changes its sign.
+    A spectrum never changes its sign, or is shorter than the waveform and follows its own `axis`.
     """
     counts = np.isfinite(values).sum(axis=0)
     return [
@@ -85,26 +85,27 @@ def kind_in_words(
     file_name: str,
     frequencies: str,
 ) -> str:
-    """Return a sentence on a table that holds no vibration over time; empty where it may hold one.
+    """Return a sentence for a table without a vibration over time; empty if it may hold one.
 
     Parameters
     ----------
     columns
-        of the table; lopsided ones are no signals.
+        of the table; lopsided ones are not marked as signals.
     values : (n, c)
         their numbers.
     lines
-        remarks, and words that the file names.
+        remarks and texts of the file.
     file_name
-        which counts only where no column is a signal.
+        is considered only if no column is a signal.
     frequencies
-        name of a column that rises as the axis of a spectrum does, where there are no times.
+        name of a column that rises like the axis of a spectrum; empty if there is none or the table
+        has times.
     """
     signals, others = (
         [column.name for column in columns if column.role == role] for role in (SIGNAL, OTHER)
     )
     said = [line for line in lines if not _OFF.search(line)]
-    if signals:  # what is said of the other columns does not count
+    if signals:  # a line on another column says nothing of the signals
         said = [line for line in said if not any(name in line for name in others)]
     else:
         said.append(file_name)

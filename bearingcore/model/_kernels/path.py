@@ -1,4 +1,4 @@
-"""Places of the balls, and how deep they have sunk into defects (Eqs. 4 and 6)."""
+"""Places of the balls, and their drop into defects (Eqs. 4 and 6)."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from bearingcore.model._kernels.compiling import called, compiled, inlined
 from bearingcore.model._kernels.structs import Passage
 
 BLOCK = 256
-"""Half steps whose ball positions are laid out at once: small enough to stay in the cache."""
+"""Number of half steps whose ball positions are laid out at once; they fit into the cache."""
 
 
 @called
@@ -36,6 +36,9 @@ def drop_and_slope(x, half_extent, depth, s_floor, edge, R, r_b):
     """Drop of a ball's centre [m] at the angle x [rad] from the defect's middle, and its slope.
 
     Written so that no two nearly equal numbers are subtracted: 1 − cos s = sin²s/(1 + cos s).
+
+    s_floor [rad]    angle from the edge at which the ball reaches the floor
+    R, r_b [m]       radii of the raceway and of the ball
     """
     s = half_extent - abs(x)  # angle from the nearer edge inwards
     if s < 0.0:
@@ -68,12 +71,12 @@ def drop_and_slope(x, half_extent, depth, s_floor, edge, R, r_b):
 
 @called
 def path_drop(angle, cage_angle, lead, row, path):
-    """Drop [m] of a ball of a row at `angle`, and its derivative with its cage's turning [m/rad].
+    """Drop [m] of a ball of a row at `angle`, and its derivative by the cage angle [m/rad].
 
-    `cage_angle` is that of the row's own cage, as is what a defect's `turn_ratio` is against. Those
-    that turn are a further angle `lead` ahead, as cage and shaft can be at any angle to each other.
-    Defects of one race do not overlap here (those that do share a table); drops into both races
-    add.
+    `cage_angle` is the angle of the row's own cage. A defect turns by its `turn_ratio` times this
+    angle. Defects that turn are a further angle `lead` ahead, because cage and shaft can be at any
+    angle to each other. Defects of one race do not overlap here, because overlapping ones share a
+    table. Drops into both races add.
     """
     defects = path.defects
     tables = path.tables
@@ -114,7 +117,7 @@ def path_drop(angle, cage_angle, lead, row, path):
 
 
 def ball_path(ball_angles, cage_angles, row, path):
-    """Drop [m] of a ball of a row at every angle, its cage at the angle of the same index; (n,)."""
+    """Drop (n,) [m] of a ball of a row at n angles, each with the cage angle of the same index."""
     drops = np.empty(ball_angles.size)
     fill_drops(ball_angles, cage_angles, row, path, drops)
     return drops
@@ -123,7 +126,8 @@ def ball_path(ball_angles, cage_angles, row, path):
 def drops_of(contacts, path, cage_angles, turned):
     """Drop (n, balls) [m] of each ball on a path at cage angles (n,) [rad], row after row.
 
-    turned (n,) [rad]: the cage angle at which the shaft is where it is.
+    turned (n,) [rad]: cage angles that give the turn of the defects, unlike `cage_angles` where the
+    shaft leads its cage.
     """
     angles, drops = contacts.angles_at(cage_angles), []
     for row, (first, count) in enumerate(contacts.rows.tolist()):
@@ -135,7 +139,7 @@ def drops_of(contacts, path, cage_angles, turned):
 
 @compiled
 def fill_drops(ball_angles, cage_angles, row, path, drops):
-    """Body of `ball_path`."""
+    """Compiled body of `ball_path`."""
     for i in range(ball_angles.size):
         drops[i], _ = path_drop(ball_angles[i], cage_angles[i], 0.0, row, path)
 
@@ -143,9 +147,9 @@ def fill_drops(ball_angles, cage_angles, row, path, drops):
 def roll_over(surface, circle):
     """Depth (n,) to which a ball sinks over a surface: min over j of surface[j] + circle[|i − j|].
 
-    circle holds how far the ball hangs below a point that it touches so many nodes away: it rises
-    and is convex, and so the point touched moves on as the ball does. Halving the nodes again and
-    again finds it for all of them in n log n steps.
+    circle[k] is how far the ball hangs below a point that it touches k nodes away. It rises and is
+    convex, so the touched point never moves back while the ball moves on. The touched point of the
+    middle node therefore bounds those on either side: halving finds all in n log n steps.
     """
     path = np.empty(surface.size)
     fill_depths(surface, circle, np.empty((128, 4), dtype=np.int64), path)
@@ -154,7 +158,7 @@ def roll_over(surface, circle):
 
 @compiled
 def fill_depths(surface, circle, waiting, path):
-    """Body of `roll_over`; waiting holds nodes from, to, and touched points from, to."""
+    """Compiled body of `roll_over`; `waiting` is its stack, see `push_nodes`."""
     reach = circle.size - 1
     push_nodes(waiting, 0, 0, surface.size - 1, 0, surface.size - 1)
     size = 1
@@ -183,7 +187,7 @@ def fill_depths(surface, circle, waiting, path):
 
 @inlined
 def push_nodes(waiting, size, first, last, low, high):
-    """Put nodes with their range of touched points into a row of `waiting`."""
+    """Push the nodes first to last, whose touched points are from low to high, onto `waiting`."""
     waiting[size, 0] = first
     waiting[size, 1] = last
     waiting[size, 2] = low
@@ -192,7 +196,7 @@ def push_nodes(waiting, size, first, last, low, high):
 
 @inlined
 def place_balls(cage, contacts, circle_c, circle_s, c, s):
-    """Cosine and sine of each ball into c and s (n,), at a cage angle [rad]."""
+    """Write cosine and sine of each ball's angle into c and s (n,), at a cage angle [rad]."""
     rows = contacts.rows
     for row in range(rows.shape[0]):
         first = rows[row, 0]
@@ -203,9 +207,9 @@ def place_balls(cage, contacts, circle_c, circle_s, c, s):
 
 @inlined
 def turn_balls(cage_c, cage_s, circle_c, circle_s, c, s, first, last):
-    """Cosine and sine of a row's balls into c and s (n,), of its cage being cage_c and cage_s.
+    """Write cosine and sine of a row's balls into c and s (n,); cage_c and cage_s are its cage's.
 
-    A rotation instead of a sine and a cosine for each ball.
+    A rotation is cheaper than a sine and a cosine for each ball.
     """
     for j in range(first, last):
         c[j] = cage_c * circle_c[j] - cage_s * circle_s[j]
@@ -214,7 +218,7 @@ def turn_balls(cage_c, cage_s, circle_c, circle_s, c, s, first, last):
 
 @inlined
 def drops_of_balls(cage, lead, contacts, path, d, slope):
-    """Drop [m] of every ball into d (n,) and its derivative [m/rad] with the cage's turning.
+    """Write the drop [m] of every ball into d, its derivative by the cage angle into slope [m/rad].
 
     Only balls at a defect are computed: from the first one after the defect's beginning to the
     last one before its end. Defects that turn are an angle `lead` [rad] ahead, see `path_drop`.
@@ -239,6 +243,7 @@ def drops_of_balls(cage, lead, contacts, path, d, slope):
             ahead = lead if turn != 0.0 else 0.0
             begin = (defects[k, CENTER] + turn * turned + ahead - half - start) / spacing
             ball = math.ceil(begin - 1e-9)
+            # a defect all around must not meet a ball twice
             end = min(begin + 2.0 * half / spacing + 1e-9, ball + n - 0.5)
             while ball <= end:
                 j = first + int(ball) % n
@@ -249,19 +254,19 @@ def drops_of_balls(cage, lead, contacts, path, d, slope):
 
 @called
 def lay_out_drops(cage, lead, contacts, path, d, slope):
-    """`drops_of_balls`, called."""
+    """`drops_of_balls` as a function that is called, not inlined."""
     drops_of_balls(cage, lead, contacts, path, d, slope)
 
 
 def new_passage(instants, angle):
-    """An empty `Passage` of contacts at angles (n,) [rad] from the first ball."""
+    """An empty `Passage` for instants; its contacts are at angles (n,) [rad] from the first."""
     c, s, d, d_rate = np.zeros((4, instants, angle.size))
     return Passage(c, s, d, d_rate, np.zeros((instants, 5)), np.cos(angle), np.sin(angle))
 
 
 @called
 def lay_out_forces(start, turn, count, rotor, passage):
-    """Forces that turn with the shaft, and in time, at `count` cage angles start + i·turn [rad]."""
+    """Write the forces of unbalance and samples at `count` cage angles start + i·turn [rad]."""
     samples = rotor.samples
     if rotor.turning_force == 0.0 and samples.shape[0] == 0:
         return
@@ -284,7 +289,7 @@ def lay_out_forces(start, turn, count, rotor, passage):
 def lay_out_balls(start, turn, count, cage_speed, contacts, path, passage):
     """Put the balls' places at `count` cage angles start + i·turn [rad] into a passage.
 
-    Cages are turned by recurrence and each ball is at a fixed angle to its own.
+    Each cage is turned by recurrence, and each ball is at a fixed angle to its cage.
     """
     rows = contacts.rows
     for row in range(rows.shape[0]):
@@ -307,7 +312,7 @@ def lay_out_balls(start, turn, count, cage_speed, contacts, path, passage):
 
 @inlined
 def lay_out_drops_and_rates(start, turn, count, cage_speed, contacts, path, passage):
-    """Drops with their rates at `count` cage angles, into a passage."""
+    """Write drops and their rates at `count` cage angles into a passage."""
     for i in range(count):
         rate = passage.d_rate[i]
         drops_of_balls(start + i * turn, 0.0, contacts, path, passage.d[i], rate)

@@ -1,4 +1,4 @@
-"""A measured signal over frequency: its lines, a cursor, and their choices."""
+"""View of a measured signal over frequency, with lines, a cursor and choices."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ ORDER = style.AxisQuantity("Order, turns of the shaft", "", "")
 DEPTH_OF_VIEW = 80.0  # [dB] below the highest line
 RESOLUTIONS = ("32", "8", "2")
 MOST_LINES = 3000
-"""Of a spectrum that are drawn."""
+"""Largest number of lines of a spectrum that are drawn."""
 HANN_WIDTH = 1.5
 """Noise bandwidth of Hann's window, in lines."""
 
@@ -66,12 +66,12 @@ LINES: FieldSpec = {
 
 
 FIRST_LOOK: Mapping[str, Any] = {"direction": "", "scale": "dB", "axis": "Hz", "lines": []}
-"""Choices above a spectrum at first; without a direction it is the one that shows most."""
+"""First choices above a spectrum; no direction stands for the one that shows most."""
 
 
 @dataclass(frozen=True)
 class Shown:
-    """Content of a figure: a spectrum up to `top` [Hz]; of an envelope with its band [Hz]."""
+    """Content of a figure: a spectrum up to `top` [Hz]; that of an envelope has its band [Hz]."""
 
     direction: str
     top: float
@@ -96,7 +96,7 @@ class FrequencyView(LookView, MeasuredView):
             scale: [*lines, curve(measured, "frequency", scale, MEASURED, 1.2, alpha=0.9)]
             for scale in SCALES
         }
-        sources = sources_of(packed, [layer for own in layers.values() for layer in own])
+        sources = sources_of(packed, [layer for group in layers.values() for layer in group])
         self._plots = {
             scale: style.make_figure(
                 FREQUENCY,
@@ -116,7 +116,7 @@ class FrequencyView(LookView, MeasuredView):
         return self.hidden
 
     def shown(self, model: Model, measured: Measured) -> Shown:
-        """The spectrum as the look has it."""
+        """Return the spectrum that the choices of the look ask for."""
         raise NotImplementedError
 
     # The look
@@ -127,12 +127,12 @@ class FrequencyView(LookView, MeasuredView):
 
     @property
     def _axis(self) -> str:
-        """The axis as chosen; of orders only where the shaft speed is known."""
+        """The chosen axis; always Hz while the shaft speed is not known."""
         return "Hz" if self.shaft_speed is None else str(self.look["axis"])
 
     def choices(self) -> dict[str, Any]:
         chosen = super().choices()
-        if self.measured is not None:  # what the diagnosis chose is not known elsewhere
+        if self.measured is not None:  # exported Python does not know the diagnosis's choice
             chosen["direction"] = self.direction(self.measured)
         return chosen
 
@@ -165,7 +165,7 @@ class FrequencyView(LookView, MeasuredView):
         factor = 1.0 / shown_unit(measured)[1]
         drawn = curves(shown.measured, top, factor)
         sources: Sources = {f"{p}_measured": drawn}
-        # the scale leaves a slow drift out
+        # a slow drift at the lowest lines must not set the scale
         level, height = (drawn[scale][drawn["frequency"] > 1.5 * resolution] for scale in SCALES)
         room = frequency_lines.head_room(look["lines"], len(lines), FRAME)
         loudest = float(np.nanmax(level, initial=LEVEL_FLOOR))
@@ -173,7 +173,7 @@ class FrequencyView(LookView, MeasuredView):
         head = (loudest - lowest) * room / (1.0 - room) + 3.0
         greatest = float(np.nanmax(height, initial=0.0)) / (1.0 - room)
         turn = math.nan if speed is None else speed / (2.0 * math.pi)
-        per = turn if self._axis == "orders" else 1.0  # [Hz] that a 1 on the axis is
+        per = turn if self._axis == "orders" else 1.0  # [Hz] of a 1 on the axis
         ranges = {
             f"{p}_frequency": (0.0, top / per),
             f"{p}_level": self._levels.fit(np.array([lowest, loudest + head])),
@@ -199,13 +199,13 @@ class FrequencyView(LookView, MeasuredView):
 
 
 def amplitudes(spectrum: Spectrum) -> NDArray[np.float64]:
-    """Amplitude (peak) of a tone at each line of a spectrum with Hann's window."""
+    """Peak amplitude of a tone at each line of a spectrum with Hann's window."""
     step = float(spectrum.frequency[1] - spectrum.frequency[0])
     return np.asarray(np.sqrt(2.0 * HANN_WIDTH * step * spectrum.density))
 
 
 def curves(spectrum: Spectrum, top: float, factor: float) -> dict[str, NDArray[np.float64]]:
-    """Amplitudes up to `top` [Hz] in both scales; of very fine spectra each peak stays."""
+    """Amplitudes up to `top` [Hz] in both scales; a very fine spectrum is thinned to its peaks."""
     kept = spectrum.frequency <= top
     frequency, amplitude = spectrum.frequency[kept], factor * amplitudes(spectrum)[kept]
     size = math.ceil(frequency.size / MOST_LINES)

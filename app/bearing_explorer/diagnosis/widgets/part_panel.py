@@ -23,7 +23,7 @@ _COPY = """
 navigator.clipboard?.writeText(summary.text)
 button.label = navigator.clipboard ? "Copied" : "Select the text to copy it"
 """
-NOT_NOW = "Neither can be taken while the answer is out of date."
+NOT_NOW = "Work order and report have to wait until the answer is up to date."
 _SEVERAL = "window.dispatchEvent(new CustomEvent('explorer-choose-files'))"
 _REPORT = "window.dispatchEvent(new CustomEvent('explorer-measured-report'))"
 _MOST_BALLS = 60
@@ -34,7 +34,7 @@ REPORTED = {
     "point": ("Measuring point", "drive end, vertical"),
     "date": ("Date of the recording", "26 November 2026"),
 }
-"""Words on the measurement in a report: label and example."""
+"""Label and example of each field that a person fills in for the report."""
 
 
 class PartPanel(pn.Column):
@@ -43,7 +43,7 @@ class PartPanel(pn.Column):
     Parameters
     ----------
     report_on
-        called with the words for the report, by the names of `REPORTED`.
+        callback with the words for the report, by the names of `REPORTED`.
     """
 
     def __init__(
@@ -71,7 +71,7 @@ class PartPanel(pn.Column):
         self.state: Mapping[str, Any] = {}
 
     def show(self, state: Mapping[str, Any]) -> None:
-        """Show an answer, as `views.diagnosis.panel_state` makes it."""
+        """Show an answer in the form that `views.diagnosis.panel_state` returns."""
         if state == self.state:
             return
         self.state = state
@@ -85,7 +85,7 @@ class PartPanel(pn.Column):
         self._actions.visible = bool(state.get("work_order", ""))
 
     def outdate(self, why: str) -> None:
-        """Mark the answer that is shown: it is not that of the newest answers and settings."""
+        """Mark the shown answer as out of date; the sentence `why` gives the reason."""
         if self.state.get("mood") in ("fault", "healthy", "unknown"):
             self.show({**self.state, "stale": why})
 
@@ -96,7 +96,7 @@ def _words(content: str) -> pn.pane.HTML:
 
 
 def part_html(state: Mapping[str, Any]) -> str:
-    """The answer as HTML: picture, headline, words, work order, assumptions."""
+    """The answer as HTML: picture, headline, probability, plain words, work order, assumptions."""
     names = (
         "headline", "probability", "extent", "plain", "work_order", "color", "mood", "stale",
     )  # fmt: skip
@@ -148,7 +148,7 @@ def picture(state: Mapping[str, Any]) -> str:
         for i in range(min(bearing["n_balls"], _MOST_BALLS))
         for turn in [2.0 * math.pi * i / bearing["n_balls"] + 0.5 * math.pi]
     )
-    # the impact is drawn at the bottom, as if the load were there
+    # the impact is at the bottom, where a load that points down would press
     places = {"outer race": outer, "inner race": inner, "ball": 0.5 * (bearing["pitch"] + ball)}
     mark = _impact(scale * places[part], max(0.22 * scale * ball, 4.5)) if part else ""
     if mood in ("unknown", "question"):
@@ -164,7 +164,7 @@ def _impact(y: float, size: float) -> str:
     """A spot with rays around it."""
     rays = ""
     for i in range(8):
-        c, s = (turn(math.pi * (i + 0.5) / 4.0) for turn in (math.cos, math.sin))
+        c, s = (function(math.pi * (i + 0.5) / 4.0) for function in (math.cos, math.sin))
         rays += f"M{size * c:.2f} {y + size * s:.2f}"
         rays += f"L{2.1 * size * c:.2f} {y + 2.1 * size * s:.2f}"
     return (
@@ -174,7 +174,7 @@ def _impact(y: float, size: float) -> str:
 
 
 def evidence_html(rows: Sequence[Mapping[str, Any]]) -> str:
-    """The evidence for each part as a table; rows are those of `part_words.evidence_rows`."""
+    """The evidence for each part as an HTML table, from rows of `part_words.evidence_rows`."""
     if not rows:
         return ""
     harmonics = range(1, len(rows[0]["harmonics"]) + 1)
@@ -200,8 +200,8 @@ def _row(row: Mapping[str, Any]) -> str:
         _cell(row["order"], f"of {row['nominal']}"),
         _cell(row["frequency"], row["slip"]),
         *(
-            _cell(one["level"], tag='td class="clear"' if one["clear"] else "td")
-            for one in row["harmonics"]
+            _cell(harmonic["level"], tag='td class="clear"' if harmonic["clear"] else "td")
+            for harmonic in row["harmonics"]
         ),
         _cell(row["together"], f"noise {row['noise']}"),
         _cell(row["sidebands"], row["spacing"]),

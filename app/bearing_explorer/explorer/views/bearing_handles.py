@@ -1,8 +1,7 @@
-"""Handles of the drawing of the bearing: the ends and middles of defects, the tip of the arrow.
+"""Handles in the drawing of the bearing: ends and middles of defects, tip of the load's arrow.
 
-Without a load that tip is in the middle of the shaft.
-
-Each is dragged, or moved by arrow keys once it has the focus, and the sliders follow.
+Without a load the tip is in the middle of the shaft. A handle is dragged, or moved with the arrow
+keys once it has the focus, and the sliders follow.
 """
 
 from __future__ import annotations
@@ -23,7 +22,7 @@ START, END, MIDDLE, LOAD = range(4)
 
 
 def dots(source: str) -> Glyph:
-    """The handles of defects; that of the arrow is its tip."""
+    """Dots at the handles of defects; the handle of the arrow is its tip and needs no dot."""
     look = {"fill_color": "white", "line_color": "#B87A00", "line_width": 1.6, "size": "size"}
     return Glyph(Scatter, source, ("x", "y"), look, (*COLUMNS[2:], "size"))
 
@@ -37,14 +36,14 @@ def handles(
     bore: float,
     newtons: float,
 ) -> dict[str, np.ndarray]:
-    """Columns of the handles of a row, about its middle at 0.
+    """Columns of the handles of a row of balls, in coordinates about the middle of the shaft.
 
-    `value` is the extent of the defect [deg], or the load [N], `angle` [deg] where the handle is.
+    `value` is the extent of the defect [deg] or the load [N]; `angle` [deg] is the handle's place.
 
     Parameters
     ----------
     spans
-        where the defects of the row are now.
+        places of the row's defects at this cage angle.
     race
         radius of each raceway.
     tip
@@ -52,14 +51,14 @@ def handles(
     bore, newtons
         radius of the bore, and load [N] of an arrow of length 1.
     """
-    met = [k for k, one in enumerate(scene.defects) if one.row in (None, row)]
+    numbers = [k for k, defect in enumerate(scene.defects) if defect.row in (None, row)]
     places: list[tuple[float, float, int, int, float]] = []
-    for number, span in zip(met, spans, strict=True):
+    for number, span in zip(numbers, spans, strict=True):
         if span.extent > 0.0:
             turns = ((START, 0.0), (END, span.extent), (MIDDLE, 0.5 * span.extent))
-            long = float(np.degrees(span.extent))
+            degrees = float(np.degrees(span.extent))
             places += [
-                (race[span.race], span.start + turn, kind, number, long) for kind, turn in turns
+                (race[span.race], span.start + turn, kind, number, degrees) for kind, turn in turns
             ]
     size = float(np.hypot(scene.load.fx, scene.load.fy))
     direction = float(np.arctan2(scene.load.fy, scene.load.fx)) if size > 0.0 else -0.5 * np.pi
@@ -80,7 +79,7 @@ def handles(
 
 
 def let_grab(plot: figure, packed: PackedSource, name: str) -> None:
-    """Draw the handles of this source, and let them be moved."""
+    """Draw the handles of a source and make them movable."""
     glyph = dots(name)
     sources = sources_of(packed, [glyph])
     add_all(plot, sources, [glyph])

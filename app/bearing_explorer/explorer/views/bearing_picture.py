@@ -1,6 +1,6 @@
 """Cross-section of a bearing as SVG, drawn from its numbers; each dimension can be pointed at.
 
-A dimension is a group of the class ``dimension`` whose ``data-name`` is that of its control.
+A dimension is a group of the class ``dimension``; its ``data-name`` is the name of its control.
 """
 
 from __future__ import annotations
@@ -19,9 +19,9 @@ Point = tuple[float, float]
 _CONTROL = {field.full_name: field.key for field in SHOWN_FIELDS if field.group in BEARING_GROUPS}
 
 AXIS, MIDDLE = 372.0, 155.0
-"""Where the middle of the shaft is in the section, and the middle of the bearing along it."""
+"""Place in the section of the middle of the shaft (from the top) and of the bearing (along it)."""
 SHOULDER = 0.42
-"""Length of rings drawn beyond the bottom of their grooves, in ball diameters."""
+"""Thickness of a ring behind its groove in ball diameters, height of its shoulders in radii."""
 CONTACT: Point = (440.0, 142.0)
 """The centre of the element that is drawn large."""
 
@@ -42,7 +42,7 @@ def bearing_picture(bearing: Bearing) -> str:
 
 
 def _shape(tag: str, content: str = "", **attributes: object) -> str:
-    """An element; ``cls`` stands for ``class``, and _ in a name for -."""
+    """An SVG element; ``cls`` stands for ``class``, and an underscore in a name for a hyphen."""
     named = {"class" if name == "cls" else name.replace("_", "-"): value
              for name, value in attributes.items()}  # fmt: skip
     text = "".join(
@@ -53,8 +53,8 @@ def _shape(tag: str, content: str = "", **attributes: object) -> str:
 
 
 def _path(cls: str, *commands: str | float) -> str:
-    """A path out of letters, lengths and flags (whole numbers)."""
-    d = " ".join(f"{one:.2f}" if isinstance(one, float) else str(one) for one in commands)
+    """A path from its commands: letters, lengths (float) and flags (int)."""
+    d = " ".join(f"{part:.2f}" if isinstance(part, float) else str(part) for part in commands)
     return _shape("path", d=d, cls=cls)
 
 
@@ -75,7 +75,7 @@ def _label(
 
 
 def _dimension(field: str, *parts: str) -> str:
-    """Everything of one dimension: it lights up together, and a click leads to its control."""
+    """Group the shapes of a dimension: they light up together, a click leads to its control."""
     return _shape("g", "".join(parts), cls="dimension", data_name=_CONTROL[field])
 
 
@@ -106,7 +106,10 @@ def _box(cls: str, x: float, y: float, width: float, height: float, rx: float = 
 
 
 class _RowAt(NamedTuple):
-    """A row as it is drawn: place, element and heights of its centre and raceways."""
+    """A row as it is drawn: place, radius of its ball, heights of its centre and raceways.
+
+    `lean` is the slope of its races along the shaft.
+    """
 
     number: int
     x: float
@@ -118,14 +121,14 @@ class _RowAt(NamedTuple):
 
 
 class _Section:
-    """The scale of a section, and its rows from the right to the left."""
+    """A section: its scale, and its rows from right to left."""
 
     def __init__(self, bearing: Bearing) -> None:
         self.bearing = bearing
-        own = [bearing.of_row(k) for k in range(len(bearing.all_rows))]
-        largest = max(one.ball_diameter for one in own)
-        rim = max(one.outer_raceway_radius + SHOULDER * one.ball_diameter for one in own)
-        hole = min(one.inner_raceway_radius - SHOULDER * one.ball_diameter for one in own)
+        singles = [bearing.of_row(k) for k in range(len(bearing.all_rows))]
+        largest = max(single.ball_diameter for single in singles)
+        rim = max(s.outer_raceway_radius + SHOULDER * s.ball_diameter for s in singles)
+        hole = min(s.inner_raceway_radius - SHOULDER * s.ball_diameter for s in singles)
         places = [row.place for row in bearing.all_rows]
         span = max(places) - min(places)
         self.scale = min(325.0 / rim, 84.0 / largest, 150.0 / (span + 1.6 * largest))
@@ -143,45 +146,45 @@ class _Section:
                 _RowAt(
                     k,
                     MIDDLE + self.scale * row.place,
-                    0.5 * self.scale * one.ball_diameter,
-                    self.up(0.5 * one.pitch_diameter),
-                    self.up(one.outer_raceway_radius),
-                    self.up(one.inner_raceway_radius),
-                    row.facing * math.tan(one.contact_angle),
+                    0.5 * self.scale * single.ball_diameter,
+                    self.up(0.5 * single.pitch_diameter),
+                    self.up(single.outer_raceway_radius),
+                    self.up(single.inner_raceway_radius),
+                    row.facing * math.tan(single.contact_angle),
                 )
-                for k, (row, one) in enumerate(zip(bearing.all_rows, own, strict=True))
+                for k, (row, single) in enumerate(zip(bearing.all_rows, singles, strict=True))
             ),
             key=lambda row: -row.x,
         )
 
     def up(self, radius: float) -> float:
-        """Height of a radius [m]."""
+        """Height in the drawing of a radius [m]."""
         return AXIS - self.scale * radius
 
     def groove(self, row: _RowAt, level: float, side: float) -> list[str | float]:
         """The race of a row: `side` 1 for the outer ring, −1 for the inner one."""
         edge, wide = level + side * SHOULDER * row.ball, 0.8 * row.ball
         if self.is_roller:
-            half = (self.long + 1.0) / math.hypot(1.0, row.lean)  # of a race that leans as it does
+            half = (self.long + 1.0) / math.hypot(1.0, row.lean)  # of a leaning race
             rise = half * row.lean
-            edge += side * max(abs(rise) - SHOULDER * row.ball, 0.0)  # no race beyond its rib
+            edge += side * max(abs(rise) - SHOULDER * row.ball, 0.0)  # the rib covers the race
             return ["V", edge, "H", row.x + half, "V", level + rise,
                     "L", row.x - half, level - rise, "V", edge]  # fmt: skip
         deep = level - side * SHOULDER * row.ball
         return ["V", edge, "H", row.x + wide, "Q", row.x, deep, row.x - wide, edge]
 
     def outer_race(self) -> list[str | float]:
-        if self.bearing.kind.picture.outer == "sphere":  # about the middle of the shaft
+        if self.bearing.kind.picture.outer == "sphere":  # its centre is on the shaft
             radius = self.scale * self.bearing.outer_raceway_radius
             edge = AXIS - math.sqrt(max(radius * radius - self.half * self.half, 0.0))
             return ["V", edge, "A", radius, radius, 0, 0, 0, self.left, edge]
-        return [*(one for row in self.rows for one in self.groove(row, row.outer, 1.0)),
+        return [*(part for row in self.rows for part in self.groove(row, row.outer, 1.0)),
                 "H", self.left]  # fmt: skip
 
     def inner_race(self) -> list[str | float]:
         if self.bearing.kind.picture.inner == "flat":  # rollers run on a ring without shoulders
             return ["V", self.rows[0].inner, "H", self.left]
-        return [*(one for row in self.rows for one in self.groove(row, row.inner, -1.0)),
+        return [*(part for row in self.rows for part in self.groove(row, row.inner, -1.0)),
                 "H", self.left]  # fmt: skip
 
     def element(self, row: _RowAt) -> str:
@@ -196,7 +199,7 @@ class _Section:
         self, field: str, x: float, start: float, level: float, text: str, below: str,
         after: str = "",
     ) -> str:  # fmt: skip
-        """A radius as an arrow from the middle of the shaft."""
+        """A radius, drawn as an arrow from the middle of the shaft."""
         before = x < MIDDLE
         return _dimension(
             field,
@@ -217,7 +220,7 @@ def _section(bearing: Bearing) -> Iterable[str]:
     yield _path("steel", "M", at.left, at.bore, "H", at.right, *at.inner_race(), "Z")
     yield from map(at.element, at.rows)
     if len(at.rows) > 1 and look.outer != "sphere" and any(row.lean for row in at.rows):
-        for row in at.rows:  # lines of contact, on to the middle of the shaft
+        for row in at.rows:  # lines of contact, drawn to the middle of the shaft
             over = 1.5 * row.ball
             foot = row.x - (AXIS - row.centre) * row.lean
             yield _line("line dashed", row.x + over * row.lean, row.centre - over, foot, AXIS)
@@ -256,7 +259,7 @@ def _section(bearing: Bearing) -> Iterable[str]:
 
 
 def _distance(at: _Section) -> str:
-    """The distance of two rows, below the shaft."""
+    """The distance between two rows, drawn below the middle of the shaft."""
     right, left = at.rows[:2]
     level = AXIS + 6.0
     return _dimension(
@@ -268,7 +271,7 @@ def _distance(at: _Section) -> str:
 
 
 def _second(row: _RowAt) -> Iterable[str]:
-    """Of rows that are not alike the second has names of its own."""
+    """Dimensions of a second row that is unlike the first; they have names of their own."""
     x, away = row.x, row.x - 0.6 * row.ball
     yield _dimension(
         "second_ball_diameter",
@@ -301,7 +304,7 @@ def _clearance(x: float, low: float, gap: float, *witnesses: str) -> str:
 
 
 def _line_contact(bearing: Bearing) -> Iterable[str]:
-    """A roller lies on its races along its length."""
+    """A roller between its races, which it touches along its length."""
     (x, y), high, gap = CONTACT, 60.0, _gap(bearing)
     slender = (bearing.roller_length or 0.0) / bearing.ball_diameter
     long = min(110.0, max(25.0, high * slender))
@@ -323,8 +326,8 @@ class _Circle(NamedTuple):
     y: float
     r: float
 
-    def at(self, angle: float) -> Point:
-        """The point at an angle from above."""
+    def point(self, angle: float) -> Point:
+        """Point of the circle at an angle from its top."""
         return self.x + self.r * math.sin(angle), self.y - self.r * math.cos(angle)
 
 
@@ -349,13 +352,13 @@ def _grooves(bearing: Bearing) -> Iterable[str]:
         yield _dimension(
             "groove_center_distance",
             _arrow(outer.x, outer.y, inner.x, inner.y),
-            *(_circle("centre", one.x, one.y, 2.6) for one in (outer, inner)),
+            *(_circle("centre", circle.x, circle.y, 2.6) for circle in (outer, inner)),
             _label(middle[0] - 9.0, middle[1] + 4.0, "A", "0", anchor="end"),
         )
     if bearing.outer_groove_radius is not None:
         ends = ("outer", "o", outer, -0.62, -6.0), ("inner", "i", inner, math.pi + 0.62, 14.0)
         for race, index, circle, turn, lower in ends:
-            end = circle.at(turn)
+            end = circle.point(turn)
             yield _dimension(
                 f"{race}_groove_radius",
                 _arrow(circle.x, circle.y, *end, both=False),
@@ -373,8 +376,8 @@ def _grooves(bearing: Bearing) -> Iterable[str]:
 
 
 def _ring(circle: _Circle, side: float, back: float) -> str:
-    """Steel around a groove, down or up to `back`."""
-    ends = [circle.at(turn if side > 0.0 else math.pi - turn) for turn in (-0.9, 0.9)]
+    """Steel of a ring around its groove, from the height `back`."""
+    ends = [circle.point(turn if side > 0.0 else math.pi - turn) for turn in (-0.9, 0.9)]
     (left, level), end, sweep = ends[0], ends[1], 1 if side > 0.0 else 0
     x = CONTACT[0]
     return _path("steel", "M", x - 118.0, back, "V", level, "H", left, "A", circle.r, circle.r,
@@ -382,7 +385,7 @@ def _ring(circle: _Circle, side: float, back: float) -> str:
 
 
 def _angle(angle: float, ball: float) -> str:
-    """The contact angle, between the plane of the balls and the line of contact."""
+    """The contact angle: from the plane of the balls to the line of contact."""
     x, y = CONTACT
     sine, cosine, far, arc = math.sin(angle), math.cos(angle), 1.5 * ball, 1.32 * ball
     parts = [
@@ -397,7 +400,7 @@ def _angle(angle: float, ball: float) -> str:
     return _dimension("contact_angle", *parts, _label(*at, "α", "0", anchor="start"))
 
 
-# All elements, seen along the shaft; load of one against its compression
+# All elements seen along the shaft, and the load of one over its compression
 
 
 def _front(bearing: Bearing) -> Iterable[str]:
@@ -416,7 +419,7 @@ def _front(bearing: Bearing) -> Iterable[str]:
 
 
 def _law(bearing: Bearing) -> Iterable[str]:
-    """The curve that K stands for."""
+    """Load of an element over its compression: the curve that the factor K scales."""
     x, y, width, height, most, greatest = 606.0, 300.0, 104.0, 74.0, 20e-6, 1.6e10
     top = min(1.0, math.sqrt(bearing.load_deflection_factor / greatest))
     curve: list[str | float] = []

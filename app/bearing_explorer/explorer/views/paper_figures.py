@@ -1,4 +1,4 @@
-"""Figures 3 to 10 of the paper: their scenes, the live tab that draws them, printed values."""
+"""Figures 3 to 10 of the paper: their scenes, the tab that draws them live, printed values."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _SLIPS = "## Errors in the paper"
 
 
 class Printed(NamedTuple):
-    """A number or statement of the paper, and the function of the scenes that gives ours."""
+    """A number or statement of the paper, and the function that computes ours from scenes."""
 
     name: str
     paper: str
@@ -38,7 +38,7 @@ class Printed(NamedTuple):
 class PaperFigure:
     """A figure of the paper: its scenes by preset and extents (0: no defect), and its numbers.
 
-    `tab` is the one that shows the same live.
+    `tab` names the tab of the page that draws the figure live.
     """
 
     number: int
@@ -54,7 +54,7 @@ class PaperFigure:
         return [self.scene(extent) for extent in self.extents_deg]
 
     def scene(self, extent_deg: float) -> Scene:
-        """The preset with a defect of this extent; 0 for none."""
+        """The preset with a defect of this extent, or without one for 0."""
         scene = presets[self.preset]
         return scene.replace(extent=math.radians(extent_deg)) if extent_deg else scene.healthy()
 
@@ -68,9 +68,9 @@ class PaperFigure:
 
     @property
     def link(self) -> str:
-        """The address of its last scene on its tab, with the others as compared ones."""
-        others = [one for one in self.scenes[:-1] if one.defects]
-        drawn = tuple(Reference(one, usual_name(one)) for one in others)
+        """Address of the last scene on the tab, compared with the others that have a defect."""
+        others = [scene for scene in self.scenes[:-1] if scene.defects]
+        drawn = tuple(Reference(scene, usual_name(scene)) for scene in others)
         return write(Place(self.scenes[-1], self.preset, tab=self.tab, compared=drawn))
 
 
@@ -86,7 +86,7 @@ def _term(term: str, first: float, last: float, scene: Scene) -> Array:
 
 
 def _acceleration(column: int, scene: Scene) -> Array:
-    """Of the housing, between 0.745 and 0.775 s as printed."""
+    """Acceleration of the housing between 0.745 and 0.775 s, as printed."""
     motion = Results(scene).motion
     return motion.outer_acceleration[slice(*np.searchsorted(motion.time, (0.745, 0.775))), column]
 
@@ -100,13 +100,13 @@ def _levels(dof: str, scene: Scene) -> Array:
 
 
 def _ends(values: Array, unit: str) -> str:
-    """From the least to the greatest."""
+    """Range from the least to the greatest value, in words."""
     low, high = float(np.nanmin(values)), float(np.nanmax(values))
     return prefixed_span(low, high, unit)
 
 
 def _drawn(curve: Callable[[Scene], Array], unit: str, scenes: Sequence[Scene]) -> str:
-    """Least and greatest number of the curves of scenes."""
+    """Range over the curves of all scenes, in words."""
     return _ends(np.concatenate([curve(scene) for scene in scenes]), unit)
 
 
@@ -116,13 +116,13 @@ def _terms(terms: Sequence[str], scenes: Sequence[Scene]) -> str:
 
 
 def _mean(term: str, scenes: Sequence[Scene]) -> str:
-    means = [float(_term(term, 0.0, 30.0, one)[:-1].mean()) for one in scenes]
+    means = [float(_term(term, 0.0, 30.0, scene)[:-1].mean()) for scene in scenes]
     return " → ".join(style.with_prefix(mean, TERM_UNITS[term]) for mean in means)
 
 
 def _mean_mode(label: str, scenes: Sequence[Scene]) -> str:
-    modes = [Results(one).modes for one in scenes]
-    means = [one.frequency[:, list(one.label).index(label)][:-1].mean() for one in modes]
+    results = [Results(scene).modes for scene in scenes]
+    means = [modes.frequency[:, list(modes.label).index(label)][:-1].mean() for modes in results]
     return " → ".join(f"{mean:.0f} Hz" for mean in means)
 
 
@@ -131,7 +131,7 @@ def _band(label: str, scenes: Sequence[Scene]) -> str:
 
 
 def _counts(scenes: Sequence[Scene]) -> str:
-    """Balls in the defect at any one time."""
+    """Least and greatest number of balls in the defect of each scene."""
     words = []
     for scene in scenes:
         if not scene.defects:
@@ -152,10 +152,11 @@ def _maps_near_64() -> Maps:
     return stiffness_maps(scene, np.radians(np.arange(60.0, 67.0, 0.25)), cage)
 
 
-def _least(of: str, _: Sequence[Scene]) -> str:
+def _least(quantity: str, _: Sequence[Scene]) -> str:
+    """Extent at which the mean of a stiffness term, or of the number of loaded balls, is least."""
     maps = _maps_near_64()
-    means = (maps.term(of) if of in STIFFNESS_TERMS else maps.loaded_balls).mean(axis=1)
-    return f"{math.degrees(maps.extents[int(np.argmin(means))]):.2f}°"
+    values = maps.term(quantity) if quantity in STIFFNESS_TERMS else maps.loaded_balls
+    return f"{math.degrees(maps.extents[int(np.argmin(values.mean(axis=1)))]):.2f}°"
 
 
 def _spacing(scenes: Sequence[Scene]) -> str:
@@ -170,12 +171,12 @@ def _entry_to_exit(scenes: Sequence[Scene]) -> str:
 
 
 def _leaving(scenes: Sequence[Scene]) -> str:
-    """The ball that leaves next after ball 9 has entered."""
+    """Number of the ball that is next to leave after ball 9 has entered."""
     words = []
     for scene in scenes:
         events = crossings(scene, 0.0, 4.0 * math.pi)
-        entry = next(i for i, one in enumerate(events) if one.enters and one.ball == 8)
-        words.append(next(str(one.ball + 1) for one in events[entry:] if not one.enters))
+        entry = next(i for i, event in enumerate(events) if event.enters and event.ball == 8)
+        words.append(next(str(event.ball + 1) for event in events[entry:] if not event.enters))
     return ", ".join(words)
 
 

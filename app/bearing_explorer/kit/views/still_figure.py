@@ -1,4 +1,4 @@
-"""A view of one scene made once, outside of the page: for reports, notebooks and scripts."""
+"""The figure of a view, drawn once outside the page: for reports, notebooks and scripts."""
 
 from __future__ import annotations
 
@@ -28,16 +28,16 @@ for (const source of sources) source.properties.data.change.emit()
 
 
 class FilledSources(PackedSource):
-    """Sources and ranges that hold their numbers, where those of the page are sent them.
+    """Sources and ranges that hold their numbers; those of the page are sent theirs.
 
-    Labels with prefixes, pictures and words are derived from them in the browser, after changes;
-    the callback that `fill` returns derives them from the first numbers.
+    The browser derives labels with prefixes, pictures and words from the numbers when these change.
+    The callback that `fill` returns makes it derive them from the first numbers.
     """
 
     def fill(
         self, data: Mapping[str, Columns], ranges: Mapping[str, tuple[float, float]]
     ) -> CustomJS:
-        """Put numbers into sources and ranges; returns a callback for the ready browser."""
+        """Put numbers into sources and ranges; return a callback for the ready document."""
         for name, columns in data.items():
             self._block(name, columns)  # refuses what does not fit
             rows = {column: np.asarray(v, np.float32).ravel() for column, v in columns.items()}
@@ -49,15 +49,14 @@ class FilledSources(PackedSource):
 
 
 class Figure(Generic[C]):
-    """A view with the numbers of one scene in it.
+    """The figure of a view, filled with the numbers of one scene or signal.
 
     Attributes
     ----------
     results
-        everything that is known about what is drawn; of a scene its attributes are results of
-        `bearingcore`.
+        content of the figure; for a scene, its attributes are results of `bearingcore`.
     sentence
-        the sentence on the figure.
+        the sentence below the figure.
     layout
         the Bokeh layout of its figures.
     document
@@ -66,18 +65,18 @@ class Figure(Generic[C]):
     Parameters
     ----------
     choices
-        choices in the view itself, by its fields: computations are made anew with them.
+        choices in the view itself, by its fields; its computation is repeated with them.
     prepare
-        called with the view, before it is asked for anything.
+        callback with the new view, before it draws anything.
     job_result
-        the result of the computation of the view, where that is known already.
+        result of the view's computation, if it is known already.
     computed
-        whether a view of a computation without `job_result` makes it.
+        True if a view with a computation makes it when there is no `job_result`.
 
     Raises
     ------
     ValueError
-        where there is no such figure for this scene, with the reason.
+        with the reason, if the view has no figure for this scene.
     """
 
     def __init__(
@@ -103,20 +102,20 @@ class Figure(Generic[C]):
         self.view.say(results, self.sentence)
         follow = sources.fill(data, ranges)
         for plot in self.view.figures:
-            plot.frame_align = False  # or all would leave as much room as the one that needs most
+            plot.frame_align = False  # else each takes the margins of the widest
         plots = [] if self.view.is_empty else list(self.view.still_figures())
         self.layout = Column(children=plots, sizing_mode="stretch_width")
-        self.layout.tags = follow.args["sources"]  # pictures are made of some that none draws
+        self.layout.tags = follow.args["sources"]  # keeps those that only pictures are made from
         self.document = Document()
         self.document.add_root(self.layout)
         self.document.js_on_event(DocumentReady, follow)
 
     def table(self) -> dict[str, np.ndarray]:
-        """The numbers behind the figure; a name says its unit: ``cage_angle_deg``."""
+        """The numbers behind the figure; each name ends with its unit: ``cage_angle_deg``."""
         return self.view.table(self.results)
 
     def page(self) -> str:
-        """A page with the figure that needs nothing from outside."""
+        """A self-contained HTML page with the figure."""
         title = html.escape(self.view.title)
         return (
             f"<!DOCTYPE html>\n<html><head><meta charset='utf-8'><title>{title}</title></head>"
@@ -124,7 +123,7 @@ class Figure(Generic[C]):
         )
 
     def _place(self) -> str:
-        """The place of the figure, the script that draws it, and its sentence."""
+        """HTML of the figure: its place, the script that draws it, and its sentence."""
         words = f"<p style='font-family: sans-serif'>{html.escape(self.sentence)}</p>"
         if not self.layout.children:
             return words
@@ -132,17 +131,17 @@ class Figure(Generic[C]):
         return f"{place}{script}{words}"
 
     def save(self, path: str | Path, width: float | None = None) -> None:
-        """Write the figure to a file, whose suffix says as what.
+        """Write the figure to a file in the format of its suffix.
 
-        .html is `page`. .svg, .pdf and .png are for paper, drawn by Matplotlib, `width` [mm] wide;
-        None is a column of 88 mm, or 180 mm for the matrix of stiffness.
+        .html is `page`. .svg, .pdf and .png are for paper: Matplotlib draws them `width` [mm] wide.
+        None stands for a column of 88 mm, or 180 mm for the matrix of stiffness.
 
         Raises
         ------
         ValueError
-            for another suffix, and for a view without a figure.
+            for another suffix, for a width beyond 30 to 500 mm, and for a view without a figure.
         ImportError
-            without what ``pip install "bearing-explorer[figures]"`` installs, for paper.
+            for paper, if ``pip install "bearing-explorer[figures]"`` was not run.
         """
         path = Path(path)
         if path.suffix.lower() == ".html":
@@ -161,7 +160,7 @@ class Figure(Generic[C]):
         printed.print_figures(self.document, note, path, width)
 
     def show(self) -> None:
-        """Open the figure in the browser; where there is none, its path is printed."""
+        """Open the figure in the browser; print the path of its file if no browser opens."""
         with tempfile.NamedTemporaryFile(
             "w", suffix=f"-{self.view.name}.html", delete=False, encoding="utf-8"
         ) as file:
@@ -170,7 +169,7 @@ class Figure(Generic[C]):
             print(file.name)
 
     def _repr_html_(self) -> str:
-        """In a notebook; Bokeh itself comes with the first figure."""
+        """HTML for a notebook; the first figure brings the scripts of Bokeh along."""
         return _bokeh_once() + self._place()
 
 
@@ -185,5 +184,5 @@ def _bokeh_once() -> str:
 
 
 def bokeh_scripts() -> str:
-    """Bokeh itself, without the scripts of extensions."""
+    """Scripts of Bokeh itself, without those of extensions."""
     return "".join(f"<script>{code}</script>" for code in _BOKEH.js_raw)

@@ -1,4 +1,4 @@
-"""The sentences of a diagnosis."""
+"""The sentences of a diagnosis; remarks follow another sentence and begin with a space."""
 
 from __future__ import annotations
 
@@ -19,27 +19,27 @@ from bearingcore.measured.diagnosis._part.parts import BALL
 from bearingcore.measured.diagnosis._part.probability import DEVIATIONS
 
 FAR = 0.01
-"""Of a race's frequency, by which its lines are off in 2 of 52 measured records that name one."""
+"""Relative deviation of a race's lines; 2 of 52 measured records that name a race exceed it."""
 
 
 def dropout_message(share: float) -> str:
-    """Status where a `share` of the samples dropped out, too many to analyse the rest."""
+    """Sentence for a signal with too large a `share` of dropouts to analyse the rest."""
     return (
-        f"{percent(share, 2)} of the signal are gaps, or too near to one: held numbers, straight "
-        "lines or repeats, as where a sensor dropped out."
+        f"{percent(share, 2)} of the signal is missing or too close to a gap: there, numbers are "
+        "held, interpolated or repeated, as if the sensor had dropped out."
     )
 
 
 def left_out(share: float) -> str:
-    """A `share` of the samples dropped out, and the rest was analysed."""
+    """Remark on a `share` of the samples that dropped out; the rest was analysed."""
     return (
-        f" {percent(share, 2)} of the samples were not measured but held, drawn as a straight line "
-        "or repeated; they do not count."
+        f" {percent(share, 2)} of the samples were not measured but held, interpolated or repeated "
+        "and do not count."
     )
 
 
 def too_short(duration: float, passes: float, fewest: int) -> str:
-    """Too few knocks."""
+    """Sentence for a signal with fewer ball passes than are needed."""
     return (
         f"{number(duration)} s hold "
         f"{count(int(passes), 'ball pass', 'ball passes')}, and at least {fewest} are "
@@ -48,52 +48,52 @@ def too_short(duration: float, passes: float, fewest: int) -> str:
 
 
 def too_slow(rate: float, needed: float) -> str:
-    """Sampled too slowly."""
+    """Sentence for a sample rate [Hz] too low to show repeating impacts."""
     return (
-        f"Sampled at {number(rate, 4)} Hz, the signal does not reach high enough to "
-        f"show how impacts repeat at this speed; {number(needed, 4)} Hz or more are needed."
+        f"Sampled at {number(rate, 4)} Hz, the signal lacks the high frequencies that "
+        f"show repeating impacts at this speed; {number(needed, 4)} Hz or more are needed."
     )
 
 
 def too_far(known: str, end: str, speed: float, why: str) -> str:
-    """Unfit at one end of the speeds [Hz] that are looked for."""
+    """Sentence for a signal that is unfit at one end of the range of possible speeds [Hz]."""
     return (
         f"The shaft speed {known}. At the {end} speed looked for, {number(60.0 * speed, 4)} rpm: "
-        f"{why} Give the shaft speed; this record may be enough then."
+        f"{why} Give the shaft speed; this record may then be enough."
     )
 
 
 def other_unit(speed: float, other: float) -> str:
-    """The shaft's lines show at 60 times the speed [Hz] that is given, or at a 60th of it."""
+    """Sentence for a speed [Hz] 60 times too high or too low, as lines of the shaft show."""
     return (
-        f"Lines of a shaft do not show at {number(60.0 * speed, 4)} rpm, but clearly at "
-        f"{number(60.0 * other, 4)} rpm: is the speed given in Hz for rpm, or the other way?"
+        f"Lines of the shaft do not show at {number(60.0 * speed, 4)} rpm, but clearly at "
+        f"{number(60.0 * other, 4)} rpm: check whether the speed is in Hz or in rpm."
     )
 
 
 def speed_changes(change: float) -> str:
-    """Lines of all parts are blurred, as the speed changes by a fraction."""
+    """Sentence for a speed that changes by a fraction and so blurs all lines."""
     return (
         f"The speed changes by {percent(change, 2)} or more, which blurs the lines of all parts. "
-        "Take a steadier part, or record the speed beside the signal."
+        "Take a steadier part of the record, or record the speed along with the signal."
     )
 
 
 def other_shaft(part: PartEvidence, shaft: float) -> str:
-    """The lines of a part have sidebands of another shaft than the stated one [Hz]."""
+    """Sentence for lines of a part with sidebands of another shaft than the stated one [Hz]."""
     spacing = part.foreign_spacing
     return (
         f"There are impacts at {number(part.frequency, 4)} Hz ({decibels(part.level)} above local "
-        f"noise), as of a damaged {part.part}, but with sidebands {number(spacing, 3)} Hz apart, "
+        f"noise), as from a damaged {part.part}, but with sidebands {number(spacing, 3)} Hz apart, "
         f"{number(spacing / shaft, 3)} times the shaft speed. Neither this shaft nor its cage "
-        f"makes them, and an {part.part} that stands still has none. Something that turns at "
+        f"makes such sidebands, nor does an {part.part} that stands still. Something that turns at "
         f"{number(60.0 * spacing, 3)} rpm makes these impacts. Check the speed, the sample rate "
         "and the bearings of other shafts."
     )
 
 
 def lines_elsewhere(stated: float, shown: float) -> str:
-    """The lines of the shaft show at another speed [Hz] than the stated one."""
+    """Sentence for lines of the shaft at another speed [Hz] than the stated one."""
     return (
         f"The shaft's own lines are at {number(60.0 * shown, 4)} rpm, {number(shown / stated, 3)} "
         f"times the stated speed, and none are at {number(60.0 * stated, 4)} rpm: the speed or the "
@@ -102,19 +102,19 @@ def lines_elsewhere(stated: float, shown: float) -> str:
 
 
 def against_the_shaft(part: PartEvidence) -> str:
-    """Lines fit a part only at a speed that the shaft does not have."""
+    """Sentence for lines that fit a part only at a speed that the shaft does not have."""
     return (
         f"Impacts at {number(part.frequency, 4)} Hz ({decibels(part.level)} above local noise) fit "
-        f"the {part.part} at the stated speed only, which the signal contradicts."
+        f"the {part.part} only at the stated speed, and the signal contradicts that speed."
     )
 
 
 def damaged(part: PartEvidence) -> str:
-    """A part is named."""
+    """Sentence that names the damaged part, with its evidence."""
     shown = int((part.harmonics > part.noise).sum())
     broad = part.part == BALL and part.deviations >= DEVIATIONS
     clear = (
-        f"{number(part.deviations, 2)} deviations clearer than anything else in all bands together"
+        f"{number(part.deviations, 2)} standard deviations above all other lines, over all bands"
         if broad
         else f"{decibels(part.level)} above local noise, {shown} of {len(part.harmonics)} "
         "harmonics clear"
@@ -126,16 +126,16 @@ def damaged(part: PartEvidence) -> str:
     )
     if broad and not part.modulated:
         words += (
-            " They show no sidebands of the cage: blows of another source that wander around this "
-            "frequency look alike."
+            " They have no sidebands at the cage frequency: impacts of another source whose rate "
+            "drifts near this frequency look the same."
         )
     if part.part != BALL and abs(part.slip) > FAR:
-        words += " Lines of a race are seldom so far off: check bearing and speed."
+        words += " Lines of a race seldom deviate as much: check the bearing and the speed."
     return words
 
 
 def beside(other: PartEvidence) -> str:
-    """The other race than the one named shows its lines too."""
+    """Remark on lines of the other race, which is not named."""
     return (
         f" The {other.part} shows too: impacts at {number(other.frequency, 4)} Hz, "
         f"{decibels(other.level)} above local noise, probability {probability(other.probability)}. "
@@ -144,12 +144,12 @@ def beside(other: PartEvidence) -> str:
 
 
 def perhaps_a_ball() -> str:
-    """Another cause of a race's lines."""
+    """Remark on a damaged ball, another cause of a race's lines."""
     return " The cause may be a damaged ball: inspect the balls too."
 
 
 def magnetic(part: PartEvidence) -> str:
-    """The lines of a part, where magnetic noise has its own."""
+    """Sentence for lines of a part at a frequency where magnetic noise has lines too."""
     return (
         f"Lines of the {part.part} show ({number(part.frequency, 4)} Hz, {decibels(part.level)} "
         f"above local noise).{magnetic_alike(part)}"
@@ -157,105 +157,105 @@ def magnetic(part: PartEvidence) -> str:
 
 
 def magnetic_alike(part: PartEvidence) -> str:
-    """Another cause of lines at twice the mains' frequency, and how to exclude it."""
+    """Remark on magnetic noise, another cause of the lines, and a way to exclude it."""
     return (
         f" Magnetic noise of a motor at twice the mains frequency ({twice_mains(part.frequency):g} "
-        "Hz) looks alike: measure at another speed, or look whether it ends at once when the motor "
-        "is switched off."
+        "Hz) looks alike: measure at another speed, or check whether the lines vanish at once when "
+        "the motor is switched off."
     )
 
 
 def unmodulated(part: PartEvidence) -> str:
-    """Impacts at the frequency of a part that turns, all of one size."""
+    """Sentence for impacts at the frequency of a part that turns, all equally strong."""
     return (
         f"Impacts at {number(part.frequency, 4)} Hz ({percent_off(part.slip)} against the "
-        f"frequency of the {part.part}, {decibels(part.level)} above local noise), but not "
-        f"modulated once per {part.sideband_source} turn, as damage of the {part.part} is under a "
-        "load that stands still. A load along the shaft, or one that turns with it, makes no "
-        "modulation; nor does another source, such as the outer race of another bearing. Check the "
+        f"frequency of the {part.part}, {decibels(part.level)} above local noise) are not "
+        f"modulated once per {part.sideband_source} turn, as damage of the {part.part} would be "
+        "under a load that stands still. An axial load or one that turns with the shaft makes no "
+        "modulation, nor does another source, such as the outer race of another bearing. Check the "
         "bearing's geometry and speed."
     )
 
 
 def marked(part: PartEvidence) -> str:
-    """The lines of a race, too faint for its own damage."""
+    """Sentence for lines of a race that are too faint for damage of that race."""
     return (
         f"Lines of the {part.part} show ({number(part.frequency, 4)} Hz, {decibels(part.level)} "
-        f"above local noise), but modulate the envelope by {percent(part.swing, 2)} only. A "
+        f"above local noise), but they modulate the envelope by only {percent(part.swing, 2)}. A "
         "damaged ball or a healthy bearing may make them. Measure again, closer to the bearing."
     )
 
 
 def alike(part: PartEvidence, other: PartEvidence) -> str:
-    """The lines of two parts are seen."""
+    """Sentence for lines of two parts that are about equally strong."""
     return (
-        f"There are impacts, but the lines of {part.part} ({decibels(part.level)}) and "
-        f"{other.part} ({decibels(other.level)}) are about as strong. A damaged ball marks "
-        "both races."
+        f"There are impacts, but the lines of the {part.part} ({decibels(part.level)}) and the "
+        f"{other.part} ({decibels(other.level)}) are about equally strong. A damaged ball makes "
+        "lines of both races."
     )
 
 
 def not_alone(part: PartEvidence, other: OtherLines) -> str:
-    """Lines at a part's frequency that others reach, or without its sidebands."""
+    """Sentence for lines of a part that others equal, or whose sidebands do not fit."""
     return (
-        f"There are lines where damage of the {part.part} has them ({decibels(part.level)}), but "
+        f"There are lines at the frequency of the {part.part} ({decibels(part.level)}), but "
         f"others, at {number(other.order)} times a turn ({decibels(other.level)}), are as strong, "
         "or the sidebands do not fit. Check the bearing's geometry and speed."
     )
 
 
 def not_carried(part: PartEvidence) -> str:
-    """Lines at a ball's frequency that are none of a ball."""
+    """Sentence for lines at a ball's frequency that a damaged ball would not make."""
     return (
         f"There are lines at {number(part.order, 4)} times a turn ({decibels(part.level)} above "
-        "local noise), as of a damaged ball, but they are too weak or lack its sidebands at the "
-        "cage frequency. They may be those of a race of another bearing. Check the bearing's "
+        "local noise), as from a damaged ball, but they are too weak or lack its sidebands at the "
+        "cage frequency. They may come from a race of another bearing. Check the bearing's "
         "geometry and speed."
     )
 
 
 def unexplained(other: OtherLines) -> str:
-    """Something else knocks."""
+    """Sentence for a line that no part of this bearing makes."""
     return (
         f"A line at {number(other.order)} times a turn ({number(other.frequency, 4)} Hz, "
-        f"{decibels(other.level)} above local noise) is none of this bearing. Check its geometry "
-        "and speed, or look for another source."
+        f"{decibels(other.level)} above local noise) comes from no part of this bearing. Check its "
+        "geometry and speed, or look for another source."
     )
 
 
 def nothing_but(why: str, share: float) -> str:
-    """Nothing seen, and it means nothing."""
+    """Sentence for a signal without lines, with a fault that may hide them."""
     return f"No damage shows, but {why} ({percent(share, 2)}), which may hide it."
 
 
 def blows(kurtosis: float, duration: float) -> str:
-    """Knocks that do not repeat as a part's do."""
+    """Sentence for impacts that do not repeat at the rate of any part."""
     return (
         f"There are impacts (kurtosis {number(kurtosis, 2)}; smooth running has 2), but in "
         f"{number(duration)} s not at the rate of any part of this bearing. Other sources and "
-        "widespread wear do that. Measure again, longer."
+        "widespread wear make such impacts. Measure again, longer."
     )
 
 
 def weak(detectable: float, duration: float) -> str:
-    """Nothing seen, but nothing would have been."""
+    """Sentence for a signal without lines, too short to show any but strong ones."""
     return (
-        f"No damage shows, but {number(duration)} s are enough only for damage that makes the "
+        f"No damage shows, but {number(duration)} s show only damage that makes the "
         f"vibration's power swing by {percent(detectable, 2)} of its mean or more. A longer "
         "recording shows more."
     )
 
 
 def rounded() -> str:
-    """Nothing seen, in a signal that shows nothing of a bearing."""
+    """Sentence for a signal without lines that holds no vibration of a bearing either."""
     return (
         "No damage shows, but between its tones the signal holds no vibration, only the rounding "
-        "of its numbers: a running bearing would show too. Check the sensor, its range and filter."
+        "of its numbers. Any bearing vibrates: check the sensor, its range and filter."
     )
 
 
 def healthy(detectable: float) -> str:
-    """None seen."""
+    """Sentence for a bearing without visible damage."""
     return (
         "No damage seen on outer race, inner race or balls: their lines do not show. "
         f"Impacts that make the vibration's power swing by {percent(detectable, 2)} of its mean, "
@@ -264,26 +264,26 @@ def healthy(detectable: float) -> str:
 
 
 def faint(part: PartEvidence) -> str:
-    """Lines too faint to name a part."""
+    """Sentence for lines too faint to name a part."""
     return (
-        f"There are faint lines where damage of the {part.part} has them "
+        f"There are faint lines at the frequency of the {part.part} "
         f"({number(part.frequency, 4)} Hz, {decibels(part.level)} above local noise; noise itself "
         f"reaches {decibels(part.noise)}). Measure again, longer or closer to the bearing."
     )
 
 
 def which_bearing() -> str:
-    """A signal, but no bearing."""
+    """Sentence for a signal of an unknown bearing."""
     return (
-        "Which part is damaged depends on the bearing, which is not known. Choose one of the list, "
-        "or enter its designation or its frequencies."
+        "Which part is damaged depends on the bearing, which is not known. Choose one from the "
+        "list, or enter its designation or its frequencies."
     )
 
 
 def which_speed(frequency: float, readings: Sequence[tuple[str, float]]) -> str:
-    """Knocks, but the speed decides whose they are."""
+    """Sentence for impacts whose part depends on the unknown speed."""
     ways = " or ".join(f"the {part} at {number(60.0 * speed, 4)}" for part, speed in readings)
     return (
-        f"There are impacts at {number(frequency, 4)} Hz, which may be {ways} rpm or come from "
+        f"There are impacts at {number(frequency, 4)} Hz. They may be {ways} rpm, or come from "
         "elsewhere: the shaft speed decides."
     )

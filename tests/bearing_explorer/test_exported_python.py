@@ -151,7 +151,13 @@ def test_the_lines_give_the_numbers_of_the_view(
         view, results = shown(case)
         lines = view.python()
         assert lines.count("\n") <= 30 or "from_toml" in lines, case
-        assert modules_in(lines) <= {"bearing_explorer", "bearingcore", "pathlib", "math"}, case
+        assert modules_in(lines) <= {
+            "bearing_explorer",
+            "bearingcore",
+            "dataclasses",
+            "pathlib",
+            "math",
+        }, case
         assert scene == view.scene_drawn(results), case
         table = view.table(results)
         assert list(columns) == list(table), case

@@ -115,7 +115,7 @@ REFUSED: dict[str, list[tuple[Callable[[], object], str]]] = {
         (lambda: read_floor("1 2\n3 x\n"), "line 2"),
         (lambda: read_floor("1 2 3\n4 5 6\n"), "number of columns in the floor is 3"),
         (lambda: read_floor("1 2\n1 3\n"), "different angles"),
-        (lambda: read_floor("1 -2\n2 3\n"), "at least 0"),
+        (lambda: read_floor("1 -2\n2 -3\n"), "into the ring"),
         (lambda: read_floor("1 0\n2 0\n"), "not 0 everywhere"),
         (lambda: read_floor("0 1\n400 1\n"), "within one turn"),
         (lambda: RIG.replace(defect=(core.Defect(0.2, 5e-5, 0.0),

@@ -6,6 +6,8 @@ import math
 import re
 from collections.abc import Mapping
 
+import numpy as np
+
 from bearingcore.common import _checks as checks
 from bearingcore.measured.files import read_text
 from bearingcore.model.scene import MOST_ROWS, MeasuredFloor, measured_floor
@@ -38,6 +40,8 @@ def read_floor(text: str) -> tuple[MeasuredFloor, float, float, float]:
         raise checks.refuse(
             "number of columns in the floor", columns.shape[1], "2: angle [degrees] and depth [µm]"
         )
+    if np.max(columns[:, 1]) <= 0.0 and np.any(columns[:, 1]):
+        raise checks.refuse("depths", "all above the race", "some above 0: into the ring")
     angle, depth = about["names"] if about["headed"] else ("", "")
     return measured_floor(
         columns[:, 0] * _unit_in(angle, _ANGLES, math.radians(1.0)),

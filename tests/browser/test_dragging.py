@@ -132,7 +132,7 @@ def test_a_shorter_sentence_does_not_resize_the_drawing_above_it(
     open_page(page, explorer)
     sentence = page.locator(".view-bearing p[role=status]")
     heights, lengths = [], []
-    for extent in ("8", "30", "8"):  # no ball in the defect, two, none
+    for extent in ("30", "8", "30"):
         slider(page, "extent_deg").fill(extent)
         settle(page)
         lengths.append(len(sentence.inner_text()))

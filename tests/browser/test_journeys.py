@@ -129,8 +129,7 @@ def test_a_tab_shows_its_views_and_follows_a_slider(walk: tuple[Visitor, Watch],
     visitor.steady()
     assert "blank" not in visitor.figures()
     assert not _NOTHING.search(" ".join(visitor.sentences()))
-    for more in visitor.main.get_by_role("button", name=re.compile("^More about")).all():
-        more.click()
+    visitor.read_more()
     if known is not None:
         visitor.reads(re.compile(re.escape(known(FAN))))
     if moved is not None:
@@ -267,6 +266,7 @@ def test_the_bearing_turns_and_stops(desk: Visitor) -> None:
     desk.wait(lambda: desk.number(CAGE_ANGLE) > 5)
     desk.press("Stop turning")
     desk.steady()
+    desk.read_more()
     stopped = desk.number(CAGE_ANGLE)
     state = equilibrium(FAN, [math.radians(stopped)])
     desk.reads(re.compile(rf"\b{state.loaded_balls[0]} of 14 balls"))
@@ -391,6 +391,7 @@ def test_rotor_support_and_directions_are_changed(desk: Visitor) -> None:
     desk.steady()
     desk.choose("Shaft", "On two bearings: tilt held")
     desk.go_to("Frequencies")
+    desk.read_more()
     expected = _frequency(FAN.replace(inner_mass=4.0, contact_law="no tension"))
     desk.reads(re.compile(rf"\b{expected} Hz"))
 

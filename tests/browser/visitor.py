@@ -154,6 +154,11 @@ class Visitor:
             (where or self.main).get_by_text(words).locator("visible=true").first
         ).to_be_visible()
 
+    def read_more(self) -> None:
+        """Open what stands behind "?" of the cards on screen."""
+        for more in self.main.get_by_role("button", name=re.compile("^More about")).all():
+            more.click()
+
     def headings(self) -> list[str]:
         """Titles of the cards that are on screen."""
         return self.main.get_by_role("heading", level=2).all_inner_texts()

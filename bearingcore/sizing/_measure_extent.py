@@ -19,6 +19,7 @@ from bearingcore.measured.diagnosis import (
     MeanPass,
     diagnose,
     find_knocks,
+    resample_to_steady_speed,
 )
 from bearingcore.measured.signals import least_passes
 from bearingcore.model.scene import EDGES, RACES
@@ -64,7 +65,7 @@ class MeasuredExtent:
         places of the two peaks in the first of `passes`, as shares of a ball pass, the shorter way
         round; NaN without peaks. If either peak may be the entry, the two may be exchanged.
     frequency
-        ball passes a second over the race [Hz].
+        ball passes a second over the race [Hz], at the mean speed where it changes.
     n_passes
         number of ball passes that were averaged.
     length
@@ -191,7 +192,8 @@ def measure_extent(
     The envelope of the signal is averaged over the ball passes, aligned against slip, in the bands
     that show them best. Two peaks on which bands agree are entry and exit. The extent is their
     separation plus the angle beside the edges over which, by statics, a ball carries no load. It is
-    known up to whole ball spacings, which do not change the mean pass. The pass does not show which
+    known up to whole ball spacings, which do not change the mean pass. A changing speed that was
+    measured with the signal is followed as in `diagnose`. The pass does not show which
     peak is the entry: if one way round is not much longer than the other, both are given.
 
     Parameters
@@ -243,11 +245,16 @@ def measure_extent(
         if race is None or not answer.evidence:
             return MeasuredExtent(race or "", ball_spacing=spacing)
         nominal = answer.of(f"{race} race").frequency
-        slip = SLIP_OF_LINES
+        slip, speed = SLIP_OF_LINES, answer.shaft_speed
     else:
+        nominal, slip = math.nan, SLIP
         speed = checks.real_number("shaft_speed", shaft_speed, above=0.0, unit="rad/s")
-        nominal = bearing.bpfo(speed) if race == "outer" else bearing.bpfi(speed)
-        slip = SLIP
+    if speed is not None:
+        hertz = speed / (2.0 * math.pi)
+        recording, hertz, _, _ = resample_to_steady_speed(recording, hertz, hertz, "")
+        speed = 2.0 * math.pi * hertz
+        if math.isnan(nominal):
+            nominal = bearing.bpfo(speed) if race == "outer" else bearing.bpfi(speed)
     # a pass of envelopes is averaged from its own frequency on
     if recording.duration * nominal * (1.0 - slip) < least_passes(nominal, nominal):
         return MeasuredExtent(race, ball_spacing=spacing, status=ExtentStatus.TOO_SHORT)

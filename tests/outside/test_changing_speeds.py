@@ -97,3 +97,17 @@ def test_irregular_pulses_are_no_angle() -> None:
     noise = np.random.default_rng(7).standard_normal(len(time))
     for beside in (noise, pulses(turns) * (turns % 5.0 > 1.0)):
         assert read_recording("a.csv", file_of(time, signal, beside, "tacho")).shaft_angle is None
+
+
+@pytest.mark.parametrize("ratio", [1.0, 0.3])
+def test_a_change_is_that_of_the_shaft_and_bands_are_inside_the_record(ratio: float) -> None:
+    _, signal, turns = machine("6205", "inner race", "rising by half", 8)
+    signal = signal + 3.0 * np.random.default_rng(9).standard_normal(len(signal))
+    recording = Recording(signal, 12_800.0, ("y",), shaft_angle=TURN * turns / ratio)
+    answer = diagnose(recording, "6205", TURN / 60.0 * RPM / ratio, shaft_ratio=ratio)
+    assert "it changes by 40 % as measured" in answer.sentence  # 80 to 120 % of the mean
+    assert max(part.band.high for part in answer.evidence) <= 6400.0
+    speeds = speed_over_time(recording)
+    assert speeds is not None
+    ends = TURN / 60.0 * RPM / ratio * np.array([0.8, 1.2])
+    np.testing.assert_allclose(speeds[[0, -1]], ends, rtol=1e-3)

@@ -24,7 +24,10 @@ from bearingcore.measured.diagnosis._part.evidence import (
     PartEvidence as PartEvidence,
 )
 from bearingcore.measured.diagnosis._part.listened_signal import NARROWEST as NARROWEST
-from bearingcore.measured.diagnosis._part.over_turns import speed_over_time as speed_over_time
+from bearingcore.measured.diagnosis._part.over_turns import (
+    resample_to_steady_speed as resample_to_steady_speed,
+    speed_over_time as speed_over_time,
+)
 from bearingcore.measured.diagnosis._part.parts import (
     INNER as INNER,
     OUTER as OUTER,

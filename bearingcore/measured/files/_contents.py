@@ -344,8 +344,12 @@ def _read_times(
             if (dated or not sampling.trouble) and not names_a_frequency(column.name):
                 columns[index] = Column(column.name, TIME)
                 sampling = times_of(values)
-                reason = f"{sampling.reason} “{column.name}”"
-                samplings[index] = dataclasses.replace(sampling, reason=reason)
+                reason, clear = f"{sampling.reason} “{column.name}”", True
+                ends = f"{number(values[0], 4)} to {number(values[-1], 4)}"
+                if not dated and ((index and not table.headed) or values[0] > np.ptp(values)):
+                    reason, clear = f"{reason}, if it is no speed: it rises from {ends}", False
+                stated = sampling.stated and clear
+                samplings[index] = dataclasses.replace(sampling, stated=stated, reason=reason)
     return tuple(columns), _most_certain(samplings, [column.name for column in columns])
 
 

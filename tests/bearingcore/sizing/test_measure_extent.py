@@ -23,8 +23,16 @@ RATE, SECONDS = 25_600.0, 3.0
 SPEED = 2.0 * math.pi * 15.0
 
 
+def steady_time(change: float):
+    """Time [s] in which a shaft at SPEED turns as far as one whose speed rises by a share of it."""
+    time = np.arange(round(RATE * SECONDS)) / RATE
+    return time * (1.0 - 0.5 * change + 0.5 * change * time / SECONDS)
+
+
 @cache
-def signal(race: str = "outer", apart_deg: float = 5.0, entry: float = 1.0, *, seed: int = 1):
+def signal(
+    race: str = "outer", apart_deg: float = 5.0, entry: float = 1.0, *, seed: int = 1, change=0.0
+):
     """Soft and sharp blows so far apart, through resonances, with slip and noise.
 
     An `entry` of 0 leaves the sharp blows alone.
@@ -41,7 +49,8 @@ def signal(race: str = "outer", apart_deg: float = 5.0, entry: float = 1.0, *, s
     signal = np.zeros(count + len(time))
     for delay, shape in ((0.0, entry * soft), (late, sharp)):
         blows = np.zeros(count)
-        places = np.rint((passes + delay) * RATE).astype(int)
+        at = np.interp(passes + delay, steady_time(change), np.arange(count), right=count)
+        places = np.rint(at).astype(int)
         blows[places[places < count]] = 1.0
         signal[: count + len(time) - 1] += fftconvolve(blows, shape)
     path = np.zeros(len(time))
@@ -162,3 +171,14 @@ def test_pits_are_given_no_extent_that_cannot_be(collection):
             )
             assert not answer.measured or answer.low < math.radians(3.0)
             assert not answer.high < math.radians(record.spall_extent_deg or 0.0)
+
+
+@pytest.mark.parametrize("ratio", [1.0, 0.4])
+def test_a_spall_is_as_long_where_the_speed_rises_by_half(ratio):
+    steady = steady_time(0.4)
+    recording = Recording(
+        signal(change=0.4), RATE, ("y",), shaft_angle=SPEED * steady / ratio
+    ).scale_shaft(ratio)
+    answer = measure_extent(recording, MOTOR, SPEED, race="outer")
+    assert math.degrees(answer.separation) == pytest.approx(5.0, abs=0.3)
+    assert answer.frequency == pytest.approx(MOTOR.bpfo(SPEED), rel=0.003)

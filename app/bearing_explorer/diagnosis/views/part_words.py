@@ -6,13 +6,16 @@ import dataclasses
 import math
 from typing import Any
 
+import numpy as np
+
 from bearing_explorer.diagnosis.diagnoses import Question
 from bearing_explorer.diagnosis.machine import Machine
+from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.sized_defect import size_in_words
 from bearing_explorer.diagnosis.views.part_lines import COLORS, NAMES, leading
 from bearing_explorer.kit.plots import style
 from bearingcore import Diagnosis, MeasuredExtent, PartEvidence, Sizing
-from bearingcore.common import percent_off, probability
+from bearingcore.common import percent_off, probability, span
 from bearingcore.measured.diagnosis import LIKELY, NONE_SEEN, SLIP, perhaps_a_ball
 
 COUNTED = (
@@ -20,6 +23,9 @@ COUNTED = (
     "frequency and is missed. Count them, or take the frequencies from the maker's sheet."
 )
 """Follows "no damage seen" where the number of balls or rollers follows from a designation."""
+
+CHANGES = 1.05
+"""Highest speed over the lowest one from which both are said: measured ones scatter by less."""
 
 LENGTH_HIDDEN = "the length of the spall does not show"
 
@@ -98,10 +104,20 @@ def swing(depth: float) -> str:
 
 
 def turns(answer: Diagnosis) -> str:
-    """The shaft's speed for a sentence; empty where none is known."""
+    """The shaft's mean speed for a sentence; empty where none is known."""
     if answer.shaft_speed is None:
         return ""
     return f"{30.0 / math.pi * answer.shaft_speed:.0f} turns a minute"
+
+
+def speed_range(answer: Diagnosis, measured: Measured) -> str:
+    """The shaft's speed for a sentence, from least to most where it was measured and changes."""
+    if measured.speeds is None or answer.shaft_speed is None:
+        return turns(answer)
+    least, most = (30.0 / math.pi * float(end(measured.speeds)) for end in (np.min, np.max))
+    if most <= CHANGES * least:
+        return turns(answer)
+    return f"{span(least, most, 'turns a minute', 3)} (measured)"
 
 
 def speed_alone(machine: Machine) -> str:
@@ -155,7 +171,7 @@ def sentence(answer: Diagnosis, question: Question) -> str:
 
 def finding(answer: Diagnosis, question: Question) -> str:
     """The finding for a technician, with what it assumes."""
-    speed, doubt = turns(answer), assumed(question)
+    speed, doubt = speed_range(answer, question.measured), assumed(question)
     at = f" at {speed}" if speed else ""
     name = question.measured.machine.bearing_name
     head = f"bearing{f' {name}' if name else ''}{at}: "
@@ -179,7 +195,7 @@ def facts(answer: Diagnosis, question: Question) -> list[list[str]]:
     bearing = question.bearing
     angle = style.in_degrees(bearing.contact_angle)
     machine = question.measured.machine
-    speed, source = turns(answer), speed_source(answer, machine)
+    speed, source = speed_range(answer, question.measured), speed_source(answer, machine)
     rows = [
         ["Shaft", f"{speed}{machine.ratio_words}, {source}" if speed else source],
         ["Slip", f"balls up to {style.number(100.0 * SLIP, 2)} % slower or faster, assumed"],

@@ -25,6 +25,9 @@ SLOWEST = 0.5
 """Share of the highest speed below which the signal is left out: each turn gets as many samples as
 the slowest one has, and they may be no more than twice those that were measured."""
 
+KEPT_OF = 64
+"""Samples of the finely sampled turns, of which as many are kept as the measured rate has."""
+
 NARROW = 1.3
 """A range of given speeds whose ends differ by this factor at most says which turn is meant."""
 
@@ -65,6 +68,8 @@ def resample_to_steady_speed(
     source
         where the given speed is from.
     """
+    from scipy.signal import resample_poly  # imported late: see `spectrum`
+
     if recording.shaft_angle is None:
         return recording, low, high, source
     rate, looked_for = recording.sample_rate, high > NARROW * low
@@ -83,10 +88,12 @@ def resample_to_steady_speed(
         resample_over_turns(column, turns[part], per_turn)
         for column in recording.acceleration[part].T
     ]
+    # above half of the measured rate, at the mean speed, only the slow part holds anything
+    kept = math.floor(KEPT_OF * rate / (per_turn * mean))
     made = replace(
         recording,
-        acceleration=np.stack(columns, axis=1),
-        sample_rate=per_turn * mean,
+        acceleration=resample_poly(np.stack(columns, axis=1), kept, KEPT_OF, padtype="line"),
+        sample_rate=per_turn * mean * kept / KEPT_OF,
         shaft_angle=None,
     )
     if looked_for and USUAL[0] <= mean <= USUAL[1]:
@@ -118,12 +125,17 @@ def _mean_speed(turns: Array, rate: float) -> float:
 
 
 def _smooth_speed(turns: Array, rate: float) -> Array:
-    """Turns a second (n,) [Hz] in the mean of two turns around each sample."""
+    """Turns a second (n,) [Hz] in the mean of two turns around each sample.
+
+    In the first and last turn the speed goes on as it does beside them.
+    """
     last = len(turns) - 1
-    reach = max(1, math.ceil(rate / _mean_speed(turns, rate)))
-    index = np.arange(last + 1)
-    before, after = np.maximum(index - reach, 0), np.minimum(index + reach, last)
-    return np.asarray((turns[after] - turns[before]) / (after - before) * rate)
+    reach = min(max(1, math.ceil(rate / _mean_speed(turns, rate))), last // 4)
+    inside = (turns[2 * reach :] - turns[: -2 * reach]) / (2 * reach) * rate
+    past = np.arange(1, reach + 1) / reach
+    begin = inside[0] + past[::-1] * (inside[0] - inside[reach])
+    end = inside[-1] + past * (inside[-1] - inside[-1 - reach])
+    return np.concatenate([begin, inside, end])
 
 
 def followed_change(columns: Sequence[Array], rate: float, shaft: float) -> float:

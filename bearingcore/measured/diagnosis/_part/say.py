@@ -264,7 +264,13 @@ def healthy(detectable: float) -> str:
 
 
 def faint(part: PartEvidence) -> str:
-    """Sentence for lines too faint to name a part."""
+    """Sentence for lines too faint to name a part, or for impacts that show no line in any band."""
+    if part.level < part.noise:
+        return (
+            f"No line stands out, but the power of all bands together swings more at the frequency "
+            f"of the {part.part} ({number(part.frequency, 4)} Hz) than beside it, so that damage "
+            "cannot be excluded. Measure again, longer or closer to the bearing."
+        )
     return (
         f"There are faint lines at the frequency of the {part.part} "
         f"({number(part.frequency, 4)} Hz, {decibels(part.level)} above local noise; noise itself "

@@ -139,6 +139,20 @@ def test_a_counted_bearing_is_cleared_without_a_word_and_an_estimated_one_is_not
     assert "estimate" not in part_words.finding(diagnosis, question)
 
 
+@pytest.mark.parametrize("rises", [True, False])
+def test_a_measured_speed_that_changes_is_said_from_least_to_most(rises):
+    measured, diagnosis = heard("inner race"), diagnosed("inner race")
+    share = np.linspace(0.0, 1.0, len(measured.recording.acceleration))
+    turns = measured.recording.duration * 25.0 * share * (0.8 + 0.2 * share if rises else 1.0)
+    recording = dataclasses.replace(measured.recording, shaft_angle=2.0 * math.pi * turns)
+    machine = measured.machine.knowing(2.0 * math.pi * 25.0)
+    question = Question.about(dataclasses.replace(measured, recording=recording, machine=machine))
+    answer = dataclasses.replace(diagnosis, shaft_speed=2.0 * math.pi * 25.0)
+    speed = "1200 to 1800 turns a minute (measured)" if rises else "1500 turns a minute"
+    assert f" at {speed}: " in part_words.finding(answer, question)
+    assert dict(part_words.facts(answer, question))["Shaft"].startswith(f"{speed}, ")
+
+
 def test_a_part_that_is_hardly_told_is_only_probably_damaged():
     diagnosis = dataclasses.replace(diagnosed("inner race"), probability=0.8)
     assert part_words.headline(diagnosis) == "The inner race is probably damaged"

@@ -226,3 +226,15 @@ def test_a_speed_is_in_si_and_names_the_unit_of_the_file(
     in_si = {"rpm": math.pi / 30.0, "Hz": 2.0 * math.pi, "rad/s": 1.0}[unit]
     assert (speed.file_unit, speed.value) == (unit, pytest.approx(number * in_si, rel=1e-12))
     assert speed.in_file_unit == pytest.approx(number, rel=1e-12)
+
+
+@pytest.mark.parametrize("speed_first", [True, False])
+def test_what_rises_like_a_speed_is_no_sure_clock(speed_first: bool) -> None:
+    signal, speed = NOISE[:, :1], np.linspace(1200.0, 1800.0, len(NOISE))[:, None]
+    both = [speed, signal] if speed_first else [signal, speed]
+    rate: Any = read_table("run.csv", lines(np.hstack(both))).contents.sample_rate
+    assert not rate.taken
+    assert "if it is no speed: it rises from 1200 to 1800" in rate.reason
+    time = np.arange(len(NOISE))[:, None] / 8000.0
+    rate = read_table("a.csv", lines(np.hstack([time, signal, speed]))).contents.sample_rate
+    assert (rate.value, rate.taken) == (8000.0, True)

@@ -5,6 +5,7 @@ import json
 import math
 import os
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -18,6 +19,7 @@ from bearingcore.measured.diagnosis import (
     DiagnosisStatus,
     part_lines,
 )
+from bearingcore.measured.diagnosis._part import say
 from tests.bearingcore.measured.diagnosis.signals_made import (
     HEALTHY,
     Machine,
@@ -407,3 +409,10 @@ def test_measured_records_are_answered_as_the_scoreboard_says_and_none_wrongly()
     assert answers
     assert [record.name for record, one in answers if verdict(record, one) == WRONG] == []
     assert {record.name: one.fault for record, one in answers if record.name in board} == board
+
+
+@pytest.mark.parametrize(("level", "lines"), [(2.0, False), (6.0, True)])
+def test_a_line_below_what_noise_reaches_is_none(level, lines):
+    part = SimpleNamespace(part="ball", frequency=36.98, level=level, noise=4.4)
+    assert ("There are faint lines" in say.faint(part)) == lines
+    assert ("No line stands out" in say.faint(part)) != lines

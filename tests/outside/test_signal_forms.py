@@ -217,7 +217,9 @@ def test_a_catalogue_of_ones_own() -> None:
     compared="k_xx and k_yy that ROSS is given for a 6205 at rest", within=5e-3,
 )  # fmt: skip
 def test_the_bearing_that_ross_is_given(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(sys.modules, "ross", SimpleNamespace(BearingElement=SimpleNamespace))
+    monkeypatch.setitem(
+        sys.modules, "ross", SimpleNamespace(BearingElement=SimpleNamespace, __version__="2.0")
+    )
     case = CASES["ball"]
     rows = type(case.rows)(**{**vars(case.rows), "defect": None})
     cage = np.arange(72) * 2.0 * math.pi / 9 / 72

@@ -284,6 +284,8 @@ class BearingDrawing(ComparingView):
         healthy = results.reference.load_curves
         several: list[Sources] = []
         if not results.held:  # or the tip of the arrow would leave the hand
+            if results.before is None:  # at the start, and after a reset
+                self._bore_load.forget()
             self._bore_load.fit(radial_load(scene.load) / ARROW_LONGEST or self._bore_load.end)
         bore_load = self._bore_load.end
         for row in range(len(rows)):

@@ -24,6 +24,7 @@ function enlarging(model, root) {
 
   let cell = -1  // the one that fills the drawing; -1 if all are shown
   const explain = () => {
+    host()?.classList.toggle("of-cell", Boolean(model.cell_lines[cell]))  // which is of another term than its sentence
     if (model.cell_lines[cell]) part("line").innerHTML = model.cell_lines[cell]
     else part("line").textContent = model.line
   }

@@ -80,7 +80,7 @@ ROWS_OF_BALLS, ROWS_OF_ROLLERS = 0.7, 7.0 / 9.0
 LONGEST_DESIGNATION = 60
 
 _FORM = re.compile(
-    BEFORE + r"(?P<letters>NUP|NU|NJ|NF|N|B|HR)?[ -]?(?P<number>\d{3,5})(?P<suffix>\D.*)?"
+    BEFORE + r"(?:(?P<letters>NUP|NU|NJ|NF|N|B|HR)[ -]?)?(?P<number>\d{3,5})(?P<suffix>\D.*)?"
 )
 _ROWS_OF = {ANGULAR_CONTACT: ROWS_OF_BALLS, TAPERED_ROLLERS: ROWS_OF_ROLLERS} | dict.fromkeys(
     (DEEP_GROOVE, SELF_ALIGNING_BALLS, ROLLERS), 0.0

@@ -94,6 +94,7 @@ def test_a_cell_fills_the_screen_and_arrows_lead_to_the_next(desk: Visitor) -> N
     assert 1.0 < left < right < 2.0
     assert -2.0 < bottom < top < -1.0
     assert label == "k_yy over cage angle φc (°)"
+    expect(view.locator(".sentence").first).to_be_hidden(timeout=8000)
     view.get_by_role("button", name="Next cell").click()
     expect(steps).to_contain_text("k yz, 7 of 16")
     page.keyboard.press("ArrowLeft")

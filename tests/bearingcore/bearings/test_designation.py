@@ -212,7 +212,7 @@ def test_designations(text: str, basic: str, angle: float, clearance_class: str)
         assert designation.bearing.diametral_play == pytest.approx(0.5 * (least + most))
 
 
-@pytest.mark.parametrize("text", ["", "208", "22208", "6298", "hello", "6208" * 20])
+@pytest.mark.parametrize("text", ["", "-6205", "22208", "6298", "hello", "6208" * 20])
 def test_what_is_no_designation_is_refused_with_the_series(text: str) -> None:
     with pytest.raises(FieldError, match="60, 62, 63") as refused:
         read_designation(text)

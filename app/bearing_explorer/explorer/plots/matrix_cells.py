@@ -39,8 +39,8 @@ UNITS = ("N/m", "N/rad", "N·m/rad")
 """Units of stiffness with no, one and two rotations."""
 NEGLIGIBLE = 1e-6
 """Of the geometric mean of the two diagonal terms: rounding, not coupling."""
-ZERO = "0 by symmetry"
-"""Why a cell is empty."""
+ZEROS = ("", "0 by symmetry", "0: not resisted")
+"""Why a cell is empty; see `zero_kinds`."""
 
 PLACES = [(i, j) for i in range(5) for j in range(i, 5)]
 """Row and column of each term."""
@@ -188,6 +188,12 @@ def term_sizes(term: Callable[[str], NDArray[np.float64]]) -> list[float]:
 def cleaned(values: np.ndarray, scale: float) -> np.ndarray:
     """Rounding noise of a term that vanishes by symmetry, drawn as the zero that it is."""
     return np.where(np.abs(values) < NEGLIGIBLE * scale, 0.0, values)
+
+
+def zero_kinds(flat: Sequence[bool]) -> list[int]:
+    """Places in ZEROS of terms, which vanish where `flat`: a diagonal term not by symmetry."""
+    idle = {i for (i, j), zero in zip(PLACES, flat, strict=True) if zero and i == j}
+    return [zero + bool(zero and idle & {*place}) for place, zero in zip(PLACES, flat, strict=True)]
 
 
 def trace_limits(sticky: StickyRange, scale: float, *traces: np.ndarray) -> tuple[float, float]:

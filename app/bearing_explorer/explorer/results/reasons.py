@@ -16,8 +16,9 @@ from bearing_explorer.explorer.results.chain import LOWEST_PEAK, Peak, direction
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.element_words import element_name, elements
 from bearingcore import DOF_NAMES
+from bearingcore.common import prefixed_span
 from bearingcore.model.scene import DOF_SYMBOLS
-from bearingcore.model.statics import BALL_LOAD, TERM_SYMBOLS, drops_at
+from bearingcore.model.statics import BALL_LOAD, TERM_SYMBOLS, TERM_UNITS, drops_at
 from bearingcore.model.sweeps import mode_symbol
 
 if TYPE_CHECKING:
@@ -281,7 +282,7 @@ _LEVER = {"x": "cosα·cosφ", "y": "cosα·sinφ", "z": "sinα"}
 
 
 def stiffness_term(results: Results, term: str) -> str:
-    """Explain a term of the stiffness by what each contact adds to it; empty of most tilts."""
+    """Explain a term of the stiffness by what each contact adds to it."""
     states = results.equilibrium
     if not states.converged.any():
         return ""
@@ -292,9 +293,18 @@ def stiffness_term(results: Results, term: str) -> str:
     diagonal = (states.term(f"k_{dof}{dof}") for dof in (first, other))
     scale = math.sqrt(math.prod(float(np.nanmax(np.abs(values))) for values in diagonal))
     if size <= 1e-6 * scale:
+        if first == other:
+            return f"{symbol} is zero: no contact resists {DOF_SYMBOLS[first]}."
         return f"{symbol} is zero: {DOF_SYMBOLS[first]} and {DOF_SYMBOLS[other]} are not coupled."
     if not {first, other} <= _LEVER.keys():
-        return ""
+        span = prefixed_span(least, most, TERM_UNITS[term])
+        levers = f"levers of {DOF_SYMBOLS[first]} and {DOF_SYMBOLS[other]}"
+        if first == other:
+            levers = f"square of the lever of {DOF_SYMBOLS[first]}"
+        return (
+            f"{symbol} {'varies from' if ' to ' in span else 'is'} {span}: each contact adds its "
+            f"stiffness, multiplied by the {levers}."
+        )
     if first == other:
         why = ""
         if term in RADIAL and results.scene.defects and results.reference_label:
@@ -414,13 +424,19 @@ def passes(
     hertz = style.with_prefix(rate, "Hz")
     if not rate > 0.0:
         return ""
+    why = (
+        " No defect: a healthy bearing also shakes as its balls pass, because as they change "
+        "places the stiffness under the load changes."
+        if healthy
+        else ""
+    )
     if rate < SEPARATE * spacing:
         if briefly:
             return ""
         return (
             f"No peak at the ball-pass frequency, {hertz}: this spectrum resolves only "
             f"{spacing:.0f} Hz. Each pass is seen in time (Vibration, every "
-            f"{style.with_prefix(1.0 / rate, 's')}) and in the envelope (Diagnosis)."
+            f"{style.with_prefix(1.0 / rate, 's')}) and in the envelope (Diagnosis).{why}"
         )
     level = 10.0 * np.log10(np.maximum(density, 1e-20))
     at = round(rate / spacing)
@@ -433,7 +449,6 @@ def passes(
             return f"{text}there the level is {below}."
         return f"{text}so slow a force moves the housing little, {below}."
     most = float(frequency[int(np.argmax(level))])
-    why = " No defect: a healthy bearing shakes too as its balls pass." if healthy else ""
     if abs(most - max(round(most / rate), 1) * rate) <= 0.51 * spacing:
         return f"Peaks stand {hertz} apart, the ball-pass frequency.{why}"
     return f"A peak stands at the ball-pass frequency, {hertz}, {below}.{why}"

@@ -47,6 +47,7 @@ HIGHEST = 1.3  # of a ring with words above it, from the middle
 ROW_NAMES = 1.5  # below the middle of the rows: their names
 SIDE_ROOM = 0.55  # of the number of a bar at 0° or 180°, which has no more than that
 NUMBER_RIGHT, NUMBER_UP = 20.0, 13.0  # [px] from the ends of a bar: the middle of its number
+NUMBER_HALF, SIDE = 26.0, 1.25  # [px] half its width; from the middle, its bar's beginning at most
 MOST_NAMED = 4  # balls in a defect; more are counted
 LINE_PIXELS = 16.0
 KEYWAY = 0.09  # [rad] half its width
@@ -97,7 +98,9 @@ const high = above ? {HIGHEST} : half
 // the number on the lowest bar is below it, and larger numbers need more
 const low = 21*larger
 const room = 2*(h - above - low - 35*(larger - 1))/(high + {LOWEST})
-const unit = Math.min(w/shown.end, room, of_rows), x = w/unit
+// so does the number at 0°, which stands beside the ring
+const beside = (w - 2*({NUMBER_RIGHT} + {NUMBER_HALF})*larger)/(shown.end - half + {SIDE})
+const unit = Math.min(w/shown.end, room, of_rows, Math.max(beside, 0.3*w)), x = w/unit
 const start = (high - {LOWEST})/2 - (h - above + low)/unit, end = start + 2*h/unit
 plot.x_range.setv({{start: -x, end: x, reset_start: -x, reset_end: x}})
 plot.y_range.setv({{start, end, reset_start: start, reset_end: end}})
@@ -284,6 +287,8 @@ class BearingDrawing(ComparingView):
         healthy = results.reference.load_curves
         several: list[Sources] = []
         if not results.held:  # or the tip of the arrow would leave the hand
+            if results.before is None:  # at the start, and after a reset
+                self._bore_load.forget()
             self._bore_load.fit(radial_load(scene.load) / ARROW_LONGEST or self._bore_load.end)
         bore_load = self._bore_load.end
         for row in range(len(rows)):

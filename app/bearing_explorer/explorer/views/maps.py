@@ -39,6 +39,7 @@ from bearingcore import STIFFNESS_TERMS
 from bearingcore.model.statics import TERM_UNITS
 
 #: kinds of colour scales, as the browser knows them
+_CELL_COLUMNS = ("low", "high", "kind", "now", "unit", "zero")
 ONE_SIGN, TWO_SIGNS, COUNT, FLAT = 0, 1, 2, 3
 
 _TOOLTIP = (
@@ -118,7 +119,7 @@ class StiffnessMaps(View):
         plot = matrix_cells.matrix_figure(
             (-0.12, 5.23), (-5.1, 0.09), looks, 560, height=HEIGHT, name="maps_drawing"
         )
-        cells = packed.source("maps_cells", "low", "high", "kind", "now", "unit", *_PLACES_OF_CELLS)
+        cells = packed.source("maps_cells", *_CELL_COLUMNS, *_PLACES_OF_CELLS)
         grid = packed.source("maps_grid", *_GRID)
         ticks = packed.source("maps_ticks", "x", "y", "value", "at")
         now = packed.source("maps_now", "x", "y", *SIDES)
@@ -173,10 +174,11 @@ class StiffnessMaps(View):
 
         columns = dict(zip(("low", "high", "kind", "now", "unit"), np.array(cells).T,
                            strict=True))  # fmt: skip
+        zeros = matrix_cells.zero_kinds([cell[2] == FLAT for cell in cells[:-1]])
         grid = _grid(results)
         levels = high - low + 1
         sources: Sources = {
-            "maps_cells": {**columns, **_PLACES_OF_CELLS},
+            "maps_cells": {**columns, "zero": np.array([*zeros, 0]), **_PLACES_OF_CELLS},
             "maps_grid": {name: np.array([value]) for name, value in grid.items()},
             "maps_ticks": _tick_rows(grid, low, high),
             "maps_now": {**_marks(results, grid), **_SIDE_COLUMNS},
@@ -436,7 +438,7 @@ if (!unit) return row.now + (row.now == 1 ? ' ball' : ' balls') + ' at the cross
 return rounded(row.now/10**e, 3) + '\\u00a0' + names[e] + unit
 """
 _ZERO = f"{_UNIT}return unit && row.kind == 1 ? '0' : ''"
-_FLAT = f"return row.kind != 3 ? '' : narrow ? '0' : '{matrix_cells.ZERO}'"
+_FLAT = f"return row.zero && narrow ? '0' : {list(matrix_cells.ZEROS)}[row.zero]"
 _ONLY = "return row.at == %d ? String(Number(row.value.toPrecision(4))) + '%s' : ''"
 
 

@@ -104,6 +104,16 @@ class MassInTime(FoldedView[Results], PassageView):
         }
         return sources, self.ranges(shown.time, numbers, shown.loads)
 
+    @classmethod
+    def caption(cls, content: Results | None = None) -> str:
+        words = super().caption(content)
+        if content is None or content.scene.defects:
+            return words
+        return words.replace("the balls near the defect", "the two balls that carry most")
+
+    def title_of(self, content: Results) -> str:
+        return self.title if content.scene.defects else "Vibration with the mass of the balls"
+
     def words(self, results: Results) -> str:
         shown = results.ball_mass
         if shown.broke_off:

@@ -142,6 +142,9 @@ class SlowPassage(BearingDrawing):
             "slow_acceleration": self._acceleration.fit(peak),
         }
 
+    def title_of(self, content: Results) -> str:
+        return self.title if content.scene.defects else "The balls in slow motion"
+
     def sentence(self, results: Results) -> str:
         shown, bearing = results.excerpt, results.scene.bearing
         if shown.broke_off:

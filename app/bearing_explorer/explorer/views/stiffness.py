@@ -30,6 +30,8 @@ from bearingcore.model.statics import TERM_UNITS
 
 NARROWEST = 920
 """[px] width from which a cell has room for its symbol and its value."""
+NARROWEST_WITH_UNITS = 800
+"""[px] width from which it has room for the unit alone, as on paper."""
 LEFT = 0.31
 """Room for the numbers left of a cell."""
 
@@ -108,7 +110,8 @@ class Stiffness(ComparingView):
         )
         lines: list[list[tuple[np.ndarray, np.ndarray]]] = [[] for _ in shares]
         marks: list[tuple[float, float, float, float]] = []
-        heads: list[tuple[float, float, float, float, float]] = []
+        heads: list[tuple[float, float, float, float]] = []
+        flat: list[bool] = []
 
         def put(
             cell: Cell, limits: tuple[float, float], xs: list[np.ndarray], *ys: np.ndarray
@@ -129,8 +132,8 @@ class Stiffness(ComparingView):
             marks.append((float(cell.x(np.array(now_share))), at, cell.bottom, cell.top))
             zero = float(np.clip(cell.y(np.array(0.0), limits), cell.bottom, cell.top))
             known = [term[np.isfinite(term)] for term in terms]
-            flat = any(map(len, known)) and not np.concatenate(known).any()
-            heads.append((*limits, at_now, zero, flat))
+            flat.append(any(map(len, known)) and not np.concatenate(known).any())
+            heads.append((*limits, at_now, zero))
 
         counts = [np.where(e.converged, e.loaded_balls, np.nan) for e in answers]
         low, high = self._ball_limits.fit(*counts)
@@ -144,7 +147,7 @@ class Stiffness(ComparingView):
         balls = float(now.loaded_balls[0]) if now.converged[0] else math.nan
         at = float(_BALLS.y(np.array(balls), limits))
         marks.append((float(_BALLS.x(np.array(now_share))), at, _BALLS.bottom, _BALLS.top))
-        heads.append((*limits, balls, _BALLS.bottom, False))
+        heads.append((*limits, balls, _BALLS.bottom))
 
         drawn, reference, *others = (layers.with_gaps(line, "x", "y") for line in lines)
         mark, head = np.array(marks).T, np.array(heads).T
@@ -156,7 +159,8 @@ class Stiffness(ComparingView):
             "stiffness_cells": {
                 **_PLACE_COLUMNS,
                 "foot": _IS_FOOT * float(results.along(last)),
-                **dict(zip(("low", "high", "now", "zero", "flat"), head, strict=True)),
+                **dict(zip(("low", "high", "now", "zero"), head, strict=True)),
+                "flat": np.array([*matrix_cells.zero_kinds(flat), 0]),
             },
             "stiffness_crossings": matrix_cells.crossing_lines(results, _FRAMES),
             "stiffness_axis": {"shaft": np.array([float(results.over_shaft)])},
@@ -226,6 +230,7 @@ return {
   y: {first: low, last: high, factor: 10**e, unit: unit ? names[e] + unit : '', words: ''},
 }
 """
+_NOW_WORDS = "current cage angle"
 _AXIS_WORDS = "return row.shaft ? 'Shaft angle φs, one turn' : 'Cage angle φc'"
 
 
@@ -248,7 +253,7 @@ def _static_parts(plot: figure) -> ColumnDataSource:
     upright = {"x0": [LEFT + 0.075], "x1": [LEFT + 0.075], "y0": [y[2] - 0.06], "y1": [y[2] + 0.06]}
     plot.segment(**upright, line_color=style.INK, line_alpha=0.45)
     plot.scatter([LEFT + 0.075], [y[2]], size=6, color=style.DEFECTIVE, line_color="white")
-    legend = ColumnDataSource({"x": [LEFT + 0.195] * 3, "y": y, "text": ["", "", "now"]})
+    legend = ColumnDataSource({"x": [LEFT + 0.195] * 3, "y": y, "text": ["", "", _NOW_WORDS]})
     look = {"text_font_size": style.TEXT_SIZE, "text_color": style.INK}
     write(plot, legend, "return row.text", text_baseline="middle", **look)
     return legend
@@ -257,7 +262,7 @@ def _static_parts(plot: figure) -> ColumnDataSource:
 def _legend_words(scene: Scene) -> list[str]:
     """Words of the legend: blue, grey, and the upright line."""
     own = "with the defect" if scene.defects else "this bearing, without a defect"
-    return [own, "healthy bearing", "now"]
+    return [own, "healthy bearing", _NOW_WORDS]
 
 
 _UNIT = f"const unit = {[*UNITS, '']}[row.unit]\n"
@@ -267,14 +272,19 @@ const e = unit ? power(Math.max(Math.abs(row.low), Math.abs(row.high))) : 0
 return minus(String(Number((row.%s/10**e).toPrecision(4))))
 """
 _NOW = f"""{_UNIT}
-if (narrow || row.flat) return ''  // it would lie on the symbol
+if (row.flat) return ''
+const e = power(Math.max(Math.abs(row.low), Math.abs(row.high)))
+if (narrow) {{  // the value would lie on the symbol
+  let wide = false
+  try {{ wide = plot.inner_width > {NARROWEST_WITH_UNITS}*larger }} catch {{}}
+  return wide && unit ? names[e] + unit : ''
+}}
 if (isNaN(row.now)) return 'no value'
 if (!unit) return rounded(row.now, 3)
-const e = power(Math.max(Math.abs(row.low), Math.abs(row.high)))
 return rounded(row.now/10**e, 4) + '\\u00a0' + names[e] + unit
 """
 _FLAT = f"""
-return !row.flat ? '' : narrow ? '0' : '{matrix_cells.ZERO}'
+return row.flat && narrow ? '0' : {list(matrix_cells.ZEROS)}[row.flat]
 """
 _FOOT = "return row.foot ? rounded(%s, narrow ? 3 : 4) + '°' : ''"
 

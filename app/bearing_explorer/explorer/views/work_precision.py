@@ -38,6 +38,7 @@ ALLOWED = {"dB": 0.1, "1": 0.01}
 UNORDERED = 1.0
 """Order of convergence below which shorter steps gain little."""
 BEYOND = "no vibration at all, so no error in dB"
+ABOVE = " It lies above the line because the page filters the acceleration, unlike this chart."
 NOT_YET = "Nothing was measured beforehand for this chart: “Measure on this machine” draws it."
 SHORTEST = 100.0
 """Least quotient of the ends of an axis."""
@@ -329,7 +330,9 @@ def sentence(one: Experiment, error: str) -> str:
         parts.append(f"None is within {limit}; the nearest is {said(one, error, frontier[-1])}")
     used = [p for p in one.points if p.in_use and error in p.errors and p not in within[:1]]
     parts += [f"in use: {said(one, error, point)}" for point in used]
-    return "; ".join(parts) + "."
+    words = "; ".join(parts) + "."
+    above = any(point.errors[error] > allowed for point in used)
+    return words + (ABOVE if above and one.name == "motion" else "")
 
 
 def details(one: Experiment, error: str) -> str:

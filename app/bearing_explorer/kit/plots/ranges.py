@@ -62,6 +62,10 @@ class StickyRange:
             self._fitted = True
         return self.start, self.end
 
+    def forget(self) -> None:
+        """Fit the next numbers anew."""
+        self._fitted = False
+
     def _extremes(self, values: tuple[ArrayLike, ...]) -> tuple[float, float]:
         low, high = math.inf, -math.inf
         for value in values:

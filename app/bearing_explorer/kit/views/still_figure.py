@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import re
 import tempfile
 import webbrowser
 from collections.abc import Callable, Mapping
@@ -156,7 +157,9 @@ class Figure(Generic[C]):
             raise FieldError(
                 "suffix of path", path.suffix, f".html: {self.view.name} has no figure"
             )
-        note, _ = parts_of(self.results.in_words(self.view.caption(self.results)), key_alone=False)
+        caption = self.results.in_words(self.view.caption(self.results))
+        # paper is not clicked
+        note, _ = parts_of(re.sub(r"Click[^.]*\. ?", "", caption), key_alone=False)
         printed.print_figures(self.document, note, path, width)
 
     def show(self) -> None:

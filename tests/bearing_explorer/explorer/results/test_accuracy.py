@@ -70,7 +70,7 @@ def test_words_name_the_reference_and_what_failed() -> None:
     assert "Fastest within 0.1 dB, and in use: RK4, 32768 (1 ms, 0.01 dB)" in said
     points = (replace(EXPERIMENT.points[0], errors={"spectrum": 0.11}), *EXPERIMENT.points[1:])
     above = sentence(replace(EXPERIMENT, points=points), "spectrum")
-    assert above.endswith("; in use: RK4, 32768 (1 ms, 0.11 dB).")
+    assert "; in use: RK4, 32768 (1 ms, 0.11 dB). It lies above the line because" in above
 
 
 def test_the_verdict_compares_the_cheapest_of_two_programs_that_are_near_enough() -> None:

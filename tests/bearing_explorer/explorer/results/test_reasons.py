@@ -17,7 +17,7 @@ from bearing_explorer.explorer.views.vibration_spectrum import why_words
 from bearing_explorer.explorer.views.vibration_time import VibrationInTime
 from bearing_explorer.kit.serve.packed_source import PackedSource
 
-from bearingcore import DOF_NAMES, Scene, equilibrium, presets
+from bearingcore import DOF_NAMES, STIFFNESS_TERMS, Scene, equilibrium, presets
 
 RIG = presets["fan-rig"]
 SIDEWAYS = RIG.replace(fx=100.0, fy=0.0)
@@ -98,7 +98,11 @@ def test_stiffness_falls_as_balls_push_back_sideways_or_as_fewer_carry() -> None
 
 def test_each_term_is_what_the_contacts_add() -> None:
     """k·cos²φ, k·sin²φ and k·sinφ·cosφ of all contacts, with k as the cube root of the load."""
-    why = {term: reasons.stiffness_term(of(RIG), term) for term in ("k_xx", "k_xy", "k_yy", "k_xz")}
+    why = {term: reasons.stiffness_term(of(RIG), term) for term in STIFFNESS_TERMS}
+    assert all(text.startswith(("Each contact", "k_")) for text in why.values())
+    assert "square of the lever of θx" in why["k_rxrx"]
+    rollers = Results(presets["nu208"], UNDER)
+    assert reasons.stiffness_term(rollers, "k_zz") == "k_zz is zero: no contact resists z."
     assert "adds k·(cosα·cosφ)² to k_xx" in why["k_xx"]
     assert "fewer balls carry" in why["k_yy"]
     assert "k_xz is zero" in why["k_xz"]
@@ -128,9 +132,9 @@ def test_a_peak_is_in_a_band_or_at_a_multiple_of_the_ball_passes() -> None:
     assert "lies in no band of y. It is the line nearest 10 × 172.7 Hz" in fast
     assert "Peaks stand 173 Hz apart" in fast
     rate = FAST.bearing.bpfo(FAST.shaft_speed)
-    healthy = why_words(of(FAST.healthy()))
-    assert "No defect: a healthy bearing shakes too as its balls pass." in healthy
-    assert "healthy" not in fast
+    for scene in (RIG, FAST):  # too slow to be resolved, and a line that stands out
+        assert "No defect: a healthy bearing also shakes as its" in why_words(of(scene.healthy()))
+    assert "healthy" not in fast + slow
     assert 10 * rate == pytest.approx(1728, abs=16)
 
 

@@ -100,6 +100,7 @@ def test_the_arrow_is_as_long_as_the_load_says_while_a_hand_holds_it_and_fits_at
     length, promised, parts = drawn(5000.0, False)
     assert length == pytest.approx(promised)
     assert (length < 0.6, parts) == (True, 1), "let go of, it lies within the bore again"
+    assert drawn(100.0, False) == at_rest, "a reset brings its scale back"
 
 
 @pytest.mark.parametrize(("extent", "inside"), [(12.9, 0), (25.8, 1), (60.0, 2)])

@@ -86,6 +86,7 @@ def test_scales_are_of_the_kind_that_a_term_needs() -> None:
         assert cells["low"][i] == -cells["high"][i]
     radial = sent(Results(FAN_RIG))["maps_cells"]
     assert radial["kind"][STIFFNESS_TERMS.index("k_xz")] == FLAT
+    assert radial["zero"][STIFFNESS_TERMS.index("k_xz")] == 1, "by symmetry"
     assert radial["now"][STIFFNESS_TERMS.index("k_xz")] == 0.0
 
 

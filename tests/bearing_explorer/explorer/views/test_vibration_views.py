@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 from bearing_explorer.explorer.results.excerpt import Event
 from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.explorer.views.passage_view import EVENT_ROWS, LABEL_WIDTH
+from bearing_explorer.explorer.views.mass_time import MassInTime
+from bearing_explorer.explorer.views.passage_view import EVENT_ROWS, LABEL_WIDTH, PassageView
+from bearing_explorer.explorer.views.slow_passage import SlowPassage
 from bearing_explorer.explorer.views.vibration_spectrum import (
     VibrationSpectra,
     pass_frequencies,
@@ -87,6 +89,12 @@ def test_the_largest_peak_is_that_of_the_whole_spectrum_and_is_in_the_picture(sp
     assert f"{largest:.0f} Hz along y" in view.sentence(results)
     assert view.data(results)[1]["spectrum_frequency"][1] >= max(largest, 2500.0)
     assert (largest > 5000.0) == (speed > 7.0)
+
+
+@pytest.mark.parametrize("kind", [VibrationInTime, SlowPassage, MassInTime])
+def test_a_healthy_bearing_has_no_defect_in_its_words(kind: type[PassageView]) -> None:
+    healthy, view = Results(FAN_RIG.healthy()), kind(PackedSource())
+    assert "defect" not in view.title_of(healthy) + view.caption(healthy)
 
 
 def test_a_picture_that_is_of_an_earlier_scene_is_faded(results: Results) -> None:

@@ -144,7 +144,7 @@ def _limerick(path: Path) -> Record:
 
 
 def _uestc(path: Path) -> Record:
-    """The stated speeds are nominal: the shaft's own lines are up to 95 turns a minute beside them."""
+    """The stated speeds are nominal; the shaft's own lines are up to 95 rpm beside them."""
     part, turns, _ = path.stem.split("_")
     signal = np.asarray(loadmat(path)["Data"], dtype=float).reshape(-1)
     return Record(

@@ -96,10 +96,10 @@ def test_a_cell_fills_the_screen_and_arrows_lead_to_the_next(desk: Visitor) -> N
     assert label == "k_yy over cage angle φc (°)"
     expect(view.locator(".sentence").first).to_be_hidden(timeout=8000)
     view.get_by_role("button", name="Next cell").click()
-    expect(steps).to_contain_text("k yz, 7 of 16")
+    expect(steps).to_contain_text("kyz, 7 of 16")
     page.keyboard.press("ArrowLeft")
     page.keyboard.press("ArrowLeft")
-    expect(steps).to_contain_text("k xθy, 5 of 16")
+    expect(steps).to_contain_text("kxθy, 5 of 16")
     page.keyboard.press("Escape")
     expect(steps).to_be_hidden()
     assert page.evaluate(RANGES) == whole

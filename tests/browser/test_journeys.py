@@ -669,6 +669,8 @@ def test_two_people_do_not_disturb_each_other_and_share_a_link(
     visitor.wait(lambda: visitor.page.evaluate("navigator.clipboard.readText()") == link)
     other_page.bring_to_front()
     other_page.goto(link)
+    other.steady()
+    other.read_more()
     other.reads(re.compile(re.escape(_stiffest(FAN.replace(extent=math.radians(38.6))))))
     assert other.number("Length of the defect") == 38.6
     other_page.close()

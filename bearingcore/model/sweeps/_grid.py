@@ -165,17 +165,16 @@ class Grid:
     def dims_of(self, output: str) -> tuple[str, ...]:
         """Dimensions of an output."""
         if OUTPUTS[output].per_sample:
-            several = isinstance(self.settings.seed, tuple)
-            return (*self.dims, SEED, SAMPLE) if several else (*self.dims, SAMPLE)
+            seeds = (SEED,) if self.settings.has_several_seeds else ()
+            return (*self.dims, *seeds, SAMPLE)
         return (*self.dims, MODE) if OUTPUTS[output].per_mode else self.dims
 
     def shape_of(self, output: str, shape: Sequence[int] | None = None) -> tuple[int, ...]:
         """Shape of an output over the grid, or over a region of this shape."""
         part = tuple(self.shape if shape is None else shape)
         if OUTPUTS[output].per_sample:
-            samples = len(self.settings.record_time)
-            several = isinstance(self.settings.seed, tuple)
-            return (*part, len(self.settings.seeds), samples) if several else (*part, samples)
+            seeds = (len(self.settings.seeds),) if self.settings.has_several_seeds else ()
+            return (*part, *seeds, len(self.settings.record_time))
         return (*part, len(self.labels)) if OUTPUTS[output].per_mode else part
 
     def scene_at(self, index: Sequence[int]) -> Scene:

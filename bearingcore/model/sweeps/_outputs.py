@@ -321,6 +321,11 @@ class Settings:
         return self.seed if isinstance(self.seed, tuple) else (self.seed,)
 
     @property
+    def has_several_seeds(self) -> bool:
+        """True if seeds are a dimension of records, also of a single one in a list."""
+        return isinstance(self.seed, tuple)
+
+    @property
     def record_time(self) -> Array:
         """(n,) [s] times of the samples of a record."""
         return np.arange(round(self.duration * self.sample_rate)) / self.sample_rate
@@ -557,9 +562,9 @@ def _record(
         for seed in settings.seeds
     ]
     signals = np.stack([record.acceleration for record in records])  # (seeds, n, directions)
+    drawn = signals if settings.has_several_seeds else signals[0]
     for axis, name in enumerate(records[0].directions):
-        several = isinstance(settings.seed, tuple)
-        numbers[f"record_{name}"] = signals[:, :, axis] if several else signals[0, :, axis]
+        numbers[f"record_{name}"] = drawn[..., axis]
     return SweepStatus.COMPLETE
 
 

@@ -70,7 +70,7 @@ def coordinates(grid: Grid) -> dict[str, NDArray[Any]]:
         values[MODE] = np.array(grid.labels)
     if any(OUTPUTS[name].per_sample for name in grid.outputs):
         values[SAMPLE] = grid.settings.record_time
-        if isinstance(grid.settings.seed, tuple):
+        if grid.settings.has_several_seeds:
             values[SEED] = np.array(grid.settings.seed)
     return values
 

@@ -68,10 +68,10 @@ def resample_to_steady_speed(
     source
         where the given speed is from.
     """
-    from scipy.signal import resample_poly  # imported late: see `spectrum`
-
     if recording.shaft_angle is None:
         return recording, low, high, source
+    from scipy.signal import resample_poly  # imported late: see `spectrum`
+
     rate, looked_for = recording.sample_rate, high > NARROW * low
     turns = recording.shaft_angle / (2.0 * math.pi)
     mean = _mean_speed(turns, rate)

@@ -173,6 +173,12 @@ class Measured:
         return speed_over_time(self.recording, self.shaft_speed)
 
     @cached_property
+    def speed_limits(self) -> tuple[float, float] | None:
+        """Least and greatest [rad/s] of `speeds`; None without."""
+        speeds = self.speeds
+        return None if speeds is None else (float(speeds.min()), float(speeds.max()))
+
+    @cached_property
     def shaft_share(self) -> float:
         """Share of the velocity's power in the shaft's own lines; NaN if it is not known."""
         if self.shaft_speed is None or not self.in_si:

@@ -98,9 +98,9 @@ class MeasuredSpectrum(FrequencyView):
         words = f"Above 100 Hz the highest line{measured.along(shown.direction)} is "
         words += _highest(shown.measured, unit, size)
         words += f"; resolution {style.number(shown.resolution, 2)} Hz."
-        if measured.speeds is None:
+        if measured.speed_limits is None:
             return words
-        least, most = (30.0 / math.pi * end(measured.speeds) for end in (np.min, np.max))
+        least, most = (30.0 / math.pi * speed for speed in measured.speed_limits)
         return f"{words} The shaft turned at {span(least, most, 'rpm', 4)}."
 
 

@@ -6,8 +6,6 @@ import dataclasses
 import math
 from typing import Any
 
-import numpy as np
-
 from bearing_explorer.diagnosis.diagnoses import Question
 from bearing_explorer.diagnosis.machine import Machine
 from bearing_explorer.diagnosis.signal import Measured
@@ -112,9 +110,9 @@ def turns(answer: Diagnosis) -> str:
 
 def speed_range(answer: Diagnosis, measured: Measured) -> str:
     """The shaft's speed for a sentence, from least to most where it was measured and changes."""
-    if measured.speeds is None or answer.shaft_speed is None:
+    if measured.speed_limits is None or answer.shaft_speed is None:
         return turns(answer)
-    least, most = (30.0 / math.pi * float(end(measured.speeds)) for end in (np.min, np.max))
+    least, most = (30.0 / math.pi * speed for speed in measured.speed_limits)
     if most <= CHANGES * least:
         return turns(answer)
     return f"{span(least, most, 'turns a minute', 3)} (measured)"

@@ -52,9 +52,11 @@ class MassInTime(FoldedView[Results], PassageView):
     title = "A ball with mass passes the defect"
     about = (
         "In colour with the mass of the balls, in grey without. Above: housing acceleration. "
-        "Below: loads of the balls near the defect, full at the outer race, dashed at the inner. "
+        "Below: loads of {balls}, full at the outer race, dashed at the inner. "
         "Shaded: a ball touches neither race."
     )
+    balls = "the balls near the defect"
+    healthy_title = "Vibration with the mass of the balls"
     needs = frozenset({"ball_mass"})
     prefix = "mass"
 
@@ -103,16 +105,6 @@ class MassInTime(FoldedView[Results], PassageView):
             "mass_events": event_rows(shown, float(shown.time[0]), float(shown.time[-1])),
         }
         return sources, self.ranges(shown.time, numbers, shown.loads)
-
-    @classmethod
-    def caption(cls, content: Results | None = None) -> str:
-        words = super().caption(content)
-        if content is None or content.scene.defects:
-            return words
-        return words.replace("the balls near the defect", "the two balls that carry most")
-
-    def title_of(self, content: Results) -> str:
-        return self.title if content.scene.defects else "Vibration with the mass of the balls"
 
     def words(self, results: Results) -> str:
         shown = results.ball_mass

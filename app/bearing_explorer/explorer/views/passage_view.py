@@ -41,6 +41,7 @@ ROW_HEIGHT = 0.065  # of its height
 ROW_PIXELS = 17.0  # of the names of events
 EVENT_ROWS = 3
 
+MOST_LOADED = "the two balls that carry most"
 NAMED = ("element", "ball", "row", "roller")  # columns that name a ball
 BALL = "${row.roller ? 'roller' : 'ball'} ${row.ball}${row.row ? ` of row ${row.row}` : ''}"
 """The name of a ball in a template of JavaScript."""
@@ -51,6 +52,17 @@ class PassageView(ComparingView):
 
     #: of the names of sources and ranges
     prefix: ClassVar[str]
+    #: the balls that are drawn, for "{balls}" of `about`, and the title without a defect
+    balls: ClassVar[str]
+    healthy_title: ClassVar[str]
+
+    @classmethod
+    def caption(cls, content: Results | None = None) -> str:
+        healthy = content is not None and not content.scene.defects
+        return super().caption(content).replace("{balls}", MOST_LOADED if healthy else cls.balls)
+
+    def title_of(self, content: Results) -> str:
+        return self.title if content.scene.defects else self.healthy_title
 
     def upper_figures(self) -> Sequence[tuple[style.AxisQuantity, int, Sequence[Layer]]]:
         """Quantity, height [px] and layers of the figures of acceleration."""

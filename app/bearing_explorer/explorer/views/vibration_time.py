@@ -33,7 +33,6 @@ from bearing_explorer.kit.views.base import Ranges, Sources
 from bearingcore import Bearing
 
 ACCELERATION = style.AxisQuantity("Acceleration", "a", "m/s²", prefixed=True)
-_MOST_LOADED = "loads of the two balls that carry most"
 EVENT_WORDS = f"""
 const does = row.enters ? 'enters' : 'leaves'
 const words = `{BALL} ${{does}}`
@@ -49,9 +48,11 @@ class VibrationInTime(PassageView):
     name = "vibration-time"
     title = "Vibration as balls pass the defect"
     about = (
-        "Above: acceleration of the housing, blue x, orange y. Below: load of the balls that enter "
-        "or leave the defect; thin: their static loads."
+        "Above: acceleration of the housing, blue x, orange y. Below: load of {balls}; thin: their "
+        "static loads."
     )
+    balls = "the balls that enter or leave the defect"
+    healthy_title = "Vibration in time"
     needs = frozenset({"excerpt"})
     prefix = "vibration"
 
@@ -89,16 +90,6 @@ class VibrationInTime(PassageView):
         }
         carried = np.append(shown.ball_load.ravel(), shown.greatest_static_load)
         return sources, self.ranges(shown.time, numbers, carried)
-
-    @classmethod
-    def caption(cls, content: Results | None = None) -> str:
-        words = super().caption(content)
-        if content is None or content.scene.defects:
-            return words
-        return words.replace("load of the balls that enter or leave the defect", _MOST_LOADED)
-
-    def title_of(self, content: Results) -> str:
-        return self.title if content.scene.defects else "Vibration in time"
 
     def sentence(self, results: Results) -> str:
         shown = results.excerpt

@@ -3,17 +3,16 @@
 What is true follows from the names of four public collections: Case Western Reserve University
 (`cwru`), Society for Machinery Failure Prevention Technology (`mfpt`), FEMTO-ST (`femto`) and
 HIT-SM (`hitsm`, with spalls of known length on both races). Three further machines had no part in
-choosing anything of the diagnosis (`OTHER_MACHINES`, by the names of their folders): HIT-SM's own
-rig, a machinery fault simulator at Limerick (github.com/analogdevicesinc/CbM-Datasets), and a rig
-of the University of Electronic Science and Technology of China
-(github.com/ChangLiu2024/UESTC-Bearing-Dataset).
+choosing anything of the diagnosis: HIT-SM's own rig (`hitsm-self-built`), a machinery fault
+simulator at Limerick (`limerick`, github.com/analogdevicesinc/CbM-Datasets), and a rig of the
+University of Electronic Science and Technology of China (`uestc`,
+github.com/ChangLiu2024/UESTC-Bearing-Dataset).
 """
 
 import math
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
-from glob import glob
 from pathlib import Path
 
 import numpy as np
@@ -77,7 +76,6 @@ GRADES = {
 """Records of the drive end at 12 kHz, by how Smith and Randall graded them by hand (Mechanical
 Systems and Signal Processing 64-65, 2015): Y1, Y2 clear, P1, P2 probable, N1 not possible."""
 
-OTHER_MACHINES = ("hitsm-self-built", "limerick", "uestc")
 ER_12K = (8, 0.3125 * 25.4, 1.318 * 25.4)
 """The fault simulator's bearing by its maker, with a shaft of 3/4 inch. The collection does not
 name it; the lines of its damaged races are those of this one, and not of the ER-16K."""
@@ -92,7 +90,7 @@ FEMTO_RPM = {"Bearing1": 1800.0, "Bearing2": 1650.0}
 
 def records(folder: Path) -> Iterator[Record]:
     """The records of a folder and its folders, in the order of their names."""
-    for path in sorted(Path(file) for file in glob(f"{folder}/**/*.*", recursive=True)):
+    for path in sorted(folder.rglob("*")):
         if path.parent.name == "limerick":
             yield _limerick(path)
         elif path.parent.parent.name == "uestc":

@@ -178,7 +178,7 @@ def judge(records: Iterable[Record], write: bool) -> int:
         left_out(rows)
         print(f"all machines together set {fitted(rows)}")
     if write:
-        board = {"bins": BINS, "share_right": share_right(rows), "records": rows}
+        board = {"share_right": share_right(rows), "records": rows}
         text = json.dumps(board, indent=None if others else 1, ensure_ascii=False)
         text = text.replace('}, {"machine', '},\n{"machine')
         (OTHERS_FILE if others else FILE).write_text(text + "\n", encoding="utf-8")

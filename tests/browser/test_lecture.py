@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from typing import Any
 from xml.etree import ElementTree
 
@@ -315,6 +316,16 @@ WHOLE_FIGURES = """() => {
 }"""
 
 
+def tabs_at_rest(page: Page) -> Iterator[str]:
+    """The names of all tabs, each once its figures are drawn."""
+    for section in SECTIONS:
+        show(page, section.name)
+        rest(page)
+        if section.name == "over-speed":  # its picture comes by itself
+            expect(page.locator(".view-speed-run canvas:visible").first).to_be_visible()
+        yield section.name
+
+
 @pytest.mark.parametrize("link", ["", pytest.param("#projector", marks=pytest.mark.proof)])
 def test_the_first_screen_of_each_tab_has_a_whole_figure(
     page: Page, explorer: Server, link: str
@@ -324,15 +335,11 @@ def test_the_first_screen_of_each_tab_has_a_whole_figure(
     page.goto(f"{explorer.url}{link}")
     page.wait_for_function("window.__frames >= 1")
     without = []
-    for section in SECTIONS:
-        show(page, section.name)
-        rest(page)
-        if section.name == "over-speed":  # its picture comes by itself
-            page.wait_for_function(f"({WHOLE_FIGURES})()[1]")
+    for name in tabs_at_rest(page):
         if page.evaluate(WHOLE_FIGURES)[1]:
             page.wait_for_function(f"({WHOLE_FIGURES})()[0]", timeout=20_000)
         else:
-            without.append(section.name)
+            without.append(name)
     assert without == ["bearing", "model", "life", "diagnosis", "paper"]
 
 
@@ -358,16 +365,12 @@ def test_a_figure_is_seen_without_scrolling_past_controls(
     page.goto(explorer.url)
     page.wait_for_function("window.__frames >= 1")
     without = []
-    for section in SECTIONS:
-        show(page, section.name)
-        rest(page)
-        if section.name == "over-speed":  # its picture comes by itself
-            expect(page.locator(".view-speed-run canvas:visible").first).to_be_visible()
+    for name in tabs_at_rest(page):
         seen, controls = page.evaluate(FIRST_FIGURE)
         if not seen:
-            without.append(section.name)
+            without.append(name)
         else:
-            assert (seen > 0.3 * screen[1], controls) == (True, 0), (section.name, seen)
+            assert (seen > 0.3 * screen[1], controls) == (True, 0), (name, seen)
     assert without == ["model", "life", "diagnosis", "paper"]
 
 

@@ -378,13 +378,19 @@ def test_a_bearing_that_the_file_names_is_taken_and_can_be_changed():
     assert made.measured.machine.source_of("bearing") == "given"
 
 
+async def answered_first():
+    """A measurement whose first file has a bearing and a speed by hand."""
+    made = measuring()
+    await bring(made, "first.csv", csv_of(NOISE[:, :1], "time [s],a [g]"))
+    made.take_form({**made.state.values, "bearing": "designation", "designation": "6205",
+                    "speed": "given", "shaft_speed": "1500 rpm"})  # fmt: skip
+    await settled(made)
+    return made
+
+
 def test_bearing_and_speed_are_kept_for_the_next_file_unless_that_says_otherwise():
     async def steps() -> None:
-        made = measuring()
-        await bring(made, "first.csv", csv_of(NOISE[:, :1], "time [s],a [g]"))
-        made.take_form({**made.state.values, "bearing": "designation", "designation": "6205",
-                        "speed": "given", "shaft_speed": "1500 rpm"})  # fmt: skip
-        await settled(made)
+        made = await answered_first()
         assert made.state.kept_from == ""
         await bring(made, "second.csv", csv_of(NOISE[::-1, :1], "time [s],a [g]"))
         assert made.measured.machine.kept == {"bearing", "speed"}
@@ -418,11 +424,7 @@ def test_bearing_and_speed_are_kept_for_the_next_file_unless_that_says_otherwise
 
 def test_an_answer_that_is_typed_again_or_confirmed_is_given_for_this_file():
     async def steps() -> None:
-        made = measuring()
-        await bring(made, "first.csv", csv_of(NOISE[:, :1], "time [s],a [g]"))
-        made.take_form({**made.state.values, "bearing": "designation", "designation": "6205",
-                        "speed": "given", "shaft_speed": "1500 rpm"})  # fmt: skip
-        await settled(made)
+        made = await answered_first()
         await bring(made, "second.csv", csv_of(NOISE[::-1, :1], "time [s],a [g]"))
         for text in ("", "6205"):
             made.take_form({**made.state.values, "designation": text})

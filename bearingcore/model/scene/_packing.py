@@ -91,7 +91,7 @@ def pack(scene: Scene, dofs: tuple[str, ...] | None = None, *, balls: bool = Fal
     free = scene.active_dofs if dofs is None else dofs
     units = length_units(scene)
     load = kernels.StaticLoad(scene.load.vector / units, direction_numbers(free))
-    both = races(scene, 1.0) if balls else None
+    both = races(scene, 1.0, weight=True) if balls else None
     defects, bearing = scene.defects, scene.bearing
     rows, every = own_rows(bearing), contacts(bearing)
     whole = path_tables(defects, bearing)
@@ -181,12 +181,12 @@ def path(scene: Scene, race: str | None = None) -> kernels.Path:
     return path_tables(defects, scene.bearing)
 
 
-def races(scene: Scene, contact_damping: float) -> kernels.Races:
+def races(scene: Scene, contact_damping: float, *, weight: bool) -> kernels.Races:
     """Both contacts of each ball, its mass and the loads on it.
 
     contact_damping: c [N·s/m] of both contacts in series. It is shared so that balls without mass
     would move as the published law has them: damping over stiffness alike on both sides. Alike
-    contacts have 2 c each.
+    contacts have 2 c each. `weight`: whether the balls' weight acts.
     """
     owns = own_rows(scene.bearing)
     softer = [(own.race_factors[0] / own.race_factors[1]) ** (1.0 / own.kind.exponent)
@@ -210,7 +210,7 @@ def races(scene: Scene, contact_damping: float) -> kernels.Races:
         mass=each(own.ball_mass for own in owns),
         inverse_mass=each(1.0 / own.ball_mass for own in owns),
         centrifugal=each(own.centrifugal_load(scene.shaft_speed) for own in owns),
-        weight=each(own.ball_mass * STANDARD_GRAVITY for own in owns),
+        weight=each(own.ball_mass * STANDARD_GRAVITY if weight else 0.0 for own in owns),
     )
 
 

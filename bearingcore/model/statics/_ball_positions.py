@@ -164,6 +164,7 @@ def ball_positions(
     massless = equilibrium_of(packed, cage_angles, shaft_angles)
     assert packed.balls is not None
     races = packed.balls.races
+    races = races._replace(weight=np.zeros_like(races.weight))
     if centrifugal_load is not None:
         races = races._replace(centrifugal=np.full_like(races.mass, centrifugal_load))
     if massless.cost:

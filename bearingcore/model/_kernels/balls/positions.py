@@ -1,6 +1,6 @@
 """Static ball positions under centrifugal load: still the minimum of a convex energy.
 
-With a ball's place b free in the plane through it, and F its centrifugal load,
+With a ball's place b free in the plane through it, and F its radial load (centrifugal, weight),
 
     V(q, b) = Σ_j [ E_i(δ_i,j) + E_e(δ_e,j) − F_j b_r,j ] − F·q,   E(δ) = K/(n + 1) δ^(n+1),
 
@@ -193,7 +193,7 @@ def settle_ball(r, z, j, balls, places):
     races = balls.races
     factor = races.factor[OUTER, j]
     exponent = balls.contacts.exponent[j]
-    force = races.centrifugal[j]
+    force = races.centrifugal[j] - races.weight[j] * places.s[j]
     if places.known[j] > 0.0:
         br = places.place[0, j]
         bz = places.place[1, j]

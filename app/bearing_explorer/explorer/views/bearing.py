@@ -38,7 +38,7 @@ from bearingcore.common import table_of
 from bearingcore.model.scene import ball_angles
 
 # The drawing measures lengths in outer raceway radii: its ranges never move.
-HALF_WIDTH, OF_A_ROW = 1.62, 1.7  # the second of each of several rows, whose numbers need more
+HALF_WIDTH, OF_A_ROW = 1.62, 1.76  # the second of each of several rows, whose numbers need more
 HEIGHT, STILL_HEIGHT = 250, 520  # [px] at least, with the scale of colours; outside of the page
 BAR_START = 0.05  # beyond the outer ring
 BAR_LENGTH = 0.26  # of a ball that carries the greatest load of the colour bar

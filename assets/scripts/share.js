@@ -71,14 +71,11 @@ export function render({ model }) {
     name.value = ""
   })
   const tool = (words, title, act, attributes = {}) => button(words, act, { title, ...attributes })
-  const list_compared = (names) => part("compared").replaceChildren(...names.map((own, number) => {
-    const box = element("input", { type: "text", maxlength: String(LONGEST_NAME), "aria-label": `Name of curve ${number + 1}` })
-    box.value = own
-    box.addEventListener("change", () => ask(model, { number, rename: box.value }))
-    return element("li", {}, element("i", { class: `line line-${number}`, "aria-hidden": "true" }), box,
+  const list_compared = (names) => part("compared").replaceChildren(...names.map((own, number) =>
+    element("li", {}, element("i", { class: `line line-${number}`, "aria-hidden": "true" }),
+      element("span", {}, own),
       tool("\u00d7", `Compare “${own}” no longer`, asks({ number, remove: true }),
-           { "aria-label": `Remove curve “${own}”` }))
-  }))
+           { "aria-label": `Remove curve “${own}”` }))))
   const save_kept = (items) => {
     try {
       localStorage.setItem(KEPT, JSON.stringify(items))

@@ -59,7 +59,7 @@ class LinksChange(SceneChange, omit_defaults=True):
     compare_here
         the name under which the current scene is drawn too; empty for the usual one.
     number
-        which of the compared scenes to `remove`, or to `rename`.
+        which of the compared scenes to `remove`.
     keep
         the name under which the browser keeps the current scene.
     want
@@ -78,7 +78,6 @@ class LinksChange(SceneChange, omit_defaults=True):
     compare_here: str | None = None
     number: Annotated[int, msgspec.Meta(ge=0)] | None = None
     remove: bool = False
-    rename: str | None = None
     keep: str | None = None
     want: str | None = None
     report: str | None = None

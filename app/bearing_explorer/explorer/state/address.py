@@ -11,9 +11,8 @@ The rules of version 1, which later versions go on reading:
 
 - `v` is 1, also where it is missing, `preset` a name of `bearingcore.presets`. What follows is left
   out where it is as in the preset; so the numbers of a preset must not change (a test holds them).
-- A number is in the unit of its name, or in SI with ``SI`` behind it where that is shorter or no
-  number in that unit stands for the very same scene. ``none`` is an optional number left open.
-  Whatever is written is read back to the last bit.
+- A number is in the unit of its name, with the twelve digits that the page shows. ``none`` is an
+  optional number left open. Earlier links have some numbers in SI, with ``SI`` behind them.
 - Of several defects (`defects` says how many) the second has its names behind ``defect2.``, and so
   on; each says what differs from the first defect of the preset. `selected` is the one the sliders
   move.
@@ -178,12 +177,11 @@ def opened(text: str, editor: SceneEditor) -> Place:
     compared: tuple[Reference, ...] = ()
     try:
         place = read(text)
-        note = "" if place else _known_pairs(text)[1]
-        if place is not None:
-            tab, note, compared = place.tab, place.note, place.compared
-            editor.take_scene(
-                place.scene, place.preset, place.selected, place.cage_angle, place.name
-            )
+        if place is None:
+            note = _known_pairs(text)[1]
+        else:
+            tab, note, compared = place.tab or TAB_OF_OLD_LINKS, place.note, place.compared
+            show_place(place, editor)
     except ValueError as error:
         why = sentence_of(error)
         if match := _TAB.search(text[:LONGEST_TEXT]):
@@ -204,12 +202,9 @@ def lesson_in(text: str) -> tuple[str, str]:
     return match[1], (text[: match.start()] + text[match.end() :]).removeprefix("&")
 
 
-def holds_scene(text: str) -> bool:
-    """True if a text says something about a scene that can be read."""
-    try:
-        return read(text) is not None
-    except ValueError:
-        return False
+def show_place(place: Place, editor: SceneEditor) -> None:
+    """Show the scene of a place on an editor; ValueError where the page cannot hold it."""
+    editor.take_scene(place.scene, place.preset, place.selected, place.cage_angle, place.name)
 
 
 def place_of(editor: SceneEditor, tab: str = "") -> Place:
@@ -286,12 +281,8 @@ def _floor_pairs(floor: object, left_out: bool) -> Iterable[tuple[str, str]]:
 
 
 def number_text(field: Field, value: float | None) -> str:
-    """The shortest text of a number in SI of which `_number` makes the very same."""
-    if value is None:
-        return "none"
-    shown = (float(f"{value / field.factor:.{digits}g}") for digits in (12, 15, 16, 17))
-    exact = [_short(digit) for digit in shown if field_values.si_number(field, digit) == value]
-    return min([*exact, _short(value) + "SI"], key=len)
+    """Text of a number in SI, in the unit of the field."""
+    return "none" if value is None else _short(field_values.shown_number(field, value))
 
 
 def rows_text(rows: tuple[Row, ...]) -> str:

@@ -15,21 +15,20 @@ from urllib.parse import urlencode
 from bearing_explorer.explorer.state.address import (
     LONGEST_LINK,
     LONGEST_TEXT,
-    TAB_OF_OLD_LINKS,
     Place,
-    holds_scene,
     leaves_out,
     lesson_in,
     opened,
     place_of,
     read,
+    show_place,
     write,
 )
 from bearing_explorer.explorer.state.difference import distinct_name
 from bearing_explorer.explorer.state.field_values import CAGE_ANGLE
 from bearing_explorer.explorer.state.history import History
 from bearing_explorer.explorer.state.references import MOST_COMPARED, Reference, scene_line
-from bearing_explorer.explorer.state.scene_editor import LONGEST_NAME, SceneEditor, Snapshot
+from bearing_explorer.explorer.state.scene_editor import LONGEST_NAME, SceneEditor
 from bearing_explorer.kit.sentences import one_line, sentence_of
 from bearingcore import Scene
 from bearingcore.common import LARGEST_TEXT
@@ -89,12 +88,12 @@ class Bookmarks:
         self.has_scene = bool(address)
         place = opened(address, editor)
         #: the section that is on screen; at first empty where the address says nothing of a scene
-        self.tab = place.tab or (TAB_OF_OLD_LINKS if holds_scene(address) else "")
+        self.tab = place.tab
         self._said = (0, place.note)
-        self._history: History[Snapshot] = History(editor.snapshot())
+        self._history: History[SceneEditor] = History(editor.snapshot())
         # scenes that are drawn too; one without a name is named by what differs
         self._compared: tuple[Reference, ...] = place.compared
-        self._left: tuple[Snapshot, tuple[Reference, ...], str] | None = None
+        self._left: tuple[SceneEditor, tuple[Reference, ...], str] | None = None
 
     def begin_anew(self, tab: str) -> None:
         """The scene that the editor has now is the one to begin with."""
@@ -110,8 +109,10 @@ class Bookmarks:
     def compared(self) -> tuple[Reference, ...]:
         """Scenes that are drawn too."""
         return tuple(
-            one if one.name else replace(one, name=self._usual_name(one.scene, one.bearing))
-            for one in self._compared
+            reference
+            if reference.name
+            else replace(reference, name=self._usual_name(reference.scene, reference.bearing))
+            for reference in self._compared
         )
 
     def _usual_name(self, scene: Scene, bearing: str) -> str:
@@ -188,9 +189,7 @@ class Bookmarks:
             self._compare(place.scene, request.name)
             return True
         try:
-            self._editor.take_scene(
-                place.scene, place.preset, place.selected, place.cage_angle, place.name
-            )
+            show_place(place, self._editor)
         except ValueError as error:
             self.say(f"{request.name}: {sentence_of(error)}")
             return False
@@ -200,18 +199,12 @@ class Bookmarks:
         return True
 
     def change_compared(self, message: Mapping[Any, Any]) -> None:
-        """Add the scene of now, rename or remove compared scenes, where a message says so."""
+        """Add the current scene to those compared, or remove one, where a message says so."""
         if isinstance(name := message.get("compare_here"), str):
             self._compare(self._editor.scene, one_line(name, LONGEST_NAME), self._editor.name)
-        compared = list(self._compared)
         number = message.get("number")
-        if not isinstance(number, int) or number >= len(compared):
-            return
-        if message.get("remove") is True:
-            del compared[number]
-        if isinstance(name := message.get("rename"), str) and number < len(compared):
-            compared[number] = replace(compared[number], name=name_of(name))
-        self._compared = tuple(compared)
+        if message.get("remove") is True and isinstance(number, int):
+            self._compared = self._compared[:number] + self._compared[number + 1 :]
 
     def _compare(self, scene: Scene, name: str, bearing: str = "") -> None:
         if len(self._compared) == MOST_COMPARED:

@@ -67,7 +67,7 @@ from msgspec.structs import fields
 from bearing_explorer.explorer.state.address import OTHER_NAMES_OF_TABS
 from bearing_explorer.explorer.state.choice_list import CHOICE_LIST
 from bearing_explorer.explorer.state.field_values import FIELD_BY_KEY, SCENE_GROUPS, SHOWN_FIELDS
-from bearing_explorer.explorer.state.scene_editor import SceneEditor, Snapshot
+from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.kit.assets import asset_path
 from bearing_explorer.kit.simulated_signals import NOISES
 from bearingcore import presets
@@ -385,18 +385,16 @@ class _Checks:
         return made
 
     @cached_property
-    def _begun(self) -> tuple[SceneEditor, Snapshot]:
+    def _begun(self) -> SceneEditor:
         editor = SceneEditor(self.head.preset)
         values, choices = self.scene()
         editor.choose(choices)
         editor.set(values)
-        return editor, editor.snapshot()
+        return editor
 
     def editor(self) -> SceneEditor:
-        """The scene that the lesson begins with; the same editor each time, set back."""
-        editor, at_first = self._begun
-        editor.restore(at_first)
-        return editor
+        """The scene that the lesson begins with."""
+        return self._begun.snapshot()
 
 
 def _hint(name: str, known: Sequence[str]) -> str:

@@ -7,6 +7,7 @@ checked here, and a refused one leaves all as it was, with a sentence.
 from __future__ import annotations
 
 import contextlib
+import copy
 import dataclasses
 import math
 from collections.abc import Callable, Iterable, Mapping
@@ -94,28 +95,12 @@ class CatalogueOrigin:
     bearing: Bearing
 
 
-class Snapshot:
-    """All that a `SceneEditor` holds at one time. Two are equal where a person sees no change."""
-
-    def __init__(self, editor: SceneEditor) -> None:
-        #: by the names of the editor's fields, lists and tables as copies
-        self.held = {
-            name: value.copy() if isinstance(value := getattr(editor, name), list | dict) else value
-            for name in ("scene", "preset", "selected", "own_name", "origin", "begun",
-                         "values", "limits")
-        }  # fmt: skip
-        seen = (editor.scene, editor.preset, editor.own_name, editor.origin)
-        self._seen = *seen, editor.values[CAGE_ANGLE]
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, Snapshot) and self._seen == other._seen
-
-    __hash__ = None  # type: ignore[assignment]
-
-
-@dataclass
+@dataclass(eq=False)
 class SceneEditor:
-    """The state of the controls, and the scene that they stand for."""
+    """The state of the controls, and the scene that they stand for.
+
+    Its tables are replaced and never changed: a shallow copy keeps a whole state.
+    """
 
     preset: str
     scene: Scene = field(init=False)
@@ -173,14 +158,23 @@ class SceneEditor:
         self.values = {}
         self._write_values(cage_angle)
 
-    def snapshot(self) -> Snapshot:
-        """The whole state, for `restore`."""
-        return Snapshot(self)
+    def __eq__(self, other: object) -> bool:
+        """True if a person sees no difference."""
+        return isinstance(other, SceneEditor) and self._seen == other._seen
 
-    def restore(self, kept: Snapshot) -> None:
-        """All as it was when the snapshot was taken."""
-        for name, value in kept.held.items():
-            setattr(self, name, value.copy() if isinstance(value, list | dict) else value)
+    __hash__ = None  # type: ignore[assignment]
+
+    @property
+    def _seen(self) -> tuple[object, ...]:
+        return self.scene, self.preset, self.own_name, self.origin, self.values[CAGE_ANGLE]
+
+    def snapshot(self) -> SceneEditor:
+        """The whole state, for `restore`."""
+        return copy.copy(self)
+
+    def restore(self, kept: SceneEditor) -> None:
+        """Set all as it was when the snapshot was taken."""
+        vars(self).update(vars(kept))
 
     @property
     def effects(self) -> Mapping[str, str]:
@@ -304,9 +298,7 @@ class SceneEditor:
             return refused | {name: sentence_of(error) for name in taken}, {}
         before = self.values
         self._take(scene, cage_angle=taken.get(CAGE_ANGLE))
-        self.values |= taken
-        for name, value in taken.items():
-            self.limits[name] = self.limits[name].around(value)
+        self._hold(self.values | taken)
         changed = {
             name: value for name, value in self.values.items() if differ(before[name], value)
         }
@@ -347,14 +339,19 @@ class SceneEditor:
         turned = self.values.get(CAGE_ANGLE, 0.0) if cage_angle is None else cage_angle
         fresh = {**values_of(self.scene, self.selected), CAGE_ANGLE: turned}
         # a typed number stays as typed, whatever its last digit is in SI
-        self.values = {
-            name: self.values[name]
-            if name in self.values and _close(self.values[name], fresh[name])
-            else fresh[name]
-            for name in FIELD_BY_KEY
-        }
-        for name, value in self.values.items():
-            self.limits[name] = self.limits[name].around(value)
+        self._hold(
+            {
+                name: self.values[name]
+                if name in self.values and _close(self.values[name], fresh[name])
+                else fresh[name]
+                for name in FIELD_BY_KEY
+            }
+        )
+
+    def _hold(self, values: Values) -> None:
+        """Hold values, each within its limits, which widen around it."""
+        self.values = values
+        self.limits = {name: self.limits[name].around(value) for name, value in values.items()}
 
     # Choices
 

@@ -45,7 +45,7 @@ def test_presets_editors_and_floors_are_undone(editor: SceneEditor, bookmarks: B
     for kept in seen[-2::-1]:
         assert bookmarks.go({"undo": True})
         assert editor.snapshot() == kept
-        assert editor.values == kept.held["values"]
+        assert editor.values == kept.values
     for kept in seen[1:]:
         assert bookmarks.go({"redo": True})
         assert editor.snapshot() == kept
@@ -79,9 +79,10 @@ def test_a_link_holds_the_compared_scenes(editor: SceneEditor, bookmarks: Bookma
     address = bookmarks.state()["address"]
     assert address.endswith("&tab=overview") or "&tab=overview&" in address
     again = Bookmarks(other := SceneEditor("fan-rig"), address)
-    assert again.compared == bookmarks.compared
-    assert other.scene == editor.scene
-    assert again.state()["address"] == address
+    assert [one.name for one in again.compared] == [one.name for one in bookmarks.compared]
+    assert [len(one.scene.defects) for one in again.compared] == [1, 2, 2]
+    assert len(other.defects) == len(editor.defects)
+    assert again.state()["address"] == address, "which has every number of these scenes"
 
 
 @pytest.mark.parametrize(

@@ -151,15 +151,15 @@ def main(arguments: Sequence[str] | None = None) -> int:
     gc.disable()  # nothing of what is loaded is garbage, and looking takes an eighth of the time
     from bearing_explorer.kit.compute import compiling
     from bearing_explorer.kit.serve.serving import Limits, freeze_startup_objects, make_server
-    from bearing_explorer.page import faults_of, lessons_of, page, scene
+    from bearing_explorer.page import lessons_of, page, scene
 
-    for sentence in faults_of(chosen.lessons) if chosen.lessons else ():
-        _say(f"Lessons: {sentence}")
+    for lesson in lessons_of(chosen.lessons):  # kept: the first page need not read them
+        if isinstance(lesson, scene.Fault):
+            _say(f"Lessons: {lesson.sentence}")
     from bearingcore import model, warm
 
     gc.freeze()
     gc.enable()
-    lessons_of(chosen.lessons)  # kept: the first page need not read them
     compiled = scene is None or compiling.all_on_disk()
     if scene is not None and not model.kept_on_disk():
         _say(NOT_KEPT)

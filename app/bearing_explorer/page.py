@@ -115,11 +115,6 @@ def lessons_of(folder: Path | None = None) -> Any:
     return scene.lessons_in(folder, TABS) if folder else scene.own_lessons(TABS)
 
 
-def faults_of(folder: Path) -> tuple[str, ...]:
-    """Sentences on those lessons of a folder that cannot be read."""
-    return tuple(scene.faults_in(folder, TABS)) if scene else ()
-
-
 def page(lessons: Path | None = None) -> PageTemplate:
     """Make the page of a new session; lessons of the folder `lessons` replace the program's own."""
     if scene is not None:
@@ -144,12 +139,12 @@ def page(lessons: Path | None = None) -> PageTemplate:
         **{name: helps.get(name, "") for name in ("glossary", "bearing_picture", "python_lines")},
     }.items():
         template.add_variable(name, text)
-    if explorer is not None:
-        template.add_panel("lesson", explorer.lesson)
-        template.add_panel("controls", stack(explorer.share, explorer.controls))
-    else:
-        template.add_panel("lesson", pn.Spacer(width=0, height=0))
-        template.add_panel("controls", pn.Spacer(width=0, height=0))
+    lesson = explorer.lesson if explorer else pn.Spacer(width=0, height=0)
+    controls = (
+        stack(explorer.share, explorer.controls) if explorer else pn.Spacer(width=0, height=0)
+    )
+    template.add_panel("lesson", lesson)
+    template.add_panel("controls", controls)
     template.add_panel("tabs", session.tabs)
     template.add_panel("main", session.main)
     template.add_panel("status", session.status)

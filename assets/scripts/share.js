@@ -32,7 +32,6 @@ export function render({ model }) {
   const root = markup(SHARE, {
     undo: asks({ undo: true }),
     redo: asks({ redo: true }),
-    back: asks({ back: true }),
     reset: () => {
       ask(model, { reset: true })
       for (const zoomed of inside(document)) if (zoomed.matches(".home")) zoomed.click()
@@ -107,7 +106,7 @@ export function render({ model }) {
   let shown = null, said = null, named = ""
   let going = null  // the tab that Back leads to, until it is shown
   follow(model, ["state"], () => {
-    const { address, whole, undo, redo, said: sentence, left, scene, compared, usual_name } = model.state
+    const { address, whole, undo, redo, said: sentence, scene, compared, usual_name } = model.state
     part("undo").disabled = !undo
     part("redo").disabled = !redo
     link.value = `${location.origin}${location.pathname}?${address}`
@@ -128,7 +127,6 @@ export function render({ model }) {
     }
     shown = address
     if (said !== sentence.number) say(sentence.words)
-    part("back").hidden = !left
     said = sentence.number
   })
   window.addEventListener("popstate", ({ state: place }) => {

@@ -9,8 +9,8 @@ from bearing_explorer.explorer.half import Explorer
 from bearing_explorer.explorer.results import default_results
 from bearing_explorer.explorer.state import glossary
 from bearing_explorer.explorer.state.lessons import (
+    Fault,
     Tabs,
-    faults_in,
     lessons_in,
     own_lessons,
 )
@@ -48,9 +48,9 @@ from bearingcore import presets
 __all__ = [
     "SECTIONS",
     "Explorer",
+    "Fault",
     "Tabs",
     "begin_compiling",
-    "faults_in",
     "figure_of",
     "help_texts",
     "lessons_in",

@@ -189,17 +189,17 @@ class Explorer(Half):
                 self.show_links()
             self.draw()  # even a refusal is answered, or the browser would wait for its mark
 
-    def _set(self, given: Mapping[Any, Any], confirm: bool) -> None:
+    def _set(self, numbers: Mapping[Any, Any], confirm: bool) -> None:
         """Take numbers; what is refused stays as it was, with a sentence.
 
         A slider knows where it is; what was typed is confirmed as it was understood.
         """
         editor = self.editor
         was_changed, had_effects = editor.changed, editor.effects
-        refused, changed = editor.set(given)
-        names = [name for name in changed if name not in given]
+        refused, changed = editor.set(numbers)
+        names = [name for name in changed if name not in numbers]
         if confirm:
-            names += [name for name in given if name in editor.values and name not in refused]
+            names += [name for name in numbers if name in editor.values and name not in refused]
         if had_effects and not editor.effects:
             self.show_controls(state=editor.state())
         elif names or was_changed != editor.changed:
@@ -225,11 +225,8 @@ class Explorer(Half):
             self._report(message["report"][:_LONGEST_LINK], message)
         if "mark" not in message:
             return
-        tab = self.bookmarks.back() if message.get("back") else ""
-        if self.bookmarks.go(message) or tab:
+        if self.bookmarks.go(message):
             self.show_controls(state=self.editor.state())
-        if tab:
-            self.page.show_tab({"show": tab})
         self.bookmarks.change_compared(message)
         if (wanted := open_request_of(message)) is not None:
             self.jobs.answer(
@@ -245,7 +242,6 @@ class Explorer(Half):
         """Open what a link of the page's own holds, and its tab."""
         request = OpenRequest("open", name, text)
         place = read_request(request)
-        self.bookmarks.leave()
         self._taken(lambda _, opened: self.bookmarks.take(request, opened), name, place)
         if isinstance(place, Place):
             self.page.show_tab({"show": place.tab})
@@ -301,10 +297,6 @@ class Explorer(Half):
         closed = message.get("lesson") == ""
         lesson = self.lesson.begin(message.get("lesson"), again=not words_only)
         begins = not (words_only or closed)
-        if lesson is not None and begins and not self.bookmarks.lesson:
-            self.bookmarks.leave()
-        if closed and self.bookmarks.lesson and self.bookmarks.can_go_back:
-            self.bookmarks.say("The lesson is closed.")
         if lesson is not None or closed:
             self.bookmarks.lesson = "" if lesson is None else lesson.name
         if begins:

@@ -52,8 +52,6 @@ class LinksChange(SceneChange, omit_defaults=True):
 
     Attributes
     ----------
-    back
-        to where one was before a figure of the paper or a lesson.
     open, file, compare
         a scene that is to be opened, from the browser or from a file, or drawn too.
     compare_here
@@ -71,7 +69,6 @@ class LinksChange(SceneChange, omit_defaults=True):
 
     undo: bool = False
     redo: bool = False
-    back: bool = False
     open: TextFile | None = None
     file: TextFile | None = None
     compare: TextFile | None = None

@@ -26,14 +26,13 @@ from bokeh.models import (
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
-from bearing_explorer.explorer.results.defect_shape import crossings
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.plots import printed, style
 from bearing_explorer.kit.plots.layers import Glyph, Words, segments
 from bearing_explorer.kit.plots.ranges import StickyRange
 from bearingcore import DOF_NAMES
-from bearingcore.model.statics import TERM_SYMBOLS
+from bearingcore.model.statics import TERM_SYMBOLS, crossings
 
 UNITS = ("N/m", "N/rad", "N·m/rad")
 """Units of stiffness with no, one and two rotations."""
@@ -165,8 +164,8 @@ def crossing_lines(results: Results, cells: Sequence[Cell]) -> dict[str, NDArray
     """
     first, last, _ = results.stretch
     met = crossings(results.scene, first, last)
-    share = np.array([(angle - first) / (last - first) for angle, _ in met])
-    number = np.array([element + 1.0 for _, element in met])
+    share = np.array([(event.cage_angle - first) / (last - first) for event in met])
+    number = np.array([event.ball + 1.0 for event in met])
     x = np.concatenate([cell.x(share) for cell in cells])
     low, high = (np.repeat([getattr(c, side) for c in cells], share.size) for side in SIDES[2:])
     element = np.tile(number if results.over_shaft else -number, len(cells))

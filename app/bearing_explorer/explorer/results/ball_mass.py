@@ -64,9 +64,8 @@ class BallMass:
 
     Attributes
     ----------
-    scene, sample_rate [Hz], samples
-        what moves, and for how many samples.
-    step_rates : {balls: step rate} [Hz]
+    scene, sample_rate [Hz]
+        what moves.
     broke_off
         why one of the motions ended early; empty if none did.
     time : (n,) [s]
@@ -94,8 +93,6 @@ class BallMass:
 
     scene: Scene
     sample_rate: float
-    samples: int
-    step_rates: dict[str, float]
     broke_off: str
     time: Array
     massless: dict[str, Array]
@@ -189,8 +186,6 @@ def compare_motions(massless: Motion, heavy: Motion, since: float) -> BallMass:
     return BallMass(
         scene=scene,
         sample_rate=rate,
-        samples=len(heavy.time),
-        step_rates={motion.scene.balls: motion.step_rate for motion in (massless, heavy)},
         broke_off=next((why_ended(m) for m in (massless, heavy) if not m.completed), ""),
         time=time,
         massless=seen[0],

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bearingcore import Equilibrium, Scene, Spectrum
 from bearingcore.common import ResultTable, table_of
@@ -120,10 +121,11 @@ def chain_of(
     state = ranges.state
     bad = np.flatnonzero(~state.converged)
     terms = [f"k_{dof}{dof}" for dof in state.dofs]
+    off_line = (state.ball_angle - direction(scene) + math.pi) % (2.0 * math.pi) - math.pi
     return Chain(
         answered=1.0 - float(state.shares[bad].sum()),
         reason=state.reason(int(bad[0])) if bad.size else "",
-        off_line=mean_angle_off_line(state, scene),
+        off_line=mean_by_load(state, np.abs(off_line)),
         direction=direction(scene),
         greatest_load=ranges.greatest[BALL_LOAD],
         loaded_balls=ranges.mean(np.where(state.converged, state.loaded_balls, math.nan)),
@@ -131,30 +133,16 @@ def chain_of(
         bands={label: band for label, band in bands.items() if math.isfinite(band[0])},
         peaks=peaks,
         silent=silent,
-        upright=upright(state),
+        upright=mean_by_load(state, np.cos(state.contact_angle) ** 2),
     )
 
 
-def upright(state: Equilibrium) -> float:
-    """Mean cos²α of loaded balls, each by what it carries; NaN where none does."""
+def mean_by_load(state: Equilibrium, values: NDArray[np.float64]) -> float:
+    """Mean of values (n, N_b) of the balls, each by what its ball carries; NaN where none does."""
     carried = np.where(state.converged[:, None], state.ball_load, 0.0) * state.shares[:, None]
-    total = carried.sum()
-    if not total > 0.0:
-        return math.nan
-    radial = np.where(carried > 0.0, np.cos(state.contact_angle) ** 2, 0.0)
-    return float((carried * radial).sum() / total)
-
-
-def mean_angle_off_line(state: Equilibrium, scene: Scene) -> float:
-    """Mean angle [rad] between the loaded balls and the radial load, each by what it carries."""
-    load = scene.load
-    carried = np.where(state.converged[:, None], state.ball_load, 0.0) * state.shares[:, None]
-    total = carried.sum()
-    if not (math.hypot(load.fx, load.fy) > 0.0 and total > 0.0):
-        return math.nan
-    apart = state.ball_angle - math.atan2(load.fy, load.fx)
-    apart = np.abs((apart + math.pi) % (2.0 * math.pi) - math.pi)
-    return float((carried * apart).sum() / total)
+    total = float(carried.sum())
+    loaded = carried > 0.0
+    return float((carried[loaded] * values[loaded]).sum() / total) if total > 0.0 else math.nan
 
 
 def direction(scene: Scene) -> float:
@@ -170,7 +158,9 @@ def have_same_order(label: str, *bands: Mapping[str, tuple[float, float]]) -> bo
     `ALIKE` of each other are in any order.
     """
     other = {"x": "y", "y": "x"}.get(label[:-1], "") + label[-1]
-    pairs = [(sum(own[label]), sum(own[other])) for own in bands if label in own and other in own]
+    pairs = [
+        (sum(band[label]), sum(band[other])) for band in bands if label in band and other in band
+    ]
     return len({a > b for a, b in pairs if max(a, b) > ALIKE * min(a, b)}) <= 1
 
 

@@ -13,7 +13,6 @@ from bearing_explorer.kit.compute import compiling
 from bearing_explorer.kit.compute.cache import cached
 from bearingcore import Scene
 from bearingcore.common import ResultTable, table_of
-from bearingcore.model.scene import ball_angles
 from bearingcore.model.statics import ball_drop
 
 TWO_PI = 2.0 * math.pi
@@ -64,23 +63,6 @@ def pieces(span: Span) -> list[tuple[float, float]]:
     if end <= TWO_PI:
         return [(span.start, end)]
     return [(span.start, TWO_PI), (0.0, end - TWO_PI)]
-
-
-def crossings(scene: Scene, first: float, last: float) -> list[tuple[float, int]]:
-    """Return when rolling elements pass an edge of a defect, from one cage angle [rad] to another.
-
-    Pairs of the cage angle and the number of the element, row after row from 0.
-    """
-    bearing, events = scene.bearing, []
-    angle = ball_angles(bearing, np.array([first]))[0]
-    for defect, span in zip(scene.defects, spans(scene, first), strict=True):
-        for row, elements in enumerate(bearing.balls_of_rows):
-            rate = bearing.pace(row) - defect.turn_ratio(bearing)  # of an element past the edge
-            for edge in (span.start, span.start + span.extent) if span.meets(row) else ():
-                turn = np.sign(rate) * (edge - angle[elements]) % TWO_PI / abs(rate)
-                here = np.flatnonzero(turn < last - first)
-                events += [(first + float(turn[k]), elements.start + int(k)) for k in here]
-    return events
 
 
 def race_depth(

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any, TypeVar
 
 from bearing_explorer.kit.compute import compiling
 from bearing_explorer.kit.compute.cache import cached
@@ -83,6 +85,8 @@ class Endurance:
     assumed: str
 
 
+Result = TypeVar("Result")
+
 _LIFE_ASSUMES = "Life assumes usual ones, by which no limit is judged"
 
 
@@ -111,26 +115,24 @@ def endurance(scene: Scene, inputs: LifeInputs) -> Endurance:
             )
     lasting = healthy = None
     if rating is not None:
-        try:
-            lasting = life(scene, rating)
-            healthy = life(scene.healthy(), rating)
-        except ValueError as error:
-            no_life = sentence_of(error)
+        lasting, no_life = _answer(life, scene, rating)
+        healthy, no_healthy_life = _answer(life, scene.healthy(), rating)
+        no_life = no_life or no_healthy_life
     state = _state_of_contacts(scene)
-    pressures, no_pressures = None, ""
-    try:
-        pressures = contact_pressures(scene, state)
-    except ValueError as error:
-        no_pressures = sentence_of(error)
-    oil, no_film = None, ""
-    try:
-        oil = film_of(scene, inputs, state)
-    except ValueError as error:
-        no_film = sentence_of(error)
+    pressures, no_pressures = _answer(contact_pressures, scene, state)
+    oil, no_film = _answer(film_of, scene, inputs, state)
     return Endurance(
         *(lasting, healthy, no_life, rating, rating_words),
         *(pressures, no_pressures, oil, no_film, assumed),
     )
+
+
+def _answer(compute: Callable[..., Result], *arguments: Any) -> tuple[Result | None, str]:
+    """An answer of the core; or None, and the sentence of its refusal."""
+    try:
+        return compute(*arguments), ""
+    except ValueError as error:
+        return None, sentence_of(error)
 
 
 def assume_usual_grooves(scene: Scene) -> Scene | None:

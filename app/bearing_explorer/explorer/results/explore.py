@@ -159,32 +159,23 @@ class Question:
         """Of the level to begin with: 9 × 7 points where they come at once, or else 5 × 4."""
         return 8 if self.at_once else 16
 
-    def sides(self, stride: int) -> tuple[Sweep, Sweep]:
-        """The values of a level on both sides."""
-        return self.x.every(stride), self.y.every(stride)
-
-    def level(self, stride: int) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-        """Indices of the finest columns and rows that belong to a level."""
-        columns, rows = (
-            np.arange(0, whole.values.size, 1 if part is whole else stride)
-            for whole, part in zip((self.x, self.y), self.sides(stride), strict=True)
+    def level(self, stride: int) -> tuple[NDArray[np.intp], ...]:
+        """Index of the finest points, rows and columns, that belong to a level."""
+        sizes = (
+            np.arange(0, side.values.size, 1 if side.every(stride) is side else stride)
+            for side in (self.y, self.x)
         )
-        return columns, rows
+        return np.ix_(*sizes)
 
     def size_words(self, stride: int) -> str:
         """The points of a level, in words."""
-        x, y = self.sides(stride)
-        return f"{x.values.size} × {y.values.size} points"
-
-    def count(self, stride: int) -> int:
-        """Points of a level."""
-        columns, rows = self.level(stride)
-        return columns.size * rows.size
+        rows, columns = self.level(stride)
+        return f"{columns.size} × {rows.size} points"
 
 
 @dataclass(frozen=True, eq=False)
 class Plane:
-    """A map as it was found on one level.
+    """A map as it was computed on one level.
 
     Attributes
     ----------
@@ -227,34 +218,30 @@ class Survey:
         shape = (question.y.values.size, question.x.values.size)
         self._values = np.full(shape, math.nan)
         self._reasons = np.full(shape, NOT_COMPUTED, dtype=object)
-        self._known = np.zeros(shape, dtype=bool)
         if start is not None:
-            columns, rows = question.level(start.stride)
-            at = np.ix_(rows, columns)
-            self._values[at], self._reasons[at] = start.values, start.reasons
-            self._known[at] = start.reasons != NOT_COMPUTED
+            level = question.level(start.stride)
+            self._values[level], self._reasons[level] = start.values, start.reasons
 
-    def missing(self, stride: int) -> int:
-        """Number of points of a level that are not known yet."""
-        columns, rows = self.question.level(stride)
-        return int((~self._known[np.ix_(rows, columns)]).sum())
+    def known(self, stride: int) -> NDArray[np.bool_]:
+        """Points of a level that are known already, (ny, nx)."""
+        known: NDArray[np.bool_] = self._reasons[self.question.level(stride)] != NOT_COMPUTED
+        return known
 
     def compute(self, stride: int, job: Work | None = None, last: int | None = None) -> bool:
-        """Find what is missing of a level; False where it was cancelled.
+        """Compute what is missing of a level; False where it was cancelled.
 
         The level `last` is where the work is to end, for the progress. Where there is no picture
         before, what is known so far is shown from time to time.
         """
         shown_at = time.perf_counter()
         last = stride if last is None else last
-        whole = self.question.count(last)
-        for at in self._chunks(stride):
+        for rows, columns in self._chunks(stride):
             if job is not None and job.cancelled():
                 return False
-            self._find(*at)
+            self._compute_points(rows, columns)
             if job is None:
                 continue
-            job.progress(1.0 - self.missing(last) / whole)
+            job.progress(float(self.known(last).mean()))
             now = time.perf_counter()
             if stride == self.question.first_stride and now - shown_at > _SHOW_EVERY:
                 shown_at = now
@@ -263,27 +250,26 @@ class Survey:
 
     def plane(self, stride: int) -> Plane:
         """The map on a level."""
-        columns, rows = self.question.level(stride)
-        at = np.ix_(rows, columns)
-        return Plane(self.question, stride, self._values[at].copy(), self._reasons[at].copy())
+        level = self.question.level(stride)
+        return Plane(self.question, stride, self._values[level], self._reasons[level])
 
     def _chunks(self, stride: int) -> Iterator[tuple[NDArray[np.intp], NDArray[np.intp]]]:
         """Rows and columns of what is missing, in blocks: lines of extents whole, as they are
         solved together, others short enough for a job to be cancelled soon.
         """
-        columns, rows = self.question.level(stride)
+        rows, columns = (side.ravel() for side in self.question.level(stride))
         few = max(1, int(_CHUNK / SECONDS[self.question.output.needs]))
         upright = self.question.y.field.name == "extent"
         for fixed in columns if upright else rows:
             line = rows if upright else columns
-            known = self._known[line, fixed] if upright else self._known[fixed, line]
-            left = line[~known]
+            reasons = self._reasons[line, fixed] if upright else self._reasons[fixed, line]
+            left = line[reasons == NOT_COMPUTED]
             most = left.size if self.question.grid.in_rows else few
             for start in range(0, left.size, max(most, 1)):
                 part, fixed_value = left[start : start + most], np.array([fixed])
                 yield (part, fixed_value) if upright else (fixed_value, part)
 
-    def _find(self, rows: NDArray[np.intp], columns: NDArray[np.intp]) -> None:
+    def _compute_points(self, rows: NDArray[np.intp], columns: NDArray[np.intp]) -> None:
         output = self.question.output
         grid = self.question.grid
         x, y = grid.axes
@@ -299,7 +285,6 @@ class Survey:
             why = "" if math.isfinite(value) else self._why(STATUSES[status[a, b]], j, i)
             self._values[j, i] = value if not why else math.nan
             self._reasons[j, i] = why
-            self._known[j, i] = True
 
     def _scene(self, row: int, column: int) -> Scene:
         (x, x_values), (y, y_values) = self.question.x.in_si, self.question.y.in_si
@@ -332,7 +317,7 @@ def refine(job: Work, question: Question, finest: int, start: Plane | None = Non
     first = question.first_stride
     shown = start
     for stride in STRIDES:
-        if not finest <= stride <= first or not survey.missing(stride):
+        if not finest <= stride <= first or survey.known(stride).all():
             continue
         if not survey.compute(stride, job, finest):
             break
@@ -340,5 +325,4 @@ def refine(job: Work, question: Question, finest: int, start: Plane | None = Non
         job.show(shown)
     if shown is not None:
         return f"{question.size_words(shown.stride)}."
-    known = question.count(first) - survey.missing(first)
-    return f"{known} of {question.size_words(first)}."
+    return f"{survey.known(first).sum()} of {question.size_words(first)}."

@@ -57,8 +57,11 @@ def curves_table(curves: Sequence[Curve]) -> ResultTable:
     """Angles and loads of each row's curve; only the first row's columns have no number."""
     columns = []
     for row, (angle, load) in enumerate(curves):
-        own = row_name(row)
-        columns += [(f"{own}ball_angle", "rad", angle[1:-1]), (f"{own}ball_load", "N", load[1:-1])]
+        name = row_name(row)
+        columns += [
+            (f"{name}ball_angle", "rad", angle[1:-1]),
+            (f"{name}ball_load", "N", load[1:-1]),
+        ]
     return table_of(*columns)
 
 

@@ -61,13 +61,12 @@ class SettledMotion(NamedTuple):
 
 
 class Ending(NamedTuple):
-    """Reason for an early end of a motion, or empty, and since when [s] it counts as settled.
+    """Reason for an early end of a motion, or empty.
 
     `doubt`: how well bands of the spectrum of a completed motion are known, see `Motion.detail`.
     """
 
     fault: str
-    since: float
     doubt: str
 
 
@@ -159,10 +158,8 @@ def motion(scene: Scene, how: Marching) -> SettledMotion:
 @cached
 def ending(scene: Scene, how: Marching) -> Ending:
     """The end of the motion."""
-    run, since = motion(scene, how)
-    if run.completed:
-        return Ending("", since, run.detail)
-    return Ending(run.reason, since, "")
+    run, _ = motion(scene, how)
+    return Ending("", run.detail) if run.completed else Ending(run.reason, "")
 
 
 @cached

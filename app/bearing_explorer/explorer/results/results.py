@@ -324,27 +324,27 @@ class Results(SceneContent):
 
     def arguments(self, needed: frozenset[str]) -> dict[str, str]:
         """Arguments of a figure that needs these attributes, where they are not as usual."""
-        given: dict[str, str] = {}
+        arguments: dict[str, str] = {}
         if self.cage_angle:
-            given["cage_angle"] = short(self.cage_angle)
+            arguments["cage_angle"] = short(self.cage_angle)
         if self.focus:
-            given["focus"] = str(self.focus)
+            arguments["focus"] = str(self.focus)
         if self.before is not None and "before" in needed:
-            given["before"] = scene_code(self.before.scene)
+            arguments["before"] = scene_code(self.before.scene)
         if self.grey_kind != HEALTHY and "reference" in needed:
-            given["grey"] = code_of(self.grey_kind)
+            arguments["grey"] = code_of(self.grey_kind)
         for name, value, usual in (
             ("settings", self.settings, Settings()),
             ("endurance", self.life_inputs, LifeInputs()),
         ):
             if changed := changed_fields(value, usual):
-                given[name] = code_of(changed)
-        return given
+                arguments[name] = code_of(changed)
+        return arguments
 
     @property
     def compared_argument(self) -> dict[str, str]:
         """The argument of a figure that draws compared scenes; none without them."""
-        named = (f"{code_of(one.name)}: {scene_code(one.scene)}" for one in self.compared)
+        named = (f"{code_of(other.name)}: {scene_code(other.scene)}" for other in self.compared)
         return {"compared": "{" + ", ".join(named) + "}"} if self.compared else {}
 
     @property

@@ -11,8 +11,9 @@ The rules of version 1, which later versions go on reading:
 
 - `v` is 1, also where it is missing, `preset` a name of `bearingcore.presets`. What follows is left
   out where it is as in the preset; so the numbers of a preset must not change (a test holds them).
-- A number is in the unit of its name, with the twelve digits that the page shows. ``none`` is an
-  optional number left open. Earlier links have some numbers in SI, with ``SI`` behind them.
+- A number is in the unit of its name, or in SI with ``SI`` behind it where its twelve digits in
+  that unit stand for another scene. ``none`` is an optional number left open. Whatever is written
+  is read back to the last bit.
 - Of several defects (`defects` says how many) the second has its names behind ``defect2.``, and so
   on; each says what differs from the first defect of the preset. `selected` is the one the sliders
   move.
@@ -281,8 +282,11 @@ def _floor_pairs(floor: object, left_out: bool) -> Iterable[tuple[str, str]]:
 
 
 def number_text(field: Field, value: float | None) -> str:
-    """Text of a number in SI, in the unit of the field."""
-    return "none" if value is None else _short(field_values.shown_number(field, value))
+    """Text of a number in SI, of which `_number` makes the very same."""
+    if value is None:
+        return "none"
+    shown = field_values.shown_number(field, value)
+    return _short(shown) if field_values.si_number(field, shown) == value else f"{value!r}SI"
 
 
 def rows_text(rows: tuple[Row, ...]) -> str:
@@ -446,8 +450,9 @@ def _number(field: Field, text: str) -> float | None:
     if not is_si:
         # as it would be typed on the page: out of range it is refused in the words of the page
         field_values.read(field.key, text, _usual_limits())
-        value *= field.factor
-    return int(value) if field.whole and value == int(value) else value
+    if field.whole and value == int(value):
+        return int(value)
+    return value if is_si else field_values.si_number(field, value)
 
 
 @cache

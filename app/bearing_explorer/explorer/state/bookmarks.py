@@ -76,6 +76,10 @@ FIRST_TAB = "overview"
 """The tab of a page whose address names none; links that are shared name it."""
 
 
+State = tuple[SceneEditor, tuple[Reference, ...]]
+"""The editor and the compared scenes at one time."""
+
+
 class Bookmarks:
     """Undo, compared scenes, notice and address of one session."""
 
@@ -90,15 +94,17 @@ class Bookmarks:
         #: the section that is on screen; at first empty where the address says nothing of a scene
         self.tab = place.tab
         self._said = (0, place.note)
-        self._history: History[SceneEditor] = History(editor.snapshot())
         # scenes that are drawn too; one without a name is named by what differs
         self._compared: tuple[Reference, ...] = place.compared
-        self._left: tuple[SceneEditor, tuple[Reference, ...], str] | None = None
+        self._history: History[State] = History(self._state())
 
     def begin_anew(self, tab: str) -> None:
         """The scene that the editor has now is the one to begin with."""
         self.tab = tab
-        self._history = History(self._editor.snapshot())
+        self._history = History(self._state())
+
+    def _state(self) -> State:
+        return self._editor.snapshot(), self._compared
 
     @property
     def moving(self) -> bool:
@@ -125,11 +131,11 @@ class Bookmarks:
         self._said = (self._said[0] + 1, sentence)
 
     def follow(self, message: Mapping[Any, Any]) -> bool:
-        """Note what a message did to the editor; whether a step has ended.
+        """Note what a message did to the scenes; True if a step has ended.
 
         Play turns the bearing while a hand moves something else: that belongs to the hand's step.
         """
-        now = self._editor.snapshot()
+        now = self._state()
         values = message.get("set")
         if message.get("turning") is True:
             self._history.amend(now)
@@ -144,58 +150,36 @@ class Bookmarks:
             self._history.settle()
         return not self._history.moving
 
-    def step(self) -> None:
-        """Note that the editor was changed at once."""
-        self._history.step(self._editor.snapshot())
-
     def go(self, message: Mapping[Any, Any]) -> bool:
-        """Undo or redo where a message asks for it; whether there was something to."""
+        """Undo or redo where a message asks for it; True if that changed the scenes."""
         if message.get("undo") is True:
             kept = self._history.undo()
         elif message.get("redo") is True:
             kept = self._history.redo()
         else:
             return False
-        if kept is not None:
-            self._editor.restore(kept)
-        return kept is not None
-
-    def leave(self) -> None:
-        """Keep scene, compared ones and tab of now for `back`."""
-        self._left = self._editor.snapshot(), self._compared, self.tab
-
-    @property
-    def can_go_back(self) -> bool:
-        """True if something is kept for `back`."""
-        return self._left is not None
-
-    def back(self) -> str:
-        """Set what `leave` has kept, as a step, and name its tab; "" where nothing is kept."""
-        if self._left is None:
-            return ""
-        kept, self._compared, tab = self._left
-        self._left = None
-        self._editor.restore(kept)
-        self.say("")
-        self.step()
-        return tab or FIRST_TAB
+        if kept is None:
+            return False
+        editor, self._compared = kept
+        self._editor.restore(editor)
+        return True
 
     def take(self, request: OpenRequest, place: Place | str) -> bool:
-        """Open or compare the place that `read_request` found; whether anything changed."""
+        """Open or compare the place of `read_request`, as a step; True if anything changed."""
         if isinstance(place, str):
             self.say(place)
             return False
         if request.what == "compare":
             self._compare(place.scene, request.name)
-            return True
-        try:
-            show_place(place, self._editor)
-        except ValueError as error:
-            self.say(f"{request.name}: {sentence_of(error)}")
-            return False
-        self._compared = place.compared or self._compared
-        self.say(place.note or f"{request.name} is open.")
-        self.step()
+        else:
+            try:
+                show_place(place, self._editor)
+            except ValueError as error:
+                self.say(f"{request.name}: {sentence_of(error)}")
+                return False
+            self._compared = place.compared or self._compared
+            self.say(place.note or f"{request.name} is open.")
+        self._history.step(self._state())
         return True
 
     def change_compared(self, message: Mapping[Any, Any]) -> None:
@@ -238,5 +222,4 @@ class Bookmarks:
             "scene": scene_line(self._editor.name, self._editor.scene),
             "usual_name": self._usual_name(self._editor.scene, self._editor.name),
             "said": {"number": self._said[0], "words": self._said[1]},
-            "left": self.can_go_back,
         }

@@ -54,8 +54,8 @@ class Choice:
         that field.
     all_alike
         all defects have it alike.
-    not_in_lessons
-        options that a lesson cannot set; all of them where it cannot choose at all.
+    in_lessons
+        whether a lesson can set it.
     lesson_control
         whether it can be a control of a lesson.
     """
@@ -68,18 +68,13 @@ class Choice:
     field: str = ""
     first: bool = False
     all_alike: bool = False
-    not_in_lessons: frozenset[str] = frozenset()
+    in_lessons: bool = True
     lesson_control: bool = False
 
     @property
     def names(self) -> tuple[str, ...]:
         """Names of the options."""
         return tuple(option.name for option in self.options)
-
-    @property
-    def lesson_options(self) -> tuple[str, ...]:
-        """Names of the options that a lesson can set."""
-        return tuple(name for name in self.names if name not in self.not_in_lessons)
 
     @property
     def link_options(self) -> Mapping[str, Any]:
@@ -179,7 +174,6 @@ FLOOR = Choice(
             "Measured points, which come with a scene's link or file; the sliders stretch them.",
         ),
     ),
-    not_in_lessons=frozenset({"measured"}),
     lesson_control=True,
 )
 
@@ -251,7 +245,7 @@ DIRECTIONS = Choice(
         ),
     ),
     first=True,
-    not_in_lessons=frozenset({"auto", TILT_FREE, IN_PART}),
+    in_lessons=False,
 )
 
 NUMBERS = Choice(
@@ -274,7 +268,7 @@ NUMBERS = Choice(
         ),
     ),
     first=True,
-    not_in_lessons=frozenset({"direct", "drawing"}),
+    in_lessons=False,
 )
 
 MATERIAL = Choice(
@@ -291,11 +285,8 @@ MATERIAL = Choice(
         ),
     ),
     first=True,
-    not_in_lessons=frozenset({"steel", "silicon nitride"}),
+    in_lessons=False,
 )
-
-KIND_OF_VARIANT = {variant.name: kind for kind in KINDS.values() for variant in kind.variants}
-"""The kind of bearing that each option of KIND is of."""
 
 KIND = Choice(
     "kind",
@@ -303,7 +294,7 @@ KIND = Choice(
     "",
     tuple(Option(*variant) for kind in KINDS.values() for variant in kind.variants),
     first=True,
-    not_in_lessons=frozenset(KIND_OF_VARIANT),
+    in_lessons=False,
 )
 
 CHOICE_LIST: tuple[Choice, ...] = (

@@ -88,8 +88,12 @@ def _divided(si: float, factor: float) -> float:
 
 
 def si_number(field: Field, value: float) -> float | None:
-    """The other way round."""
-    return None if math.isnan(value) else value * field.factor
+    """Number in SI of one that the page shows; None for NaN, one left open."""
+    if math.isnan(value):
+        return None
+    parts = round(1.0 / field.factor)
+    # 50 µm are 5e-05 m: a division by 1e6 gives just that, a product with 1e-6 does not
+    return value / parts if parts in (1_000, 1_000_000) else value * field.factor
 
 
 def scene_with_fields(scene: Scene, fields: Mapping[str, Any], selected: int = 0) -> Scene:

@@ -21,15 +21,16 @@ class History(Generic[State]):
 
     def __init__(self, now: State, most: int = MOST_STEPS) -> None:
         self._now = now
+        self._begun = now  # where the step that is being made began
         self._past: deque[State] = deque(maxlen=most)
-        self._future: list[State] = []
+        self._future: deque[State] = deque(maxlen=most)
         #: name of the control being moved; empty between steps
         self.moving = ""
 
     @property
     def can_undo(self) -> bool:
         """True if there is a step to undo."""
-        return bool(self._past) and not (len(self._past) == 1 and self._idle_move)
+        return bool(self._past) or self._now != self._begun
 
     @property
     def can_redo(self) -> bool:
@@ -40,53 +41,43 @@ class History(Generic[State]):
         """Go on with the step that moves `what`, or begin it."""
         if self.moving != what:
             self.settle()
-        if now == self._now and not self.moving:
-            self._now = now
-            return
-        if not self.moving:
-            self._past.append(self._now)
-            self._future.clear()
-            self.moving = what
+        self.moving = what
         self._now = now
 
     def amend(self, now: State) -> None:
         """Change the state without a step: undoing leads to none before it."""
         self._now = now
+        if not self.moving:
+            self._begun = now
 
     def settle(self) -> None:
-        """The step that was being made is made."""
-        if self._idle_move:
-            self._past.pop()
+        """End the step that is being made."""
+        if self._now != self._begun:
+            self._past.append(self._begun)
+            self._future.clear()
+        self._begun = self._now
         self.moving = ""
 
     def step(self, now: State) -> None:
         """Make a step that needs no moving."""
         self.settle()
-        self.moved(now, "step")
+        self._now = now
         self.settle()
 
     def undo(self) -> State | None:
         """The state before the last step; None where there is none."""
-        self.settle()
         return self._go(self._past, self._future)
 
     def redo(self) -> State | None:
         """The state after the step that was undone last; None where there is none."""
-        self.settle()
         return self._go(self._future, self._past)
 
-    @property
-    def _idle_move(self) -> bool:
-        """True if a drag is back where it began."""
-        return bool(self.moving) and self._past[-1] == self._now
-
-    def _go(
-        self, source: deque[State] | list[State], target: deque[State] | list[State]
-    ) -> State | None:
+    def _go(self, source: deque[State], target: deque[State]) -> State | None:
+        self.settle()
         if not source:
             return None
         target.append(self._now)
-        self._now = source.pop()
+        self._now = self._begun = source.pop()
         return self._now
 
 

@@ -87,7 +87,7 @@ LONGEST_NAME = 60  # characters
 _MOST_LISTED = 16
 
 CHOICES: Mapping[str, Sequence[str]] = {
-    choice.name: choice.lesson_options for choice in CHOICE_LIST if choice.lesson_options
+    choice.name: choice.names for choice in CHOICE_LIST if choice.in_lessons
 }
 """Choices that a lesson may make, and their options."""
 
@@ -221,9 +221,9 @@ def lessons_in(folder: Path, tabs: Tabs) -> list[Lesson | Fault]:
         names = islice(folder.iterdir(), MOST_FILES)
         files = sorted(path for path in names if path.suffix == ".md")
     except OSError as error:
-        return [_no_lessons(folder, f"cannot be read ({error.strerror or error})")]
+        return [_fault(str(folder), f"the folder cannot be read ({error.strerror or error})")]
     if not files:
-        return [_no_lessons(folder, "holds no file that ends in .md")]
+        return [_fault(str(folder), "the folder holds no file that ends in .md")]
     lessons: list[Lesson | Fault] = []
     for path in files[:MOST_LESSONS]:
         try:
@@ -238,16 +238,7 @@ def lessons_in(folder: Path, tabs: Tabs) -> list[Lesson | Fault]:
 
 def own_lessons(tabs: Tabs) -> list[Lesson | Fault]:
     """The lessons that come with the program, without those on a tab that is not there."""
-    return [one for one in lessons_in(own_folder(), tabs) if isinstance(one, Lesson)]
-
-
-def faults_in(folder: Path, tabs: Tabs) -> list[str]:
-    """Faults of the lessons of a folder, a sentence for each file."""
-    return [lesson.sentence for lesson in lessons_in(folder, tabs) if isinstance(lesson, Fault)]
-
-
-def _no_lessons(folder: Path, why: str) -> Fault:
-    return _fault(str(folder), f"the folder {why}")
+    return [lesson for lesson in lessons_in(own_folder(), tabs) if isinstance(lesson, Lesson)]
 
 
 def _fault(name: str, why: str) -> Fault:
@@ -451,7 +442,8 @@ def _parts(text: str, offset: int, checks: _Checks) -> tuple[Part, ...]:
     for token in tokens:
         line = offset + 1 + token.map[0] if token.map else line
         if token.type in ("heading_open", "heading_close"):
-            _lower(token)
+            # below the title of the lesson
+            token.tag = f"h{min(max(int(token.tag[1]) + 1, 3), 6)}"
         if token.type in ("math_block", "math_block_label"):
             token.type, token.content = "html_block", _formula(token.content, True, line)
         if token.children:
@@ -464,11 +456,6 @@ def _parts(text: str, offset: int, checks: _Checks) -> tuple[Part, ...]:
             raise LessonError(offset + 1 + (words.map or [0])[0], "this part is empty")
         sections.append(Part(words.content.strip(), rendered))
     return tuple(sections)
-
-
-def _lower(token: Token) -> None:
-    """Lower a heading: the lesson's own title is above it."""
-    token.tag = f"h{min(max(int(token.tag[1]) + 1, 3), 6)}"
 
 
 def _mend(tokens: list[Token], line: int, checks: _Checks) -> None:

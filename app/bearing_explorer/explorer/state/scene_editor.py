@@ -113,8 +113,8 @@ class SceneEditor:
     """The entry of a list that the bearing was taken from."""
     begun: Scene = field(init=False)
     """The preset, or the usual scene of a listed bearing, from which changes began."""
-    _effects: dict[str, str] = field(init=False, default_factory=dict)
-    _scene_of_effects: Scene | None = field(init=False, default=None)
+    effects: dict[str, str] = field(init=False, default_factory=dict)
+    """Sentences on the effect of the last choices, by their names, where it is not plain."""
 
     def __post_init__(self) -> None:
         self.take_preset(self.preset)
@@ -153,7 +153,7 @@ class SceneEditor:
             check_values({**values_of(scene, index), CAGE_ANGLE: cage_angle}, limits)
         self.preset, self.scene, self.selected = preset, scene, selected
         self.begun = presets[preset]
-        self.own_name, self.origin = one_line(name, LONGEST_NAME), None
+        self.own_name, self.origin, self.effects = one_line(name, LONGEST_NAME), None, {}
         self.limits = limits
         self.values = {}
         self._write_values(cage_angle)
@@ -175,14 +175,6 @@ class SceneEditor:
     def restore(self, kept: SceneEditor) -> None:
         """Set all as it was when the snapshot was taken."""
         vars(self).update(vars(kept))
-
-    @property
-    def effects(self) -> Mapping[str, str]:
-        """Sentences on the effect of the last choices, by their names, where it is not plain.
-
-        They are about the scene that those choices made: with another one there are none.
-        """
-        return self._effects if self._scene_of_effects == self.scene else {}
 
     @property
     def defects(self) -> tuple[Defect, ...]:
@@ -247,7 +239,7 @@ class SceneEditor:
         self._take(scene)
         self.limits = limits_of(self.scene)
         self._write_values()
-        self._effects["preset"] = f"{gone}{_usual_words(scene, kept)} {effect}".rstrip()
+        self.effects["preset"] = f"{gone}{_usual_words(scene, kept)} {effect}".rstrip()
         self.own_name = one_line(name, LONGEST_NAME)
         self.origin = CatalogueOrigin(self.own_name, origin, self.scene.bearing)
 
@@ -297,6 +289,7 @@ class SceneEditor:
         except ValueError as error:
             return refused | {name: sentence_of(error) for name in taken}, {}
         before = self.values
+        self.effects = self.effects if scene == self.scene else {}
         self._take(scene, cage_angle=taken.get(CAGE_ANGLE))
         self._hold(self.values | taken)
         changed = {
@@ -357,39 +350,30 @@ class SceneEditor:
 
     def choose(self, choice: Mapping[str, str]) -> Refused:
         """Take choices out of lists; what is not on a list is passed over."""
-        refused: Refused = {}
-        self._effects = {}
-        takers = {
+        self.effects = {}
+        if (preset := choice.get("preset", "")) in presets:
+            self.take_preset(preset)
+        if "name" in choice:
+            self.own_name = one_line(choice["name"], LONGEST_NAME)
+        takers: dict[str, Callable[[str], None]] = {
+            **{known.name: partial(self._take_option, known) for known in CHOICE_LIST},
             "floor": self._take_floor_kind,
             "numbers": self._take_numbers,
             "ball_material": self._take_ball_material,
             "kind": self._take_kind,
             "dofs": self._take_dofs,
+            "defect": self._take_defect,
+            "bearing": self._take_listed,
         }
-        if (preset := choice.get("preset", "")) in presets:
-            self.take_preset(preset)
-        for known in CHOICE_LIST:
-            name = choice.get(known.name, "")
-            if name in known.names:
-                act = takers.get(known.name, partial(self._take_option, known))
-                refused |= self._tried(known.name, act, name)
-        if "name" in choice:
-            self.own_name = one_line(choice["name"], LONGEST_NAME)
-        for key, act in (
-            ("defect", self._take_defect),
-            ("bearing", self._take_listed),
-        ):
-            if key in choice:
-                refused |= self._tried(key, act, choice[key])
-        self._scene_of_effects = self.scene
+        asked = [known.name for known in CHOICE_LIST if choice.get(known.name) in known.names]
+        asked += [name for name in ("defect", "bearing") if name in choice]
+        refused: Refused = {}
+        for name in asked:
+            try:
+                takers[name](choice[name])
+            except ValueError as error:
+                refused[name] = sentence_of(error)
         return refused
-
-    def _tried(self, name: str, act: Callable[[str], None], value: str) -> Refused:
-        try:
-            act(value)
-        except ValueError as error:
-            return {name: sentence_of(error)}
-        return {}
 
     def _change(self, **fields: Any) -> None:
         self._take(scene_with_fields(self.scene, fields, self.selected))
@@ -409,13 +393,13 @@ class SceneEditor:
         origin = origin_words(listed)
         self.take_bearing(listed.bearing, listed.name, origin)
         if listed.assumed:  # seen where it is chosen; sources are behind the question mark
-            self._effects["preset"] += f" Assumed: {', '.join(listed.assumed)}."
+            self.effects["preset"] += f" Assumed: {', '.join(listed.assumed)}."
 
     def _take_kind(self, kind: str) -> None:
         scene, effect = held(scene_with(self.scene, convert_to_kind(self.scene.bearing, kind)))
         self._take(scene)
         if effect:
-            self._effects["kind"] = effect
+            self.effects["kind"] = effect
         self.limits = {**limits_of(self.scene), **groove_limits(self.scene)}
         self._write_values()
 
@@ -437,8 +421,9 @@ class SceneEditor:
     def _take_defect(self, which: str) -> None:
         if which == "add":
             self._add_defect()
-        elif which == "remove":
-            self._remove_defect()
+        elif which == "remove" and len(self.defects) > 1:
+            rest = [d for i, d in enumerate(self.defects) if i != self.selected]
+            self._change_defects(rest, min(self.selected, len(rest) - 1))
         elif which.isdecimal() and int(which[:3]) < len(self.defects):
             self.selected = int(which[:3])
             self._write_values()
@@ -448,18 +433,13 @@ class SceneEditor:
             raise ValueError(f"There are {MOST_DEFECTS} defects already, the most there can be.")
         last = self.defects[-1]
         extent, depth = _FIRST_DEFECT if last.is_none else (last.extent, last.depth)
-        center = _freest(self.defects)
+        # the whole number of degrees that is farthest from all defects
+        center = max(map(math.radians, range(360)), key=lambda angle: _gap_to(self.defects, angle))
+        extent = min(extent, 1.6 * max(_gap_to(self.defects, center), 0.0))
         new = dataclasses.replace(last, center=center, floor=None, extent=extent, depth=depth)
-        gap = _room(self.defects, new.center)
-        new = dataclasses.replace(new, extent=min(new.extent, 0.8 * gap))
         if new.is_none:
             raise ValueError("The defects leave no room on the race: make one shorter first.")
         self._change_defects([*self.defects, new], len(self.defects))
-
-    def _remove_defect(self) -> None:
-        if len(self.defects) > 1:
-            rest = [d for i, d in enumerate(self.defects) if i != self.selected]
-            self._change_defects(rest, min(self.selected, len(rest) - 1))
 
     def _change_defects(self, defects: list[Defect], selected: int) -> None:
         scene = self.scene.replace(defect=defects[0] if len(defects) == 1 else tuple(defects))
@@ -471,7 +451,7 @@ class SceneEditor:
         if how == "drawing" and not bearing.is_drawn:
             made = drawn(bearing).replace(rows=bearing.rows, estimated=bearing.estimated)
             self._take(self.scene.replace(bearing=made))
-            self._effects["numbers"] = (
+            self.effects["numbers"] = (
                 f"The grooves begin with {USUAL_GROOVES['inner']} (inner) and "
                 f"{USUAL_GROOVES['outer']} (outer) ball diameters, as is usual, in steel: change "
                 "them where the drawing says otherwise. The load-deflection factor was "
@@ -516,10 +496,7 @@ class SceneEditor:
         hidden = [*hidden, *hidden_of(scene.bearing)]
         return {
             "usual": {**usual, **chosen_of(presets[self.preset])},
-            "choices": {
-                **chosen_of(scene, self.selected),
-                "preset": self.preset,
-            },
+            "choices": {**chosen_of(scene, self.selected), "preset": self.preset},
             "defects": {
                 "names": [
                     f"{d.race} race at {math.degrees(d.center) % 360.0:.0f}°" for d in self.defects
@@ -561,17 +538,6 @@ def _gap_to(defects: Iterable[Defect], angle: float) -> float:
         abs(math.remainder(angle - defect.center, 2.0 * math.pi)) - 0.5 * defect.extent
         for defect in defects
     )
-
-
-def _room(defects: Iterable[Defect], angle: float) -> float:
-    """Longest extent [rad] of a defect around `angle` that touches no other."""
-    return max(2.0 * _gap_to(defects, angle), 0.0)
-
-
-def _freest(defects: Iterable[Defect]) -> float:
-    """The whole number of degrees farthest from all defects [rad]."""
-    known = tuple(defects)
-    return max((math.radians(d) for d in range(360)), key=lambda angle: _gap_to(known, angle))
 
 
 def _close(a: float, b: float) -> bool:

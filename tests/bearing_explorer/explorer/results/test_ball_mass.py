@@ -1,7 +1,9 @@
 """Balls with mass in a session: compiled before they move, coarse first, then compared."""
 
+import dataclasses
+
 import pytest
-from bearing_explorer.explorer.results.motions import quick_duration
+from bearing_explorer.explorer.results.motions import motion, quick_duration
 from bearing_explorer.explorer.results.results import Results
 
 from bearingcore import presets
@@ -27,8 +29,9 @@ def test_the_first_picture_is_short_and_shows_a_ball_on_its_way_through(name: st
     if moving.is_coarse(frozenset({"ball_mass"})):
         duration = quick_duration(scene, how)
         ball_mass = moving.ball_mass
-        assert ball_mass.samples == round(duration * how.sample_rate)
-        cost = duration * ball_mass.step_rates["with mass"] * scene.bearing.total_balls
+        run, _ = motion(scene, dataclasses.replace(how, duration=duration))
+        assert len(run.time) == round(duration * how.sample_rate)
+        cost = duration * run.step_rate * scene.bearing.total_balls
         assert cost * (1.0 if is_planar(scene) else 4.0) < 2.1e6
         assert ball_mass.entry is not None
         if all(defect.extent < 0.35 * scene.bearing.ball_spacing for defect in scene.defects):

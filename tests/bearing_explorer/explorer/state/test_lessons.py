@@ -21,7 +21,6 @@ from bearing_explorer.explorer.state.lessons import (
     Lesson,
     LessonError,
     Part,
-    faults_in,
     lessons_in,
     own_folder,
     own_lessons,
@@ -813,7 +812,7 @@ def test_a_link_to_an_endless_file_is_no_lesson(tmp_path: Path) -> None:
     (tmp_path / "3.md").mkdir()
     with (tmp_path / "4.md").open("wb") as file:
         file.truncate(2**33)  # takes no room on the disk
-    sentences = faults_in(tmp_path, TABS)
+    sentences = [fault.sentence for fault in lessons_in(tmp_path, TABS)]
     assert len(sentences) == 4, sentences
     assert "1.md, line 1: this is not a regular file." in sentences
     assert "2.md, line 1: this is not a regular file." in sentences

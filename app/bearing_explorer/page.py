@@ -70,22 +70,18 @@ class Halves:
         self.explorer = (
             scene.Explorer(scene.SECTIONS, address=address, lessons=lessons) if scene else None
         )
-        self.diagnosis = signal and signal.DiagnosisOfSignal(signal.SECTIONS, self._scene_of_signal)
-        halves: dict[Section, Half] = {}
-        for section in SECTIONS:
-            of_signal = signal and section in signal.SECTIONS
-            half = self.diagnosis if of_signal else self.explorer
-            assert isinstance(half, Half)
-            halves[section] = half
+        self.diagnosis = signal and signal.DiagnosisOfSignal(
+            signal.SECTIONS,
+            lambda: self.explorer.focused_scene if self.explorer else presets["fan-rig"],
+        )
+        both: tuple[Half | None, ...] = self.explorer, self.diagnosis
+        half_of = {section: half for half in both if half for section in half.sections}
+        halves = {section: half_of[section] for section in SECTIONS}
         self.session = Session(halves, self.explorer.bookmarks.tab if self.explorer else "")
         if self.explorer is not None and self.diagnosis is not None:
             self.explorer.report_on_signal = self.diagnosis.report
             self.explorer.simulate = self.diagnosis.simulate
             self.diagnosis.measurement.can_simulate = True
-
-    def _scene_of_signal(self) -> Any:
-        """Return the scene with which a signal is compared."""
-        return self.explorer.focused_scene if self.explorer else presets["fan-rig"]
 
 
 def figure_of(view: type[View], *arguments: Any, **options: Any) -> Figure:

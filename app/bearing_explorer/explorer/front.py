@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 from bearing_explorer.explorer.half import Explorer
 from bearing_explorer.explorer.results import default_results
-from bearing_explorer.explorer.state import glossary
+from bearing_explorer.explorer.state.field_values import SHOWN_FIELDS
 from bearing_explorer.explorer.state.lessons import (
     Fault,
     Tabs,
@@ -82,6 +82,9 @@ SECTIONS = (
 )
 """Tabs of the scene, and their parts."""
 
+EXPLAINED = ("Defect", "Turning", "Load", "Balls", "Rows", "Drawing", "Contact", "Races", "Bodies")
+"""Groups of fields in the glossary of the help; the others are springs and dampers."""
+
 
 def begin_compiling(**report: Callable[..., object]) -> None:
     """Begin `compiling`; the results that come along are drawn until it has ended."""
@@ -91,7 +94,18 @@ def begin_compiling(**report: Callable[..., object]) -> None:
 def help_texts() -> dict[str, str]:
     """Parts of the page's help that are about the scene, as HTML by their names."""
     return {
-        "glossary": glossary.glossary_html(),
+        "glossary": _quantities(),
         "bearing_picture": bearing_picture(presets["fan-rig"].bearing),
         "python_lines": html.escape(asset_text("notebooks/first_lines.py")),
     }
+
+
+def _quantities() -> str:
+    """Fields with label, symbol, unit and meaning, as the rows of a table."""
+    fields = [field for field in SHOWN_FIELDS if field.group in EXPLAINED]
+    return "".join(
+        f"<tr><th scope=row>{html.escape(field.read_label)}</th>"
+        f"<td><i>{field.read_symbol_html}</i></td>"
+        f"<td>{field.shown_unit}</td><td>{html.escape(field.meaning)}</td></tr>"
+        for field in sorted(fields, key=lambda field: field.read_label.casefold())
+    )

@@ -10,7 +10,7 @@ import logging
 import math
 from collections.abc import Callable, Mapping, Sequence
 from datetime import UTC, datetime
-from typing import Any, TypeVar
+from typing import Any
 
 from bearing_explorer.explorer.results.endurance import LifeInputs
 from bearing_explorer.explorer.results.results import Results
@@ -39,12 +39,6 @@ from bearing_explorer.kit.session import Half, Section
 from bearingcore import Scene
 
 log = logging.getLogger(__name__)
-
-Result = TypeVar("Result")
-
-_LONGEST_LINK = 2000
-_REPORT_WORDS = {"title": 120, "machine": 200, "remarks": 4000}
-"""Greatest length of the words in a report."""
 
 
 class Explorer(Half):
@@ -139,14 +133,15 @@ class Explorer(Half):
         self.draw()
 
     def show_controls(self, **news: Any) -> None:
-        """Show news on all panels of controls; each shows its own part.
+        """Send news to all panels of controls; each shows its own part.
 
+        Controls are moved (`state`), or it is said what was refused (`refused`).
         The mark lets a panel pass over what a slider has moved on from meanwhile.
         """
         if "state" in news:
             news["state"] = {**news["state"], "mark": self.mark}
         for panel in self.panels:
-            panel.show(**news)
+            panel.send(news)
 
     def show_links(self) -> None:
         """Bring the bar up to date: the address, and what can be undone."""
@@ -207,8 +202,9 @@ class Explorer(Half):
         if refused:
             self.show_controls(refused=refused)
 
-    def _taken(self, take: Callable[[str, Result], object], name: str, answer: Result) -> None:
-        take(name, answer)
+    def _take_place(self, request: OpenRequest, place: Place | str) -> None:
+        """Open or compare a place; where there is none, say why."""
+        self.bookmarks.take(request, place)
         self.show_controls(state=self.editor.state())
         self.show_links()
         self.draw()
@@ -222,7 +218,7 @@ class Explorer(Half):
         if message.get("want") == "toml":
             self.share.answer(file=self.bookmarks.toml())
         if "report" in message:
-            self._report(message["report"][:_LONGEST_LINK], message)
+            self._report(message["report"], message)
         if "mark" not in message:
             return
         if self.bookmarks.go(message):
@@ -232,17 +228,14 @@ class Explorer(Half):
             self.jobs.answer(
                 OPENING,
                 lambda: read_request(wanted),
-                lambda answer: self._taken(
-                    lambda _, place: self.bookmarks.take(wanted, place), wanted.name, answer
-                ),
+                lambda place: self._take_place(wanted, place),
             )
         self.change_scene(message)  # the mark, and a reset
 
     def open_link(self, name: str, text: str) -> None:
         """Open what a link of the page's own holds, and its tab."""
         request = OpenRequest("open", name, text)
-        place = read_request(request)
-        self._taken(lambda _, opened: self.bookmarks.take(request, opened), name, place)
+        self._take_place(request, place := read_request(request))
         if isinstance(place, Place):
             self.page.show_tab({"show": place.tab})
 
@@ -251,9 +244,7 @@ class Explorer(Half):
 
         `words` may hold a title, the machine and remarks.
         """
-        title, machine, remarks = (
-            words.get(name, "")[:most] for name, most in _REPORT_WORDS.items()
-        )
+        title, machine, remarks = (words.get(name, "") for name in ("title", "machine", "remarks"))
         link = f"{base}?{self.bookmarks.state()['address']}"
         about = About(self.editor.name, link, datetime.now(UTC), title, machine, remarks)
         make = self.report_on_signal(about)

@@ -77,10 +77,10 @@ class LinksChange(SceneChange, omit_defaults=True):
     remove: bool = False
     keep: str | None = None
     want: str | None = None
-    report: str | None = None
-    title: str = ""
-    machine: str = ""
-    remarks: str = ""
+    report: Annotated[str, msgspec.Meta(max_length=2000)] | None = None
+    title: Annotated[str, msgspec.Meta(max_length=120)] = ""
+    machine: Annotated[str, msgspec.Meta(max_length=200)] = ""
+    remarks: Annotated[str, msgspec.Meta(max_length=4000)] = ""
 
 
 class Simulation(msgspec.Struct):

@@ -136,16 +136,6 @@ class BallMass:
         )
 
     @property
-    def entry(self) -> Event | None:
-        """The ball that enters at 0."""
-        return _entry(self.events)
-
-    @property
-    def exit(self) -> Event | None:
-        """The same ball as it leaves."""
-        return _exit(self.events)
-
-    @property
     def free_share(self) -> float:
         """Share of the shown time of the shown balls that is free flight."""
         return float((self.loads <= 0.0).all(axis=0).mean())
@@ -156,7 +146,7 @@ def compare_motions(massless: Motion, heavy: Motion, since: float) -> BallMass:
     scene, rate = heavy.scene, heavy.sample_rate
     for passes in ENOUGH_PASSES:
         whole = excerpt_of(scene, heavy, since, n_passes=passes)
-        if _entry(whole.events) is not None:
+        if entry_of(whole.events) is not None:
             break
     start, end = _look(whole.events, whole.time)
     begin = round((whole.motion_time + start) * rate)
@@ -225,7 +215,7 @@ def _comparison(massless: Motion, heavy: Motion) -> BallComparison | None:
 
 def _look(events: tuple[Event, ...], time: Array) -> tuple[float, float]:
     """From when to when [s] the way of the ball is shown that enters at 0."""
-    last = _exit(events)
+    last = exit_of(events)
     if last is None:
         return float(time[0]), float(time[-1])
     leaves = last.time
@@ -234,13 +224,14 @@ def _look(events: tuple[Event, ...], time: Array) -> tuple[float, float]:
     return start, min(float(time[-1]), end)
 
 
-def _entry(events: tuple[Event, ...]) -> Event | None:
+def entry_of(events: tuple[Event, ...]) -> Event | None:
+    """The ball that enters at 0."""
     return next((e for e in events if e.enters and abs(e.time) < 1e-8), None)
 
 
-def _exit(events: tuple[Event, ...]) -> Event | None:
+def exit_of(events: tuple[Event, ...]) -> Event | None:
     """The ball that enters at 0, as it leaves."""
-    entry = _entry(events)
+    entry = entry_of(events)
     if entry is None:
         return None
     return next((e for e in events if not e.enters and e.ball == entry.ball and e.time > 0.0), None)
@@ -250,7 +241,7 @@ def _strikes(
     time: Array, loads: Array, balls: NDArray[np.int64], events: tuple[Event, ...]
 ) -> tuple[Strike, ...]:
     """The hard strikes on each race of the ball that enters at 0, on its way through the defect."""
-    entry, leaves = _entry(events), _exit(events)
+    entry, leaves = entry_of(events), exit_of(events)
     if entry is None:
         return ()
     slot = int(np.flatnonzero(balls == entry.ball)[0])
@@ -272,7 +263,7 @@ def _far_edge(scene: Scene, events: tuple[Event, ...], zero: float) -> float:
 
     `zero`: [s] of the motion at which it enters.
     """
-    leaves = _exit(events)
+    leaves = exit_of(events)
     if leaves is None:
         return math.nan
     first = scene.cage_speed * zero

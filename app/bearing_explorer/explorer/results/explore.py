@@ -13,7 +13,6 @@ import contextlib
 import dataclasses
 import itertools
 import math
-import time
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
@@ -57,7 +56,6 @@ SIZES = {stride: tuple((n - 1) // stride + 1 for n in FINEST) for stride in STRI
 _QUICK = (STATICS, PRESSURE, LIFE, MODES)
 """Computations of which a first level is there while a slider is dragged."""
 _CHUNK = 0.1  # [s] between two looks at whether to go on
-_SHOW_EVERY = 1.0  # [s] between pictures of a first level that grows
 _SETTINGS = Settings()
 
 NOT_COMPUTED = "not computed"
@@ -230,22 +228,15 @@ class Survey:
     def compute(self, stride: int, job: Work | None = None, last: int | None = None) -> bool:
         """Compute what is missing of a level; False where it was cancelled.
 
-        The level `last` is where the work is to end, for the progress. Where there is no picture
-        before, what is known so far is shown from time to time.
+        The level `last` is where the work is to end, for the progress.
         """
-        shown_at = time.perf_counter()
         last = stride if last is None else last
         for rows, columns in self._chunks(stride):
             if job is not None and job.cancelled():
                 return False
             self._compute_points(rows, columns)
-            if job is None:
-                continue
-            job.progress(float(self.known(last).mean()))
-            now = time.perf_counter()
-            if stride == self.question.first_stride and now - shown_at > _SHOW_EVERY:
-                shown_at = now
-                job.show(self.plane(stride))
+            if job is not None:
+                job.progress(float(self.known(last).mean()))
         return True
 
     def plane(self, stride: int) -> Plane:
@@ -286,14 +277,11 @@ class Survey:
             self._values[j, i] = value if not why else math.nan
             self._reasons[j, i] = why
 
-    def _scene(self, row: int, column: int) -> Scene:
-        (x, x_values), (y, y_values) = self.question.x.in_si, self.question.y.in_si
-        return self.question.scene.replace(**{x: x_values[column], y: y_values[row]})
-
     def _why(self, status: SweepStatus, row: int, column: int) -> str:
         if status is SweepStatus.SCENE_REFUSED:
+            (x, x_values), (y, y_values) = self.question.x.in_si, self.question.y.in_si
             try:
-                self._scene(row, column)
+                self.question.scene.replace(**{x: x_values[column], y: y_values[row]})
             except ValueError as error:
                 return sentence_of(error)
         return status.sentence

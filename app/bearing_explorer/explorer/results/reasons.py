@@ -77,19 +77,21 @@ def most_loaded(
     text += "" if briefly else f", {what}"
     apart = np.abs((states.ball_angle[state] - line + math.pi) % (2.0 * math.pi) - math.pi)
     nearer = np.flatnonzero(apart < apart[most].min() - 1e-6)  # none without a line, which is NaN
-    where, brief = _place_words(float(apart[most].min()), bool(nearer.size), not several)
+    where = _place_words(float(apart[most].min()), bool(nearer.size), not several)
     # in a defect, farther than those that carry most, and with less load
     lost = (drop > drop[most].max()) & (load < (1.0 - ALIKE) * load.max())
     inside, adjacent = nearer[lost[nearer]], _neighbours(bearing, most)
     gone = inside if inside.size else adjacent[lost[adjacent]]
     said, single = _named(bearing, gone), gone.size == 1
     if briefly:
-        if gone.size and brief == where:
+        if gone.size and (nearer.size or math.isnan(line)):
             return f"{text}: {said} {'is' if single else 'are'} in the defect."
-        return f"{text}: {brief}."
+        return f"{text}: {where.partition(',')[0]}."
     if not gone.size:
         return f"{text}: {where}."
-    carry = _carried_at_most(float(load[gone].max()), single)
+    left = style.with_prefix(load[gone].max(), "N")
+    carry = f"only {left}" if single else f"at most {left} each"
+    carry = carry if load[gone].max() > 0.0 else "nothing"
     place = (
         "nearer the line of the load" if inside.size else f"beside {'them' if several else 'it'}"
     )
@@ -98,25 +100,17 @@ def most_loaded(
     return f"{text}: {why}." if inside.size or math.isnan(line) else f"{text}: {where}; {why}."
 
 
-def _carried_at_most(load: float, single: bool) -> str:
-    if load <= 0.0:
-        return "nothing"
-    text = style.with_prefix(load, "N")
-    return f"only {text}" if single else f"at most {text} each"
-
-
-def _place_words(apart: float, is_off: bool, single: bool) -> tuple[str, str]:
-    """Place of the elements that carry most, `apart` [rad] from the load's line, also in short.
+def _place_words(apart: float, is_off: bool, single: bool) -> str:
+    """Place of the elements that carry most, `apart` [rad] from the load's line.
 
     `is_off`: others are nearer to it. NaN where there is no line.
     """
     if math.isnan(apart) or is_off:
-        return ("the rings are pressed together most there",) * 2
+        return "the rings are pressed together most there"
     off = style.in_degrees(apart, 0)
-    on = "on the line of the load"
-    near = on if off == "0°" else f"nearest the line of the load ({off})"
+    near = "on the line of the load" if off == "0°" else f"nearest the line of the load ({off})"
     lies = "it lies" if single else "they lie"
-    return f"{lies} {near}, where the rings are pressed together most", f"{lies} nearest the load"
+    return f"{lies} {near}, where the rings are pressed together most"
 
 
 def _neighbours(bearing: Bearing, which: NDArray[np.int64]) -> NDArray[np.int64]:
@@ -153,9 +147,9 @@ def _named(bearing: Bearing, which: NDArray[np.int64]) -> str:
         row, number = bearing.row_of_ball(int(k))
         rows.setdefault(row, []).append(str(number + 1))
     names = []
-    for row, own in rows.items():
-        several = elements(bearing, len(own))
-        name = f"{several} {style.list_words(own)}" if len(own) <= 6 else f"{len(own)} {several}"
+    for row, numbers in rows.items():
+        count, several = len(numbers), elements(bearing, len(numbers))
+        name = f"{several} {style.list_words(numbers)}" if count <= 6 else f"{count} {several}"
         names.append(name if len(bearing.all_rows) == 1 else f"{name} of row {row + 1}")
     return style.list_words(names)
 
@@ -227,7 +221,7 @@ def stiffness(results: Results, *, briefly: bool = False) -> str:
     means = now[0]
     if len(means) < 2 or not all(map(math.isfinite, means.values())):
         return ""
-    if results.scene.defects and results.reference_label:
+    if results.scene.defects and results.grey.label:
         words = _stiffness_against(results, now, briefly)
         if words:
             return words
@@ -307,7 +301,7 @@ def stiffness_term(results: Results, term: str) -> str:
         )
     if first == other:
         why = ""
-        if term in RADIAL and results.scene.defects and results.reference_label:
+        if term in RADIAL and results.scene.defects and results.grey.label:
             why = why_softer(term, radial(results), radial(results.reference))
         why = f" With the defect {why}." if why else ""
         return f"Each contact of stiffness k adds k·({_LEVER[first]})² to {symbol}.{why}"

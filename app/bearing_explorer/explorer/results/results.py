@@ -15,6 +15,7 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+import bearingcore as core
 from bearing_explorer.explorer.results import endurance, motions, statics, verdict
 from bearing_explorer.explorer.results.ball_mass import BallMass
 from bearing_explorer.explorer.results.chain import Chain, Peak, chain_of, loudest
@@ -32,6 +33,7 @@ from bearing_explorer.explorer.state.references import (
 )
 from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.explorer.state.settings import Marching, Settings
+from bearing_explorer.kit.compute import compiling
 from bearing_explorer.kit.compute.cache import cached
 from bearing_explorer.kit.compute.compiling import StillCompiling
 from bearing_explorer.kit.compute.executors import PICTURES
@@ -161,11 +163,6 @@ class Results(SceneContent):
         return self.against(self.grey)
 
     @property
-    def reference_label(self) -> str:
-        """The name of the grey curves before their numbers; empty where the scene is the same."""
-        return self.grey.label
-
-    @property
     def over_shaft(self) -> bool:
         """True if curves are drawn over a turn of the shaft: a defect turns with it."""
         return self.scene.defect_turns
@@ -236,7 +233,7 @@ class Results(SceneContent):
     @cached_property
     def now(self) -> Equilibrium:
         """Static answer at the cage angle shown; arrays of length 1."""
-        return statics.equilibrium_at(self.scene, self.cage_angle)
+        return statics.curves(self.scene, self.cage_angle, self.cage_angle, 1)
 
     @cached_property
     def modes(self) -> Modes:
@@ -295,7 +292,7 @@ class Results(SceneContent):
         mood, words = self.verdict(needed)
         details = verdict.details_of(self.equilibrium)
         if self.is_coarse(needed):
-            details.append(self.coarse_words(needed))
+            details.append("coarse while it moves: a shorter motion, in fewer steps")
         details.append(f"{1e3 * seconds:.1f} ms of computing")
         return {"mood": mood, "words": words, "details": details, "resting": not self.moving}
 
@@ -347,32 +344,18 @@ class Results(SceneContent):
         named = (f"{code_of(other.name)}: {scene_code(other.scene)}" for other in self.compared)
         return {"compared": "{" + ", ".join(named) + "}"} if self.compared else {}
 
-    @property
-    def _scene_with_mass(self) -> Scene:
-        """The scene with mass of its balls, where that is known."""
-        known = not self.scene.bearing.kind.mass_unknown
-        return self.scene.replace(balls=WITH_MASS) if known else self.scene
-
     def is_coarse(self, shown: frozenset[str]) -> bool:
         """True if what is shown of attributes is made of motions that are marched coarsely."""
         scenes = [self.scene] if shown & OF_MOTION else []
         if "reference" in shown and scenes:
             scenes.append(self.grey.scene)
-        if "ball_mass" in shown:
-            scenes.append(self._scene_with_mass)
+        if "ball_mass" in shown and not self.scene.bearing.kind.mass_unknown:
+            scenes.append(self.scene.replace(balls=WITH_MASS))
         return any(map(self._is_coarse, scenes))
 
     def is_finer_at_rest(self, shown: frozenset[str]) -> bool:
         """True if any of these attributes is computed more finely once the slider rests."""
         return bool(shown & OVER_STRETCH) or self.is_coarse(shown)
-
-    def coarse_words(self, shown: frozenset[str]) -> str:
-        """In which way motions shown are coarse."""
-        scene = self.scene if "ball_mass" not in shown else self._scene_with_mass
-        if scene.balls == MASSLESS:
-            return "coarse while it moves: half the motion in half the steps"
-        seconds = motions.quick_duration(scene, self.settings.coarse_marching)
-        return f"coarse while it moves: {seconds:.2g} s of motion"
 
     def _is_coarse(self, scene: Scene) -> bool:
         return self.moving and motions.is_costly(scene, self.settings.marching)
@@ -436,7 +419,8 @@ class Results(SceneContent):
     @cached_property
     def contact_damping(self) -> float:
         """Viscous damping of a loaded contact [N·s/m], given or from the stiffness."""
-        return statics.contact_damping(self.scene)
+        compiling.need(compiling.STATICS, self.scene)
+        return core.contact_damping(self.scene)
 
     @cached_property
     def limits(self) -> tuple[Limit, ...]:

@@ -27,13 +27,6 @@ def curves(scene: Scene, first: float, last: float, n: int) -> Equilibrium:
 
 
 @cached
-def equilibrium_at(scene: Scene, cage_angle: float) -> Equilibrium:
-    """Equilibrium at one cage angle [rad]; arrays of length 1."""
-    compiling.need(compiling.STATICS, scene)
-    return core.static_state(scene, np.array([cage_angle]))
-
-
-@cached
 def modes(scene: Scene, first: float, last: float, n: int) -> Modes:
     """Natural frequencies at `n` equally spaced cage angles [rad]."""
     compiling.need(compiling.STATICS, scene)
@@ -71,10 +64,3 @@ def drops(scene: Scene, cage_angle: float) -> dict[str, NDArray[np.float64]]:
     """Drop [m] of each ball's centre at a cage angle [rad], by race."""
     compiling.need(compiling.STATICS)
     return {race: drops_now(scene, cage_angle, race) for race in RACES}
-
-
-@cached
-def contact_damping(scene: Scene) -> float:
-    """Viscous damping of a loaded contact [N·s/m], given or from the stiffness."""
-    compiling.need(compiling.STATICS)
-    return core.contact_damping(scene)

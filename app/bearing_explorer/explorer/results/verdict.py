@@ -19,6 +19,9 @@ MOTIONS = frozenset({"motion", "excerpt", "late_spectra"})
 BALLS = frozenset({"ball_mass"})
 """Attributes that compare motions without and with the mass of balls."""
 
+LIFE_FIELDS = " Enter them on the Machine tab, under Life."
+"""Behind a limit that is not known for want of an oil."""
+
 
 class Verdict(NamedTuple):
     """`mood`: "good", "bad" or "busy"."""
@@ -77,18 +80,12 @@ def rows_of(limits: tuple[Limit, ...]) -> tuple[dict[str, Any], ...]:
             else "kept",
             "short": f"{limit.name.capitalize()}: {_number(limit.value, limit.unit)} "
             f"(limit {_number(limit.limit, limit.unit)})",
-            "sentence": limit.sentence + _where(limit),
+            "sentence": limit.sentence
+            + (LIFE_FIELDS if math.isnan(limit.value) and NO_OIL in limit.sentence else ""),
         }
         for limit in limits
     ]
     return tuple(sorted(rows, key=lambda row: row["state"] != "crossed"))
-
-
-def _where(limit: Limit) -> str:
-    """The tab with the fields for a number that is missing."""
-    if math.isnan(limit.value) and NO_OIL in limit.sentence:
-        return " Enter them on the Machine tab, under Life."
-    return ""
 
 
 def _number(value: float, unit: str) -> str:

@@ -321,16 +321,14 @@ _OF_COMPARED = re.compile(r"compare([1-4])\.(.+)", re.ASCII)
 
 
 def _is_known(name: str) -> bool:
-    if match := _OF_COMPARED.fullmatch(name):
-        return match[2] == "label" or (match[2] not in _PLACE_ONLY and _is_known_of_scene(match[2]))
-    return name in _PLACE_ONLY or _is_known_of_scene(name)
-
-
-def _is_known_of_scene(name: str) -> bool:
-    head, dot, tail = name.rpartition(".")
-    if not dot:
-        return name in _PLACE_NAMES or name in _DEFECT_NAMES
-    return re.fullmatch(r"defect[1-9]\d?", head, re.ASCII) is not None and tail in _DEFECT_NAMES
+    match = re.fullmatch(r"(compare[1-4]\.)?(defect[1-9]\d?\.)?([^.]+)", name, re.ASCII)
+    if match is None:
+        return False
+    compared, defect, plain = match.groups()
+    if defect:
+        return plain in _DEFECT_NAMES
+    known = {*_PLACE_NAMES, *_DEFECT_NAMES, *({"label"} if compared else _PLACE_ONLY)}
+    return plain in known
 
 
 def _compared(pairs: dict[str, str]) -> tuple[Reference, ...]:
@@ -356,7 +354,6 @@ def _read(pairs: dict[str, str]) -> Place:
         raise ValueError(
             f"It has version “{_shown(version)}”; this program reads version {VERSION} only."
         )
-    place_alone = not pairs.keys() - {"tab"}
     preset = pairs.pop("preset", "fan-rig")
     if preset not in presets:
         raise ValueError(f"There is no bearing “{_shown(preset)}”.")
@@ -367,13 +364,12 @@ def _read(pairs: dict[str, str]) -> Place:
     tab = pairs.pop("tab", "")
     name = one_line(pairs.pop("name", ""), LONGEST_NAME)
     defects = []
-    note = f"The address names no version; it was read as v={VERSION}."
-    note = "" if version or place_alone else note
+    note = ""
     for number in range(count):
         here = {name: _prefix(number) + name for name in _DEFECT_NAMES}
         defect_pairs = {name: pairs.pop(there) for name, there in here.items() if there in pairs}
         if defect_pairs.get("floor") == "left-out":
-            note += " A measured floor was too long for the address; here it is flat."
+            note = "A measured floor was too long for the address; here it is flat."
         defects.append(_defect(defect_pairs, defects_of(base)[0]))
     fields = {part: _taken(entries, pairs) for part, entries in _SCENE.items()}
     of_rows = _taken(_TWO_ROWS, pairs)
@@ -393,7 +389,7 @@ def _read(pairs: dict[str, str]) -> Place:
     scene = dataclasses.replace(base, defect=defect, **parts, **own_fields).with_tilts_as(said)
     scene = scene.replace(**of_rows)
     tab = OTHER_NAMES_OF_TABS.get(tab, tab)[:40]
-    return Place(scene, preset, selected, cage_angle, tab, note.strip(), name, compared)
+    return Place(scene, preset, selected, cage_angle, tab, note, name, compared)
 
 
 def _taken(entries: Iterable[Entry], pairs: dict[str, str]) -> dict[str, Any]:

@@ -126,17 +126,17 @@ def groove_limits(scene: Scene) -> dict[str, Range]:
     return {name: FIELD_BY_KEY[name].range_for(scene, math.nan) for name in names}
 
 
-def read(key: str, given: object, limits: Mapping[str, Range]) -> float:
-    """The number a person gave for a field; ValueError with a sentence for the page."""
+def read(key: str, typed: object, limits: Mapping[str, Range]) -> float:
+    """Read the number that a person typed for a field; ValueError with a sentence for the page."""
     if key not in FIELD_BY_KEY:
         raise ValueError("There is no such quantity.")
     field = FIELD_BY_KEY[key]
     least, most = limits[key].allowed
-    text = str(given)[:80].strip()[:40]
+    text = str(typed)[:80].strip()[:40]
     if field.optional and text in ("", "None"):
         return math.nan
     try:
-        value = given if isinstance(given, float) else read_number(text, field.shown_unit)
+        value = typed if isinstance(typed, float) else read_number(text, field.shown_unit)
     except ValueError:
         value = math.nan
     low, high = sorted((field.read_sign * least, field.read_sign * most))
@@ -156,16 +156,6 @@ def read(key: str, given: object, limits: Mapping[str, Range]) -> float:
     return value
 
 
-def check_values(values: Mapping[str, float], limits: Mapping[str, Range]) -> None:
-    """ValueError with a sentence where a number is one that could not be typed on the page.
-
-    NaN stands for what a scene does not have.
-    """
-    for key, value in values.items():
-        if not math.isnan(value):
-            read(key, repr(value), limits)
-
-
 def second_units(scene: Scene, selected: int) -> dict[str, dict[str, Any]]:
     """The second unit of quantities that have one, by name: its unit, words and factor.
 
@@ -176,16 +166,13 @@ def second_units(scene: Scene, selected: int) -> dict[str, dict[str, Any]]:
     on_race = 1e3 * defect.raceway_radius(scene.bearing) * math.pi / 180.0
     ball = 1e3 * scene.bearing.ball_diameter
 
-    def unit_of(unit: str, words: str, factor: float) -> dict[str, Any]:
-        return {"unit": unit, "words": words, "factor": factor}
-
+    groove = ("× ball", "groove radius over ball diameter", 1.0 / ball)
     units = {
-        "extent_deg": unit_of("mm", "along the race", on_race),
-        "shaft_speed_hz": unit_of("rpm", "turns a minute", 60.0),
-        "radial_clearance_um": unit_of("µm dia.", "diametral clearance", 2.0),
+        "extent_deg": ("mm", "along the race", on_race),
+        "shaft_speed_hz": ("rpm", "turns a minute", 60.0),
+        "radial_clearance_um": ("µm dia.", "diametral clearance", 2.0),
+        "inner_groove_radius_mm": groove,
+        "outer_groove_radius_mm": groove,
     }
-    for race in ("inner", "outer"):
-        units[f"{race}_groove_radius_mm"] = unit_of(
-            "× ball", "groove radius over ball diameter", 1.0 / ball
-        )
-    return units
+    names = ("unit", "words", "factor")
+    return {key: dict(zip(names, unit, strict=True)) for key, unit in units.items()}

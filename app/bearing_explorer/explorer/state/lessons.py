@@ -50,7 +50,6 @@ import xml.etree.ElementTree as ElementTree
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from functools import cache, cached_property, lru_cache
-from itertools import islice
 from pathlib import Path
 from typing import Annotated, Any, TypeVar
 from urllib.parse import parse_qsl, unquote, urlencode
@@ -81,8 +80,6 @@ Tabs = tuple[tuple[str, tuple[str, ...]], ...]
 LONGEST_FILE = 20_000  # bytes
 LONGEST_FORMULA = 400  # characters
 MOST_LESSONS = 60
-MOST_FILES = 5_000
-"""Names that are looked at in a folder."""
 LONGEST_NAME = 60  # characters
 _MOST_LISTED = 16
 
@@ -218,8 +215,7 @@ def lessons_in(folder: Path, tabs: Tabs) -> list[Lesson | Fault]:
     A folder that cannot be read, or holds none, is one fault.
     """
     try:
-        names = islice(folder.iterdir(), MOST_FILES)
-        files = sorted(path for path in names if path.suffix == ".md")
+        files = sorted(path for path in folder.iterdir() if path.suffix == ".md")
     except OSError as error:
         return [_fault(str(folder), f"the folder cannot be read ({error.strerror or error})")]
     if not files:
@@ -284,17 +280,13 @@ def read_lesson(text: str, tabs: Tabs) -> Lesson:
         raise LessonError(len(lines), f"the head has no end: a second line {_FENCE} is missing")
     checks = _Checks(lines[1 : ends[0]], tabs)
     values, choices = checks.scene()
+    names = ("title", "tab", "preset", "drag", "watch", "term")
     return Lesson(
-        title=checks.head.title,
-        tab=checks.head.tab,
-        preset=checks.head.preset,
+        **{name: getattr(checks.head, name) for name in names},
         values=values,
         choices=choices,
-        drag=checks.head.drag,
-        watch=checks.head.watch,
         parts=_parts("\n".join(lines[ends[0] + 1 :]), ends[0] + 1, checks),
         predict=checks.prediction(),
-        term=checks.head.term,
     )
 
 

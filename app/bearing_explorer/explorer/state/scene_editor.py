@@ -35,7 +35,6 @@ from bearing_explorer.explorer.state.field_values import (
     FIRST_ROUGHNESS,
     SHOWN_FIELDS,
     Values,
-    check_values,
     defects_of,
     differ,
     groove_limits,
@@ -150,7 +149,10 @@ class SceneEditor:
         scene = scene.replace(defect=defects[0] if len(defects) == 1 else tuple(defects))
         limits = limits_of(presets[preset]) | groove_limits(scene)
         for index in range(len(defects)):
-            check_values({**values_of(scene, index), CAGE_ANGLE: cage_angle}, limits)
+            values = {**values_of(scene, index), CAGE_ANGLE: cage_angle}
+            for key, value in values.items():
+                if not math.isnan(value):  # it stands for what a scene does not have
+                    read(key, repr(value), limits)
         self.preset, self.scene, self.selected = preset, scene, selected
         self.begun = presets[preset]
         self.own_name, self.origin, self.effects = one_line(name, LONGEST_NAME), None, {}

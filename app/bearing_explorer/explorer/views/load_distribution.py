@@ -141,9 +141,9 @@ class LoadDistribution(ComparingView):
                 f"{'the' if parts else 'The'} greatest load of a {bearing.kind.element}{which} is "
                 f"{style.with_prefix(load[most], 'N')}, at {style.in_degrees(angle[most])}"
             )
-            if results.reference_label and np.isfinite(healthy).any():
+            if results.grey.label and np.isfinite(healthy).any():
                 most_there = style.with_prefix(np.nanmax(healthy), "N")
-                part += f" ({results.reference_label} {most_there})"
+                part += f" ({results.grey.label} {most_there})"
             parts.append(part)
         words = "; ".join(parts)
         if results.over_shaft:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from bearing_explorer.explorer.plots import compared_curves
-from bearing_explorer.explorer.results.ball_mass import BallMass
+from bearing_explorer.explorer.results.ball_mass import BallMass, entry_of
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.views.folded_view import FoldedView
 from bearing_explorer.explorer.views.passage_view import (
@@ -129,7 +129,7 @@ class MassInTime(FoldedView[Results], PassageView):
 
 def way_of_the_ball(shown: BallMass) -> str:
     """The path of the ball that enters at 0, in words."""
-    entry = shown.entry
+    entry = entry_of(shown.events)
     if entry is None:
         return "No ball enters a defect here"
     words = f"Ball {entry.ball + 1} enters the defect at 0"
@@ -150,11 +150,12 @@ def event_rows(shown: BallMass, start: float, end: float) -> dict[str, np.ndarra
     """Entries, exits and strikes as columns, with the places of their labels."""
     events = [(e.time, e.ball, 0 if e.enters else 1) for e in shown.events]
     events += [(s.time, s.ball, 2 + RACES_OF_LOADS.index(s.race)) for s in shown.strikes]
-    if shown.entry is not None and math.isfinite(shown.far_edge):
-        events.append((shown.far_edge, shown.entry.ball, 4))
+    entry = entry_of(shown.events)
+    entering = entry.ball if entry else -1
+    if math.isfinite(shown.far_edge):
+        events.append((shown.far_edge, entering, 4))
     # those of the ball that enters at 0 get their labels first
-    own = shown.entry.ball if shown.entry is not None else -1
-    events.sort(key=lambda event: (event[1] != own, event[0]))
+    events.sort(key=lambda event: (event[1] != entering, event[0]))
     times, balls, kinds = np.array(events, dtype=float).reshape(-1, 3).T
     times[np.abs(times) <= 1e-8] = 0.0
     return {

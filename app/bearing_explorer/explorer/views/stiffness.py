@@ -184,7 +184,7 @@ class Stiffness(ComparingView):
             least, most = ranges.least[term], ranges.greatest[term]
             span = prefixed_span(least, most, "N/m")
             line = f"{name} {term} {'varies from' if ' to ' in span else 'is'} {span}"
-            if results.reference_label and healthy.state.converged.any():
+            if results.grey.label and healthy.state.converged.any():
                 mean = healthy.mean(healthy.state.term(term))
                 line += f" (healthy: {with_prefix(mean, 'N/m')} on average)"
             parts.append(line)

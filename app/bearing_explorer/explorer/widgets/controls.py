@@ -45,27 +45,23 @@ def spec_of(groups: Iterable[str], *choices: Choice) -> dict[str, Any]:
             for group in names
         ],
         "choices": {
-            choice.name: _choice_spec(choice)
+            choice.name: {
+                "label": choice.label,
+                "group": choice.group,
+                "first": choice.first,
+                "options": [
+                    {"value": option.name, "label": option.label, "about": option.about}
+                    for option in choice.options
+                ],
+            }
             for choice in CHOICE_LIST
             if choice in choices or choice.group in names
         },
     }
 
 
-def _choice_spec(choice: Choice) -> dict[str, Any]:
-    return {
-        "label": choice.label,
-        "group": choice.group,
-        "first": choice.first,
-        "options": [
-            {"value": option.name, "label": option.label, "about": option.about}
-            for option in choice.options
-        ],
-    }
-
-
 class Rows(LiveComponent):
-    """Sliders, numbers and choices. `show` moves them.
+    """Sliders, numbers and choices.
 
     `asked` is called with each change as a dictionary with fields of `SceneChange`.
     """
@@ -78,10 +74,6 @@ class Rows(LiveComponent):
     def __init__(self, asked: Callable[[Any], None], **params: Any) -> None:
         super().__init__(**params)
         self.on_msg(lambda event: take(asked, SceneChange, event.data))
-
-    def show(self, **news: Any) -> None:
-        """Move controls in the browser (`state`), or say what was refused (`refused`)."""
-        self.send(news)
 
 
 MAIN = ("extent_deg", "fy_n", "shaft_speed_hz")

@@ -36,9 +36,7 @@ class LessonPanel(JSComponent):
         self, asked: Callable[[Any], None], lessons: Sequence[Lesson | Fault], **params: Any
     ) -> None:
         titles = [
-            [lesson.title, lesson.sentence, ""]
-            if isinstance(lesson, Fault)
-            else [lesson.title, "", lesson.name]
+            [lesson.title, getattr(lesson, "sentence", ""), getattr(lesson, "name", "")]
             for lesson in lessons
         ]
         super().__init__(titles=titles, margin=0, sizing_mode="stretch_width", **params)

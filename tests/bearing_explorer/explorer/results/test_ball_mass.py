@@ -3,6 +3,7 @@
 import dataclasses
 
 import pytest
+from bearing_explorer.explorer.results.ball_mass import entry_of, exit_of
 from bearing_explorer.explorer.results.motions import motion, quick_duration
 from bearing_explorer.explorer.results.results import Results
 
@@ -33,16 +34,13 @@ def test_the_first_picture_is_short_and_shows_a_ball_on_its_way_through(name: st
         assert len(run.time) == round(duration * how.sample_rate)
         cost = duration * run.step_rate * scene.bearing.total_balls
         assert cost * (1.0 if is_planar(scene) else 4.0) < 2.1e6
-        assert ball_mass.entry is not None
+        assert entry_of(ball_mass.events) is not None
         if all(defect.extent < 0.35 * scene.bearing.ball_spacing for defect in scene.defects):
-            assert ball_mass.exit is not None  # else it is a longer way than is shown
+            assert exit_of(ball_mass.events) is not None  # else it is a longer way than is shown
         assert not ball_mass.broke_off
 
 
 def test_a_bearing_whose_balls_have_no_mass_says_so() -> None:
     results = Results(presets["30206-back-to-back"], moving=True)
-    shown = frozenset({"ball_mass"})
-    if results.is_coarse(shown):
-        assert results.coarse_words(shown)
     with pytest.raises(ValueError, match="a rib holds them"):
         _ = results.ball_mass

@@ -48,7 +48,7 @@ def test_a_ball_in_the_defect_leaves_its_load_to_those_beside_it() -> None:
     assert "Roller" in words(Results(presets["nu208"], UNDER))
     short = OverviewBearing(PackedSource()).sentence
     assert short(of(RIG)) == "Balls 10 and 12 carry most: ball 11 is in the defect."
-    assert short(of(RIG.healthy())) == "Ball 11 carries most: it lies nearest the load."
+    assert short(of(RIG.healthy())) == "Ball 11 carries most: it lies on the line of the load."
     most = LoadDistribution(PackedSource()).sentence
     assert "ball 11, nearer the line of the load, lies in the defect" in most(of(RIG))
     assert "in the defect" not in most(of(RIG.healthy()))

@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from bearing_explorer.explorer.results.ball_mass import BallMass
+from bearing_explorer.explorer.results.ball_mass import BallMass, exit_of
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.references import OTHER_BALLS
 from bearing_explorer.explorer.views.mass_time import MassInTime
@@ -35,8 +35,8 @@ def test_a_ball_over_a_small_pit_meets_its_far_edge_half_way() -> None:
     """As geometry has it: it pivots on one corner, then on the other, and never lets go."""
     small = Results(MOTOR.replace(defect=pit(MOTOR, 3e-4)), moving=True).ball_mass
     assert small.strikes == ()
-    assert small.exit is not None
-    assert small.far_edge == pytest.approx(0.5 * small.exit.time, rel=0.02)
+    assert exit_of(small.events) is not None
+    assert small.far_edge == pytest.approx(0.5 * exit_of(small.events).time, rel=0.02)
     assert mechanism_words(small).startswith(
         "The varying stiffness gives most of the power in every"
     )

@@ -131,7 +131,7 @@ class OverviewSpectrum(ComparingView):
         compared = levels_of_compared("overview_spectrum", results, top)
         shown = self._levels.fit(*seen_levels(TOP_ROOM, drawn, *compared.values()))
         names = end_names(drawn, shown, top)
-        if results.reference_label:
+        if results.grey.label:
             names += grey_name(healthy, drawn, shown)
         x, y, which = np.array(names, dtype=float).reshape(-1, 3).T
         return {

@@ -18,7 +18,7 @@ from bearing_explorer.kit.serve.bokeh_internals import PLAIN
 from bearing_explorer.kit.serve.live import run_on_loop
 from bearing_explorer.kit.serve.panel_internals import PageTemplate
 from bearing_explorer.kit.serve.serving import collect_now_and_then
-from bearing_explorer.kit.session import Half, Section, Session
+from bearing_explorer.kit.session import Section, Session
 from bearing_explorer.kit.views.base import View
 from bearing_explorer.kit.views.still_figure import Figure
 from bearing_explorer.kit.widgets.form import stack
@@ -74,7 +74,7 @@ class Halves:
             signal.SECTIONS,
             lambda: self.explorer.focused_scene if self.explorer else presets["fan-rig"],
         )
-        both: tuple[Half | None, ...] = self.explorer, self.diagnosis
+        both: tuple[Any, ...] = self.explorer, self.diagnosis
         half_of = {section: half for half in both if half for section in half.sections}
         halves = {section: half_of[section] for section in SECTIONS}
         self.session = Session(halves, self.explorer.bookmarks.tab if self.explorer else "")

@@ -302,14 +302,14 @@ class Results(SceneContent):
         The first failure counts: without a static state there is no motion.
         """
         bad = verdict.statics_words(self.equilibrium)
-        if not bad and "now" in shown:
-            bad = verdict.words_of_now(self.now)
+        if not bad and "now" in shown and not self.now.converged[0]:
+            bad = f"No answer at this cage angle: {self.now.reason(0)}"
         if not bad and "chain" in shown:
             bad = verdict.chain_words(self.chain)
         if bad:
             return Verdict("bad", bad)
         try:
-            if shown & verdict.BALLS and self.ball_mass.broke_off:
+            if "ball_mass" in shown and self.ball_mass.broke_off:
                 return Verdict("bad", f"No motion: {self.ball_mass.broke_off}")
             if shown & verdict.MOTIONS and self.fault:
                 return Verdict("bad", f"The motion {self.fault}")

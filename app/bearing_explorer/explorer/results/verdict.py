@@ -16,9 +16,6 @@ from bearingcore.model.statics import NO_OIL
 MOTIONS = frozenset({"motion", "excerpt", "late_spectra"})
 """Attributes that are of a simulated motion."""
 
-BALLS = frozenset({"ball_mass"})
-"""Attributes that compare motions without and with the mass of balls."""
-
 LIFE_FIELDS = " Enter them on the Machine tab, under Life."
 """Behind a limit that is not known for want of an oil."""
 
@@ -31,7 +28,7 @@ class Verdict(NamedTuple):
 
 
 def statics_words(state: Equilibrium) -> str:
-    """At which cage angles of the curves no static equilibrium was found; empty for none."""
+    """Number of cage angles of the curves without a static equilibrium, in words; or empty."""
     bad = np.flatnonzero(~state.converged)
     if not bad.size:
         return ""
@@ -39,11 +36,6 @@ def statics_words(state: Equilibrium) -> str:
     if bad.size == state.converged.size:
         return f"No answer: {reason}"
     return f"No answer at {bad.size} of {state.converged.size} cage angles: {reason}"
-
-
-def words_of_now(now: Equilibrium) -> str:
-    """Reason for no static equilibrium at the cage angle drawn; empty where there is one."""
-    return "" if now.converged[0] else f"No answer at this cage angle: {now.reason(0)}"
 
 
 def chain_words(chain: Chain) -> str:

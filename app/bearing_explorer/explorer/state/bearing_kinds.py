@@ -64,7 +64,7 @@ def scene_with(scene: Scene, bearing: Bearing) -> Scene:
     )
 
 
-def held(scene: Scene) -> tuple[Scene, str]:
+def add_thrust(scene: Scene) -> tuple[Scene, str]:
     """A scene in which rows that face one way are pushed together, and a sentence on it.
 
     A row with a contact angle, and rows in tandem, carry a radial load only with an axial one,

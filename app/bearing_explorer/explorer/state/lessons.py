@@ -66,7 +66,7 @@ from msgspec.structs import fields
 from bearing_explorer.explorer.state.address import OTHER_NAMES_OF_TABS
 from bearing_explorer.explorer.state.choice_list import CHOICE_LIST
 from bearing_explorer.explorer.state.field_values import FIELD_BY_KEY, SCENE_GROUPS, SHOWN_FIELDS
-from bearing_explorer.explorer.state.scene_editor import SceneEditor
+from bearing_explorer.explorer.state.scene_editor import LONGEST_NAME, SceneEditor
 from bearing_explorer.kit.assets import asset_path
 from bearing_explorer.kit.simulated_signals import NOISES
 from bearingcore import presets
@@ -80,7 +80,6 @@ Tabs = tuple[tuple[str, tuple[str, ...]], ...]
 LONGEST_FILE = 20_000  # bytes
 LONGEST_FORMULA = 400  # characters
 MOST_LESSONS = 60
-LONGEST_NAME = 60  # characters
 _MOST_LISTED = 16
 
 CHOICES: Mapping[str, Sequence[str]] = {
@@ -491,8 +490,6 @@ def _simulate(rest: str, line: int, checks: _Checks) -> dict[str, Any]:
     noise = changes.pop("noise", "20")
     if noise not in NOISES:
         raise LessonError(line, f"noise is “{noise[:40]}”; {_hint(noise, list(NOISES))}")
-    for former in ("machine", "pit"):  # options of former days
-        changes.pop(former, None)
     scene = _set(urlencode(changes), line, checks) if changes else {"choose": {}, "typed": {}}
     shown = {"show": "diagnosis"} if "diagnosis" in checks.tabs else {}
     return {**scene, **shown, "simulate": {"noise": noise}}

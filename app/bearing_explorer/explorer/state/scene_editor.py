@@ -17,8 +17,8 @@ from typing import Any
 
 from bearing_explorer.explorer.state.bearing_kinds import (
     MOST_SHOWN_ROWS,
+    add_thrust,
     convert_to_kind,
-    held,
     hidden_of,
     scene_with,
 )
@@ -235,7 +235,7 @@ class SceneEditor:
         before = self.scene.replace(defect=fresh.get("defect", self.scene.defect))
         if before.dofs == self.begun.dofs:
             before = before.replace(dofs=None)
-        scene, effect = held(scene_with(before, bearing).replace(**fresh))
+        scene, effect = add_thrust(scene_with(before, bearing).replace(**fresh))
         self.selected = self.selected if "defect" in kept else 0
         self.begun = usual
         self._take(scene)
@@ -398,7 +398,9 @@ class SceneEditor:
             self.effects["preset"] += f" Assumed: {', '.join(listed.assumed)}."
 
     def _take_kind(self, kind: str) -> None:
-        scene, effect = held(scene_with(self.scene, convert_to_kind(self.scene.bearing, kind)))
+        scene, effect = add_thrust(
+            scene_with(self.scene, convert_to_kind(self.scene.bearing, kind))
+        )
         self._take(scene)
         if effect:
             self.effects["kind"] = effect

@@ -61,6 +61,15 @@ def test_looking_at_another_defect_is_no_step(editor: SceneEditor, bookmarks: Bo
     assert len(editor.defects) == 1
 
 
+def test_scenes_that_are_compared_are_a_step_too(bookmarks: Bookmarks) -> None:
+    for message in ({"compare_here": "a"}, {"compare_here": "b"}, {"number": 0, "remove": True}):
+        bookmarks.change_compared(message)
+        bookmarks.follow(message)
+    for way, names in (("undo", "ab"), ("undo", "a"), ("undo", ""), ("redo", "a")):
+        assert bookmarks.go({way: True})
+        assert "".join(reference.name for reference in bookmarks.compared) == names
+
+
 def test_no_more_scenes_are_compared_than_there_are_colours(bookmarks: Bookmarks) -> None:
     for _ in range(MOST_COMPARED + 1):
         bookmarks.change_compared({"compare_here": ""})

@@ -57,7 +57,7 @@ def news(monkeypatch: pytest.MonkeyPatch) -> list[dict]:
     """What the controls were shown."""
     news: list[dict] = []
     monkeypatch.setattr(
-        "bearing_explorer.explorer.widgets.controls.Controls.show", lambda self, **n: news.append(n)
+        "bearing_explorer.explorer.widgets.controls.Controls.send", lambda self, n: news.append(n)
     )
     return news
 

@@ -296,7 +296,7 @@ def rows_text(rows: tuple[Row, ...]) -> str:
     words = []
     for row in rows:
         numbers = [getattr(row, name) for name in _OF_ROW]
-        words.append("_".join("" if one is None else _short(one) for one in numbers).rstrip("_"))
+        words.append("_".join("" if each is None else _short(each) for each in numbers).rstrip("_"))
     return "~".join(words)
 
 

@@ -1,16 +1,13 @@
 """Life against a commercial code's results, other sums, and what must not change it."""
 
-import dataclasses
 import math
 
-import numpy as np
 import pytest
 
-from bearingcore import DOF_NAMES, Defect, Load, Scene, equilibrium, presets, scene_of
+from bearingcore import DOF_NAMES, Load, Scene, equilibrium, presets, scene_of
 from bearingcore.model.scene import FREE_TILT_WORDS
 from bearingcore.model.scene._scene import HELD_TILT_WORDS
 from bearingcore.model.statics import dynamic_load_rating, life
-from bearingcore.model.statics._race_loads import race_loads
 from tests.outside.witness import witness
 
 P, E = 3.0, 10.0 / 9.0
@@ -52,63 +49,6 @@ def test_commercial_code(
     rated = life(seven_balls(clearance, **load), RATING, positions="load line")
     assert rated.million_revolutions == pytest.approx(printed, rel=tolerance)
     assert rated.known
-
-
-def damaged(race: str, **changes: float) -> Scene:
-    """A deep-groove bearing with a spall that balls fall into."""
-    return presets["6206"].replace(race=race, **changes)
-
-
-def count_loads(scene: Scene, places: int, every: int) -> tuple[float, float]:
-    """Q_ei, Q_ee by equal bins of both races: every ball at every place at every shaft angle.
-
-    places in a ball spacing; shaft angles `every` so many places.
-    """
-    bearing = scene.bearing
-    N_b = bearing.n_balls
-    total = N_b * places
-    used_inner, used_outer, hits = np.zeros(total), np.zeros(total), np.zeros(total)
-    cage = (np.arange(places) + 0.5) * bearing.ball_spacing / places
-    for k in range(0, total, every):
-        psi = k * 2.0 * math.pi / total
-        for i, c in enumerate(cage):
-            turned = tuple(
-                dataclasses.replace(d, center=d.center + psi - c / bearing.cage_ratio)
-                if d.race == "inner"
-                else d
-                for d in scene.defects
-            )
-            Q = equilibrium(dataclasses.replace(scene, defect=turned), [c]).ball_load[0]
-            at = i + places * np.arange(N_b)
-            used_outer[at] += Q**P
-            used_inner[(at - k) % total] += Q**P
-            hits[at] += 1
-    root = 1.0 / (P * E)
-    passes = hits[0]
-    assert np.all(hits == passes)
-    return (
-        float(np.mean((used_inner / passes) ** E) ** root),
-        float(np.mean((used_outer / passes) ** E) ** root),
-    )
-
-
-def test_defects_of_both_races_by_counting() -> None:
-    scene = damaged("inner", extent=math.radians(20.0))
-    assert isinstance(scene.defect, Defect)
-    other = dataclasses.replace(scene.defect, race="outer", center=math.radians(260.0))
-    scene = dataclasses.replace(scene, defect=(scene.defect, other))
-    loads = race_loads(scene, P, E)
-    inner, outer = count_loads(scene, places=48, every=4)
-    assert loads.inner[0] == pytest.approx(inner, rel=2e-3)
-    assert loads.outer[0] == pytest.approx(outer, rel=2e-3)
-
-
-def test_the_turning_race_takes_the_cubic_mean_and_the_standing_one_the_other() -> None:
-    scene = presets["6205"].healthy()
-    rated = life(scene, 14e3, positions="load line")
-    Q = equilibrium(scene, [1.5 * math.pi % scene.bearing.ball_spacing]).ball_load
-    cubic, tenthirds = float(np.mean(Q**3) ** (1 / 3)), float(np.mean(Q ** (10 / 3)) ** 0.3)
-    assert (rated.inner_load, rated.outer_load) == pytest.approx((cubic, tenthirds), rel=1e-12)
 
 
 def test_hours() -> None:

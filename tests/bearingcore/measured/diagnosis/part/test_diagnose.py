@@ -21,10 +21,8 @@ from bearingcore.measured.diagnosis import (
 )
 from bearingcore.measured.diagnosis._part import say
 from tests.bearingcore.measured.diagnosis.signals_made import (
-    HEALTHY,
     Machine,
     background,
-    draw_signal,
     knock_times,
     knocks,
     resonances,
@@ -159,19 +157,6 @@ def test_the_swing_that_is_named_is_that_from_which_damage_shows(share, least, m
         for seed in range(8)
     ]
     assert least <= sum(one.fault != NONE_SEEN for one in shown) <= most
-
-
-@pytest.mark.parametrize("kind", [*PARTS, HEALTHY])
-def test_signals_of_any_machine_are_named_rightly_or_not_at_all(kind):
-    right = 0
-    for number in range(2):
-        rng = np.random.default_rng([5, (*PARTS, HEALTHY).index(kind), number, 0])
-        machine, recording = draw_signal(kind, rng, 0.0)
-        diagnosis = diagnose(recording, machine.bearing, machine.shaft_speed)
-        truth = NONE_SEEN if kind == HEALTHY else kind
-        assert diagnosis.fault in (truth, CANNOT_TELL)
-        right += diagnosis.fault == truth
-    assert right >= 1
 
 
 @pytest.mark.parametrize("part", PARTS)

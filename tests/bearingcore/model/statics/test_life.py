@@ -1,13 +1,16 @@
 """Life against a commercial code's results, other sums, and what must not change it."""
 
+import dataclasses
 import math
 
+import numpy as np
 import pytest
 
 from bearingcore import DOF_NAMES, Load, Scene, equilibrium, presets, scene_of
 from bearingcore.model.scene import FREE_TILT_WORDS
 from bearingcore.model.scene._scene import HELD_TILT_WORDS
 from bearingcore.model.statics import dynamic_load_rating, life
+from bearingcore.model.statics._race_loads import race_loads
 from tests.outside.witness import witness
 
 P, E = 3.0, 10.0 / 9.0
@@ -49,6 +52,28 @@ def test_commercial_code(
     rated = life(seven_balls(clearance, **load), RATING, positions="load line")
     assert rated.million_revolutions == pytest.approx(printed, rel=tolerance)
     assert rated.known
+
+
+def test_defects_of_both_races_by_counting() -> None:
+    """Q_ei and Q_ee by equal bins: every ball at every place of both races at every shaft angle."""
+    scene = presets["6206"].replace(race="inner", extent=math.radians(20.0))
+    (inner,) = scene.defects
+    outer = dataclasses.replace(inner, race="outer", center=math.radians(260.0))
+    places, balls, ratio = 48, scene.bearing.n_balls, scene.bearing.cage_ratio
+    total = places * balls
+    used = np.zeros((2, total))
+    for k in range(0, total, 4):
+        for i in range(places):
+            cage = (i + 0.5) * 2.0 * math.pi / total
+            turned = inner.center + k * 2.0 * math.pi / total - cage / ratio
+            both = (dataclasses.replace(inner, center=turned), outer)
+            Q = equilibrium(scene.replace(defect=both), [cage]).ball_load[0]
+            at = i + places * np.arange(balls)
+            used[0, (at - k) % total] += Q**P
+            used[1, at] += Q**P
+    expected = np.mean((used * 4.0 / total) ** E, axis=1) ** (1.0 / (P * E))
+    loads = race_loads(scene.replace(defect=(inner, outer)), P, E)
+    assert (loads.inner[0], loads.outer[0]) == pytest.approx(tuple(expected), rel=2e-3)
 
 
 def test_hours() -> None:

@@ -594,6 +594,11 @@ ONE_SIGNAL: list[tuple[Any, ...]] = [
     (FRAME.to_csv(sep=";", decimal=",", quoting=csv.QUOTE_ALL), RATE),
     *((FRAME.to_json(orient=way), RATE) for way in ("index", "columns")),
     (written(lambda t, a: f'"{round(t * RATE) + 1}" {t:.6f} {a}', '"time" "acc"'), RATE),
+    # signs of other tables than UTF-8, and remarks above the headings
+    ("\ufeff" + FRAME.to_csv(), RATE),
+    (FRAME.to_csv().encode("utf-16"), RATE),
+    (("Neigung 3°\n" + FRAME.to_csv(index=False)).encode("latin-1"), RATE),
+    ("# a remark\r\n\r\nRig 7, run 3\n" + FRAME.to_csv(index=False), RATE),
     # times are known by name and unit in any column
     *((rows(ALONE, TIME * a_second, heading=f"acc [g],{heading}"), RATE) for heading, a_second in (
         ("X_Value", 1.0), ("sec", 1.0), ("milliseconds", 1e3), ("micros", 1e6), ("millis()", 1e3),
@@ -750,6 +755,13 @@ FILES: list[tuple[bytes | str, dict[str, Any]]] = [
     (note("# temperature: 45 °C"), {"no rate": None, "columns": {"y": 0}}),
     (note("# samples = 2000"), {"no rate": None, "columns": {"y": 0}}),
     (note("On Monday beside the temperature sensor"), {"no rate": None, "columns": {"y": 0}}),
+    (rows(SIGNAL[:, 0], heading="Logger 7\nSample rate: 25.6 kHz\nShaft speed = 1500 rpm\n"
+          "Load; 2,5 kN\nUnit: m/s^2\nvertical"),
+     {"names": ("vertical",), "rate": 25.6e3, "rpm": 1500.0, "load": 2500.0, "unit": "m/s²"}),
+    # the heading of a single column is kept and its unit used
+    *((rows(SIGNAL[:, 0], heading=heading), {"names": (heading,), "unit": unit})
+      for heading, unit in (
+          ("acc (mg)", "mg"), ("Beschleunigung in m/s^2", "m/s²"), ("a [in/s2]", "in/s²"))),
     # rates that are not sure, or disagree
     (note("# fs = 12.000 Hz"), {"likely": 12e3}),
     (note("# fs: 64.0 Hz"), {"likely": 64.0}),
@@ -864,6 +876,8 @@ FILES: list[tuple[bytes | str, dict[str, Any]]] = [
     (hdf5(rig__DE=(SIGNAL[:, 0], STEP | {"unit_string": "g"}),
           rig__NDE=(SIGNAL[:, 1], STEP | {"unit_string": "V"})),
      {"units": ["g", "V"], "rate": RATE, "options": (0, 1)}),
+    (hdf5(run__vertical=(SIGNAL[:, 0], {"sampling_rate": RATE, "unit": "mm/s²"})),
+     {"names": ("run.vertical",), "rate": RATE, "unit": "mm/s²"}),
     (hdf5(time=(1e3 * TIME, {"units": "ms"}), ch1=(SIGNAL[:, 0], {"location": "DE"}),
           ch2=(SIGNAL[:, 1], {"location": "FE"})), {"rate": RATE, "options": (0, 1), "unit": None}),
 ]  # fmt: skip

@@ -52,7 +52,7 @@ def with_all_they_require(names: Iterable[str]) -> set[str]:
 
 
 def test_the_core_runs_where_no_other_package_is(tmp_path: Path) -> None:
-    """In an environment of links to the required packages; files are read in a process of it."""
+    """The environment holds links to the required packages; a process of it reads the file."""
     lines = (ROOT / "requirements-core.txt").read_text(encoding="utf-8").splitlines()[1:]
     venv.create(tmp_path / "core")
     (packages,) = tmp_path.glob("core/lib/*/site-packages")

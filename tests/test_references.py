@@ -30,8 +30,8 @@ LIBRARIES = {
     "Document": "bokeh.document.Document",
 }
 NOT_INSTALLED_BY_TESTS = {"ross"}
-KEYS = {"compare1.label"}
-"""Of links: not names of the program."""
+KEYS_OF_LINKS = {"compare1.label"}
+"""Not names of the program."""
 
 
 def bare(name: str) -> str:
@@ -129,7 +129,8 @@ def wrong(text: str) -> list[str]:
     return [
         name
         for name in NAME.findall(text)
-        if not (name in KEYS or FILE.fullmatch(name) or is_in_project(name) or is_in_library(name))
+        if not (name in KEYS_OF_LINKS or FILE.fullmatch(name))
+        if not (is_in_project(name) or is_in_library(name))
     ]
 
 

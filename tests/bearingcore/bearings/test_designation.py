@@ -120,7 +120,7 @@ def test_clearance_classes_follow_each_other(kind: str) -> None:
             assert low < next_low
             assert high < next_high
         # neighbours overlap; C4 and C5 of rollers need not
-        assert all(one[1] >= other[0] for one, other in itertools.pairwise(each[:4]))
+        assert all(low[1] >= high[0] for low, high in itertools.pairwise(each[:4]))
         if before is not None:
             assert all(b[1] <= a[1] + 1e-12 for b, a in zip(before, each, strict=True))
         before = each
@@ -136,7 +136,7 @@ def test_clearances_as_other_makers_print_them() -> None:
 
 
 def test_rule_on_published_insides() -> None:
-    """What is said of the rule's errors is what they are.
+    """The documents state the errors that the rule has.
 
     It has no constant that was fitted to these bearings: leaving one out changes nothing.
     """
@@ -154,7 +154,7 @@ def test_rule_on_published_insides() -> None:
 
 
 def test_only_insert_bearings_are_off_by_more_than_a_percent() -> None:
-    """With the number right: inserts of housed units, which have the outer ring of another bearing.
+    """They are inserts of housed units and have the outer ring of another bearing.
 
     Four have balls a thirty-second of an inch larger, one runs on a circle of an inch.
     """
@@ -168,9 +168,9 @@ def test_only_insert_bearings_are_off_by_more_than_a_percent() -> None:
     sources = [line["source"] for line in off.values()]
     assert all("housed unit" in source or "UER204" in source for source in sources)
     for name in ("6208", "6307", "6308", "6309"):
-        own = inside_of(name)
-        larger = own.ball_diameter + INCH / 32.0
-        assert float(off[name]["ratio"]) * own.pitch_diameter == pytest.approx(larger, rel=1e-3)
+        inside = inside_of(name)
+        larger = inside.ball_diameter + INCH / 32.0
+        assert float(off[name]["ratio"]) * inside.pitch_diameter == pytest.approx(larger, rel=1e-3)
     assert float(off["6202"]["ratio"]) == pytest.approx(7.0 / 32.0)
 
 
@@ -191,8 +191,8 @@ def test_estimated_bearings_are_rated_as_the_catalogue_rates_them() -> None:
     for basic in boundaries():
         designation = read_designation(basic)
         if designation.kind in (DEEP_GROOVE, ANGULAR_CONTACT):
-            own = dynamic_load_rating(designation.bearing)
-            assert own == pytest.approx(designation.dynamic_load_rating, rel=0.04), basic
+            rating = dynamic_load_rating(designation.bearing)
+            assert rating == pytest.approx(designation.dynamic_load_rating, rel=0.04), basic
 
 
 def test_balls_are_of_the_sizes_of_iso_3290() -> None:
@@ -201,7 +201,7 @@ def test_balls_are_of_the_sizes_of_iso_3290() -> None:
     assert np.abs(steps - np.rint(steps)).min(axis=1) == pytest.approx(0.0, abs=1e-9)
 
 
-def test_rule_finds_balls_again() -> None:
+def test_the_rule_recovers_balls_from_ratings() -> None:
     """A bearing rated by the standards' formulas gives its own balls back."""
     D, d = 0.080, 0.040
     for count, ball in ((8, 12.7e-3), (9, 11.90625e-3), (10, 11.1125e-3)):
@@ -314,7 +314,7 @@ def test_tapered_rollers_have_the_outside_of_iso_355() -> None:
                 assert size.static_rating > 0.9 * size.dynamic_rating
             assert wider.width > narrower.width
             assert wider.dynamic_rating > narrower.dynamic_rating
-    flat = {basic: one for basic, one in boundaries().items() if series_of(basic) == "320"}
+    flat = {basic: size for basic, size in boundaries().items() if series_of(basic) == "320"}
     assert len(flat) == 14
     for basic, size in flat.items():
         assert size[:2] == boundaries()[f"60{basic[3:]}"][:2]
@@ -332,12 +332,12 @@ def test_tapered_sizes_as_other_catalogues_print_them() -> None:
         "32306": (30, 72, 28.75, 27, 23, 0.31, 76.5, 85),
     }
     for name, (*sizes, e, dynamic, static) in printed.items():
-        own = boundaries()[name]
-        lengths = (own.bore, own.outside_diameter, own.width, own.cone_width, own.cup_width)
+        size = boundaries()[name]
+        lengths = (size.bore, size.outside_diameter, size.width, size.cone_width, size.cup_width)
         assert [1e3 * length for length in lengths] == pytest.approx(sizes)
-        assert own.thrust_limit == pytest.approx(e, abs=0.011)
-        assert own.dynamic_rating == pytest.approx(1e3 * dynamic, rel=0.1)
-        assert own.static_rating == pytest.approx(1e3 * static, rel=0.1)
+        assert size.thrust_limit == pytest.approx(e, abs=0.011)
+        assert size.dynamic_rating == pytest.approx(1e3 * dynamic, rel=0.1)
+        assert size.static_rating == pytest.approx(1e3 * static, rel=0.1)
 
 
 def test_tapered_rollers_have_the_ratings_of_the_catalogue_and_fit_in() -> None:
@@ -356,10 +356,10 @@ def test_tapered_rollers_have_the_ratings_of_the_catalogue_and_fit_in() -> None:
 
 
 def test_another_makers_ratings_give_nearly_the_same_tapered_rollers() -> None:
-    """What is said of the rule's spread between two makers is what it is."""
+    """The documents state the spread between two makers that the rule has."""
     ratios, same = [], 0
     for line in lines_of(REFERENCE / "tapered_ratings_of_another_maker.csv"):
-        size, own = boundaries()[line["designation"]], inside_of(line["designation"])
+        size, inside = boundaries()[line["designation"]], inside_of(line["designation"])
         other = tapered_rollers_from_ratings(
             size.bore,
             size.outside_diameter,
@@ -367,9 +367,9 @@ def test_another_makers_ratings_give_nearly_the_same_tapered_rollers() -> None:
             1e3 * float(line["static_rating_kn"]),
             ratings.tapered_angle_of(size.thrust_limit),
         )
-        assert abs(other.n_balls - own.n_balls) <= 1
-        same += other.n_balls == own.n_balls
-        ratios.append(abs(other.ball_diameter / own.ball_diameter - 1.0))
+        assert abs(other.n_balls - inside.n_balls) <= 1
+        same += other.n_balls == inside.n_balls
+        ratios.append(abs(other.ball_diameter / inside.ball_diameter - 1.0))
     assert (same, len(ratios)) == (SAME_ROLLERS, TAPERED_BEARINGS)
     said = median(ratios), TAPERED_SPREAD
     assert said == pytest.approx((0.006, 0.035), abs=5e-4)  # as documents say
@@ -381,8 +381,8 @@ def test_narrow_and_wide_tapered_bearings_of_one_section_have_one_roller_diamete
     apart = []
     for narrow, wide, _ in DIAMETER_SERIES:
         for code in range(4, 21):
-            one, other = (inside_of(f"{series}{code:02d}") for series in (narrow, wide))
-            apart.append(abs(one.ball_diameter / other.ball_diameter - 1.0))
+            first, second = (inside_of(f"{series}{code:02d}") for series in (narrow, wide))
+            apart.append(abs(first.ball_diameter / second.ball_diameter - 1.0))
     assert median(apart) < 0.01
     assert float(np.quantile(apart, 0.9)) < 0.025
 

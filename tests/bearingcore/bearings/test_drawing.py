@@ -30,8 +30,8 @@ def scene_of(bearing: Bearing, load: Load, defect: Defect | None = None) -> Scen
 
 @pytest.mark.parametrize(("angle", "play"), [(None, PLAY), (0.4, None), (0.4, PLAY)])
 def test_the_clearance_lies_on_top_of_the_angle(angle: float | None, play: float | None) -> None:
-    given = {"contact_angle": angle, "diametral_clearance": play}
-    bearing = Bearing.from_drawing(**DRAWING, **given)
+    freedoms = {"contact_angle": angle, "diametral_clearance": play}
+    bearing = Bearing.from_drawing(**DRAWING, **freedoms)
     angle, play = angle or 0.0, play or 0.0
     assert (bearing.contact_angle, bearing.radial_clearance) == (angle, play / 2)
     cosine = math.cos(angle) - play / 2 / A0

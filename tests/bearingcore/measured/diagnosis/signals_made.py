@@ -28,13 +28,13 @@ class Machine:
     ratio: float
     """Ball over pitch diameter, times the cosine of the contact angle."""
     turns: float
-    """Of the shaft a second [Hz]."""
+    """Turns of the shaft a second [Hz]."""
     rate: float
     duration: float
 
     @property
     def bearing(self) -> Bearing:
-        """As the project describes it."""
+        """The bearing as the project describes it."""
         ball = 40e-3 * self.ratio
         return Bearing.from_drawing(
             self.n_balls, ball, 40e-3, 0.52 * ball, 0.53 * ball, contact_angle=0.0
@@ -76,7 +76,7 @@ def knock_times(
 
 
 def resonances(rate: float, rng: Rng) -> NDArray[np.float64]:
-    """What one knock makes ring: up to three modes of structure and path."""
+    """Ringing of one knock: up to three modes of structure and path."""
     time = np.arange(int(0.02 * rate)) / rate
     ring = np.zeros(len(time))
     for _ in range(int(rng.integers(1, 4))):
@@ -147,7 +147,7 @@ def tone(
 
 
 def background(machine: Machine, rng: Rng) -> NDArray[np.float64]:
-    """All that a healthy machine makes: noise of deviation about 1, and tones."""
+    """Vibration of a healthy machine: noise of deviation about 1, and tones."""
     count = int(machine.duration * machine.rate)
     time = np.arange(count) / machine.rate
     signal = coloured_noise(count, machine.rate, rng)

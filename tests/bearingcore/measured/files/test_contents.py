@@ -1,4 +1,4 @@
-"""What files say about themselves, in the shapes in which real machines are recorded."""
+"""Facts that files state, in the shapes in which real machines are recorded."""
 
 import math
 from typing import Any

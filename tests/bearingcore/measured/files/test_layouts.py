@@ -275,7 +275,7 @@ def test_a_file_in_a_zip_is_read_and_one_of_several_by_its_name() -> None:
 
 
 def matlab_table() -> bytes:
-    """As version 7.3 keeps one: numbers that point into a part of its own."""
+    """A table as version 7.3 keeps it: numbers that point into another part of the file."""
     points = np.array([[3707764736, 2, 1, 1, 1, 1]], dtype="u4")
     return hdf5(T=(points, {"MATLAB_object_decode": 3}))
 
@@ -465,7 +465,7 @@ def test_a_typed_rate_that_nothing_shows_is_said() -> None:
 
 
 @pytest.mark.parametrize(
-    ("given", "told"),
+    ("arguments", "told"),
     [
         ({}, r"columns is missing.* signals of 1 \(“b”\), 2 \(“c”\).*Which is at this bearing"),
         ({"columns": {"signal": 1}}, r"unit is missing: pass unit="),
@@ -476,9 +476,9 @@ def test_a_typed_rate_that_nothing_shows_is_said() -> None:
         ({"columns": {"time": [0, 1]}}, "one column of times"),
     ],
 )
-def test_what_is_still_to_be_said_is_asked_for(given: dict, told: str) -> None:
+def test_what_is_still_to_be_said_is_asked_for(arguments: dict, told: str) -> None:
     with pytest.raises(ValueError, match=told):
-        read_recording("x.csv", THREE, **given)
+        read_recording("x.csv", THREE, **arguments)
 
 
 def test_roles_over_the_columns_are_data_for_a_form() -> None:
@@ -654,7 +654,7 @@ ONE_SIGNAL: list[tuple[Any, ...]] = [
 
 
 @pytest.mark.parametrize("file", ONE_SIGNAL)
-def test_one_signal_is_found_with_its_rate(file: tuple[Any, ...]) -> None:
+def test_one_signal_is_read_with_its_rate(file: tuple[Any, ...]) -> None:
     content, rate, *name = file
     check_one_signal(read(content, *name), rate)
 

@@ -57,7 +57,7 @@ def test_gaps_matter_only_in_the_columns_taken():
 
 
 @pytest.mark.parametrize(
-    ("data", "one"),
+    ("data", "full_scale"),
     [
         ((SIGNAL * 3000.0).astype(np.int16), 32768.0),
         ((SIGNAL * 1e8).astype(np.int32), 2.0**31),
@@ -65,10 +65,10 @@ def test_gaps_matter_only_in_the_columns_taken():
         (SIGNAL.astype(np.float32), 1.0),
     ],
 )
-def test_wav(data, one):
+def test_wav(data, full_scale):
     table = read_table("rig.wav", saved(wavfile.write, 12_800, data))
     assert table.contents.sample_rate.value == 12_800.0
-    wanted = data / one if one else data / 128.0 - 1.0
+    wanted = data / full_scale if full_scale else data / 128.0 - 1.0
     got = table.recording([0, 1], ["x", "y"], "m/s²", full_scale=50.0)
     np.testing.assert_allclose(got.acceleration, wanted * 50.0, rtol=1e-6)
 
@@ -122,7 +122,7 @@ def hdf5(fill) -> bytes:
 
 
 def matlab_7_3(file) -> None:
-    """As MATLAB writes a struct `bearing` with numbers and words, and a cell that points."""
+    """Write a struct `bearing` with numbers and words, and a cell that points, as MATLAB does."""
     bearing = file.create_group("bearing")
     bearing.attrs["MATLAB_class"] = b"struct"
     bearing["gs"] = SIGNAL[:, :1].T  # MATLAB's columns are rows here

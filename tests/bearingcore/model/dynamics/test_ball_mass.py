@@ -136,8 +136,9 @@ def energy(scene: Scene, system: kernels.BallSystem, y: np.ndarray) -> float:
 
 @pytest.mark.parametrize("scene", [FAN_RIG, GENERAL], ids=["planar", "general"])
 def test_undamped_motion_keeps_its_energy_to_the_methods_order(scene: Scene) -> None:
-    """Of RK4 that is the fifth power of the step while balls stay in contact, and no less than the
-    third where they let go and strike, as a contact's stiffness begins like a square root.
+    """Energy drifts by the fifth power of RK4's step while balls stay in contact.
+
+    Where they let go and strike it is the third or more: stiffness begins like a square root.
     """
     system, start = undamped(scene)
     n = system.rotor.active.size
@@ -153,7 +154,7 @@ def test_undamped_motion_keeps_its_energy_to_the_methods_order(scene: Scene) -> 
 
 
 def test_accelerations_of_random_motions_are_those_of_independent_sums() -> None:
-    """Of 12,000, as many as MOTIONS says, none was wrong without saying so."""
+    """MOTIONS says how many: of 12,000 none was wrong without saying so."""
     rng = np.random.default_rng(14)
     count = int(os.environ.get("MOTIONS", "40"))
     assert [motion_faults(random_scene(rng), rng) for _ in range(count)] == [""] * count

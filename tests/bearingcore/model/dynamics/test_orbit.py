@@ -73,7 +73,7 @@ def test_marching_settles_where_multipliers_say_it_does(shaft_hz: float, extent_
 def test_multipliers_are_of_the_derivative_of_a_period(
     name: str, changes: dict[str, Any], apart: float, off: float
 ) -> None:
-    """By differences of the motion over the orbit's period, from states beside it."""
+    """Differences of the motion over the orbit's period, from states beside it, give the same."""
     scene = presets[name].replace(contact_damping=130.0, **changes)
     cycle = orbit(scene, step_rate=2.0**20 if apart > 1e-9 else None)
     shooting = _Shooting(packed_motion(scene), cycle.period, len(cycle.history) - 1)
@@ -89,8 +89,8 @@ def test_multipliers_are_of_the_derivative_of_a_period(
     )
 
 
-def test_where_no_orbit_is_found_none_is_claimed() -> None:
-    """At 100 Hz shooting over one pass has nothing to find: marching returns every second pass."""
+def test_no_orbit_is_claimed_where_there_is_none() -> None:
+    """At 100 Hz marching returns every second pass: shooting over one pass cannot converge."""
     scene = rig_at(100.0, 12.9)
     assert marched_period(scene) == 2
     assert orbit(scene).status in (OrbitStatus.NOT_CONVERGED, OrbitStatus.UNSTABLE)

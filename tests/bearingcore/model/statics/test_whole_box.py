@@ -153,7 +153,7 @@ def test_the_judge_finds_what_is_wrong() -> None:
 
 
 def test_a_way_out_lies_in_the_cone_of_motions_that_press_no_ball() -> None:
-    """Of every scene with a load: the way presses no ball, works, and what contacts carry does not.
+    """The way of every scene presses no ball and works, and what the contacts carry does not.
 
     So F = (what contacts carry) + way with the two at right angles, which makes it the nearest.
     """

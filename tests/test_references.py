@@ -55,6 +55,12 @@ def names_in(tree: ast.AST) -> set[str]:
 
 
 @cache
+def tree_of(file: Path) -> ast.Module:
+    """Return the statements of a file."""
+    return ast.parse(file.read_text(encoding="utf-8"))
+
+
+@cache
 def members() -> tuple[dict[str, set[str]], dict[str, set[str]]]:
     """Names inside every package, module and class, and the bases of classes, by bare names."""
     inside: dict[str, set[str]] = defaultdict(set)
@@ -62,15 +68,15 @@ def members() -> tuple[dict[str, set[str]], dict[str, set[str]]]:
     for file in SOURCES:
         module = file.parent if file.stem == "__init__" else file
         inside[bare(module.parent.name)].add(bare(module.stem))
-        for source in {file, file.with_suffix(".pyi")}:  # a stub lists what is imported when used
-            tree = ast.parse(source.read_text(encoding="utf-8") if source.exists() else "")
-            inside[bare(module.stem)] |= names_in(tree)
-            for node in ast.walk(tree):
-                if isinstance(node, ast.ClassDef):
-                    inside[bare(node.name)] |= names_in(node)
-                    inside["self"] |= names_in(node)
-                    names = (ast.unparse(base).split("[")[0].split(".")[-1] for base in node.bases)
-                    bases[bare(node.name)] |= {bare(name) for name in names}
+        stub = file.with_suffix(".pyi")  # lists what is imported when it is used
+        inside[bare(module.stem)] |= names_in(tree_of(stub if stub.exists() else file))
+        for node in ast.walk(tree_of(file)):
+            if isinstance(node, ast.ClassDef):
+                names = names_in(node)
+                inside[bare(node.name)] |= names
+                inside["self"] |= names
+                parents = (ast.unparse(base).split("[")[0].split(".")[-1] for base in node.bases)
+                bases[bare(node.name)] |= {bare(parent) for parent in parents}
     return inside, bases
 
 
@@ -118,7 +124,7 @@ def is_in_library(name: str) -> bool:
 
 def docstrings(file: Path) -> Iterator[tuple[int, str]]:
     """Texts that stand as statements of their own, with their lines."""
-    for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+    for node in ast.walk(tree_of(file)):
         value = node.value if isinstance(node, ast.Expr) else None
         if isinstance(value, ast.Constant) and isinstance(value.value, str):
             yield value.lineno, value.value

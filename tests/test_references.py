@@ -4,9 +4,10 @@ import ast
 import importlib
 import inspect
 import re
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from collections import defaultdict
+from collections.abc import Iterator
 from functools import cache
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -20,21 +21,7 @@ DOCUMENTS = [
     if file.name not in GENERATED
 ]
 NAME = re.compile(r"(?<![`\w])`([A-Za-z_]\w*(?:\.[A-Za-z_]\w*)+)(?:\(.*?\))?`")
-FILE_ENDS = {
-    "py",
-    "md",
-    "toml",
-    "json",
-    "js",
-    "css",
-    "csv",
-    "html",
-    "ipynb",
-    "ini",
-    "zarr",
-    "h5",
-    "mat",
-}
+FILE = re.compile(r".*\.(py|md|toml|json|js|css|csv|html|ipynb|ini|zarr|h5|mat)")
 LIBRARIES = {
     "np": "numpy",
     "pn": "panel",
@@ -43,130 +30,79 @@ LIBRARIES = {
     "Document": "bokeh.document.Document",
 }
 NOT_INSTALLED_BY_TESTS = {"ross"}
-KEYS = {"compare1.label"}
-"""Of links: not names of the program."""
+KEYS_OF_LINKS = {"compare1.label"}
+"""Not names of the program."""
 
 
-@dataclass
-class Definitions:
-    """Names of a module or class, those of classes inside it, and the classes it derives from."""
-
-    names: set[str] = field(default_factory=set)
-    inside: dict[str, "Definitions"] = field(default_factory=dict)
-    bases: list[str] = field(default_factory=list)
+def bare(name: str) -> str:
+    """Return a name without underscores and capitals: sentences leave them out."""
+    return name.replace("_", "").lower()
 
 
-def define(body: list[ast.stmt]) -> Definitions:
-    """What statements define, at whatever depth of `if`, `with` and `try`."""
-    names = Definitions()
-    for node in body:
-        if isinstance(node, ast.ClassDef):
-            own = define(node.body)
-            own.bases = [ast.unparse(base).split("[")[0].split(".")[-1] for base in node.bases]
-            names.names.add(node.name)
-            names.inside[node.name] = own
-        elif isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
-            names.names.add(node.name)
-            names.names |= {
-                part.attr
-                for part in ast.walk(node)
-                if isinstance(part, ast.Attribute) and isinstance(part.ctx, ast.Store)
-            }
-        elif isinstance(node, ast.Import | ast.ImportFrom):
-            names.names |= {(alias.asname or alias.name).split(".")[0] for alias in node.names}
-        elif isinstance(node, ast.Assign | ast.AnnAssign):
-            targets = node.targets if isinstance(node, ast.Assign) else [node.target]
-            parts = (part for target in targets for part in ast.walk(target))
-            names.names |= {part.id for part in parts if isinstance(part, ast.Name)}
-        elif isinstance(node, ast.If | ast.With | ast.Try | ast.For):
-            nested = define([*node.body, *getattr(node, "orelse", [])])
-            names.names |= nested.names
-            names.inside |= nested.inside
-    return names
+def names_in(tree: ast.AST) -> set[str]:
+    """Return the bare names that a module or class binds, at whatever depth."""
+    names = set()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef):
+            names.add(node.name)
+        elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+            names.add(node.id)
+        elif isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store):
+            names.add(node.attr)
+        elif isinstance(node, ast.alias):
+            names.add((node.asname or node.name).split(".")[0])
+    return {bare(name) for name in names}
 
 
 @cache
-def modules() -> dict[str, Definitions]:
-    """All modules by their names."""
-    return {module_of(file): define(ast.parse(_listed(file)).body) for file in SOURCES}
-
-
-def _listed(file: Path) -> str:
-    """The text of a module, or of the stub that lists what it imports when it is used."""
-    stub = file.with_suffix(".pyi")
-    return (stub if stub.exists() else file).read_text(encoding="utf-8")
-
-
-def module_of(file: Path) -> str:
-    """The name that a file is imported by."""
-    parts = file.relative_to(ROOT).with_suffix("").parts
-    parts = parts[1:] if parts[0] == "app" else parts
-    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+def tree_of(file: Path) -> ast.Module:
+    """Return the statements of a file."""
+    return ast.parse(file.read_text(encoding="utf-8"))
 
 
 @cache
-def called(path: str) -> list[Definitions]:
-    """Modules whose names are or end with a path."""
-    return [own for name, own in modules().items() if _bare(name).endswith(_bare(path))]
+def members() -> tuple[dict[str, set[str]], dict[str, set[str]]]:
+    """Names inside every package, module and class, and the bases of classes, by bare names."""
+    inside: dict[str, set[str]] = defaultdict(set)
+    bases: dict[str, set[str]] = defaultdict(set)
+    for file in SOURCES:
+        module = file.parent if file.stem == "__init__" else file
+        inside[bare(module.parent.name)].add(bare(module.stem))
+        stub = file.with_suffix(".pyi")  # lists what is imported when it is used
+        inside[bare(module.stem)] |= names_in(tree_of(stub if stub.exists() else file))
+        for node in ast.walk(tree_of(file)):
+            if isinstance(node, ast.ClassDef):
+                names = names_in(node)
+                inside[bare(node.name)] |= names
+                inside["self"] |= names
+                parents = (ast.unparse(base).split("[")[0].split(".")[-1] for base in node.bases)
+                bases[bare(node.name)] |= {bare(parent) for parent in parents}
+    return inside, bases
 
 
-def _bare(name: str) -> str:
-    """A dotted name without the underscores of private modules, which sentences leave out."""
-    return f".{name}".replace("._", ".")
+def has(owner: str, name: str) -> bool:
+    """Return True if a module or class has a name, of itself or of a class it derives from.
 
-
-@cache
-def classes() -> dict[str, list[Definitions]]:
-    """All classes by their names, at whatever depth."""
-    owners: dict[str, list[Definitions]] = {}
-
-    def collect(inside: dict[str, Definitions]) -> None:
-        for name, own in inside.items():
-            owners.setdefault(name, []).append(own)
-            collect(own.inside)
-
-    for module in modules().values():
-        collect(module.inside)
-    return owners
-
-
-def has(owner: Definitions, rest: list[str], depth: int = 0) -> bool:
-    """Whether a class has an attribute, of itself or of a class that it derives from.
-
-    What the attribute is, and so what it has, is not known here: one is looked for.
+    A class of a library is taken to have every name.
     """
-    if not rest or rest[0] in owner.names:
-        return True
-    bases = [base for name in owner.bases for base in classes().get(name, [])]
-    known = all(name in classes() or name in {"Generic", "Protocol"} for name in owner.bases)
-    outside = bool(owner.bases) and not known  # of a library's class all is allowed
-    return outside or (depth < 8 and any(has(base, rest, depth + 1) for base in bases))
+    inside, bases = members()
+    parents = bases.get(owner, set()) - {"generic", "protocol", owner}
+    return name in inside.get(owner, set()) or any(
+        parent not in inside or has(parent, name) for parent in parents
+    )
 
 
 def is_in_project(name: str) -> bool:
-    """Whether a name leads to a module, a name in one, or an attribute of a class.
-
-    Modules may be named by their last parts, objects by their class in lower case.
-    """
-    parts = name.split(".")
-    for cut in range(len(parts), 0, -1):
-        rest = parts[cut:]
-        for own in called(".".join(parts[:cut])):
-            if not rest or (rest[0] in own.names and (len(rest) == 1 or is_of_class(rest))):
-                return True
-    return is_of_class(parts)
-
-
-def is_of_class(parts: list[str]) -> bool:
-    """Whether the first part is a class, or an object of one, that has the second."""
-    first = parts[0]
-    camel = "".join(word.capitalize() for word in first.strip("_").split("_"))
-    owners = [own for name in {first, camel} for own in classes().get(name, [])]
-    return any(has(own, parts[1:]) for own in owners)
+    """Return True if each part of a name is in the one before it, where that one is known."""
+    inside, _ = members()
+    parts = [bare(part) for part in name.split(".")]
+    return parts[0] in inside and all(
+        has(owner, part) for owner, part in pairwise(parts) if owner in inside
+    )
 
 
 def is_in_library(name: str) -> bool:
-    """Whether a name leads to something in an installed package."""
+    """Return True if a name leads to something in an installed package."""
     first, rest = name.split(".", 1)
     if first in NOT_INSTALLED_BY_TESTS:
         return True
@@ -186,31 +122,20 @@ def is_in_library(name: str) -> bool:
     return False
 
 
-def is_file(name: str) -> bool:
-    """Whether a name is that of a file, of this tree or of a kind that users have."""
-    return name.rsplit(".", 1)[1] in FILE_ENDS
-
-
 def docstrings(file: Path) -> Iterator[tuple[int, str]]:
     """Texts that stand as statements of their own, with their lines."""
-    for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+    for node in ast.walk(tree_of(file)):
         value = node.value if isinstance(node, ast.Expr) else None
         if isinstance(value, ast.Constant) and isinstance(value.value, str):
             yield value.lineno, value.value
 
 
-def is_of_self(name: str, own: Iterable[Definitions]) -> bool:
-    """Whether a name is that of an attribute of one of the classes beside it."""
-    first, *rest = name.split(".")
-    return first == "self" and any(has(one, rest) for one in own)
-
-
-def wrong(text: str, own: Iterable[Definitions] = ()) -> list[str]:
-    """Dotted names of a text that lead nowhere; `own` are the classes of its file."""
+def wrong(text: str) -> list[str]:
+    """Dotted names of a text that lead nowhere."""
     return [
         name
         for name in NAME.findall(text)
-        if not (name in KEYS or is_file(name) or is_of_self(name, own))
+        if not (name in KEYS_OF_LINKS or FILE.fullmatch(name))
         if not (is_in_project(name) or is_in_library(name))
     ]
 
@@ -222,7 +147,7 @@ def test_names_in_docstrings_lead_somewhere(package: str) -> None:
         for file in SOURCES
         if file.relative_to(ROOT).parts[0] == package
         for line, text in docstrings(file)
-        for name in wrong(text, modules()[module_of(file)].inside.values())
+        for name in wrong(text)
     ]
     assert not dead_ends, "\n".join(dead_ends)
 

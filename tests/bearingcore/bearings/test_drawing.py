@@ -30,8 +30,8 @@ def scene_of(bearing: Bearing, load: Load, defect: Defect | None = None) -> Scen
 
 @pytest.mark.parametrize(("angle", "play"), [(None, PLAY), (0.4, None), (0.4, PLAY)])
 def test_the_clearance_lies_on_top_of_the_angle(angle: float | None, play: float | None) -> None:
-    given = {"contact_angle": angle, "diametral_clearance": play}
-    bearing = Bearing.from_drawing(**DRAWING, **given)
+    freedoms = {"contact_angle": angle, "diametral_clearance": play}
+    bearing = Bearing.from_drawing(**DRAWING, **freedoms)
     angle, play = angle or 0.0, play or 0.0
     assert (bearing.contact_angle, bearing.radial_clearance) == (angle, play / 2)
     cosine = math.cos(angle) - play / 2 / A0
@@ -93,24 +93,6 @@ def test_clearance_and_free_angle_are_one_bearing(load: Load, play: float) -> No
     assert (np.abs(drawn.stiffness - other.stiffness) / scale).max() < 1e-7
     same = drawn.ball_load > 1e-6 * heaviest
     assert np.abs(drawn.contact_angle - other.contact_angle)[same].max() < 1e-7
-
-
-def test_groove_centres_and_races_lie_where_the_drawing_puts_them() -> None:
-    """Two circles in an axial section: the ball between them touches at α0 on both sides."""
-    angle = math.radians(30.0)
-    bearing = Bearing.from_drawing(**DRAWING, contact_angle=angle)
-    u = np.array([math.cos(angle), math.sin(angle)])
-    ball = np.array([0.5 * D_P, 0.0])
-    touch_inner, touch_outer = ball - 0.5 * D_B * u, ball + 0.5 * D_B * u
-    inner = touch_inner + DRAWING["inner_groove_radius"] * u
-    outer = touch_outer - DRAWING["outer_groove_radius"] * u
-    assert bearing.groove_center_radius == pytest.approx(inner[0], rel=1e-14)
-    assert bearing.groove_center_distance == pytest.approx(np.linalg.norm(inner - outer), rel=1e-13)
-    # with α0 = 0 the bottoms of the grooves are there
-    flat = Bearing.from_drawing(**DRAWING, contact_angle=0.0)
-    bottom = flat.groove_center_radius - DRAWING["inner_groove_radius"]
-    assert flat.inner_raceway_radius == pytest.approx(bottom, rel=1e-13)
-    assert flat.outer_raceway_radius - flat.inner_raceway_radius == pytest.approx(D_B, rel=1e-13)
 
 
 CHANGES: list[dict[str, Any]] = [

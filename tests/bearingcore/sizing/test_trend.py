@@ -1,20 +1,15 @@
 """Numbers of many recordings of one machine."""
 
 import math
-import os
 from dataclasses import replace
 from datetime import datetime
-from pathlib import Path
 
 import numpy as np
 import pytest
 
-from bearingcore import Recording, presets, read_table, trend
-from bearingcore.bearings import catalogue
+from bearingcore import Recording, presets, trend
 from bearingcore.measured.diagnosis import CANNOT_TELL
 from bearingcore.sizing import LINES
-
-MEASURED = os.environ.get("MEASURED_RECORDS", "")
 
 BEARING = presets["6205"].bearing
 RATE, TURN = 12_000.0, 25.0
@@ -88,36 +83,3 @@ def test_without_bearing_and_speed_levels_stay_and_no_part_is_named():
     (searched,) = trend([recorded(0.5)], BEARING).points  # the speed is looked for
     assert searched.rms == known.rms
     assert math.isnan(searched.shaft_speed) or searched.shaft_speed > 0.0
-
-
-@pytest.mark.skipif(not MEASURED, reason="MEASURED_RECORDS names no folder")
-@pytest.mark.parametrize(
-    ("run", "rpm", "least"), [("Bearing1_1", 1800, 9.9), ("Bearing2_1", 1650, 4.6)]
-)
-def test_a_run_to_failure_shows_as_a_trend_and_names_no_part(run, rpm, least):
-    """FEMTO-ST, first and last file: read, recognised, and louder. The damage is of unknown kind,
-    and 0.1 s is three turns of the shaft: too little for a part.
-    """
-    files = sorted(Path(MEASURED, "femto").glob(f"{run}_acc_*.csv"))
-    assert len(files) == 2
-    recordings, rms = [], []
-    for file in files:
-        table = read_table(file.name, file.read_bytes())
-        contents = table.contents
-        assert contents.collection == "FEMTO-ST"
-        recordings.append(table.recording([4, 5], ["x", "y"], contents.unit.value))
-        assert (recordings[-1].sample_rate, recordings[-1].duration) == (25_600.0, 0.1)
-        g = np.loadtxt(file, delimiter=",", usecols=(4, 5))
-        rms.append(9.80665 * np.std(g, axis=0))
-    speed = contents.shaft_speed.value
-    assert speed == pytest.approx(rpm * 2.0 * math.pi / 60.0)
-    bearing = catalogue()[contents.bearing.value].bearing
-    for k, direction in enumerate("xy"):
-        shown = trend(recordings, bearing, speed, direction=direction)
-        assert shown.column("rms") == pytest.approx([value[k] for value in rms], rel=1e-9)
-        assert shown.rms_change[1] > least
-        new, worn = shown.column("kurtosis")
-        assert new == pytest.approx(3.0, abs=0.2)
-        assert worn > 4.0
-        assert [point.fault for point in shown.points] == [CANNOT_TELL] * 2
-        assert not any(point.extent.measured for point in shown.points)

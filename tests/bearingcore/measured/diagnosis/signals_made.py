@@ -13,10 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import fftconvolve
 
-from bearingcore import Bearing, Recording
+from bearingcore import Bearing
 
 PARTS = ("outer race", "inner race", "ball")
-HEALTHY = "healthy"
 
 Rng = np.random.Generator
 
@@ -29,13 +28,13 @@ class Machine:
     ratio: float
     """Ball over pitch diameter, times the cosine of the contact angle."""
     turns: float
-    """Of the shaft a second [Hz]."""
+    """Turns of the shaft a second [Hz]."""
     rate: float
     duration: float
 
     @property
     def bearing(self) -> Bearing:
-        """As the project describes it."""
+        """The bearing as the project describes it."""
         ball = 40e-3 * self.ratio
         return Bearing.from_drawing(
             self.n_balls, ball, 40e-3, 0.52 * ball, 0.53 * ball, contact_angle=0.0
@@ -61,16 +60,6 @@ class Machine:
         }
 
 
-def draw_machine(rng: Rng) -> Machine:
-    """Any machine."""
-    n_balls = int(rng.integers(7, 17))
-    widest = 0.9 * math.sin(math.pi / n_balls)
-    rate = float(rng.choice([12_000.0, 20_000.0, 25_600.0, 48_000.0]))
-    duration = float(rng.uniform(2.0, 10.0)) if rate < 40_000.0 else float(rng.uniform(2.0, 5.0))
-    turns = float(rng.uniform(10.0, 50.0))
-    return Machine(n_balls, min(0.28, rng.uniform(0.55, 1.0) * widest), turns, rate, duration)
-
-
 def knock_times(
     frequency: float, duration: float, rng: Rng, wander: float, jitter: float
 ) -> NDArray[np.float64]:
@@ -87,7 +76,7 @@ def knock_times(
 
 
 def resonances(rate: float, rng: Rng) -> NDArray[np.float64]:
-    """What one knock makes ring: up to three modes of structure and path."""
+    """Ringing of one knock: up to three modes of structure and path."""
     time = np.arange(int(0.02 * rate)) / rate
     ring = np.zeros(len(time))
     for _ in range(int(rng.integers(1, 4))):
@@ -158,7 +147,7 @@ def tone(
 
 
 def background(machine: Machine, rng: Rng) -> NDArray[np.float64]:
-    """All that a healthy machine makes: noise of deviation about 1, and tones."""
+    """Vibration of a healthy machine: noise of deviation about 1, and tones."""
     count = int(machine.duration * machine.rate)
     time = np.arange(count) / machine.rate
     signal = coloured_noise(count, machine.rate, rng)
@@ -191,18 +180,3 @@ def background(machine: Machine, rng: Rng) -> NDArray[np.float64]:
         blows[rng.integers(0, count, int(rng.integers(2, 40)))] = rng.uniform(3.0, 20.0)
         signal += fftconvolve(blows, resonances(machine.rate, rng))[:count]
     return signal
-
-
-def draw_signal(kind: str, rng: Rng, decibels: float = 20.0) -> tuple[Machine, Recording]:
-    """A machine and its recording: a damaged part or HEALTHY.
-
-    `decibels` is the power of the knocks over that of all else, each over the whole signal.
-    """
-    machine = draw_machine(rng)
-    signal = background(machine, rng)
-    if kind != HEALTHY:
-        knocking = knocks(machine, kind, rng)
-        ratio = 10.0 ** (decibels / 20.0)
-        signal = signal + knocking * (ratio * signal.std() / knocking.std())
-    recording = Recording(signal * rng.uniform(0.1, 30.0), machine.rate, ("y",))
-    return machine, recording

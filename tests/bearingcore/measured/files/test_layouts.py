@@ -275,7 +275,7 @@ def test_a_file_in_a_zip_is_read_and_one_of_several_by_its_name() -> None:
 
 
 def matlab_table() -> bytes:
-    """As version 7.3 keeps one: numbers that point into a part of its own."""
+    """A table as version 7.3 keeps it: numbers that point into another part of the file."""
     points = np.array([[3707764736, 2, 1, 1, 1, 1]], dtype="u4")
     return hdf5(T=(points, {"MATLAB_object_decode": 3}))
 
@@ -465,7 +465,7 @@ def test_a_typed_rate_that_nothing_shows_is_said() -> None:
 
 
 @pytest.mark.parametrize(
-    ("given", "told"),
+    ("arguments", "told"),
     [
         ({}, r"columns is missing.* signals of 1 \(“b”\), 2 \(“c”\).*Which is at this bearing"),
         ({"columns": {"signal": 1}}, r"unit is missing: pass unit="),
@@ -476,9 +476,9 @@ def test_a_typed_rate_that_nothing_shows_is_said() -> None:
         ({"columns": {"time": [0, 1]}}, "one column of times"),
     ],
 )
-def test_what_is_still_to_be_said_is_asked_for(given: dict, told: str) -> None:
+def test_what_is_still_to_be_said_is_asked_for(arguments: dict, told: str) -> None:
     with pytest.raises(ValueError, match=told):
-        read_recording("x.csv", THREE, **given)
+        read_recording("x.csv", THREE, **arguments)
 
 
 def test_roles_over_the_columns_are_data_for_a_form() -> None:
@@ -594,6 +594,11 @@ ONE_SIGNAL: list[tuple[Any, ...]] = [
     (FRAME.to_csv(sep=";", decimal=",", quoting=csv.QUOTE_ALL), RATE),
     *((FRAME.to_json(orient=way), RATE) for way in ("index", "columns")),
     (written(lambda t, a: f'"{round(t * RATE) + 1}" {t:.6f} {a}', '"time" "acc"'), RATE),
+    # signs of other tables than UTF-8, and remarks above the headings
+    ("\ufeff" + FRAME.to_csv(), RATE),
+    (FRAME.to_csv().encode("utf-16"), RATE),
+    (("Neigung 3°\n" + FRAME.to_csv(index=False)).encode("latin-1"), RATE),
+    ("# a remark\r\n\r\nRig 7, run 3\n" + FRAME.to_csv(index=False), RATE),
     # times are known by name and unit in any column
     *((rows(ALONE, TIME * a_second, heading=f"acc [g],{heading}"), RATE) for heading, a_second in (
         ("X_Value", 1.0), ("sec", 1.0), ("milliseconds", 1e3), ("micros", 1e6), ("millis()", 1e3),
@@ -649,7 +654,7 @@ ONE_SIGNAL: list[tuple[Any, ...]] = [
 
 
 @pytest.mark.parametrize("file", ONE_SIGNAL)
-def test_one_signal_is_found_with_its_rate(file: tuple[Any, ...]) -> None:
+def test_one_signal_is_read_with_its_rate(file: tuple[Any, ...]) -> None:
     content, rate, *name = file
     check_one_signal(read(content, *name), rate)
 
@@ -750,6 +755,13 @@ FILES: list[tuple[bytes | str, dict[str, Any]]] = [
     (note("# temperature: 45 °C"), {"no rate": None, "columns": {"y": 0}}),
     (note("# samples = 2000"), {"no rate": None, "columns": {"y": 0}}),
     (note("On Monday beside the temperature sensor"), {"no rate": None, "columns": {"y": 0}}),
+    (rows(SIGNAL[:, 0], heading="Logger 7\nSample rate: 25.6 kHz\nShaft speed = 1500 rpm\n"
+          "Load; 2,5 kN\nUnit: m/s^2\nvertical"),
+     {"names": ("vertical",), "rate": 25.6e3, "rpm": 1500.0, "load": 2500.0, "unit": "m/s²"}),
+    # the heading of a single column is kept and its unit used
+    *((rows(SIGNAL[:, 0], heading=heading), {"names": (heading,), "unit": unit})
+      for heading, unit in (
+          ("acc (mg)", "mg"), ("Beschleunigung in m/s^2", "m/s²"), ("a [in/s2]", "in/s²"))),
     # rates that are not sure, or disagree
     (note("# fs = 12.000 Hz"), {"likely": 12e3}),
     (note("# fs: 64.0 Hz"), {"likely": 64.0}),
@@ -864,6 +876,8 @@ FILES: list[tuple[bytes | str, dict[str, Any]]] = [
     (hdf5(rig__DE=(SIGNAL[:, 0], STEP | {"unit_string": "g"}),
           rig__NDE=(SIGNAL[:, 1], STEP | {"unit_string": "V"})),
      {"units": ["g", "V"], "rate": RATE, "options": (0, 1)}),
+    (hdf5(run__vertical=(SIGNAL[:, 0], {"sampling_rate": RATE, "unit": "mm/s²"})),
+     {"names": ("run.vertical",), "rate": RATE, "unit": "mm/s²"}),
     (hdf5(time=(1e3 * TIME, {"units": "ms"}), ch1=(SIGNAL[:, 0], {"location": "DE"}),
           ch2=(SIGNAL[:, 1], {"location": "FE"})), {"rate": RATE, "options": (0, 1), "unit": None}),
 ]  # fmt: skip

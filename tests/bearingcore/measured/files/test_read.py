@@ -39,27 +39,6 @@ def text(rows, delimiter=",", heading="", decimal=".") -> bytes:
 TABLE = np.column_stack([TIME, SIGNAL])
 
 
-@pytest.mark.parametrize(
-    "content",
-    [
-        text(TABLE, heading="time,x,y\n"),
-        text(TABLE, heading="# a remark\r\n\r\nRig 7, run 3\ntime [s],horizontal,vertical\n"),
-        text(TABLE, delimiter=";", decimal=",", heading="Zeit;x;y\n"),
-        b"\xef\xbb\xbf" + text(TABLE, heading="time,x,y\n"),
-        text(TABLE).decode().encode("utf-16"),
-        text(TABLE, heading="Neigung 3\u00b0\nt,x,y\n").decode().encode("latin-1"),
-        text(np.column_stack([TIME * 1e3, SIGNAL]), heading="time [ms],x,y\n"),
-    ],
-)
-def test_text_in_many_habits_gives_the_same_recording(content):
-    table = read_table("rig.csv", content)
-    assert table.contents.columns[0].role == "time"
-    assert table.contents.sample_rate.value == pytest.approx(RATE, rel=1e-5)
-    got = table.recording([1, 2], ["x", "y"], "m/s²")
-    assert got.sample_rate == pytest.approx(RATE, rel=1e-5)
-    np.testing.assert_allclose(got.acceleration, SIGNAL, rtol=1e-7, atol=1e-9)
-
-
 def test_gaps_matter_only_in_the_columns_taken():
     """The rows to the longest gap are left out, gaps of one are bridged, and notes say so."""
     lines = text(TABLE).decode().splitlines()
@@ -78,7 +57,7 @@ def test_gaps_matter_only_in_the_columns_taken():
 
 
 @pytest.mark.parametrize(
-    ("data", "one"),
+    ("data", "full_scale"),
     [
         ((SIGNAL * 3000.0).astype(np.int16), 32768.0),
         ((SIGNAL * 1e8).astype(np.int32), 2.0**31),
@@ -86,10 +65,10 @@ def test_gaps_matter_only_in_the_columns_taken():
         (SIGNAL.astype(np.float32), 1.0),
     ],
 )
-def test_wav(data, one):
+def test_wav(data, full_scale):
     table = read_table("rig.wav", saved(wavfile.write, 12_800, data))
     assert table.contents.sample_rate.value == 12_800.0
-    wanted = data / one if one else data / 128.0 - 1.0
+    wanted = data / full_scale if full_scale else data / 128.0 - 1.0
     got = table.recording([0, 1], ["x", "y"], "m/s²", full_scale=50.0)
     np.testing.assert_allclose(got.acceleration, wanted * 50.0, rtol=1e-6)
 
@@ -143,7 +122,7 @@ def hdf5(fill) -> bytes:
 
 
 def matlab_7_3(file) -> None:
-    """As MATLAB writes a struct `bearing` with numbers and words, and a cell that points."""
+    """Write a struct `bearing` with numbers and words, and a cell that points, as MATLAB does."""
     bearing = file.create_group("bearing")
     bearing.attrs["MATLAB_class"] = b"struct"
     bearing["gs"] = SIGNAL[:, :1].T  # MATLAB's columns are rows here
@@ -162,18 +141,6 @@ def test_matlab_7_3_is_read_like_the_versions_before():
     assert table.texts == {"bearing.load": "150"}
     np.testing.assert_array_equal(table.columns, SIGNAL)
     assert table.contents.sample_rate.value == 48_828.0
-
-
-def test_any_hdf5_file_is_read_with_what_stands_beside_its_numbers():
-    buffer = io.BytesIO()
-    with h5py.File(buffer, "w") as file:
-        data = file.create_dataset("run/vertical", data=SIGNAL[:, 0], compression="gzip")
-        data.attrs["sampling_rate"] = RATE
-        data.attrs["unit"] = "mm/s²"
-    table = read_table("run.h5", buffer.getvalue())
-    got = table.recording(["run.vertical"], ["y"])
-    assert got.sample_rate == RATE
-    np.testing.assert_allclose(got.acceleration[:, 0], SIGNAL[:, 0] * 1e-3)
 
 
 def test_hdf5_names_no_other_files(tmp_path):

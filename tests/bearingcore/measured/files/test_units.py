@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from bearingcore.measured.files import unit_in
+from bearingcore.measured.files import UNITS, unit_in
 from bearingcore.measured.files._units import differentiated
 
 
@@ -22,6 +22,11 @@ from bearingcore.measured.files._units import differentiated
 )
 def test_units_in_headings(heading: str, unit: str | None) -> None:
     assert unit_in(heading) == unit
+
+
+def test_factors_of_units() -> None:
+    factors = [UNITS[unit] for unit in ("mg", "m/s²", "in/s²")]
+    assert factors == pytest.approx([9.80665e-3, 1.0, 0.0254], rel=1e-12)
 
 
 @pytest.mark.parametrize("frequency", [3.7, 123.3, 390.0])

@@ -8,16 +8,8 @@ from scipy.optimize import brentq
 
 from bearingcore import Bearing, Load, Scene, equilibrium, presets
 from bearingcore.model.statics import EquilibriumWithMass, ball_positions, static_state
-from tests.helpers.contact_law import TwoContacts
 from tests.helpers.random_balls import faults, random_scene
 from tests.outside.witness import witness
-
-SINGLE_ROWS = [
-    name
-    for name, scene in presets.items()
-    if not (scene.bearing.rows or scene.bearing.kind.line_contact)
-]
-"""What `TwoContacts` knows."""
 
 POUND = 4.4482216152605
 
@@ -42,29 +34,6 @@ def test_without_centrifugal_load_it_is_the_massless_state(name: str) -> None:
         for race in range(2):
             angle = state.contact_angle[race][loaded]
             assert angle == pytest.approx(massless.contact_angle[loaded], abs=1e-9)
-
-
-@pytest.mark.parametrize("name", SINGLE_ROWS)
-def test_balls_and_ring_balance_at_speed(name: str) -> None:
-    """15,000 rpm: each ball's two loads and F_c cancel, the inner loads carry the ring's load."""
-    scene = presets[name].replace(shaft_speed=15_000 * math.pi / 30.0)
-    positions = ball_positions(scene)
-    assert positions.converged.all()
-    free = [("x", "y", "z", "rx", "ry").index(dof) for dof in positions.dofs]
-    for i in (0, 17, 60):
-        sums = TwoContacts(
-            scene,
-            positions.cage_angles[i],
-            positions.displacement[i],
-            np.zeros(5),
-            positions.position[i],
-        )
-        left = sums.on_balls(centrifugal=positions.centrifugal_load, weight=False)
-        assert np.abs(left).max() <= 1e-9 * positions.load.max()
-        lever = np.array([1.0, 1.0, 1.0, *[scene.bearing.groove_center_radius] * 2])
-        ring = (sums.force(0) - scene.load.vector) / lever
-        assert np.abs(ring[free]).max() <= 1e-9 * np.linalg.norm(scene.load.vector)
-        assert np.abs(sums.load - positions.load[:, i]).max() <= 1e-9 * positions.load.max()
 
 
 def test_centrifugal_loads_as_published() -> None:

@@ -110,17 +110,3 @@ def test_equilibrium_and_stiffness(case: dict[str, Any]) -> None:
     diagonal = np.maximum(diagonal, 1e-3 * diagonal.max()) * unit**2
     off = np.abs(answer.stiffness[0] - expected) / np.sqrt(np.outer(diagonal, diagonal))
     assert off.max() < TOLERANCE, f"stiffness off by {off.max():.1e}"
-
-
-@pytest.mark.parametrize("case", SINGLE, ids=[case["name"] for case in SINGLE])
-def test_the_way_to_an_angle_does_not_matter(case: dict[str, Any]) -> None:
-    """Come upon from afar, in coarse steps and in fine ones, forwards or back."""
-    end = case["cage_angle"]
-    lever = case["bearing"][PITCH]
-    unit = np.array([1.0, 1.0, 1.0, lever, lever])
-    expected = numbers(case["displacement"]) * unit
-    for start, count in ((end - 1.0, 5), (end - 0.1, 40), (end + 0.3, 9)):
-        angles = np.linspace(start, end, count)
-        answer = equilibrium(scene_of(case), angles, dofs=tuple(case["dofs"]))
-        error = np.abs(answer.state[-1] - expected).max()
-        assert error < TOLERANCE * np.linalg.norm(expected)

@@ -241,32 +241,18 @@ def _chosen(
         if words := kind_in_words(columns, table.columns, lines, table.name, name):
             return tuple(columns), Choice({}, "", words)
     choice = choose(columns, moving, why, table.name, known.row.place)
-    if choice.columns or choice.options or known.why:
-        return tuple(columns), choice
-    return _choose_only_signal(columns, table.columns, axis, why) or (tuple(columns), choice)
-
-
-def _choose_only_signal(
-    columns: Sequence[Column], values: Array, axis: int | None, why: str
-) -> tuple[tuple[Column, ...], Choice] | None:
-    """Of no signals by their names, the only column that swings about zero as the signal."""
-    below, above = (np.logical_or.reduce(part, axis=0) for part in (values < 0.0, values > 0.0))
+    swings = (table.columns < 0.0).any(axis=0) & (table.columns > 0.0).any(axis=0)
     left = [
         index
         for index, column in enumerate(columns)
-        if column.role == OTHER
-        and column.unit is None
-        and index != axis
-        and below[index]
-        and above[index]
+        if column.role == OTHER and column.unit is None and index != axis and swings[index]
     ]
-    if len(left) != 1:
-        return None
-    made = dataclasses.replace(columns[left[0]], role=SIGNAL)
-    return (
-        tuple(made if index in left else column for index, column in enumerate(columns)),
-        only_signal(made.name, left[0], why),
-    )
+    if len(left) != 1 or choice.columns or choice.options or known.why:
+        return tuple(columns), choice
+    # of no signals by their names, the only column that swings about zero is the signal
+    columns = list(columns)
+    columns[left[0]] = dataclasses.replace(columns[left[0]], role=SIGNAL)
+    return tuple(columns), only_signal(columns[left[0]].name, left[0], why)
 
 
 def _columns(
@@ -276,8 +262,10 @@ def _columns(
     columns = [_described(column_of(name), table.texts) for name in table.names]
     columns = _apply_collection(_add_units(table, columns), known)
     for index, column in enumerate(columns if len(columns) > 1 else ()):
-        if column.role in (SIGNAL, TIME) and _counts(table.columns[:, index], column):
-            columns[index] = Column(column.name, OTHER)
+        if column.role in (SIGNAL, TIME) and column.unit is None:
+            values = table.columns[:, index]
+            if values[0] == np.floor(values[0]) and (np.diff(values) == 1.0).all():
+                columns[index] = Column(column.name, OTHER)  # 0, 1, 2, … is no time in seconds
     if clock:
         columns[:clock] = [Column(name, TIME) for name in table.names[:clock]]
         return tuple(columns), sampling_of(clock_time(table.columns, clock))
@@ -360,14 +348,11 @@ def _most_certain(samplings: Mapping[int, Sampling], names: Sequence[str]) -> Sa
     time = max(samplings, key=lambda i: (samplings[i].stated, samplings[i].sample_rate is not None))
     first = samplings[time]
     for index, other in samplings.items():
-        if other.stated and (rate := other.sample_rate) and _differ(rate, first.sample_rate):
+        rate = other.sample_rate if other.stated else None
+        if rate and first.sample_rate and abs(rate / first.sample_rate - 1.0) > TWO_RATES:
             said = f"“{names[time]}”, where “{names[index]}” says {number(rate, 6)} Hz"
             return dataclasses.replace(first, stated=False, reason=said)
     return first
-
-
-def _differ(rate: float, other: float | None) -> bool:
-    return other is not None and abs(rate / other - 1.0) > TWO_RATES
 
 
 _DESCRIBES = ("name", "label", "channel", "position", "location", "place", "sensor", "direction")
@@ -407,12 +392,6 @@ def _frequencies(table: FileColumns, columns: Sequence[Column], *, timed: bool) 
     return None
 
 
-def _counts(time: Array, column: Column) -> bool:
-    """Return True if a column counts rows: 0, 1, 2, … is no time in seconds."""
-    whole = bool(np.isfinite(time[0])) and time[0] == np.floor(time[0])
-    return column.unit is None and whole and bool(np.all(np.diff(time) == 1.0))
-
-
 def _moves(signal: Array) -> bool:
     finite = signal[np.isfinite(signal)]
     return finite.size >= FEWEST_SAMPLES and bool(np.ptp(finite) > 0.0)
@@ -424,17 +403,16 @@ def _rate(
     if table.sample_rate is not None:
         return Finding(table.sample_rate, "the head of the file")
     said = facts.sample_rate_in([*named, *_constants(table)], table.name)
-    timed = None
-    if sampling is not None and sampling.sample_rate is not None:
-        timed = Finding(sampling.sample_rate, sampling.reason, sampling.stated)
-    both = timed and said and said.taken and timed.stated == said.stated
-    if timed and said and both and abs(timed.value / said.value - 1.0) > TWO_RATES:
-        reason = f"{timed.reason}, where {said.reason} is {number(said.value, 6)} Hz"
-        return dataclasses.replace(timed, reason=reason, stated=False)
-    for finding in (timed, said):
-        if finding is not None and finding.stated:
-            return finding
-    return said or timed or known.sample_rate
+    if sampling is None or sampling.sample_rate is None:
+        return said or known.sample_rate
+    timed = Finding(sampling.sample_rate, sampling.reason, sampling.stated)
+    if said is None or timed.stated > said.stated:
+        return timed
+    alike = abs(timed.value / said.value - 1.0) <= TWO_RATES
+    if alike or not said.taken or timed.stated < said.stated:
+        return timed if timed.stated else said
+    reason = f"{timed.reason}, where {said.reason} is {number(said.value, 6)} Hz"
+    return dataclasses.replace(timed, reason=reason, stated=False)
 
 
 def _unit(
@@ -487,21 +465,18 @@ def _speed(
     table: FileColumns, columns: Sequence[Column], named: Sequence[Named]
 ) -> Finding[float] | None:
     for index, column in enumerate(columns):
-        if column.role == SPEED and column.unit in SPEEDS:
-            speeds = table.columns[:, index]
-            speeds = speeds[np.isfinite(speeds)]
-            mean = float(speeds.mean()) if speeds.size else 0.0
-            if mean > 0.0 and speeds.min() > -mean:  # a gyroscope swings about zero
-                steady = is_steady(speeds)
-                words = f"the column “{column.name}”" + (
-                    ""
-                    if steady
-                    else f", which goes from {number(speeds.min(), 4)} to {number(speeds.max(), 4)}"
-                )
-                # a run-up or coast-down is followed, see `Recording.shaft_angle`
-                stated = steady or bool(speeds.min() >= 0.0)
-                unit = column.unit or ""
-                return Finding(mean * SPEEDS[unit], words, stated, file_unit=unit)
+        speeds = table.columns[:, index]
+        speeds = speeds[np.isfinite(speeds)]
+        if column.role != SPEED or column.unit not in SPEEDS or not speeds.size:
+            continue
+        mean, words = float(speeds.mean()), f"the column “{column.name}”"
+        least, most = float(speeds.min()), float(speeds.max())
+        if mean > 0.0 and least > -mean:  # a gyroscope swings about zero
+            if not (steady := is_steady(speeds)):
+                words += f", which goes from {number(least, 4)} to {number(most, 4)}"
+            # a run-up or coast-down is followed, see `Recording.shaft_angle`
+            stated, unit = steady or least >= 0.0, column.unit
+            return Finding(mean * SPEEDS[unit], words, stated, file_unit=unit)
     return facts.shaft_speed_in([*named, *_constants(table)], table.name)
 
 

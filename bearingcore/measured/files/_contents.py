@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -42,12 +41,10 @@ from bearingcore.measured.files._units import ACCELERATIONS, SPEEDS, TIMES, UNIT
 from bearingcore.recordings import FEWEST_SAMPLES
 from bearingcore.units import STANDARD_GRAVITY
 
-USUAL_LEVEL, SPREAD = 3.0, 1.1
-"""[m/s²] root mean square in the middle of 88 public records that say their unit, and the standard
-deviation of its logarithm."""
-
-LIKELY = math.log(0.9 / 0.1)
-"""Logarithm of the odds from which one of two units is called likely."""
+LIKELY_IN_G, LIKELY_IN_SI = 0.299, 3.07
+"""Root mean square up to which one of g and m/s² is called likely, and from which the other: there
+it is nine times as probable. The level in the middle of 88 public records that say their unit is 3
+m/s², and the standard deviation of its logarithm 1.1."""
 
 TWO_RATES = 0.01
 """Relative difference from which on a column of times and a remark give two sample rates."""
@@ -418,12 +415,14 @@ def _rate(
 def _unit(
     table: FileColumns, columns: Sequence[Column], picked: Sequence[int], known: Known
 ) -> Finding[str]:
-    units = {columns[index].unit for index in picked} - {None}
-    if len(units) == 1 and (unit := next(iter(units))) is not None:
-        name = next(columns[index].name for index in picked if columns[index].unit)
+    names = {
+        column.unit: column.name for index in reversed(picked) if (column := columns[index]).unit
+    }
+    (unit, name), *others = [*names.items()] or [(None, "")]
+    if unit is not None and not others:
         return Finding(unit, f"the name “{name}”")
-    said = facts.units_said(table.remarks, table.texts)
-    if len(said) == 1 and (unit := said[0]) in UNITS and unit is not None:
+    unit, *others = facts.units_said(table.remarks, table.texts) or [None]
+    if unit in UNITS and unit is not None and not others:
         return Finding(unit, "a line of the file")
     if known.unit is not None:
         return known.unit
@@ -449,16 +448,11 @@ def _unit_by_level(signals: Array, all_signals: Array) -> Finding[str]:
             return Finding(unit, words, False)
     if not 0.0 < level < np.inf:
         return Finding("m/s²", "nothing says it", False, supported=False)
-    strays = {
-        unit: (math.log(level * ACCELERATIONS[unit] / USUAL_LEVEL) / SPREAD) ** 2
-        for unit in ("g", "m/s²")
-    }
-    best, other = sorted(strays, key=lambda unit: strays[unit])
-    if 0.5 * (strays[other] - strays[best]) < LIKELY:
-        words = f"a root mean square of {number(level, 2)} is usual in g and in m/s²"
-        return Finding("m/s²", words, False, supported=False)
-    why = f"a root mean square of {number(level, 2)} is more usual in {best} than in {other}"
-    return Finding(best, why, False)
+    words = f"a root mean square of {number(level, 2)} is"
+    if LIKELY_IN_G < level < LIKELY_IN_SI:
+        return Finding("m/s²", f"{words} usual in g and in m/s²", False, supported=False)
+    best, other = ("m/s²", "g") if level > LIKELY_IN_G else ("g", "m/s²")
+    return Finding(best, f"{words} more usual in {best} than in {other}", False)
 
 
 def _speed(

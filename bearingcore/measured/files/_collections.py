@@ -29,8 +29,7 @@ class Collection:
     variable
         regular expression of the whole name of a column.
     file
-        regular expression in the file's name. Groups named as units of speed (`rpm`, `Hz`,
-        `hundred_rpm`) are the shaft's speed.
+        beginning of the file's name.
     scalars
         last parts of names of single numbers that must be there.
     rows, widths, headed, clock
@@ -46,8 +45,6 @@ class Collection:
         which of several places of sensors is at the bearing.
     places, directions
         of all columns, and of the last ones.
-    signals
-        regular expression of the columns that are signals of acceleration; others are not.
     """
 
     name: str
@@ -67,7 +64,6 @@ class Collection:
     place: str = ""
     places: tuple[str, ...] = ()
     directions: tuple[str, ...] = ()
-    signals: str = ""
 
 
 _CASE_WESTERN = "Case Western Reserve"
@@ -116,25 +112,9 @@ COLLECTIONS = (
         )
         for width in (4, 8)
     ),
-    Collection(
-        "XJTU-SY", "headings", variable="(?i)horizontal_vibration_signals", unit="g",
-        file=r"((?P<Hz>35|37\.5|40)Hz)?", sample_rate=25_600.0, bearing="UER204, XJTU-SY",
-    ),
-    Collection(
-        "Paderborn", "variables named",
-        variable=r"N\d\d_M\d\d_F\d\d_K\w+\.Y\.vibration_1", signals=r".*\.vibration_1",
-        file=r"(N(?P<hundred_rpm>\d\d)_M\d\d_F\d\d_K)?",
-        sample_rate=64_000.0, bearing="6203, Paderborn",
-    ),
-    Collection(
-        "HIT-SM", "variable and name", variable=r"[a-z]+\d+_\d+", rows=262_144, widths=(1,),
-        file=r"(^\D+\d?_(?P<rpm>\d{3,4})\.)?", sample_rate=51_200.0, bearing="6205",
-    ),
 )  # fmt: skip
 """Descriptions of the files are those of the collections' own documents, and of programs that read
 them."""
-
-_SPEEDS = {**SPEEDS, "hundred_rpm": 100.0 * SPEEDS["rpm"]}
 
 
 @dataclass(frozen=True)
@@ -156,7 +136,7 @@ def recognize(
     clock: int,
     named: Sequence[Named],
     headed: bool,
-    file_name: str = "",
+    file_name: str,
 ) -> Known:
     """Guess from the look of a file.
 
@@ -177,9 +157,8 @@ def recognize(
     """
     ends = {item.name.rpartition(".")[2] for item in named}
     for row in COLLECTIONS:
-        in_name = re.search(row.file, file_name, re.IGNORECASE)
         if (
-            in_name is not None
+            file_name.startswith(row.file)
             and any(re.fullmatch(row.variable or ".*", name) for name in names)
             and ends >= set(row.scalars)
             and row.rows in (None, rows)
@@ -187,27 +166,20 @@ def recognize(
             and row.headed in (None, headed)
             and row.clock in (None, clock)
         ):
-            return _known(row, in_name.groupdict())
+            why = f"{row.clue} as in the {row.name} collection"
+            return Known(
+                row,
+                why,
+                _guess(row.unit, f"{why}, which is in {row.unit}"),
+                _guess(row.sample_rate, f"{why}, which was sampled so"),
+                None if row.rpm is None else _guess(row.rpm * SPEEDS["rpm"], why, "rpm"),
+                _guess(row.bearing or None, why),
+                _guess(row.orders, why),
+            )
     return Known()
 
 
-def _known(row: Collection, in_name: dict[str, str | None]) -> Known:
-    why = f"{row.clue} as in the {row.name} collection"
-    speed = None if row.rpm is None else _guess(row.rpm * SPEEDS["rpm"], why, "rpm")
-    for group, text in in_name.items():
-        if text is not None:
-            unit = "Hz" if group == "Hz" else "rpm"
-            speed = _guess(float(text) * _SPEEDS[group], f"the file's name, {why}", unit)
-    return Known(
-        row,
-        why,
-        _guess(row.unit, f"{why}, which is in {row.unit}") if row.unit else None,
-        _guess(row.sample_rate, f"{why}, which was sampled so") if row.sample_rate else None,
-        speed,
-        _guess(row.bearing, why) if row.bearing else None,
-        _guess(row.orders, why) if row.orders else None,
-    )
-
-
-def _guess(value: T, why: str, unit: str = "") -> Finding[T]:
+def _guess(value: T | None, why: str, unit: str = "") -> Finding[T] | None:
+    if value is None:
+        return None
     return Finding(value, why, stated=False, strong=True, file_unit=unit)

@@ -296,15 +296,10 @@ def _add_units(table: FileColumns, columns: list[Column]) -> list[Column]:
 
 def _apply_collection(columns: list[Column], known: Known) -> list[Column]:
     """The columns with what a public collection says of them."""
-    row = known.row
-    if row.signals:
-        columns = [
-            column if re.fullmatch(row.signals, column.name) else Column(column.name, OTHER)
-            for column in columns
-        ]
-    for index, place in enumerate(row.places):
+    for index, place in enumerate(known.row.places):
         columns[index] = dataclasses.replace(columns[index], place=place)
-    for index, axis in enumerate(row.directions, len(columns) - len(row.directions)):
+    axes = known.row.directions
+    for index, axis in enumerate(axes, len(columns) - len(axes)):
         columns[index] = dataclasses.replace(columns[index], direction=axis)
     return columns
 

@@ -61,8 +61,8 @@ def time_in(text: str) -> datetime | None:
 
 def _date(match: re.Match[str]) -> datetime | None:
     part = match.groupdict()
-    hour = int(part["hour"] or 0)
-    if half := (part["half"] or "").lower():
+    hour, half = int(part["hour"] or 0), (part["half"] or "").lower()
+    if half:
         hour = hour % 12 + 12 * (half == "p")
     if part["year"]:
         year, month = int(part["year"]), int(part["month"] or part["joined_month"])

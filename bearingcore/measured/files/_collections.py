@@ -32,19 +32,16 @@ class Collection:
         beginning of the file's name.
     scalars
         last parts of names of single numbers that must be there.
-    rows, widths, headed, clock
-        count of rows; possible counts of columns without those of a clock; whether the file names
-        its columns; columns that are hours, minutes, seconds and their parts.
+    width, clock
+        count of columns, and of those of them that are hours, minutes, seconds and their parts.
     unit, sample_rate, rpm
         of acceleration; [Hz]; of the shaft.
     bearing
         a name of the catalogue, or a designation.
-    orders
-        BPFO and BPFI in turns of the shaft, where the bearing is in no list.
     place
         which of several places of sensors is at the bearing.
-    places, directions
-        of all columns, and of the last ones.
+    directions
+        of the last columns.
     """
 
     name: str
@@ -52,17 +49,13 @@ class Collection:
     variable: str = ""
     file: str = ""
     scalars: tuple[str, ...] = ()
-    rows: int | None = None
-    widths: tuple[int, ...] = ()
-    headed: bool | None = None
+    width: int | None = None
     clock: int | None = None
     unit: str = ""
     sample_rate: float | None = None
     rpm: float | None = None
     bearing: str = ""
-    orders: tuple[float, float] | None = None
     place: str = ""
-    places: tuple[str, ...] = ()
     directions: tuple[str, ...] = ()
 
 
@@ -96,21 +89,12 @@ COLLECTIONS = (
     ),
     *(
         Collection(
-            "FEMTO-ST", "columns", file=file, widths=(2,), headed=False, clock=4, unit="g",
+            "FEMTO-ST", "columns", file=file, width=6, clock=4, unit="g",
             sample_rate=25_600.0, rpm=rpm, bearing="6804RS, FEMTO-ST", directions=("x", "y"),
         )
         for file, rpm in (
             ("Bearing1_", 1800.0), ("Bearing2_", 1650.0), ("Bearing3_", 1500.0), ("", None),
         )
-    ),
-    *(
-        Collection(
-            "IMS", "20 480 rows", rows=20_480, widths=(width,), headed=False, unit="g",
-            sample_rate=20_480.0, rpm=2000.0, orders=(7.092, 8.908),
-            places=tuple(f"bearing {index * 4 // width + 1}" for index in range(width)),
-            directions=("x", "y") * 4 if width == 8 else (),
-        )
-        for width in (4, 8)
     ),
 )  # fmt: skip
 """Descriptions of the files are those of the collections' own documents, and of programs that read
@@ -127,31 +111,19 @@ class Known:
     sample_rate: Finding[float] | None = None
     shaft_speed: Finding[float] | None = None
     bearing: Finding[str] | None = None
-    orders: Finding[tuple[float, float]] | None = None
 
 
-def recognize(
-    names: Sequence[str],
-    rows: int,
-    clock: int,
-    named: Sequence[Named],
-    headed: bool,
-    file_name: str,
-) -> Known:
+def recognize(names: Sequence[str], clock: int, named: Sequence[Named], file_name: str) -> Known:
     """Guess from the look of a file.
 
     Parameters
     ----------
     names
         of all columns.
-    rows
-        of the table.
     clock
         how many of the first columns are hours, minutes, seconds and their parts.
     named
         the single numbers of the file.
-    headed
-        whether the file itself names its columns.
     file_name
         without folders.
     """
@@ -161,9 +133,7 @@ def recognize(
             file_name.startswith(row.file)
             and any(re.fullmatch(row.variable or ".*", name) for name in names)
             and ends >= set(row.scalars)
-            and row.rows in (None, rows)
-            and (not row.widths or len(names) - clock in row.widths)
-            and row.headed in (None, headed)
+            and row.width in (None, len(names))
             and row.clock in (None, clock)
         ):
             why = f"{row.clue} as in the {row.name} collection"
@@ -174,7 +144,6 @@ def recognize(
                 _guess(row.sample_rate, f"{why}, which was sampled so"),
                 None if row.rpm is None else _guess(row.rpm * SPEEDS["rpm"], why, "rpm"),
                 _guess(row.bearing or None, why),
-                _guess(row.orders, why),
             )
     return Known()
 

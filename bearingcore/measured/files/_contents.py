@@ -143,8 +143,6 @@ class FileContents:
         the public collection that it looks like; empty where it looks like none.
     bearing
         that of the collection, by its name in the catalogue or its designation.
-    orders
-        BPFO and BPFI of the collection's bearing in turns of the shaft, where it is in no list.
     designation
         of the bearing, as a line of the file has it: it may be that of none.
     recorded
@@ -165,7 +163,6 @@ class FileContents:
     sensitivity: Finding[float] | None = None
     collection: str = ""
     bearing: Finding[str] | None = None
-    orders: Finding[tuple[float, float]] | None = None
     designation: Finding[str] | None = None
     recorded: Finding[datetime] | None = None
     machine: Finding[str] | None = None
@@ -184,7 +181,7 @@ def contents_of(table: FileColumns) -> FileContents:
     hours = table.names[0].strip().lower() in ("hour", "hours", "h", "stunde")
     clock = clock_columns(table.columns) if hours or not table.headed else 0
     clock = 0 if any(index < clock for index in table.given) else clock
-    known = recognize(table.names, len(table.columns), clock, named, table.headed, table.name)
+    known = recognize(table.names, clock, named, table.name)
     columns, sampling = _columns(table, clock, known)
     columns, choice = _chosen(table, columns, sampling, known, lines)
     picked = list(choice.columns.values()) or [
@@ -208,7 +205,6 @@ def contents_of(table: FileColumns) -> FileContents:
         facts.sensitivity_in([*table.remarks, *(f"{k}: {v}" for k, v in said.items())]),
         known.row.name,
         known.bearing,
-        known.orders,
         facts.designation_in(lines),
         dates.recorded_in(lines, table.name),
         dates.machine_in(lines, table.name),
@@ -257,7 +253,10 @@ def _columns(
 ) -> tuple[tuple[Column, ...], Sampling | None]:
     """The columns, and what the times say where some of them are times."""
     columns = [_described(column_of(name), table.texts) for name in table.names]
-    columns = _apply_collection(_add_units(table, columns), known)
+    columns = _add_units(table, columns)
+    axes = known.row.directions
+    for index, axis in enumerate(axes, len(columns) - len(axes)):
+        columns[index] = dataclasses.replace(columns[index], direction=axis)
     for index, column in enumerate(columns if len(columns) > 1 else ()):
         if column.role in (SIGNAL, TIME) and column.unit is None:
             values = table.columns[:, index]
@@ -291,16 +290,6 @@ def _add_units(table: FileColumns, columns: list[Column]) -> list[Column]:
     for index, unit in zip(signals, units, strict=True) if len(units) == len(signals) else ():
         role = SIGNAL if unit is None or unit in UNITS else TIME if unit in TIMES else OTHER
         columns[index] = dataclasses.replace(columns[index], unit=unit, role=role)
-    return columns
-
-
-def _apply_collection(columns: list[Column], known: Known) -> list[Column]:
-    """The columns with what a public collection says of them."""
-    for index, place in enumerate(known.row.places):
-        columns[index] = dataclasses.replace(columns[index], place=place)
-    axes = known.row.directions
-    for index, axis in enumerate(axes, len(columns) - len(axes)):
-        columns[index] = dataclasses.replace(columns[index], direction=axis)
     return columns
 
 

@@ -91,7 +91,7 @@ def _diagnose(
     if signal.unusable is not None:
         return silent(*signal.unusable, source)
     if bearing is None:
-        return silent(DiagnosisStatus.BEARING_OPEN, say.which_bearing(), source)
+        return silent(DiagnosisStatus.BEARING_OPEN, say.WHICH_BEARING, source)
     answer = _diagnose_between(signal, bearing, low, high, slip, source, speed_source)
     # sidebands of an inner race or a ball confirm the speed, an outer race has none
     if high > NARROW * low or answer.fault in (INNER, BALL):
@@ -100,16 +100,16 @@ def _diagnose(
     held = _held_against_the_shaft(signal, answer, speed, reach, speed / ratio)
     if measured or held.names_a_part or not held.evidence:
         return held
-    return _where_it_changes(held, followed_change(signal.columns, signal.rate, speed))
-
-
-def _where_it_changes(answer: Diagnosis, change: float) -> Diagnosis:
-    """The answer, naming no part, where the speed changes by a fraction, which blurs all lines."""
+    change = followed_change(signal.columns, signal.rate, speed)
     if not change:
-        return answer
-    leading = max(one.probability for one in answer.evidence)
-    status, words = DiagnosisStatus.SPEED_CHANGES, say.speed_changes(change)
-    return replace(answer, fault=CANNOT_TELL, status=status, detail=words, probability=leading)
+        return held
+    return replace(
+        held,
+        fault=CANNOT_TELL,
+        status=DiagnosisStatus.SPEED_CHANGES,
+        detail=say.speed_changes(change),
+        probability=max(part.probability for part in held.evidence),
+    )
 
 
 def _diagnose_between(
@@ -179,11 +179,9 @@ def _speeds(
     """The speed of the bearing's shaft from, to [Hz], and where it is from."""
     turn = 2.0 * math.pi / ratio
     if shaft_speed is None:
-        stated = getattr(recording, "shaft_speed", None)
-        if stated is not None:
-            speed = checks.real_number("shaft_speed", stated, above=0.0, unit="rad/s") / turn
-            return speed, speed, "given by the recording"
-        return SPEEDS[0] / (2.0 * math.pi), SPEEDS[1] / (2.0 * math.pi), "looked for"
+        if recording.shaft_speed is None:
+            return SPEEDS[0] / (2.0 * math.pi), SPEEDS[1] / (2.0 * math.pi), "looked for"
+        shaft_speed, said = recording.shaft_speed, "given by the recording"
     if np.ndim(shaft_speed) == 0:
         speed = checks.real_number("shaft_speed", shaft_speed, above=0.0, unit="rad/s") / turn  # type: ignore[arg-type]
         return speed, speed, said

@@ -424,7 +424,8 @@ class _Comparison:
         An outer race stands still and needs none. Where a line may be a race's or a ball's, cage
         sidebands speak for the ball.
         """
-        combs, envelope = self.combs, self._envelope_of(part)
+        combs = self.combs
+        envelope = combs.envelope_of(part)
         level = float(comb_level(_lines(envelope, envelope.cleared, part.frequency)[:, None])[0])
 
         def sides(spacing: float) -> float:
@@ -458,19 +459,20 @@ class _Comparison:
         part that turns with another shaft, or at another speed than the one stated. Infinity where
         noise reaches as far.
         """
-        combs, one = self.combs, self._envelope_of(part)
+        combs = self.combs
+        envelope = combs.envelope_of(part)
         resolution = (combs.frequency[1] - combs.frequency[0]) * FINENESS
         low, high = (turns * combs.shaft for turns in FOREIGN)
         spacing = np.arange(low, high, resolution / FINENESS)
         # a coarse resolution may have found the lines a little beside their place
         near_it = np.abs(combs.frequency - part.frequency) <= 0.5 * combs.shaft / TURNS[0]
-        row = next(k for k, other in enumerate(combs.envelopes) if other is one)
+        row = next(k for k, other in enumerate(combs.envelopes) if other is envelope)
         levels = np.where(near_it, combs.level[row], -np.inf)
         place = int(levels.argmax())
         frequency = float(combs.frequency[place])
         lines = frequency * np.arange(1, HARMONICS // 2 + 1)
         sides = [
-            [lines_at(one.cleared, one.levels.step, np.abs(line + away), 1)[0]
+            [lines_at(envelope.cleared, envelope.levels.step, np.abs(line + away), 1)[0]
              for away in (-spacing, spacing)]
             for line in lines.tolist()
         ]  # fmt: skip
@@ -480,14 +482,9 @@ class _Comparison:
         for known in made:
             level[np.abs(spacing - known) <= 1.5 * resolution + 0.005 * known] = -np.inf
         best = int(level.argmax())
-        if level[best] < noise_level(RARE / len(spacing), one.levels.averages):
+        if level[best] < noise_level(RARE / len(spacing), envelope.levels.averages):
             return math.inf, math.nan
         return float(levels[place] - level[best]) - FOREIGN_LEAD + LEAD, float(spacing[best])
-
-    def _envelope_of(self, part: PartEvidence) -> Listened:
-        """The envelope in which the lines of a part were seen."""
-        place = part.band, part.direction
-        return next(one for one in self.combs.envelopes if (one.band, one.direction) == place)
 
     def carried(self, around: float) -> float:
         """By how much [dB] lines around a frequency [Hz] have the sidebands that a ball's have.

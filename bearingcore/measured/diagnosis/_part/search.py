@@ -16,6 +16,7 @@ from bearingcore.measured.diagnosis._part.combs import (
     mark_multiples,
     noise_level,
 )
+from bearingcore.measured.diagnosis._part.evidence import PartEvidence
 from bearingcore.measured.diagnosis._part.parts import PartLines
 from bearingcore.measured.signals._filter_bank import Band, Envelope
 from bearingcore.measured.signals._line_levels import LineLevels, line_levels
@@ -89,10 +90,15 @@ class Combs:
         cells = sum(self.cells(frequency) for frequency, _ in self.best.values())
         return noise_level(RARE / cells, self.envelopes[0].levels.averages)
 
-    def cells(self, frequency: float, slip: float = 0.02) -> float:
-        """Independent combs among those within slip of a frequency [Hz], in all bands."""
+    def envelope_of(self, part: PartEvidence) -> Listened:
+        """Return the envelope in which the lines of a part were seen."""
+        place = part.band, part.direction
+        return next(e for e in self.envelopes if (e.band, e.direction) == place)
+
+    def cells(self, frequency: float) -> float:
+        """Independent combs among those within 2 % of a frequency [Hz], in all bands."""
         segment = self.turns / self.shaft
-        places = 1.0 + 2.0 * slip * frequency * segment * 0.5 * HARMONICS
+        places = 1.0 + 2.0 * 0.02 * frequency * segment * 0.5 * HARMONICS
         return places * max(1.0, INDEPENDENT_BANDS * len(self.envelopes)) * len(TURNS)
 
 

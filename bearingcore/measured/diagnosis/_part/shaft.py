@@ -139,7 +139,7 @@ def _excess(
     lines = _lines(levels, frequency, HARMONICS)
     order = np.arange(1, HARMONICS + 1)[:, None]
     left = [np.broadcast_to(order % part != 0, lines.shape) for part in (2, 3)]
-    left += [_lines_hidden(hidden, levels.step, frequency, HARMONICS) == 0.0 for hidden in mains]
+    left += [lines_at(hidden.astype(float), levels.step, frequency) == 0.0 for hidden in mains]
     noise = [
         noise_level(chance, levels.averages, count) if count >= FEWEST else np.inf
         for count in range(HARMONICS + 1)
@@ -161,13 +161,6 @@ def _lines(levels: LineLevels, frequency: NDArray[np.float64], count: int) -> ND
     )
 
 
-def _lines_hidden(
-    hidden: NDArray[np.bool_], step: float, frequency: NDArray[np.float64], count: int
-) -> NDArray[np.float64]:
-    """1 where a line (count, n) of a comb is hidden."""
-    return lines_at(hidden.astype(float), step, frequency, count)
-
-
 def _finest(fits: Sequence[tuple[float, float]]) -> tuple[float, float]:
     """The frequency [Hz] of two that has the less error, infinite where they disagree by more."""
     (best, error), (other, wider) = sorted(fits, key=lambda fit: fit[1])
@@ -184,7 +177,7 @@ def _fine(
 ) -> tuple[float, float]:
     """The frequency [Hz] by the peaks of all lines that are the shaft's alone, and its error."""
     order = np.arange(1, 2 * HARMONICS + 1)
-    hidden = _lines_hidden(mains, levels.step, np.array([frequency]), len(order))[:, 0]
+    hidden = lines_at(mains.astype(float), levels.step, np.array([frequency]), len(order))[:, 0]
     places, heights = [], []
     for k in order[hidden == 0.0].tolist():
         reach = max(1, round(resolution / levels.step))

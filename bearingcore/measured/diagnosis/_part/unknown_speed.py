@@ -59,8 +59,11 @@ def diagnose_in_range(
         for lines in parts:
             speed = strongest / lines.order
             if low * (1.0 - slip) <= speed <= high * (1.0 + slip):
-                hypotheses.append(_Hypothesis.judge_at(signal, parts, speed, slip, low, high))
-    holding = sorted((one for one in hypotheses if one.holds), key=lambda one: -one.shaft.excess)
+                ends = max(low, speed * (1.0 - slip)), min(high, speed * (1.0 + slip))
+                turning, speed = signal.shaft(*ends), min(max(speed, low), high)
+                speed = turning.frequency if turning.clear else speed
+                hypotheses.append(_Hypothesis(turning, judge(signal, parts, speed, slip)))
+    holding = sorted((guess for guess in hypotheses if guess.holds), key=lambda g: -g.shaft.excess)
     if holding:
         return _choose(signal, holding, slip, low, high, source)
     if shaft.clear:
@@ -148,21 +151,6 @@ class _Hypothesis:
 
     shaft: ShaftLines
     judged: Judged
-
-    @classmethod
-    def judge_at(
-        cls,
-        signal: ListenedSignal,
-        parts: Sequence[PartLines],
-        speed: float,
-        slip: float,
-        low: float,
-        high: float,
-    ) -> _Hypothesis:
-        """Diagnosis if the shaft turns about `speed` times a second [Hz], between two bounds."""
-        shaft = signal.shaft(max(low, speed * (1.0 - slip)), min(high, speed * (1.0 + slip)))
-        speed = min(max(speed, low), high)
-        return cls(shaft, judge(signal, parts, shaft.frequency if shaft.clear else speed, slip))
 
     @property
     def holds(self) -> bool:

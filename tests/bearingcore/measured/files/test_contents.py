@@ -83,15 +83,6 @@ def test_femto_columns_of_clock_and_signals(delimiter: str, rounding: int, begin
     assert got.duration == pytest.approx(0.1)
 
 
-@pytest.mark.parametrize(("columns", "places"), [(4, [1, 2, 3, 4]), (8, [1, 1, 2, 2, 3, 3, 4, 4])])
-def test_ims_tables_without_headings_or_extension(columns: int, places: list[int]) -> None:
-    table = read_table("2003.10.22.12.06.24", lines(NOISE[:, :columns], "\t"))
-    contents: Any = table.contents
-    assert [column.place for column in contents.columns] == [f"bearing {n}" for n in places]
-    assert "several places" in contents.choice.question
-    assert (contents.sample_rate.value, contents.sample_rate.stated) == (20_480.0, False)
-
-
 def test_speed_of_a_bearing_of_femto_is_in_the_name_of_its_files() -> None:
     micro = np.arange(2560) / 25_600.0 * 1e6
     clock = [np.full(2560, 9.0), np.full(2560, 39.0), np.full(2560, 39.0), micro]

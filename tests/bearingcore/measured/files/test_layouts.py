@@ -811,8 +811,7 @@ FILES: list[tuple[bytes | str, dict[str, Any]]] = [
     (VOLTS.replace(b"g\tV", b"g\tg") + rows(SIGNAL, delimiter="\t"), {"unit": "g"}),
     (COMMAS + "\n".join(f"\t{x:.4f}\t{y:.4f}".replace(".", ",") for x, y in SIGNAL),
      {"names": ("DE", "NDE"), "rate": RATE, "unit": "g"}),
-    # collections: how the number of a Case Western file says it was sampled, and a file's name;
-    # tables of the IMS without headings or extension
+    # collections: how the number of a Case Western file says it was sampled, and a file's name
     (matlab(**CWRU), {"file": "a.mat", "likely": 48e3}),
     (matlab(**CWRU), {"file": "12k_Drive_End_1.mat", "likely": 12e3, "reason": "12k",
                       "columns": {"y": 0}, "choice": "name says drive end"}),

@@ -58,7 +58,7 @@ healthy."""
 
 def decide(signal: ListenedSignal, judged: Judged, shaft: float | None, source: str) -> Diagnosis:
     """The answer, and its sentence; `shaft` [Hz] is None where no speed was found."""
-    part = judged.own
+    part = judged.leading
     fault, probability = CANNOT_TELL, part.probability
     others_stand_out = judged.other_above_noise >= NOISE_MARGIN
     if part.probability >= NAMED:
@@ -100,7 +100,7 @@ def decide(signal: ListenedSignal, judged: Judged, shaft: float | None, source: 
 
 def _spectrum(judged: Judged) -> EnvelopeLines:
     """The envelope's spectrum in the band of the best evidence, at the finest resolution."""
-    envelope = judged.resolutions[-1].envelope_of(judged.own)
+    envelope = judged.resolutions[-1].envelope_of(judged.leading)
     frequency = envelope.levels.step * np.arange(len(envelope.levels.level), dtype=float)
     return EnvelopeLines(frequency, envelope.levels.level, envelope.band, envelope.direction)
 
@@ -186,9 +186,11 @@ def _impulsiveness(judged: Judged, signal: ListenedSignal) -> float:
     """
     sixth, envelopes = signal.rate / 12.0, judged.resolutions[0].envelopes
     broad = [
-        one.kurtosis - 5.0 * math.sqrt(20.0 / (signal.duration * (one.band.high - one.band.low)))
-        for one in envelopes
-        if one.band.high <= 5.05 * sixth and one.band.high - one.band.low >= 0.95 * sixth
+        envelope.kurtosis
+        - 5.0 * math.sqrt(20.0 / (signal.duration * (envelope.band.high - envelope.band.low)))
+        for envelope in envelopes
+        if envelope.band.high <= 5.05 * sixth
+        and envelope.band.high - envelope.band.low >= 0.95 * sixth
     ]
     return max(broad or [envelope.kurtosis for envelope in envelopes])
 

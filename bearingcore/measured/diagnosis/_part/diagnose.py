@@ -214,19 +214,19 @@ def _diagnose_at(
     refused = unfit(signal, parts, shaft)
     if refused is not None:
         return silent(*refused, source, shaft)
-    given, own = shaft, signal.shaft(low, high)
+    stated, turning = shaft, signal.shaft(low, high)
     # lines broader than the window that they are looked for in make nothing finer
-    if own.clear and signal.duration * (high - low) > 1.0:
-        shaft = own.frequency
-        given = shaft if reach else given
+    if turning.clear and signal.duration * (high - low) > 1.0:
+        shaft = turning.frequency
+        stated = shaft if reach else stated
         source += ", refined from the shaft lines in the signal"
     else:
         slip += reach
         source += ", its middle" if reach else ""
-    answer = decide(signal, judge(signal, parts, shaft, slip, given), shaft, source)
+    answer = decide(signal, judge(signal, parts, shaft, slip, stated), shaft, source)
     if answer.fault in (OUTER, INNER):
         return answer
-    return _second_opinion(signal, parts, answer, shaft, given, slip)
+    return _second_opinion(signal, parts, answer, shaft, stated, slip)
 
 
 _IN_DOUBT = (
@@ -256,7 +256,7 @@ def _second_opinion(
     parts: Sequence[PartLines],
     answer: Diagnosis,
     shaft: float,
-    given: float,
+    stated: float,
     slip: float,
 ) -> Diagnosis:
     """Diagnosis of the signal as it is, where the whitened one names no race.
@@ -267,7 +267,7 @@ def _second_opinion(
     """
     if answer.status == DiagnosisStatus.OTHER_SHAFT:
         return answer
-    judged = judge(signal.unwhitened(), parts, shaft, slip, given).counting(TONES_COUNT)
+    judged = judge(signal.unwhitened(), parts, shaft, slip, stated).counting(TONES_COUNT)
     again = decide(signal, judged, shaft, answer.speed_source)
     if answer.fault == BALL:  # whitening hides how sharp lines are which nothing modulates
         alone = again.status == DiagnosisStatus.UNMODULATED and not again.of(BALL).modulated
@@ -275,6 +275,6 @@ def _second_opinion(
     if again.fault in (OUTER, INNER):
         return again
     seen = again.status in _INSTEAD_OF.get(answer.status, ())
-    if answer.fault == NONE_SEEN and judged.own.swing < ENOUGH_SWING:
+    if answer.fault == NONE_SEEN and judged.turning.swing < ENOUGH_SWING:
         return answer
     return again if seen else answer

@@ -93,15 +93,16 @@ def shaft_lines(
         count = 1 + int(np.ceil((high - low) * 4.0 * HARMONICS / resolution))
         frequency = np.linspace(low, high, count)  # the highest line resolves the most
         cells = 1.0 + (high - low) / resolution * 0.5 * HARMONICS
-        own = [mains_lines(levels, mains, resolution) for mains in MAINS]
-        excess = _excess(levels, own, frequency, RARE / cells)
+        hidden = [mains_lines(levels, mains, resolution) for mains in MAINS]
+        excess = _excess(levels, hidden, frequency, RARE / cells)
         index = int(excess.argmax())
         if excess[index] <= best.excess:
             continue
         noise = noise_level(RARE / cells, levels.averages)
         turn = _slowest(levels, float(frequency[index]), low, noise)
         # without the lines of both mains, where enough are left, as there is but one
-        fits = [_fine(levels, lines, turn, resolution, noise) for lines in (own[0] | own[1], *own)]
+        either = hidden[0] | hidden[1]
+        fits = [_fine(levels, lines, turn, resolution, noise) for lines in (either, *hidden)]
         turn, error = fits[0] if np.isfinite(fits[0][1]) else _finest(fits[1:])
         inside = min(max(turn, low), high)
         if abs(turn - inside) > 2.0 * error:  # lines of something beyond

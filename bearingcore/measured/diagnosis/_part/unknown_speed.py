@@ -76,7 +76,7 @@ def diagnose_in_range(
     if not answer.names_a_part:
         return answer
     # of a part only at a speed outside the range, or too faint to find one
-    best = judged.own
+    best = judged.leading
     beyond = replace(judged, shaft=best.frequency / best.nominal_order)
     return _undecided_speed(signal, [_Hypothesis(shaft, beyond)], best.frequency, source)
 
@@ -109,15 +109,15 @@ def _choose(
     rival = next((guess for guess in holding[1:] if not guess.agrees(first, slip)), None)
     alone = high <= NARROW * low and rival is None
     if not (first.shaft.clear or alone):
-        return _undecided_speed(signal, holding, first.judged.own.frequency, source)
+        return _undecided_speed(signal, holding, first.judged.leading.frequency, source)
     if rival is not None and first.shaft.excess < rival.shaft.excess + SHAFT_MARGIN:
-        return _undecided_speed(signal, [first, rival], first.judged.own.frequency, source)
+        return _undecided_speed(signal, [first, rival], first.judged.leading.frequency, source)
     if first.shaft.clear:
         return decide(signal, first.judged, first.judged.shaft, _FOUND)
     # any source with lines somewhere in the range would have been taken for the part's
     width = 2.0 * math.atanh(max(slip, ERROR))
     judged = first.judged.discounted(1.0 + math.log(high / low) / width)
-    part = first.judged.own.part
+    part = first.judged.leading.part
     return decide(signal, judged, judged.shaft, f"taken from the lines of the {part}")
 
 
@@ -130,7 +130,7 @@ def _undecided_speed(
     """Knocks that may be of one part or another, as the speed may be."""
     readings: dict[str, float] = {}
     for guess in hypotheses:
-        readings.setdefault(guess.judged.own.part, guess.judged.shaft)
+        readings.setdefault(guess.judged.leading.part, guess.judged.shaft)
     decided = decide(signal, hypotheses[0].judged, None, source)
     # each reading is as probable as the others: what holds at one speed counts by its share
     share = SURE / max(2, len(readings))
@@ -155,10 +155,10 @@ class _Hypothesis:
     @property
     def holds(self) -> bool:
         """Return True if a part would be named at that speed."""
-        return self.judged.own.probability >= NAMED
+        return self.judged.leading.probability >= NAMED
 
     def agrees(self, other: _Hypothesis, slip: float) -> bool:
         """Return True if another speed is the same, and the part."""
         ratio = self.judged.shaft / other.judged.shaft
-        same = self.judged.own.part == other.judged.own.part
+        same = self.judged.leading.part == other.judged.leading.part
         return same and abs(ratio - 1.0) <= 2.0 * slip

@@ -12,8 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from bearingcore.measured.files._facts import Finding, Named, T
-from bearingcore.measured.files._units import SPEEDS
+from bearingcore.measured.files._facts import Finding, Named
 
 
 @dataclass(frozen=True)
@@ -58,6 +57,19 @@ class Collection:
     place: str = ""
     directions: tuple[str, ...] = ()
 
+    @property
+    def why(self) -> str:
+        """The reason for what follows, in a few words; empty without a collection."""
+        return f"{self.clue} as in the {self.name} collection" if self.name else ""
+
+    def guess(self, fact: str, words: str = "", factor: float = 1.0, unit: str = "") -> Any:
+        """Return a fact as a `Finding`, `factor` times as large and with more words; else None."""
+        value = getattr(self, fact)
+        if not value:
+            return None
+        value = value if isinstance(value, str) else factor * value
+        return Finding(value, self.why + words, stated=False, strong=True, file_unit=unit)
+
 
 _CASE_WESTERN = "Case Western Reserve"
 _ALL_OF_CASE_WESTERN: Any = {"unit": "g", "clue": "variables named", "rpm": 1764.0}
@@ -101,20 +113,10 @@ COLLECTIONS = (
 them."""
 
 
-@dataclass(frozen=True)
-class Known:
-    """Facts that follow for a file from its look, as those of `row`, in SI units."""
-
-    row: Collection = Collection("", "")
-    why: str = ""
-    unit: Finding[str] | None = None
-    sample_rate: Finding[float] | None = None
-    shaft_speed: Finding[float] | None = None
-    bearing: Finding[str] | None = None
-
-
-def recognize(names: Sequence[str], clock: int, named: Sequence[Named], file_name: str) -> Known:
-    """Guess from the look of a file.
+def recognize(
+    names: Sequence[str], clock: int, named: Sequence[Named], file_name: str
+) -> Collection:
+    """The collection that a file looks like; one without a name where it looks like none.
 
     Parameters
     ----------
@@ -136,19 +138,5 @@ def recognize(names: Sequence[str], clock: int, named: Sequence[Named], file_nam
             and row.width in (None, len(names))
             and row.clock in (None, clock)
         ):
-            why = f"{row.clue} as in the {row.name} collection"
-            return Known(
-                row,
-                why,
-                _guess(row.unit, f"{why}, which is in {row.unit}"),
-                _guess(row.sample_rate, f"{why}, which was sampled so"),
-                None if row.rpm is None else _guess(row.rpm * SPEEDS["rpm"], why, "rpm"),
-                _guess(row.bearing or None, why),
-            )
-    return Known()
-
-
-def _guess(value: T | None, why: str, unit: str = "") -> Finding[T] | None:
-    if value is None:
-        return None
-    return Finding(value, why, stated=False, strong=True, file_unit=unit)
+            return row
+    return Collection("", "")

@@ -25,7 +25,7 @@ from bearingcore.measured.files._channels import (
     names_a_frequency,
     only_signal,
 )
-from bearingcore.measured.files._collections import Known, recognize
+from bearingcore.measured.files._collections import Collection, recognize
 from bearingcore.measured.files._facts import Finding, Named, is_steady
 from bearingcore.measured.files._other_kinds import kind_in_words, leave_out_spectra
 from bearingcore.measured.files._sampling import (
@@ -190,8 +190,9 @@ def contents_of(table: FileColumns) -> FileContents:
         if column.role == SIGNAL and _moves(table.columns[:, index])
     ]
     rate = _rate(table, sampling, named, known)
-    speed = _speed(table, columns, named) or known.shaft_speed
-    said = {**{item.name: _text(item) for item in named}, **dates.dates_said(lines), **table.texts}
+    speed = _speed(table, columns, named) or known.guess("rpm", factor=SPEEDS["rpm"], unit="rpm")
+    said = {item.name: f"{number(item.value, 6)} {item.unit or ''}".rstrip() for item in named}
+    said |= {**dates.dates_said(lines), **table.texts}
     return FileContents(
         columns,
         choice,
@@ -203,8 +204,8 @@ def contents_of(table: FileColumns) -> FileContents:
         said,
         facts.bearing_frequencies_in(named),
         facts.sensitivity_in([*table.remarks, *(f"{k}: {v}" for k, v in said.items())]),
-        known.row.name,
-        known.bearing,
+        known.name,
+        known.guess("bearing"),
         facts.designation_in(lines),
         dates.recorded_in(lines, table.name),
         dates.machine_in(lines, table.name),
@@ -216,7 +217,7 @@ def _chosen(
     table: FileColumns,
     columns: Sequence[Column],
     sampling: Sampling | None,
-    known: Known,
+    known: Collection,
     lines: Sequence[str],
 ) -> tuple[tuple[Column, ...], Choice]:
     """The columns without those of spectra, and those of this bearing or a question."""
@@ -225,7 +226,7 @@ def _chosen(
     moving = [_moves(values) for values in table.columns.T]
     if by_hand := {index for index, column in table.given.items() if column.role == SIGNAL}:
         moving = [moves and index in by_hand for index, moves in enumerate(moving)]
-        choice = choose(columns, moving, "as given", table.name, known.row.place)
+        choice = choose(columns, moving, "as given", table.name, known.place)
         return tuple(columns), choice
     axis = _frequencies(table, columns, timed=sampling is not None)
     if not known.why:
@@ -233,7 +234,7 @@ def _chosen(
         name = "" if axis is None or sampling is not None else columns[axis].name
         if words := kind_in_words(columns, table.columns, lines, table.name, name):
             return tuple(columns), Choice({}, "", words)
-    choice = choose(columns, moving, why, table.name, known.row.place)
+    choice = choose(columns, moving, why, table.name, known.place)
     swings = (table.columns < 0.0).any(axis=0) & (table.columns > 0.0).any(axis=0)
     left = [
         index
@@ -249,12 +250,12 @@ def _chosen(
 
 
 def _columns(
-    table: FileColumns, clock: int, known: Known
+    table: FileColumns, clock: int, known: Collection
 ) -> tuple[tuple[Column, ...], Sampling | None]:
     """The columns, and what the times say where some of them are times."""
     columns = [_described(column_of(name), table.texts) for name in table.names]
     columns = _add_units(table, columns)
-    axes = known.row.directions
+    axes = known.directions
     for index, axis in enumerate(axes, len(columns) - len(axes)):
         columns[index] = dataclasses.replace(columns[index], direction=axis)
     for index, column in enumerate(columns if len(columns) > 1 else ()):
@@ -379,13 +380,13 @@ def _moves(signal: Array) -> bool:
 
 
 def _rate(
-    table: FileColumns, sampling: Sampling | None, named: Sequence[Named], known: Known
+    table: FileColumns, sampling: Sampling | None, named: Sequence[Named], known: Collection
 ) -> Finding[float] | None:
     if table.sample_rate is not None:
         return Finding(table.sample_rate, "the head of the file")
     said = facts.sample_rate_in([*named, *_constants(table)], table.name)
     if sampling is None or sampling.sample_rate is None:
-        return said or known.sample_rate
+        return said or known.guess("sample_rate", ", which was sampled so")
     timed = Finding(sampling.sample_rate, sampling.reason, sampling.stated)
     if said is None or timed.stated > said.stated:
         return timed
@@ -397,7 +398,7 @@ def _rate(
 
 
 def _unit(
-    table: FileColumns, columns: Sequence[Column], picked: Sequence[int], known: Known
+    table: FileColumns, columns: Sequence[Column], picked: Sequence[int], known: Collection
 ) -> Finding[str]:
     names = {
         column.unit: column.name for index in reversed(picked) if (column := columns[index]).unit
@@ -408,8 +409,8 @@ def _unit(
     unit, *others = facts.units_said(table.remarks, table.texts) or [None]
     if unit in UNITS and unit is not None and not others:
         return Finding(unit, "a line of the file")
-    if known.unit is not None:
-        return known.unit
+    if of_collection := known.guess("unit", f", which is in {known.unit}"):
+        return of_collection
     if not picked:
         return Finding("m/s²", "nothing says it", False, supported=False)
     if table.full_scale_known is False:
@@ -487,7 +488,3 @@ def _constants(table: FileColumns) -> list[Named]:
         if is_steady(values):
             made.append(Named(name, float(values.mean()), column_of(name).unit))
     return made
-
-
-def _text(item: Named) -> str:
-    return number(item.value, 6) + (f" {item.unit}" if item.unit else "")

@@ -278,8 +278,8 @@ def reasons(table: Table) -> dict[str, str]:
     texts["sample_rate"] = "The file does not say it." if rate is None else _because(rate)
     if contents.frequencies:
         texts["bearing"] = "Its frequencies are in the file."
-    elif (guessed := contents.bearing or contents.orders) is not None:
-        texts["bearing"] = _because(guessed)
+    elif contents.bearing is not None:
+        texts["bearing"] = _because(contents.bearing)
     elif contents.designation is not None and machine.guess(contents)["designation"]:
         texts["designation"] = _because(contents.designation)
     if speed is not None:

@@ -203,12 +203,6 @@ def _bearing(contents: FileContents) -> dict[str, str]:
         texts |= {name: f"{value:.6g} Hz" for name, value in said.items()}
         if listed is None or speed is None or not _agree(listed.value, said, speed.value):
             return {"bearing": BY_FREQUENCIES, **texts}
-    if contents.orders is not None:
-        texts |= {
-            name: f"{order:.6g} x"
-            for name, order in zip(("bpfo", "bpfi"), contents.orders.value, strict=True)
-        }
-        return {"bearing": BY_FREQUENCIES, **texts}
     named = contents.designation
     if listed is None and named is not None:
         try:

@@ -54,7 +54,9 @@ class FolderDiagnosis:
         answers = self.answers
         faults = ["not read" if answer is None else answer.fault for answer in answers]
         odds = [math.nan if answer is None else answer.probability for answer in answers]
-        speeds = [math.nan if one is None else one.shaft_speed or math.nan for one in answers]
+        speeds = [
+            math.nan if answer is None else answer.shaft_speed or math.nan for answer in answers
+        ]
         return table_of(
             ("file", "", self.names),
             ("fault", "", faults),

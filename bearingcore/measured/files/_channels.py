@@ -123,7 +123,8 @@ def column_of(name: str) -> Column:
     leaf = re.sub(r"^[\w.{}()]*\.(?=[A-Za-z])", "", name.strip())  # of a struct
     bare = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", leaf)
     first, *more = [word for word in re.split(r"[\W_]+", bare.lower()) if word] or [""]
-    unit = unit or _time_unit(first, more)
+    if unit is None and len(first) > 1 and more in ([], ["elapsed"]):
+        unit = written if (written := unit_named(first)) in TIMES else None  # "seconds_elapsed"
     if unit in TIMES or (unit is None and _names_a_time(name, first, more)):
         return Column(name, TIME, unit)
     if unit in SPEEDS:
@@ -135,12 +136,6 @@ def column_of(name: str) -> Column:
         unit, words = None, {"v"}  # the vertical one at a place, no voltage
     direction = next((axis for axis, said in _SAYS.items() if words & said), "")
     return Column(name, SIGNAL, unit, direction, place_in(name))
-
-
-def _time_unit(first: str, more: Sequence[str]) -> str | None:
-    """The unit of times that a heading such as "seconds" or "seconds_elapsed" is."""
-    unit = unit_named(first) if len(first) > 1 and more in ([], ["elapsed"]) else None
-    return unit if unit in TIMES else None
 
 
 def _names_a_time(name: str, first: str, more: Sequence[str]) -> bool:

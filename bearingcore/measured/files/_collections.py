@@ -12,8 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from bearingcore.measured.files._facts import Finding, Named, T
-from bearingcore.measured.files._units import SPEEDS
+from bearingcore.measured.files._facts import Finding, Named
 
 
 @dataclass(frozen=True)
@@ -29,25 +28,19 @@ class Collection:
     variable
         regular expression of the whole name of a column.
     file
-        regular expression in the file's name. Groups named as units of speed (`rpm`, `Hz`,
-        `hundred_rpm`) are the shaft's speed.
+        beginning of the file's name.
     scalars
         last parts of names of single numbers that must be there.
-    rows, widths, headed, clock
-        count of rows; possible counts of columns without those of a clock; whether the file names
-        its columns; columns that are hours, minutes, seconds and their parts.
+    width, clock
+        count of columns, and of those of them that are hours, minutes, seconds and their parts.
     unit, sample_rate, rpm
         of acceleration; [Hz]; of the shaft.
     bearing
         a name of the catalogue, or a designation.
-    orders
-        BPFO and BPFI in turns of the shaft, where the bearing is in no list.
     place
         which of several places of sensors is at the bearing.
-    places, directions
-        of all columns, and of the last ones.
-    signals
-        regular expression of the columns that are signals of acceleration; others are not.
+    directions
+        of the last columns.
     """
 
     name: str
@@ -55,19 +48,27 @@ class Collection:
     variable: str = ""
     file: str = ""
     scalars: tuple[str, ...] = ()
-    rows: int | None = None
-    widths: tuple[int, ...] = ()
-    headed: bool | None = None
+    width: int | None = None
     clock: int | None = None
     unit: str = ""
     sample_rate: float | None = None
     rpm: float | None = None
     bearing: str = ""
-    orders: tuple[float, float] | None = None
     place: str = ""
-    places: tuple[str, ...] = ()
     directions: tuple[str, ...] = ()
-    signals: str = ""
+
+    @property
+    def why(self) -> str:
+        """The reason for what follows, in a few words; empty without a collection."""
+        return f"{self.clue} as in the {self.name} collection" if self.name else ""
+
+    def guess(self, fact: str, words: str = "", factor: float = 1.0, unit: str = "") -> Any:
+        """Return a fact as a `Finding`, `factor` times as large and with more words; else None."""
+        value = getattr(self, fact)
+        if not value:
+            return None
+        value = value if isinstance(value, str) else factor * value
+        return Finding(value, self.why + words, stated=False, strong=True, file_unit=unit)
 
 
 _CASE_WESTERN = "Case Western Reserve"
@@ -100,114 +101,42 @@ COLLECTIONS = (
     ),
     *(
         Collection(
-            "FEMTO-ST", "columns", file=file, widths=(2,), headed=False, clock=4, unit="g",
+            "FEMTO-ST", "columns", file=file, width=6, clock=4, unit="g",
             sample_rate=25_600.0, rpm=rpm, bearing="6804RS, FEMTO-ST", directions=("x", "y"),
         )
         for file, rpm in (
             ("Bearing1_", 1800.0), ("Bearing2_", 1650.0), ("Bearing3_", 1500.0), ("", None),
         )
     ),
-    *(
-        Collection(
-            "IMS", "20 480 rows", rows=20_480, widths=(width,), headed=False, unit="g",
-            sample_rate=20_480.0, rpm=2000.0, orders=(7.092, 8.908),
-            places=tuple(f"bearing {index * 4 // width + 1}" for index in range(width)),
-            directions=("x", "y") * 4 if width == 8 else (),
-        )
-        for width in (4, 8)
-    ),
-    Collection(
-        "XJTU-SY", "headings", variable="(?i)horizontal_vibration_signals", unit="g",
-        file=r"((?P<Hz>35|37\.5|40)Hz)?", sample_rate=25_600.0, bearing="UER204, XJTU-SY",
-    ),
-    Collection(
-        "Paderborn", "variables named",
-        variable=r"N\d\d_M\d\d_F\d\d_K\w+\.Y\.vibration_1", signals=r".*\.vibration_1",
-        file=r"(N(?P<hundred_rpm>\d\d)_M\d\d_F\d\d_K)?",
-        sample_rate=64_000.0, bearing="6203, Paderborn",
-    ),
-    Collection(
-        "HIT-SM", "variable and name", variable=r"[a-z]+\d+_\d+", rows=262_144, widths=(1,),
-        file=r"(^\D+\d?_(?P<rpm>\d{3,4})\.)?", sample_rate=51_200.0, bearing="6205",
-    ),
 )  # fmt: skip
 """Descriptions of the files are those of the collections' own documents, and of programs that read
 them."""
 
-_SPEEDS = {**SPEEDS, "hundred_rpm": 100.0 * SPEEDS["rpm"]}
-
-
-@dataclass(frozen=True)
-class Known:
-    """Facts that follow for a file from its look, as those of `row`, in SI units."""
-
-    row: Collection = Collection("", "")
-    why: str = ""
-    unit: Finding[str] | None = None
-    sample_rate: Finding[float] | None = None
-    shaft_speed: Finding[float] | None = None
-    bearing: Finding[str] | None = None
-    orders: Finding[tuple[float, float]] | None = None
-
 
 def recognize(
-    names: Sequence[str],
-    rows: int,
-    clock: int,
-    named: Sequence[Named],
-    headed: bool,
-    file_name: str = "",
-) -> Known:
-    """Guess from the look of a file.
+    names: Sequence[str], clock: int, named: Sequence[Named], file_name: str
+) -> Collection:
+    """The collection that a file looks like; one without a name where it looks like none.
 
     Parameters
     ----------
     names
         of all columns.
-    rows
-        of the table.
     clock
         how many of the first columns are hours, minutes, seconds and their parts.
     named
         the single numbers of the file.
-    headed
-        whether the file itself names its columns.
     file_name
         without folders.
     """
     ends = {item.name.rpartition(".")[2] for item in named}
     for row in COLLECTIONS:
-        in_name = re.search(row.file, file_name, re.IGNORECASE)
         if (
-            in_name is not None
+            file_name.startswith(row.file)
             and any(re.fullmatch(row.variable or ".*", name) for name in names)
             and ends >= set(row.scalars)
-            and row.rows in (None, rows)
-            and (not row.widths or len(names) - clock in row.widths)
-            and row.headed in (None, headed)
+            and row.width in (None, len(names))
             and row.clock in (None, clock)
         ):
-            return _known(row, in_name.groupdict())
-    return Known()
-
-
-def _known(row: Collection, in_name: dict[str, str | None]) -> Known:
-    why = f"{row.clue} as in the {row.name} collection"
-    speed = None if row.rpm is None else _guess(row.rpm * SPEEDS["rpm"], why, "rpm")
-    for group, text in in_name.items():
-        if text is not None:
-            unit = "Hz" if group == "Hz" else "rpm"
-            speed = _guess(float(text) * _SPEEDS[group], f"the file's name, {why}", unit)
-    return Known(
-        row,
-        why,
-        _guess(row.unit, f"{why}, which is in {row.unit}") if row.unit else None,
-        _guess(row.sample_rate, f"{why}, which was sampled so") if row.sample_rate else None,
-        speed,
-        _guess(row.bearing, why) if row.bearing else None,
-        _guess(row.orders, why) if row.orders else None,
-    )
-
-
-def _guess(value: T, why: str, unit: str = "") -> Finding[T]:
-    return Finding(value, why, stated=False, strong=True, file_unit=unit)
+            return row
+    return Collection("", "")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -26,7 +25,7 @@ from bearingcore.measured.files._channels import (
     names_a_frequency,
     only_signal,
 )
-from bearingcore.measured.files._collections import Known, recognize
+from bearingcore.measured.files._collections import Collection, recognize
 from bearingcore.measured.files._facts import Finding, Named, is_steady
 from bearingcore.measured.files._other_kinds import kind_in_words, leave_out_spectra
 from bearingcore.measured.files._sampling import (
@@ -42,12 +41,10 @@ from bearingcore.measured.files._units import ACCELERATIONS, SPEEDS, TIMES, UNIT
 from bearingcore.recordings import FEWEST_SAMPLES
 from bearingcore.units import STANDARD_GRAVITY
 
-USUAL_LEVEL, SPREAD = 3.0, 1.1
-"""[m/s²] root mean square in the middle of 88 public records that say their unit, and the standard
-deviation of its logarithm."""
-
-LIKELY = math.log(0.9 / 0.1)
-"""Logarithm of the odds from which one of two units is called likely."""
+LIKELY_IN_G, LIKELY_IN_SI = 0.299, 3.07
+"""Root mean square up to which one of g and m/s² is called likely, and from which the other: there
+it is nine times as probable. The level in the middle of 88 public records that say their unit is 3
+m/s², and the standard deviation of its logarithm 1.1."""
 
 TWO_RATES = 0.01
 """Relative difference from which on a column of times and a remark give two sample rates."""
@@ -146,8 +143,6 @@ class FileContents:
         the public collection that it looks like; empty where it looks like none.
     bearing
         that of the collection, by its name in the catalogue or its designation.
-    orders
-        BPFO and BPFI of the collection's bearing in turns of the shaft, where it is in no list.
     designation
         of the bearing, as a line of the file has it: it may be that of none.
     recorded
@@ -168,7 +163,6 @@ class FileContents:
     sensitivity: Finding[float] | None = None
     collection: str = ""
     bearing: Finding[str] | None = None
-    orders: Finding[tuple[float, float]] | None = None
     designation: Finding[str] | None = None
     recorded: Finding[datetime] | None = None
     machine: Finding[str] | None = None
@@ -187,7 +181,7 @@ def contents_of(table: FileColumns) -> FileContents:
     hours = table.names[0].strip().lower() in ("hour", "hours", "h", "stunde")
     clock = clock_columns(table.columns) if hours or not table.headed else 0
     clock = 0 if any(index < clock for index in table.given) else clock
-    known = recognize(table.names, len(table.columns), clock, named, table.headed, table.name)
+    known = recognize(table.names, clock, named, table.name)
     columns, sampling = _columns(table, clock, known)
     columns, choice = _chosen(table, columns, sampling, known, lines)
     picked = list(choice.columns.values()) or [
@@ -196,8 +190,9 @@ def contents_of(table: FileColumns) -> FileContents:
         if column.role == SIGNAL and _moves(table.columns[:, index])
     ]
     rate = _rate(table, sampling, named, known)
-    speed = _speed(table, columns, named) or known.shaft_speed
-    said = {**{item.name: _text(item) for item in named}, **dates.dates_said(lines), **table.texts}
+    speed = _speed(table, columns, named) or known.guess("rpm", factor=SPEEDS["rpm"], unit="rpm")
+    said = {item.name: f"{number(item.value, 6)} {item.unit or ''}".rstrip() for item in named}
+    said |= {**dates.dates_said(lines), **table.texts}
     return FileContents(
         columns,
         choice,
@@ -209,9 +204,8 @@ def contents_of(table: FileColumns) -> FileContents:
         said,
         facts.bearing_frequencies_in(named),
         facts.sensitivity_in([*table.remarks, *(f"{k}: {v}" for k, v in said.items())]),
-        known.row.name,
-        known.bearing,
-        known.orders,
+        known.name,
+        known.guess("bearing"),
         facts.designation_in(lines),
         dates.recorded_in(lines, table.name),
         dates.machine_in(lines, table.name),
@@ -223,7 +217,7 @@ def _chosen(
     table: FileColumns,
     columns: Sequence[Column],
     sampling: Sampling | None,
-    known: Known,
+    known: Collection,
     lines: Sequence[str],
 ) -> tuple[tuple[Column, ...], Choice]:
     """The columns without those of spectra, and those of this bearing or a question."""
@@ -232,7 +226,7 @@ def _chosen(
     moving = [_moves(values) for values in table.columns.T]
     if by_hand := {index for index, column in table.given.items() if column.role == SIGNAL}:
         moving = [moves and index in by_hand for index, moves in enumerate(moving)]
-        choice = choose(columns, moving, "as given", table.name, known.row.place)
+        choice = choose(columns, moving, "as given", table.name, known.place)
         return tuple(columns), choice
     axis = _frequencies(table, columns, timed=sampling is not None)
     if not known.why:
@@ -240,44 +234,35 @@ def _chosen(
         name = "" if axis is None or sampling is not None else columns[axis].name
         if words := kind_in_words(columns, table.columns, lines, table.name, name):
             return tuple(columns), Choice({}, "", words)
-    choice = choose(columns, moving, why, table.name, known.row.place)
-    if choice.columns or choice.options or known.why:
-        return tuple(columns), choice
-    return _choose_only_signal(columns, table.columns, axis, why) or (tuple(columns), choice)
-
-
-def _choose_only_signal(
-    columns: Sequence[Column], values: Array, axis: int | None, why: str
-) -> tuple[tuple[Column, ...], Choice] | None:
-    """Of no signals by their names, the only column that swings about zero as the signal."""
-    below, above = (np.logical_or.reduce(part, axis=0) for part in (values < 0.0, values > 0.0))
+    choice = choose(columns, moving, why, table.name, known.place)
+    swings = (table.columns < 0.0).any(axis=0) & (table.columns > 0.0).any(axis=0)
     left = [
         index
         for index, column in enumerate(columns)
-        if column.role == OTHER
-        and column.unit is None
-        and index != axis
-        and below[index]
-        and above[index]
+        if column.role == OTHER and column.unit is None and index != axis and swings[index]
     ]
-    if len(left) != 1:
-        return None
-    made = dataclasses.replace(columns[left[0]], role=SIGNAL)
-    return (
-        tuple(made if index in left else column for index, column in enumerate(columns)),
-        only_signal(made.name, left[0], why),
-    )
+    if len(left) != 1 or choice.columns or choice.options or known.why:
+        return tuple(columns), choice
+    # of no signals by their names, the only column that swings about zero is the signal
+    columns = list(columns)
+    columns[left[0]] = dataclasses.replace(columns[left[0]], role=SIGNAL)
+    return tuple(columns), only_signal(columns[left[0]].name, left[0], why)
 
 
 def _columns(
-    table: FileColumns, clock: int, known: Known
+    table: FileColumns, clock: int, known: Collection
 ) -> tuple[tuple[Column, ...], Sampling | None]:
     """The columns, and what the times say where some of them are times."""
     columns = [_described(column_of(name), table.texts) for name in table.names]
-    columns = _apply_collection(_add_units(table, columns), known)
+    columns = _add_units(table, columns)
+    axes = known.directions
+    for index, axis in enumerate(axes, len(columns) - len(axes)):
+        columns[index] = dataclasses.replace(columns[index], direction=axis)
     for index, column in enumerate(columns if len(columns) > 1 else ()):
-        if column.role in (SIGNAL, TIME) and _counts(table.columns[:, index], column):
-            columns[index] = Column(column.name, OTHER)
+        if column.role in (SIGNAL, TIME) and column.unit is None:
+            values = table.columns[:, index]
+            if values[0] == np.floor(values[0]) and (np.diff(values) == 1.0).all():
+                columns[index] = Column(column.name, OTHER)  # 0, 1, 2, … is no time in seconds
     if clock:
         columns[:clock] = [Column(name, TIME) for name in table.names[:clock]]
         return tuple(columns), sampling_of(clock_time(table.columns, clock))
@@ -306,21 +291,6 @@ def _add_units(table: FileColumns, columns: list[Column]) -> list[Column]:
     for index, unit in zip(signals, units, strict=True) if len(units) == len(signals) else ():
         role = SIGNAL if unit is None or unit in UNITS else TIME if unit in TIMES else OTHER
         columns[index] = dataclasses.replace(columns[index], unit=unit, role=role)
-    return columns
-
-
-def _apply_collection(columns: list[Column], known: Known) -> list[Column]:
-    """The columns with what a public collection says of them."""
-    row = known.row
-    if row.signals:
-        columns = [
-            column if re.fullmatch(row.signals, column.name) else Column(column.name, OTHER)
-            for column in columns
-        ]
-    for index, place in enumerate(row.places):
-        columns[index] = dataclasses.replace(columns[index], place=place)
-    for index, axis in enumerate(row.directions, len(columns) - len(row.directions)):
-        columns[index] = dataclasses.replace(columns[index], direction=axis)
     return columns
 
 
@@ -360,14 +330,11 @@ def _most_certain(samplings: Mapping[int, Sampling], names: Sequence[str]) -> Sa
     time = max(samplings, key=lambda i: (samplings[i].stated, samplings[i].sample_rate is not None))
     first = samplings[time]
     for index, other in samplings.items():
-        if other.stated and (rate := other.sample_rate) and _differ(rate, first.sample_rate):
+        rate = other.sample_rate if other.stated else None
+        if rate and first.sample_rate and abs(rate / first.sample_rate - 1.0) > TWO_RATES:
             said = f"“{names[time]}”, where “{names[index]}” says {number(rate, 6)} Hz"
             return dataclasses.replace(first, stated=False, reason=said)
     return first
-
-
-def _differ(rate: float, other: float | None) -> bool:
-    return other is not None and abs(rate / other - 1.0) > TWO_RATES
 
 
 _DESCRIBES = ("name", "label", "channel", "position", "location", "place", "sensor", "direction")
@@ -407,48 +374,43 @@ def _frequencies(table: FileColumns, columns: Sequence[Column], *, timed: bool) 
     return None
 
 
-def _counts(time: Array, column: Column) -> bool:
-    """Return True if a column counts rows: 0, 1, 2, … is no time in seconds."""
-    whole = bool(np.isfinite(time[0])) and time[0] == np.floor(time[0])
-    return column.unit is None and whole and bool(np.all(np.diff(time) == 1.0))
-
-
 def _moves(signal: Array) -> bool:
     finite = signal[np.isfinite(signal)]
     return finite.size >= FEWEST_SAMPLES and bool(np.ptp(finite) > 0.0)
 
 
 def _rate(
-    table: FileColumns, sampling: Sampling | None, named: Sequence[Named], known: Known
+    table: FileColumns, sampling: Sampling | None, named: Sequence[Named], known: Collection
 ) -> Finding[float] | None:
     if table.sample_rate is not None:
         return Finding(table.sample_rate, "the head of the file")
     said = facts.sample_rate_in([*named, *_constants(table)], table.name)
-    timed = None
-    if sampling is not None and sampling.sample_rate is not None:
-        timed = Finding(sampling.sample_rate, sampling.reason, sampling.stated)
-    both = timed and said and said.taken and timed.stated == said.stated
-    if timed and said and both and abs(timed.value / said.value - 1.0) > TWO_RATES:
-        reason = f"{timed.reason}, where {said.reason} is {number(said.value, 6)} Hz"
-        return dataclasses.replace(timed, reason=reason, stated=False)
-    for finding in (timed, said):
-        if finding is not None and finding.stated:
-            return finding
-    return said or timed or known.sample_rate
+    if sampling is None or sampling.sample_rate is None:
+        return said or known.guess("sample_rate", ", which was sampled so")
+    timed = Finding(sampling.sample_rate, sampling.reason, sampling.stated)
+    if said is None or timed.stated > said.stated:
+        return timed
+    alike = abs(timed.value / said.value - 1.0) <= TWO_RATES
+    if alike or not said.taken or timed.stated < said.stated:
+        return timed if timed.stated else said
+    reason = f"{timed.reason}, where {said.reason} is {number(said.value, 6)} Hz"
+    return dataclasses.replace(timed, reason=reason, stated=False)
 
 
 def _unit(
-    table: FileColumns, columns: Sequence[Column], picked: Sequence[int], known: Known
+    table: FileColumns, columns: Sequence[Column], picked: Sequence[int], known: Collection
 ) -> Finding[str]:
-    units = {columns[index].unit for index in picked} - {None}
-    if len(units) == 1 and (unit := next(iter(units))) is not None:
-        name = next(columns[index].name for index in picked if columns[index].unit)
+    names = {
+        column.unit: column.name for index in reversed(picked) if (column := columns[index]).unit
+    }
+    (unit, name), *others = [*names.items()] or [(None, "")]
+    if unit is not None and not others:
         return Finding(unit, f"the name “{name}”")
-    said = facts.units_said(table.remarks, table.texts)
-    if len(said) == 1 and (unit := said[0]) in UNITS and unit is not None:
+    unit, *others = facts.units_said(table.remarks, table.texts) or [None]
+    if unit in UNITS and unit is not None and not others:
         return Finding(unit, "a line of the file")
-    if known.unit is not None:
-        return known.unit
+    if of_collection := known.guess("unit", f", which is in {known.unit}"):
+        return of_collection
     if not picked:
         return Finding("m/s²", "nothing says it", False, supported=False)
     if table.full_scale_known is False:
@@ -471,37 +433,29 @@ def _unit_by_level(signals: Array, all_signals: Array) -> Finding[str]:
             return Finding(unit, words, False)
     if not 0.0 < level < np.inf:
         return Finding("m/s²", "nothing says it", False, supported=False)
-    strays = {
-        unit: (math.log(level * ACCELERATIONS[unit] / USUAL_LEVEL) / SPREAD) ** 2
-        for unit in ("g", "m/s²")
-    }
-    best, other = sorted(strays, key=lambda unit: strays[unit])
-    if 0.5 * (strays[other] - strays[best]) < LIKELY:
-        words = f"a root mean square of {number(level, 2)} is usual in g and in m/s²"
-        return Finding("m/s²", words, False, supported=False)
-    why = f"a root mean square of {number(level, 2)} is more usual in {best} than in {other}"
-    return Finding(best, why, False)
+    words = f"a root mean square of {number(level, 2)} is"
+    if LIKELY_IN_G < level < LIKELY_IN_SI:
+        return Finding("m/s²", f"{words} usual in g and in m/s²", False, supported=False)
+    best, other = ("m/s²", "g") if level > LIKELY_IN_G else ("g", "m/s²")
+    return Finding(best, f"{words} more usual in {best} than in {other}", False)
 
 
 def _speed(
     table: FileColumns, columns: Sequence[Column], named: Sequence[Named]
 ) -> Finding[float] | None:
     for index, column in enumerate(columns):
-        if column.role == SPEED and column.unit in SPEEDS:
-            speeds = table.columns[:, index]
-            speeds = speeds[np.isfinite(speeds)]
-            mean = float(speeds.mean()) if speeds.size else 0.0
-            if mean > 0.0 and speeds.min() > -mean:  # a gyroscope swings about zero
-                steady = is_steady(speeds)
-                words = f"the column “{column.name}”" + (
-                    ""
-                    if steady
-                    else f", which goes from {number(speeds.min(), 4)} to {number(speeds.max(), 4)}"
-                )
-                # a run-up or coast-down is followed, see `Recording.shaft_angle`
-                stated = steady or bool(speeds.min() >= 0.0)
-                unit = column.unit or ""
-                return Finding(mean * SPEEDS[unit], words, stated, file_unit=unit)
+        speeds = table.columns[:, index]
+        speeds = speeds[np.isfinite(speeds)]
+        if column.role != SPEED or column.unit not in SPEEDS or not speeds.size:
+            continue
+        mean, words = float(speeds.mean()), f"the column “{column.name}”"
+        least, most = float(speeds.min()), float(speeds.max())
+        if mean > 0.0 and least > -mean:  # a gyroscope swings about zero
+            if not (steady := is_steady(speeds)):
+                words += f", which goes from {number(least, 4)} to {number(most, 4)}"
+            # a run-up or coast-down is followed, see `Recording.shaft_angle`
+            stated, unit = steady or least >= 0.0, column.unit
+            return Finding(mean * SPEEDS[unit], words, stated, file_unit=unit)
     return facts.shaft_speed_in([*named, *_constants(table)], table.name)
 
 
@@ -534,7 +488,3 @@ def _constants(table: FileColumns) -> list[Named]:
         if is_steady(values):
             made.append(Named(name, float(values.mean()), column_of(name).unit))
     return made
-
-
-def _text(item: Named) -> str:
-    return number(item.value, 6) + (f" {item.unit}" if item.unit else "")

@@ -61,8 +61,8 @@ def time_in(text: str) -> datetime | None:
 
 def _date(match: re.Match[str]) -> datetime | None:
     part = match.groupdict()
-    hour = int(part["hour"] or 0)
-    if half := (part["half"] or "").lower():
+    hour, half = int(part["hour"] or 0), (part["half"] or "").lower()
+    if half:
         hour = hour % 12 + 12 * (half == "p")
     if part["year"]:
         year, month = int(part["year"]), int(part["month"] or part["joined_month"])
@@ -132,23 +132,22 @@ def recorded_in(lines: Iterable[str], file_name: str) -> Finding[datetime] | Non
 
 def machine_in(lines: Iterable[str], file_name: str) -> Finding[str] | None:
     """Return the name of the machine that remarks give; else a tag such as P-101 in the name."""
-    return _labelled(lines, _MACHINES) or _tag(_TAG, file_name)
+    return _labelled(lines, _MACHINES, _TAG, file_name)
 
 
 def point_in(lines: Iterable[str], file_name: str) -> Finding[str] | None:
     """Return the measuring point that remarks give; else one such as MDE-H in the name."""
-    return _labelled(lines, _POINTS) or _tag(_POINT_TAG, file_name)
+    return _labelled(lines, _POINTS, _POINT_TAG, file_name)
 
 
-def _labelled(lines: Iterable[str], labels: Collection[str]) -> Finding[str] | None:
+def _labelled(
+    lines: Iterable[str], labels: Collection[str], tag: re.Pattern[str], file_name: str
+) -> Finding[str] | None:
+    """The text under one of some labels in lines, else a tag in the file's name."""
     for line in lines:
         for part in re.split(r"[;|](?=[^;|]*[:=])", line):
             match = _LABELLED.match(part)
             if match and re.sub(r"[\W_]+", "", match[1]).lower() in labels:
                 return Finding(" ".join(match[2].split()), f"“{match[1]}” in the file")
-    return None
-
-
-def _tag(pattern: re.Pattern[str], file_name: str) -> Finding[str] | None:
-    match = pattern.search(re.sub(r"\.\w+$", "", file_name))
+    match = tag.search(re.sub(r"\.\w+$", "", file_name))
     return match and Finding(match[0], "the file's name", stated=False, strong=True)

@@ -11,7 +11,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice, pairwise, takewhile
-from typing import Generic, TypeVar
+from typing import Any, Generic, TypeVar
 
 import numpy as np
 
@@ -155,18 +155,15 @@ def _read_below(names: str, values: str) -> Iterator[Named]:
 
 
 def _read_line(line: str) -> Iterator[Named]:
-    match = _REMARK.fullmatch(line)
+    alone = _REMARK.fullmatch(line)
     cells = [cell.strip(' "') for cell in re.split("\t" if "\t" in line else "[;,]", line)]
     several = len(cells) > 2 and re.match(r"[^\W\d]", cells[0]) and _number(cells[1]) is not None
     # of each channel the same, or the settings of an instrument beside its numbers
     if several and (len({cell for cell in cells[1:] if cell}) == 1 or not cells[2]):
-        named: list[tuple[str, str, str | None]] = [(cells[0], cells[1], None)]
-    elif match is not None:
-        named = [(match[1], match[2], match[3])]
-    elif several:
-        named = []
+        named: list[tuple[Any, ...]] = [(cells[0], cells[1], None)]
     else:
-        named = [(pair[1], pair[2], pair[3]) for pair in _SEVERAL.finditer(line)]
+        matches = [alone] if alone else [] if several else _SEVERAL.finditer(line)
+        named = [match.groups() for match in matches]
     for name, text, unit in named or _read_unmarked(line):
         value = _number(text)
         if value is not None:

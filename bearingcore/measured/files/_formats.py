@@ -11,7 +11,6 @@ import io
 import json
 import re
 import warnings
-import zlib
 from collections.abc import Callable, Sequence
 from typing import Any, cast
 
@@ -42,7 +41,7 @@ def read(name: str, content: bytes, most_numbers: int, most_columns: int) -> Ans
     if not content:
         raise checks.refuse("file", name, "one that is not empty")
     if content[:4] == b"PK\x03\x04" and not libraries.is_npz(content):
-        if libraries.is_workbook(content):
+        if "xl/workbook.xml" in libraries.names_in(content):
             _need("openpyxl", name, "Excel file")
             sheet, notes = libraries.longest_sheet(name, content)
             about, columns = read_text(name, sheet, most_numbers, most_columns)
@@ -52,9 +51,6 @@ def read(name: str, content: bytes, most_numbers: int, most_columns: int) -> Ans
             return {"inside": names}, np.empty((0, 0))
         about, columns = read(names[0], content, most_numbers, most_columns)
         return {"name": f"{name.removesuffix('/' + names[0])}/{names[0]}", **about}, columns
-    if content[:2] == b"\x1f\x8b":
-        content = _unzipped_alone(name, content)
-        return read(re.sub(r"(?i)\.gz$", "", name), content, most_numbers, most_columns)
     if content[:4] in (b"RIFF", b"RIFX", b"RF64"):
         return _wav(name, content, most_numbers, most_columns)
     variables = Variables()
@@ -113,18 +109,6 @@ def _need(package: str, name: str, kind: str) -> None:
             f"installed (pip install {package}); else export it as CSV from the program that "
             "wrote it",
         )
-
-
-def _unzipped_alone(name: str, content: bytes) -> bytes:
-    """Unpack what gzip packed."""
-    try:
-        made = zlib.decompressobj(wbits=31).decompress(content, libraries.MOST_UNPACKED + 1)
-    except zlib.error:
-        raise checks.refuse("file", name, "a whole file of gzip") from None
-    if len(made) > libraries.MOST_UNPACKED:
-        most = f"at most {libraries.MOST_UNPACKED >> 20} MB"
-        raise checks.refuse("file", name, f"one that holds {most} unpacked")
-    return made
 
 
 def _json(content: bytes) -> Any:
@@ -301,7 +285,6 @@ _FORMATS: tuple[tuple[bytes, str, Walk, str], ...] = (
     (rb"\x93NUMPY", "NumPy file", libraries.npy, ""),
     (rb"PK\x03\x04", "NumPy file", libraries.npz, ""),
     (rb"PAR1", "Parquet file", libraries.data_frame, "pyarrow"),
-    (rb"ARROW1", "Feather file", libraries.data_frame, "pyarrow"),
     (rb"TDSm", "TDMS file", libraries.tdms, "npTDMS"),
     (rb"\s{0,200}-1 *\r?\n +\d{1,4}[ b]*\d*", "UFF file (data set 58)", libraries.uff, "pyuff"),
 )

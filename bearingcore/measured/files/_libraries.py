@@ -98,16 +98,12 @@ def _readable_files(name: str, packed: list[zipfile.ZipInfo]) -> list[zipfile.Zi
 
 def is_npz(content: bytes) -> bool:
     """Return True if a zip is of NumPy's arrays."""
-    names = _names_in(content)
+    names = names_in(content)
     return bool(names) and all(name.endswith(".npy") for name in names)
 
 
-def is_workbook(content: bytes) -> bool:
-    """Return True if a zip is a file of Excel."""
-    return "xl/workbook.xml" in _names_in(content)
-
-
-def _names_in(content: bytes) -> list[str]:
+def names_in(content: bytes) -> list[str]:
+    """Return the names of the files in a zip; none of a damaged one."""
     try:
         with zipfile.ZipFile(io.BytesIO(content)) as packed:
             return packed.namelist()
@@ -166,16 +162,9 @@ def data_frame(content: bytes, variables: Variables) -> None:
     """Columns of numbers, dates and durations of a data frame, and signals in its cells."""
     import pandas as pd
 
-    if content[:4] == b"PAR1":
-        frame = pd.read_parquet(io.BytesIO(content), engine="pyarrow", use_threads=False)
-    else:
-        frame = pd.read_feather(io.BytesIO(content), use_threads=False)
+    frame = pd.read_parquet(io.BytesIO(content), engine="pyarrow", use_threads=False)
     if not isinstance(frame.index, pd.RangeIndex):
         frame = frame.reset_index()
-    _columns(frame, variables)
-
-
-def _columns(frame: Any, variables: Variables) -> None:
     for name in frame.columns:
         values = frame[name]
         first = values.iloc[0] if len(values) else None
@@ -216,7 +205,7 @@ def uff(content: bytes, variables: Variables) -> None:
     # it takes names of files alone, and this process writes none
     with patch.object(pyuff.pyuff, "open", lambda *_: io.BytesIO(content), create=True):
         sets = pyuff.UFF(os.devnull).read_sets()
-    sets = [one for one in (sets if isinstance(sets, list) else [sets]) if one.get("type") == 58]
+    sets = [part for part in (sets if isinstance(sets, list) else [sets]) if part.get("type") == 58]
     if sets and all(record["abscissa_spec_data_type"] == _FREQUENCY for record in sets):
         variables.instead = (
             f"a signal over time; this is a spectrum: export the waveform, or {BRING}"

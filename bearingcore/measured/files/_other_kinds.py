@@ -51,15 +51,6 @@ def is_lopsided(values: Array) -> bool:
     return bool(least <= NEAR_ZERO * middle and middle - least < LOPSIDED * (most - least))
 
 
-def quantity_of(column: Column) -> str:
-    """Return the quantity of a column if it is no acceleration, velocity or voltage; else ""."""
-    words = words_of(column.name)
-    for quantity, (units, names) in QUANTITIES.items():
-        if column.unit in units.split() or (column.unit is None and words & {*names.split()}):
-            return quantity
-    return ""
-
-
 def leave_out_spectra(columns: Sequence[Column], values: Array, axis: int | None) -> list[Column]:
     """Return the columns of a table; those of spectra are no longer marked as signals.
 
@@ -124,9 +115,11 @@ def _no_signal_words(columns: Sequence[Column], values: Array, said: Iterable[st
     for line in filter(_SPECTRUM.search, said):
         return SPECTRUM.format(f"“{line[:60]}”: this is", "")
     others = [index for index, column in enumerate(columns) if column.role == OTHER]
-    for index in others:
-        if quantity := quantity_of(columns[index]):
-            return f"“{columns[index].name}” is {quantity}, not a vibration: {BRING}."
+    for column in (columns[index] for index in others):
+        for quantity, (units, names) in QUANTITIES.items():
+            of_name = column.unit is None and words_of(column.name) & {*names.split()}
+            if of_name or column.unit in units.split():
+                return f"“{column.name}” is {quantity}, not a vibration: {BRING}."
     for index in others:
         if is_lopsided(values[:, index]):
             words = "never changes its sign, like a spectrum, an envelope or a trend"

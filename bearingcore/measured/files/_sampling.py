@@ -186,11 +186,10 @@ def _even(time: Array) -> tuple[float, float] | None:
     step = float(time[-1] - time[0]) / (n - 1)
     if n < 3 or step <= 0.0:
         return None
-    stray = np.abs(time - (time[0] + step * np.arange(n)))
-    if stray.max() > UNEVEN * step:
+    if (stray := _stray(time)) > UNEVEN * step:
         return None
     # the ends are rounded by no more than what strays in between
-    return 1.0 / step, 2.0 * float(stray.max()) / (step * step * (n - 1))
+    return 1.0 / step, 2.0 * stray / (step * step * (n - 1))
 
 
 EXACT = 1e-6
@@ -216,9 +215,12 @@ def _rounded(time: Array, steps: Array) -> float | None:
     if steps.min() < 0.0 or not SHARED <= np.mean(steps == 0.0) < 1.0:
         return None
     grain = float(steps[steps > 0.0].min())
-    step = float(time[-1] - time[0]) / (len(time) - 1)
-    stray = np.abs(time - (time[0] + step * np.arange(len(time))))
-    return grain if stray.max() <= 1.01 * grain else None
+    return grain if _stray(time) <= 1.01 * grain else None
+
+
+def _stray(time: Array) -> float:
+    """The most by which times are off even steps from the first to the last."""
+    return float(np.abs(time - np.linspace(time[0], time[-1], len(time))).max())
 
 
 def _rounded_times(grain: float, time: Array, unit: float) -> Sampling:
@@ -244,33 +246,27 @@ def _sample_jumps(time: Array, steps: Array, unit: float) -> Sampling:
     usual = float(np.median(steps[steps > 0.0]))
     shared = np.mean(steps == 0.0) >= SHARED
     jumps = np.flatnonzero((steps > JUMP * usual) | (steps < 0.0 if shared else steps <= 0.0))
-    if jumps.size:
-        edges = np.concatenate([[0], jumps + 1, [n]])
-        longest = int(np.diff(edges).argmax())
-        first, last = int(edges[longest]), int(edges[longest + 1])
-        part = time[first:last]
-        if last - first >= FEWEST_SAMPLES:
-            parts = long_parts(pairwise(edges.tolist()))
-            said, used = _jumps(steps, jumps, usual, shared), f"rows {first + 1} to {last} of {n}"
-            if parts:
-                number_read = parts.index((first, last)) + 1
-                said = (
-                    f"The file holds {len(parts)} recordings, or parts of one; number "
-                    f"{number_read}, {used}, is read unless another is chosen. {said}."
-                )
-            else:
-                said += f". Only the longest part without a jump is used: {used}."
-            even = _even(part)
-            if even is not None:
-                rate = _customary(*even, unit, last - first)
-                return Sampling(rate, True, first, last, said, parts=parts)
-            grain = _rounded(part, np.diff(part))
-            if grain is not None:
-                rounded = _rounded_times(grain, part, unit)
-                trouble = f"{said} {rounded.trouble}"
-                return dataclasses.replace(
-                    rounded, first=first, last=last, trouble=trouble, parts=parts
-                )
+    edges = np.concatenate([[0], jumps + 1, [n]])
+    longest = int(np.diff(edges).argmax())
+    first, last = int(edges[longest]), int(edges[longest + 1])
+    if jumps.size and last - first >= FEWEST_SAMPLES:
+        part, parts = time[first:last], long_parts(pairwise(edges.tolist()))
+        said, used = _jumps(steps, jumps, usual, shared), f"rows {first + 1} to {last} of {n}"
+        if parts:
+            said = (
+                f"The file holds {len(parts)} recordings, or parts of one; number "
+                f"{parts.index((first, last)) + 1}, {used}, is read unless another is chosen. "
+                f"{said}."
+            )
+        else:
+            said += f". Only the longest part without a jump is used: {used}."
+        if (even := _even(part)) is not None:
+            rate = _customary(*even, unit, last - first)
+            return Sampling(rate, True, first, last, said, parts=parts)
+        if (grain := _rounded(part, np.diff(part))) is not None:
+            rounded = _rounded_times(grain, part, unit)
+            said = f"{said} {rounded.trouble}"
+            return dataclasses.replace(rounded, first=first, last=last, trouble=said, parts=parts)
     low, high = (float(np.quantile(steps, share)) for share in (0.01, 0.99))
     mean = (n - 1) / float(time[-1] - time[0]) if time[-1] > time[0] else 1.0 / usual
     ends = np.linspace(0, n - 1, PARTS + 1).astype(int)
@@ -314,32 +310,30 @@ def clock_columns(columns: Array) -> int:
     4 with microseconds, or milliseconds, in a column of their own, 3 with seconds in decimals,
     0 where the first columns are something else.
     """
-    if columns.shape[1] < 4:
+    if columns.shape[1] < 4 or not np.isfinite(columns[:, :3]).all():
         return 0
     hour, minute, second = columns[:, :3].T
-    if not np.isfinite(columns[:, :3]).all():
+    whole = np.array_equal(hour, np.floor(hour)) and np.array_equal(minute, np.floor(minute))
+    if (
+        not whole
+        or columns[:, :3].min() < 0.0
+        or (columns[:, :3].max(axis=0) >= (24, 60, 60)).any()
+    ):
         return 0
-    whole = all(np.array_equal(part, np.floor(part)) for part in (hour, minute))
-    inside = min(hour.min(), minute.min(), second.min()) >= 0.0
-    if not whole or not inside or hour.max() > 23 or minute.max() > 59 or second.max() >= 60.0:
+    if not np.array_equal(second, np.floor(second)):
+        return 3 if np.mean(np.diff(second) > 0.0) > 0.9 else 0
+    part = columns[:, 3]
+    if columns.shape[1] < 5 or not np.isfinite(part).all() or part.min() < 0.0:
         return 0
-    if np.array_equal(second, np.floor(second)):
-        part = columns[:, 3]
-        if columns.shape[1] < 5 or not np.isfinite(part).all() or part.min() < 0.0:
-            return 0
-        many = 0.0 <= part.max() < 1e6 and part.max() > 60.0
-        return 4 if many and np.mean(np.diff(part) > 0.0) > 0.9 else 0
-    return 3 if np.mean(np.diff(second) > 0.0) > 0.9 else 0
+    return 4 if 60.0 < part.max() < 1e6 and np.mean(np.diff(part) > 0.0) > 0.9 else 0
 
 
 def clock_time(columns: Array, count: int) -> Array:
     """Seconds since the first row of `count` columns that `clock_columns` found."""
     hour, minute, second = columns[:, :3].T
-    whole = 3600.0 * hour + 60.0 * minute + second
-    whole = whole + 86_400.0 * np.concatenate(
-        [[0.0], np.cumsum(np.diff(whole) < -43_200.0)]
-    )  # midnight
-    time = whole - whole[0]
+    time = 3600.0 * hour + 60.0 * minute + second
+    midnights = np.cumsum(np.diff(time, prepend=time[0]) < -43_200.0)
+    time = time - time[0] + 86_400.0 * midnights
     if count == 4:
         part = columns[:, 3]
         time = time + (1e-3 if part.max() < 1e3 else 1e-6) * (part - part[0])

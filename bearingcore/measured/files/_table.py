@@ -20,15 +20,16 @@ from bearingcore.common import Array, _checks as checks, cached_property, count,
 from bearingcore.measured.files._channels import OTHER, ROLES, SIGNAL, SPEED, TIME, Column
 from bearingcore.measured.files._child import MOST_NUMBERS, read_file
 from bearingcore.measured.files._contents import FileColumns, FileContents, contents_of
-from bearingcore.measured.files._sampling import long_parts, longest_run, single_gaps
+from bearingcore.measured.files._sampling import Sampling, long_parts, longest_run, single_gaps
 from bearingcore.measured.files._shaft_angle import angle_columns, shaft_angle
 from bearingcore.measured.files._units import (
     PULSE_TRAIN,
     SPEEDS,
     TIMES,
     UNITS,
+    VELOCITIES,
+    VOLTAGES,
     differentiated,
-    kind_of,
     level_doubt,
 )
 from bearingcore.measured.signals._dropouts import cut_off
@@ -198,17 +199,14 @@ class Table(FileColumns):
             sensitivity = contents.sensitivity.value
         with np.errstate(over="ignore", invalid="ignore"):  # the recording refuses what comes out
             notes += self._make_acceleration(signal, units, rate, sensitivity)
+            notes += [*filter(None, map(level_doubt, signal.std(axis=0).tolist()))][:1]
         speed = contents.shaft_speed
         if shaft_speed is None and speed is not None and speed.stated:
             shaft_speed = speed.value
-        made = Recording(
+        return Recording(
             signal, rate, tuple(directions), self.name, shaft_speed, tuple(filter(None, notes)),
             angle, None if contents.recorded is None else contents.recorded.value,
         )  # fmt: skip
-        with np.errstate(over="ignore"):
-            levels = made.acceleration.std(axis=0)
-        doubts = tuple(filter(None, (level_doubt(float(level)) for level in levels)))
-        return dataclasses.replace(made, notes=(*made.notes, *doubts[:1]))
 
     def _angle(self, rows: slice, rate: float) -> tuple[Array | None, int | None]:
         """The shaft's angle (n,) [rad] in some rows, and the column it is from, where there is."""
@@ -225,17 +223,16 @@ class Table(FileColumns):
         for index, column in enumerate(self.contents.columns):
             steps = np.diff(self.columns[:, index])
             steps = steps[np.isfinite(steps)]
-            counts = not steps.size or np.ptp(steps) == 0.0
-            used = index in (*picked, *self.given, angle_from)
-            if counts or used or column.role in (TIME, SPEED):
+            used = index in (*picked, *self.given, angle_from) or column.role in (TIME, SPEED)
+            if used or not steps.size or np.ptp(steps) == 0.0:  # it counts rows
                 continue
+            why = "along the shaft" if column.direction == "z" else "another signal"
             if speed is not None and f"“{column.name}”" in speed.reason:
                 why = f"a guess at the shaft speed: {speed.reason}"
             elif column.role == OTHER:
                 why = "no signal of acceleration"
-            else:
-                along = {"z": "along the shaft"}.get(column.direction, "another signal")
-                why = column.place or along
+            elif column.place:
+                why = column.place
             left.append(f"“{column.name}” ({why})")
         more = f" and {len(left) - MOST_NAMED} more" if len(left) > MOST_NAMED else ""
         words = f"Not used: {', '.join(left[:MOST_NAMED])}{more}." if left else ""
@@ -251,14 +248,14 @@ class Table(FileColumns):
         notes = []
         for index, unit in enumerate(units):
             signal[:, index] *= UNITS[unit]
-            if kind_of(unit) == "voltage":
+            if unit in VOLTAGES:
                 if sensitivity is None:
                     wanted = "that of the sensor [V/(m/s²)]: 100 mV/g is 0.1 / 9.80665"
                     raise checks.missing("sensitivity", wanted)
                 signal[:, index] /= checks.real_number(
                     "sensitivity", sensitivity, above=0.0, unit="V/(m/s²)"
                 )
-            elif kind_of(unit) == "velocity" and len(signal) >= FEWEST_SAMPLES:
+            elif unit in VELOCITIES and len(signal) >= FEWEST_SAMPLES:
                 if np.isfinite(signal[:, index]).all():
                     signal[:, [index]] = differentiated(signal[:, [index]], rate)
                 notes = [
@@ -278,49 +275,42 @@ class Table(FileColumns):
             )
 
     def _unit(self, index: int, unit: str | None) -> str:
-        column = self.contents.columns[index]
+        of_file = self.contents.unit
         if unit is None:
-            of_file = self.contents.unit
-            unit = column.unit or (of_file.value if of_file.stated else None)
-            if unit is None:
-                raise checks.missing("unit", f"one of {', '.join(UNITS)}: the file does not say it")
+            unit = self.contents.columns[index].unit or (of_file.value if of_file.stated else None)
+        if unit is None:
+            raise checks.missing("unit", f"one of {', '.join(UNITS)}: the file does not say it")
         return checks.choice("unit", unit, tuple(UNITS))
 
-    def _rate(self, given: float | None) -> tuple[float, list[str]]:
+    def _rate(self, typed: float | None) -> tuple[float, list[str]]:
         """The sample rate [Hz], and what is to be said about it."""
-        sampling, stated = self.contents.sampling, self.contents.sample_rate
+        sampling, known = self.contents.sampling, self.contents.sample_rate
         trouble = sampling.trouble if sampling is not None else ""
-        if given is None:
-            if stated is None or not stated.stated:
-                guess = (
-                    f"; {number(stated.value, 6)} is likely ({stated.reason})"
-                    if stated is not None
-                    else ""
-                )
-                why = f" {trouble}" if trouble else ""
-                raise checks.missing(
-                    "sample_rate", f"a number [Hz]: the file does not say it{guess}.{why}"
-                )
-            return stated.value, [trouble]
-        rate = checks.real_number("sample_rate", given, above=0.0, unit="Hz")
-        notes = [trouble]
-        typed = f"The sample rate was typed as {number(rate, 6)} Hz"
-        if stated is None:
-            notes.append(
-                f"{typed}. Nothing in the file shows whether it was: every frequency, and so the "
-                "part, rests on it."
+        if typed is None:
+            if known is not None and known.stated:
+                return known.value, [trouble]
+            words = "a number [Hz]: the file does not say it"
+            if known is not None:
+                words += f"; {number(known.value, 6)} is likely ({known.reason})"
+            raise checks.missing("sample_rate", f"{words}. {trouble}".strip())
+        rate = checks.real_number("sample_rate", typed, above=0.0, unit="Hz")
+        words = f"The sample rate was typed as {number(rate, 6)} Hz"
+        if known is None:
+            words += (
+                ". Nothing in the file shows whether it was: every frequency, and so the part, "
+                "rests on it."
             )
-        elif abs(rate / stated.value - 1.0) > RATE_DOUBT:
-            says = "says" if stated.stated else "suggests"
-            notes.append(f"{typed}; {stated.reason} {says} {number(stated.value, 6)} Hz.")
-        return rate, notes
+        elif abs(rate / known.value - 1.0) > RATE_DOUBT:
+            says = "says" if known.stated else "suggests"
+            words += f"; {known.reason} {says} {number(known.value, 6)} Hz."
+        else:
+            words = ""
+        return rate, [trouble, words]
 
     def _longest_part(self, picked: Sequence[int]) -> tuple[Array, int, str]:
         """The longest part without a jump or gap, its first row; what is bridged and left out."""
-        sampling = self.contents.sampling
-        first, last = (
-            (0, len(self.columns)) if sampling is None else (sampling.first, sampling.last)
-        )
+        sampling = self.contents.sampling or Sampling(None, False, 0, len(self.columns))
+        first, last = sampling.first, sampling.last
         signal = self.columns[first:last, picked]
         whole = np.isfinite(signal).all(axis=1)
         filled = np.flatnonzero(whole)
@@ -353,8 +343,8 @@ class Table(FileColumns):
             return self.names.index(column)
         if isinstance(column, int) and 0 <= column < len(self.names):
             return column
-        numbers = f", or by numbers from 0 to {len(self.names) - 1}"
-        raise checks.refuse("column", column, "one of " + ", ".join(self.names) + numbers)
+        names = f"one of {', '.join(self.names)}, or by numbers from 0 to {len(self.names) - 1}"
+        raise checks.refuse("column", column, names)
 
 
 def files_inside(name: str, content: bytes, give_up: Callable[[], bool] | None = None) -> list[str]:
@@ -390,9 +380,9 @@ def read_table(name: str, content: bytes, give_up: Callable[[], bool] | None = N
     """Read the columns of numbers in a file: text (CSV), WAV, MATLAB, HDF5, and others.
 
     JSON and NumPy's files are read too, and with the packages of the extra `files`
-    UFF, TDMS, Parquet, Feather and Excel's .xlsx; also a zip or gzip of one of them. The first
-    bytes decide the format. The file is read in its own process with limits of time and memory:
-    see `bearingcore.measured.files._child`.
+    UFF, TDMS, Parquet and Excel's .xlsx; also a zip of one of them. The first bytes decide the
+    format. The file is read in its own process with limits of time and memory: see
+    `bearingcore.measured.files._child`.
 
     Parameters
     ----------

@@ -14,8 +14,9 @@ import math
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
-from datetime import date
+from functools import lru_cache
 from itertools import islice
+from operator import itemgetter
 from typing import Any
 
 import numpy as np
@@ -179,7 +180,6 @@ def _text_fields(
 
 # -- how numbers are written -----------------------------------------------------------------------
 
-_MONTHS = ("jan", "feb", "mar", "apr", "may", "jun", "jul", "aug", "sep", "oct", "nov", "dec")
 _DAY = r"\d{4}([-/.])\d\d?\2\d\d?|\d\d?\.\d\d?\.\d{4}|\d\d?/\d\d?/\d{4}|\d\d?-[A-Za-z]{3}-\d{4}"
 _DATE = rf"(?:{_DAY})[T _;,\t]+"
 _SECOND = rf"(?:{_DATE}|\d+ days? \+?)?\d\d?:\d\d?:\d\d?"
@@ -232,17 +232,12 @@ class _Clock:
         return whole - self._first
 
 
+@lru_cache(maxsize=64)
 def _day(text: str) -> int:
     """Number of a day; ValueError for one that is in no calendar."""
-    parts = re.split(r"[-/.]", text.lower())
-    if parts[1] in _MONTHS:
-        return date(int(parts[2]), _MONTHS.index(parts[1]) + 1, int(parts[0])).toordinal()
-    first, two, three = (int(number) for number in parts)
-    if first > 31:
-        return date(first, two, three).toordinal()
-    american = "/" in text and two <= 31 and first <= 12
-    month, day = (first, two) if american else (two, first)
-    return date(three, month, day).toordinal()
+    import pandas as pd
+
+    return int(pd.to_datetime(text, dayfirst=bool(re.match(r"\d\d?[.-]", text))).toordinal())
 
 
 @dataclass(frozen=True)
@@ -334,20 +329,17 @@ def _style(lines: Sequence[str], above: str) -> _Style | None:
 
     The lines that follow, and the headings `above`, decide where more than one way would do.
     """
-    styles: list[tuple[int, _Style]] = []
-    for style in _STYLES:
-        if style.delimiter is not None and style.delimiter not in lines[0]:
-            continue
-        made = _fitted(style, lines)
-        if made is not None:
-            fits, full = made
-            headed = full.width > 1 and len(_cells(above, style.delimiter)) == full.width
-            styles.append((fits + headed * len(lines), full))
-    return max(styles, key=lambda made: made[0])[1] if styles else None
+    fitted = [pair for style in _STYLES if (pair := _fitted(style, lines, above)) is not None]
+    return max(fitted, key=itemgetter(0))[1] if fitted else None
 
 
-def _fitted(style: _Style, lines: Sequence[str]) -> tuple[int, _Style] | None:
-    """Number of lines that a style reads, and the style in full, as wide as the first."""
+def _fitted(style: _Style, lines: Sequence[str], above: str) -> tuple[int, _Style] | None:
+    """Number of lines that a style reads, and the style in full, as wide as the first.
+
+    All lines count a second time where as many headings are `above` them as there are columns.
+    """
+    if style.delimiter is not None and style.delimiter not in lines[0]:
+        return None
     clocked = style.stamp.search(lines[0]) is not None
     trial = dataclasses.replace(style, clock=_Clock() if clocked else None)
     plain = trial.plain("\n".join(lines)).split("\n")
@@ -362,11 +354,12 @@ def _fitted(style: _Style, lines: Sequence[str]) -> tuple[int, _Style] | None:
     closed &= not any(row and len(row) == len(first) and row[-1] == row[-1] for row in rows)
     width = len(first) - (closed and len(first) > 1)
     fits = sum(len(row or ()) in (width, width + 1) for row in rows)
-    if style.delimiter == "," and _looks_decimal(plain):
+    if style.delimiter == "," and _looks_decimal(plain, above):
         fits = 0
+    fits += len(lines) * (width > 1 and len(_cells(above, style.delimiter)) == width)
     marked = style.stamp.sub("?", lines[0]).replace('"', "")
-    cells = np.array(_cells(marked, style.delimiter)[:width])
-    stamps = tuple(np.flatnonzero(cells == "?").tolist())
+    cells = _cells(marked, style.delimiter)[:width]
+    stamps = tuple(i for i, cell in enumerate(cells) if cell == "?")
     clock = _Clock() if clocked else None
     return fits, _Style(style.delimiter, style.decimal_comma, width, stamps, words, clock)
 
@@ -400,12 +393,21 @@ def _columns_of_words(lines: Sequence[str], delimiter: str | None) -> tuple[int,
 _TWO_WHOLE = re.compile(r"\s*(-?\d+),(\d+)\s*")
 
 
-def _looks_decimal(lines: Sequence[str]) -> bool:
-    """Return True if "0,051" is one number: no one writes 051 or −0 as a number of its own."""
-    pairs = [_TWO_WHOLE.fullmatch(line) for line in lines]
-    parts = [pair.groups() for pair in pairs if pair is not None]
-    return len(parts) == len(lines) and any(
-        whole == "-0" or (len(part) > 1 and part[0] == "0") for whole, part in parts
+def _looks_decimal(lines: Sequence[str], above: str) -> bool:
+    """Return True if "0,051" is one number: no one writes 051 or −0 as a number of its own.
+
+    Under a heading of one word, so are pairs of which several begin with the same number.
+    """
+    pairs = [pair.groups() for line in lines if (pair := _TWO_WHOLE.fullmatch(line)) is not None]
+    if len(pairs) < len(lines):
+        return False
+    alone = (
+        above
+        and not re.search(r"[,;\t]", above)
+        and len({whole for whole, _ in pairs}) < len(pairs)
+    )
+    return bool(alone) or any(
+        whole == "-0" or (len(part) > 1 and part[0] == "0") for whole, part in pairs
     )
 
 
@@ -440,7 +442,7 @@ def _beginning(name: str, content: bytes) -> tuple[_Style, int, list[str]]:
             if follows is not None and follows.width > 2:
                 style = None  # how many lines follow
             if style is not None:
-                return _one_column(style, sample, remarks), place, remarks
+                return style, place, remarks
             words += 1
             remarks.append(_decoded(line) if numbered else bare[:LONGEST_LINE])
             if words > MOST_HEADINGS:
@@ -466,16 +468,6 @@ def _lines_of_numbers(lines: Iterable[bytes]) -> Iterator[str]:
         text = _decoded(line)
         if text.strip() and text[0] not in "#%":
             yield text
-
-
-def _one_column(style: _Style, lines: Sequence[str], remarks: Sequence[str]) -> _Style:
-    """One column of numbers with commas, where a heading of one word is above pairs."""
-    pairs = style.delimiter == "," and style.width == 2
-    if pairs and remarks and not re.search(r"[,;\t]", remarks[-1]):
-        whole = all(_TWO_WHOLE.fullmatch(line.replace('"', "")) for line in lines)
-        if whole and len({_cells(line, ",")[0] for line in lines}) < len(lines):
-            return _Style(None, True, 1)
-    return style
 
 
 def _headings(remarks: Sequence[str], style: _Style, columns: Array) -> list[str] | None:
@@ -510,40 +502,38 @@ def _headings(remarks: Sequence[str], style: _Style, columns: Array) -> list[str
 
 def _join_units(names: list[str], above: list[str] | None) -> list[str]:
     """The names of a line, or those of the line above with the units, or ends, of this one."""
-    if above is not None and _are_units(names):
-        units = [unit.strip("[]() ") for unit in names]
-        pairs = zip(above, units, strict=True)
+    units = [_unit_alone(cell) for cell in names]
+    like_units = (
+        unit or _UNIT_LIKE.fullmatch(cell) for unit, cell in zip(units, names, strict=True)
+    )
+    if above is not None and any(units) and all(like_units):
+        pairs = [(name, cell.strip("[]() ")) for name, cell in zip(above, names, strict=True)]
         return [f"{name} [{unit}]" if unit.strip("- ") else name for name, unit in pairs]
     if above is not None and len(set(names)) < len(names) and len(set(above)) > 1:
         return [f"{a} {b}".strip() for a, b in zip(above, names, strict=True)]  # pandas' two levels
-    alone = [_unit_alone(cell) for cell in names]
-    if len(names) > 1 and all(alone):
-        return [f"column {i + 1} [{unit}]" for i, unit in enumerate(alone)]
+    if len(names) > 1 and all(units):
+        return [f"column {i + 1} [{unit}]" for i, unit in enumerate(units)]
     return names
 
 
 def _is_remark(line: str, style: _Style, width: int) -> bool:
     """Return True if a line says something else than the names of columns."""
-    said = ":" in line or "=" in line
+    said, unit_said = ":" in line or "=" in line, bool(units_said([line], {}))
     if width == 1:
         return not (unit_in(line) in UNITS and re.search(r"[\[(]", line)) and (
-            bool(units_said([line], {}))
-            # a name and what it is
-            or bool(re.search(r"[;\t]\s*[^;\t\s]|(^|\s)-?\d[\d.,]*\d", line))
+            unit_said
             or said
+            # a name and what it is
+            or re.search(r"[;\t]\s*[^;\t\s]|(^|\s)-?\d[\d.,]*\d", line) is not None
             or len(line.split()) > LONGEST_HEADING
             or bool(named_in([line]))
         )
-    return _is_remark_above_several(line, [c for c in _cells(line, style.delimiter) if c], width)
-
-
-def _is_remark_above_several(line: str, single: Sequence[str], width: int) -> bool:
-    said = ":" in line or "=" in line
-    if said and len(single) == width and all(re.search(r"[:=]", cell) for cell in single):
+    cells = [cell for cell in _cells(line, style.delimiter) if cell]
+    if said and len(cells) == width and all(re.search(r"[:=]", cell) for cell in cells):
         return False  # "Ch 1: acc [g], Ch 2: acc [g]"
-    if units_said([line], {}) or (len(single) > 1 and _is_a_value(single)):
+    if unit_said or (len(cells) > 1 and _is_a_value(cells)):
         return True
-    return (said or any(re.match(_VALUE, cell) for cell in single)) and names_a_fact(line)
+    return (said or any(re.match(_VALUE, cell) for cell in cells)) and names_a_fact(line)
 
 
 _VALUE = r"[-+]?\d[\d.,]*([eE][-+]?\d+)?(\s*[^\W\d]\S{0,9})?$"
@@ -558,13 +548,6 @@ _WORDS_OF_A_ROW = {
     "increment",
 }  # fmt: skip
 _UNIT_LIKE = re.compile(r"[\[(]?(?:[a-zA-Zµμ°%]{0,5}(?:[/·*]s(?:\^?2|²|\*\*2)?)?|-)[\])]?")
-
-
-def _are_units(cells: Sequence[str]) -> bool:
-    """Return True if a line is of units: known ones, and others that look like one."""
-    like = [bool(_UNIT_LIKE.fullmatch(cell)) for cell in cells]
-    known = [_unit_alone(cell) is not None for cell in cells]
-    return any(known) and all(a or b for a, b in zip(like, known, strict=True))
 
 
 def _unit_alone(cell: str) -> str | None:
@@ -585,21 +568,16 @@ def _names(line: str, style: _Style, columns: Array) -> list[str] | None:
     width = columns.shape[1]
     if width == 1:
         return [line.strip(' "\t,;')]
-    for cells in (
-        _cells(line, style.delimiter),
-        *(_cells(line, delimiter) for delimiter in (";", "\t", ",")),
-        *(() if re.search(r"[,;\t]", line) else _BLANKS),
-    ):
-        cells = re.split(cells, line) if isinstance(cells, str) else cells
+    ways = [_cells(line, delimiter) for delimiter in (style.delimiter, ";", "\t", ",")]
+    if not re.search(r"[,;\t]", line):
+        ways += [re.split(blanks, line) for blanks in _BLANKS]
+    for cells in ways:
         names = [cell.strip().strip('"').strip() for cell in cells]
-        if _is_a_value(names):
-            continue
-        names = _fit_width(names, style, columns)
-        if len(names) == width:
-            return names
+        if not _is_a_value(names) and len(fitting := _fit_width(names, style, columns)) == width:
+            return fitting
     names = [cell.strip(' "') for cell in line.split(style.delimiter or "\n")]
     said = [column_of(name) for name in names]
-    known = [bool(one.unit or one.direction or one.place or one.role == TIME) for one in said]
+    known = [bool(c.unit or c.direction or c.place or c.role == TIME) for c in said]
     if len(names) > width and any(known[:width]) and not any(known[width:]):
         return names[:width]  # columns of words at the end, empty and not delimited
     return None
@@ -720,9 +698,12 @@ def _mended(
             break
         if allowed:
             wrong.append((index, text, allowed))
-            cells, missing = _fill_gaps(cells, style)
-            words |= missing
-            torn += not missing
+            bad = [i for i, c in enumerate(cells) if i not in style.words and _number(c) is None]
+            if len(cells) == width and bad:
+                words |= {cells[i] for i in bad}
+                cells = ["nan" if i in bad else cell for i, cell in enumerate(cells)]
+            else:
+                torn, cells = torn + 1, ["nan"] * width
             most = many if len(words) <= MOST_MISSING_WORDS else few
             if torn > few or len(wrong) > most:
                 raise checks.refuse(f"line {above + wrong[0][0]} of {name}", *wrong[0][1:])
@@ -731,24 +712,11 @@ def _mended(
         lines[index] = text.encode("latin-1", "replace") + b"\n"
     again = {line[:40] for line in remarks}  # headings of a second recording are no news
     lacking = [(above + index, text) for index, text, _ in wrong if text not in again]
-    return b"".join(lines), notes + _lacking(lacking), [text for _, text in lacking[:SAMPLE]]
-
-
-def _fill_gaps(cells: list[str], style: _Style) -> tuple[list[str], set[str]]:
-    """Cells with gaps in place of words, and these; gaps alone where the line is torn."""
-    bad = [i for i, c in enumerate(cells) if i not in style.words and _number(c) is None]
-    if len(cells) != style.width or not bad:
-        return ["nan"] * style.width, set()
-    return ["nan" if i in bad else cell for i, cell in enumerate(cells)], {cells[i] for i in bad}
-
-
-def _lacking(lines: Sequence[tuple[int, str]]) -> list[str]:
-    """A sentence on numbered lines that lack numbers; none of no line."""
-    if not lines:
-        return []
-    many = "One line lacks" if len(lines) == 1 else f"{thousands(len(lines))} lines lack"
-    number, text = lines[0]
-    return [f"{many} numbers (line {number}, “{text}”), which count as missing."]
+    if lacking:
+        many = "One line lacks" if len(lacking) == 1 else f"{thousands(len(lacking))} lines lack"
+        number, text = lacking[0]
+        notes.append(f"{many} numbers (line {number}, “{text}”), which count as missing.")
+    return b"".join(lines), notes, [text for _, text in lacking[:SAMPLE]]
 
 
 def _signals_in_rows(

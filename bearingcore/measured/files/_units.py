@@ -10,7 +10,7 @@ voltage      | V       | divided by the sensor's sensitivity
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from types import MappingProxyType
 
 import numpy as np
@@ -140,52 +140,38 @@ def unit_in(heading: str) -> str | None:
     >>> unit_in("1/min")
     'rpm'
     """
+    return next(filter(None, map(unit_named, _parts_like_units(heading))), None)
+
+
+def _parts_like_units(heading: str) -> Iterator[str]:
+    """The parts of a heading that may be a unit, the surest first."""
     heading = re.sub(r"(?i)[\[(](pk-?pk|peak|pk|rms)[\])]", "", heading)
-    for name in _IN_BRACKETS.findall(heading):
-        unit = unit_named(name)
-        if unit is not None:
-            return unit
+    yield from _IN_BRACKETS.findall(heading)
     bare = heading.strip().lower()
-    if "/" in bare and (unit := unit_named(bare)) is not None:
-        return unit
+    if "/" in bare:
+        yield bare
     last = bare.split()[-1:]
     if last and len(bare) > len(last[0]) and re.search(r"/|²|s\^?-?2$", last[0]):
-        unit = unit_named(last[0].lstrip("/"))
-        if unit is not None:
-            return unit
+        yield last[0].lstrip("/")
     for mark in ("/", " in ", ","):
-        before, at_mark, after = bare.partition(mark)
-        if at_mark and before.strip() and (unit := unit_named(after)) is not None:
-            return unit
-    return _unit_at_end(re.split(r"[\s_.,;]+", bare))
-
-
-def _unit_at_end(words: list[str]) -> str | None:
-    """The unit that the last words of a name are."""
-    for count in (3, 2, 1):  # "m_per_s2" is three words at the end of a name
-        if len(words) > count or (len(words) == count == 1):
-            end = "_".join(words[-count:])
-            if count == 1 and end not in _LOOSE and not re.search(r"[/²]|2$", end):
-                continue
-            if count == len(words) == 1 and len(end) < 2:
-                continue  # "g" or "s" alone may be a name
-            unit = unit_named(end)
-            if unit is not None:
-                return unit
-    return None
+        before, _, after = bare.partition(mark)
+        if before.strip():
+            yield after
+    words = re.split(r"[\s_.,;]+", bare)
+    for count in (3, 2):  # "m_per_s2" is three words at the end of a name
+        if len(words) > count:
+            yield "_".join(words[-count:])
+    # "g" or "s" alone may be a name
+    short = words[-1] in _LOOSE or re.search(r"[/²]|2$", words[-1])
+    if short and len(words[-1]) > (len(words) == 1):
+        yield words[-1]
 
 
 def kind_of(unit: str) -> str:
     """Quantity that a unit measures: "acceleration", "velocity", "voltage", "time" or "other"."""
-    for kind, units in (
-        ("acceleration", ACCELERATIONS),
-        ("velocity", VELOCITIES),
-        ("voltage", VOLTAGES),
-        ("time", TIMES),
-    ):
-        if unit in units:
-            return kind
-    return "other"
+    kinds = {"acceleration": ACCELERATIONS, "velocity": VELOCITIES}
+    kinds |= {"voltage": VOLTAGES, "time": TIMES}
+    return next((kind for kind, units in kinds.items() if unit in units), "other")
 
 
 def differentiated(signal: Array, sample_rate: float) -> Array:

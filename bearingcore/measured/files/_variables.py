@@ -40,8 +40,10 @@ class Variables:
         """Keep real numbers as a matrix, or a word; anything else is passed over."""
         for part in value.dtype.names or ():
             self.add(f"{path}.{part}" if path else part, value[part].ravel())
-        if value.dtype.kind in "Mm":
-            value = _seconds(value)
+        if value.dtype.kind == "M" and value.size:
+            value = value - value.ravel()[0]
+        if value.dtype.kind == "m":  # durations, and dates since the first
+            value = value / np.timedelta64(1, "s")
         if value.ndim > 2:  # the longest direction is that of the samples
             longest = int(np.argmax(value.shape))
             value = np.moveaxis(value, longest, 0).reshape(value.shape[longest], -1)
@@ -116,10 +118,3 @@ def check_size(name: str, shape: tuple[int, ...], most_numbers: int, most_column
 def check_depth(depth: int) -> None:
     if depth > DEEPEST:
         raise checks.refuse("structs inside one another", "deeper", f"at most {DEEPEST}")
-
-
-def _seconds(values: NDArray[Any]) -> NDArray[Any]:
-    """Dates as seconds since the first, and durations."""
-    if values.dtype.kind == "M" and values.size:
-        values = values - values.ravel()[0]
-    return values / np.timedelta64(1, "s")

@@ -354,7 +354,7 @@ def judged(passes: Sequence[MeanPass], frequency: float, n_passes: int) -> Knock
     passes = tuple(sorted(passes, key=lambda mean_pass: -mean_pass.contrast))
     if not passes or passes[0].contrast < LEAST_CONTRAST:
         return Knocks(passes, frequency, n_passes, ExtentStatus.NOT_VISIBLE)
-    shown = [(one, pair) for one in passes if (pair := two_peaks(one, frequency)) is not None]
+    shown = [(m, pair) for m in passes if (pair := two_peaks(m, frequency)) is not None]
     agreeing = _agreeing(shown)
     if not agreeing:
         several = len(shown) > ONLY_ONE * len(passes)
@@ -370,35 +370,25 @@ def judged(passes: Sequence[MeanPass], frequency: float, n_passes: int) -> Knock
         return Knocks(passes, frequency, n_passes, ExtentStatus.UNCLEAR, hidden=_hidden(passes))
     if np.ptp(np.quantile(ratios, (0.1, 0.9))) < ALIKE and abs(np.median(ratios)) > UNLIKE:
         return Knocks(passes, frequency, n_passes, ExtentStatus.BOUNCES)
-    return _two_knocks(passes, agreeing, frequency, n_passes)
-
-
-def _two_knocks(
-    passes: tuple[MeanPass, ...],
-    agreeing: Sequence[tuple[MeanPass, Pair]],
-    frequency: float,
-    n_passes: int,
-) -> Knocks:
-    """Two knocks as far apart as the bands have them that agree, weighted by their heights.
-
-    ALIKE where the later one fades with frequency, as an echo, not an exit.
-    """
-    height = np.array([pair.height for _, pair in agreeing])
+    # as far apart as the bands have them that agree, weighted by their heights
     apart = np.array([pair.apart for _, pair in agreeing])
-    ratios = np.log([pair.ratio for _, pair in agreeing])
-    reached = max(one.band.low for one, _ in agreeing)
     separation = float(np.average(apart, weights=height))
     spread = math.sqrt(float(np.average((apart - separation) ** 2, weights=height)))
-    deviation = max(spread, 0.25 / HARMONICS)
-    best, pair = max(agreeing, key=lambda shown_pair: shown_pair[1].height)
     trend = _trend([mean_pass.band for mean_pass, _ in agreeing], ratios, height)
     rare = 1.0 - separation > RARE * separation
+    # a later one that fades with frequency is an echo, not an exit
     if rare and (trend < -FADES or (trend < 0.0 and _fades(passes, reached, ratios))):
         return Knocks(passes, frequency, n_passes, ExtentStatus.BOUNCES)
-    status = ExtentStatus.MEASURED if rare else ExtentStatus.EITHER
-    others = tuple(mean_pass for mean_pass in passes if mean_pass is not best)
+    best, pair = max(agreeing, key=lambda shown_pair: shown_pair[1].height)
     return Knocks(
-        (best, *others), frequency, n_passes, status, separation, deviation, pair.first, pair.second
+        (best, *(mean_pass for mean_pass in passes if mean_pass is not best)),
+        frequency,
+        n_passes,
+        ExtentStatus.MEASURED if rare else ExtentStatus.EITHER,
+        separation,
+        max(spread, 0.25 / HARMONICS),
+        pair.first,
+        pair.second,
     )
 
 
@@ -411,7 +401,7 @@ def _hidden(passes: Sequence[MeanPass]) -> float:
     from scipy.ndimage import gaussian_filter1d
 
     clear = [mean_pass for mean_pass in passes if _is_clear(mean_pass)]
-    if not clear or min(one.band.low for one in clear) > min(one.band.low for one in passes):
+    if not clear or min(m.band.low for m in clear) > min(m.band.low for m in passes):
         return math.nan
     reached = 0.0
     for mean_pass in clear:

@@ -58,7 +58,7 @@ healthy."""
 
 def decide(signal: ListenedSignal, judged: Judged, shaft: float | None, source: str) -> Diagnosis:
     """The answer, and its sentence; `shaft` [Hz] is None where no speed was found."""
-    part = judged.own
+    part = judged.leading
     fault, probability = CANNOT_TELL, part.probability
     others_stand_out = judged.other_above_noise >= NOISE_MARGIN
     if part.probability >= NAMED:
@@ -69,13 +69,11 @@ def decide(signal: ListenedSignal, judged: Judged, shaft: float | None, source: 
         if part.magnetic > 0.0:
             detail += say.magnetic_alike(part)
         for other in judged.evidence:
-            if (
-                BALL not in (part.part, other.part)
-                and other is not part
-                and other.probability >= BESIDE
-            ):
+            races = other is not part and BALL not in (part.part, other.part)
+            if races and other.probability >= BESIDE:
                 detail += say.beside(other)
-    elif (reason := _lines_in_doubt(judged) or _hidden(signal)) is not None:
+    # a cause from outside the bearing explains all lines of a part, so it goes first
+    elif reason := _cause_outside(judged) or _parts_in_doubt(judged) or _hidden(signal):
         status, detail = reason
     elif others_stand_out and judged.other_swing >= LEAST_SWING:
         status, detail = DiagnosisStatus.OTHER_SOURCE, say.unexplained(judged.other)
@@ -102,20 +100,9 @@ def decide(signal: ListenedSignal, judged: Judged, shaft: float | None, source: 
 
 def _spectrum(judged: Judged) -> EnvelopeLines:
     """The envelope's spectrum in the band of the best evidence, at the finest resolution."""
-    part = judged.own
-    envelope = next(
-        other
-        for other in judged.resolutions[-1].envelopes
-        if (other.band, other.direction) == (part.band, part.direction)
-    )
+    envelope = judged.resolutions[-1].envelope_of(judged.leading)
     frequency = envelope.levels.step * np.arange(len(envelope.levels.level), dtype=float)
     return EnvelopeLines(frequency, envelope.levels.level, envelope.band, envelope.direction)
-
-
-def _lines_in_doubt(judged: Judged) -> Reason | None:
-    """The reason why lines of a part name none, if there are any."""
-    # a cause from outside the bearing explains all lines of a part, so it goes first
-    return _cause_outside(judged) or _parts_in_doubt(judged)
 
 
 def _cause_outside(judged: Judged) -> Reason | None:
@@ -182,7 +169,7 @@ def _nothing_and_why(signal: ListenedSignal, judged: Judged) -> Reason | None:
     if blows > SMOOTH:
         return DiagnosisStatus.IRREGULAR, say.blows(blows, signal.duration)
     if signal.only_rounding:
-        return DiagnosisStatus.ROUNDED, say.rounded()
+        return DiagnosisStatus.ROUNDED, say.ROUNDED
     if judged.detectable > ENOUGH_SWING:
         return DiagnosisStatus.INSENSITIVE, say.weak(SURELY * judged.detectable, signal.duration)
     broadest = max(judged.evidence, key=lambda part: part.deviations)
@@ -199,9 +186,11 @@ def _impulsiveness(judged: Judged, signal: ListenedSignal) -> float:
     """
     sixth, envelopes = signal.rate / 12.0, judged.resolutions[0].envelopes
     broad = [
-        one.kurtosis - 5.0 * math.sqrt(20.0 / (signal.duration * (one.band.high - one.band.low)))
-        for one in envelopes
-        if one.band.high <= 5.05 * sixth and one.band.high - one.band.low >= 0.95 * sixth
+        envelope.kurtosis
+        - 5.0 * math.sqrt(20.0 / (signal.duration * (envelope.band.high - envelope.band.low)))
+        for envelope in envelopes
+        if envelope.band.high <= 5.05 * sixth
+        and envelope.band.high - envelope.band.low >= 0.95 * sixth
     ]
     return max(broad or [envelope.kurtosis for envelope in envelopes])
 

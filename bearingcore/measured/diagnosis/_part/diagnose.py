@@ -91,7 +91,7 @@ def _diagnose(
     if signal.unusable is not None:
         return silent(*signal.unusable, source)
     if bearing is None:
-        return silent(DiagnosisStatus.BEARING_OPEN, say.which_bearing(), source)
+        return silent(DiagnosisStatus.BEARING_OPEN, say.WHICH_BEARING, source)
     answer = _diagnose_between(signal, bearing, low, high, slip, source, speed_source)
     # sidebands of an inner race or a ball confirm the speed, an outer race has none
     if high > NARROW * low or answer.fault in (INNER, BALL):
@@ -100,16 +100,16 @@ def _diagnose(
     held = _held_against_the_shaft(signal, answer, speed, reach, speed / ratio)
     if measured or held.names_a_part or not held.evidence:
         return held
-    return _where_it_changes(held, followed_change(signal.columns, signal.rate, speed))
-
-
-def _where_it_changes(answer: Diagnosis, change: float) -> Diagnosis:
-    """The answer, naming no part, where the speed changes by a fraction, which blurs all lines."""
+    change = followed_change(signal.columns, signal.rate, speed)
     if not change:
-        return answer
-    leading = max(one.probability for one in answer.evidence)
-    status, words = DiagnosisStatus.SPEED_CHANGES, say.speed_changes(change)
-    return replace(answer, fault=CANNOT_TELL, status=status, detail=words, probability=leading)
+        return held
+    return replace(
+        held,
+        fault=CANNOT_TELL,
+        status=DiagnosisStatus.SPEED_CHANGES,
+        detail=say.speed_changes(change),
+        probability=max(part.probability for part in held.evidence),
+    )
 
 
 def _diagnose_between(
@@ -179,11 +179,9 @@ def _speeds(
     """The speed of the bearing's shaft from, to [Hz], and where it is from."""
     turn = 2.0 * math.pi / ratio
     if shaft_speed is None:
-        stated = getattr(recording, "shaft_speed", None)
-        if stated is not None:
-            speed = checks.real_number("shaft_speed", stated, above=0.0, unit="rad/s") / turn
-            return speed, speed, "given by the recording"
-        return SPEEDS[0] / (2.0 * math.pi), SPEEDS[1] / (2.0 * math.pi), "looked for"
+        if recording.shaft_speed is None:
+            return SPEEDS[0] / (2.0 * math.pi), SPEEDS[1] / (2.0 * math.pi), "looked for"
+        shaft_speed, said = recording.shaft_speed, "given by the recording"
     if np.ndim(shaft_speed) == 0:
         speed = checks.real_number("shaft_speed", shaft_speed, above=0.0, unit="rad/s") / turn  # type: ignore[arg-type]
         return speed, speed, said
@@ -216,19 +214,19 @@ def _diagnose_at(
     refused = unfit(signal, parts, shaft)
     if refused is not None:
         return silent(*refused, source, shaft)
-    given, own = shaft, signal.shaft(low, high)
+    stated, turning = shaft, signal.shaft(low, high)
     # lines broader than the window that they are looked for in make nothing finer
-    if own.clear and signal.duration * (high - low) > 1.0:
-        shaft = own.frequency
-        given = shaft if reach else given
+    if turning.clear and signal.duration * (high - low) > 1.0:
+        shaft = turning.frequency
+        stated = shaft if reach else stated
         source += ", refined from the shaft lines in the signal"
     else:
         slip += reach
         source += ", its middle" if reach else ""
-    answer = decide(signal, judge(signal, parts, shaft, slip, given), shaft, source)
+    answer = decide(signal, judge(signal, parts, shaft, slip, stated), shaft, source)
     if answer.fault in (OUTER, INNER):
         return answer
-    return _second_opinion(signal, parts, answer, shaft, given, slip)
+    return _second_opinion(signal, parts, answer, shaft, stated, slip)
 
 
 _IN_DOUBT = (
@@ -258,7 +256,7 @@ def _second_opinion(
     parts: Sequence[PartLines],
     answer: Diagnosis,
     shaft: float,
-    given: float,
+    stated: float,
     slip: float,
 ) -> Diagnosis:
     """Diagnosis of the signal as it is, where the whitened one names no race.
@@ -269,7 +267,7 @@ def _second_opinion(
     """
     if answer.status == DiagnosisStatus.OTHER_SHAFT:
         return answer
-    judged = judge(signal.unwhitened(), parts, shaft, slip, given).counting(TONES_COUNT)
+    judged = judge(signal.unwhitened(), parts, shaft, slip, stated).counting(TONES_COUNT)
     again = decide(signal, judged, shaft, answer.speed_source)
     if answer.fault == BALL:  # whitening hides how sharp lines are which nothing modulates
         alone = again.status == DiagnosisStatus.UNMODULATED and not again.of(BALL).modulated
@@ -277,6 +275,6 @@ def _second_opinion(
     if again.fault in (OUTER, INNER):
         return again
     seen = again.status in _INSTEAD_OF.get(answer.status, ())
-    if answer.fault == NONE_SEEN and judged.own.swing < ENOUGH_SWING:
+    if answer.fault == NONE_SEEN and judged.turning.swing < ENOUGH_SWING:
         return answer
     return again if seen else answer

@@ -143,14 +143,15 @@ class Judged:
     resolutions: tuple[Combs, ...]
 
     @property
-    def own(self) -> PartEvidence:
+    def leading(self) -> PartEvidence:
         """Evidence of the part that leads."""
         return max(self.evidence, key=leading_by)
 
     def counting(self, share: float) -> Judged:
         """The same where a share of each swing counts."""
         return replace(
-            self, evidence=_weighed(replace(one, swing=share * one.swing) for one in self.evidence)
+            self,
+            evidence=_weighed(replace(part, swing=share * part.swing) for part in self.evidence),
         )
 
     def discounted(self, speeds: float) -> Judged:
@@ -159,8 +160,10 @@ class Judged:
         The odds that lines are those of the bearing fall by that number.
         """
         tried = (
-            replace(one, probability=one.probability / (speeds + (1.0 - speeds) * one.probability))
-            for one in self.evidence
+            replace(
+                part, probability=part.probability / (speeds + (1.0 - speeds) * part.probability)
+            )
+            for part in self.evidence
         )
         return replace(self, evidence=tuple(tried))
 
@@ -170,10 +173,10 @@ def judge(
     parts: Sequence[PartLines],
     shaft: float,
     slip: float,
-    given: float | None = None,
+    stated: float | None = None,
 ) -> Judged:
     """The evidence of the parts at a speed [Hz]."""
-    return compare(listened(signal, parts, shaft, slip, True, given), parts, slip, given)
+    return compare(listened(signal, parts, shaft, slip, True, stated), parts, slip, stated)
 
 
 def listened(
@@ -182,14 +185,14 @@ def listened(
     shaft: float,
     slip: float,
     known_speed: bool,
-    given: float | None = None,
+    stated: float | None = None,
 ) -> tuple[Combs, ...]:
     """The combs at all resolutions, the coarsest first."""
     top = max(lines.order for lines in parts) * (1.0 + slip)
     envelopes = signal.envelopes(shaft, (HARMONICS * top + 2.0) * shaft)
     resolutions: list[Combs] = []
     for turns in TURNS:
-        resolutions.append(listen(envelopes, parts, shaft, known_speed, slip, turns, given))
+        resolutions.append(listen(envelopes, parts, shaft, known_speed, slip, turns, stated))
         if turns / shaft >= signal.duration:
             break  # longer segments than the signal are the same again
     return tuple(resolutions)
@@ -199,11 +202,11 @@ def compare(
     resolutions: tuple[Combs, ...],
     parts: Sequence[PartLines],
     slip: float,
-    given: float | None = None,
+    stated: float | None = None,
 ) -> Judged:
     """The evidence of the parts in combs at all resolutions."""
     shaft = resolutions[0].shaft
-    compared = [_Comparison(combs, parts, slip, given or shaft) for combs in resolutions]
+    compared = [_Comparison(combs, parts, slip, stated or shaft) for combs in resolutions]
     first = compared[0]
     turning = spin(first.combs, parts, lambda at: first.explained(at, first.ball))
     evidence = []
@@ -241,7 +244,9 @@ def _clearest(
 ) -> PartEvidence:
     """The evidence of a part at the resolution that speaks most for it."""
     # the band is chosen by the lines alone: chosen by the sidebands, it is where noise has some
-    best = max((one.clearest(lines, around, beside) for one in compared), key=log_probability)
+    best = max(
+        (comparison.clearest(lines, around, beside) for comparison in compared), key=log_probability
+    )
     return max((comparison.weigh_sidebands(best) for comparison in compared), key=log_probability)
 
 
@@ -255,7 +260,9 @@ def _race(
     if lines.part == INNER:
         return best
     # short segments do not resolve what lies beside the cage's lines
-    foreign, spacing = min(one.lead_over_foreign(best) for one in compared[1:] or compared)
+    foreign, spacing = min(
+        comparison.lead_over_foreign(best) for comparison in compared[1:] or compared
+    )
     spacing = spacing if foreign < LEAD else math.nan
     return replace(best, lead=min(best.lead, foreign), foreign_spacing=spacing)
 
@@ -275,7 +282,9 @@ def _judge_other_race(
     second = _race(compared, lines, first)
     second = replace(second, lead=min(second.lead, first.lead))
     told = _weighed(second if part.part == second.part else part for part in evidence)
-    return tuple(replace(one, probability=min(one.probability, first.probability)) for one in told)
+    return tuple(
+        replace(part, probability=min(part.probability, first.probability)) for part in told
+    )
 
 
 def _weighed(evidence: Iterable[PartEvidence]) -> tuple[PartEvidence, ...]:
@@ -299,7 +308,7 @@ class _Comparison:
     combs: Combs
     parts: Sequence[PartLines]
     slip: float
-    given: float
+    stated: float
 
     @property
     def cage(self) -> float:
@@ -324,7 +333,7 @@ class _Comparison:
         are no rivals.
         """
         combs = self.combs
-        near_it = mark_window(combs, lines, self.slip, self.given, combs.frequency)
+        near_it = mark_window(combs, lines, self.slip, self.stated, combs.frequency)
         if around is not None:  # a race's own lines are none of a ball's
             near_it |= np.abs(combs.frequency - around) <= combs.shaft / TURNS[0]
             near_it &= ~self._windows_of(OUTER, INNER)
@@ -333,7 +342,9 @@ class _Comparison:
         level = combs.level[:, inside]
         if lines.part == BALL:
             at, away = combs.frequency[inside], self.cage
-            level = np.stack([comb_level(_or_sidebands(one, at, away)) for one in combs.envelopes])
+            level = np.stack(
+                [comb_level(_or_sidebands(envelope, at, away)) for envelope in combs.envelopes]
+            )
         explained: dict[float, NDArray[np.float64]] = {}
         directions = []
         for place in np.argsort(-level.max(axis=1))[:MOST_BANDS].tolist():
@@ -371,7 +382,7 @@ class _Comparison:
         """Mark the combs (n,) that some parts may have."""
         combs, slip = self.combs, self.slip + 0.005
         windows = [
-            mark_window(combs, lines, slip, self.given, combs.frequency)
+            mark_window(combs, lines, slip, self.stated, combs.frequency)
             for lines in self.parts
             if lines.part in names
         ]
@@ -424,7 +435,8 @@ class _Comparison:
         An outer race stands still and needs none. Where a line may be a race's or a ball's, cage
         sidebands speak for the ball.
         """
-        combs, envelope = self.combs, self._envelope_of(part)
+        combs = self.combs
+        envelope = combs.envelope_of(part)
         level = float(comb_level(_lines(envelope, envelope.cleared, part.frequency)[:, None])[0])
 
         def sides(spacing: float) -> float:
@@ -458,19 +470,20 @@ class _Comparison:
         part that turns with another shaft, or at another speed than the one stated. Infinity where
         noise reaches as far.
         """
-        combs, one = self.combs, self._envelope_of(part)
+        combs = self.combs
+        envelope = combs.envelope_of(part)
         resolution = (combs.frequency[1] - combs.frequency[0]) * FINENESS
         low, high = (turns * combs.shaft for turns in FOREIGN)
         spacing = np.arange(low, high, resolution / FINENESS)
         # a coarse resolution may have found the lines a little beside their place
         near_it = np.abs(combs.frequency - part.frequency) <= 0.5 * combs.shaft / TURNS[0]
-        row = next(k for k, other in enumerate(combs.envelopes) if other is one)
+        row = next(k for k, other in enumerate(combs.envelopes) if other is envelope)
         levels = np.where(near_it, combs.level[row], -np.inf)
         place = int(levels.argmax())
         frequency = float(combs.frequency[place])
         lines = frequency * np.arange(1, HARMONICS // 2 + 1)
         sides = [
-            [lines_at(one.cleared, one.levels.step, np.abs(line + away), 1)[0]
+            [lines_at(envelope.cleared, envelope.levels.step, np.abs(line + away), 1)[0]
              for away in (-spacing, spacing)]
             for line in lines.tolist()
         ]  # fmt: skip
@@ -480,14 +493,9 @@ class _Comparison:
         for known in made:
             level[np.abs(spacing - known) <= 1.5 * resolution + 0.005 * known] = -np.inf
         best = int(level.argmax())
-        if level[best] < noise_level(RARE / len(spacing), one.levels.averages):
+        if level[best] < noise_level(RARE / len(spacing), envelope.levels.averages):
             return math.inf, math.nan
         return float(levels[place] - level[best]) - FOREIGN_LEAD + LEAD, float(spacing[best])
-
-    def _envelope_of(self, part: PartEvidence) -> Listened:
-        """The envelope in which the lines of a part were seen."""
-        place = part.band, part.direction
-        return next(one for one in self.combs.envelopes if (one.band, one.direction) == place)
 
     def carried(self, around: float) -> float:
         """By how much [dB] lines around a frequency [Hz] have the sidebands that a ball's have.
@@ -550,15 +558,15 @@ class _Comparison:
         return int(place), int(column)
 
     def _evidence(
-        self, lines: PartLines, one: Listened, frequency: float, others: float
+        self, lines: PartLines, envelope: Listened, frequency: float, others: float
     ) -> PartEvidence:
         combs = self.combs
         spacing = self.cage if lines.part == BALL else combs.shaft
-        levels = _lines(one, one.cleared, frequency)
+        levels = _lines(envelope, envelope.cleared, frequency)
         if lines.part == BALL:
-            levels = _or_sidebands(one, np.array([frequency]), spacing)[:, 0]
-        depth = np.where(one.hidden, 0.0, one.levels.depth)
-        swings = [_lines(one, depth, frequency, away) for away in (0.0, -spacing, spacing)]
+            levels = _or_sidebands(envelope, np.array([frequency]), spacing)[:, 0]
+        depth = np.where(envelope.hidden, 0.0, envelope.levels.depth)
+        swings = [_lines(envelope, depth, frequency, away) for away in (0.0, -spacing, spacing)]
         nominal = lines.order * combs.shaft
         level = float(comb_level(levels[:, None])[0])
         evidence = PartEvidence(
@@ -581,17 +589,23 @@ class _Comparison:
             magnetic=magnetic_share(frequency, tolerance(combs, 0.0).item() / HARMONICS, self.slip),
             probability=0.0,
             sidebands=np.stack(
-                [_lines(one, one.cleared, frequency, away) for away in (-spacing, spacing)], axis=1
+                [
+                    _lines(envelope, envelope.cleared, frequency, away)
+                    for away in (-spacing, spacing)
+                ],
+                axis=1,
             ),
             sideband_spacing=spacing,
             sideband_source="cage" if lines.part == BALL else "shaft",
-            band=one.band,
-            direction=one.direction,
-            kurtosis=one.kurtosis,
+            band=envelope.band,
+            direction=envelope.direction,
+            kurtosis=envelope.kurtosis,
         )
         if lines.part == BALL:
             return replace(evidence, line_lead=evidence.lead)
-        lead = min(evidence.lead, _lead_over_gaps(_lines(one, one.levels.depth, frequency)))
+        lead = min(
+            evidence.lead, _lead_over_gaps(_lines(envelope, envelope.levels.depth, frequency))
+        )
         return replace(evidence, lead=lead, line_lead=lead)
 
     def others(self, evidence: Sequence[PartEvidence]) -> tuple[OtherLines, float, float]:

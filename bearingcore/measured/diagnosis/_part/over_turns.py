@@ -13,6 +13,7 @@ from dataclasses import replace
 import numpy as np
 
 from bearingcore.common import Array, number, runs
+from bearingcore.measured.diagnosis._part.unknown_speed import NARROW
 from bearingcore.measured.signals._filter_bank import thinned
 from bearingcore.measured.signals._resampling import resample_over_turns
 from bearingcore.recordings import FEWEST_SAMPLES, Recording
@@ -27,9 +28,6 @@ the slowest one has, and they may be no more than twice those that were measured
 
 KEPT_OF = 64
 """Samples of the finely sampled turns, of which as many are kept as the measured rate has."""
-
-NARROW = 1.3
-"""A range of given speeds whose ends differ by this factor at most says which turn is meant."""
 
 USUAL = 5.0, 100.0
 """[Hz] of a shaft whose tachometer is taken to give one pulse a turn where no speed is given."""

@@ -246,12 +246,11 @@ def weak(detectable: float, duration: float) -> str:
     )
 
 
-def rounded() -> str:
-    """Sentence for a signal without lines that holds no vibration of a bearing either."""
-    return (
-        "No damage shows, but between its tones the signal holds no vibration, only the rounding "
-        "of its numbers. Any bearing vibrates: check the sensor, its range and filter."
-    )
+ROUNDED = (
+    "No damage shows, but between its tones the signal holds no vibration, only the rounding of "
+    "its numbers. Any bearing vibrates: check the sensor, its range and filter."
+)
+"""Sentence for a signal without lines that holds no vibration of a bearing either."""
 
 
 def healthy(detectable: float) -> str:
@@ -278,12 +277,11 @@ def faint(part: PartEvidence) -> str:
     )
 
 
-def which_bearing() -> str:
-    """Sentence for a signal of an unknown bearing."""
-    return (
-        "Which part is damaged depends on the bearing, which is not known. Choose one from the "
-        "list, or enter its designation or its frequencies."
-    )
+WHICH_BEARING = (
+    "Which part is damaged depends on the bearing, which is not known. Choose one from the list, "
+    "or enter its designation or its frequencies."
+)
+"""Sentence for a signal of an unknown bearing."""
 
 
 def which_speed(frequency: float, readings: Sequence[tuple[str, float]]) -> str:

@@ -16,6 +16,7 @@ from bearingcore.measured.diagnosis._part.combs import (
     mark_multiples,
     noise_level,
 )
+from bearingcore.measured.diagnosis._part.evidence import PartEvidence
 from bearingcore.measured.diagnosis._part.parts import PartLines
 from bearingcore.measured.signals._filter_bank import Band, Envelope
 from bearingcore.measured.signals._line_levels import LineLevels, line_levels
@@ -89,10 +90,15 @@ class Combs:
         cells = sum(self.cells(frequency) for frequency, _ in self.best.values())
         return noise_level(RARE / cells, self.envelopes[0].levels.averages)
 
-    def cells(self, frequency: float, slip: float = 0.02) -> float:
-        """Independent combs among those within slip of a frequency [Hz], in all bands."""
+    def envelope_of(self, part: PartEvidence) -> Listened:
+        """Return the envelope in which the lines of a part were seen."""
+        place = part.band, part.direction
+        return next(e for e in self.envelopes if (e.band, e.direction) == place)
+
+    def cells(self, frequency: float) -> float:
+        """Independent combs among those within 2 % of a frequency [Hz], in all bands."""
         segment = self.turns / self.shaft
-        places = 1.0 + 2.0 * slip * frequency * segment * 0.5 * HARMONICS
+        places = 1.0 + 2.0 * 0.02 * frequency * segment * 0.5 * HARMONICS
         return places * max(1.0, INDEPENDENT_BANDS * len(self.envelopes)) * len(TURNS)
 
 
@@ -103,7 +109,7 @@ def listen(
     known_speed: bool,
     slip: float,
     turns: float,
-    given: float | None = None,
+    stated: float | None = None,
 ) -> Combs:
     """The combs at one resolution.
 
@@ -115,8 +121,8 @@ def listen(
         turns of the shaft a second [Hz].
     known_speed
         whether the shaft's own lines are known well enough to be left out.
-    given
-        [Hz] the speed as given, from which lines may not be farther than the slip either.
+    stated
+        [Hz] the stated speed, from which lines may not be farther than the slip either.
     """
     segment = turns / shaft
     duration = max(len(envelope.values) / envelope.rate for _, envelope in envelopes)
@@ -139,11 +145,14 @@ def listen(
         min(LOWEST_ORDER, slowest) * shaft, 1.25 * top * shaft, resolution / FINENESS
     )
     level = np.stack(
-        [comb_level(lines_at(one.cleared, one.levels.step, frequency)) for one in listened]
+        [
+            comb_level(lines_at(envelope.cleared, envelope.levels.step, frequency))
+            for envelope in listened
+        ]
     )
     combs = Combs(turns, shaft, tuple(listened), frequency, level, {})
     for lines in parts:
-        inside = np.flatnonzero(mark_window(combs, lines, slip, given or shaft, frequency))
+        inside = np.flatnonzero(mark_window(combs, lines, slip, stated or shaft, frequency))
         highest_of = level[:, inside].max(axis=0)
         column = int(highest_of.argmax())
         combs.best[lines] = float(frequency[inside[column]]), float(highest_of[column])
@@ -151,15 +160,15 @@ def listen(
 
 
 def mark_window(
-    combs: Combs, lines: PartLines, slip: float, given: float, frequency: NDArray[np.float64]
+    combs: Combs, lines: PartLines, slip: float, stated: float, frequency: NDArray[np.float64]
 ) -> NDArray[np.bool_]:
     """Mark the frequencies [Hz] that may be a part's first line.
 
-    Within the slip of the speed that the shaft's lines show and of the speed as given: otherwise a
+    Within the slip of the speed that the shaft's lines show and of the stated speed: otherwise a
     shaft found wrongly would open the window to twice the slip.
     """
-    middle = 0.5 * (combs.shaft + given) * lines.order
-    reach = slip * middle - 0.5 * abs(combs.shaft - given) * lines.order
+    middle = 0.5 * (combs.shaft + stated) * lines.order
+    reach = slip * middle - 0.5 * abs(combs.shaft - stated) * lines.order
     reach = max(reach, 0.6 * (combs.frequency[1] - combs.frequency[0]))
     return np.asarray(np.abs(frequency - middle) <= reach)
 

@@ -93,15 +93,16 @@ def shaft_lines(
         count = 1 + int(np.ceil((high - low) * 4.0 * HARMONICS / resolution))
         frequency = np.linspace(low, high, count)  # the highest line resolves the most
         cells = 1.0 + (high - low) / resolution * 0.5 * HARMONICS
-        own = [mains_lines(levels, mains, resolution) for mains in MAINS]
-        excess = _excess(levels, own, frequency, RARE / cells)
+        hidden = [mains_lines(levels, mains, resolution) for mains in MAINS]
+        excess = _excess(levels, hidden, frequency, RARE / cells)
         index = int(excess.argmax())
         if excess[index] <= best.excess:
             continue
         noise = noise_level(RARE / cells, levels.averages)
         turn = _slowest(levels, float(frequency[index]), low, noise)
         # without the lines of both mains, where enough are left, as there is but one
-        fits = [_fine(levels, lines, turn, resolution, noise) for lines in (own[0] | own[1], *own)]
+        either = hidden[0] | hidden[1]
+        fits = [_fine(levels, lines, turn, resolution, noise) for lines in (either, *hidden)]
         turn, error = fits[0] if np.isfinite(fits[0][1]) else _finest(fits[1:])
         inside = min(max(turn, low), high)
         if abs(turn - inside) > 2.0 * error:  # lines of something beyond
@@ -139,7 +140,7 @@ def _excess(
     lines = _lines(levels, frequency, HARMONICS)
     order = np.arange(1, HARMONICS + 1)[:, None]
     left = [np.broadcast_to(order % part != 0, lines.shape) for part in (2, 3)]
-    left += [_lines_hidden(hidden, levels.step, frequency, HARMONICS) == 0.0 for hidden in mains]
+    left += [lines_at(hidden.astype(float), levels.step, frequency) == 0.0 for hidden in mains]
     noise = [
         noise_level(chance, levels.averages, count) if count >= FEWEST else np.inf
         for count in range(HARMONICS + 1)
@@ -161,13 +162,6 @@ def _lines(levels: LineLevels, frequency: NDArray[np.float64], count: int) -> ND
     )
 
 
-def _lines_hidden(
-    hidden: NDArray[np.bool_], step: float, frequency: NDArray[np.float64], count: int
-) -> NDArray[np.float64]:
-    """1 where a line (count, n) of a comb is hidden."""
-    return lines_at(hidden.astype(float), step, frequency, count)
-
-
 def _finest(fits: Sequence[tuple[float, float]]) -> tuple[float, float]:
     """The frequency [Hz] of two that has the less error, infinite where they disagree by more."""
     (best, error), (other, wider) = sorted(fits, key=lambda fit: fit[1])
@@ -184,7 +178,7 @@ def _fine(
 ) -> tuple[float, float]:
     """The frequency [Hz] by the peaks of all lines that are the shaft's alone, and its error."""
     order = np.arange(1, 2 * HARMONICS + 1)
-    hidden = _lines_hidden(mains, levels.step, np.array([frequency]), len(order))[:, 0]
+    hidden = lines_at(mains.astype(float), levels.step, np.array([frequency]), len(order))[:, 0]
     places, heights = [], []
     for k in order[hidden == 0.0].tolist():
         reach = max(1, round(resolution / levels.step))

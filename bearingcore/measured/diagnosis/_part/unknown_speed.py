@@ -59,8 +59,11 @@ def diagnose_in_range(
         for lines in parts:
             speed = strongest / lines.order
             if low * (1.0 - slip) <= speed <= high * (1.0 + slip):
-                hypotheses.append(_Hypothesis.judge_at(signal, parts, speed, slip, low, high))
-    holding = sorted((one for one in hypotheses if one.holds), key=lambda one: -one.shaft.excess)
+                ends = max(low, speed * (1.0 - slip)), min(high, speed * (1.0 + slip))
+                turning, speed = signal.shaft(*ends), min(max(speed, low), high)
+                speed = turning.frequency if turning.clear else speed
+                hypotheses.append(_Hypothesis(turning, judge(signal, parts, speed, slip)))
+    holding = sorted((guess for guess in hypotheses if guess.holds), key=lambda g: -g.shaft.excess)
     if holding:
         return _choose(signal, holding, slip, low, high, source)
     if shaft.clear:
@@ -73,7 +76,7 @@ def diagnose_in_range(
     if not answer.names_a_part:
         return answer
     # of a part only at a speed outside the range, or too faint to find one
-    best = judged.own
+    best = judged.leading
     beyond = replace(judged, shaft=best.frequency / best.nominal_order)
     return _undecided_speed(signal, [_Hypothesis(shaft, beyond)], best.frequency, source)
 
@@ -106,15 +109,15 @@ def _choose(
     rival = next((guess for guess in holding[1:] if not guess.agrees(first, slip)), None)
     alone = high <= NARROW * low and rival is None
     if not (first.shaft.clear or alone):
-        return _undecided_speed(signal, holding, first.judged.own.frequency, source)
+        return _undecided_speed(signal, holding, first.judged.leading.frequency, source)
     if rival is not None and first.shaft.excess < rival.shaft.excess + SHAFT_MARGIN:
-        return _undecided_speed(signal, [first, rival], first.judged.own.frequency, source)
+        return _undecided_speed(signal, [first, rival], first.judged.leading.frequency, source)
     if first.shaft.clear:
         return decide(signal, first.judged, first.judged.shaft, _FOUND)
     # any source with lines somewhere in the range would have been taken for the part's
     width = 2.0 * math.atanh(max(slip, ERROR))
     judged = first.judged.discounted(1.0 + math.log(high / low) / width)
-    part = first.judged.own.part
+    part = first.judged.leading.part
     return decide(signal, judged, judged.shaft, f"taken from the lines of the {part}")
 
 
@@ -127,7 +130,7 @@ def _undecided_speed(
     """Knocks that may be of one part or another, as the speed may be."""
     readings: dict[str, float] = {}
     for guess in hypotheses:
-        readings.setdefault(guess.judged.own.part, guess.judged.shaft)
+        readings.setdefault(guess.judged.leading.part, guess.judged.shaft)
     decided = decide(signal, hypotheses[0].judged, None, source)
     # each reading is as probable as the others: what holds at one speed counts by its share
     share = SURE / max(2, len(readings))
@@ -149,28 +152,13 @@ class _Hypothesis:
     shaft: ShaftLines
     judged: Judged
 
-    @classmethod
-    def judge_at(
-        cls,
-        signal: ListenedSignal,
-        parts: Sequence[PartLines],
-        speed: float,
-        slip: float,
-        low: float,
-        high: float,
-    ) -> _Hypothesis:
-        """Diagnosis if the shaft turns about `speed` times a second [Hz], between two bounds."""
-        shaft = signal.shaft(max(low, speed * (1.0 - slip)), min(high, speed * (1.0 + slip)))
-        speed = min(max(speed, low), high)
-        return cls(shaft, judge(signal, parts, shaft.frequency if shaft.clear else speed, slip))
-
     @property
     def holds(self) -> bool:
         """Return True if a part would be named at that speed."""
-        return self.judged.own.probability >= NAMED
+        return self.judged.leading.probability >= NAMED
 
     def agrees(self, other: _Hypothesis, slip: float) -> bool:
         """Return True if another speed is the same, and the part."""
         ratio = self.judged.shaft / other.judged.shaft
-        same = self.judged.own.part == other.judged.own.part
+        same = self.judged.leading.part == other.judged.leading.part
         return same and abs(ratio - 1.0) <= 2.0 * slip

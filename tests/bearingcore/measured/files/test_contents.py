@@ -83,62 +83,25 @@ def test_femto_columns_of_clock_and_signals(delimiter: str, rounding: int, begin
     assert got.duration == pytest.approx(0.1)
 
 
-@pytest.mark.parametrize(("columns", "places"), [(4, [1, 2, 3, 4]), (8, [1, 1, 2, 2, 3, 3, 4, 4])])
-def test_ims_tables_without_headings_or_extension(columns: int, places: list[int]) -> None:
-    table = read_table("2003.10.22.12.06.24", lines(NOISE[:, :columns], "\t"))
-    contents: Any = table.contents
-    assert [column.place for column in contents.columns] == [f"bearing {n}" for n in places]
-    assert "several places" in contents.choice.question
-    assert (contents.sample_rate.value, contents.sample_rate.stated) == (20_480.0, False)
+def test_speed_of_a_bearing_of_femto_is_in_the_name_of_its_files() -> None:
+    micro = np.arange(2560) / 25_600.0 * 1e6
+    clock = [np.full(2560, 9.0), np.full(2560, 39.0), np.full(2560, 39.0), micro]
+    rows = lines(np.column_stack([*clock, NOISE[:2560, :2]]))
+    contents: Any = read_table("Bearing2_1_acc_00911.csv", rows).contents
+    assert (contents.collection, contents.bearing.value) == ("FEMTO-ST", "6804RS, FEMTO-ST")
+    assert contents.choice.columns == {"x": 4, "y": 5}
+    assert (round(rpm(contents.shaft_speed.value)), contents.shaft_speed.taken) == (1650, True)
+    assert (contents.sample_rate.value, contents.sample_rate.taken) == (25_600.0, True)
 
 
-def paderborn() -> dict[str, object]:
-    """Channels in an array of structs, each with its name."""
+def test_channels_of_structs_are_called_by_their_names() -> None:
+    """As the rig of Paderborn saves them: slow channels and currents beside the vibration."""
     channels = np.zeros((1, 3), dtype=[("Name", "O"), ("Type", "O"), ("Data", "O")])
     channels[0, 0] = ("force", "f", NOISE[None, :30, 0])
     channels[0, 1] = ("phase_current_1", "c", NOISE[None, :, 0])
     channels[0, 2] = ("vibration_1", "v", NOISE[None, :, 1])
-    return {"N09_M07_F10_KA01_1": {"Info": "rig", "Y": channels}}
-
-
-def columns(name: str, count: int, rows: int = 20_480) -> dict[str, object]:
-    return {name: np.resize(NOISE, (rows, count))}
-
-
-XJTU = "Horizontal_vibration_signals,Vertical_vibration_signals"
-LOOKS = [
-    # file, content, collection, y and its column, rate, rpm, bearing
-    ("N09_M07_F10_KA01_1.mat", paderborn(), "Paderborn",
-     "N09_M07_F10_KA01_1.Y.vibration_1", 64e3, 900, "6203, Paderborn"),
-    ("1.csv", lines(NOISE[:600, :2], ",", XJTU), "XJTU-SY",
-     "Vertical_vibration_signals", 25.6e3, None, "UER204, XJTU-SY"),
-    ("OR5_900.mat", columns("z15_1", 1, 262_144), "HIT-SM", "z15_1", 51.2e3, 900, "6205"),
-    ("Bearing2_1_acc_00911.csv", None, "FEMTO-ST", "column 6", 25.6e3, 1650, "6804RS, FEMTO-ST"),
-]  # fmt: skip
-
-
-@pytest.mark.parametrize(
-    ("file", "held", "collection", "column", "rate", "turns", "bearing"), LOOKS
-)
-def test_files_of_public_collections_are_recognised(
-    file: str, held: object, collection: str, column: str, rate: float, turns: float | None,
-    bearing: str | None,
-) -> None:  # fmt: skip
-    """Made files in the layouts that the collections' documents describe."""
-    if held is None:
-        micro = np.arange(2560) / 25_600.0 * 1e6
-        clock = [np.full(2560, 9.0), np.full(2560, 39.0), np.full(2560, 39.0), micro]
-        held = lines(np.column_stack([*clock, NOISE[:2560, :2]]))
-    table = read_table(file, matlab(**held) if isinstance(held, dict) else held)
-    contents: Any = table.contents
-    assert contents.collection == collection
-    assert table.names[contents.choice.columns["y"]] == column
-    assert not contents.choice.question
-    assert contents.sample_rate.taken
-    assert contents.sample_rate.value == pytest.approx(rate)
-    speed = contents.shaft_speed
-    assert (None if speed is None else round(rpm(speed.value))) == turns
-    assert (None if contents.bearing is None else contents.bearing.value) == bearing
+    table = read_table("KA01_1.mat", matlab(KA01_1={"Info": "rig", "Y": channels}))
+    assert table.names[table.contents.choice.columns["y"]] == "KA01_1.Y.vibration_1"
 
 
 def test_a_velocity_is_differentiated_with_a_note() -> None:

@@ -1,7 +1,6 @@
 """Files as programs, loggers and instruments lay them out, and what must come out of them."""
 
 import csv
-import gzip
 import io
 import json
 import math
@@ -637,7 +636,6 @@ ONE_SIGNAL: list[tuple[Any, ...]] = [
     (written(lambda t, a: f"| {t:.6f} | {a:.4f} |", "| time | acc |\n|---|---|"), RATE),
     (written(lambda t, a: f"{t:.6f},{a:.4f}", "s,g"), RATE),
     (written(lambda t, a: f"{t:.6f},{a:.4f},{5 * (t % 0.03 < 0.01)}", "t,acc [g],Tacho [V]"), RATE),
-    (gzip.compress(FRAME.to_csv().encode()), RATE),
     # lists and records of JSON, arrays of NumPy
     (json.dumps(LIST), None, "a.json"),
     (f"[{' '.join(map(str, LIST))}]", None),
@@ -825,8 +823,7 @@ FILES: list[tuple[bytes | str, dict[str, Any]]] = [
     (VOLTS.replace(b"g\tV", b"g\tg") + rows(SIGNAL, delimiter="\t"), {"unit": "g"}),
     (COMMAS + "\n".join(f"\t{x:.4f}\t{y:.4f}".replace(".", ",") for x, y in SIGNAL),
      {"names": ("DE", "NDE"), "rate": RATE, "unit": "g"}),
-    # collections: how the number of a Case Western file says it was sampled, and a file's name;
-    # tables of the IMS without headings or extension
+    # collections: how the number of a Case Western file says it was sampled, and a file's name
     (matlab(**CWRU), {"file": "a.mat", "likely": 48e3}),
     (matlab(**CWRU), {"file": "12k_Drive_End_1.mat", "likely": 12e3, "reason": "12k",
                       "columns": {"y": 0}, "choice": "name says drive end"}),

@@ -93,22 +93,43 @@ class Arrival:
 
 @dataclass(frozen=True)
 class Read:
-    """A file's table, the values of its form, and the recording or why there is none yet.
+    """A file's table, the form on it, and the signal that they describe.
 
-    `first` is the form as the file alone says; `kept` are answers for the file before that it has
-    besides. `asks` are the questions before there is a recording, `sizes` those before it has a
-    size.
+    Attributes
+    ----------
+    table
+        with the roles that the form gives its columns.
+    first
+        the form as the file alone fills it in.
+    form
+        the form as it is answered.
+    signal
+        None where the form describes none.
+    refused
+        sentences on answers that cannot be, by field.
+    cut
+        a sentence on rows that were left out.
+    kept
+        answers for the file before that the form has besides.
     """
 
     table: Table
     first: dict[str, str]
     form: dict[str, str]
-    cut: str
-    asked: Measured | None
+    signal: Measured | None
     refused: dict[str, str]
-    asks: dict[str, str]
-    sizes: dict[str, str]
+    cut: str = ""
     kept: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def asks(self) -> dict[str, str]:
+        """Questions before the signal can be drawn."""
+        return questions(self.table)
+
+    @property
+    def sizes(self) -> dict[str, str]:
+        """Questions before it has a size."""
+        return size_questions(self.table, self.form)
 
     @property
     def recorded(self) -> datetime:
@@ -176,57 +197,37 @@ def read_file(
 
 def _proposed(table: Table, cut: str, scene: Machine, kept: Mapping[str, str]) -> Read:
     """A table with guesses at what it holds; `cut` says which of its rows were left out."""
-    (_, first), asks = fill(table, {}), questions(table)
+    _, first = fill(table, {})
     kept = kept_answers(first, kept)
     form = {**first, **kept}
-    sizes = size_questions(table, form)
-    answer, refused = _tried(table, form, scene), {}
-    if isinstance(answer, FormError) and set(answer.sentences) <= set(MACHINE_FIELDS):
+    signal, refused = _described(table, form, scene)
+    if refused and set(refused) <= set(MACHINE_FIELDS):
         # the signal is one, whatever the file says of its bearing
-        refused = answer.sentences
-        answer = _tried(table, {**form, "bearing": NOT_KNOWN}, scene)
-    if isinstance(answer, FormError):
-        if not usable(table):
-            raise ValueError(f"{table.name} cannot be used. {answer}")
-        refused |= answer.sentences
-        return Read(table, first, form, cut, None, refused, asks, sizes, kept)
-    return Read(table, first, form, cut, None if asks else answer, refused, asks, sizes, kept)
+        signal, more = _described(table, {**form, "bearing": NOT_KNOWN}, scene)
+        refused = refused | more
+    if signal is None and not usable(table):
+        raise ValueError(f"{table.name} cannot be used. {' '.join(refused.values())}")
+    return Read(table, first, form, signal, refused, cut, kept)
 
 
-@dataclass(frozen=True)
-class AnsweredTable:
-    """Answers as they were read: the recording, or why there is none.
-
-    `table` has the roles as they are given; `form` is as answered, `first` as the file alone says.
-    """
-
-    table: Table
-    form: dict[str, str]
-    first: dict[str, str]
-    signal: Measured | FormError
-
-
-def read_answers(
-    table: Table,
-    changed: Mapping[str, str],
-    scene: Machine,
-) -> AnsweredTable | FormError:
+def read_answers(table: Table, changed: Mapping[str, str], scene: Machine) -> Read:
+    """A table with answers of a person in place of guesses."""
+    _, first = fill(table, {})
     try:
-        told, form = fill(table, changed)
-    except FormError as refused:
-        return refused
-    return AnsweredTable(told, form, fill(told, {})[1], _tried(told, form, scene))
+        table, form = fill(table, changed)
+    except FormError as error:
+        return Read(table, first, {**first, **changed}, None, error.sentences)
+    return Read(table, fill(table, {})[1], form, *_described(table, form, scene))
 
 
-def _tried(
-    table: Table,
-    form: Mapping[str, str],
-    scene: Machine,
-) -> Measured | FormError:
+def _described(
+    table: Table, form: Mapping[str, str], scene: Machine
+) -> tuple[Measured | None, dict[str, str]]:
+    """The signal that a form describes, or None and the sentences why it describes none."""
     try:
-        return read_form(table, form, scene)
-    except FormError as refused:
-        return refused
+        return read_form(table, form, scene), {}
+    except FormError as error:
+        return None, error.sentences
 
 
 def _shortened(table: Table) -> tuple[Table, str]:

@@ -67,8 +67,6 @@ class Measured:
         the file, where it comes from one.
     true_part
         damaged part in a simulated signal, or "none"; "" for a measured one.
-    true_speed
-        [rad/s] of the shaft in a simulated signal, else None.
     true_load, true_edge
         radial load [N] that presses balls into the defect, and model of its edges, in a simulated
         signal with one defect; else None.
@@ -86,7 +84,6 @@ class Measured:
     true_extent: float | None = None
     origin: Origin | None = None
     true_part: str = ""
-    true_speed: float | None = None
     true_load: float | None = None
     true_edge: str | None = None
     true_scene: Scene | None = None

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from types import MappingProxyType
+from typing import Any
 
 from bearing_explorer.diagnosis.findings import Findings
 from bearing_explorer.diagnosis.form import (
@@ -17,7 +18,6 @@ from bearing_explorer.diagnosis.form import (
     load_of,
     machine_of,
     proposed_unit,
-    questions,
     reasons,
     recordings_of,
     said,
@@ -36,7 +36,7 @@ from bearing_explorer.diagnosis.machine import (
     scene_machine,
 )
 from bearing_explorer.diagnosis.measurement_state import AboutMeasurement
-from bearing_explorer.diagnosis.reading import AnsweredTable, Arrival, Read, read_answers
+from bearing_explorer.diagnosis.reading import Arrival, Read, read_answers
 from bearing_explorer.diagnosis.series import FoundTrend, Series
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.signal_words import about_size, line_and_remarks, summary
@@ -195,8 +195,8 @@ class SignalForm(Findings):
         self._kept, self._answered = read.kept, frozenset()
         self._taken = read.form
         self.measured = None
-        if read.asked is not None:
-            self.measured = self._measured(read.asked)
+        if read.signal is not None and not read.asks:
+            self.measured = self._measured(read.signal)
             words, bad = self._summary(about_size(read.sizes)), False
         else:
             wanted = {**read.asks, **read.refused, **read.sizes}
@@ -204,30 +204,42 @@ class SignalForm(Findings):
                 wanted = {"columns": wanted["columns"]}
             words = f"{table.name} is read. {_WAITS} {' '.join(wanted.values())}"
             bad = bool(read.refused) and not read.asks
+        kept_from = (self.state.kept_from or before) if read.kept else ""
         self._tell(
+            **self._news(read, list(read.asks)) | {"kept_from": kept_from},
             words=words,
             bad=bad,
             busy=False,
             columns=columns_of(table),
-            values=read.form,
-            refused={name: text for name, text in read.refused.items() if name not in read.asks},
-            reasons={**reasons(table), **read.asks, **read.sizes},
-            open=[*read.asks, *read.sizes],
-            voltage=is_voltage(table, read.form),
-            proposed=proposed_unit(table),
             said=said(table),
             load=load_of(table),
             scaled=not table.full_scale_known,
             bearings=bearings_of(table),
-            recordings=recordings_of(table),
-            speeds=speeds_of(table),
-            settling=False,
-            kept_from=(self.state.kept_from or before) if read.kept else "",
             arrival=self.state.arrival + 1,
             **self._in_short(read.form),
         )
         self._follow()
         self._draw()
+
+    def _news(self, read: Read, left: Sequence[str]) -> dict[str, Any]:
+        """The state of the form after answers; questions on the fields `left` are open."""
+        table, form = read.table, read.form
+        origins = {
+            name: words if says_the_same(name, form[name], self._first[name]) else AS_GIVEN
+            for name, words in reasons(table).items()
+        }
+        return {
+            "values": form,
+            "refused": {name: words for name, words in read.refused.items() if name not in left},
+            "reasons": origins | read.asks | read.sizes,
+            "open": [*left, *read.sizes],
+            "proposed": proposed_unit(table),
+            "voltage": is_voltage(table, form),
+            "recordings": self.state.recordings if form["part"] else recordings_of(table),
+            "speeds": speeds_of(table),
+            "settling": False,
+            "kept_from": self.state.kept_from if self._kept else "",
+        }
 
     def take_form(self, form: Mapping[str, str], sure: bool = False) -> None:
         """An answer has changed, or a person is `sure` of the guesses.
@@ -256,56 +268,34 @@ class SignalForm(Findings):
             work.show(read_answers(as_read, changed, scene))
             return ""
 
-        self._read(read, lambda answers: self._take_answers(texts, answers))
+        self._read(read, self._take_answers)
 
-    def _take_answers(self, texts: dict[str, str], answers: AnsweredTable | FormError) -> None:
-        before, table = self.measured, self._table
-        if table is None:
+    def _take_answers(self, read: Read) -> None:
+        before = self.measured
+        if self._table is None:
             return
-        answer = answers if isinstance(answers, FormError) else answers.signal
-        if isinstance(answers, AnsweredTable):
+        if "columns" not in read.refused:
             # what follows from the roles of the columns follows from those of now
-            texts, table = answers.form, answers.table
-            self._table, self._first = table, {**answers.first, "columns": self._first["columns"]}
-        asks, sizes = questions(table), size_questions(table, texts)
-        left = [name for name in asks if self._is_left(name, texts[name])]
-        refused = answer.sentences if isinstance(answer, FormError) else {}
-        news = {
-            "values": texts,
-            "refused": {name: words for name, words in refused.items() if name not in left},
-            "reasons": {
-                name: words if says_the_same(name, texts[name], self._first[name]) else AS_GIVEN
-                for name, words in reasons(table).items()
-            }
-            | asks
-            | sizes,
-            "open": [*left, *sizes],
-            "proposed": proposed_unit(table),
-            "voltage": is_voltage(table, texts),
-            "recordings": self.state.recordings if texts["part"] else recordings_of(table),
-            "speeds": speeds_of(table),
-            "settling": False,
-            "kept_from": self.state.kept_from if self._kept else "",
-        }
-        if isinstance(answer, FormError):
+            self._table, self._first = read.table, {**read.first, "columns": self._first["columns"]}
+        left = [name for name in read.asks if self._is_left(name, read.form[name])]
+        news = self._news(read, left)
+        if read.signal is None:
             stays = " The figures still show the signal as it was before." if before else ""
-            self._tell(words=f"{answer}{stays}", bad=True, **news)
+            self._tell(words=f"{' '.join(read.refused.values())}{stays}", bad=True, **news)
             return
         if left:
-            words = " ".join(asks[name] for name in left)
+            words = " ".join(read.asks[name] for name in left)
             self._tell(words=f"{_WAITS} {words}", bad=False, **news)
             return
-        same = all(texts[name] == self._taken[name] for name in SIGNAL_FIELDS)
-        self._taken = texts
-        signal = self._measured(answer)
+        same = all(read.form[name] == self._taken[name] for name in SIGNAL_FIELDS)
+        self._taken = read.form
+        signal = self._measured(read.signal)
         if before is not None and same and before.machine.ratio == signal.machine.ratio:
             # what was computed of the signal stays
             signal = replace(before, machine=signal.machine)
         self.measured = signal
-        self._tell(
-            words=self._summary(about_size(sizes)), bad=False, busy=False, **news,
-            **self._in_short(texts),
-        )  # fmt: skip
+        words = self._summary(about_size(read.sizes))
+        self._tell(words=words, bad=False, busy=False, **news, **self._in_short(read.form))
         self._follow()  # the scene may have changed while the form was read
         self._draw()
 

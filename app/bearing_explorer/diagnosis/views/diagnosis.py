@@ -20,7 +20,7 @@ from bearing_explorer.diagnosis.views import part_words
 from bearing_explorer.diagnosis.views.measured_view import MeasuredView
 from bearing_explorer.diagnosis.views.part_lines import COLORS, PartLines
 from bearing_explorer.diagnosis.widgets.machine_form import MachineForm
-from bearing_explorer.diagnosis.widgets.part_panel import PartPanel, evidence_html
+from bearing_explorer.diagnosis.widgets.part_panel import PartPanel
 from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.serve.packed_source import PackedSource
@@ -175,9 +175,7 @@ class PartDiagnosis(MeasuredView):
             measurement.diagnoses.want(question)
         if diagnosis is not None:
             self.lines.show_orders(diagnosis.shaft_speed is not None)
-            self.evidence.object = evidence_html(
-                part_words.evidence_rows(diagnosis, len(measured.directions) > 1)
-            )
+            self.evidence.object = part_words.evidence_html(diagnosis, len(measured.directions) > 1)
 
     def _with_length(self, state: dict[str, Any], diagnosis: Diagnosis | None) -> dict[str, Any]:
         """The length of the spall in an answer, once it is known; of a race alone."""

@@ -14,7 +14,12 @@ from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.views import frequency_lines
 from bearing_explorer.diagnosis.views.frequency_cursor import FrequencyCursor
-from bearing_explorer.diagnosis.views.frequency_lines import FAMILIES, fundamentals, row_frequencies
+from bearing_explorer.diagnosis.views.frequency_lines import (
+    FAMILIES,
+    fundamentals,
+    row_frequencies,
+    thinned_to_peaks,
+)
 from bearing_explorer.diagnosis.views.measured_view import MEASURED, MeasuredView, shown_unit
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.layers import Layer, add_all, curve, sources_of
@@ -35,8 +40,6 @@ AMPLITUDE = style.AxisQuantity("Amplitude", "A", "")
 ORDER = style.AxisQuantity("Order, turns of the shaft", "", "")
 DEPTH_OF_VIEW = 80.0  # [dB] below the highest line
 RESOLUTIONS = ("32", "8", "2")
-MOST_LINES = 3000
-"""Largest number of lines of a spectrum that are drawn."""
 HANN_WIDTH = 1.5
 """Noise bandwidth of Hann's window, in lines."""
 
@@ -208,10 +211,6 @@ def curves(spectrum: Spectrum, top: float, factor: float) -> dict[str, NDArray[n
     """Amplitudes up to `top` [Hz] in both scales; a very fine spectrum is thinned to its peaks."""
     kept = spectrum.frequency <= top
     frequency, amplitude = spectrum.frequency[kept], factor * amplitudes(spectrum)[kept]
-    size = math.ceil(frequency.size / MOST_LINES)
-    if size > 1:
-        n = frequency.size // size * size
-        highest = amplitude[:n].reshape(-1, size).argmax(axis=1) + np.arange(0, n, size)
-        frequency, amplitude = frequency[highest], amplitude[highest]
+    frequency, amplitude = thinned_to_peaks(frequency, amplitude)
     level = 20.0 * np.log10(np.maximum(amplitude, 10.0 ** (LEVEL_FLOOR / 20.0)))
     return {"frequency": frequency, "dB": level, "linear": amplitude}

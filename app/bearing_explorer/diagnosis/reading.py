@@ -7,17 +7,11 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from datetime import datetime
 from types import MappingProxyType
 
-from bearing_explorer.diagnosis.form import (
-    fill,
-    questions,
-    read_form,
-    size_questions,
-    usable,
-)
+from bearing_explorer.diagnosis.form import fill, questions, read_form, size_questions, usable
 from bearing_explorer.diagnosis.machine import (
     FIELDS as MACHINE_FIELDS,
     NOT_KNOWN,
@@ -25,7 +19,7 @@ from bearing_explorer.diagnosis.machine import (
     Machine,
     kept_answers,
 )
-from bearing_explorer.diagnosis.series import MOST_FILES, Series
+from bearing_explorer.diagnosis.series import MOST_FILES, MOST_NUMBERS, Series, cut
 from bearing_explorer.diagnosis.signal import Measured
 from bearingcore import Table, read_table
 from bearingcore.common import thousands
@@ -33,9 +27,6 @@ from bearingcore.errors import FieldError
 from bearingcore.measured.files import files_inside
 
 log = logging.getLogger(__name__)
-
-MOST_NUMBERS = 4_000_000
-"""Numbers of a table that a session keeps; later rows are left out."""
 
 MOST_NAMED = 3
 """Files left out that are named."""
@@ -183,7 +174,11 @@ def read_file(
     `kept`: answers on the machine for the file before, used where this one says nothing.
     """
     try:
-        table, cut = _shortened(read_table(name, content, give_up))
+        whole = read_table(name, content, give_up)
+        table, words = cut(whole, MOST_NUMBERS), ""
+        if table is not whole:
+            count, of = (thousands(len(rows.columns)) for rows in (table, whole))
+            words = f"Only the first {count} of {of} rows are used."
     except FieldError as error:
         about = error.field == "file" and error.value == name
         why = f"needed is {error.allowed_text}" if about else str(error)
@@ -192,11 +187,11 @@ def read_file(
         raise ValueError(f"{name} cannot be used: {error}.") from None
     except MemoryError:
         raise ValueError(f"{name} is too large for this server.") from None
-    return _proposed(table, cut, scene, kept)
+    return _proposed(table, words, scene, kept)
 
 
-def _proposed(table: Table, cut: str, scene: Machine, kept: Mapping[str, str]) -> Read:
-    """A table with guesses at what it holds; `cut` says which of its rows were left out."""
+def _proposed(table: Table, rows_cut: str, scene: Machine, kept: Mapping[str, str]) -> Read:
+    """A table with guesses at what it holds; `rows_cut` says which rows were left out."""
     _, first = fill(table, {})
     kept = kept_answers(first, kept)
     form = {**first, **kept}
@@ -207,7 +202,7 @@ def _proposed(table: Table, cut: str, scene: Machine, kept: Mapping[str, str]) -
         refused = refused | more
     if signal is None and not usable(table):
         raise ValueError(f"{table.name} cannot be used. {' '.join(refused.values())}")
-    return Read(table, first, form, signal, refused, cut, kept)
+    return Read(table, first, form, signal, refused, rows_cut, kept)
 
 
 def read_answers(table: Table, changed: Mapping[str, str], scene: Machine) -> Read:
@@ -228,13 +223,3 @@ def _described(
         return read_form(table, form, scene), {}
     except FormError as error:
         return None, error.sentences
-
-
-def _shortened(table: Table) -> tuple[Table, str]:
-    """The table with no more numbers than a session may keep, and a sentence if that is less."""
-    rows, columns = table.columns.shape
-    most = MOST_NUMBERS // columns
-    if rows <= most:
-        return table, ""
-    kept = replace(table, columns=table.columns[:most].copy())
-    return kept, f"Only the first {thousands(most)} of {thousands(rows)} rows are used."

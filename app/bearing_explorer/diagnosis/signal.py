@@ -6,8 +6,9 @@ All drawings of a measurement take their numbers here, as those of a scene do in
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +26,11 @@ ENVELOPE_TOP = 1000.0
 
 ENVELOPE_LINES = 1600
 """Largest number of frequencies of an envelope spectrum that are drawn."""
+
+MOST_KEPT = 12
+"""Spectra, envelopes and kurtograms of a signal that are kept."""
+
+Kept = TypeVar("Kept")
 
 
 @dataclass(frozen=True)
@@ -89,11 +95,7 @@ class Measured:
     true_scene: Scene | None = None
     noiseless: bool = False
     in_si: bool = True
-    _spectra: dict[float, Spectrum] = field(default_factory=dict, repr=False)
-    _envelopes: dict[tuple[int, float, float, float], Spectrum] = field(
-        default_factory=dict, repr=False
-    )
-    _kurtograms: dict[tuple[int, float | None], Kurtogram] = field(default_factory=dict, repr=False)
+    _known: dict[tuple[Any, ...], Any] = field(default_factory=dict, repr=False)
 
     @property
     def shaft_speed(self) -> float | None:
@@ -121,23 +123,21 @@ class Measured:
 
     def spectrum(self, direction: str, resolution: float) -> Spectrum:
         """Spectrum along a direction."""
-        if resolution not in self._spectra:
-            recording = self.recording
-            signal = recording.acceleration - self._mean
-            lines = core.spectrum(signal, recording.sample_rate, resolution)
-            _put(self._spectra, resolution, lines)
-        frequency, density = self._spectra[resolution]
+        recording = self.recording
+
+        def compute() -> Spectrum:
+            signal = recording.acceleration - recording.acceleration.mean(axis=0)
+            return core.spectrum(signal, recording.sample_rate, resolution)
+
+        frequency, density = self._once(("spectrum", resolution), compute)
         return core.Spectrum(frequency, density[:, self.directions.index(direction)])
 
     def kurtogram(self, direction: str) -> Kurtogram:
         """Kurtogram of the signal along a direction."""
-        key = self.directions.index(direction), self.shaft_speed
-        if key not in self._kurtograms:
-            recording = self.recording
-            narrowest = NARROWEST * (self.shaft_speed or 0.0) / (2.0 * math.pi)
-            signal = self.column(direction)
-            self._kurtograms[key] = core.kurtogram(signal, recording.sample_rate, narrowest)
-        return self._kurtograms[key]
+        narrowest = NARROWEST * (self.shaft_speed or 0.0) / (2.0 * math.pi)
+        signal, rate = self.column(direction), self.recording.sample_rate
+        key = ("kurtogram", direction, narrowest)
+        return self._once(key, lambda: core.kurtogram(signal, rate, narrowest))
 
     def envelope_resolution(self, top: float) -> float:
         """Resolution [Hz] of an envelope spectrum that is drawn up to `top` [Hz]."""
@@ -145,15 +145,20 @@ class Measured:
 
     def envelope(self, direction: str, band: tuple[float, float], top: float) -> Spectrum:
         """Envelope spectrum of a band [Hz] along a direction, for a drawing up to `top` [Hz]."""
-        column = self.directions.index(direction)
-        key = (column, *band, top)
-        if key not in self._envelopes:
-            recording = self.recording
-            resolution = self.envelope_resolution(top)
-            signal = recording.acceleration[:, column] - self._mean[column]
-            lines = core.envelope_spectrum(signal, recording.sample_rate, band, resolution)
-            _put(self._envelopes, key, lines)
-        return self._envelopes[key]
+        signal, resolution = self.column(direction), self.envelope_resolution(top)
+        rate = self.recording.sample_rate
+        return self._once(
+            ("envelope", direction, *band, top),
+            lambda: core.envelope_spectrum(signal - signal.mean(), rate, band, resolution),
+        )
+
+    def _once(self, key: tuple[Any, ...], compute: Callable[[], Kept]) -> Kept:
+        """Compute a result that is not kept yet; of more than `MOST_KEPT` the oldest goes."""
+        if key not in self._known:
+            while len(self._known) >= MOST_KEPT:
+                self._known.pop(next(iter(self._known)))
+            self._known[key] = compute()
+        return self._known[key]
 
     def column(self, direction: str) -> NDArray[np.float64]:
         """The signal (n,) along a direction."""
@@ -183,10 +188,6 @@ class Measured:
         loudest = int(self.indicators.velocity_rms.argmax())
         return float(shaft_share(self.recording, self.shaft_speed)[loudest])
 
-    @cached_property
-    def _mean(self) -> NDArray[np.float64]:
-        return np.asarray(self.recording.acceleration.mean(axis=0))
-
     def scene(self, scene: Scene) -> Scene:
         """Return a scene with the bearing and the speed of the measurement, as far as known.
 
@@ -199,10 +200,3 @@ class Measured:
             return scene.replace(**changes)
         except ValueError:
             return scene.replace(**changes, defect=())
-
-
-def _put(known: dict, key: object, value: object) -> None:
-    """Keep a result; of more than six the oldest is dropped."""
-    if len(known) >= 6:
-        known.pop(next(iter(known)))
-    known[key] = value

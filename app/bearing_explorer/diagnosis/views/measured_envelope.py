@@ -10,11 +10,7 @@ import numpy as np
 
 from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.signal import ENVELOPE_TOP, Measured
-from bearing_explorer.diagnosis.views.frequency_lines import (
-    FAMILIES,
-    fundamentals,
-    row_frequencies,
-)
+from bearing_explorer.diagnosis.views.frequency_lines import FAMILIES, fundamentals, row_frequencies
 from bearing_explorer.diagnosis.views.frequency_view import (
     ALONG,
     AXIS,

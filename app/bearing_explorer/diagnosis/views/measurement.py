@@ -14,11 +14,7 @@ from bearing_explorer.diagnosis.machine import Turning
 from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.session import Measurement
 from bearing_explorer.diagnosis.signal import Measured
-from bearing_explorer.diagnosis.views.measured_view import (
-    MeasuredView,
-    column_name,
-    shown_unit,
-)
+from bearing_explorer.diagnosis.views.measured_view import MeasuredView, column_name, shown_unit
 from bearing_explorer.diagnosis.widgets.measurement_form import MeasurementForm
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.layers import curve, draw, least_and_greatest

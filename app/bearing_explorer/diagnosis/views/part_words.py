@@ -81,19 +81,13 @@ def counted(question: Question) -> str:
     return COUNTED.format(bearing.kind.elements) if "n_balls" in bearing.estimated else ""
 
 
-def extent(measured: MeasuredExtent) -> str:
-    """The length of a spall in a few words."""
-    if measured.measured:
-        return f"{measured.size} long, or that and whole ball spacings"
-    return measured.size or LENGTH_HIDDEN
-
-
-def length(measured: MeasuredExtent, sizing: Sizing | None) -> str:
+def length(measured: MeasuredExtent, sizing: Sizing | None = None) -> str:
     """The length of a spall in a few words, by its simulation where that is conclusive."""
     if sizing is not None and sizing.conclusive:
         return f"{size_in_words(sizing)} long, by the frequencies at which the machine rings"
-    known = ", interval of 95 %" if measured.measured else ""
-    return f"{extent(measured)}{known}"
+    if measured.measured:
+        return f"{measured.size} long, or that and whole ball spacings, interval of 95 %"
+    return measured.size or LENGTH_HIDDEN
 
 
 def swing(depth: float) -> str:

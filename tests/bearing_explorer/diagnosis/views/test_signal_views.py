@@ -17,7 +17,7 @@ from bearing_explorer.diagnosis.views.frequency_lines import (
     named,
     orders,
 )
-from bearing_explorer.diagnosis.views.frequency_view import Shown, curves
+from bearing_explorer.diagnosis.views.frequency_view import Shown, shown_curve
 from bearing_explorer.diagnosis.views.measured_envelope import MeasuredEnvelope, highest_line
 from bearing_explorer.diagnosis.views.measured_spectrum import MeasuredSpectrum
 from bearing_explorer.diagnosis.views.measurement import MeasuredSignal
@@ -59,10 +59,10 @@ def test_a_peak_of_a_fine_spectrum_is_not_lost():
     frequency = np.arange(10 * MOST_LINES) * 0.01
     density = np.ones(frequency.size)
     density[12_345] = 100.0
-    drawn = curves(Spectrum(frequency, density), 1e9, 2.0)
+    drawn = shown_curve(Spectrum(frequency, density), 1e9, 2.0, "linear")
     assert drawn["frequency"].size <= MOST_LINES
-    assert drawn["linear"].max() == pytest.approx(20.0 * math.sqrt(3.0 * 0.01))
-    assert drawn["frequency"][drawn["linear"].argmax()] == frequency[12_345]
+    assert drawn["amplitude"].max() == pytest.approx(20.0 * math.sqrt(3.0 * 0.01))
+    assert drawn["frequency"][drawn["amplitude"].argmax()] == frequency[12_345]
 
 
 def test_the_amplitude_of_a_tone_is_read_off():
@@ -74,12 +74,13 @@ def test_the_amplitude_of_a_tone_is_read_off():
     view = view_of(MeasuredSpectrum, Measured(recording, at(RIG), origin=origin))
     sources, ranges = view.all_data(MODEL)
     drawn = sources["measured_spectrum_measured"]
-    assert drawn["linear"].max() == pytest.approx(0.5, rel=1e-3)
-    assert drawn["dB"].max() == pytest.approx(20.0 * math.log10(0.5), abs=0.01)
+    assert drawn["amplitude"].max() == pytest.approx(20.0 * math.log10(0.5), abs=0.01)
     assert ranges["measured_spectrum_frequency"] == (0.0, 12_800.0)
     assert "at 3008 Hz (0.5 g)" in view.sentence(MODEL)
     view.look_changed("axis", "orders")
+    view.look_changed("scale", "linear")
     sources, ranges = view.all_data(MODEL)
+    assert sources["measured_spectrum_measured"]["amplitude"].max() == pytest.approx(0.5, rel=1e-3)
     assert ranges["measured_spectrum_frequency"][1] == pytest.approx(12_800.0 / 7.0)
     assert sources["measured_spectrum_turning"]["shaft"] == pytest.approx([1.0])
 

@@ -55,7 +55,7 @@ class TrendPoint:
     name
         of the recording.
     shaft_speed
-        [rad/s]; NaN if it is neither known nor found.
+        [rad/s]; NaN if it is neither given nor shown by the signal.
     rms, peak
         [m/s²]
     crest_factor, kurtosis

@@ -146,20 +146,20 @@ def read_files(
         names = files_inside(name, content, give_up)[:MOST_FILES]
     except ValueError:
         names = [name]  # which says why
-    for one in names:
+    for file in names:
         if give_up():
-            why = f"{one} was not read: there is a minute for all files of an upload."
-            yield one, why, len(names)
+            why = f"{file} was not read: there is a minute for all files of an upload."
+            yield file, why, len(names)
             continue
         read: Read | str
         try:
-            read = read_file(one, content, scene, kept, give_up)
+            read = read_file(file, content, scene, kept, give_up)
         except ValueError as error:
             read = str(error)
         except Exception:
             log.exception("a file could not be read")
-            read = f"{one} could not be read."
-        yield one, read, len(names)
+            read = f"{file} could not be read."
+        yield file, read, len(names)
 
 
 def read_file(

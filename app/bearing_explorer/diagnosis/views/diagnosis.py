@@ -72,14 +72,14 @@ def on_records() -> str:
 
 
 class PartDiagnosis(MeasuredView):
-    """The answer of `bearingcore.diagnose`, found in the background, with its evidence."""
+    """The answer of `bearingcore.diagnose`, computed in the background, with its evidence."""
 
     name = "diagnosis"
     title = "2  Which part is damaged?"
     about = (
         "Envelope spectrum of the signal. Each pass over a damaged spot makes the machine ring; "
         "the envelope shows how often. Strong: lines of the part that stands out. Faint: of the "
-        "other parts. The strong ones were found within the slip, the faint ones follow from the "
+        "other parts. The strong ones are where they were measured, the faint ones follow from the "
         f"geometry. {on_records()}"
     )
     computes = True

@@ -62,7 +62,7 @@ def layers() -> list[Layer]:
 
 
 class SpallExtent(LookView, MeasuredView):
-    """The answer of `bearingcore.measure_extent`, found once the damaged race is named."""
+    """The answer of `bearingcore.measure_extent`, measured once the damaged race is named."""
 
     name = "extent"
     title = "3  How long"
@@ -160,7 +160,7 @@ class SpallExtent(LookView, MeasuredView):
         start = extent.entry if math.isfinite(extent.entry) else int(best.argmax()) / len(best)
         first = round((start - BEFORE) * len(best)) % len(best)
         angle = spacing * (np.arange(len(best)) / len(best) - BEFORE)
-        drawn = [np.roll(one.envelope, -first) for one in extent.passes[:BANDS]]
+        drawn = [np.roll(mean.envelope, -first) for mean in extent.passes[:BANDS]]
         sources: Sources = {
             f"extent_pass_{number}": {"angle": angle, "envelope": envelope}
             for number, envelope in enumerate(drawn)
@@ -212,7 +212,7 @@ class SpallExtent(LookView, MeasuredView):
         return answer.sentence + known + grounds(answer)
 
     def _simulated_size(self) -> str:
-        """The length that simulations have found, in words; empty without one."""
+        """The length by simulation, in words; empty without one."""
         sizing = self.measurement.sizing()
         return "" if sizing is None else size_in_words(sizing)
 

@@ -90,7 +90,7 @@ class MeasuredEnvelope(FrequencyView):
         return Shown(direction, top, spectrum, measured.envelope_resolution(top), band)
 
     def band(self, measured: Measured, direction: str) -> Demodulation:
-        """The demodulation band [Hz] as chosen; ends that are not given are found."""
+        """The demodulation band [Hz] as chosen; an end that is not given follows."""
         low, high = (float(self.look[end] or math.nan) for end in ("low", "high"))
         if measured.recording.name != self._band_of:
             low = high = math.nan

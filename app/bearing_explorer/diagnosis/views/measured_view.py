@@ -116,7 +116,7 @@ class MeasuredView(View[Model]):
 
     @property
     def shaft_speed(self) -> float | None:
-        """[rad/s] that is known, or was found in the signal."""
+        """[rad/s] that is given, or that the diagnosis shows."""
         return self.measurement.shaft_speed
 
     @property
@@ -136,7 +136,7 @@ class MeasuredView(View[Model]):
         """The direction to show: the one chosen, or that of the diagnosis, or y."""
         diagnosed = self.diagnosed()
         wanted = (chosen, diagnosed.direction if diagnosed else "", "y", *measured.directions)
-        return next(one for one in wanted if one in measured.directions)
+        return next(direction for direction in wanted if direction in measured.directions)
 
     def demodulation(self, measured: Measured, direction: str) -> Demodulation:
         """The one band for envelopes: that of the diagnosis, or the kurtogram's best."""

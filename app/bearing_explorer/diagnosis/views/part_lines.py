@@ -1,6 +1,6 @@
 """The spectrum of an envelope with the lines of each part of the bearing in it.
 
-The lines of the part that stands out most are drawn strong where they were found, with its
+The lines of the part that stands out most are drawn strong where they were measured, with its
 sidebands and a mark on each harmonic; those of the other parts are drawn faint, where geometry has
 them. Below are frequencies, above the same in turns of the shaft (orders).
 """
@@ -50,13 +50,13 @@ def leading(diagnosis: Diagnosis) -> PartEvidence | None:
 
 def shaft_frequency(diagnosis: Diagnosis) -> float:
     """Turns of the shaft a second [Hz] on which the lines rest."""
-    one = diagnosis.evidence[0]
-    return one.nominal_frequency / one.nominal_order
+    part = diagnosis.evidence[0]
+    return part.nominal_frequency / part.nominal_order
 
 
-def fundamental(diagnosis: Diagnosis, one: PartEvidence) -> float:
+def fundamental(diagnosis: Diagnosis, part: PartEvidence) -> float:
     """The frequency [Hz] at which the first line of a part is drawn."""
-    return one.frequency if one is leading(diagnosis) else one.nominal_frequency
+    return part.frequency if part is leading(diagnosis) else part.nominal_frequency
 
 
 def layers() -> list[Layer]:
@@ -120,22 +120,22 @@ class PartLines:
         sources: Sources = {"diagnosis_spectrum": drawn}
         lead = leading(diagnosis)
         name_row = ROW_PIXELS / (FRAME + self.plot.height - HEIGHT)
-        for row, one in enumerate(diagnosis.evidence):
-            first = fundamental(diagnosis, one)
-            alpha = EVEN if lead is None else STRONG if one is lead else FAINT
-            multiples = np.arange(1.0, len(one.harmonics) + 1.0)
+        for row, part in enumerate(diagnosis.evidence):
+            first = fundamental(diagnosis, part)
+            alpha = EVEN if lead is None else STRONG if part is lead else FAINT
+            multiples = np.arange(1.0, len(part.harmonics) + 1.0)
             size = multiples.size
             labels = named(multiples, first, high)
-            sources[source_of(one.part, "lines")] = {
+            sources[source_of(part.part, "lines")] = {
                 "frequency": multiples * first,
                 "alpha": np.full(size, alpha),
-                "width": np.full(size, 2.2 if one is lead else 1.2),
+                "width": np.full(size, 2.2 if part is lead else 1.2),
             }
-            sources[source_of(one.part, "lines_names")] = {
+            sources[source_of(part.part, "lines_names")] = {
                 "frequency": labels * first,
                 "order": labels,
                 "row": np.full(labels.size, 1.0 - name_row * (row + 0.8)),
-                "alpha": np.full(labels.size, 1.0 if one is lead or lead is None else 0.75),
+                "alpha": np.full(labels.size, 1.0 if part is lead or lead is None else 0.75),
             }
         if lead is not None:
             sources |= self._of_lead(lead)

@@ -58,12 +58,12 @@ def headline(answer: Diagnosis) -> str:
 def plain(answer: Diagnosis, question: Question) -> str:
     """The finding in a sentence or three."""
     if answer.names_a_part:
-        one = answer.of(answer.fault)
-        modulated = f", modulated once per {one.sideband_source} turn" if one.modulated else ""
+        part = answer.of(answer.fault)
+        modulated = f", modulated once per {part.sideband_source} turn" if part.modulated else ""
         doubt = perhaps_a_ball() if answer.perhaps_a_ball else ""
         return (
-            f"Impacts at {style.number(one.frequency, 4)} Hz{modulated}: {_FREQUENCY[one.part]}, "
-            f"by the geometry {style.number(one.nominal_frequency, 4)} Hz.{doubt}"
+            f"Impacts at {style.number(part.frequency, 4)} Hz{modulated}: {_FREQUENCY[part.part]}, "
+            f"by the geometry {style.number(part.nominal_frequency, 4)} Hz.{doubt}"
         )
     if answer.fault == NONE_SEEN:
         return (
@@ -146,11 +146,11 @@ def _rpm(speed: float) -> str:
 
 def speed_source(answer: Diagnosis, machine: Machine) -> str:
     """Source of the shaft speed of an answer, in words."""
-    own = machine.source_of("speed")
+    said = machine.source_of("speed")
     for given in ("given by the recording", "given"):
         if answer.speed_source.startswith(given):
-            return own + answer.speed_source.removeprefix(given)
-    return f"{own}; {answer.speed_source}" if own else f"not given; {answer.speed_source}"
+            return said + answer.speed_source.removeprefix(given)
+    return f"{said}; {answer.speed_source}" if said else f"not given; {answer.speed_source}"
 
 
 def sentence(answer: Diagnosis, question: Question) -> str:

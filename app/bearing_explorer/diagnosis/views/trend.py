@@ -358,12 +358,12 @@ def python_lines(newest: FoundTrend, model: Model) -> str:
     speed = "None" if machine.range is None else code_of(machine.range)
     read = newest.recordings
     for recording, origin in zip(read.recordings, read.origins, strict=True):
-        own = "None" if recording.shaft_speed is None else short(recording.shaft_speed)
+        turning = "None" if recording.shaft_speed is None else short(recording.shaft_speed)
         lines += [
             *recording_lines(
                 dataclasses.replace(newest.measured, recording=recording, origin=origin)
             ),
-            f"recordings.append(replace(recording, shaft_speed={own}))",
+            f"recordings.append(replace(recording, shaft_speed={turning}))",
         ]
     return "\n".join([
         "from dataclasses import replace",

@@ -80,11 +80,9 @@ def brought() -> Measurement:
     return made
 
 
-def computed(view: TrendOfFiles, stopped: bool = False) -> str:
+def computed(view: TrendOfFiles) -> str:
     """The job of the view here and now: its sentence."""
     work = Work()
-    if stopped:
-        work.stop()
     words = view.prepare({}, MODEL)(work)
     (view.job_result,) = work.taken()
     return words

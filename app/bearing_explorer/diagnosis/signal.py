@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,8 +29,6 @@ ENVELOPE_LINES = 1600
 
 MOST_KEPT = 12
 """Spectra, envelopes and kurtograms of a signal that are kept."""
-
-Kept = TypeVar("Kept")
 
 
 @dataclass(frozen=True)
@@ -129,7 +127,7 @@ class Measured:
             signal = recording.acceleration - recording.acceleration.mean(axis=0)
             return core.spectrum(signal, recording.sample_rate, resolution)
 
-        frequency, density = self._once(("spectrum", resolution), compute)
+        frequency, density = self.once(("spectrum", resolution), compute)
         return core.Spectrum(frequency, density[:, self.directions.index(direction)])
 
     def kurtogram(self, direction: str) -> Kurtogram:
@@ -137,7 +135,7 @@ class Measured:
         narrowest = NARROWEST * (self.shaft_speed or 0.0) / (2.0 * math.pi)
         signal, rate = self.column(direction), self.recording.sample_rate
         key = ("kurtogram", direction, narrowest)
-        return self._once(key, lambda: core.kurtogram(signal, rate, narrowest))
+        return self.once(key, lambda: core.kurtogram(signal, rate, narrowest))
 
     def envelope_resolution(self, top: float) -> float:
         """Resolution [Hz] of an envelope spectrum that is drawn up to `top` [Hz]."""
@@ -147,18 +145,20 @@ class Measured:
         """Envelope spectrum of a band [Hz] along a direction, for a drawing up to `top` [Hz]."""
         signal, resolution = self.column(direction), self.envelope_resolution(top)
         rate = self.recording.sample_rate
-        return self._once(
+        return self.once(
             ("envelope", direction, *band, top),
             lambda: core.envelope_spectrum(signal - signal.mean(), rate, band, resolution),
         )
 
-    def _once(self, key: tuple[Any, ...], compute: Callable[[], Kept]) -> Kept:
+    def once(self, key: tuple[Any, ...], compute: Callable[[], Any]) -> Any:
         """Compute a result that is not kept yet; of more than `MOST_KEPT` the oldest goes."""
-        if key not in self._known:
+        result = self._known.get(key)
+        if result is None:
+            result = compute()
             while len(self._known) >= MOST_KEPT:
-                self._known.pop(next(iter(self._known)))
-            self._known[key] = compute()
-        return self._known[key]
+                self._known.pop(next(iter(self._known)), None)
+            self._known[key] = result
+        return result
 
     def column(self, direction: str) -> NDArray[np.float64]:
         """The signal (n,) along a direction."""

@@ -167,9 +167,7 @@ def drawn(measured: Measured, first: int, last: int) -> dict[str, NDArray[np.flo
     recording = measured.recording
     rows, values = least_and_greatest(recording.acceleration[first:last], DRAWN_PARTS)
     missing = np.full(len(rows), np.nan)
-    curves = dict(
-        zip(recording.directions, values.T / shown_unit(measured)[1], strict=True)
-    )
+    curves = dict(zip(recording.directions, values.T / shown_unit(measured)[1], strict=True))
     time = (first + rows) / recording.sample_rate
     return {"time": time, **{dof: curves.get(dof, missing) for dof in SHOWN}}
 

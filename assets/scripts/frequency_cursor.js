@@ -1,8 +1,8 @@
-// A cursor with harmonics and sidebands in a spectrum. See app/bearing_explorer/diagnosis/views/frequency_cursor.py.
+// A cursor with harmonics and sidebands in a spectrum. See app/bearing_explorer/diagnosis/views/frequency_view.py.
 // `lines.tags` holds the cursor's frequency [Hz], so that it stays when the axis changes.
 const SIDES = 3, MOST = 60
 const {shaft, cage, hertz} = turning.data
-const {frequency} = curve.data
+const {frequency, amplitude} = curve.data
 const draw = (at) => {
   const found = {at: [], main: [], dash: [], alpha: []}
   lines.tags = []
@@ -21,25 +21,22 @@ const draw = (at) => {
     }
   }
   lines.data = found
-  const which = plots.findIndex((plot) => plot.visible)
-  if (at === null || which < 0) { reading.text = hint; return }
+  if (at === null) { reading.text = hint; return }
   let nearest = 0
   frequency.forEach((f, i) => { if (Math.abs(f - at) < Math.abs(frequency[nearest] - at)) nearest = i })
-  const [, unit] = /\(([^)]*(?:\([^)]*\))*[^)]*)\)$/.exec(plots[which].left[0].axis_label) ?? [null, ""]
-  const height = `${rounded(curve.data[columns[which]][nearest], 3)} ${unit}`
+  const [, unit] = /\(([^)]*(?:\([^)]*\))*[^)]*)\)$/.exec(plot.left[0].axis_label) ?? [null, ""]
+  const height = `${rounded(amplitude[nearest], 3)} ${unit}`
   const order = shaft[0] > 0 ? `order ${rounded(at/shaft[0], 4)}, ` : ""  // of a known shaft speed
   reading.text = `<b>${rounded(at*hertz[0], 5)} Hz</b>, ${order}${height}`
 }
 if (cb_obj.sx === undefined) {  // other numbers, or other sidebands
   draw(lines.tags.length && hertz.length ? lines.tags[0]/hertz[0] : null)
 } else if (frequency.length) {
-  const plot = plots.find((one) => one.visible), which = plots.indexOf(plot)
   const {start, end} = plot.x_range, near = 0.008*(end - start)
   const was = lines.tags.length ? lines.tags[0]/hertz[0] : null
   let best = -1
   frequency.forEach((f, i) => {
-    const value = curve.data[columns[which]][i]
-    if (Math.abs(f - cb_obj.x) <= near && (best < 0 || value > curve.data[columns[which]][best])) best = i
+    if (Math.abs(f - cb_obj.x) <= near && (best < 0 || amplitude[i] > amplitude[best])) best = i
   })
   const at = best < 0 ? cb_obj.x : frequency[best]
   draw(was !== null && Math.abs(was - cb_obj.x) <= near ? null : at)

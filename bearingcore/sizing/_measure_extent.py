@@ -27,13 +27,14 @@ from bearingcore.recordings import Recording
 from bearingcore.sizing._release import plausible_offset
 
 SLIP_OF_LINES = 0.004
-"""By how much balls may pass faster or slower than the lines that a diagnosis has found."""
+"""By how much balls may pass faster or slower than the lines of a diagnosis."""
 
 SAMPLES_A_DEGREE = 1.0
 """Of the recording for a degree of the race, below which knocks cannot be located."""
 
-
 NO_ANSWER = "no clear result"
+
+TURN = 2.0 * math.pi
 
 LONGEST_BOUND = 1.0 / 3.0
 """Of a ball spacing, from which a bound would say nothing."""
@@ -239,30 +240,25 @@ def measure_extent(
     if edge is not None:
         checks.choice("edge", edge, EDGES)
     if race is None or not isinstance(shaft_speed, int | float):
-        answer = diagnosis or diagnose(recording, bearing, shaft_speed)
-        named = {OUTER: "outer", INNER: "inner"}.get(answer.fault)
-        race = race or named
-        if race is None or not answer.evidence:
+        diagnosis = diagnosis or diagnose(recording, bearing, shaft_speed)
+        race = race or {OUTER: "outer", INNER: "inner"}.get(diagnosis.fault)
+        if race is None or not diagnosis.evidence:
             return MeasuredExtent(race or "", ball_spacing=spacing)
-        nominal = answer.of(f"{race} race").frequency
-        slip, speed = SLIP_OF_LINES, answer.shaft_speed
+        nominal, slip = diagnosis.of(f"{race} race").frequency, SLIP_OF_LINES
+        recording = diagnosis.steady_recording or recording
     else:
-        nominal, slip = math.nan, SLIP
-        speed = checks.real_number("shaft_speed", shaft_speed, above=0.0, unit="rad/s")
-    if speed is not None:
-        hertz = speed / (2.0 * math.pi)
-        recording, hertz, _, _ = resample_to_steady_speed(recording, hertz, hertz, "")
-        speed = 2.0 * math.pi * hertz
-        if math.isnan(nominal):
-            nominal = bearing.bpfo(speed) if race == "outer" else bearing.bpfi(speed)
+        turns = checks.real_number("shaft_speed", shaft_speed, above=0.0, unit="rad/s") / TURN
+        recording, turns, _, _ = resample_to_steady_speed(recording, turns, turns, "")
+        passing = bearing.bpfo if race == "outer" else bearing.bpfi
+        nominal, slip = passing(TURN * turns), SLIP
     # a pass of envelopes is averaged from its own frequency on
     if recording.duration * nominal * (1.0 - slip) < least_passes(nominal, nominal):
         return MeasuredExtent(race, ball_spacing=spacing, status=ExtentStatus.TOO_SHORT)
     if recording.sample_rate < SAMPLES_A_DEGREE * nominal * math.degrees(spacing):
         return MeasuredExtent(race, ball_spacing=spacing, status=ExtentStatus.TOO_COARSE)
     # the inner race turns with the shaft
-    turns = 0.0 if race == "outer" else 1.0 / (2.0 * math.pi * bearing.bpfi(1.0))
-    knocks = find_knocks(recording, nominal, slip, turns)
+    turning = 0.0 if race == "outer" else 1.0 / (TURN * bearing.bpfi(1.0))
+    knocks = find_knocks(recording, nominal, slip, turning)
     needed = math.isfinite(knocks.separation) or math.isfinite(knocks.hidden)
     offset = plausible_offset(bearing, race, load, clearance, edge) if needed else (math.nan,) * 3
     if needed and math.isnan(offset[1]):

@@ -27,7 +27,7 @@ from bearingcore.common import (
     table_of,
 )
 from bearingcore.errors import Status
-from bearingcore.measured.diagnosis import SLIP
+from bearingcore.measured.diagnosis import SLIP, resample_to_steady_speed
 from bearingcore.measured.signals import BallPasses, average_passes, coefficients, least_passes
 from bearingcore.model.dynamics import SETTLING, modes, simulate
 from bearingcore.model.scene import MASSLESS, Scene
@@ -200,7 +200,9 @@ def size_defect(
     """Find the length of an outer-race spall by simulating every possible length.
 
     The damaged race is taken as known: call `diagnose` first. All lengths are simulated, not only
-    those that entry and exit allow (`measure_extent`), because these can be misread.
+    those that entry and exit allow (`measure_extent`), because these can be misread. A changing
+    speed that was measured with the signal is followed as in `diagnose`. If it was not measured,
+    passes are unlike, and the length is mostly left open.
 
     Parameters
     ----------
@@ -225,6 +227,10 @@ def size_defect(
     checks.instance("recording", recording, Recording)
     checks.instance("scene", scene, Scene)
     checks.real_number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")
+    turns = scene.shaft_speed / (2.0 * math.pi)
+    steady, turns, _, _ = resample_to_steady_speed(recording, turns, turns, "")
+    if steady is not recording:
+        recording, scene = steady, scene.replace(shaft_speed=2.0 * math.pi * turns)
     if not set(recording.directions) <= set(scene.active_dofs):
         raise checks.refuse("dofs", scene.active_dofs, f"with {', '.join(recording.directions)}")
     if not scene.bearing.rows_are_alike:

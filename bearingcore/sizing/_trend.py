@@ -55,7 +55,7 @@ class TrendPoint:
     name
         of the recording.
     shaft_speed
-        [rad/s]; NaN if it is neither known nor found.
+        [rad/s]; NaN if it is neither given nor shown by the signal.
     rms, peak
         [m/s²]
     crest_factor, kurtosis
@@ -259,10 +259,11 @@ def trend_point(
         answer = diagnose(recording, bearing, shaft_speed)
         fault, probability = answer.fault, answer.probability
         extent = measure_extent(recording, bearing, shaft_speed, diagnosis=answer)
-        speed = answer.shaft_speed if speed is None else speed
-        if speed is not None:
-            turning = answer.shaft_speed or speed  # as the shaft's own lines have it
-            lines, noise = _line_amplitudes(recording, bearing, speed, turning, column, band)
+        steady = answer.steady_recording or recording
+        turning = answer.shaft_speed or speed  # as the shaft's own lines have it
+        speed = speed or turning
+        if turning is not None:
+            lines, noise = _line_amplitudes(steady, bearing, turning, column, band)
     seen = indicators(recording, speed)
     return TrendPoint(
         recording.name,
@@ -312,14 +313,10 @@ def _line_amplitudes(
     recording: Recording,
     bearing: Bearing,
     shaft_speed: float,
-    turning: float,
     column: int,
     band: tuple[float, float],
 ) -> tuple[Array, Array]:
-    """Amplitudes (4,) of `LINES` in the envelope, and what noise reaches there [m/s²].
-
-    `turning` is the shaft speed [rad/s] at whose multiples there are tones of the shaft.
-    """
+    """Amplitudes (4,) of `LINES` in the envelope, and what noise reaches there [m/s²]."""
     from scipy.special import gammaincinv  # imported late: see `spectrum`
 
     turn = shaft_speed / (2.0 * math.pi)
@@ -343,7 +340,7 @@ def _line_amplitudes(
         first, last = math.floor(middle - reach), math.ceil(middle + reach) + 1
         if middle < LOWEST_LINE or last > len(density):
             continue
-        if _is_shaft_line(finest, order * turn, turning / (2.0 * math.pi)):
+        if _is_shaft_line(finest, order * turn, turn):
             continue
         limit = float(gammaincinv(averages, 1.0 - CHANCE / (last - first)))
         peak = first + int(density[first:last].argmax())

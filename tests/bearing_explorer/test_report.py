@@ -108,7 +108,7 @@ def test_a_measured_signal_has_its_answer_pictures_and_assumptions_on_one_page()
         "Measuring point: drive end, up. Recorded: 2 March.",
         part_words.headline(answer),
         f"Probability {probability(answer.probability)}",
-        part_words.extent(extent),
+        part_words.length(extent),
         part_words.plain(answer, question),
         next_steps(answer, question, zone_of(measured, "medium, rigid")),
         severity(measured, "medium, rigid"),

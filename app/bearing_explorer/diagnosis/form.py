@@ -182,12 +182,12 @@ def change_role(
     No other column keeps that role. Signals have one unit together until they are given two.
     """
     kind = role.partition(" ")[0]
-    roles = [NOTHING if kind and one.partition(" ")[0] == kind else one for one in roles]
+    roles = [NOTHING if kind and r.partition(" ")[0] == kind else r for r in roles]
     roles[index] = role
-    own = {i: unit if i == index else units[i] for i, r in enumerate(roles) if r in DIRECTIONS}
-    known = set(own.values()) - {NOT_KNOWN}
+    units_of = {i: unit if i == index else units[i] for i, r in enumerate(roles) if r in DIRECTIONS}
+    known = set(units_of.values()) - {NOT_KNOWN}
     if len(known) > 1:
-        roles = [f"{one} {own.get(i, '')}".strip() for i, one in enumerate(roles)]
+        roles = [f"{r} {units_of.get(i, '')}".strip() for i, r in enumerate(roles)]
     said = {"unit": AS_HEADED if len(known) > 1 else known.pop()} if known else {}
     return {"columns": APART.join(roles), **said}
 
@@ -195,7 +195,7 @@ def change_role(
 def roles_and_units(text: str) -> tuple[list[str], list[str]]:
     """The roles out of their field, and the units that a person gave signals there."""
     roles = text.split(APART)
-    signals = [one.partition(" ") if one[:2] in ("x ", "y ") else (one, "", "") for one in roles]
+    signals = [r.partition(" ") if r[:2] in ("x ", "y ") else (r, "", "") for r in roles]
     return [role for role, _, _ in signals], [unit for _, _, unit in signals]
 
 
@@ -329,8 +329,8 @@ def proposed_unit(table: Table) -> str | None:
 
 def size_questions(table: Table, form: Mapping[str, str]) -> dict[str, str]:
     """Questions to answer before the signal has a size, by field."""
-    own = [unit for _, unit in _signals(table, form)] if form["unit"] == AS_HEADED else []
-    if form["unit"] == NOT_KNOWN or None in own:
+    headed = [unit for _, unit in _signals(table, form)] if form["unit"] == AS_HEADED else []
+    if form["unit"] == NOT_KNOWN or None in headed:
         likely = proposed_unit(table)
         why = f" {likely} is likely: {table.contents.unit.reason}." if likely else ""
         return {"unit": f"In what unit is it? The file does not say.{why}"}
@@ -392,7 +392,7 @@ def columns_of(table: Table) -> ShownColumns:
     return ShownColumns(
         [_short(name) for name in table.names],
         [column.place for column in table.contents.columns],
-        [unit if (unit := one.unit) in UNITS and unit else "" for one in table.contents.columns],
+        [unit if (unit := c.unit) in UNITS and unit else "" for c in table.contents.columns],
         [[_cell(value) for value in line] for line in table.first_rows[:SHOWN_LINES]],
         len(table.columns),
     )

@@ -216,8 +216,8 @@ def _bearing(contents: FileContents) -> dict[str, str]:
 def _agree(name: str, said: Mapping[str, float], speed: float) -> bool:
     """True where a listed bearing has the frequencies [Hz] that a file says, at a speed [rad/s]."""
     bearing = find_bearing(name).bearing
-    own = {"bpfo": bearing.bpfo(speed), "bpfi": bearing.bpfi(speed)}
-    return all(abs(said[key] / value - 1.0) < SAME_ORDERS for key, value in own.items())
+    computed = {"bpfo": bearing.bpfo(speed), "bpfi": bearing.bpfi(speed)}
+    return all(abs(said[key] / value - 1.0) < SAME_ORDERS for key, value in computed.items())
 
 
 def written(speed: Finding[float]) -> str:

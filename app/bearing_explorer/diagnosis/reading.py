@@ -7,17 +7,11 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from datetime import datetime
 from types import MappingProxyType
 
-from bearing_explorer.diagnosis.form import (
-    fill,
-    questions,
-    read_form,
-    size_questions,
-    usable,
-)
+from bearing_explorer.diagnosis.form import fill, questions, read_form, size_questions, usable
 from bearing_explorer.diagnosis.machine import (
     FIELDS as MACHINE_FIELDS,
     NOT_KNOWN,
@@ -25,7 +19,7 @@ from bearing_explorer.diagnosis.machine import (
     Machine,
     kept_answers,
 )
-from bearing_explorer.diagnosis.series import MOST_FILES, Series
+from bearing_explorer.diagnosis.series import MOST_FILES, MOST_NUMBERS, Series, cut
 from bearing_explorer.diagnosis.signal import Measured
 from bearingcore import Table, read_table
 from bearingcore.common import thousands
@@ -33,9 +27,6 @@ from bearingcore.errors import FieldError
 from bearingcore.measured.files import files_inside
 
 log = logging.getLogger(__name__)
-
-MOST_NUMBERS = 4_000_000
-"""Numbers of a table that a session keeps; later rows are left out."""
 
 MOST_NAMED = 3
 """Files left out that are named."""
@@ -93,22 +84,43 @@ class Arrival:
 
 @dataclass(frozen=True)
 class Read:
-    """A file's table, the values of its form, and the recording or why there is none yet.
+    """A file's table, the form on it, and the signal that they describe.
 
-    `first` is the form as the file alone says; `kept` are answers for the file before that it has
-    besides. `asks` are the questions before there is a recording, `sizes` those before it has a
-    size.
+    Attributes
+    ----------
+    table
+        with the roles that the form gives its columns.
+    first
+        the form as the file alone fills it in.
+    form
+        the form as it is answered.
+    signal
+        None where the form describes none.
+    refused
+        sentences on answers that cannot be, by field.
+    cut
+        a sentence on rows that were left out.
+    kept
+        answers for the file before that the form has besides.
     """
 
     table: Table
     first: dict[str, str]
     form: dict[str, str]
-    cut: str
-    asked: Measured | None
+    signal: Measured | None
     refused: dict[str, str]
-    asks: dict[str, str]
-    sizes: dict[str, str]
+    cut: str = ""
     kept: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def asks(self) -> dict[str, str]:
+        """Questions before the signal can be drawn."""
+        return questions(self.table)
+
+    @property
+    def sizes(self) -> dict[str, str]:
+        """Questions before it has a size."""
+        return size_questions(self.table, self.form)
 
     @property
     def recorded(self) -> datetime:
@@ -134,20 +146,20 @@ def read_files(
         names = files_inside(name, content, give_up)[:MOST_FILES]
     except ValueError:
         names = [name]  # which says why
-    for one in names:
+    for file in names:
         if give_up():
-            why = f"{one} was not read: there is a minute for all files of an upload."
-            yield one, why, len(names)
+            why = f"{file} was not read: there is a minute for all files of an upload."
+            yield file, why, len(names)
             continue
         read: Read | str
         try:
-            read = read_file(one, content, scene, kept, give_up)
+            read = read_file(file, content, scene, kept, give_up)
         except ValueError as error:
             read = str(error)
         except Exception:
             log.exception("a file could not be read")
-            read = f"{one} could not be read."
-        yield one, read, len(names)
+            read = f"{file} could not be read."
+        yield file, read, len(names)
 
 
 def read_file(
@@ -162,7 +174,11 @@ def read_file(
     `kept`: answers on the machine for the file before, used where this one says nothing.
     """
     try:
-        table, cut = _shortened(read_table(name, content, give_up))
+        whole = read_table(name, content, give_up)
+        table, words = cut(whole, MOST_NUMBERS), ""
+        if table is not whole:
+            count, of = (thousands(len(rows.columns)) for rows in (table, whole))
+            words = f"Only the first {count} of {of} rows are used."
     except FieldError as error:
         about = error.field == "file" and error.value == name
         why = f"needed is {error.allowed_text}" if about else str(error)
@@ -171,69 +187,39 @@ def read_file(
         raise ValueError(f"{name} cannot be used: {error}.") from None
     except MemoryError:
         raise ValueError(f"{name} is too large for this server.") from None
-    return _proposed(table, cut, scene, kept)
+    return _proposed(table, words, scene, kept)
 
 
-def _proposed(table: Table, cut: str, scene: Machine, kept: Mapping[str, str]) -> Read:
-    """A table with guesses at what it holds; `cut` says which of its rows were left out."""
-    (_, first), asks = fill(table, {}), questions(table)
+def _proposed(table: Table, rows_cut: str, scene: Machine, kept: Mapping[str, str]) -> Read:
+    """A table with guesses at what it holds; `rows_cut` says which rows were left out."""
+    _, first = fill(table, {})
     kept = kept_answers(first, kept)
     form = {**first, **kept}
-    sizes = size_questions(table, form)
-    answer, refused = _tried(table, form, scene), {}
-    if isinstance(answer, FormError) and set(answer.sentences) <= set(MACHINE_FIELDS):
+    signal, refused = _described(table, form, scene)
+    if refused and set(refused) <= set(MACHINE_FIELDS):
         # the signal is one, whatever the file says of its bearing
-        refused = answer.sentences
-        answer = _tried(table, {**form, "bearing": NOT_KNOWN}, scene)
-    if isinstance(answer, FormError):
-        if not usable(table):
-            raise ValueError(f"{table.name} cannot be used. {answer}")
-        refused |= answer.sentences
-        return Read(table, first, form, cut, None, refused, asks, sizes, kept)
-    return Read(table, first, form, cut, None if asks else answer, refused, asks, sizes, kept)
+        signal, more = _described(table, {**form, "bearing": NOT_KNOWN}, scene)
+        refused = refused | more
+    if signal is None and not usable(table):
+        raise ValueError(f"{table.name} cannot be used. {' '.join(refused.values())}")
+    return Read(table, first, form, signal, refused, rows_cut, kept)
 
 
-@dataclass(frozen=True)
-class AnsweredTable:
-    """Answers as they were read: the recording, or why there is none.
-
-    `table` has the roles as they are given; `form` is as answered, `first` as the file alone says.
-    """
-
-    table: Table
-    form: dict[str, str]
-    first: dict[str, str]
-    signal: Measured | FormError
-
-
-def read_answers(
-    table: Table,
-    changed: Mapping[str, str],
-    scene: Machine,
-) -> AnsweredTable | FormError:
+def read_answers(table: Table, changed: Mapping[str, str], scene: Machine) -> Read:
+    """A table with answers of a person in place of guesses."""
+    _, first = fill(table, {})
     try:
-        told, form = fill(table, changed)
-    except FormError as refused:
-        return refused
-    return AnsweredTable(told, form, fill(told, {})[1], _tried(told, form, scene))
+        table, form = fill(table, changed)
+    except FormError as error:
+        return Read(table, first, {**first, **changed}, None, error.sentences)
+    return Read(table, fill(table, {})[1], form, *_described(table, form, scene))
 
 
-def _tried(
-    table: Table,
-    form: Mapping[str, str],
-    scene: Machine,
-) -> Measured | FormError:
+def _described(
+    table: Table, form: Mapping[str, str], scene: Machine
+) -> tuple[Measured | None, dict[str, str]]:
+    """The signal that a form describes, or None and the sentences why it describes none."""
     try:
-        return read_form(table, form, scene)
-    except FormError as refused:
-        return refused
-
-
-def _shortened(table: Table) -> tuple[Table, str]:
-    """The table with no more numbers than a session may keep, and a sentence if that is less."""
-    rows, columns = table.columns.shape
-    most = MOST_NUMBERS // columns
-    if rows <= most:
-        return table, ""
-    kept = replace(table, columns=table.columns[:most].copy())
-    return kept, f"Only the first {thousands(most)} of {thousands(rows)} rows are used."
+        return read_form(table, form, scene), {}
+    except FormError as error:
+        return None, error.sentences

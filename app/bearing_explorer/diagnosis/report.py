@@ -16,11 +16,10 @@ from bokeh.embed import json_item
 
 from bearing_explorer.diagnosis.diagnoses import Question
 from bearing_explorer.diagnosis.machine import BEARING_SOURCES, SCENE, SIMULATED
+from bearing_explorer.diagnosis.measurement_state import name_of
 from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.next_steps import steps_now
 from bearing_explorer.diagnosis.session import Measurement
-from bearing_explorer.diagnosis.signal import Measured
-from bearing_explorer.diagnosis.signal_words import name_of
 from bearing_explorer.diagnosis.views import part_words
 from bearing_explorer.diagnosis.views.diagnosis import RACES_NAMED, PartDiagnosis, panel_state
 from bearing_explorer.diagnosis.views.extent import SpallExtent
@@ -240,6 +239,7 @@ def assumptions(
     typed = [f"{name.upper()} {values[name]}" for name in FREQUENCIES if values.get(name)]
     clearance = with_prefix(bearing.radial_clearance, "m")
     unknown, made = machine.exact_speed is None, BEARING_SOURCES[SIMULATED].capitalize()
+    no_kind = "zone D for any of them" if zone_of(measured, "") else "no zone"
     return [
         ("File", name_of(measured), "" if measured.origin else "Simulated"),
         ("Signal", with_prefix(recording.duration, "s")
@@ -254,7 +254,7 @@ def assumptions(
         ("Its frequencies", ", ".join(typed) or "from its dimensions",
          machine.source_of("bearing").capitalize() if typed
          else "Estimated" if machine.bearing and machine.bearing.estimated else "Computed"),
-        ("Machine and support", *_machine(measured, kind)),
+        ("Machine and support", kind or f"not said: {no_kind}", "Given" if kind else ""),
         ("Load", "typical ones, for the extent" if load is None
          else with_prefix(load, "N"),
          "Assumed" if load is None else made if measured.true_load else "From the file"),
@@ -262,13 +262,6 @@ def assumptions(
          made if measured.true_edge else "Assumed: usual of the bearing"),
         ("Demodulation band", given.get("Demodulation band", "none"), "Found"),
     ]  # fmt: skip
-
-
-def _machine(measured: Measured, kind: str) -> tuple[str, str]:
-    """The machine and its support, and where that is from."""
-    if kind:
-        return kind, "Given"
-    return f"not said: {'zone D for any of them' if zone_of(measured, '') else 'no zone'}", ""
 
 
 def origin_of(measurement: Measurement, name: str) -> str:

@@ -23,6 +23,14 @@ ROOM_FOR = 8
 """Number of files for which a series keeps room: a long table is cut to its share."""
 
 
+def cut(table: Table, most: int) -> Table:
+    """Return a table whose last rows are left out where it holds more numbers than that."""
+    rows = most // table.columns.shape[1]
+    if len(table.columns) <= rows:
+        return table
+    return dataclasses.replace(table, columns=table.columns[:rows].copy())
+
+
 @dataclass(frozen=True, eq=False)
 class Series:
     """Files of a session, each as a table.
@@ -43,10 +51,7 @@ class Series:
 
     def with_table(self, table: Table, count: int = 1) -> Series:
         """Return the series with one more file of `count`; it replaces a file of the same name."""
-        rows, columns = table.columns.shape
-        most_rows = MOST_NUMBERS // max(count, ROOM_FOR) // columns
-        if rows > most_rows:
-            table = dataclasses.replace(table, columns=table.columns[:most_rows].copy())
+        table = cut(table, MOST_NUMBERS // max(count, ROOM_FOR))
         others = [other for other in self.tables if other.name != table.name]
         tables = [*others, table]
         while sum(kept.columns.size for kept in tables) > MOST_NUMBERS or len(tables) > MOST_FILES:

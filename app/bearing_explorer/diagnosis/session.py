@@ -1,10 +1,10 @@
 """The measured signal of a session: an uploaded file, or a simulated measurement.
 
-Its parts, each on top of the one before: `findings` holds the signal and computes in the
-background, `signal_form` takes the answers of a person, `session` lets files in. Beside them
-`reading` reads a file, `simulated` makes one, `signal_words` and `measurement_state` say what is
-shown. None holds a Panel, none draws. A file comes in pieces, is read in a thread of its own, and
-opens a form with questions; its faults are sentences, and the signal before it stays.
+`signal_form` holds the signal, takes the answers of a person and computes in the background;
+`session` lets files in. Beside them `reading` reads a file, `simulated` makes one, and
+`measurement_state` has the words that are shown. None holds a Panel, none draws. A file comes in
+pieces, is read in a thread of its own, and opens a form with questions; its faults are sentences,
+and the signal before it stays.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ RECORDS = {"motor-a.csv": "Motor A", "motor-b.csv": "Motor B"}
 class Measurement(SignalForm):
     """The measurement of one session: its files come in, or the scene is measured.
 
-    Call its methods on the event loop of the session. See `Findings` for the parameters.
+    Call its methods on the event loop of the session. See `SignalForm` for the parameters.
     """
 
     #: called with the first byte of the next piece of a file; the number `of` comes back with the

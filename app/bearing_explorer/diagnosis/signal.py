@@ -6,8 +6,9 @@ All drawings of a measurement take their numbers here, as those of a scene do in
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +26,9 @@ ENVELOPE_TOP = 1000.0
 
 ENVELOPE_LINES = 1600
 """Largest number of frequencies of an envelope spectrum that are drawn."""
+
+MOST_KEPT = 12
+"""Spectra, envelopes and kurtograms of a signal that are kept."""
 
 
 @dataclass(frozen=True)
@@ -67,8 +71,6 @@ class Measured:
         the file, where it comes from one.
     true_part
         damaged part in a simulated signal, or "none"; "" for a measured one.
-    true_speed
-        [rad/s] of the shaft in a simulated signal, else None.
     true_load, true_edge
         radial load [N] that presses balls into the defect, and model of its edges, in a simulated
         signal with one defect; else None.
@@ -86,17 +88,12 @@ class Measured:
     true_extent: float | None = None
     origin: Origin | None = None
     true_part: str = ""
-    true_speed: float | None = None
     true_load: float | None = None
     true_edge: str | None = None
     true_scene: Scene | None = None
     noiseless: bool = False
     in_si: bool = True
-    _spectra: dict[float, Spectrum] = field(default_factory=dict, repr=False)
-    _envelopes: dict[tuple[int, float, float, float], Spectrum] = field(
-        default_factory=dict, repr=False
-    )
-    _kurtograms: dict[tuple[int, float | None], Kurtogram] = field(default_factory=dict, repr=False)
+    _known: dict[tuple[Any, ...], Any] = field(default_factory=dict, repr=False)
 
     @property
     def shaft_speed(self) -> float | None:
@@ -124,23 +121,21 @@ class Measured:
 
     def spectrum(self, direction: str, resolution: float) -> Spectrum:
         """Spectrum along a direction."""
-        if resolution not in self._spectra:
-            recording = self.recording
-            signal = recording.acceleration - self._mean
-            lines = core.spectrum(signal, recording.sample_rate, resolution)
-            _put(self._spectra, resolution, lines)
-        frequency, density = self._spectra[resolution]
+        recording = self.recording
+
+        def compute() -> Spectrum:
+            signal = recording.acceleration - recording.acceleration.mean(axis=0)
+            return core.spectrum(signal, recording.sample_rate, resolution)
+
+        frequency, density = self.once(("spectrum", resolution), compute)
         return core.Spectrum(frequency, density[:, self.directions.index(direction)])
 
     def kurtogram(self, direction: str) -> Kurtogram:
         """Kurtogram of the signal along a direction."""
-        key = self.directions.index(direction), self.shaft_speed
-        if key not in self._kurtograms:
-            recording = self.recording
-            narrowest = NARROWEST * (self.shaft_speed or 0.0) / (2.0 * math.pi)
-            signal = self.column(direction)
-            self._kurtograms[key] = core.kurtogram(signal, recording.sample_rate, narrowest)
-        return self._kurtograms[key]
+        narrowest = NARROWEST * (self.shaft_speed or 0.0) / (2.0 * math.pi)
+        signal, rate = self.column(direction), self.recording.sample_rate
+        key = ("kurtogram", direction, narrowest)
+        return self.once(key, lambda: core.kurtogram(signal, rate, narrowest))
 
     def envelope_resolution(self, top: float) -> float:
         """Resolution [Hz] of an envelope spectrum that is drawn up to `top` [Hz]."""
@@ -148,15 +143,22 @@ class Measured:
 
     def envelope(self, direction: str, band: tuple[float, float], top: float) -> Spectrum:
         """Envelope spectrum of a band [Hz] along a direction, for a drawing up to `top` [Hz]."""
-        column = self.directions.index(direction)
-        key = (column, *band, top)
-        if key not in self._envelopes:
-            recording = self.recording
-            resolution = self.envelope_resolution(top)
-            signal = recording.acceleration[:, column] - self._mean[column]
-            lines = core.envelope_spectrum(signal, recording.sample_rate, band, resolution)
-            _put(self._envelopes, key, lines)
-        return self._envelopes[key]
+        signal, resolution = self.column(direction), self.envelope_resolution(top)
+        rate = self.recording.sample_rate
+        return self.once(
+            ("envelope", direction, *band, top),
+            lambda: core.envelope_spectrum(signal - signal.mean(), rate, band, resolution),
+        )
+
+    def once(self, key: tuple[Any, ...], compute: Callable[[], Any]) -> Any:
+        """Compute a result that is not kept yet; of more than `MOST_KEPT` the oldest goes."""
+        result = self._known.get(key)
+        if result is None:
+            result = compute()
+            while len(self._known) >= MOST_KEPT:
+                self._known.pop(next(iter(self._known)), None)
+            self._known[key] = result
+        return result
 
     def column(self, direction: str) -> NDArray[np.float64]:
         """The signal (n,) along a direction."""
@@ -186,10 +188,6 @@ class Measured:
         loudest = int(self.indicators.velocity_rms.argmax())
         return float(shaft_share(self.recording, self.shaft_speed)[loudest])
 
-    @cached_property
-    def _mean(self) -> NDArray[np.float64]:
-        return np.asarray(self.recording.acceleration.mean(axis=0))
-
     def scene(self, scene: Scene) -> Scene:
         """Return a scene with the bearing and the speed of the measurement, as far as known.
 
@@ -202,10 +200,3 @@ class Measured:
             return scene.replace(**changes)
         except ValueError:
             return scene.replace(**changes, defect=())
-
-
-def _put(known: dict, key: object, value: object) -> None:
-    """Keep a result; of more than six the oldest is dropped."""
-    if len(known) >= 6:
-        known.pop(next(iter(known)))
-    known[key] = value

@@ -1,12 +1,17 @@
-"""The form of a signal: the answers of a person, and the signal as they make it."""
+"""The signal of a session as it is now, the answers of a person, and what is known of it.
+
+Holds no Panel and draws nothing.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import copy
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from types import MappingProxyType
+from typing import Any, Self
 
-from bearing_explorer.diagnosis.findings import Findings
+from bearing_explorer.diagnosis.diagnoses import Answers, Question, answered, extent_of
 from bearing_explorer.diagnosis.form import (
     SIGNAL_FIELDS,
     SIZES,
@@ -17,7 +22,6 @@ from bearing_explorer.diagnosis.form import (
     load_of,
     machine_of,
     proposed_unit,
-    questions,
     reasons,
     recordings_of,
     said,
@@ -26,6 +30,7 @@ from bearing_explorer.diagnosis.form import (
     speeds_of,
 )
 from bearing_explorer.diagnosis.machine import (
+    FIELDS,
     FILE,
     GIVEN,
     GROUPS,
@@ -35,21 +40,41 @@ from bearing_explorer.diagnosis.machine import (
     Machine,
     scene_machine,
 )
-from bearing_explorer.diagnosis.measurement_state import AboutMeasurement
-from bearing_explorer.diagnosis.reading import AnsweredTable, Arrival, Read, read_answers
+from bearing_explorer.diagnosis.measurement_state import (
+    CHANGED,
+    NOT_YET,
+    REFUSED,
+    AboutMeasurement,
+    MeasurementState,
+    about_size,
+    line_and_remarks,
+    summary,
+)
+from bearing_explorer.diagnosis.model import NOT_TAKEN, WANTED
+from bearing_explorer.diagnosis.reading import Arrival, Read, read_answers
 from bearing_explorer.diagnosis.series import FoundTrend, Series
 from bearing_explorer.diagnosis.signal import Measured
-from bearing_explorer.diagnosis.signal_words import about_size, line_and_remarks, summary
-from bearing_explorer.kit.compute.jobs import Work
-from bearingcore import Table, Trend
+from bearing_explorer.diagnosis.sized_defect import SizedDefect
+from bearing_explorer.kit.compute.jobs import EXTENT, PART, READING, Compute, Jobs, JobState, Work
+from bearingcore import Diagnosis, MeasuredExtent, Scene, Sizing, Table, Trend
 
 _WAITS = "Nothing is drawn yet:"
 AS_GIVEN = "As you gave it."
 EARLIER_SCENE = "The scene has changed since this signal was simulated: simulate it again."
 
 
-class SignalForm(Findings):
-    """The form that a file and a person fill in, and the signal as it says. See `Findings`."""
+class SignalForm:
+    """The signal of one session, the form that a file and a person fill in, and the answers on it.
+
+    Parameters
+    ----------
+    scene
+        gives the scene that may be measured, as it is now.
+    jobs
+        the background of the session.
+    draw
+        requests a drawing.
+    """
 
     #: the files that were read
     series = Series()
@@ -69,10 +94,153 @@ class SignalForm(Findings):
     _answered: frozenset[str] = frozenset()
     _cut = ""
 
+    def __init__(
+        self,
+        scene: Callable[[], Scene],
+        jobs: Jobs,
+        draw: Callable[[], None],
+    ) -> None:
+        self.measured: Measured | None = None
+        self.state = MeasurementState()
+        #: called with the new state, for the form of the signal and for that of its machine
+        self.show: Callable[[MeasurementState], None] = lambda _: None
+        self.show_machine: Callable[[MeasurementState], None] = lambda _: None
+        self._scene_now = scene
+        self._jobs = jobs
+        self._draw = draw
+        #: which part is damaged, looked for in the background
+        self.diagnoses: Answers[Diagnosis] = Answers(jobs, PART, draw, answered)
+        #: how long the spall is, when that is known
+        self.extents: Answers[MeasuredExtent] = Answers(jobs, EXTENT, draw, extent_of)
+        #: the newest trend of files, and the kind of the machine for the zone of its vibration
+        self.trend: FoundTrend | None = None
+        self.machine_kind = ""
+        #: the newest choice between lengths of the spall, of whichever signal
+        self.sized: SizedDefect | None = None
+        self._scene = scene_machine(scene())
+        self._table: Table | None = None  # with the roles of its columns as they are given
+        self._ended = False
+
     def stop(self) -> None:
-        super().stop()
+        """The session is over."""
+        self._ended = True
+        self._table = self.sized = self.trend = None
         self._as_read = self._arrival = None
         self.series = Series()
+        self.diagnoses.stop()
+        self.extents.stop()
+        self._jobs.drop(READING)
+
+    # What is known
+
+    def question(self) -> Question | None:
+        """The newest question of which part is damaged.
+
+        None where nothing is measured, or nothing says on which bearing.
+        """
+        measured = self.measured
+        if measured is None or measured.bearing is None:
+            return None
+        return Question.about(measured)
+
+    def diagnosis(self) -> Diagnosis | None:
+        """The answer to it, where there is one already."""
+        question = self.question()
+        answer = None if question is None else self.diagnoses.of(question)
+        return answer if isinstance(answer, Diagnosis) else None
+
+    def extent(self) -> MeasuredExtent | None:
+        """The newest answer to how long the spall is, where there is one already."""
+        question = self.question()
+        answer = None if question is None else self.extents.latest(question)
+        return answer if isinstance(answer, MeasuredExtent) else None
+
+    def sizing(self) -> Sizing | None:
+        """The choice between lengths of the spall, of this signal on the machine of now."""
+        sized = self.sized
+        if sized is None or self.measured is None:
+            return None
+        return sized.sizing if sized.is_of(self.measured, self._scene_now()) else None
+
+    @property
+    def shaft_speed(self) -> float | None:
+        """[rad/s] that is given, or that the diagnosis shows; None without either.
+
+        It is not looked for without the bearing: knocks of a race repeat more clearly than turns of
+        the shaft, and would be taken for them.
+        """
+        measured = self.measured
+        if measured is None:
+            return None
+        if measured.machine.exact_speed is not None:
+            return measured.machine.exact_speed
+        diagnosis = self.diagnosis()
+        return None if diagnosis is None else diagnosis.shaft_speed
+
+    @property
+    def out_of_date(self) -> str:
+        """Reason why the answer on screen is out of date; empty where it is not."""
+        question = self.question()
+        if self.measured is not None and self.state.refused:
+            return REFUSED
+        if self.state.settling:
+            return CHANGED
+        return NOT_YET if question is not None and self.diagnoses.of(question) is None else ""
+
+    @property
+    def at_work(self) -> str:
+        """Work that is under way, or a refusal, for the status line; empty where nothing is."""
+        if self.state.busy:
+            return "Reading the signal"
+        if self.out_of_date in (CHANGED, NOT_YET) or self.extents.busy:
+            return "Analysing the signal"
+        state = self.state
+        drawn = self._table is None or state.line
+        missing = not any(state.values.get(name) for name in state.refused)
+        if not drawn and missing and (state.refused or not state.bad):
+            return WANTED
+        if state.bad:  # what the form on the machine refuses stands in it
+            return NOT_TAKEN.format(2 if state.line and set(state.refused) & set(FIELDS) else 1)
+        return ""
+
+    def snapshot(self) -> Self:
+        """A copy for another thread, of the signal and the answers that there are now."""
+        made = copy.copy(self)
+        made.diagnoses, made.extents = copy.copy(self.diagnoses), copy.copy(self.extents)
+        return made
+
+    # Saying and doing
+
+    def _refuse(self, sentence: str, lines: str = "") -> None:
+        """Say what is wrong with a file, above its first lines; the signal before it stays."""
+        self._tell(words=f"{sentence}{self._what_stays()}", bad=True, busy=False, lines=lines)
+
+    def _what_stays(self) -> str:
+        if self.measured is not None:
+            return f" {self.measured.recording.name} stays."
+        return (
+            ""
+            if self._table is None
+            else f" The questions are still those about {self._table.name}."
+        )
+
+    def _tell(self, **news: Any) -> None:
+        before, self.state = self.at_work, replace(self.state, **{"lines": "", **news})
+        self.show(self.state)
+        self.show_machine(self.state)
+        if self.at_work != before:
+            self._draw()
+
+    def _read(self, compute: Compute, take: Callable[[Any], None]) -> None:
+        """Read something in place of what is being read; its refusal is a sentence."""
+
+        def report(state: JobState) -> None:
+            if state.mood == "failed":
+                self._refuse(state.words)
+
+        self._jobs.start(compute, take, report, READING)
+
+    # The form
 
     def take_scene(self) -> None:
         """Follow the scene: its bearing and speed count where a person chose them."""
@@ -195,8 +363,8 @@ class SignalForm(Findings):
         self._kept, self._answered = read.kept, frozenset()
         self._taken = read.form
         self.measured = None
-        if read.asked is not None:
-            self.measured = self._measured(read.asked)
+        if read.signal is not None and not read.asks:
+            self.measured = self._measured(read.signal)
             words, bad = self._summary(about_size(read.sizes)), False
         else:
             wanted = {**read.asks, **read.refused, **read.sizes}
@@ -204,30 +372,42 @@ class SignalForm(Findings):
                 wanted = {"columns": wanted["columns"]}
             words = f"{table.name} is read. {_WAITS} {' '.join(wanted.values())}"
             bad = bool(read.refused) and not read.asks
+        kept_from = (self.state.kept_from or before) if read.kept else ""
         self._tell(
+            **self._news(read, list(read.asks)) | {"kept_from": kept_from},
             words=words,
             bad=bad,
             busy=False,
             columns=columns_of(table),
-            values=read.form,
-            refused={name: text for name, text in read.refused.items() if name not in read.asks},
-            reasons={**reasons(table), **read.asks, **read.sizes},
-            open=[*read.asks, *read.sizes],
-            voltage=is_voltage(table, read.form),
-            proposed=proposed_unit(table),
             said=said(table),
             load=load_of(table),
             scaled=not table.full_scale_known,
             bearings=bearings_of(table),
-            recordings=recordings_of(table),
-            speeds=speeds_of(table),
-            settling=False,
-            kept_from=(self.state.kept_from or before) if read.kept else "",
             arrival=self.state.arrival + 1,
             **self._in_short(read.form),
         )
         self._follow()
         self._draw()
+
+    def _news(self, read: Read, left: Sequence[str]) -> dict[str, Any]:
+        """The state of the form after answers; questions on the fields `left` are open."""
+        table, form = read.table, read.form
+        origins = {
+            name: words if says_the_same(name, form[name], self._first[name]) else AS_GIVEN
+            for name, words in reasons(table).items()
+        }
+        return {
+            "values": form,
+            "refused": {name: words for name, words in read.refused.items() if name not in left},
+            "reasons": origins | read.asks | read.sizes,
+            "open": [*left, *read.sizes],
+            "proposed": proposed_unit(table),
+            "voltage": is_voltage(table, form),
+            "recordings": self.state.recordings if form["part"] else recordings_of(table),
+            "speeds": speeds_of(table),
+            "settling": False,
+            "kept_from": self.state.kept_from if self._kept else "",
+        }
 
     def take_form(self, form: Mapping[str, str], sure: bool = False) -> None:
         """An answer has changed, or a person is `sure` of the guesses.
@@ -256,56 +436,34 @@ class SignalForm(Findings):
             work.show(read_answers(as_read, changed, scene))
             return ""
 
-        self._read(read, lambda answers: self._take_answers(texts, answers))
+        self._read(read, self._take_answers)
 
-    def _take_answers(self, texts: dict[str, str], answers: AnsweredTable | FormError) -> None:
-        before, table = self.measured, self._table
-        if table is None:
+    def _take_answers(self, read: Read) -> None:
+        before = self.measured
+        if self._table is None:
             return
-        answer = answers if isinstance(answers, FormError) else answers.signal
-        if isinstance(answers, AnsweredTable):
+        if "columns" not in read.refused:
             # what follows from the roles of the columns follows from those of now
-            texts, table = answers.form, answers.table
-            self._table, self._first = table, {**answers.first, "columns": self._first["columns"]}
-        asks, sizes = questions(table), size_questions(table, texts)
-        left = [name for name in asks if self._is_left(name, texts[name])]
-        refused = answer.sentences if isinstance(answer, FormError) else {}
-        news = {
-            "values": texts,
-            "refused": {name: words for name, words in refused.items() if name not in left},
-            "reasons": {
-                name: words if says_the_same(name, texts[name], self._first[name]) else AS_GIVEN
-                for name, words in reasons(table).items()
-            }
-            | asks
-            | sizes,
-            "open": [*left, *sizes],
-            "proposed": proposed_unit(table),
-            "voltage": is_voltage(table, texts),
-            "recordings": self.state.recordings if texts["part"] else recordings_of(table),
-            "speeds": speeds_of(table),
-            "settling": False,
-            "kept_from": self.state.kept_from if self._kept else "",
-        }
-        if isinstance(answer, FormError):
+            self._table, self._first = read.table, {**read.first, "columns": self._first["columns"]}
+        left = [name for name in read.asks if self._is_left(name, read.form[name])]
+        news = self._news(read, left)
+        if read.signal is None:
             stays = " The figures still show the signal as it was before." if before else ""
-            self._tell(words=f"{answer}{stays}", bad=True, **news)
+            self._tell(words=f"{' '.join(read.refused.values())}{stays}", bad=True, **news)
             return
         if left:
-            words = " ".join(asks[name] for name in left)
+            words = " ".join(read.asks[name] for name in left)
             self._tell(words=f"{_WAITS} {words}", bad=False, **news)
             return
-        same = all(texts[name] == self._taken[name] for name in SIGNAL_FIELDS)
-        self._taken = texts
-        signal = self._measured(answer)
+        same = all(read.form[name] == self._taken[name] for name in SIGNAL_FIELDS)
+        self._taken = read.form
+        signal = self._measured(read.signal)
         if before is not None and same and before.machine.ratio == signal.machine.ratio:
             # what was computed of the signal stays
             signal = replace(before, machine=signal.machine)
         self.measured = signal
-        self._tell(
-            words=self._summary(about_size(sizes)), bad=False, busy=False, **news,
-            **self._in_short(texts),
-        )  # fmt: skip
+        words = self._summary(about_size(read.sizes))
+        self._tell(words=words, bad=False, busy=False, **news, **self._in_short(read.form))
         self._follow()  # the scene may have changed while the form was read
         self._draw()
 

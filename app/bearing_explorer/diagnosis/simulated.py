@@ -143,6 +143,6 @@ def simulated(scene: Scene, noise_db: float, seed: int) -> Measured:
     return Measured(
         recording, scene_machine(scene, SIMULATED), extent,
         true_part=true_part(scene), noiseless=math.isinf(noise_db),
-        true_speed=scene.shaft_speed, true_load=load_on_defect(scene), true_edge=edge,
+        true_load=load_on_defect(scene), true_edge=edge,
         true_scene=scene,
     )  # fmt: skip

@@ -54,7 +54,8 @@ class SizedDefect:
         if measured is not self.measured:
             return False
         before, now = (
-            one.replace(extent=1.0) if len(one.defects) == 1 else one for one in (self.scene, scene)
+            other.replace(extent=1.0) if len(other.defects) == 1 else other
+            for other in (self.scene, scene)
         )
         return measured.true_scene is not None or before == now
 
@@ -69,7 +70,7 @@ def machine_of(measured: Measured, scene: Scene, race: str, shaft_speed: float |
     race
         that is damaged; empty where nothing says it: that of the scene.
     shaft_speed
-        [rad/s] that is known or was found; None: that of the scene.
+        [rad/s] that is given or that the diagnosis shows; None: that of the scene.
 
     Raises
     ------

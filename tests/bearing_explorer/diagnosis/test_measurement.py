@@ -203,7 +203,7 @@ def test_more_numbers_than_a_session_keeps_are_left_out():
     table = read_file("long.wav", content, Machine())
     assert table.table.columns.size == MOST_NUMBERS
     assert "Only the first" in table.cut
-    assert table.asked is None  # two channels: which are x and y is asked
+    assert table.asks  # two channels: which are x and y is asked
     asked = read_form(table.table, {**table.form, "columns": "x;y"}, Machine())
     assert asked.recording.sample_rate == 8000.0
 

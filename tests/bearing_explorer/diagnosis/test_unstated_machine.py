@@ -269,7 +269,7 @@ def test_a_trend_without_bearing_and_speed_has_levels_and_no_part() -> None:
     view = TrendOfFiles(PackedSource())
     view.measure(made)
     work = Work()
-    view.prepare({"baseline": "1"}, MODEL)(work)
+    view.prepare({}, MODEL)(work)
     (view.job_result,) = work.taken()
     assert view.drawn
     table = view.table(MODEL)
@@ -287,5 +287,5 @@ def test_two_questions_about_one_recording_share_what_is_computed_of_it() -> Non
     answer(made, bearing="6203, Paderborn")
     assert made.measured is not None
     assert made.measured.recording is before.recording
-    assert made.measured._spectra is before._spectra
+    assert made.measured._known is before._known
     assert Question.about(before) != Question.about(made.measured)

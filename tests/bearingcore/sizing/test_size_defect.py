@@ -53,6 +53,19 @@ def test_one_direction_and_another_start_in_time_are_enough() -> None:
     assert late.best.extent == pytest.approx(EXTENT, abs=math.radians(0.2))
 
 
+def test_a_changing_speed_that_was_measured_is_followed() -> None:
+    """The signal of a steady shaft on a clock that runs 5 % fast and slow is as of such a shaft."""
+    time = np.arange(len(SIGNAL)) / RATE
+    pace = 2.0 * math.pi / time[-1]
+    clock = time + 0.05 * (1.0 - np.cos(pace * time)) / pace
+    warped = np.stack([np.interp(clock, time, column) for column in SIGNAL.T], axis=1)
+    assert not size_defect(Recording(warped, RATE), RIG, support_known=True).conclusive
+    measured = Recording(warped, RATE, shaft_angle=RIG.shaft_speed * clock)
+    sizing = size_defect(measured, RIG, support_known=True)
+    assert sizing.conclusive
+    assert sizing.best.extent == pytest.approx(EXTENT, abs=math.radians(0.2))
+
+
 @pytest.mark.parametrize(
     ("recording", "scene", "status"),
     [

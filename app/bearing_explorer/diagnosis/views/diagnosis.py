@@ -20,7 +20,7 @@ from bearing_explorer.diagnosis.views import part_words
 from bearing_explorer.diagnosis.views.measured_view import MeasuredView
 from bearing_explorer.diagnosis.views.part_lines import COLORS, PartLines
 from bearing_explorer.diagnosis.widgets.machine_form import MachineForm
-from bearing_explorer.diagnosis.widgets.part_panel import PartPanel, evidence_html
+from bearing_explorer.diagnosis.widgets.part_panel import PartPanel
 from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.serve.packed_source import PackedSource
@@ -72,14 +72,14 @@ def on_records() -> str:
 
 
 class PartDiagnosis(MeasuredView):
-    """The answer of `bearingcore.diagnose`, found in the background, with its evidence."""
+    """The answer of `bearingcore.diagnose`, computed in the background, with its evidence."""
 
     name = "diagnosis"
     title = "2  Which part is damaged?"
     about = (
         "Envelope spectrum of the signal. Each pass over a damaged spot makes the machine ring; "
         "the envelope shows how often. Strong: lines of the part that stands out. Faint: of the "
-        "other parts. The strong ones were found within the slip, the faint ones follow from the "
+        "other parts. The strong ones are where they were measured, the faint ones follow from the "
         f"geometry. {on_records()}"
     )
     computes = True
@@ -175,9 +175,7 @@ class PartDiagnosis(MeasuredView):
             measurement.diagnoses.want(question)
         if diagnosis is not None:
             self.lines.show_orders(diagnosis.shaft_speed is not None)
-            self.evidence.object = evidence_html(
-                part_words.evidence_rows(diagnosis, len(measured.directions) > 1)
-            )
+            self.evidence.object = part_words.evidence_html(diagnosis, len(measured.directions) > 1)
 
     def _with_length(self, state: dict[str, Any], diagnosis: Diagnosis | None) -> dict[str, Any]:
         """The length of the spall in an answer, once it is known; of a race alone."""

@@ -21,7 +21,6 @@ from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
 from bearing_explorer.kit.views.look_view import LookView
 from bearing_explorer.kit.widgets.form import AS_HIGH_AS_SHOWN, FieldSpec, stack
-from bearing_explorer.kit.widgets.status import StatusLine
 from bearingcore import Diagnosis, MeasuredExtent
 
 HEIGHT = 236
@@ -63,7 +62,7 @@ def layers() -> list[Layer]:
 
 
 class SpallExtent(LookView, MeasuredView):
-    """The answer of `bearingcore.measure_extent`, found once the damaged race is named."""
+    """The answer of `bearingcore.measure_extent`, measured once the damaged race is named."""
 
     name = "extent"
     title = "3  How long"
@@ -82,11 +81,9 @@ class SpallExtent(LookView, MeasuredView):
 
     def build(self, packed: PackedSource) -> Any:
         self._given: MeasuredExtent | None = None
-        self.status = StatusLine(sizing_mode="stretch_width", margin=0)
-        self.status.stylesheets = [".line { padding: 2px 0 6px; font-family: var(--font); }"]
         self._size = StickyRange(0.0, 1.0)
         self.plot = self._plot(packed)
-        self._seen = stack(self.status, self.plot, visible=False, stylesheets=[AS_HIGH_AS_SHOWN])
+        self._seen = stack(self.plot, visible=False, stylesheets=[AS_HIGH_AS_SHOWN])
         self.hidden = stack(self.panel_of_look, self._seen, visible=False)
         return self.hidden
 
@@ -163,7 +160,7 @@ class SpallExtent(LookView, MeasuredView):
         start = extent.entry if math.isfinite(extent.entry) else int(best.argmax()) / len(best)
         first = round((start - BEFORE) * len(best)) % len(best)
         angle = spacing * (np.arange(len(best)) / len(best) - BEFORE)
-        drawn = [np.roll(one.envelope, -first) for one in extent.passes[:BANDS]]
+        drawn = [np.roll(mean.envelope, -first) for mean in extent.passes[:BANDS]]
         sources: Sources = {
             f"extent_pass_{number}": {"angle": angle, "envelope": envelope}
             for number, envelope in enumerate(drawn)
@@ -192,7 +189,6 @@ class SpallExtent(LookView, MeasuredView):
             self.measurement.extents.want(question)
         self._seen.visible = isinstance(answer, MeasuredExtent)
         if isinstance(answer, MeasuredExtent):
-            self.status.line = status(answer, self._simulated_size())
             self.plot.visible = bool(answer.passes)
 
     def sentence(self, model: Model) -> str:
@@ -211,12 +207,12 @@ class SpallExtent(LookView, MeasuredView):
             spacing = f"{math.degrees(answer.ball_spacing):.1f}°"
             return (
                 f"Entry and exit alone allow {answer.size}, or whole ball spacings of {spacing} "
-                f"more. The natural frequencies decide, see below: {size}.{known}"
+                f"more. The natural frequencies decide, see below: {size}.{known}{grounds(answer)}"
             )
-        return answer.sentence + known
+        return answer.sentence + known + grounds(answer)
 
     def _simulated_size(self) -> str:
-        """The length that simulations have found, in words; empty without one."""
+        """The length by simulation, in words; empty without one."""
         sizing = self.measurement.sizing()
         return "" if sizing is None else size_in_words(sizing)
 
@@ -225,23 +221,15 @@ class SpallExtent(LookView, MeasuredView):
         return answer.table().in_units().named() if isinstance(answer, MeasuredExtent) else {}
 
 
-def status(extent: MeasuredExtent, simulated: str = "") -> dict[str, Any]:
-    """The answer in a few words and a colour, with its grounds.
-
-    A length that simulations have found comes before one of entry and exit alone.
-    """
-    details = []
+def grounds(extent: MeasuredExtent) -> str:
+    """The angles and the ball passes on which an extent rests, in a sentence."""
+    if not extent.n_passes:
+        return ""
+    words = f" Mean of {extent.n_passes} ball passes"
     if math.isfinite(extent.separation):
         apart, offset = math.degrees(extent.separation), math.degrees(extent.offset)
-        details.append(f"{apart:.1f}° between the peaks and {offset:.1f}° at the edges")
-    if extent.n_passes:
-        frequency = style.number(extent.frequency, 4)
-        details.append(f"mean of {extent.n_passes} ball passes, at {frequency} Hz")
-    return {
-        "mood": "good" if extent.measured or simulated else "bad",
-        "words": f"{simulated}, {extent.race} race" if simulated else extent.answer,
-        "details": details,
-    }
+        words += f", with {apart:.1f}° between the peaks and {offset:.1f}° at the edges"
+    return f"{words}."
 
 
 def _edges(extent: MeasuredExtent, spacing: float, way: int | None) -> dict[str, np.ndarray]:

@@ -22,6 +22,8 @@ NAME_WIDTH = 0.13
 ORDER_WIDTH = 0.042
 """Of the names of its harmonics."""
 ROW_PIXELS = 17.0
+MOST_LINES = 3000
+"""Largest number of lines of a spectrum that are drawn."""
 NAME_COLUMNS = ("frequency", "order", "first", "row", "of", "spread")
 """Of the sources of names; `spread` [Hz] is how far off an estimate may be."""
 
@@ -108,6 +110,16 @@ def named(multiples: NDArray[np.float64], first: float, top: float) -> NDArray[n
     clear = multiples * first >= multiples[0] * first + NAME_WIDTH * top
     kept = ((multiples % step == 0.0) & clear & from_end) | (multiples == 1.0)
     return multiples[kept]
+
+
+def thinned_to_peaks(
+    frequency: NDArray[np.float64], height: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """A spectrum with at most `MOST_LINES` lines: of neighbours the highest one stays."""
+    size = max(math.ceil(frequency.size / MOST_LINES), 1)
+    count = frequency.size // size * size
+    highest = height[:count].reshape(-1, size).argmax(axis=1) + np.arange(0, count, size)
+    return frequency[highest], height[highest]
 
 
 def layers(prefix: str) -> list[Layer]:

@@ -8,16 +8,24 @@ from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
 import numpy as np
+from bokeh.events import Tap
+from bokeh.models import ColumnDataSource, CustomJS, Div, RadioButtonGroup, Row
+from bokeh.plotting import figure
 from numpy.typing import NDArray
 
 from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.views import frequency_lines
-from bearing_explorer.diagnosis.views.frequency_cursor import FrequencyCursor
-from bearing_explorer.diagnosis.views.frequency_lines import FAMILIES, fundamentals, row_frequencies
+from bearing_explorer.diagnosis.views.frequency_lines import (
+    FAMILIES,
+    fundamentals,
+    row_frequencies,
+    thinned_to_peaks,
+)
 from bearing_explorer.diagnosis.views.measured_view import MEASURED, MeasuredView, shown_unit
+from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.plots import style
-from bearing_explorer.kit.plots.layers import Layer, add_all, curve, sources_of
+from bearing_explorer.kit.plots.layers import add_all, curve, sources_of
 from bearing_explorer.kit.plots.levels import FREQUENCY, HIGHEST, LEVEL_FLOOR, SHOWN
 from bearing_explorer.kit.plots.ranges import StickyRange
 from bearing_explorer.kit.serve.packed_source import PackedSource
@@ -29,17 +37,19 @@ from bearingcore import Spectrum
 FRAME = 236.0  # [px] height of the frame of a figure
 HEIGHT = 300
 SCALES = ("dB", "linear")
-AXES = {"dB": ("level", (-80.0, -20.0)), "linear": ("height", (0.0, 1.0))}
-"""Name and first range of the axis of each scale."""
 AMPLITUDE = style.AxisQuantity("Amplitude", "A", "")
 ORDER = style.AxisQuantity("Order, turns of the shaft", "", "")
 DEPTH_OF_VIEW = 80.0  # [dB] below the highest line
 RESOLUTIONS = ("32", "8", "2")
-MOST_LINES = 3000
-"""Largest number of lines of a spectrum that are drawn."""
 HANN_WIDTH = 1.5
 """Noise bandwidth of Hann's window, in lines."""
 
+
+SIDEBANDS = ("Harmonics", "and ± shaft", "and ± cage")
+"""Lines that go with the cursor, to choose from."""
+HINT = "Click on a line for its harmonics, sidebands, order and amplitude."
+COLOR = "#0072B2"
+_TURNING = ("shaft", "cage", "hertz")
 
 ALONG: FieldSpec = {
     "name": "direction",
@@ -80,8 +90,68 @@ class Shown:
     band: tuple[float, float] | None = None
 
 
+class FrequencyCursor:
+    """A cursor on a line, with its harmonics and sidebands, in the browser alone.
+
+    A click puts it on the highest line nearby; a click on it takes it away. Its reading is the
+    frequency, the order and the amplitude. The figure draws the "amplitude" of a `curve` over its
+    "frequency".
+
+    Parameters
+    ----------
+    prefix
+        of the source, one per session.
+    """
+
+    def __init__(
+        self,
+        packed: PackedSource,
+        prefix: str,
+        plot: figure,
+        curve: ColumnDataSource,
+    ) -> None:
+        self._name = f"{prefix}_turning"
+        turning = packed.source(self._name, *_TURNING)
+        lines = ColumnDataSource({"at": [], "main": [], "dash": [], "alpha": []}, syncable=False)
+        words = f"{style.HTML_FONT};color:{style.css_color(style.FAINT_INK)};padding:6px 4px"
+        reading = Div(text=HINT, styles={"font": "12.5px/1.45 system-ui"}, syncable=False)
+        reading.styles = dict(part.split(":", 1) for part in words.split(";"))
+        buttons = RadioButtonGroup(
+            labels=list(SIDEBANDS), active=0, syncable=False, stylesheets=[style.BUTTONS]
+        )
+        args = {
+            "turning": turning,
+            "curve": curve,
+            "lines": lines,
+            "reading": reading,
+            "buttons": buttons,
+            "hint": HINT,
+            "plot": plot,
+        }
+        code = style.JS_PREFIX + asset_text("frequency_cursor.js")
+        move = CustomJS(args=args, code=code)
+        plot.vspan(
+            "at", source=lines, line_color=COLOR, line_dash="dash", line_alpha="alpha",
+            line_width=1.3,
+        )  # fmt: skip
+        plot.js_on_event(Tap, move)
+        buttons.js_on_change("active", move)
+        turning.js_on_change("data", move)
+        self.controls = Row(
+            children=[buttons, reading],
+            stylesheets=[style.WRAPPED],
+            sizing_mode="stretch_width",
+            margin=(2, 5, 6, 5),
+        )
+
+    def columns(self, shaft: float, cage: float, per: float) -> dict[str, dict[str, np.ndarray]]:
+        """The source: turns a second of shaft and cage, and the hertz that a 1 on the axis is."""
+        values = (shaft / per, cage / per, per)
+        return {self._name: {n: np.array([v]) for n, v in zip(_TURNING, values, strict=True)}}
+
+
 class FrequencyView(LookView, MeasuredView):
-    """Common parts of spectra: figures in decibels and linear, lines, a cursor, and choices."""
+    """Common parts of spectra: a figure in decibels or linear, lines, a cursor, and choices."""
 
     prefix: ClassVar[str]
 
@@ -89,30 +159,20 @@ class FrequencyView(LookView, MeasuredView):
         self._levels = StickyRange(-80.0, -20.0, least_span=40.0)
         self._heights = StickyRange(0.0, 1.0, anchor="zero", shrink_below=0.7)
         p = self.prefix
-        frequency = packed.range(f"{p}_frequency", 0.0, HIGHEST)
-        lines = frequency_lines.layers(p)
-        measured = f"{p}_measured"
-        layers: dict[str, list[Layer]] = {
-            scale: [*lines, curve(measured, "frequency", scale, MEASURED, 1.2, alpha=0.9)]
-            for scale in SCALES
-        }
-        sources = sources_of(packed, [layer for group in layers.values() for layer in group])
-        self._plots = {
-            scale: style.make_figure(
-                FREQUENCY,
-                AMPLITUDE,
-                frequency,
-                packed.range(f"{p}_{name}", *first),
-                height=HEIGHT,
-                name=f"{p}_drawing_{scale}",
-            )
-            for scale, (name, first) in AXES.items()
-        }
-        plots = list(self._plots.values())
-        for scale, plot in self._plots.items():
-            add_all(plot, sources, layers[scale])
-        self._cursor = FrequencyCursor(packed, p, self._plots, sources[measured])
-        self.hidden = stack(self.panel_of_look, *plots, self._cursor.controls, visible=False)
+        measured = curve(f"{p}_measured", "frequency", "amplitude", MEASURED, 1.2, alpha=0.9)
+        layers = [*frequency_lines.layers(p), measured]
+        self._plot = style.make_figure(
+            FREQUENCY,
+            AMPLITUDE,
+            packed.range(f"{p}_frequency", 0.0, HIGHEST),
+            packed.range(f"{p}_amplitude", 0.0, 1.0),
+            height=HEIGHT,
+            name=f"{p}_drawing",
+        )
+        sources = sources_of(packed, layers)
+        add_all(self._plot, sources, layers)
+        self._cursor = FrequencyCursor(packed, p, self._plot, sources[f"{p}_measured"])
+        self.hidden = stack(self.panel_of_look, self._plot, self._cursor.controls, visible=False)
         return self.hidden
 
     def shown(self, model: Model, measured: Measured) -> Shown:
@@ -148,11 +208,10 @@ class FrequencyView(LookView, MeasuredView):
             },
         )
         unit = "" if measured is None else shown_unit(measured)[0]
-        for scale, plot in self._plots.items():
-            plot.visible = scale == look["scale"]
-            label = f"dB re 1 {unit}".replace("units", "unit") if scale == "dB" else unit
-            plot.yaxis[0].axis_label = replace(AMPLITUDE, unit=label).label()
-            plot.xaxis[0].axis_label = (FREQUENCY if self._axis == "Hz" else ORDER).label()
+        if look["scale"] == "dB":
+            unit = f"dB re 1 {unit}".replace("units", "unit")
+        self._plot.yaxis[0].axis_label = replace(AMPLITUDE, unit=unit).label()
+        self._plot.xaxis[0].axis_label = (FREQUENCY if self._axis == "Hz" else ORDER).label()
 
     # The picture
 
@@ -162,23 +221,22 @@ class FrequencyView(LookView, MeasuredView):
         turning, speed = self.turning, self.shaft_speed
         lines = [] if turning is None else row_frequencies(turning)
         top, resolution = shown.top, shown.resolution
-        factor = 1.0 / shown_unit(measured)[1]
-        drawn = curves(shown.measured, top, factor)
+        room = frequency_lines.head_room(look["lines"], len(lines), FRAME)
+        drawn = shown_curve(shown.measured, top, 1.0 / shown_unit(measured)[1], look["scale"])
         sources: Sources = {f"{p}_measured": drawn}
         # a slow drift at the lowest lines must not set the scale
-        level, height = (drawn[scale][drawn["frequency"] > 1.5 * resolution] for scale in SCALES)
-        room = frequency_lines.head_room(look["lines"], len(lines), FRAME)
-        loudest = float(np.nanmax(level, initial=LEVEL_FLOOR))
-        lowest = max(float(np.nanmin(level, initial=loudest)), loudest - DEPTH_OF_VIEW)
-        head = (loudest - lowest) * room / (1.0 - room) + 3.0
-        greatest = float(np.nanmax(height, initial=0.0)) / (1.0 - room)
+        height = drawn["amplitude"][drawn["frequency"] > 1.5 * resolution]
+        if look["scale"] == "dB":
+            loudest = float(np.nanmax(height, initial=LEVEL_FLOOR))
+            lowest = max(float(np.nanmin(height, initial=loudest)), loudest - DEPTH_OF_VIEW)
+            head = (loudest - lowest) * room / (1.0 - room) + 3.0
+            ends = self._levels.fit(np.array([lowest, loudest + head]))
+        else:
+            greatest = float(np.nanmax(height, initial=0.0)) / (1.0 - room)
+            ends = self._heights.fit(np.array([0.0, greatest]))
         turn = math.nan if speed is None else speed / (2.0 * math.pi)
         per = turn if self._axis == "orders" else 1.0  # [Hz] of a 1 on the axis
-        ranges = {
-            f"{p}_frequency": (0.0, top / per),
-            f"{p}_level": self._levels.fit(np.array([lowest, loudest + head])),
-            f"{p}_height": self._heights.fit(np.array([0.0, greatest])),
-        }
+        ranges = {f"{p}_frequency": (0.0, top / per), f"{p}_amplitude": ends}
         sources |= frequency_lines.columns(p, lines, look["lines"], top, FRAME)
         for columns in sources.values():
             for name in {"frequency", "low", "high", "label_at"} & set(columns):
@@ -204,14 +262,14 @@ def amplitudes(spectrum: Spectrum) -> NDArray[np.float64]:
     return np.asarray(np.sqrt(2.0 * HANN_WIDTH * step * spectrum.density))
 
 
-def curves(spectrum: Spectrum, top: float, factor: float) -> dict[str, NDArray[np.float64]]:
-    """Amplitudes up to `top` [Hz] in both scales; a very fine spectrum is thinned to its peaks."""
+def shown_curve(
+    spectrum: Spectrum, top: float, factor: float, scale: str
+) -> dict[str, NDArray[np.float64]]:
+    """Amplitudes up to `top` [Hz] in a scale; a very fine spectrum is thinned to its peaks."""
     kept = spectrum.frequency <= top
-    frequency, amplitude = spectrum.frequency[kept], factor * amplitudes(spectrum)[kept]
-    size = math.ceil(frequency.size / MOST_LINES)
-    if size > 1:
-        n = frequency.size // size * size
-        highest = amplitude[:n].reshape(-1, size).argmax(axis=1) + np.arange(0, n, size)
-        frequency, amplitude = frequency[highest], amplitude[highest]
-    level = 20.0 * np.log10(np.maximum(amplitude, 10.0 ** (LEVEL_FLOOR / 20.0)))
-    return {"frequency": frequency, "dB": level, "linear": amplitude}
+    frequency, amplitude = thinned_to_peaks(
+        spectrum.frequency[kept], factor * amplitudes(spectrum)[kept]
+    )
+    if scale == "dB":
+        amplitude = 20.0 * np.log10(np.maximum(amplitude, 10.0 ** (LEVEL_FLOOR / 20.0)))
+    return {"frequency": frequency, "amplitude": amplitude}

@@ -10,7 +10,7 @@ import numpy as np
 
 from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.signal import ENVELOPE_TOP, Measured
-from bearing_explorer.diagnosis.views.frequency_lines import fundamentals, row_frequencies
+from bearing_explorer.diagnosis.views.frequency_lines import FAMILIES, fundamentals, row_frequencies
 from bearing_explorer.diagnosis.views.frequency_view import (
     ALONG,
     AXIS,
@@ -24,8 +24,7 @@ from bearing_explorer.diagnosis.views.frequency_view import (
 from bearing_explorer.diagnosis.views.measured_view import HIGHEST_SHARE, Demodulation, shown_unit
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.widgets.form import FieldSpec
-from bearingcore import Diagnosis
-from bearingcore.measured.diagnosis import PartEvidence
+from bearingcore.measured.diagnosis import PARTS
 
 
 def _edge(name: str, label: str, words: str) -> FieldSpec:
@@ -43,7 +42,8 @@ class MeasuredEnvelope(FrequencyView):
     about = (
         "Rates at which impacts repeat. Each impact makes the "
         "machine ring, and the envelope rises: lines at BPFO point to the outer race, at BPFI "
-        "to the inner race, at twice BSF to a ball. The band is that of the diagnosis, or, "
+        "to the inner race, at twice BSF to a ball. They are drawn where the geometry puts them, "
+        "without slip. The band is that of the diagnosis, or, "
         "without one, where the kurtogram is highest; you can give another. A click puts a "
         "cursor on a line."
     )
@@ -90,7 +90,7 @@ class MeasuredEnvelope(FrequencyView):
         return Shown(direction, top, spectrum, measured.envelope_resolution(top), band)
 
     def band(self, measured: Measured, direction: str) -> Demodulation:
-        """The demodulation band [Hz] as chosen; ends that are not given are found."""
+        """The demodulation band [Hz] as chosen; an end that is not given follows."""
         low, high = (float(self.look[end] or math.nan) for end in ("low", "high"))
         if measured.recording.name != self._band_of:
             low = high = math.nan
@@ -138,7 +138,8 @@ class MeasuredEnvelope(FrequencyView):
             if shown.top == high - low:
                 words += f"It has no lines above {shown.top:.0f} Hz, the width of that band. "
         diagnosis = self.measurement.diagnosis()
-        return words + highest_line(shown, sets, *shown_unit(measured), diagnosis)
+        fault = diagnosis.fault if diagnosis is not None and diagnosis.names_a_part else ""
+        return words + highest_line(shown, sets, *shown_unit(measured), fault)
 
 
 _PLACES = {
@@ -148,26 +149,10 @@ _PLACES = {
     "FTF": ("ftf", (1, 2)),
     "the shaft's turn": ("shaft", (1, 2, 3)),
 }
-_OF_PARTS = {"outer race": ("BPFO", 1), "inner race": ("BPFI", 1), "ball": ("BSF", 2)}
+_TITLES = {part: family.title for part, family in zip(PARTS, FAMILIES, strict=False)}
 _NEAR = 0.02  # slip, and what the shaft speed is off
-_SAME = 0.005
-"""Relative difference up to which a line is one of the part that is named."""
 _CLEAR = 4.0
 """Times the median from which on a line stands out: of 1600 of noise the highest has 3.3 times."""
-
-
-def _line_of_part(part: PartEvidence, at: float, resolution: float) -> str:
-    """The line at a frequency [Hz] as one of the part that is named; empty where it is none."""
-    multiple = round(at / part.frequency)
-    off = abs(at - multiple * part.frequency)
-    if not multiple or off > max(_SAME * at, 1.5 * resolution):
-        return ""
-    title, each = _OF_PARTS[part.part]
-    first, apart = (f"{style.number(value, 4)} Hz" for value in (part.frequency, resolution))
-    return (
-        f"{_times(each * multiple)}{title}: step 2 has {first} for the first, from all harmonics; "
-        f"lines here are {apart} apart."
-    )
 
 
 def _lines_near(
@@ -199,12 +184,12 @@ def highest_line(
     sets: Sequence[Mapping[str, float]],
     unit: str,
     size: float,
-    diagnosis: Diagnosis | None,
+    fault: str = "",
 ) -> str:
     """The highest line of the envelope, and the frequency that is there.
 
-    `sets` are the frequencies [Hz] of each row and the shaft; a line of the part that is `found`
-    is named so, with the frequency that all its harmonics give.
+    `sets` are the frequencies [Hz] of each row and the shaft. If several of them are as near as
+    slip allows, that of the part which the diagnosis names is taken.
     """
     frequency, density = shown.measured
     slowest = min((first["ftf"] for first in sets), default=0.0)
@@ -218,19 +203,16 @@ def highest_line(
     if most < _CLEAR * float(np.median(height)):
         return f"No line stands out: the highest, {place} is as high as noise gives."
     words = f"Its highest line, {place}"
-    if diagnosis is not None and diagnosis.names_a_part:
-        of_part = _line_of_part(diagnosis.of(diagnosis.fault), at, shown.resolution)
-        if of_part:
-            return f"{words} is {of_part}"
     if not sets:
         return f"{words[:-1]}. Which part that is follows from bearing and shaft speed."
     near = _lines_near(at, sets, shown.resolution)
+    near = [line for line in near if fault and _TITLES[fault] in line[3]] or near
     if not near:
         return (
             f"{words} is at none of the bearing's frequencies: another part of the machine, or "
             "bearing or shaft speed are others."
         )
-    same = [one[3] for one in near if abs(one[1] - near[0][1]) < shown.resolution]
+    same = [line[3] for line in near if abs(line[1] - near[0][1]) < shown.resolution]
     if len(same) > 1:
         apart = f"{style.number(shown.resolution, 2)} Hz apart"
         return f"{words} may be {' or '.join(same[:3])}: lines here are {apart}."

@@ -18,11 +18,9 @@ from bearing_explorer.kit.widgets.facts import Fact, facts_html, facts_pane
 from bearing_explorer.kit.widgets.form import FieldSpec, stack
 from bearingcore.measured.signals import DISPLACEMENT_ZONES, SHAFT_SPEEDS, ZONES, severity_zone
 
-MEDIUM = "15 to 300 kW"
-LARGE = "over 300 kW"
 _WORDS = {
-    "medium": MEDIUM,
-    "large": LARGE,
+    "medium": "15 to 300 kW",
+    "large": "over 300 kW",
     "rigid": "rigid",
     "flexible": "flexible",
 }

@@ -43,7 +43,6 @@ class MeasuredSpectrogram(MeasuredView):
     )
 
     def build(self, packed: PackedSource) -> Any:
-        self._known: tuple[Any, tuple[Array, Array, Array]] | None = None
         plot = style.make_figure(
             _SIDES[0].quantity,
             _SIDES[1].quantity,
@@ -61,7 +60,8 @@ class MeasuredSpectrogram(MeasuredView):
     def shown(self, measured: Measured) -> tuple[Array, Array, Array]:
         """Times [s], frequencies [Hz], and levels (times, frequencies) [dB below the highest]."""
         direction = self.direction_of(measured)
-        if self._known is None or self._known[0] != (measured, direction):
+
+        def compute() -> tuple[Array, Array, Array]:
             signal, rate = measured.column(direction), measured.recording.sample_rate
             least, most = SEGMENT_LENGTHS
             length = 2 ** round(math.log2(min(max(len(signal) / SEGMENTS, least), most)))
@@ -71,8 +71,9 @@ class MeasuredSpectrogram(MeasuredView):
                 np.linspace(values[0], values[-1], count)
                 for values, count in zip((levels.time, levels.frequency), level.shape, strict=True)
             )
-            self._known = (measured, direction), (time, frequency, level - level.max())
-        return self._known[1]
+            return time, frequency, level - level.max()
+
+        return measured.once(("spectrogram", direction), compute)
 
     def data_of(self, model: Model, measured: Measured) -> tuple[Sources, Ranges]:
         time, frequency, level = self.shown(measured)

@@ -8,10 +8,10 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from bearing_explorer.diagnosis.machine import NOT_KNOWN, ROUGH, Machine, Turning
+from bearing_explorer.diagnosis.machine import NOT_KNOWN, ROUGH, Turning
 from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.session import Measurement, measurement_of
-from bearing_explorer.diagnosis.signal import Measured, Origin
+from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, SessionParts, Sources, View
@@ -116,7 +116,7 @@ class MeasuredView(View[Model]):
 
     @property
     def shaft_speed(self) -> float | None:
-        """[rad/s] that is known, or was found in the signal."""
+        """[rad/s] that is given, or that the diagnosis shows."""
         return self.measurement.shaft_speed
 
     @property
@@ -136,7 +136,7 @@ class MeasuredView(View[Model]):
         """The direction to show: the one chosen, or that of the diagnosis, or y."""
         diagnosed = self.diagnosed()
         wanted = (chosen, diagnosed.direction if diagnosed else "", "y", *measured.directions)
-        return next(one for one in wanted if one in measured.directions)
+        return next(direction for direction in wanted if direction in measured.directions)
 
     def demodulation(self, measured: Measured, direction: str) -> Demodulation:
         """The one band for envelopes: that of the diagnosis, or the kurtogram's best."""
@@ -228,12 +228,6 @@ def named_columns(table: ResultTable, in_si: bool) -> dict[str, np.ndarray]:
     }
 
 
-def _table_lines(origin: Origin) -> list[str]:
-    """Lines that read the file of a recording."""
-    name, path = code_of(origin.file), code_of(path_in(origin.file))
-    return [f"table = read_table({name}, Path({path}).read_bytes())"]
-
-
 def recording_lines(measured: Measured) -> list[str]:
     """Lines of Python that make `recording`: read from the file, or simulated without noise."""
     recording, origin = measured.recording, measured.origin
@@ -247,23 +241,19 @@ def recording_lines(measured: Measured) -> list[str]:
             "settled = motion.outer_acceleration[motion.time >= 0.3]",
             f"recording = Recording(settled[:, columns], {rate}, {along})",
         ]
-    machine = measured.machine
-    speed = None if machine.exact_speed is None else machine.exact_speed / machine.ratio
+    name, path = code_of(origin.file), code_of(path_in(origin.file))
+    speed, ratio = measured.machine.exact_speed, measured.machine.ratio
+    speed = None if speed is None else speed / ratio
     known = {"sensitivity": origin.sensitivity, "shaft_speed": speed}
     further = "".join(f", {name}={short(v)}" for name, v in known.items() if v is not None)
     unit = code_of(origin.unit if measured.in_si else "m/s²")
     return [
-        *_table_lines(origin),
+        f"table = read_table({name}, Path({path}).read_bytes())",
         *([f"table = table.with_columns({dict(origin.given)!r})"] if origin.given else []),
         *([f"table = table.one_of_recordings({origin.part})"] if origin.part else []),
         *([] if measured.in_si else ["# the unit of the file is not known"]),
         "recording = table.recording(",
         f"    {list(origin.columns)}, {along}, {unit}, {rate}, {short(origin.full_scale)}{further}",
         ")",
-        *gear_lines("recording", machine),
+        *([f"recording = recording.scale_shaft({ratio!r})"] if ratio != 1.0 else []),
     ]
-
-
-def gear_lines(name: str, machine: Machine) -> list[str]:
-    """A line that puts the bearing of a recording behind the gear of a machine; none without."""
-    return [f"{name} = {name}.scale_shaft({machine.ratio!r})"] if machine.ratio != 1.0 else []

@@ -14,11 +14,7 @@ from bearing_explorer.diagnosis.machine import Turning
 from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.session import Measurement
 from bearing_explorer.diagnosis.signal import Measured
-from bearing_explorer.diagnosis.views.measured_view import (
-    MeasuredView,
-    column_name,
-    shown_unit,
-)
+from bearing_explorer.diagnosis.views.measured_view import MeasuredView, column_name, shown_unit
 from bearing_explorer.diagnosis.widgets.measurement_form import MeasurementForm
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.layers import curve, draw, least_and_greatest
@@ -171,9 +167,9 @@ def drawn(measured: Measured, first: int, last: int) -> dict[str, NDArray[np.flo
     recording = measured.recording
     rows, values = least_and_greatest(recording.acceleration[first:last], DRAWN_PARTS)
     missing = np.full(len(rows), np.nan)
-    own = dict(zip(recording.directions, values.T / shown_unit(measured)[1], strict=True))
+    curves = dict(zip(recording.directions, values.T / shown_unit(measured)[1], strict=True))
     time = (first + rows) / recording.sample_rate
-    return {"time": time, **{dof: own.get(dof, missing) for dof in SHOWN}}
+    return {"time": time, **{dof: curves.get(dof, missing) for dof in SHOWN}}
 
 
 def fit_with_head(

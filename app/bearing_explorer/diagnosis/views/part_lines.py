@@ -1,20 +1,22 @@
 """The spectrum of an envelope with the lines of each part of the bearing in it.
 
-The lines of the part that stands out most are drawn strong where they were found, with its
+The lines of the part that stands out most are drawn strong where they were measured, with its
 sidebands and a mark on each harmonic; those of the other parts are drawn faint, where geometry has
 them. Below are frequencies, above the same in turns of the shaft (orders).
 """
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 from bokeh.models import LinearAxis, Scatter, VSpan
 from bokeh.plotting import figure
-from numpy.typing import NDArray
 
-from bearing_explorer.diagnosis.views.frequency_lines import ROW_PIXELS
+from bearing_explorer.diagnosis.views.frequency_lines import (
+    FAMILIES,
+    ROW_PIXELS,
+    named,
+    thinned_to_peaks,
+)
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.layers import Glyph, Layer, curve, draw, names_over
 from bearing_explorer.kit.plots.ranges import StickyRange
@@ -27,20 +29,15 @@ FREQUENCY = style.AxisQuantity("Impact frequency", "f", "Hz")
 ORDER = style.AxisQuantity("Order: times a turn of the shaft", "", "")
 LEVEL = style.AxisQuantity("Level above local noise", "", "dB")
 FRAME, HEIGHT = 236.0, 330  # [px]
-MOST_LINES = 3000
-"""Of a spectrum that are drawn."""
 LOWEST = -6.0  # [dB] drawn
 
 STRONG, FAINT, EVEN = 0.95, 0.32, 0.6
 """Opacity of lines: of the leading part, of the others, of all where none leads."""
 
 NAMES = {"outer race": "BPFO", "inner race": "BPFI", "ball": "2 BSF"}
-COLORS = {"outer race": "#E69F00", "inner race": "#AA3377", "ball": "#009E73"}
-INKS = {"outer race": "#8A5A00", "inner race": "#94407A", "ball": "#00704F"}
+COLORS = {part: family.color for part, family in zip(PARTS, FAMILIES, strict=False)}
 """Colours of the parts: those that their lines have on all figures."""
 
-_NAME_WIDTH, _ORDER_WIDTH = 0.13, 0.06
-"""Of a part's first name and those of its harmonics, as shares of a narrow frame's width."""
 _WORDS = "return row.order == 1 ? '%s' : `${row.order}×`"
 
 
@@ -53,48 +50,32 @@ def leading(diagnosis: Diagnosis) -> PartEvidence | None:
 
 def shaft_frequency(diagnosis: Diagnosis) -> float:
     """Turns of the shaft a second [Hz] on which the lines rest."""
-    one = diagnosis.evidence[0]
-    return one.nominal_frequency / one.nominal_order
+    part = diagnosis.evidence[0]
+    return part.nominal_frequency / part.nominal_order
 
 
-def fundamental(diagnosis: Diagnosis, one: PartEvidence) -> float:
+def fundamental(diagnosis: Diagnosis, part: PartEvidence) -> float:
     """The frequency [Hz] at which the first line of a part is drawn."""
-    return one.frequency if one is leading(diagnosis) else one.nominal_frequency
-
-
-def named(multiples: NDArray[np.float64], first: float, low: float, high: float) -> (
-    NDArray[np.float64]
-):  # fmt: skip
-    """Those of the multiples of `first` [Hz] in a window whose names do not overlap."""
-    width = high - low
-    kept: list[float] = []
-    clear = -math.inf
-    for multiple in multiples[(multiples * first >= low) & (multiples * first <= high)]:
-        at = multiple * first
-        wide = _NAME_WIDTH if multiple == 1.0 else _ORDER_WIDTH
-        if at >= clear and at + wide * width <= high + 0.5 * wide * width:
-            kept.append(float(multiple))
-            clear = at + wide * width
-    return np.array(kept)
+    return part.frequency if part is leading(diagnosis) else part.nominal_frequency
 
 
 def layers() -> list[Layer]:
     """From the lowest to the highest: lines of the parts, the spectrum, marks on harmonics."""
     beneath: list[Layer] = []
     marks: list[Layer] = []
-    for part in PARTS:
-        color, names = COLORS[part], f"{_lines(part)}_names"
+    for part, family in zip(PARTS, FAMILIES, strict=False):
+        color, names = family.color, source_of(part, "lines_names")
         line = {"line_color": color, "level": "underlay"}
         looks = {**line, "line_alpha": "alpha", "line_width": "width"}
         dotted = {**line, "line_alpha": 0.7, "line_dash": "dotted"}
         mark = {"size": 8, "fill_color": color, "line_color": style.INK}
         beneath += [
-            Glyph(VSpan, _lines(part), ("frequency",), looks, ("alpha", "width")),
-            Glyph(VSpan, _sidebands(part), ("frequency",), dotted),
-            names_over(names, _WORDS % NAMES[part], "frequency", "row", INKS[part],
+            Glyph(VSpan, source_of(part, "lines"), ("frequency",), looks, ("alpha", "width")),
+            Glyph(VSpan, source_of(part, "sidebands"), ("frequency",), dotted),
+            names_over(names, _WORDS % NAMES[part], "frequency", "row", family.ink,
                        ("order", "alpha"), x_offset=3, text_alpha="alpha"),
         ]  # fmt: skip
-        marks.append(Glyph(Scatter, _points(part), ("frequency", "level"), mark))
+        marks.append(Glyph(Scatter, source_of(part, "points"), ("frequency", "level"), mark))
     spectrum = curve("diagnosis_spectrum", "frequency", "level", style.INK, 1.2, alpha=0.9)
     return [*beneath, spectrum, *marks]
 
@@ -130,28 +111,31 @@ class PartLines:
         greatest = max(
             fundamental(diagnosis, part) * len(part.harmonics) for part in diagnosis.evidence
         )
-        low, high = 0.0, min(1.04 * greatest, float(spectrum.frequency[-1]))
+        high = min(1.04 * greatest, float(spectrum.frequency[-1]))
         shaft = shaft_frequency(diagnosis)
-        drawn = excerpt(spectrum.frequency, spectrum.level, low, high)
+        kept = spectrum.frequency <= high
+        frequency, level = thinned_to_peaks(spectrum.frequency[kept], spectrum.level[kept])
+        # between lines a level may be endlessly low: what is below the frame is at its foot
+        drawn = {"frequency": frequency, "level": np.maximum(level, LOWEST)}
         sources: Sources = {"diagnosis_spectrum": drawn}
         lead = leading(diagnosis)
         name_row = ROW_PIXELS / (FRAME + self.plot.height - HEIGHT)
-        for row, one in enumerate(diagnosis.evidence):
-            first = fundamental(diagnosis, one)
-            alpha = EVEN if lead is None else STRONG if one is lead else FAINT
-            multiples = np.arange(1.0, len(one.harmonics) + 1.0)
+        for row, part in enumerate(diagnosis.evidence):
+            first = fundamental(diagnosis, part)
+            alpha = EVEN if lead is None else STRONG if part is lead else FAINT
+            multiples = np.arange(1.0, len(part.harmonics) + 1.0)
             size = multiples.size
-            labels = named(multiples, first, low, high)
-            sources[_lines(one.part)] = {
+            labels = named(multiples, first, high)
+            sources[source_of(part.part, "lines")] = {
                 "frequency": multiples * first,
                 "alpha": np.full(size, alpha),
-                "width": np.full(size, 2.2 if one is lead else 1.2),
+                "width": np.full(size, 2.2 if part is lead else 1.2),
             }
-            sources[f"{_lines(one.part)}_names"] = {
+            sources[source_of(part.part, "lines_names")] = {
                 "frequency": labels * first,
                 "order": labels,
                 "row": np.full(labels.size, 1.0 - name_row * (row + 0.8)),
-                "alpha": np.full(labels.size, 1.0 if one is lead or lead is None else 0.75),
+                "alpha": np.full(labels.size, 1.0 if part is lead or lead is None else 0.75),
             }
         if lead is not None:
             sources |= self._of_lead(lead)
@@ -160,8 +144,8 @@ class PartLines:
         room = name_row * (len(PARTS) + 0.8)
         head = (loudest - LOWEST) * room / (1.0 - room)
         return sources, {
-            "diagnosis_frequency": (low, high),
-            "diagnosis_order": (low / shaft, high / shaft),
+            "diagnosis_frequency": (0.0, high),
+            "diagnosis_order": (0.0, high / shaft),
             "diagnosis_level": (LOWEST, self._levels.fit(np.array([LOWEST, loudest + head]))[1]),
         }
 
@@ -169,7 +153,7 @@ class PartLines:
         """The marks on the harmonics of the part that leads, and its sidebands."""
         multiples = np.arange(1.0, len(lead.harmonics) + 1.0)
         sources: Sources = {
-            _points(lead.part): {
+            source_of(lead.part, "points"): {
                 "frequency": multiples * lead.frequency,
                 "level": np.maximum(lead.harmonics, LOWEST),
             }
@@ -177,37 +161,10 @@ class PartLines:
         if lead.part != "outer race":  # which stands still in the load and makes none
             sidebands = np.array([-lead.sideband_spacing, lead.sideband_spacing])
             both = multiples[:, None] * lead.frequency + sidebands
-            sources[_sidebands(lead.part)] = {"frequency": both.ravel()}
+            sources[source_of(lead.part, "sidebands")] = {"frequency": both.ravel()}
         return sources
 
 
-def excerpt(
-    frequency: NDArray[np.float64], level: NDArray[np.float64], low: float, high: float
-) -> dict[str, NDArray[np.float64]]:
-    """A spectrum between two frequencies [Hz] with no more lines than can be seen; peaks stay."""
-    first, last = np.searchsorted(frequency, [low, high])
-    first, last = max(int(first) - 1, 0), min(int(last) + 1, frequency.size)
-    frequency, level = frequency[first:last], level[first:last]
-    size = math.ceil(frequency.size / MOST_LINES)
-    if size > 1:
-        n = frequency.size // size * size
-        frequency = frequency[:n].reshape(-1, size)[:, size // 2]
-        level = level[:n].reshape(-1, size).max(axis=1)
-    # between lines a level may be endlessly low: what is below the frame is at its foot
-    return {"frequency": frequency, "level": np.maximum(level, LOWEST)}
-
-
-def _key(part: str) -> str:
-    return part.replace(" ", "_")
-
-
-def _lines(part: str) -> str:
-    return f"diagnosis_{_key(part)}_lines"
-
-
-def _sidebands(part: str) -> str:
-    return f"diagnosis_{_key(part)}_sidebands"
-
-
-def _points(part: str) -> str:
-    return f"diagnosis_{_key(part)}_points"
+def source_of(part: str, kind: str) -> str:
+    """The name of a source: of the lines of a part, their names, sidebands or points."""
+    return f"diagnosis_{part.replace(' ', '_')}_{kind}"

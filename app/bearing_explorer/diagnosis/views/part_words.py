@@ -1,10 +1,10 @@
-"""A diagnosis in words: a headline, sentences, a summary to copy, and rows of a table."""
+"""A diagnosis in words: a headline, sentences, a summary to copy, and a table of evidence."""
 
 from __future__ import annotations
 
 import dataclasses
+import html
 import math
-from typing import Any
 
 from bearing_explorer.diagnosis.diagnoses import Question
 from bearing_explorer.diagnosis.machine import Machine
@@ -14,7 +14,7 @@ from bearing_explorer.diagnosis.views.part_lines import COLORS, NAMES, leading
 from bearing_explorer.kit.plots import style
 from bearingcore import Diagnosis, MeasuredExtent, PartEvidence, Sizing
 from bearingcore.common import percent_off, probability, span
-from bearingcore.measured.diagnosis import LIKELY, NONE_SEEN, SLIP, perhaps_a_ball
+from bearingcore.measured.diagnosis import LIKELY, NONE_SEEN, OUTER, SLIP, perhaps_a_ball
 
 COUNTED = (
     " The number of {} is an estimate: with another one, damage of a race shows at another "
@@ -58,12 +58,12 @@ def headline(answer: Diagnosis) -> str:
 def plain(answer: Diagnosis, question: Question) -> str:
     """The finding in a sentence or three."""
     if answer.names_a_part:
-        one = answer.of(answer.fault)
-        modulated = f", modulated once per {one.sideband_source} turn" if one.modulated else ""
+        part = answer.of(answer.fault)
+        modulated = f", modulated once per {part.sideband_source} turn" if part.modulated else ""
         doubt = perhaps_a_ball() if answer.perhaps_a_ball else ""
         return (
-            f"Impacts at {style.number(one.frequency, 4)} Hz, {_FREQUENCY[one.part]}"
-            f"{modulated}.{doubt}"
+            f"Impacts at {style.number(part.frequency, 4)} Hz{modulated}: {_FREQUENCY[part.part]}, "
+            f"by the geometry {style.number(part.nominal_frequency, 4)} Hz.{doubt}"
         )
     if answer.fault == NONE_SEEN:
         return (
@@ -81,19 +81,13 @@ def counted(question: Question) -> str:
     return COUNTED.format(bearing.kind.elements) if "n_balls" in bearing.estimated else ""
 
 
-def extent(measured: MeasuredExtent) -> str:
-    """The length of a spall in a few words."""
-    if measured.measured:
-        return f"{measured.size} long, or that and whole ball spacings"
-    return measured.size or LENGTH_HIDDEN
-
-
-def length(measured: MeasuredExtent, sizing: Sizing | None) -> str:
+def length(measured: MeasuredExtent, sizing: Sizing | None = None) -> str:
     """The length of a spall in a few words, by its simulation where that is conclusive."""
     if sizing is not None and sizing.conclusive:
         return f"{size_in_words(sizing)} long, by the frequencies at which the machine rings"
-    known = ", interval of 95 %" if measured.measured else ""
-    return f"{extent(measured)}{known}"
+    if measured.measured:
+        return f"{measured.size} long, or that and whole ball spacings, interval of 95 %"
+    return measured.size or LENGTH_HIDDEN
 
 
 def swing(depth: float) -> str:
@@ -152,11 +146,11 @@ def _rpm(speed: float) -> str:
 
 def speed_source(answer: Diagnosis, machine: Machine) -> str:
     """Source of the shaft speed of an answer, in words."""
-    own = machine.source_of("speed")
+    said = machine.source_of("speed")
     for given in ("given by the recording", "given"):
         if answer.speed_source.startswith(given):
-            return own + answer.speed_source.removeprefix(given)
-    return f"{own}; {answer.speed_source}" if own else f"not given; {answer.speed_source}"
+            return said + answer.speed_source.removeprefix(given)
+    return f"{said}; {answer.speed_source}" if said else f"not given; {answer.speed_source}"
 
 
 def sentence(answer: Diagnosis, question: Question) -> str:
@@ -253,59 +247,59 @@ def truth(question: Question) -> str:
     return words
 
 
-def slip(value: float) -> str:
-    """A slip with its sign."""
-    return percent_off(value)
-
-
-def evidence_rows(answer: Diagnosis, several: bool = True) -> list[dict[str, Any]]:
-    """The evidence of each part as the browser lists it; directions where there are `several`.
+def evidence_html(answer: Diagnosis, several: bool = True) -> str:
+    """The evidence for each part as an HTML table; with directions where there are `several`.
 
     Without a clear result no part has a probability or leads: it would look like a verdict.
     """
-    lead = leading(answer)
-    rows = [
-        _row(part, part is lead and answer.conclusive, lead is not None, several)
-        for part in answer.evidence
+    if not answer.evidence:
+        return ""
+    harmonics = range(1, len(answer.evidence[0].harmonics) + 1)
+    heads = [
+        ("Part", ""), ("Order", "nominal"), ("Line", "slip"),
+        *((f"{k}×", "dB" if k == 1 else "") for k in harmonics),
+        ("Together", "dB"), ("Sidebands", "dB"), ("Demodulation band", ""),
+        *([("Probability", "")] if answer.conclusive else []),
+    ]  # fmt: skip
+    head = "".join(_cell(words, below, 'th scope="col"') for words, below in heads)
+    body = "".join(_evidence_row(part, answer, several) for part in answer.evidence)
+    return (
+        '<div class="rows" tabindex="0" role="region" aria-label="Evidence for each part"><table>'
+        f"<caption>Evidence for each part</caption><thead><tr>{head}</tr></thead>"
+        f"<tbody>{body}</tbody></table></div>"
+    )
+
+
+def _evidence_row(part: PartEvidence, answer: Diagnosis, several: bool) -> str:
+    """A row of that table; without a shaft speed it has no number that depends on one."""
+    lead, known = leading(answer), answer.shaft_speed is not None
+    turns, slip = part.part != OUTER, percent_off(part.slip)
+    near = part.sidebands[: len(part.sidebands) // 2]
+    spacing = f"± {style.number(part.sideband_spacing, 3)} Hz, {part.sideband_source}"
+    swatch = f'<i class="swatch" style="background: {style.css_color(COLORS[part.part])}"></i>'
+    cells = [
+        f'<th scope="row">{swatch}{part.part}<small>{NAMES[part.part]}</small></th>',
+        _cell(f"{part.order:.3f}" if known else "?", f"of {part.nominal_order:.3f}"),
+        _cell(f"{style.number(part.frequency, 4)} Hz", slip if known else "not known"),
+        *(
+            _cell(decibels(level), tag='td class="clear"' if lead and level > part.noise else "td")
+            for level in part.harmonics.tolist()
+        ),
+        _cell(decibels(part.level), f"noise {decibels(part.noise)}"),
+        _cell(
+            decibels(float(near.mean())) if turns else "none expected",
+            spacing if turns and known else "",
+        ),
+        _cell(band(part.band.low, part.band.high), f"along {part.direction}" if several else ""),
+        *([_cell(probability(part.probability))] if answer.conclusive else []),
     ]
-    if answer.conclusive:
-        for row, one in zip(rows, answer.evidence, strict=True):
-            row["probability"] = probability(one.probability)
-    if answer.shaft_speed is None:  # what rests on it would be of one of the speeds that were tried
-        for row in rows:
-            row |= {"order": "?", "slip": "not known", "spacing": ""}
-    return rows
+    leads = "leads" if part is lead and answer.conclusive else ""
+    return f'<tr class="{leads}">{"".join(cells)}</tr>'
 
 
-def _row(one: PartEvidence, leads: bool, seen: bool, several: bool) -> dict[str, Any]:
-    near = one.sidebands[: len(one.sidebands) // 2]
-    own = "none expected" if one.part == "outer race" else decibels(float(near.mean()))
-    return {
-        "part": one.part,
-        "name": NAMES[one.part],
-        "color": style.css_color(COLORS[one.part]),
-        "leads": leads,
-        "order": f"{one.order:.3f}",
-        "nominal": f"{one.nominal_order:.3f}",
-        "frequency": f"{style.number(one.frequency, 4)} Hz",
-        "slip": slip(one.slip),
-        "harmonics": [
-            {
-                "order": k + 1,
-                "level": decibels(float(level)),
-                "clear": seen and bool(level > one.noise),
-            }
-            for k, level in enumerate(one.harmonics)
-        ],
-        "together": decibels(one.level),
-        "noise": decibels(one.noise),
-        "sidebands": own,
-        "spacing": ""
-        if one.part == "outer race"
-        else f"± {style.number(one.sideband_spacing, 3)} Hz, {one.sideband_source}",
-        "band": band(one.band.low, one.band.high),
-        "direction": f"along {one.direction}" if several else "",
-    }
+def _cell(words: str, below: str = "", tag: str = "td") -> str:
+    small = f"<small>{html.escape(below)}</small>" if below else ""
+    return f"<{tag}>{html.escape(words)}{small}</{tag.split()[0]}>"
 
 
 def decibels(level: float) -> str:

@@ -19,27 +19,20 @@ from bearing_explorer.diagnosis.views.frequency_lines import FAMILIES
 from bearing_explorer.diagnosis.views.measured_view import (
     NOTHING,
     MeasuredView,
-    gear_lines,
     named_columns,
+    recording_lines,
     shown_unit,
 )
 from bearing_explorer.kit.compute.jobs import Work
 from bearing_explorer.kit.plots import style
-from bearing_explorer.kit.plots.layers import (
-    Glyph,
-    Layer,
-    add_all,
-    curve,
-    segments,
-    sources_of,
-)
+from bearing_explorer.kit.plots.layers import Glyph, Layer, add_all, curve, segments, sources_of
 from bearing_explorer.kit.plots.ranges import StickyRange
-from bearing_explorer.kit.sentences import number_of, sentence_of
+from bearing_explorer.kit.sentences import sentence_of
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
 from bearing_explorer.kit.views.job_view import Editor, JobView
 from bearing_explorer.kit.views.python_lines import code_of, scene_code, short
-from bearing_explorer.kit.widgets.form import AS_HIGH_AS_SHOWN, FieldSpec, stack
+from bearing_explorer.kit.widgets.form import AS_HIGH_AS_SHOWN, stack
 from bearingcore import Trend, trend
 from bearingcore.errors import FieldError
 from bearingcore.measured.diagnosis import CANNOT_TELL, NONE_SEEN, PARTS
@@ -95,7 +88,7 @@ class TrendOfFiles(JobView[Model, FoundTrend, Editor], MeasuredView):
     title = "Trend of several files"
     about = (
         "Several files of one machine, or a folder of them. They are chosen in step 1, in their "
-        "order. Dashed: the baseline. Bars: intervals of 95 %, without a dot an upper bound. The "
+        "order. Dashed: the first file. Bars: intervals of 95 %, without a dot an upper bound. The "
         "last file is the one that the rest of this tab shows. Lines of the parts are drawn where "
         "they are more than noise, all in the band of the last file; one there need not be the "
         "bearing's. An extent is there where a damaged race is named."
@@ -128,32 +121,16 @@ class TrendOfFiles(JobView[Model, FoundTrend, Editor], MeasuredView):
 
     # The job
 
-    def fields(self) -> list[FieldSpec]:
-        return [{"name": "baseline", "label": "Baseline, number of the file", "hint": "1"}]
-
-    def form(self, editor: Editor) -> tuple[dict[str, str], dict[str, Any]]:
-        return {"baseline": "1"}, {}
-
     def prepare(self, given: Mapping[str, str], editor: Editor) -> Callable[[Work], str]:
         measured, measurement = self.measured, self.measurement
         if measured is None:
             raise ValueError(NOTHING)
         series, machine = measurement.series, measured.machine
-        text = given.get("baseline", "").strip() or "1"
-        number = round(number_of(text, "The number of the baseline", "", 1, 10**4))
         direction = self.direction_of(measured)
         band = self.demodulation(measured, direction).band
-        known = self.job_result if self._is_of_now(self.job_result) else None
 
         def work(job: Work) -> str:
-            if known is not None and number <= len(known.trend.points):
-                again = dataclasses.replace(known.trend, baseline=number - 1)
-                job.show(dataclasses.replace(known, trend=again))
-                return f"Compared with file {number}."
             gathered = measurement.recordings(measured, direction)
-            if not 1 <= number <= len(gathered.recordings):
-                count = len(gathered.recordings)
-                raise ValueError(f"The baseline is one of 1 to {count}, not {number}.")
 
             def goes_on(so_far: Trend, of: int) -> bool:
                 job.progress(len(so_far.points) / of)
@@ -163,7 +140,7 @@ class TrendOfFiles(JobView[Model, FoundTrend, Editor], MeasuredView):
             try:
                 done = trend(
                     gathered.recordings, machine.bearing, machine.range, direction=direction,
-                    band=band, baseline=number - 1, goes_on=goes_on,
+                    band=band, goes_on=goes_on,
                 )  # fmt: skip
             except FieldError as error:
                 raise ValueError(sentence_of(error)) from error
@@ -174,15 +151,6 @@ class TrendOfFiles(JobView[Model, FoundTrend, Editor], MeasuredView):
     def _take(self, result: FoundTrend) -> None:
         self.measurement.trend = result
         super()._take(result)
-
-    def _is_of_now(self, newest: FoundTrend | None) -> bool:
-        """True where a result is complete, and of the files and answers that there are now."""
-        return (
-            newest is not None
-            and newest.series is self.measurement.series
-            and newest.measured is self.measured
-            and newest.complete
-        )
 
     def say(self, model: Model | None, sentence: str) -> None:
         super().say(model, sentence)
@@ -385,40 +353,26 @@ def part_words(shown: Trend) -> str:
 def python_lines(newest: FoundTrend, model: Model) -> str:
     """Lines that read the files of a trend and compute it."""
     scene, shown = newest.measured.scene(model.scene), newest.trend
-    machine, files = newest.measured.machine, []
+    machine, lines = newest.measured.machine, []
     bearing = "None" if machine.bearing is None else "scene.bearing"
     speed = "None" if machine.range is None else code_of(machine.range)
-    for recording, origin in zip(
-        newest.recordings.recordings, newest.recordings.origins, strict=True
-    ):
-        assert origin is not None
-        unit = origin.unit if newest.measured.in_si else "m/s²"
-        given = [
-            code_of(origin.file), str(list(origin.columns)), code_of(list(recording.directions)),
-            repr(dict(origin.given)), code_of(unit), short(recording.sample_rate),
-            short(origin.full_scale),
-            "None" if origin.sensitivity is None else short(origin.sensitivity),
-            "None" if recording.shaft_speed is None else short(recording.shaft_speed),
-            str(origin.part),
-        ]  # fmt: skip
-        files.append(f"    ({', '.join(given)}),")
+    read = newest.recordings
+    for recording, origin in zip(read.recordings, read.origins, strict=True):
+        turning = "None" if recording.shaft_speed is None else short(recording.shaft_speed)
+        lines += [
+            *recording_lines(
+                dataclasses.replace(newest.measured, recording=recording, origin=origin)
+            ),
+            f"recordings.append(replace(recording, shaft_speed={turning}))",
+        ]
     return "\n".join([
         "from dataclasses import replace",
         "from pathlib import Path\n",
         "from bearingcore import Scene, presets, read_table, trend",
-        "from bearingcore.measured.files import Column, path_in\n",
+        "from bearingcore.measured.files import Column\n",
         f"scene = {scene_code(scene)}",
-        "files = [  # columns, directions, meaning given, unit, rate, a 1, V/(m/s²), rad/s, which",
-        *files,
-        "]",
         "recordings = []",
-        "for name, columns, along, given, unit, rate, scale, sensor, speed, part in files:",
-        "    table = read_table(name, Path(path_in(name)).read_bytes())",
-        "    table = table.with_columns(given)",
-        "    table = table.one_of_recordings(part) if part else table",
-        "    made = table.recording(columns, along, unit, rate, scale, sensitivity=sensor)",
-        *(f"    {line}" for line in gear_lines("made", machine)),
-        "    recordings.append(replace(made, shaft_speed=speed))",
+        *lines,
         "measured = trend(",
         f"    recordings, {bearing}, {speed}, direction={code_of(shown.direction)},",
         f"    band=({short(shown.band[0])}, {short(shown.band[1])}), baseline={shown.baseline},",

@@ -259,4 +259,4 @@ def columns_as_said(state: MeasurementState) -> tuple[list[str], list[str]]:
     roles, given = roles_and_units(state.values["columns"])
     unit = state.values["unit"]
     headed = state.columns.headed if unit == AS_HEADED else [unit] * len(roles)
-    return roles, [own or other for own, other in zip(given, headed, strict=False)]
+    return roles, [unit or other for unit, other in zip(given, headed, strict=False)]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import html
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import panel as pn
@@ -171,46 +171,3 @@ def _impact(y: float, size: float) -> str:
         f'<path class="rays" d="{rays}"/>'
         f'<circle class="spot" cx="0" cy="{y:.2f}" r="{0.55 * size:.2f}"/>'
     )
-
-
-def evidence_html(rows: Sequence[Mapping[str, Any]]) -> str:
-    """The evidence for each part as an HTML table, from rows of `part_words.evidence_rows`."""
-    if not rows:
-        return ""
-    harmonics = range(1, len(rows[0]["harmonics"]) + 1)
-    heads = [
-        ("Part", ""), ("Order", "nominal"), ("Line", "slip"),
-        *((f"{k}×", "dB" if k == 1 else "") for k in harmonics),
-        ("Together", "dB"), ("Sidebands", "dB"), ("Demodulation band", ""),
-        *([("Probability", "")] if "probability" in rows[0] else []),
-    ]  # fmt: skip
-    head = "".join(_cell(words, below, 'th scope="col"') for words, below in heads)
-    body = "".join(_row(row) for row in rows)
-    return (
-        '<div class="rows" tabindex="0" role="region" aria-label="Evidence for each part"><table>'
-        f"<caption>Evidence for each part</caption><thead><tr>{head}</tr></thead>"
-        f"<tbody>{body}</tbody></table></div>"
-    )
-
-
-def _row(row: Mapping[str, Any]) -> str:
-    swatch = f'<i class="swatch" style="background: {row["color"]}"></i>'
-    cells = [
-        f'<th scope="row">{swatch}{row["part"]}<small>{row["name"]}</small></th>',
-        _cell(row["order"], f"of {row['nominal']}"),
-        _cell(row["frequency"], row["slip"]),
-        *(
-            _cell(harmonic["level"], tag='td class="clear"' if harmonic["clear"] else "td")
-            for harmonic in row["harmonics"]
-        ),
-        _cell(row["together"], f"noise {row['noise']}"),
-        _cell(row["sidebands"], row["spacing"]),
-        _cell(row["band"], row["direction"]),
-        *([_cell(row["probability"])] if "probability" in row else []),
-    ]
-    return f'<tr class="{"leads" if row["leads"] else ""}">{"".join(cells)}</tr>'
-
-
-def _cell(words: str, below: str = "", tag: str = "td") -> str:
-    small = f"<small>{html.escape(below)}</small>" if below else ""
-    return f"<{tag}>{html.escape(words)}{small}</{tag.split()[0]}>"

@@ -69,10 +69,17 @@ def diagnose_recording(
         checks.choice(name, said.partition(":")[0], SOURCES)
     ratio = checks.real_number("shaft_ratio", shaft_ratio, at_least=0.01, at_most=100.0)
     speeds = _speeds(recording, shaft_speed, speed_source, ratio)
+    slip = checks.real_number("slip", slip, at_least=0.0, at_most=0.1)
     behind_gear = recording if ratio == 1.0 else recording.scale_shaft(ratio)
-    diagnosis = _diagnose(behind_gear, bearing, speeds, ratio, slip, speed_source)
-    source = "unknown" if bearing is None else bearing_source
-    return replace(diagnosis, bearing_source=source, shaft_ratio=ratio)
+    steady, low, high, source = resample_to_steady_speed(behind_gear, *speeds)
+    speeds, measured = (low, high, source), recording.shaft_angle is not None
+    diagnosis = _diagnose(steady, bearing, speeds, ratio, slip, speed_source, measured)
+    return replace(
+        diagnosis,
+        bearing_source="unknown" if bearing is None else bearing_source,
+        shaft_ratio=ratio,
+        steady_recording=None if steady is behind_gear else steady,
+    )
 
 
 def _diagnose(
@@ -82,11 +89,9 @@ def _diagnose(
     ratio: float,
     slip: float,
     speed_source: str,
+    measured: bool,
 ) -> Diagnosis:
-    slip = checks.real_number("slip", slip, at_least=0.0, at_most=0.1)
     low, high, source = speeds
-    measured = recording.shaft_angle is not None
-    recording, low, high, source = resample_to_steady_speed(recording, low, high, source)
     signal = ListenedSignal(recording)
     if signal.unusable is not None:
         return silent(*signal.unusable, source)

@@ -13,6 +13,7 @@ from bearingcore.common import ResultTable, number, shown_as_table, table_of
 from bearingcore.measured.diagnosis._part.parts import INNER, OUTER, PARTS
 from bearingcore.measured.diagnosis._part.status import DiagnosisStatus
 from bearingcore.measured.signals._filter_bank import Band
+from bearingcore.recordings import Recording
 
 NONE_SEEN, CANNOT_TELL = "none seen", "cannot tell"
 BESIDE = 0.5
@@ -193,6 +194,9 @@ class Diagnosis:
         a share of its mean: it would have been seen in nine of ten such records.
     spectrum
         spectrum of the envelope in the band of the best evidence; None without evidence.
+    steady_recording
+        the signal over the angle of a shaft whose changing speed was measured with it: that of a
+        shaft that turns at its mean speed. None if the speed is steady or was not measured.
     """
 
     fault: str
@@ -207,6 +211,7 @@ class Diagnosis:
     spectrum: EnvelopeLines | None
     bearing_source: str = "given"
     shaft_ratio: float = 1.0
+    steady_recording: Recording | None = field(default=None, repr=False, compare=False)
 
     @property
     def sentence(self) -> str:

@@ -44,6 +44,10 @@ JUMP, FOLLOWED = 0.03, 0.9
 """By how much a speed may be off the mean of its neighbours, and the share of the spectra in which
 it is not: lines of a shaft reach 0.95, those of noise 0.4, of single tones 0.8."""
 
+FEWEST_PIECES, TOGETHER, LEAST_SHARED_CHANGE = 12, 0.75, 0.02
+"""Pieces of a signal in which the shaft's lines are followed by their phase; the rank correlation
+of the speeds by three lines, which noise and single blows bring to 0.6; and a change so shown."""
+
 BESIDE = 0.02
 """By how much a given speed may be outside those that were measured, as a fraction."""
 
@@ -140,7 +144,8 @@ def followed_change(columns: Sequence[Array], rate: float, shaft: float) -> floa
     """Change of a speed that was not measured, as a fraction of it; 0 where none is sure.
 
     In each short spectrum the three first lines of the shaft together show its speed. Those of
-    noise leap from one spectrum to the next, and those of a shaft do not.
+    noise leap from one spectrum to the next, and those of a shaft do not. A small change hides in
+    the width of such lines, but not in their phase.
 
     Parameters
     ----------
@@ -150,7 +155,29 @@ def followed_change(columns: Sequence[Array], rate: float, shaft: float) -> floa
         [Hz] as it is given.
     """
     speeds = np.linspace(NEAR[0] * shaft, NEAR[1] * shaft, 141)
-    return max(_change(*thinned(column, rate, 6.0 * shaft), shaft, speeds) for column in columns)
+    slow = [thinned(column, rate, 6.0 * shaft) for column in columns]
+    change = max(_change(values, rate, shaft, speeds) for values, rate in slow)
+    return change or max(_small_change(values, rate, shaft) for values, rate in slow)
+
+
+def _small_change(values: Array, rate: float, shaft: float) -> float:
+    """The same of a speed that is nearly steady: the shaft's first three lines speed up together.
+
+    The phase of each line over its order is the shaft's angle; lines of noise do not agree on it.
+    """
+    spectrum, step = np.fft.rfft(values - values.mean()), round(0.5 * WINDOW / shaft * rate)
+    order = np.arange(len(spectrum)) * rate / len(values) / shaft
+    speeds = []
+    for line in (1, 2, 3):
+        off = np.minimum(np.abs(order - line) / (1.0 - NEAR[0]), 1.0)
+        alone = np.fft.ifft(spectrum * np.cos(0.5 * math.pi * off) ** 2, len(values))
+        speeds.append(np.diff(np.unwrap(np.angle(alone))[step:-step:step]) / line)
+    if len(speeds[0]) < FEWEST_PIECES or not np.ptp(values):
+        return 0.0
+    ranks = np.argsort(np.argsort(speeds, axis=1), axis=1)
+    change = float(np.ptp(np.median(speeds, axis=0)) / np.mean(speeds))
+    shared = np.corrcoef(ranks).min() >= TOGETHER and change >= LEAST_SHARED_CHANGE
+    return change if shared else 0.0
 
 
 def _change(values: Array, rate: float, shaft: float, speeds: Array) -> float:

@@ -80,12 +80,10 @@ def brought() -> Measurement:
     return made
 
 
-def computed(view: TrendOfFiles, baseline: str = "1", stopped: bool = False) -> str:
+def computed(view: TrendOfFiles) -> str:
     """The job of the view here and now: its sentence."""
     work = Work()
-    if stopped:
-        work.stop()
-    words = view.prepare({"baseline": baseline}, MODEL)(work)
+    words = view.prepare({}, MODEL)(work)
     (view.job_result,) = work.taken()
     return words
 
@@ -121,21 +119,6 @@ def test_a_bad_file_among_good_ones_is_named_and_nothing_is_lost(view: TrendOfFi
     words = words_on(view.job_result.trend, in_si=False)
     assert NO_LEVELS in words
     assert "times" not in words
-
-
-def test_another_baseline_needs_no_file_again(
-    view: TrendOfFiles, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(brought(), "recordings", None)
-    before = view.job_result
-    assert computed(view, "2") == "Compared with file 2."
-    np.testing.assert_allclose(
-        view.job_result.trend.rms_change, np.array(LOUD) / LOUD[1], rtol=1e-4
-    )
-    monkeypatch.undo()
-    with pytest.raises(ValueError, match="one of 1 to 3, not 9"):
-        view.prepare({"baseline": "9"}, MODEL)(Work())
-    view.job_result = before
 
 
 def test_cancel_while_files_are_read_keeps_the_signal_before() -> None:

@@ -30,6 +30,7 @@ from tests.bearingcore.measured.diagnosis.signals_made import (
 )
 from tests.benchmarks.measured_records import records
 from tests.benchmarks.scoreboard import FILE, WRONG, verdict
+from tests.outside.changing_speeds import BALLS, machine
 from tests.outside.motor_signals import Motor
 from tests.outside.witness import witness
 
@@ -401,3 +402,20 @@ def test_a_line_below_what_noise_reaches_is_none(level, lines):
     part = SimpleNamespace(part="ball", frequency=36.98, level=level, noise=4.4)
     assert ("There are faint lines" in say.faint(part)) == lines
     assert ("No line stands out" in say.faint(part)) != lines
+
+
+@pytest.mark.parametrize("bearing", BALLS)
+@pytest.mark.parametrize(
+    ("change", "blow", "says"),
+    [("steady", 0.0, False), ("steady", 40.0, False), ("2 %", 0.0, True)],
+)
+def test_a_small_change_of_an_unmeasured_speed_is_said(bearing, change, blow, says):
+    """Blows that strike a steady machine move all lines of the shaft at once, and are no change."""
+    _, signal, _ = machine(bearing, "inner race", change, 1)
+    places = np.random.default_rng(6).integers(len(signal) - 400, size=4)
+    for place in places.tolist():
+        signal[place : place + 400] += blow * np.exp(-np.arange(400) / 80.0)
+    answer = diagnose(Recording(signal, 12_800.0, ("y",)), bearing, TURN * 25.0)
+    assert (answer.status == DiagnosisStatus.SPEED_CHANGES) == says
+    assert ("record the speed along" in answer.sentence) == says
+    assert not (says and answer.names_a_part)

@@ -142,8 +142,8 @@ def mechanism_words(mass: BallMass) -> str:
     if not below.size:
         return f"{words}, up to {most}, as its strikes are short."
     return (
-        f"{words}, up to {most}, as its strikes are short; below it the varying stiffness does, and mass adds at most "
-        f"{_percent(max(below.max(), 0.0))}."
+        f"{words}, up to {most}, as its strikes are short; below it the varying stiffness does, "
+        f"and mass adds at most {_percent(max(below.max(), 0.0))}."
     )
 
 

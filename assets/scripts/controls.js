@@ -113,7 +113,7 @@ export function render({ model }) {
     const { least } = panel.limits[name]
     return Number((least + (((value - least) % 360) + 360) % 360).toFixed(2))
   }
-  const follow_hand = ({ kind, defect, began, released, turn, force, more }) => {
+  const follow_hand = ({ kind, defect, began, released, turn, force, more, to }) => {
     if (began) {
       const own = kind === "load" || defect === selected
       hold = own ? { ...values, turn: 0 } : null
@@ -125,14 +125,17 @@ export function render({ model }) {
     hold ??= { ...values, turn }
     const by = turn - hold.turn
     if (kind === "load") {
-      const held = Math.hypot(hold.fx_n, hold.fy_n), size = force ? Math.hypot(...force) : Math.max(0, held + more)
+      const held = Math.hypot(hold.fx_n, hold.fy_n)
       const angle = (held ? Math.atan2(hold.fy_n, hold.fx_n) : -Math.PI / 2) + by * Math.PI / 180
+      const most = Math.min(panel.limits.fx_n.most / Math.abs(Math.cos(angle)), panel.limits.fy_n.most / Math.abs(Math.sin(angle)))
+      const size = to ? { least: 0, most }[to] : force ? Math.hypot(...force) : Math.max(0, held + more)
       const [fx_n, fy_n] = (force ?? [size * Math.cos(angle), size * Math.sin(angle)]).map((one) => Math.abs(one) < 0.01 * size ? 0 : one)  // by hand nothing is upright
       panel.move_all({ fx_n: inside("fx_n", fx_n), fy_n: inside("fy_n", fy_n) })
-    } else if (kind === "middle") panel.move("center_deg", around("center_deg", hold.center_deg + by))
+    } else if (kind === "middle") panel.move("center_deg", to ? panel.limits.center_deg[to] : around("center_deg", hold.center_deg + by))
     else {
       const side = kind === "end" ? 1 : -1
-      const extent = inside(spec.extent, hold[spec.extent] + side * by)
+      const limits = panel.limits[spec.extent]  // one of no length would have no ends to hold
+      const extent = to ? Math.max(limits[to], limits.step) : inside(spec.extent, hold[spec.extent] + side * by)
       const center = hold.center_deg + side * (extent - hold[spec.extent]) / 2
       panel.move_all({ [spec.extent]: extent, center_deg: around("center_deg", center) })
     }

@@ -1,7 +1,7 @@
 // What can be grabbed in a drawing of the bearing: the ends and the middle of a defect, the tip of
 // the arrow. It says how far each was turned and which force the arrow is; the controls move (see
-// controls.js). By keys a handle is a slider: Tab comes to it, arrow keys move it the way they point; of
-// the arrow up and down change the size.
+// controls.js). By keys a handle is a slider: Tab comes to it, arrow keys move it the way they point, Home
+// and End go to the least and greatest value; of the arrow these, up and down change the size.
 // See app/bearing_explorer/explorer/views/bearing_handles.py.
 const NEAR = { mouse: 12, pen: 18, touch: 26 }  // [px]
 const CUED = 36  // [px] of the radius of a bore in which there is room for the cue
@@ -67,19 +67,20 @@ if (view?.frame?.bbox?.width > 0) {
     }
     one.addEventListener("focus", () => say({ kind: one.kind, defect: one.defect, began: true, hand: false }))
     one.addEventListener("keydown", (event) => {
+      const to = { Home: "least", End: "most" }[event.key]
       const side = { ArrowRight: 1, ArrowUp: 1, PageUp: 10, ArrowLeft: -1, ArrowDown: -1, PageDown: -10 }[event.key]
-      if (!side || event.ctrlKey || event.altKey || event.metaKey) return
+      if (!(side || to) || event.ctrlKey || event.altKey || event.metaKey) return
       event.preventDefault()
       event.stopPropagation()
       if (!moved) say({ kind: one.kind, defect: one.defect, began: true })
       moved ??= { turn: 0, more: 0, step: LARGER * (one.size || one.whole) }
       const across = /Left|Right/.test(event.key), angle = one.angle * Math.PI / 180
       if (one.kind === "load" && !across) moved.more += side * moved.step
-      else {
+      else if (side) {
         const way = across ? -Math.sin(angle) : Math.cos(angle)  // of a turn to the left, on screen
         moved.turn += side * STEP * (way < -0.1 ? -1 : 1) * (one.kind === "load" ? 2 : 1)
       }
-      say({ kind: one.kind, defect: one.defect, turn: moved.turn, more: moved.more })
+      say({ kind: one.kind, defect: one.defect, turn: moved.turn, more: moved.more, to })
     })
     one.addEventListener("keyup", done)
     one.addEventListener("blur", done)

@@ -141,7 +141,7 @@
       if (part.localName === "canvas") return true
       if (part.classList.contains("section")) {
         const views = [...inside(part.shadowRoot)].filter((one) => one.matches(".view"))
-        const shown = views.filter((view) => view.matches(".watched"))
+        const shown = views.filter((view) => view.matches(".watched") && view.getClientRects().length)
         const alone = large && root.hasAttribute("data-lesson") && shown.length > 0
         part.classList.toggle("one-column", large)
         part.classList.toggle("two-columns", alone && shown.length === 2 && !shown.some((view) => view.matches(".veiled:not(.in-part)")))
@@ -166,19 +166,20 @@
     if (!own_size.has(model)) own_size.set(model, { sizing_mode, height: own, min_height })
     model.setv({ sizing_mode: "stretch_width", height, min_height: null }, { sync: false })
   }
-  // Without a lesson: the head of a view and its first figure on the screen at once.
-  const LEAST = 240  // px
+  // Without a lesson, or beside one on a low screen: the head of a view and its first figure at once.
+  const LEAST = 170, LOW = 460  // px
   const fit_first_row = (view, plots, room) => {
     const least = Math.min(...plots.map(([, { top }]) => top)) - view.getBoundingClientRect().top
     const high = Math.max(LEAST, Math.floor(room - least - 8))
     for (const [model, { height }] of plots) if (height > high + 1) resize(model, high)
   }
+  const is_fitted = () => root.hasAttribute("data-projector") || (innerHeight <= LOW && root.hasAttribute("data-lesson"))
   const fit = () => {
-    if (!root.hasAttribute("data-projector")) return
+    if (!is_fitted()) return
     const views = [...inside(main)].filter((one) => one.matches(".view") && one.getClientRects().length)
     const drawn_in = (view) => figures_in(view).map(({ model, el }) => [model, el.getBoundingClientRect()]).filter(([, { height }]) => height)
     const room = main.clientHeight - 2 * parseFloat(getComputedStyle(main).paddingTop)
-    if (!root.hasAttribute("data-lesson")) return views.forEach((view) => fit_first_row(view, drawn_in(view), room))
+    if (!root.hasAttribute("data-lesson") || innerHeight <= LOW) return views.forEach((view) => fit_first_row(view, drawn_in(view), room))
     for (const view of views) {  // what waits to be opened stands beside the figure
       view.classList.toggle("folded", view.matches(".watched") && !drawn_in(view).length)
       if (view.matches(".watched")) view.getRootNode().host.classList.toggle("beside", views.some((one) => one.matches(".folded")))
@@ -230,7 +231,7 @@
   let coming = 0
   const enlarge_soon = () => {
     clearTimeout(coming)
-    if (root.hasAttribute("data-projector")) coming = setTimeout(enlarge_words, 120)
+    if (is_fitted()) coming = setTimeout(enlarge_words, 120)
   }
   for (const event of ["tab", "laid-out", "lesson", "predicted"]) on_event(event, root, enlarge_soon)
   on_event("projector", root, enlarge_words)

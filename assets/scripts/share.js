@@ -99,11 +99,13 @@ export function render({ model }) {
   }
   window.addEventListener("storage", (event) => { if (event.key === KEPT) list_kept() })
 
-  const place_of = (text) => {
-    const said = new URLSearchParams(text)
-    return { tab: said.get("tab") ?? "", lesson: said.get("lesson") ?? "" }
+  const place_of = (address) => {
+    const said = new URLSearchParams(address), [tab, lesson] = ["tab", "lesson"].map((name) => said.get(name) ?? "")
+    for (const name of ["tab", "lesson", "cage_angle_deg"]) said.delete(name)
+    return { tab, lesson, scene: String(said), address }
   }
   let shown = null, said = null, named = ""
+  let changed = false, returning = false  // whether the scene is another than the first; and whether Back or Forward opens one
   let going = null  // the tab that Back leads to, until it is shown
   follow(model, ["state"], () => {
     const { address, whole, undo, redo, said: sentence, scene, compared, usual_name } = model.state
@@ -116,14 +118,18 @@ export function render({ model }) {
     part("compare").disabled = compared.length >= MOST_COMPARED
     if (named !== (named = compared.join("\n"))) list_compared(compared)
     // The first is that of the page as it was opened: what is in the address stays, even if it
-    // could not be read. Back goes to the last tab or lesson; changes of the scene are undone by Undo.
+    // could not be read. Back goes to the last tab or lesson. All changes of a scene are one entry, so that
+    // Back leads to the first scene and does not leave the page; single ones are undone by Undo.
     const place = place_of(address)
     const there = going === null || place.tab === going
     if (there) going = null
     if (shown === null) history.replaceState(place, "")
     else if (there && shown !== address) {
-      const moved = place.tab !== history.state?.tab || place.lesson !== history.state?.lesson
-      history[moved ? "pushState" : "replaceState"](place, "", `?${address}`)
+      const { tab, lesson, scene } = history.state ?? place, moved = place.tab !== tab || place.lesson !== lesson
+      const changes = !moved && !changed && !returning && place.scene !== scene
+      changed = place.lesson === lesson && (changed || changes)
+      returning = false
+      history[moved || changes ? "pushState" : "replaceState"]({ ...place, changed }, "", `?${address}`)
     }
     shown = address
     if (said !== sentence.number) say(sentence.words)
@@ -135,6 +141,9 @@ export function render({ model }) {
     const from = going ?? place_of(shown).tab
     going = place.tab
     if (place.tab !== from) announce("show", place.tab)
+    returning = place.lesson === place_of(shown).lesson && Boolean(place.changed) !== changed
+    changed = Boolean(place.changed)
+    if (returning) ask(model, { open: { name: "The earlier scene", text: place.address } })
   })
   on_event("said", root, say)
   on_event("measured-report", root, asks_report)

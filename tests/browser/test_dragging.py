@@ -3,7 +3,7 @@
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.browser.explorer_page import open_page, settle, slider, value
+from tests.browser.explorer_page import open_page, settle, slider, value, wait
 from tests.browser.helpers import Server, Watch, drag, unfold
 
 
@@ -87,7 +87,16 @@ def test_the_address_follows_the_hand_and_steps_go_back(page: Page, explorer: Se
     page.wait_for_function("location.search == '?v=1&preset=fan-rig&tab=overview'")
     undo.click()
     page.wait_for_function("location.search.includes('extent_deg')")
-    assert page.evaluate("history.length") == entries, "Back leaves the page"
+    settle(page)
+    assert page.evaluate("history.length") == entries + 1, "all changes are one entry"
+    for there, extent in ((page.go_back, 12.9), (page.go_forward, first), (page.go_back, 12.9)):
+        there()
+        wait(page, lambda extent=extent: value(page, "extent_deg") == extent)
+        settle(page)
+    drag(page, slider(page, "extent_deg"), 0.1, 0.6)
+    page.wait_for_function("location.search.includes('extent_deg')")
+    page.go_back()
+    wait(page, lambda: value(page, "extent_deg") == 12.9)
 
 
 # a page that is quick enough has drawn each position before the next, and none would wait

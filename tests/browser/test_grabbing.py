@@ -115,6 +115,16 @@ def test_handles_are_sliders_for_keys_and_screen_readers(page: Page) -> None:
     page.keyboard.press("PageDown")
     page.keyboard.press("ArrowRight")
     expect(handle("Load")).to_have_attribute("aria-valuetext", re.compile(r"^52\.5 N at 271°"))
+    page.keyboard.press("End")
+    expect(handle("Load")).to_have_attribute("aria-valuetext", re.compile(r"^500 N at 271°"))
+    page.keyboard.press("Home")
+    expect(handle("Load")).to_have_attribute("aria-valuetext", re.compile(r"^0 N"))
+    end.press("End")
+    settle(page)
+    assert value(page, "extent_deg") == 120.0
+    end.press("Home")
+    settle(page)
+    assert 0.0 < value(page, "extent_deg") < 1.0, "its ends can still be held"
 
 
 def test_the_tip_of_the_arrow_stays_under_the_hand_and_comes_back_when_it_is_let_go(

@@ -760,14 +760,16 @@ def test_back_leads_to_the_tab_part_and_lesson_that_was_open(visitor: Visitor) -
     visitor.go_to("More: Explore")
     visitor.type("Length of the defect", "20")
     visitor.go_to("More: Paper")
-    for place in ("More: Explore", "Machine: Life"):
+    changed, first = ("More: Explore", 20.0), ("More: Explore", 12.9)
+    for place, extent in (changed, first, ("Machine: Life", 12.9)):
         visitor.page.go_back()
         visitor.is_at(place)
+        visitor.wait(lambda extent=extent: visitor.number("Length of the defect") == extent)
         visitor.steady()
-        assert visitor.number("Length of the defect") == 20.0, "the scene is for Undo"
-    for place in ("More: Explore", "More: Paper"):
+    for place, extent in (first, changed, ("More: Paper", 20.0)):
         visitor.page.go_forward()
         visitor.is_at(place)
+        visitor.wait(lambda extent=extent: visitor.number("Length of the defect") == extent)
         visitor.steady()
     visitor.page.get_by_role("tab", name="Machine", exact=True).click()
     visitor.is_at("Machine: Life")

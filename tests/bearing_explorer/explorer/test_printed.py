@@ -19,7 +19,7 @@ from bearingcore.errors import FieldError
 
 RIG = presets["fan-rig"]
 WORDS_OF = {
-    "stiffness": ["Loaded balls", "current cage angle", "N·m/rad", "Grey: the bearing"],
+    "stiffness": ["Loaded balls", "cage angle now", "N·m/rad", "Grey: the bearing"],
     "maps": ["Loaded balls", "0 by symmetry", "44.3 MN/m"],
     "bearing": ["Contact load Q (N)", "36.5 N", "270°"],
     "load_distribution": ["Angular position φ (°)", "Contact load Q (N)"],

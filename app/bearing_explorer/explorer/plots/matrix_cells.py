@@ -97,7 +97,7 @@ def matrix_figure(
     x: tuple[float, float],
     y: tuple[float, float],
     looks: str = "",
-    least_width: int = 500,
+    least_width: int = 340,
     **options: Any,
 ) -> figure:
     """A figure for cells, with further styles; on a phone `scrolled` lets it scroll in its card.

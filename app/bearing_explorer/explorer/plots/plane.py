@@ -152,9 +152,10 @@ def _page_numbers(output: DataArray) -> tuple[tuple[str, str, str], NDArray[np.f
 
 
 def tooltip(field: Field) -> str:
-    """The text under the pointer: both places and the number."""
-    places = f"{field.x[0].label}: $x{{custom}}<br>{field.y[0].label}: $y{{custom}}"
-    return _TOOLTIP.format(f"{places}<br><b>{field.label}: @image{{custom}}</b>")
+    """The text under the pointer: both places and the number, short, so that it covers no axis."""
+    numbers = ("$x", field.x[0].unit), ("$y", field.y[0].unit), ("@image", field.scaled[1])
+    x, y, value = (f"{n}{{custom}}{'' if u == '°' else ' '}{u}" for n, u in numbers)
+    return _TOOLTIP.format(f"{x}, {y}<br><b>{value}</b>")
 
 
 def dimensions(field: Field) -> list[hv.Dimension]:

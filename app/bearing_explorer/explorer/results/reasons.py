@@ -304,6 +304,11 @@ def stiffness_term(results: Results, term: str) -> str:
         if term in RADIAL and results.scene.defects and results.grey.label:
             why = why_softer(term, radial(results), radial(results.reference))
         why = f" With the defect {why}." if why else ""
+        balls = states.loaded_balls[states.converged]
+        if balls.min() < balls.max():
+            place = "the loaded zone" + (" or the defect" if results.scene.defects else "")
+            steps = f"{symbol} steps as balls enter or leave {place}"
+            why = f" A ball without load adds nothing, so {steps}.{why}"
         return f"Each contact of stiffness k adds k·({_LEVER[first]})² to {symbol}.{why}"
     text = f"Each contact of stiffness k adds k·({_LEVER[first]})·({_LEVER[other]}) to {symbol}, "
     if least < -ALIKE * size and most > ALIKE * size:

@@ -8,7 +8,7 @@ A lesson is a text file in Markdown with a head in TOML::
     preset = "fan-rig"                 # the scene to begin with ...
     drag = ["fy_n", "cage_angle_deg"]  # the controls shown with the words
     watch = ["load-distribution"]      # the figures to look at, on whichever tab; they are marked
-    term = "k_yy"                      # of the stiffness: alone on a projector; may be left out
+    term = "k_yy"                      # or "loaded_balls": alone on a projector; may be left out
 
     [scene]                            # ... and what is changed in it
     extent_deg = 0
@@ -86,6 +86,9 @@ CHOICES: Mapping[str, Sequence[str]] = {
     choice.name: choice.names for choice in CHOICE_LIST if choice.in_lessons
 }
 """Choices that a lesson may make, and their options."""
+
+CELLS = {"": "", **TERM_SYMBOLS, "loaded_balls": "Loaded balls"}
+"""Names of the cells of a drawing of many that a lesson may show alone, by its `term`."""
 
 DRAGGED = (
     *(field.key for field in SHOWN_FIELDS if field.group in SCENE_GROUPS),
@@ -190,7 +193,7 @@ class Lesson:
             "watch": list(self.watch),
             "parts": [asdict(part) for part in self.parts],
             "predict": msgspec.to_builtins(self.predict),
-            "cell": TERM_SYMBOLS.get(self.term, ""),
+            "cell": CELLS[self.term],
             "name": self.name,
         }
 
@@ -311,7 +314,7 @@ class _Checks:
         self._require("drag", head.drag, DRAGGED, "a control of the page")
         figures = [name for names in self.tabs.values() for name in names]
         self._require("watch", head.watch, figures, "a figure of the page")
-        self._require("term", [head.term], ["", *TERM_SYMBOLS], "a term of the stiffness")
+        self._require("term", [head.term], list(CELLS), "a term of the stiffness")
 
     def _decoded(self) -> _Head:
         try:

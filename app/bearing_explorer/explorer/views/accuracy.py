@@ -25,6 +25,7 @@ from bearing_explorer.explorer.views.stability_charts import (
     StabilityPicture,
     orbit_marks,
     step_marks,
+    steps_sentence,
 )
 from bearing_explorer.explorer.views.work_precision import (
     WorkPrecision,
@@ -214,12 +215,13 @@ class Accuracy(SceneJobView[Found]):
             **(known[0].refused if self.job_result is not None else {}),
         }
         error, cost = self._chosen.values["error"], self._chosen.values["cost"]
+        steps = next((results.stability for results in known if results.stability), None)
+        fails = f"{steps_sentence(steps)} See Charts of: Stability." if subject == "motion" else ""
         shown = self._shown(results)
         parts = shown[subject].per_reference() if subject in shown else {}
         for case, chart in self._charts.get(subject, {}).items():
-            chart.draw(parts.get(case), error, cost, reasons.get(subject, ""))
+            chart.draw(parts.get(case), error, cost, reasons.get(subject, ""), fails)
         if subject == STABILITY:
-            steps = next((results.stability for results in known if results.stability), None)
             orbits = next((results.orbits for results in known if results.orbits), ())
             points = shown["motion"].points if "motion" in shown else ()
             in_use = next((point.value for point in points if point.in_use), math.nan)

@@ -51,7 +51,7 @@ NUMBER_HALF, SIDE = 30.0, 1.25  # [px] half its width; from the middle, its bar'
 MOST_NAMED = 4  # balls in a defect; more are counted
 LINE_PIXELS = 16.0
 KEYWAY = 0.09  # [rad] half its width
-ARROW_SHORTEST, ARROW_LONGEST = 0.15, 0.88  # of the radius of the bore, at rest
+ARROW_SHORTEST, ARROW_LONGEST = 0.3, 0.88  # of the radius of the bore, at rest
 ARROW_END = 1.45  # from the middle, where an arrow that a hand lengthens leaves the figure
 DRAWN_DEPTH = 0.45  # of a ball radius: no defect is drawn deeper
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 
 from bearing_explorer.explorer.plots.compared_curves import CurveKey
@@ -9,6 +10,8 @@ from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.references import WITHOUT_DEFECT
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import View
+
+_GREY_KEY = re.compile(r" Grey[ a-z]*: \{grey\}\.")
 
 
 class ComparingView(View[Results]):
@@ -21,6 +24,8 @@ class ComparingView(View[Results]):
 
     @classmethod
     def caption(cls, content: Results | None = None) -> str:
+        if content is not None and not content.reference_label:  # the grey scene is this one
+            return _GREY_KEY.sub("", cls.about)
         return cls.about.replace("{grey}", content.grey.name if content else WITHOUT_DEFECT)
 
     def say(self, results: Results | None, sentence: str) -> None:

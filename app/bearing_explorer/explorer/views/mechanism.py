@@ -140,10 +140,10 @@ def mechanism_words(mass: BallMass) -> str:
     words = f"From {_hertz(low[struck[0]])} up the mass of the balls gives most of the power"
     below = share[: struck[0]]
     if not below.size:
-        return f"{words}, up to {most}."
+        return f"{words}, up to {most}, as its strikes are short."
     return (
-        f"{words}, up to {most}; below it the varying stiffness does, and mass adds at most "
-        f"{_percent(max(below.max(), 0.0))}."
+        f"{words}, up to {most}, as its strikes are short; below it the varying stiffness does, "
+        f"and mass adds at most {_percent(max(below.max(), 0.0))}."
     )
 
 

@@ -311,7 +311,9 @@ def compute(job: Work, scene: Scene, speeds: Sweep) -> str:
             scene,
             one.in_si[1],
             resolution=RESOLUTION,
-            progress=job.within(done / whole, (done + size) / whole),
+            progress=lambda part, _, done=done, size=size: job.progress(
+                (done + part * size) / whole
+            ),
             cancelled=job.cancelled,
         )
         if run.cost and not done:

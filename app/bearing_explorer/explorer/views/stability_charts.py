@@ -159,6 +159,9 @@ def step_marks(chart: StabilityChart | None, in_use: float) -> Picture:
             broken, first = states[i], not any(s == states[i] for s in states[:i])
             state = DIVERGED if broken else f"{style.number(trial.amplitude, 3)} of the amplitude"
             why = f"{method}, {style.number(trial.step_rate, 4)} steps/s: {state}"
+            if broken:
+                why += f", with {_steps_in_period(chart, trial.step_rate)} steps in a period of "
+                why += f"{style.with_prefix(chart.highest_frequency, 'Hz')}"
             words = "" if not first else f"{method} {DIVERGED}" if broken else method
             size = math.inf if broken else trial.amplitude
             place = ("left", -5.0, 18.0 if slot else -7.0)
@@ -169,19 +172,31 @@ def step_marks(chart: StabilityChart | None, in_use: float) -> Picture:
 
 
 def steps_sentence(chart: StabilityChart | None) -> str:
-    """Step rates at which each method diverges, found and expected."""
+    """Say below which step rates methods diverge, and why."""
     if chart is None:
         return "Stability of the steps is not measured yet."
-    words = []
+    words: dict[str, list[str]] = {}
     for name in dict.fromkeys(t.method for t in chart.trials):
-        limits = (chart.stability_limit(name), chart.linear_limit[name])
-        here, theory = (style.number(rate / chart.highest_frequency, 2) for rate in limits)
-        words.append(f"{name} {here} (linear theory: {theory})")
-    frequency = style.with_prefix(chart.highest_frequency, "Hz")
-    return (
-        f"Steps in a period of the highest frequency, {frequency}, below which the motion "
-        f"diverges: {', '.join(words)}."
+        if not any(t.verdict == DIVERGED for t in chart.trials if t.method == name):
+            words.setdefault("at no step rate tried", []).append(name)
+            continue
+        limit, theory = chart.stability_limit(name), chart.linear_limit[name]
+        here, expected = (_steps_in_period(chart, rate) for rate in (limit, theory))
+        why = (
+            f"below {style.number(limit, 2)} steps/s: a period of the highest frequency, "
+            f"{style.with_prefix(chart.highest_frequency, 'Hz')}, then has fewer than {here} "
+            f"steps, so errors grow from step to step (linear theory: {expected})"
+        )
+        words.setdefault(why, []).append(name)
+    return " ".join(
+        f"{style.list_words(names)} diverge{'s' if len(names) == 1 else ''} {why}."
+        for why, names in words.items()
     )
+
+
+def _steps_in_period(chart: StabilityChart, step_rate: float) -> str:
+    """Number of steps in a period of the chart's highest frequency."""
+    return style.number(step_rate / chart.highest_frequency, 2)
 
 
 def orbits_sentence(orbits: tuple[OrbitAtSpeed, ...]) -> str:

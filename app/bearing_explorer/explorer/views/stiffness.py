@@ -230,7 +230,7 @@ return {
   y: {first: low, last: high, factor: 10**e, unit: unit ? names[e] + unit : '', words: ''},
 }
 """
-_NOW_WORDS = "current cage angle"
+_NOW_WORDS = "cage angle now"
 _AXIS_WORDS = "return row.shaft ? 'Shaft angle φs, one turn' : 'Cage angle φc'"
 
 
@@ -261,7 +261,7 @@ def _static_parts(plot: figure) -> ColumnDataSource:
 
 def _legend_words(scene: Scene) -> list[str]:
     """Words of the legend: blue, grey, and the upright line."""
-    own = "with the defect" if scene.defects else "this bearing, without a defect"
+    own = "with the defect" if scene.defects else "without a defect"
     return [own, "healthy bearing", _NOW_WORDS]
 
 

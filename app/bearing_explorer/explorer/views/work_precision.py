@@ -20,7 +20,7 @@ from bokeh.models import (
 
 from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.plots import style
-from bearing_explorer.kit.plots.layers import by_number
+from bearing_explorer.kit.plots.layers import ON_PAPER, by_number
 from bearing_explorer.kit.widgets.form import stack
 from bearingcore.common import decibels, percent, scientific
 from bearingcore.model.experiments import METHODS, Experiment, Point
@@ -59,7 +59,8 @@ const places = Array.from(cost, (value, i) =>
   [part(value, x_range)*inner_width, (1 - part(error[i], y_range))*inner_height])
 const taken = places.map(([x, y]) => [x - 5, y - 5, x + 5, y + 5])
 const line = (1 - part(limit.y, y_range))*inner_height
-taken.push([0, line - 2, inner_width, line + 2], [0, line - 18*larger, 100*larger, line])
+taken.push([0, line - 2, inner_width, line + 2],
+  [inner_width - 46*larger, line - 18*larger, inner_width, line])
 const free = ([left, top, end, bottom], boxes) => left >= 0 && end <= inner_width && top >= 0
   && bottom <= inner_height && boxes.every((other) =>
     end <= other[0] || left >= other[2] || bottom <= other[1] || top >= other[3])
@@ -144,8 +145,9 @@ class WorkPrecision:
         self._names = column_source(*_NAMES)
         self._used = column_source("cost", "error")
         self._allowed = Span(dimension="width", line_color=style.FAINT_INK, line_dash=[6, 4])
-        self._limit = Label(x=4, y=1.0, x_units="screen", y_offset=2, text_color=style.FAINT_INK,
-                            text_font=style.FONT, text_font_size=style.SMALL_TEXT_SIZE)  # fmt: skip
+        self._limit = Label(x=1.0, y=1.0, y_offset=2, text="allowed", text_align="right",
+                            text_color=style.FAINT_INK, text_font=style.FONT,
+                            text_font_size=style.SMALL_TEXT_SIZE)  # fmt: skip
         plot.add_layout(self._allowed)
         plot.add_layout(self._limit)
         plot.line("cost", "error", source=self._best, line_color=style.STEEL_EDGE, line_width=7,
@@ -162,7 +164,7 @@ class WorkPrecision:
             plot.text("cost", "error", text="text", source=source, text_color=color,
                       text_font=value(style.FONT), text_font_size=size,
                       text_font_style=value(weight), text_baseline="middle",
-                      x_offset="right", y_offset="down")  # fmt: skip
+                      x_offset="right", y_offset="down", **ON_PAPER)  # fmt: skip
         args = {"plot": plot, "points": self._points, "names": self._names,
                 "limit": self._limit}  # fmt: skip
         place = CustomJS(args=args, code=_PLACE_LABELS)
@@ -176,12 +178,15 @@ class WorkPrecision:
         plot.add_tools(HoverTool(renderers=[points], visible=False, tooltips=tips))
         return plot
 
-    def draw(self, shown: Experiment | None, error: str, cost: str, refused: str) -> None:
+    def draw(
+        self, shown: Experiment | None, error: str, cost: str, refused: str, more: str
+    ) -> None:
         """Show the points of an experiment; `refused`: why there are none.
 
-        `error`: name of what is drawn upwards. `cost`: "seconds" or "evaluations".
+        `error`: name of what is drawn upwards. `cost`: "seconds" or "evaluations". `more`:
+        sentences after those on the points.
         """
-        state = (shown, error, cost, refused)
+        state = (shown, error, cost, refused, more)
         if self._drawn == state:
             return
         self._drawn = state
@@ -192,7 +197,7 @@ class WorkPrecision:
         self._fill(shown, error, cost)
         heading = f"{self._case.capitalize()}. {verdict(shown, error, cost)}"
         self._head.object = f"<h4>{html.escape(heading)}</h4>"
-        self._words.object = paragraph(sentence(shown, error))
+        self._words.object = paragraph(f"{sentence(shown, error)} {more}".rstrip())
 
     def _fill(self, shown: Experiment, error: str, cost: str) -> None:
         def place(point: Point) -> tuple[float, float]:
@@ -242,8 +247,8 @@ class WorkPrecision:
         self.plot.xaxis.formatter = style.logarithmic_ticks("s" if timed else "")
         unit = " (dB)" if shown.unit(error) == "dB" else ""
         self.plot.yaxis.axis_label = f"Error of {error}{unit}"
-        self._allowed.location = self._limit.y = allowed
-        self._limit.text = f"allowed: {error_with_unit(shown, error, allowed)}"
+        self._allowed.location = allowed
+        self._limit.update(x=right, y=allowed)
         return left, right, top
 
 

@@ -95,12 +95,6 @@ def cached(compute: Callable[..., Result]) -> Cached[Result]:
     return Cached(compute)
 
 
-def cached_bytes() -> int:
-    """Bytes of all results that are kept."""
-    with _lock:
-        return int(_results.currsize)
-
-
 def kept_results() -> dict[tuple[Hashable, ...], tuple[Any, int]]:
     """All results that are kept, with their bytes, by the function's name and its arguments."""
     with _lock:

@@ -96,14 +96,6 @@ class Work:
         """Report how much is done, 0 to 1."""
         self.part = min(max(float(part), 0.0), 1.0)
 
-    def within(self, begin: float, end: float) -> Callable[[float, str], None]:
-        """Progress of a share of the job, from `begin` to `end` of the whole."""
-
-        def progress(part: float, words: str) -> None:
-            self.progress(begin + (end - begin) * part, words)
-
-        return progress
-
     def cancelled(self) -> bool:
         """True once the job should end, with what it has."""
         if time.monotonic() - self.started > self._longest:
@@ -303,46 +295,42 @@ class Jobs:
             await self._take_up(job, state)
 
 
+@dataclass(eq=False)
 class _Lane:
     """The jobs of a kind that a session has: one at work, one that waits, and their task."""
 
-    task: asyncio.Task[None]
-
-    def __init__(self, waiting: _Job) -> None:
-        self.at_work: _Job | None = None
-        self.waiting: _Job | None = waiting
+    waiting: _Job | None
+    at_work: _Job | None = None
+    task: asyncio.Task[None] | None = None
 
 
+@dataclass(eq=False)
 class _Job:
-    """One job: what it does, whom it reports to, and what it reported last."""
+    """One job: its computing, its listeners, and its last report."""
 
-    def __init__(
-        self,
-        compute: Compute,
-        take: Callable[[Any], None],
-        report: Callable[[JobState], None] | None,
-        kind: Kind,
-    ) -> None:
-        self.work = Work(kind.longest)
-        self.take = take
-        self.report = report
-        self.kind = kind
-        self.overtaken = self.dropped = False
-        self.reported: JobState | None = None
-        #: the sentence that sums up, once it has ended
-        self.words = ""
-        self._compute = compute
-        self._steps: Generator[None, None, str] | None = None
-        self._left_at = math.nan
-        self._progress = ""
-        self._said_at = -math.inf
+    compute: Compute
+    take: Callable[[Any], None]
+    report: Callable[[JobState], None] | None
+    kind: Kind
+    overtaken: bool = False
+    dropped: bool = False
+    reported: JobState | None = None
+    #: the sentence that sums up, once it has ended
+    words: str = ""
+    _steps: Generator[None, None, str] | None = None
+    _left_at: float = math.nan
+    _progress: str = ""
+    _said_at: float = -math.inf
+
+    def __post_init__(self) -> None:
+        self.work = Work(self.kind.longest)
 
     def step(self) -> bool | None:
         """In a thread: compute until the next step, None, or to the end, True."""
         now = time.monotonic()
         if self._steps is None:
             self.work.started = now
-            begun = self._compute(self.work)
+            begun = self.compute(self.work)
             if isinstance(begun, str):
                 self.words = begun
                 return True

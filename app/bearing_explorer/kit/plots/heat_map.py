@@ -85,15 +85,6 @@ class Side:
         return {"name": self.name, "words": self.words, "unit": unit, "sign": self.sign}
 
 
-def scale_by(shown: Range1d, mapper: LinearColorMapper) -> None:
-    """Have the ends of a range be those of a colour scale."""
-    mapper.update(low=shown.start, high=shown.end, syncable=False)
-    code = "mapper.setv({low: shown.start, high: shown.end})"
-    follow = CustomJS(args={"mapper": mapper, "shown": shown}, code=code)
-    shown.js_on_change("start", follow)
-    shown.js_on_change("end", follow)
-
-
 def let_point(
     plot: Plot,
     image: ColumnDataSource,
@@ -216,7 +207,11 @@ class GridImage:
         plot.grid.visible = False
         plot.toolbar_inner = False  # it would lie on the picture
         mapper = LinearColorMapper(palette=list(Viridis256), nan_color=CLEAR)
-        scale_by(shown, mapper)
+        mapper.update(low=shown.start, high=shown.end, syncable=False)
+        scale = "mapper.setv({low: shown.start, high: shown.end})"
+        follow = CustomJS(args={"mapper": mapper, "shown": shown}, code=scale)
+        for end in ("start", "end"):
+            shown.js_on_change(end, follow)
         plot.add_layout(color_bar(mapper, title, bar_line_color=None), "right")
         cells = packed.source(name, "packed")
         blank = {"x": [0.0], "y": [0.0], "dw": [1.0], "dh": [1.0], "alpha": [0.0]}

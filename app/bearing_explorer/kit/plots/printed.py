@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from functools import partialmethod
 from pathlib import Path
 from textwrap import wrap
 from typing import Any
@@ -268,8 +269,7 @@ class _Printed:
         corners = np.stack([along, across] if up else [across, along], axis=-1).transpose(1, 0, 2)
         return self._polygons(corners, color, self._across(place, up), line)
 
-    def _hstrip(self, at: Any, color: Any, place: Any, line: Any, count: int) -> Any:
-        return self._vstrip(at, color, place, line, count, up=True)
+    _hstrip = partialmethod(_vstrip, up=True)
 
     def _vspan(
         self, at: Any, color: Any, place: Any, line: Any, count: int, up: bool = False
@@ -278,8 +278,7 @@ class _Printed:
         ends = np.stack([value, np.zeros(count), value, np.ones(count)], axis=1).reshape(-1, 2, 2)
         return self._lines(ends[..., ::-1] if up else ends, color, self._across(place, up), line)
 
-    def _hspan(self, at: Any, color: Any, place: Any, line: Any, count: int) -> Any:
-        return self._vspan(at, color, place, line, count, up=True)
+    _hspan = partialmethod(_vspan, up=True)
 
     def _scatter(self, at: Any, color: Any, place: Any, line: Any, count: int) -> Any:
         x, y = self._rows(at, ("x", "y"), count).T
@@ -401,20 +400,14 @@ def _of_rows(colors: Any, rows: np.ndarray) -> Any:
 
 def _with_alpha(color: Any, alpha: Any) -> Any:
     """Colours as Matplotlib takes them, (n, 4) where they or their alpha are columns."""
-    from matplotlib.colors import to_rgba, to_rgba_array
+    from matplotlib.colors import to_rgba_array
 
     if color is None:
         return "none"
-    if np.ndim(color) == 2:
-        return color * np.column_stack([*np.ones((3, len(color))), np.broadcast_to(
-            1.0 if alpha is None else alpha, len(color))])  # fmt: skip
-    single = np.ndim(alpha) == 0
-    if isinstance(color, str) and single:
-        return to_rgba(color, alpha) if alpha is not None else to_rgba(color)
-    count = max(np.size(color), np.size(alpha))
-    rows = to_rgba_array([color] * count if isinstance(color, str) else list(color))
+    count = max(1 if isinstance(color, str) else len(color), np.size(alpha))
+    rows = to_rgba_array([color] * count if isinstance(color, str) else color)
     rows[:, 3] *= 1.0 if alpha is None else alpha
-    return rows
+    return rows if count > 1 else rows[0]
 
 
 def _colors(mapper: Any, values: np.ndarray) -> np.ndarray:

@@ -76,8 +76,8 @@ class PackedSource:
         #: the columns of each source
         self.columns: dict[str, tuple[str, ...]] = {}
         self._ranges: dict[str, Range1d] = {}
-        self._sent_sources: dict[str, np.ndarray] = {}
-        self._sent_ranges: dict[str, np.ndarray] = {}
+        #: what was sent last of each source and range
+        self._sent: dict[ColumnDataSource | Range1d, tuple[tuple[int, ...], bytes]] = {}
         self._packet = ColumnDataSource(data={"packed": np.zeros(4, np.float32)})
         self._unpack = CustomJS(args=self._args(), code=_UNPACK)
         self._known = 0  # how many sources and ranges the browser's callback knows
@@ -157,25 +157,26 @@ class PackedSource:
         order = {name: index for index, name in enumerate(self._sources)}
         for name, columns in data.items():
             block = self._block(name, columns)
-            before = self._sent_sources.get(name)
-            if before is not None and _same(before, block):
-                continue
-            self._sent_sources[name] = block
-            heads.append((order[name], block.shape[0], block.shape[1]))
-            blocks.append(block.ravel())
+            if self._is_new(self._sources[name], block):
+                heads.append((order[name], block.shape[0], block.shape[1]))
+                blocks.append(block.ravel())
         n_sources = len(heads)
         range_order = {name: index for index, name in enumerate(self._ranges)}
         for name, (start, end) in ranges.items():
             if name not in range_order:
                 raise ValueError(f"range {name!r} was not declared; known: {sorted(range_order)}")
-            limits = np.array([start, end], np.float32)
-            before = self._sent_ranges.get(name)
-            if before is not None and _same(before, limits):
-                continue
-            self._sent_ranges[name] = limits
-            heads.append((range_order[name], start, end))
+            if self._is_new(self._ranges[name], np.array([start, end], np.float32)):
+                heads.append((range_order[name], start, end))
         head = np.array([mark, worked, n_sources, len(heads) - n_sources], np.float32)
         return np.concatenate([head, np.array(heads, np.float32).ravel(), *blocks])
+
+    def _is_new(self, model: ColumnDataSource | Range1d, numbers: np.ndarray) -> bool:
+        """True if a model had other numbers last, bit for bit, so that NaN equals NaN."""
+        now = numbers.shape, numbers.tobytes()
+        if self._sent.get(model) == now:
+            return False
+        self._sent[model] = now
+        return True
 
     def _block(self, name: str, columns: Columns) -> np.ndarray:
         """Columns of one source as rows of one array, in the order they were declared."""
@@ -199,8 +200,3 @@ class PackedSource:
             "columns": [list(columns) for columns in self.columns.values()],
             "ranges": list(self._ranges.values()),
         }
-
-
-def _same(a: np.ndarray, b: np.ndarray) -> bool:
-    """Bit for bit, so that NaN equals NaN."""
-    return a.shape == b.shape and a.tobytes() == b.tobytes()

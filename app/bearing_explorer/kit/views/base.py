@@ -215,13 +215,10 @@ class View(Generic[C]):
         self._pictures.append(stack(*parts, stylesheets=[AS_HIGH_AS_SHOWN], **params))
         return self._pictures[-1]
 
-    def withhold(self, hidden: pn.Column, but: int = 0) -> None:
-        """Keep what a hidden layout holds from the browser, which would build it, till `bring`.
-
-        The first parts stay, as many as `but` says.
-        """
+    def withhold(self, hidden: pn.Column) -> None:
+        """Keep what a hidden layout holds from the browser, which would build it, till `bring`."""
         self._withheld.append((hidden, list(hidden.objects)))
-        hidden.objects = hidden.objects[:but]
+        hidden.objects = []
 
     def bring(self) -> None:
         """Put what was withheld where it belongs. On the event loop only."""

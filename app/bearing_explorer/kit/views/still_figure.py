@@ -39,12 +39,10 @@ class FilledSources(PackedSource):
         self, data: Mapping[str, Columns], ranges: Mapping[str, tuple[float, float]]
     ) -> CustomJS:
         """Put numbers into sources and ranges; return a callback for the ready document."""
-        for name, columns in data.items():
-            self._block(name, columns)  # refuses what does not fit
-            rows = {column: np.asarray(v, np.float32).ravel() for column, v in columns.items()}
-            self._sources[name].data = rows
-        for name, (start, end) in ranges.items():
-            self._ranges[name].update(start=start, end=end, reset_start=start, reset_end=end)
+        blocks = {name: self._block(name, columns) for name, columns in data.items()}
+        self._assign(
+            {k: dict(zip(self.columns[k], rows, strict=True)) for k, rows in blocks.items()}, ranges
+        )
         args = {"sources": list(self._sources.values()), "ranges": list(self._ranges.values())}
         return CustomJS(args=args, code=_FOLLOW)
 

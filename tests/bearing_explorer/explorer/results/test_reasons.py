@@ -108,6 +108,8 @@ def test_each_term_is_what_the_contacts_add() -> None:
     assert "k_xz is zero" in why["k_xz"]
     assert "left and right cancel" in why["k_xy"]
     state = equilibrium(RIG, np.linspace(0.0, RIG.bearing.ball_spacing, 25)[:-1])
+    assert "so k_yy steps as balls enter or leave the loaded zone or the defect" in why["k_yy"]
+    assert np.ptp(state.loaded_balls) > 0
     k = np.cbrt(state.ball_load)
     added = (k * np.sin(state.ball_angle) * np.cos(state.ball_angle)).sum(axis=1)
     assert np.corrcoef(added, state.term("k_xy"))[0, 1] > 0.99

@@ -31,7 +31,7 @@ from bearingcore.model.dynamics._motion import (
 from bearingcore.model.dynamics._orbit import Orbit, orbit
 from bearingcore.model.dynamics._status import MotionStatus
 from bearingcore.model.dynamics._step_rate import default_step_rate, fine_step_rate
-from bearingcore.model.scene import MASSLESS, Scene
+from bearingcore.model.scene import CONTACT_LAWS, MASSLESS, Scene
 
 SETTLING_SHARE = 0.5
 """Part of a marched motion that is left out of its spectrum as transient."""
@@ -111,7 +111,7 @@ def speed_run(
 
     It is that of the periodic orbit if this is stable, and else that of a marched motion.
 
-    Balls with mass are always marched, as the search for orbits needs massless balls.
+    Balls with mass, and contacts that let go, are always marched: they have no orbits here.
 
     Parameters
     ----------
@@ -194,7 +194,7 @@ def speed_run(
             if left < 1:
                 raise ValueError(_NONE_LEFT.format(thousands(most_steps_in_all)))
             answer = None
-            if at.balls == MASSLESS:
+            if at.balls == MASSLESS and at.contact_law == CONTACT_LAWS[0]:
                 may_take, rate = min(most_steps, left), fine_step_rate(at, sample_rate)
                 answer = orbit(at, start=nearby, step_rate=rate, most_steps=may_take)
                 left -= answer.right_hand_side_calls // 4

@@ -134,7 +134,7 @@ class Bearing(InRows):
         contact_angle, diametral_clearance
             α0 [rad] and s [m], at least one of them, as they describe the same freedom.
             Clearance alone: a deep-groove bearing, α0 = 0 and r_L = s/2; `free_contact_angle` is
-            the angle that it amounts to, `seated()` the same bearing given by that angle.
+            the angle that it amounts to.
             Angle alone: r_L = 0; `diametral_play` is the clearance that it amounts to.
             Both, as Petersen, Howard & Prime (2014) have it: r_L = s/2 on top of the angle.
             Below 0 the clearance is an interference.
@@ -378,23 +378,6 @@ class Bearing(InRows):
             for row, own in ((row, self.of_row(k)) for k, row in enumerate(self.rows))
         ]
         return abs(meets[1] - meets[0])
-
-    def seated(self) -> Self:
-        """The same bearing given by its free contact angle, without clearance on top.
-
-        Its axial origin is where the balls touch, A0 (sin α_f − sin α0) further along z: at the
-        same loads δz is smaller by that and all else is equal. Two things are not the same, as
-        both depend on α0 and not on the angle under load: a defect lowers the ball along the
-        unloaded line of contact, here at α_f; and the cage turns a little faster. ValueError where
-        an interference presses the balls: no contact angle amounts to it.
-        """
-        if self.diametral_play < 0.0:
-            raise checks.refuse(
-                "radial_clearance", self.radial_clearance, "one that leaves play", "m"
-            )
-        return dataclasses.replace(
-            self, contact_angle=self.free_contact_angle, radial_clearance=0.0
-        )
 
     def with_balls_of(self, material: BallMaterial) -> Self:
         """The bearing with balls of a material and their density; ValueError without a drawing."""

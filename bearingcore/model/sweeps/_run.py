@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import dataclasses
 import errno
 import importlib
@@ -25,7 +26,7 @@ from bearingcore.model.sweeps._outputs import Settings
 
 if TYPE_CHECKING:
     import xarray
-    from distributed import Client
+    from distributed import Client, LocalCluster
 
 MOST_BYTES = 2_000_000_000
 """Of results that are kept in memory; larger ones need a store."""
@@ -294,7 +295,18 @@ def _cluster(client: Client | str | None, workers: int | None, processes: bool) 
                 "enough memory, and may this program start others? Any message of the "
                 f"worker is above. ({error})"
             ) from error
-        yield open_.enter_context(Client(cluster, set_as_default=False))
+        try:
+            yield open_.enter_context(Client(cluster, set_as_default=False))
+        except BaseException:
+            if processes:
+                cluster.sync(_end_processes, cluster)
+            raise
+
+
+async def _end_processes(cluster: LocalCluster) -> None:
+    """End the workers' processes: Dask waits four seconds for what runs in them."""
+    closing = (nanny.close(timeout=0.1) for nanny in cluster.workers.values())
+    await asyncio.gather(*closing, return_exceptions=True)
 
 
 def _finished(

@@ -15,7 +15,7 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from bearingcore.common import (
     Array,
@@ -32,7 +32,6 @@ from bearingcore.model.dynamics._low_pass import (
     PASSED,
     PASSED_OF_ORBITS,
     acceleration_lines,
-    hermite_weights,
 )
 from bearingcore.model.dynamics._modes import highest_frequency_of
 from bearingcore.model.dynamics._motion import MOST_SAMPLES, MOST_STEPS, moving_system, static_start
@@ -127,19 +126,6 @@ class Orbit:
             ("multiplier_imaginary", "1", self.multipliers.imag),
             ("multiplier_size", "1", np.abs(self.multipliers), "above 1 a disturbance grows"),
         )
-
-    def inner_displacement(self, time: ArrayLike) -> Array:
-        """(n, len(dofs)) [m, rad] of the inner ring at times [s], the period repeated.
-
-        By quintic interpolation between steps.
-        """
-        steps = len(self.history) - 1
-        at = np.asarray(time, dtype=float) / self.period * steps % steps
-        step = np.minimum(at.astype(int), steps - 1)
-        weights = hermite_weights(at - step, 0, self.period / steps)
-        ends = np.concatenate([self.history[step, :3], self.history[step + 1, :3]], axis=1)
-        scaled = np.einsum("nw,nwd->nd", weights, ends)
-        return scaled / packing.length_units(self.scene, self.dofs)
 
     def spectrum(
         self,

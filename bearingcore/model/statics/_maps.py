@@ -26,6 +26,7 @@ from bearingcore.model import _kernels as kernels
 from bearingcore.model.scene import Defect, Scene, _packing as packing
 from bearingcore.model.scene._defect import TWO_PI, floor_bytes, path_tables
 from bearingcore.model.statics._equilibrium import (
+    MOST_CONTACTS,
     STIFFNESS_TERMS,
     TERM_UNITS,
     UNEXPLAINED,
@@ -73,8 +74,6 @@ class Maps:
         evaluations of the energy.
     refusals : (m,)
         the reason why a scene with this extent is impossible; empty if it is possible.
-    cost
-        the number of contacts if they exceeded MOST_CONTACTS; else empty.
     """
 
     scene: Scene
@@ -89,7 +88,6 @@ class Maps:
     solved: int
     evaluations: int
     refusals: tuple[str, ...]
-    cost: str = ""
 
     @cached_property
     def converged(self) -> NDArray[np.bool_]:
@@ -123,8 +121,6 @@ class Maps:
 
     def reason(self, i: int, k: int) -> str:
         """Status of extent i and cage angle k in words."""
-        if self.cost:
-            return self.cost
         if self.status[i, k] == StaticStatus.REFUSED:
             return self.refusals[i]
         status = StaticStatus(int(self.status[i, k]))
@@ -163,13 +159,13 @@ def stiffness_maps(
     -------
     Maps
         with a status for each point. A missing answer, or defects that overlap at this extent, are
-        a status and not an error. With more than MOST_CONTACTS contacts, extents times cage angles
-        times balls, nothing is computed, and `cost` gives the number.
+        a status and not an error.
 
     Raises
     ------
     ValueError
-        for extents or cage angles that are not finite or out of range, or unknown names in `dofs`.
+        for extents or cage angles that are not finite or out of range, or that are more than
+        MOST_CONTACTS times balls; and for unknown names in `dofs`.
     """
     checks.instance("scene", scene, Scene)
     if extents is None:
@@ -188,14 +184,9 @@ def stiffness_maps(
     packed = packing.pack(scene, free)
     contacts, load = packed.contacts, packed.load
     points = sizes.size * angles.size
-    if cost := too_many_contacts(points * contacts.angle.size):
-        nothing = np.broadcast_to(np.float64(math.nan), (15, *shape))
-        return Maps(
-            scene, free, sizes, angles, nothing, np.broadcast_to(np.int64(0), shape), nothing[0],
-            np.broadcast_to(np.int8(StaticStatus.TOO_MANY_CONTACTS), shape), nothing[0], 0, 0,
-            ("",) * sizes.size, cost,
-        )  # fmt: skip
-
+    if too_many_contacts(points * contacts.angle.size):
+        most = MOST_CONTACTS // contacts.angle.size
+        raise checks.refuse("extents times cage_angles", points, f"at most {most}")
     first, *others = scene.defect if isinstance(scene.defect, tuple) else (scene.defect,)
     ways, refusals = _paths(first, tuple(others), bearing, tuple(sizes.tolist()))
     ways = ways._replace(leads=np.zeros(shape))

@@ -14,7 +14,7 @@ from bearingcore.bearings._in_rows import InRows
 from bearingcore.bearings._inside import RATIO_SPREAD
 from bearingcore.bearings._kind import Kind
 from bearingcore.bearings._kinds import kind_of
-from bearingcore.bearings._kinematics import check_contact_angle
+from bearingcore.bearings._kinematics import GREATEST_CONTACT_ANGLE, check_contact_angle
 from bearingcore.bearings._line_contact import RollerContact
 from bearingcore.bearings._material import BALL_MATERIALS, BallMaterial
 from bearingcore.bearings._preload import ROW_CHANGES, change_rows, preload_force
@@ -181,8 +181,17 @@ class Bearing(InRows):
         }
         dimensions |= drawing.checked(dimensions)
         follows = drawing.derive(**dimensions)._asdict()
-        s = 0.0 if diametral_clearance is None else diametral_clearance
-        s = drawing.check_clearance(s, angle, D_b, follows["groove_center_distance"])
+        # pushed farther along the shaft than the greatest angle the ring would slip through
+        most = math.cos(angle) - math.cos(GREATEST_CONTACT_ANGLE)
+        s = checks.real_number(
+            "diametral_clearance",
+            0.0 if diametral_clearance is None else diametral_clearance,
+            at_least=-D_b,
+            at_most=2.0 * follows["groove_center_distance"] * most,
+            unit="m",
+            note="more would need a free contact angle above "
+            f"{math.degrees(GREATEST_CONTACT_ANGLE):.0f} degrees",
+        )
         if groove_center_radius is not None:
             follows["groove_center_radius"] = groove_center_radius
         return cls(n_balls=n_balls, **dimensions, **follows, radial_clearance=0.5 * s)

@@ -159,6 +159,8 @@ def _sweep_to_store(
     cluster: Cluster,
     progress: Progress | None,
 ) -> xarray.Dataset:
+    import xarray
+
     region_shape = stores.prepare(path, grid, region_shape)
     regions = (
         stores.region(path, grid, region_shape, index)
@@ -176,15 +178,7 @@ def _sweep_to_store(
                 )
             seen = True
             done.add(region.part.size, kept=not computed)
-    return open_results(path)
-
-
-def open_results(store: str | os.PathLike[str]) -> xarray.Dataset:
-    """The Dataset of a store, finished or not: status 0 (`not_computed`) marks what is missing."""
-    needs_extra()
-    import xarray
-
-    return xarray.open_zarr(stores.local_path(store))
+    return xarray.open_zarr(path)
 
 
 def _sweep_in_memory(

@@ -53,14 +53,6 @@ class Interval:
     below: float = math.inf
     note: str = ""
 
-    def __contains__(self, number: float) -> bool:
-        """True for a finite number within the bounds."""
-        return (
-            math.isfinite(number)
-            and self.at_least <= number <= self.at_most
-            and self.above < number < self.below
-        )
-
     def words(self, amount: Callable[[float], str], unit: str = "") -> str:
         """The interval in words, its bounds written by `amount`; `unit` stands behind them."""
         bounds = (

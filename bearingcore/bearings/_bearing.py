@@ -14,7 +14,7 @@ from bearingcore.bearings._in_rows import InRows
 from bearingcore.bearings._inside import RATIO_SPREAD
 from bearingcore.bearings._kind import Kind
 from bearingcore.bearings._kinds import kind_of
-from bearingcore.bearings._kinematics import check_contact_angle
+from bearingcore.bearings._kinematics import GREATEST_CONTACT_ANGLE, check_contact_angle
 from bearingcore.bearings._line_contact import RollerContact
 from bearingcore.bearings._material import BALL_MATERIALS, BallMaterial
 from bearingcore.bearings._preload import ROW_CHANGES, change_rows, preload_force
@@ -134,7 +134,7 @@ class Bearing(InRows):
         contact_angle, diametral_clearance
             α0 [rad] and s [m], at least one of them, as they describe the same freedom.
             Clearance alone: a deep-groove bearing, α0 = 0 and r_L = s/2; `free_contact_angle` is
-            the angle that it amounts to, `seated()` the same bearing given by that angle.
+            the angle that it amounts to.
             Angle alone: r_L = 0; `diametral_play` is the clearance that it amounts to.
             Both, as Petersen, Howard & Prime (2014) have it: r_L = s/2 on top of the angle.
             Below 0 the clearance is an interference.
@@ -181,8 +181,17 @@ class Bearing(InRows):
         }
         dimensions |= drawing.checked(dimensions)
         follows = drawing.derive(**dimensions)._asdict()
-        s = 0.0 if diametral_clearance is None else diametral_clearance
-        s = drawing.check_clearance(s, angle, D_b, follows["groove_center_distance"])
+        # pushed farther along the shaft than the greatest angle the ring would slip through
+        most = math.cos(angle) - math.cos(GREATEST_CONTACT_ANGLE)
+        s = checks.real_number(
+            "diametral_clearance",
+            0.0 if diametral_clearance is None else diametral_clearance,
+            at_least=-D_b,
+            at_most=2.0 * follows["groove_center_distance"] * most,
+            unit="m",
+            note="more would need a free contact angle above "
+            f"{math.degrees(GREATEST_CONTACT_ANGLE):.0f} degrees",
+        )
         if groove_center_radius is not None:
             follows["groove_center_radius"] = groove_center_radius
         return cls(n_balls=n_balls, **dimensions, **follows, radial_clearance=0.5 * s)
@@ -378,23 +387,6 @@ class Bearing(InRows):
             for row, own in ((row, self.of_row(k)) for k, row in enumerate(self.rows))
         ]
         return abs(meets[1] - meets[0])
-
-    def seated(self) -> Self:
-        """The same bearing given by its free contact angle, without clearance on top.
-
-        Its axial origin is where the balls touch, A0 (sin α_f − sin α0) further along z: at the
-        same loads δz is smaller by that and all else is equal. Two things are not the same, as
-        both depend on α0 and not on the angle under load: a defect lowers the ball along the
-        unloaded line of contact, here at α_f; and the cage turns a little faster. ValueError where
-        an interference presses the balls: no contact angle amounts to it.
-        """
-        if self.diametral_play < 0.0:
-            raise checks.refuse(
-                "radial_clearance", self.radial_clearance, "one that leaves play", "m"
-            )
-        return dataclasses.replace(
-            self, contact_angle=self.free_contact_angle, radial_clearance=0.0
-        )
 
     def with_balls_of(self, material: BallMaterial) -> Self:
         """The bearing with balls of a material and their density; ValueError without a drawing."""

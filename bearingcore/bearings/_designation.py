@@ -337,9 +337,9 @@ def _rated_angle(basic: str, size: Boundary) -> float:
     """Contact angle [rad] for which the table has the ratings."""
     kind = _kind_of(basic)
     if kind == SELF_ALIGNING_BALLS:
-        return ratings.contact_angle_of(size.axial_factor)
+        return math.atan(0.42 / size.axial_factor)  # Y_1 of ISO 281 is 0.42 cot α
     if kind == TAPERED_ROLLERS:
-        return ratings.tapered_angle_of(size.thrust_limit)
+        return math.atan(size.thrust_limit / 1.5)  # e of ISO 281 is 1.5 tan α
     angle = OTHER_ANGLES.get(series_of(basic), CATALOGUE_ANGLE)
     return angle if kind == ANGULAR_CONTACT else 0.0
 

@@ -26,7 +26,6 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from bearingcore.bearings._hertz import in_series, race_contact
-from bearingcore.bearings._kinematics import GREATEST_CONTACT_ANGLE
 from bearingcore.common import _checks as checks
 from bearingcore.fields import WIDEST_CONFORMITY
 
@@ -74,13 +73,6 @@ def center_distance(distance: float | None) -> float:
     return checks.real_number("groove_center_distance", distance, above=0.0, unit="m")  # type: ignore[arg-type]
 
 
-def check_material(name: str, value: float | None) -> float:
-    """A Young's modulus [Pa] or a Poisson's ratio as a float, else ValueError."""
-    if name.endswith("modulus"):
-        return checks.real_number(name, value, above=0.0, unit="Pa")  # type: ignore[arg-type]  # None is refused there
-    return checks.real_number(name, value, at_least=0.0, below=0.5)  # type: ignore[arg-type]
-
-
 def checked(values: Mapping[str, Any]) -> dict[str, float]:
     """Groove radii and materials of a `Bearing` as floats, of one with a drawing.
 
@@ -96,8 +88,11 @@ def checked(values: Mapping[str, Any]) -> dict[str, float]:
         race = name.partition("_")[0]
         numbers[name] = check_groove(race, values[name], values["ball_diameter"])
     for name in ("youngs_modulus", "poisson", *BALL_MATERIAL):
-        if values[name] is not None or name not in BALL_MATERIAL:
-            numbers[name] = check_material(name, values[name])
+        if values[name] is None and name in BALL_MATERIAL:
+            continue
+        modulus = name.endswith("modulus")
+        limits: dict[str, Any] = {"above": 0.0, "unit": "Pa"} if modulus else {"below": 0.5}
+        numbers[name] = checks.real_number(name, values[name], at_least=0.0, **limits)
     return numbers
 
 
@@ -175,28 +170,4 @@ def derive(
         load_deflection_factor=in_series(*factors),
         outer_raceway_radius=pitch_radius + r_b,
         inner_raceway_radius=pitch_radius - r_b,
-    )
-
-
-def check_clearance(
-    diametral_clearance: float,
-    contact_angle: float,
-    ball_diameter: float,
-    groove_center_distance: float,
-) -> float:
-    """The clearance [m] on top of a contact angle [rad], if the balls still lock the ring.
-
-    ValueError where the ring would have to move so far along the shaft that the free contact angle
-    passes GREATEST_CONTACT_ANGLE, or for an interference above a ball's diameter.
-    """
-    most = 2.0 * groove_center_distance
-    most *= math.cos(contact_angle) - math.cos(GREATEST_CONTACT_ANGLE)
-    return checks.real_number(
-        "diametral_clearance",
-        diametral_clearance,
-        at_least=-ball_diameter,
-        at_most=most,
-        unit="m",
-        note="more would need a free contact angle above "
-        f"{math.degrees(GREATEST_CONTACT_ANGLE):.0f} degrees",
     )

@@ -20,7 +20,6 @@ D^1.8 being 3.647 D^1.4 above 25.4 mm, and of rollers
 
 from __future__ import annotations
 
-import math
 from functools import cache
 
 import numpy as np
@@ -150,13 +149,3 @@ def _static_factors(self_aligning: bool) -> tuple[float, ...]:
         return (allowed / greatest) ** 3 / 5.0 / (1e3 * D) ** 2
 
     return tuple(factor(0.01 * k) for k in range(1, 41))
-
-
-def tapered_angle_of(thrust_limit: float) -> float:
-    """Contact angle [rad] of a tapered roller bearing from its e of ISO 281, 1.5 tan α."""
-    return math.atan(thrust_limit / 1.5)
-
-
-def contact_angle_of(axial_factor: float) -> float:
-    """Contact angle [rad] of a self-aligning bearing from its Y_1 of ISO 281, 0.42 cot α."""
-    return math.atan(0.42 / axial_factor)

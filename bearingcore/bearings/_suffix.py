@@ -8,7 +8,6 @@ passed over. What would make another bearing of it than is known is refused with
 from __future__ import annotations
 
 import re
-from functools import partial
 from typing import NamedTuple
 
 from bearingcore.common import _checks as checks
@@ -162,18 +161,22 @@ def read_suffix(name: str, kind: str, text: str, count: str, is_ceramic: bool) -
     FieldError
         for what would be another bearing than is known: its `allowed` says what to write instead.
     """
-    refused = partial(checks.refuse, "designation", name)
-    if second := _SECOND.search(text):
-        raise refused(ONE_NUMBER.format(second[0]))
-    if _BORE.match(text):
-        raise refused(BORE)
-    if _CYRILLIC.search(text):
-        raise refused(GOST)
-    pair = _PAIR.search(text)
     try:
-        arrangement = _arrangement(kind, text, count, pair)
+        return _suffix_of(kind, text, count, is_ceramic)
     except ValueError as why:
-        raise refused(str(why)) from None
+        raise checks.refuse("designation", name, str(why)) from None
+
+
+def _suffix_of(kind: str, text: str, count: str, is_ceramic: bool) -> Suffix:
+    """As `read_suffix`; ValueError with what is allowed."""
+    if second := _SECOND.search(text):
+        raise ValueError(ONE_NUMBER.format(second[0]))
+    if _BORE.match(text):
+        raise ValueError(BORE)
+    if _CYRILLIC.search(text):
+        raise ValueError(GOST)
+    pair = _PAIR.search(text)
+    arrangement = _arrangement(kind, text, count, pair)
     rest = _PAIR.sub(" ", text, count=1) if pair else text
     is_ceramic = is_ceramic or _CERAMIC.search(rest) is not None
     rest = _CERAMIC.sub(" ", rest)
@@ -185,10 +188,7 @@ def read_suffix(name: str, kind: str, text: str, count: str, is_ceramic: bool) -
         is_ceramic=is_ceramic,
         has_better_steel=_BETTER_STEEL.search(rest) is not None,
     )
-    try:
-        return _inside_of(kind, said, rest)
-    except ValueError as why:
-        raise refused(str(why)) from None
+    return _inside_of(kind, said, rest)
 
 
 def _inside_of(kind: str, said: Suffix, rest: str) -> Suffix:

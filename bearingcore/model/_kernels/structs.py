@@ -321,9 +321,9 @@ class Forces(NamedTuple):
         force on the outer ring; Σ δ e.
     touching : (contacts,)
         numbers of the compressed contacts, in order.
-    contact : (contacts, 5)
+    contact : (contacts, 4)
         their δ [m], er, ez, 1/A [1/m] (0 where the centres have passed each other and a contact
-        does not swivel), and 1 where they push, 0 where the damper takes all of it.
+        does not swivel).
     touched : (1,)
         how many are compressed.
     """
@@ -348,8 +348,6 @@ class Slopes(NamedTuple):
         along and across a contact in q, and their derivatives with the cage's turning.
     rows : (2 n, 4 n)
         sums over directions, of all columns.
-    pushed, pushing : (contacts,)
-        which contacts pushed a step ago, and push now.
     """
 
     Sx: Array
@@ -360,8 +358,6 @@ class Slopes(NamedTuple):
     e_turn: Array
     t_turn: Array
     rows: Array
-    pushed: NDArray[np.bool_]
-    pushing: NDArray[np.bool_]
 
 
 class Steps(NamedTuple):

@@ -91,27 +91,6 @@ def ball_start(packed: PackedMotion, massless: Equilibrium) -> Array | None:
     return np.concatenate([rings.ravel(), moved.ravel(), np.zeros(moved.size)])
 
 
-def march_balls(
-    packed: PackedMotion,
-    massless: Equilibrium,
-    h: float,
-    every: int,
-    history: Array,
-    place: Array,
-    watch: kernels.Watch | None = None,
-) -> int | None:
-    """Fill `history` and `place` by steps of h [s], a row after `every` of them.
-
-    Returns the number of steps after which all was finite; None where there is no static state to
-    start from: `massless` is that of massless balls at cage angle 0. `watch` is called with the
-    part done.
-    """
-    y = ball_start(packed, massless)
-    if y is None:
-        return None
-    return int(kernels.march_balls(y, h, 0.0, every, ball_system(packed), history, place, watch))
-
-
 def contact_stiffness(bearing: Bearing, load: float) -> tuple[float, float]:
     """Stiffness k_i, k_e [N/m] of a ball's contacts with inner and outer race at a load [N]."""
     n = bearing.kind.exponent

@@ -174,6 +174,11 @@ def frequency_bands(scene: Scene, *, coarse: bool = False) -> dict[str, tuple[fl
 class BandSearch:
     """Undamped frequencies of modes, followed by those of the mean stiffness at some positions.
 
+    They are those of `modes_at(...).undamped_frequency`, many matrices at a time without the
+    general eigenvalue problem that damping makes of them. Damping of a ratio ζ changes a frequency
+    |λ|/2π by about ζ² of it. Where no position has a stiffness, `labels` are those of the support
+    alone.
+
     Parameters
     ----------
     scene
@@ -183,6 +188,11 @@ class BandSearch:
         static state has no answer.
     weights : (n,)
         of the positions in the mean.
+
+    Raises
+    ------
+    ValueError
+        if the support lacks a number; the error names it.
     """
 
     def __init__(self, scene: Scene, terms: Array, weights: Array) -> None:
@@ -254,39 +264,6 @@ def modes_at(state: Equilibrium, template: Array | None = None, *, nearly: bool 
     return Modes(
         scene, dofs, state.cage_angles, frequency, ratio, undamped, shape, label, state=state
     )  # fmt: skip
-
-
-def undamped_bands(scene: Scene, terms: Array) -> tuple[Array, Array, list[tuple[str, ...]]]:
-    """Least and greatest undamped frequency of each mode over n cage angles, for r scenes.
-
-    They are those of `modes_at(...).undamped_frequency`, found many matrices at a time without the
-    general eigenvalue problem that damping makes of them. Damping of a ratio ζ changes a frequency
-    |λ|/2π by about ζ² of it.
-
-    Parameters
-    ----------
-    scene
-        its active directions, support and inertia; its defect does not count.
-    terms : (15, r, n)
-        stiffness terms [N/m, N/rad, N·m/rad] in the order of `STIFFNESS_TERMS`; NaN where the
-        static state has no answer.
-
-    Returns
-    -------
-    least, greatest : (r, m) [Hz]
-        NaN where no angle has an answer.
-    labels : r tuples of m
-        as in `Modes.label`; where no angle has an answer, those of the support alone.
-
-    Raises
-    ------
-    ValueError
-        if the support lacks a number; the error names it.
-    """
-    searches = [BandSearch(scene, row, np.ones(row.shape[1])) for row in np.moveaxis(terms, 1, 0)]
-    values = [search.frequencies(terms[:, i]) for i, search in enumerate(searches)]
-    least, greatest = least_and_greatest(np.stack(values), 2)
-    return least, greatest, [search.labels for search in searches]
 
 
 def _frequencies_like(template: Array, terms: Array, support: Array) -> Array:

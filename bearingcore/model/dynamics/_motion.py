@@ -23,9 +23,10 @@ from bearingcore.common import (
 )
 from bearingcore.model import _kernels as kernels
 from bearingcore.model.dynamics._ball_motion import (
+    ball_start,
+    ball_system,
     least_step_rate,
     loads_of_races,
-    march_balls,
     place_parts,
 )
 from bearingcore.model.dynamics._damping import damped
@@ -53,10 +54,6 @@ SETTLING = 0.12
 MOST_STEPS = 1_000_000
 """Steps that a motion, or the periods of one orbit, take at most by default: up to
 15 s of marching in five directions, 40 s with the tangent."""
-
-MOST_STEPS_IN_ALL = 1_000_000_000
-"""Steps that all points of a map or speeds of a run take at most by default: some
-minutes of marching in two directions, hours in five."""
 
 MOST_SAMPLES = 10_000_000
 """Samples of a motion."""
@@ -398,20 +395,25 @@ def _marched(
     h = 1.0 / step_rate
     place = filtered = None
     history = np.empty((rows, 6, len(dofs)))
+    done, status, detail = 0, MotionStatus.COMPLETED, ""
+    y = ball_start(packed, rest) if with_mass else static_start(packed, rest)
     if with_mass:
         place = np.empty((-(-rows // kept), parts, n_balls))
-        marched = march_balls(packed, rest, h, every, history, place, watch)
-    else:
-        marched = march_from(packed, rest, h, history, watch)
-    done, status, detail = marched or 0, MotionStatus.COMPLETED, ""
-    if marched is None:
+    if y is None:
         status, detail = MotionStatus.NO_START, f": {rest.reason(0)}"
-    elif done < n_steps:
+    elif with_mass:
+        balls = ball_system(packed)
+        done = int(kernels.march_balls(y, h, 0.0, every, balls, history, place, watch))
+    else:
+        system = moving_system(packed)
+        kernels.turn_smooth(y, 1.0, 0.0, system)
+        done = int(kernels.march(y, h, 0.0, system, history, watch))
+    if y is not None and done < n_steps:
         rate = thousands(step_rate)
         status = MotionStatus.DIVERGED
         detail = f" after {number(done * h)} s: {rate} steps a second are too few"
     if status is not MotionStatus.COMPLETED:
-        first = 0 if marched is None else 1
+        first = 0 if y is None else 1
         history[done // every + first :] = math.nan
         if place is not None:
             place[done // a_sample + first :] = math.nan
@@ -507,26 +509,6 @@ def _level(motion: Motion) -> float:
     return math.sqrt(float(np.mean(late * late)))
 
 
-def march_from(
-    packed: PackedMotion,
-    rest: Equilibrium,
-    h: float,
-    history: Array,
-    watch: kernels.Watch | None = None,
-) -> int | None:
-    """Fill `history` (steps + 1, 6, nd) by steps of h [s] from the static state at cage angle 0.
-
-    Returns the number of steps after which all was finite; None where there is no static state.
-    `watch` is called with the part done.
-    """
-    y = static_start(packed, rest)
-    if y is None:
-        return None
-    system = moving_system(packed)
-    kernels.turn_smooth(y, 1.0, 0.0, system)
-    return int(kernels.march(y, h, 0.0, system, history, watch))
-
-
 def moving_system(packed: PackedMotion, *, velocities: bool = False) -> kernels.System:
     """System of a scene with massless balls for the kernels; see `packing.rotor`.
 
@@ -556,17 +538,6 @@ def static_start(packed: PackedMotion, rest: Equilibrium) -> Array | None:
     y[2] = bodies.force / bodies.stiffness  # the housing sinks into its support
     y[0] = y[2] + rest.state[0, packed.load.active]
     return y.ravel()
-
-
-def too_many_in_all(steps: float, where: str, most: int) -> str:
-    """Cost of so many steps in words, where they are too many; else empty."""
-    most = checks.whole_number("most_steps_in_all", most, at_least=1, at_most=10**15)
-    if steps <= most:
-        return ""
-    return (
-        f"{MotionStatus.TOO_MANY_STEPS}: about {thousands(steps)} {where}, allowed are "
-        f"most_steps_in_all = {thousands(most)}"
-    )
 
 
 def _ratio(sample_rate: float, step_rate: float) -> tuple[int, int]:

@@ -11,12 +11,11 @@ eigenvalues of Φ                                      | μ      | multipliers  
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from bearingcore.common import (
     Array,
@@ -33,13 +32,12 @@ from bearingcore.model.dynamics._low_pass import (
     PASSED,
     PASSED_OF_ORBITS,
     acceleration_lines,
-    hermite_weights,
 )
 from bearingcore.model.dynamics._modes import highest_frequency_of
 from bearingcore.model.dynamics._motion import MOST_SAMPLES, MOST_STEPS, moving_system, static_start
 from bearingcore.model.dynamics._status import OrbitStatus
 from bearingcore.model.dynamics._step_rate import step_rate_of
-from bearingcore.model.scene import PackedMotion, Scene, _packing as packing
+from bearingcore.model.scene import CONTACT_LAWS, PackedMotion, Scene, _packing as packing
 from bearingcore.model.statics._equilibrium import equilibrium_of
 from bearingcore.recordings import Spectrum
 
@@ -129,19 +127,6 @@ class Orbit:
             ("multiplier_size", "1", np.abs(self.multipliers), "above 1 a disturbance grows"),
         )
 
-    def inner_displacement(self, time: ArrayLike) -> Array:
-        """(n, len(dofs)) [m, rad] of the inner ring at times [s], the period repeated.
-
-        By quintic interpolation between steps.
-        """
-        steps = len(self.history) - 1
-        at = np.asarray(time, dtype=float) / self.period * steps % steps
-        step = np.minimum(at.astype(int), steps - 1)
-        weights = hermite_weights(at - step, 0, self.period / steps)
-        ends = np.concatenate([self.history[step, :3], self.history[step + 1, :3]], axis=1)
-        scaled = np.einsum("nw,nwd->nd", weights, ends)
-        return scaled / packing.length_units(self.scene, self.dofs)
-
     def spectrum(
         self,
         sample_rate: float = 65536.0,
@@ -209,7 +194,6 @@ def orbit(
     start: Orbit | None = None,
     step_rate: float | None = None,
     most_steps: int = MOST_STEPS,
-    give_up: Callable[[], bool] | None = None,
     progress: Progress | None = None,
 ) -> Orbit:
     """Find the periodic motion of `scene` by Newton's method on P(y) = y (shooting).
@@ -224,7 +208,7 @@ def orbit(
     Parameters
     ----------
     scene
-        the scene; it moves along its active directions.
+        the scene, of massless balls under the published law; it moves along its active directions.
     start
         an orbit of a similar scene to start from; None starts at the static state.
     step_rate
@@ -232,9 +216,6 @@ def orbit(
     most_steps
         limit on all steps of integration. They are counted before each period; beyond the limit the
         search ends and the status says so.
-    give_up
-        called after every period; True ends the search, which has then not converged unless this
-        period was the orbit.
     progress
         called after every period, and at least ten times a second, with the used part of
         `most_steps` and words; an exception from it ends the search.
@@ -242,10 +223,14 @@ def orbit(
     Raises
     ------
     ValueError
-        for a shaft that stands still or a support that lacks a number.
+        for a shaft that stands still, a support that lacks a number, balls with mass, or a law
+        without tension.
     """
     checks.instance("scene", scene, Scene)
     checks.real_number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")
+    if scene.contact_law != CONTACT_LAWS[0]:
+        words = f"{CONTACT_LAWS[0]} for an orbit: where contacts let go the motion has no tangent"
+        raise checks.refuse("contact_law", scene.contact_law, words)
     dofs = scene.active_dofs
     ball_passes = common_ball_passes(scene) or 0
     nothing = Orbit(
@@ -264,7 +249,7 @@ def orbit(
         most = thousands(most_steps)
         cost = f"{thousands(steps)} steps a period, allowed are most_steps = {most} in all"
         return replace(nothing, status=OrbitStatus.TOO_MANY_STEPS, period=period, cost=cost)
-    shooting = _Shooting(packed, period, steps, give_up, most_steps, progress)
+    shooting = _Shooting(packed, period, steps, most_steps, progress)
     rest = equilibrium_of(packed, [0.0])
     y = static_start(packed, rest) if start is None else _state_at_start(start, dofs)
     if y is None:
@@ -273,13 +258,13 @@ def orbit(
     y = shooting.smooth_state(y)
     if start is not None:
         answer = _newton(nothing, shooting, y, period)
-        if answer.status != OrbitStatus.NOT_CONVERGED or shooting.given_up:
+        if answer.status != OrbitStatus.NOT_CONVERGED or shooting.too_many:
             return shooting.reported(answer)
     # where Newton loses its way it begins again, nearer to where the motion itself goes
     for periods in MARCHED_BEFORE:
         y = shooting.march(y, periods)
         answer = _newton(nothing, shooting, y, period)
-        if answer.status != OrbitStatus.NOT_CONVERGED or shooting.given_up:
+        if answer.status != OrbitStatus.NOT_CONVERGED or shooting.too_many:
             break
     return shooting.reported(answer)
 
@@ -320,17 +305,13 @@ class _Shooting:
         packed: PackedMotion,
         period: float,
         steps: int,
-        give_up: Callable[[], bool] | None = None,
         most_steps: int = MOST_STEPS,
         progress: Progress | None = None,
     ) -> None:
         self._progress = progress
         self.steps = steps
         self._most_steps = most_steps
-        self._too_many = False
         self.calls = 0
-        self.given_up = False
-        self._give_up = give_up
         self._system = moving_system(packed)
         self._step = period / steps
         self.history = np.empty((steps + 1, 6, len(packed.dofs)))
@@ -348,17 +329,17 @@ class _Shooting:
         """P(y), or P of P, or more."""
         end = y.copy()
         for _ in range(periods):
-            if self.given_up:
+            if self.too_many:
                 break
             kernels.march(end, self._step, 0.0, self._system, self.history, self._watch)
-            self._count()
+            self.calls += 4 * self.steps
         return end
 
     def march_with_tangent(self, y: Array) -> tuple[Array, Array]:
         """P(y) and its derivative."""
         both = np.concatenate([y, np.eye(y.size).ravel()])
         kernels.march(both, self._step, 0.0, self._system, self.history, self._watch)
-        self._count()
+        self.calls += 4 * self.steps
         return both[: y.size], both[y.size :].reshape(y.size, y.size)
 
     def _watch(self, part: float) -> None:
@@ -367,15 +348,14 @@ class _Shooting:
             steps = self.calls // 4 + round(part * self.steps)
             self._progress(min(steps / self._most_steps, 1.0), f"{thousands(steps)} steps")
 
-    def _count(self) -> None:
-        self.calls += 4 * self.steps
-        self.given_up = self.given_up or (self._give_up is not None and self._give_up())
-        if self.calls // 4 + self.steps > self._most_steps:
-            self.given_up = self._too_many = True
+    @property
+    def too_many(self) -> bool:
+        """True where another period would exceed the limit on steps."""
+        return self.calls // 4 + self.steps > self._most_steps
 
     def reported(self, answer: Orbit) -> Orbit:
         """Result of the search, or its status where it was ended for its cost."""
-        if answer.status != OrbitStatus.NOT_CONVERGED or not self._too_many:
+        if answer.status != OrbitStatus.NOT_CONVERGED or not self.too_many:
             return answer
         cost = (
             f"no orbit after {self.calls // 4} steps, {self.steps} a period; allowed are "
@@ -396,7 +376,7 @@ def _newton(nothing: Orbit, shooting: _Shooting, y: Array, period: float) -> Orb
     end, tangent = shooting.march_with_tangent(y)
     miss = shooting.miss(y, end)
     iterations = 0
-    while CLOSED < miss < math.inf and iterations < MOST_ITERATIONS and not shooting.given_up:
+    while CLOSED < miss < math.inf and iterations < MOST_ITERATIONS and not shooting.too_many:
         iterations += 1
         try:
             step = np.linalg.solve(tangent - np.eye(y.size), y - end)
@@ -407,7 +387,7 @@ def _newton(nothing: Orbit, shooting: _Shooting, y: Array, period: float) -> Orb
             trial = y + part * step
             trial_end, trial_tangent = shooting.march_with_tangent(trial)
             trial_miss = shooting.miss(trial, trial_end)
-            if trial_miss < miss or shooting.given_up:
+            if trial_miss < miss or shooting.too_many:
                 break
             part *= 0.4
         else:

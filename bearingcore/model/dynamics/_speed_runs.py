@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -24,14 +23,16 @@ from bearingcore.model.dynamics._modes import frequency_bands
 from bearingcore.model.dynamics._motion import (
     MOST_SAMPLES,
     MOST_STEPS,
-    MOST_STEPS_IN_ALL,
     simulate,
-    too_many_in_all,
 )
 from bearingcore.model.dynamics._orbit import Orbit, orbit
 from bearingcore.model.dynamics._status import MotionStatus
 from bearingcore.model.dynamics._step_rate import default_step_rate, fine_step_rate
-from bearingcore.model.scene import MASSLESS, Scene
+from bearingcore.model.scene import CONTACT_LAWS, MASSLESS, Scene
+
+MOST_STEPS_IN_ALL = 1_000_000_000
+"""Steps that all speeds of a run take at most by default: some minutes of marching in two
+directions, hours in five."""
 
 SETTLING_SHARE = 0.5
 """Part of a marched motion that is left out of its spectrum as transient."""
@@ -62,8 +63,6 @@ class SpeedRun:
         False if the run was cancelled.
     refusals
         reasons of refused speeds, by their index.
-    cost
-        number of steps if they exceeded `most_steps_in_all`; else empty.
     """
 
     scene: Scene
@@ -76,7 +75,6 @@ class SpeedRun:
     bands: dict[str, tuple[float, float]]
     completed: bool
     refusals: dict[int, ValueError] = field(default_factory=dict)
-    cost: str = ""
 
     def table(self) -> ResultTable:
         """A row for each speed and frequency: the density of each direction."""
@@ -111,7 +109,7 @@ def speed_run(
 
     It is that of the periodic orbit if this is stable, and else that of a marched motion.
 
-    Balls with mass are always marched, as the search for orbits needs massless balls.
+    Balls with mass, and contacts that let go, are always marched: they have no orbits here.
 
     Parameters
     ----------
@@ -126,17 +124,15 @@ def speed_run(
         limit on the steps of an orbit, and of a marched motion. Beyond it the speed is refused, and
         `refusals` gives the number.
     most_steps_in_all
-        limit on the steps of all speeds. If marching them all would exceed it, nothing is computed
-        and `cost` gives the number. If the searches for orbits use it up, the remaining speeds
-        are refused.
+        limit on the steps that marching all speeds would take.
     progress, cancelled
         called before each speed.
 
     Raises
     ------
     ValueError
-        for speeds that are not above zero, or if `simulate` refuses every speed. Single refusals
-        are in `refusals`.
+        for speeds that are not above zero, or that take more than `most_steps_in_all`, or if
+        `simulate` refuses every speed. Single refusals are in `refusals`.
     """
     speeds = np.asarray(shaft_speeds, dtype=float).ravel()
     if not 1 <= speeds.size <= 1000:
@@ -155,34 +151,18 @@ def speed_run(
     frequency = frequency[frequency <= PASSED * sample_rate]
     inner = scene.defect_turns
     passing = scene.bearing.bpfi if inner else scene.bearing.bpfo
-
-    def run_of(density: Array, **more: Any) -> SpeedRun:
-        return SpeedRun(
-            scene=scene,
-            dofs=dofs,
-            shaft_speed=speeds,
-            frequency=frequency[: density.shape[1]],
-            density=density,
-            ball_pass_frequency=np.array([passing(float(speed)) for speed in speeds]),
-            **more,
-        )
-
-    shape = (speeds.size, frequency.size, len(dofs))
     lasting = duration / (1.0 - SETTLING_SHARE)
     steps = _steps_of_marching(scene, speeds, lasting, sample_rate, most_steps)
-    if cost := too_many_in_all(steps, f"at {speeds.size} speeds", most_steps_in_all):
-        return run_of(
-            np.broadcast_to(np.float64(math.nan), shape),
-            from_orbit=np.zeros(speeds.size, dtype=bool),
-            bands=frequency_bands(scene),
-            completed=False,
-            cost=cost,
-        )
-    density = np.full(shape, math.nan)
+    checks.whole_number("most_steps_in_all", most_steps_in_all, at_least=1, at_most=10**15)
+    if steps > most_steps_in_all:
+        most_words = f"allowed are most_steps_in_all = {thousands(most_steps_in_all)}"
+        words = f"fewer: they take about {thousands(steps)} steps, {most_words}"
+        raise checks.refuse("shaft_speeds", f"{speeds.size} speeds", words)
+    density = np.full((speeds.size, frequency.size, len(dofs)), math.nan)
     proven = np.zeros(speeds.size, dtype=bool)
     nearby: Orbit | None = None
     refusals: dict[int, ValueError] = {}
-    done, left = 0, most_steps_in_all
+    done = 0
     for i, speed in enumerate(speeds.tolist()):
         if cancelled is not None and cancelled():
             break
@@ -191,22 +171,17 @@ def speed_run(
         done += 1
         try:
             at = scene.replace(shaft_speed=speed)
-            if left < 1:
-                raise ValueError(_NONE_LEFT.format(thousands(most_steps_in_all)))
             answer = None
-            if at.balls == MASSLESS:
-                may_take, rate = min(most_steps, left), fine_step_rate(at, sample_rate)
-                answer = orbit(at, start=nearby, step_rate=rate, most_steps=may_take)
-                left -= answer.right_hand_side_calls // 4
+            if at.balls == MASSLESS and at.contact_law == CONTACT_LAWS[0]:
+                rate = fine_step_rate(at, sample_rate)
+                answer = orbit(at, start=nearby, step_rate=rate, most_steps=most_steps)
             if answer is not None and answer.stable:
                 lines = answer.spectrum(sample_rate, resolution, duration).density
                 density[i, : len(lines)] = lines
                 proven[i] = True
                 nearby = answer
                 continue
-            may_take = max(min(most_steps, left), 1)
-            motion = simulate(at, lasting, sample_rate, most_steps=may_take)
-            left -= motion.right_hand_side_calls // 4
+            motion = simulate(at, lasting, sample_rate, most_steps=most_steps)
             if motion.status is MotionStatus.TOO_MANY_STEPS:
                 raise ValueError(motion.reason)
         except ValueError as error:
@@ -218,16 +193,20 @@ def speed_run(
     if len(refusals) == speeds.size:
         raise refusals[0]
     known = np.flatnonzero(np.isfinite(density).any(axis=(0, 2)))
-    return run_of(
-        density[:, : known[-1] + 1] if known.size else density,
+    if known.size:
+        density = density[:, : known[-1] + 1]
+    return SpeedRun(
+        scene=scene,
+        dofs=dofs,
+        shaft_speed=speeds,
+        frequency=frequency[: density.shape[1]],
+        density=density,
+        ball_pass_frequency=np.array([passing(float(speed)) for speed in speeds]),
         from_orbit=proven,
         bands=frequency_bands(scene),
         completed=done == speeds.size,
         refusals=refusals,
     )
-
-
-_NONE_LEFT = MotionStatus.TOO_MANY_STEPS + ": none is left of most_steps_in_all = {}"
 
 
 def _steps_of_marching(

@@ -18,7 +18,6 @@ from bearingcore.model.experiments._points import (
     Experiment,
     Point,
     Watch,
-    failed,
     least_time,
     measured_in_turn,
 )
@@ -55,7 +54,8 @@ def measured(
     march, seconds = least_time(lambda: method.march(problem, setting, duration, rate))
     words = f"{setting:.0f} steps/s" if method.fixed_step else f"tolerance {scientific(setting)}"
     if march.failure:
-        return failed(method.name, words, setting, march.failure, seconds, march.calls)
+        why = f"failed: {march.failure}"
+        return Point(method.name, words, setting, {}, seconds, march.calls, why)
     history = resample(march.history, march.step_rate, rate, len(reference.history))
     errors = reference.errors(history)
     used = method.name == "RK4" and setting == usual

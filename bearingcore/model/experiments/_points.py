@@ -226,13 +226,6 @@ NOT_WATCHED = Watch()
 """Neither reports nor ends early."""
 
 
-def failed(
-    method: str, setting: str, value: float, why: str, seconds: float = nan, evaluations: int = 0
-) -> Point:
-    """A point that says that a method did not get there."""
-    return Point(method, setting, value, {}, seconds, evaluations, f"failed: {why}")
-
-
 def measured_in_turn(
     experiment: Experiment,
     tasks: Sequence[T],

@@ -19,7 +19,7 @@ from bearingcore.model.dynamics import (
     orbit,
     simulate,
 )
-from bearingcore.model.scene import DOF_NAMES, EDGES, MASSLESS, WITH_MASS, Scene
+from bearingcore.model.scene import CONTACT_LAWS, DOF_NAMES, EDGES, MASSLESS, WITH_MASS, Scene
 from bearingcore.model.statics import Equilibrium, default_cage_angles, static_state
 from bearingcore.recordings._spectrum_difference import (
     BAND,
@@ -178,7 +178,7 @@ class _Measure:
             yield self._other_march(words, self.scene, factor * self.own.step_rate)
         other = MASSLESS if self.scene.balls == WITH_MASS else WITH_MASS
         yield replace(self._balls(), changes={"balls": other})
-        if self.scene.balls == MASSLESS:
+        if self.scene.balls == MASSLESS and self.scene.contact_law == CONTACT_LAWS[0]:
             yield self._orbit()
         yield self._quasi_static()
 

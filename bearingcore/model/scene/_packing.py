@@ -243,18 +243,15 @@ def body_numbers(scene: Scene, dofs: tuple[str, ...]) -> BodyNumbers:
     )
 
 
-def rotor(
-    scene: Scene, dofs: tuple[str, ...], contact_damping: float, *, velocities: bool = False
-) -> kernels.Rotor:
+def rotor(scene: Scene, dofs: tuple[str, ...], contact_damping: float) -> kernels.Rotor:
     """Both bodies of a scene that moves along `dofs`, and what its motion is marched in.
 
     That is variables without jumps where the contact law has them, with the shorter sums of
-    contacts that stay in the plane where they do; `velocities` takes these as they are, which
-    adaptive steps and general-purpose integrators take. contact_damping: c [N·s/m] of Eq. 18.
+    contacts that stay in the plane where they do. contact_damping: c [N·s/m] of Eq. 18.
     """
     published = scene.contact_law == "published"
     variables = kernels.VELOCITIES
-    if published and not velocities:
+    if published:
         flat = is_planar(scene) and dofs == DOF_NAMES[:2]
         variables = kernels.PLANAR if flat else kernels.SMOOTH
     bodies = body_numbers(scene, dofs)

@@ -6,7 +6,6 @@ import dataclasses
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -395,26 +394,21 @@ def too_many_contacts(contacts: int) -> str:
 
 def _not_begun(packed: PackedScene, angles: Array, leads: Array, cost: str) -> Equilibrium:
     """NaN everywhere, without the memory of it."""
-    n = angles.size
-
-    def all_of(value: float, *shape: int, kind: type = np.float64) -> NDArray[Any]:
-        return np.broadcast_to(np.array(value, dtype=kind), (n, *shape))
-
-    none = all_of(0, kind=np.int64)
-    balls = packed.contacts.angle.size
+    n, balls, unknown = angles.size, packed.contacts.angle.size, np.float64(math.nan)
+    rows, none = np.broadcast_to(unknown, (n, 5)), np.broadcast_to(np.int64(0), n)
     return Equilibrium(
         scene=packed.scene,
         dofs=packed.dofs,
         cage_angles=angles,
-        displacement=all_of(math.nan, 5),
-        ball_load=all_of(math.nan, balls),
-        stiffness=all_of(math.nan, 5, 5),
+        displacement=rows,
+        ball_load=np.broadcast_to(unknown, (n, balls)),
+        stiffness=np.broadcast_to(unknown, (n, 5, 5)),
         loaded_balls=none,
-        status=all_of(StaticStatus.TOO_MANY_CONTACTS, kind=np.int8),
-        residual=all_of(math.nan),
+        status=np.broadcast_to(np.int8(StaticStatus.TOO_MANY_CONTACTS), n),
+        residual=rows[:, 0],
         iterations=none,
         evaluations=none,
-        state=all_of(math.nan, 5),
+        state=rows,
         leads=leads,
         cost=cost,
     )

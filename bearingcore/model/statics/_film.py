@@ -177,46 +177,25 @@ def rolling_speed(bearing: Bearing, shaft_speed: float) -> float:
     return 0.25 * shaft_speed * bearing.pitch_diameter * (1.0 - gamma**2)
 
 
-def rolling_radius(bearing: Bearing, race: str) -> float:
-    """Radius R_x [m] of curvature along the rolling, ball and race together.
-
-    1/R_x = 2/D_b ± 2 γ/(D_b (1 ∓ γ)), upper signs inside: R_x = D_b (1 ∓ γ)/2.
-    """
-    checks.choice("race", race, RACES)
-    gamma = bearing.ball_diameter * math.cos(bearing.contact_angle) / bearing.pitch_diameter
-    return bearing.ball_radius * (1.0 - gamma if race == "inner" else 1.0 + gamma)
-
-
 def least_thickness(
-    speed: float,
-    load: float,
-    radius: float,
-    ellipse_ratio: float,
-    modulus: float,
-    viscosity: float,
-    pressure_viscosity: float,
+    bearing: Bearing, race: str, speed: float, load: float, oil: tuple[float, float]
 ) -> float:
-    """h_min [m] of Hamrock and Dowson; see the head of the module for u, Q, R_x, k, E', η0, ξ."""
-    U = viscosity * speed / (modulus * radius)
-    G = pressure_viscosity * modulus
-    W = load / (modulus * radius**2)
-    side_flow = -math.expm1(-0.68 * ellipse_ratio)
+    """Return h_min [m] of a ball or roller on a race; see the head of the module.
+
+    `speed` is u [m/s] and `load` Q [N], above 0; `oil` is η0 [Pa·s] and ξ [1/Pa].
+    """
+    contact, (viscosity, pressure_viscosity) = bearing.race_contact(race), oil
+    gamma = bearing.ball_diameter * math.cos(bearing.contact_angle) / bearing.pitch_diameter
+    # 1/R_x = 2/D_b ± 2 γ/(D_b (1 ∓ γ)), upper signs inside
+    radius = bearing.ball_radius * (1.0 - gamma if race == "inner" else 1.0 + gamma)
+    U = viscosity * speed / (contact.modulus * radius)
+    G = pressure_viscosity * contact.modulus
+    if isinstance(contact, RollerContact):
+        W = load / contact.length / (contact.modulus * radius)
+        return 1.714 * U**0.694 * G**0.568 * W**-0.128 * radius
+    W = load / (contact.modulus * radius**2)
+    side_flow = -math.expm1(-0.68 * contact.ellipse_ratio)
     return 3.63 * U**0.68 * G**0.49 * W**-0.073 * side_flow * radius
-
-
-def least_thickness_of_line(
-    speed: float,
-    load_per_length: float,
-    radius: float,
-    modulus: float,
-    viscosity: float,
-    pressure_viscosity: float,
-) -> float:
-    """h_min [m] of Pan and Hamrock; see the head of the module for u, Q/l, R_x, E', η0, ξ."""
-    U = viscosity * speed / (modulus * radius)
-    G = pressure_viscosity * modulus
-    W = load_per_length / (modulus * radius)
-    return 1.714 * U**0.694 * G**0.568 * W**-0.128 * radius
 
 
 def film(
@@ -270,7 +249,7 @@ def film(
         for race, value in (("inner", roughness_inner), ("outer", roughness_outer))
     }
     state = state_of(scene, state, static_state)
-    films = [_film_of(scene, ball, (eta, xi), sigma) for ball in heaviest_balls(state)]
+    films = [_film_of(scene, heaviest, (eta, xi), sigma) for heaviest in heaviest_balls(state)]
     # one that is not known is not the thinnest, unless none is known
     return min(films, key=lambda answer: np.nan_to_num(answer.thinner.film_parameter, nan=math.inf))
 
@@ -279,23 +258,15 @@ def _film_of(
     scene: Scene, ball: HeaviestBall, oil: tuple[float, float], sigma: dict[str, float]
 ) -> Film:
     """Film of one ball; oil: viscosity and pressure-viscosity coefficient."""
-    eta, xi = oil
-    bearing = scene.bearing.of_row(ball.row)
-    contacts = {race: bearing.race_contact(race) for race in RACES}
+    bearing, element = scene.bearing.of_row(ball.row), scene.bearing.kind.element
+    bearing.race_contact("inner")  # refuses a bearing without its drawing
     u = rolling_speed(bearing, scene.shaft_speed)
-    films = {}
-    for race, contact in contacts.items():
-        h, load = math.nan, ball.load_on(race)
-        if load > 0.0:
-            modulus = contact.modulus
-            radius = rolling_radius(bearing, race)
-            if isinstance(contact, RollerContact):
-                h = least_thickness_of_line(u, load / contact.length, radius, modulus, eta, xi)
-            else:
-                h = least_thickness(u, load, radius, contact.ellipse_ratio, modulus, eta, xi)
-        element = scene.bearing.kind.element
-        films[race] = _race_film(race, load, h, sigma[race], element)
-    return Film(scene, u, films["inner"], films["outer"])
+    films = []
+    for race in RACES:
+        load = ball.load_on(race)
+        h = least_thickness(bearing, race, u, load, oil) if load > 0.0 else math.nan
+        films.append(_race_film(race, load, h, sigma[race], element))
+    return Film(scene, u, *films)
 
 
 def _race_film(race: str, load: float, h: float, sigma: float, element: str) -> RaceFilm:

@@ -250,7 +250,7 @@ def life(
         raise checks.refuse("positions", positions, '"all" for a damaged bearing')
     if not alike and positions != "all":
         raise checks.refuse("positions", positions, '"all" for rows that are not alike')
-    contact = LINE_CONTACT if scene.bearing.kind.line_contact else POINT_CONTACT
+    contact = contact_life(scene.bearing)
     rows = range(len(scene.bearing.all_rows))
     rated = np.array([race_ratings(scene.bearing, C, k) for k in rows])
     healthy_scene = dataclasses.replace(scene, defect=()) if damaged else scene
@@ -288,60 +288,38 @@ def life(
     )
 
 
+def contact_life(bearing: Bearing) -> ContactLife:
+    """Return the constants of ISO 16281 for the contacts of a bearing."""
+    return LINE_CONTACT if bearing.kind.line_contact else POINT_CONTACT
+
+
 def race_ratings(bearing: Bearing, dynamic_load_rating: float, row: int = 0) -> tuple[float, float]:
     """Q_ci, Q_ce [N]: the loads of a ball under which inner and outer race last 10⁶ turns.
 
     Of one row, from the rating of all rows (ISO 16281). ValueError where a ball bearing does not
     carry its groove radii.
     """
-    row_bearing = bearing.of_row(row)
-    cosine = math.cos(row_bearing.contact_angle)
+    row_bearing, contact = bearing.of_row(row), contact_life(bearing)
+    cosine, ball = math.cos(row_bearing.contact_angle), row_bearing.ball_diameter
+    grooves = 1.0
+    if not bearing.kind.line_contact:
+        inner, outer = row_bearing.groove_radius("inner"), row_bearing.groove_radius("outer")
+        if inner is None or outer is None:
+            name = f"{'inner' if inner is None else 'outer'}_groove_radius"
+            raise checks.refuse(name, None, "a number, where life is computed")
+        grooves = groove_ratio(inner / ball, outer / ball)
     each = [1.0] if bearing.rows_are_alike else ratings_alone(bearing)
     part = each[row % len(each)] * len(each) / sum(each)  # over the mean of all rows
-    return ratings_of_races(
-        LINE_CONTACT if bearing.kind.line_contact else POINT_CONTACT,
-        dynamic_load_rating * part / (row_bearing.n_balls * cosine),
-        row_bearing.ball_diameter * cosine / row_bearing.pitch_diameter,
-        1.0 if bearing.kind.line_contact else groove_ratio(*_conformities(row_bearing)),
-        len(bearing.all_rows),
-    )
-
-
-def _conformities(bearing: Bearing) -> tuple[float, float]:
-    """Groove radii of the inner and outer race over the ball diameter."""
-    inner, outer = bearing.groove_radius("inner"), bearing.groove_radius("outer")
-    if inner is None or outer is None:
-        name = f"{'inner' if inner is None else 'outer'}_groove_radius"
-        raise checks.refuse(name, None, "a number, where life is computed")
-    return inner / bearing.ball_diameter, outer / bearing.ball_diameter
-
-
-def ratings_of_races(
-    contact: ContactLife, share: float, gamma: float, groove_ratio: float = 1.0, rows: int = 1
-) -> tuple[float, float]:
-    """Q_ci, Q_ce [N] of a kind of contact (ISO 16281).
-
-    Parameters
-    ----------
-    contact
-        POINT_CONTACT or LINE_CONTACT.
-    share
-        C_r/(Z cos α) [N], Z the rolling elements of a row: a load on half of them presses each by
-        some such part.
-    gamma
-        γ.
-    groove_ratio
-        (r_i/r_e) (2 r_e − D)/(2 r_i − D) of balls.
-    rows
-        that C_r is the rating of.
-    """
+    gamma = ball * cosine / row_bearing.pitch_diameter
     power = contact.load_exponent * contact.scatter
     B = (
         contact.race_factor
         * ((1.0 - gamma) / (1.0 + gamma)) ** contact.gamma_power
-        * groove_ratio**contact.groove_power
+        * grooves**contact.groove_power
     )
-    of_a_row = share / rows**contact.row_power / contact.evenness
+    # C_r/(Z cos α): a load on half of the elements of a row presses each by some such part
+    share = dynamic_load_rating * part / (row_bearing.n_balls * cosine)
+    of_a_row = share / len(bearing.all_rows) ** contact.row_power / contact.evenness
     Q_ci = of_a_row / contact.inner_part * (1.0 + B**power) ** (1.0 / power)
     Q_ce = of_a_row / contact.outer_part * (1.0 + B**-power) ** (1.0 / power)
     return Q_ci, Q_ce
@@ -349,7 +327,7 @@ def ratings_of_races(
 
 @lru_cache(maxsize=256)
 def _loads(scene: Scene, positions: str) -> RaceLoads:
-    contact = LINE_CONTACT if scene.bearing.kind.line_contact else POINT_CONTACT
+    contact = contact_life(scene.bearing)
     law = contact.load_exponent, contact.scatter
     if positions == "all":
         return race_loads(scene, *law)

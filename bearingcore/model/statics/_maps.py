@@ -26,6 +26,7 @@ from bearingcore.model import _kernels as kernels
 from bearingcore.model.scene import Defect, Scene, _packing as packing
 from bearingcore.model.scene._defect import TWO_PI, floor_bytes, path_tables
 from bearingcore.model.statics._equilibrium import (
+    MOST_CONTACTS,
     STIFFNESS_TERMS,
     TERM_UNITS,
     UNEXPLAINED,
@@ -73,8 +74,6 @@ class Maps:
         evaluations of the energy.
     refusals : (m,)
         the reason why a scene with this extent is impossible; empty if it is possible.
-    cost
-        the number of contacts if they exceeded MOST_CONTACTS; else empty.
     """
 
     scene: Scene
@@ -89,7 +88,6 @@ class Maps:
     solved: int
     evaluations: int
     refusals: tuple[str, ...]
-    cost: str = ""
 
     @cached_property
     def converged(self) -> NDArray[np.bool_]:
@@ -123,8 +121,6 @@ class Maps:
 
     def reason(self, i: int, k: int) -> str:
         """Status of extent i and cage angle k in words."""
-        if self.cost:
-            return self.cost
         if self.status[i, k] == StaticStatus.REFUSED:
             return self.refusals[i]
         status = StaticStatus(int(self.status[i, k]))
@@ -163,13 +159,13 @@ def stiffness_maps(
     -------
     Maps
         with a status for each point. A missing answer, or defects that overlap at this extent, are
-        a status and not an error. With more than MOST_CONTACTS contacts, extents times cage angles
-        times balls, nothing is computed, and `cost` gives the number.
+        a status and not an error.
 
     Raises
     ------
     ValueError
-        for extents or cage angles that are not finite or out of range, or unknown names in `dofs`.
+        for extents or cage angles that are not finite or out of range, or that are more than
+        MOST_CONTACTS times balls; and for unknown names in `dofs`.
     """
     checks.instance("scene", scene, Scene)
     if extents is None:
@@ -188,20 +184,15 @@ def stiffness_maps(
     packed = packing.pack(scene, free)
     contacts, load = packed.contacts, packed.load
     points = sizes.size * angles.size
-    if cost := too_many_contacts(points * contacts.angle.size):
-        nothing = np.broadcast_to(np.float64(math.nan), (15, *shape))
-        return Maps(
-            scene, free, sizes, angles, nothing, np.broadcast_to(np.int64(0), shape), nothing[0],
-            np.broadcast_to(np.int8(StaticStatus.TOO_MANY_CONTACTS), shape), nothing[0], 0, 0,
-            ("",) * sizes.size, cost,
-        )  # fmt: skip
-
+    if too_many_contacts(points * contacts.angle.size):
+        most = MOST_CONTACTS // contacts.angle.size
+        raise checks.refuse("extents times cage_angles", points, f"at most {most}")
     first, *others = scene.defect if isinstance(scene.defect, tuple) else (scene.defect,)
-    paths = _paths(first, tuple(others), bearing, tuple(sizes.tolist()))
+    ways, refusals = _paths(first, tuple(others), bearing, tuple(sizes.tolist()))
+    ways = ways._replace(leads=np.zeros(shape))
     answers = kernels.new_answers(*shape)
-    ways = paths.packed._replace(leads=np.zeros(shape))
     status = answers.status
-    refused = np.array([bool(words) for words in paths.refusals], dtype=bool)
+    refused = np.array([bool(words) for words in refusals], dtype=bool)
     status[refused] = StaticStatus.REFUSED
     memory = kernels.new_memory(angles.size, contacts)
 
@@ -218,7 +209,9 @@ def stiffness_maps(
     start = int(np.argmin(refused)) if not refused.all() else sizes.size
     begun = min(start + 1, sizes.size)
     solved, evaluations = solve(start, begun)
-    gone = _unbounded_angles(contacts, angles, load, status[start:begun])
+    failed = np.flatnonzero(np.isin(status[start:begun], UNEXPLAINED).any(axis=0))
+    force = load.force[load.active]
+    gone = [k for k in failed if is_unbounded(contacts, float(angles[k]), load.active, force)]
     status[:, gone] = np.where(refused[:, None], StaticStatus.REFUSED, StaticStatus.NOT_CARRIED)
     more, calls = solve(begun, sizes.size)
     units = packed.units
@@ -236,45 +229,25 @@ def stiffness_maps(
         residual=answers.residual,
         solved=solved + more,
         evaluations=evaluations + calls,
-        refusals=paths.refusals,
+        refusals=refusals,
     )
 
 
-def _unbounded_angles(
-    contacts: kernels.Contacts,
-    angles: Array,
-    load: kernels.StaticLoad,
-    status: NDArray[np.int8],
-) -> NDArray[np.int64]:
-    """Indices of the cage angles without an answer at which nothing can carry the load."""
-    failed = np.flatnonzero(np.isin(status, UNEXPLAINED).any(axis=0))
-    active, force = load.active, load.force[load.active]
-    gone = [k for k in failed if is_unbounded(contacts, float(angles[k]), active, force)]
-    return np.array(gone, dtype=np.int64)
-
-
-@dataclass(frozen=True)
-class _Paths:
-    """The defects of every row of a map, and why a row's defects cannot be."""
-
-    packed: kernels.MapPaths
-    refusals: tuple[str, ...]
-
-
-def _bytes_of_paths(paths: _Paths, first: Defect, *others: object) -> int:
-    packed = paths.packed
-    return packed.defects.nbytes + packed.tables.nbytes + floor_bytes((first,))
-
-
 # of rough floors the tables of a map may take a gigabyte
-@lru_cache_by_bytes(128_000_000, _bytes_of_paths)
+@lru_cache_by_bytes(
+    128_000_000,
+    lambda paths, first, *_: (
+        paths[0].defects.nbytes + paths[0].tables.nbytes + floor_bytes((first,))
+    ),
+)
 def _paths(
     first: Defect, others: tuple[Defect, ...], bearing: Bearing, extents: tuple[float, ...]
-) -> _Paths:
+) -> tuple[kernels.MapPaths, tuple[str, ...]]:
     """Paths of the ball over the defects, the first of them with each of the extents.
 
-    A few are kept, as with several defects or floors that are not flat they cost more than the
-    maps, and do not change while only the load does.
+    Returns the paths, and why the defects of each row cannot be; empty where they can. A few are
+    kept, as with several defects or floors that are not flat they cost more than the maps, and do
+    not change while only the load does.
     """
     sizes = np.array(extents)
     columns = len(kernels.PATH_COLUMNS)
@@ -285,7 +258,7 @@ def _paths(
         rows[:, 0, _HALF_EXTENT] = 0.5 * sizes
         rows[sizes >= TWO_PI, 0, _FLOOR_ANGLE] = 0.0
         counts = np.where((sizes > 0.0) & (first.depth > 0.0), 1, 0)
-        return _Paths(kernels.MapPaths(rows, counts, np.zeros(0), _NO_LEADS), ("",) * sizes.size)
+        return kernels.MapPaths(rows, counts, np.zeros(0), _NO_LEADS), ("",) * sizes.size
     paths: list[tuple[Array, Array]] = []
     refusals = []
     for extent in extents:
@@ -305,7 +278,7 @@ def _paths(
         all_rows[i, : len(rows), _TABLE_START] += size
         size += table.size
     tables = np.concatenate([*(table for _, table in paths), np.zeros(0)])
-    return _Paths(kernels.MapPaths(all_rows, counts, tables, _NO_LEADS), tuple(refusals))
+    return kernels.MapPaths(all_rows, counts, tables, _NO_LEADS), tuple(refusals)
 
 
 _NO_LEADS = np.zeros((0, 0))

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import Array, Progress, _checks as checks
+from bearingcore.common._arrays import least_and_greatest
 from bearingcore.model.dynamics import (
     BandSearch,
     PathEffects,
@@ -24,7 +25,7 @@ from bearingcore.model.dynamics import (
 )
 from bearingcore.model.dynamics._ball_comparison import mass_share
 from bearingcore.model.dynamics._low_pass import PASSED
-from bearingcore.model.dynamics._modes import stiffness_terms, undamped_bands
+from bearingcore.model.dynamics._modes import stiffness_terms
 from bearingcore.model.dynamics._speed_runs import SETTLING_SHARE
 from bearingcore.model.scene import DOF_NAMES, DOF_SYMBOLS, MASSLESS, Scene
 from bearingcore.model.statics import (
@@ -457,12 +458,13 @@ def of_row(
 
 def _bands(scene: Scene, terms: Array, labels: tuple[str, ...]) -> Numbers:
     """Edges (m, len(labels)) of bands, from stiffness terms (15, m, n) of m scenes."""
-    *ends, sets = undamped_bands(scene, terms)
     edges = np.full((2, terms.shape[1], len(labels)), math.nan)
-    for i, names in enumerate(sets):
-        place = [labels.index(name) for name in names if name in labels]
-        mine = [k for k, name in enumerate(names) if name in labels]
-        edges[:, i, place] = [each[i, mine] for each in ends]
+    for i, row in enumerate(np.moveaxis(terms, 1, 0)):
+        search = BandSearch(scene, row, np.ones(row.shape[1]))
+        ends = np.array(least_and_greatest(search.frequencies(row), 1))
+        for name, mode in zip(search.labels, ends.T, strict=True):
+            if name in labels:
+                edges[:, i, labels.index(name)] = mode
     return {"band_least": edges[0], "band_greatest": edges[1]}
 
 

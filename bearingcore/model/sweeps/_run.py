@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import dataclasses
 import errno
 import importlib
@@ -25,7 +26,7 @@ from bearingcore.model.sweeps._outputs import Settings
 
 if TYPE_CHECKING:
     import xarray
-    from distributed import Client
+    from distributed import Client, LocalCluster
 
 MOST_BYTES = 2_000_000_000
 """Of results that are kept in memory; larger ones need a store."""
@@ -158,6 +159,8 @@ def _sweep_to_store(
     cluster: Cluster,
     progress: Progress | None,
 ) -> xarray.Dataset:
+    import xarray
+
     region_shape = stores.prepare(path, grid, region_shape)
     regions = (
         stores.region(path, grid, region_shape, index)
@@ -175,15 +178,7 @@ def _sweep_to_store(
                 )
             seen = True
             done.add(region.part.size, kept=not computed)
-    return open_results(path)
-
-
-def open_results(store: str | os.PathLike[str]) -> xarray.Dataset:
-    """The Dataset of a store, finished or not: status 0 (`not_computed`) marks what is missing."""
-    needs_extra()
-    import xarray
-
-    return xarray.open_zarr(stores.local_path(store))
+    return xarray.open_zarr(path)
 
 
 def _sweep_in_memory(
@@ -294,7 +289,18 @@ def _cluster(client: Client | str | None, workers: int | None, processes: bool) 
                 "enough memory, and may this program start others? Any message of the "
                 f"worker is above. ({error})"
             ) from error
-        yield open_.enter_context(Client(cluster, set_as_default=False))
+        try:
+            yield open_.enter_context(Client(cluster, set_as_default=False))
+        except BaseException:
+            if processes:
+                cluster.sync(_end_processes, cluster)
+            raise
+
+
+async def _end_processes(cluster: LocalCluster) -> None:
+    """End the workers' processes: Dask waits four seconds for what runs in them."""
+    closing = (nanny.close(timeout=0.1) for nanny in cluster.workers.values())
+    await asyncio.gather(*closing, return_exceptions=True)
 
 
 def _finished(

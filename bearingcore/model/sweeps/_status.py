@@ -32,8 +32,8 @@ class SweepStatus(Status):
         "computation_refused",
         "this cannot be computed here: the shaft must turn, mass, stiffness and damping be "
         "known in each direction that moves, for life and pressure the groove radii, for life a "
-        "rating, which hybrid and self-aligning bearings have from the catalogue, and balls be "
-        "massless for orbits",
+        "rating, which hybrid and self-aligning bearings have from the catalogue, and for orbits "
+        "balls be massless and the law the published one",
     )
     NO_STATIC_START = "no_static_start", "there is no static state to start from"
     MOTION_DIVERGED = "motion_diverged", "the motion does not stay finite"

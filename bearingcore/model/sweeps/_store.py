@@ -135,15 +135,11 @@ def _create(path: Path, grid: Grid, region_shape: Sequence[int]) -> None:
             fill_value=0,
         )
         _consolidate(aside)
-        for folder, _, files in os.walk(aside):
-            for file in files:
-                _flush(Path(folder) / file)
         try:
             aside.rename(path)
         except OSError:
             if not (path.is_dir() and any(path.iterdir())):
                 raise  # else another process was first, and its store is looked at as any other
-        _flush(path.parent)
     finally:
         shutil.rmtree(aside, ignore_errors=True)
 
@@ -267,14 +263,3 @@ def _consolidate(path: Path) -> None:
         # it says that the format's text does not know this yet; xarray does, and others look past
         warnings.simplefilter("ignore")
         zarr.consolidate_metadata(path)
-
-
-def _flush(path: Path) -> None:
-    """Make sure that a file or folder is on disk, not just on its way."""
-    if os.name == "nt":  # knows no such thing for folders, nor for files opened to be read
-        return
-    handle = os.open(path, os.O_RDONLY)
-    try:
-        os.fsync(handle)
-    finally:
-        os.close(handle)

@@ -47,7 +47,7 @@ from bearing_explorer.kit.plots.ranges import nice_range
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
 from bearing_explorer.kit.widgets.form import FieldSpec
-from bearingcore import Scene
+from bearingcore import FieldError, Scene
 from bearingcore.model.dynamics import SpeedRun, speed_run
 
 SPEED = "shaft_speed_hz"
@@ -307,19 +307,18 @@ def compute(job: Work, scene: Scene, speeds: Sweep) -> str:
     done, shown = 0, "Nothing is shown yet."
     for one in runs:
         size = one.values.size
-        run = speed_run(
-            scene,
-            one.in_si[1],
-            resolution=RESOLUTION,
-            progress=lambda part, _, done=done, size=size: job.progress(
-                (done + part * size) / whole
-            ),
-            cancelled=job.cancelled,
-        )
-        if run.cost and not done:
-            raise ValueError(run.cost)
-        if run.cost:
-            return f"{shown} Finer was not begun, {run.cost}."
+        try:
+            run = speed_run(
+                scene,
+                one.in_si[1],
+                resolution=RESOLUTION,
+                progress=job.within(done / whole, (done + size) / whole),
+                cancelled=job.cancelled,
+            )
+        except FieldError as error:
+            if not done or error.field != "shaft_speeds":
+                raise
+            return f"{shown} Finer was not begun: speeds must be {error.allowed}."
         if run.completed or not done:
             job.show(FoundRun(run, one))
             shown = f"{size} speeds after {time.perf_counter() - started:.1f} s."

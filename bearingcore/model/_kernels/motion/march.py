@@ -74,7 +74,6 @@ def find_touching(passage, at, contacts, work):
         contact[count, 1] = er
         contact[count, 2] = ez
         contact[count, 3] = bend
-        contact[count, 4] = 1.0
         count += 1
         et = delta * tilting(er, ez, j, contacts)
         er *= delta
@@ -138,7 +137,6 @@ def push_of_contacts(passage, at, rotor, contacts, work, smooth):
         else:
             push = Q + damping * (er * r_rate + ez * z_rate)
             if push <= 0.0 and not tension:
-                contact[i, 4] = 0.0
                 continue
             push_t = push * tilting(er, ez, j, contacts)
             f0 += push * er * cj
@@ -200,7 +198,7 @@ def rates(y, part, before, k, at, system, work):
     else:
         equations_of_motion(work.trial, k, passage, at, rotor, contacts, work.forces)
     if with_tangent:
-        march_tangent(y, part, k, at, system, work)
+        march_tangent(k, at, system, work)
 
 
 @inlined
@@ -232,8 +230,8 @@ def new_steps(size, instants, system):
     touching, touched = np.empty(angle.size, dtype=np.int64), np.zeros(1, dtype=np.int64)
     return Steps(
         new_passage(instants, angle),
-        Forces(x, v, f, S, touching, np.empty((angle.size, 5)), touched),
-        new_slopes(4 * system.rotor.active.size, size, angle.size),
+        Forces(x, v, f, S, touching, np.empty((angle.size, 4)), touched),
+        new_slopes(4 * system.rotor.active.size, size),
         np.zeros((4, size)),
         np.zeros(size),
     )
@@ -243,8 +241,8 @@ def march(y, h, start_angle, system, history, watch=None):
     """Steps of h [s] from y, which is moved to the end; the cage begins at start_angle.
 
     Behind the 4 n numbers of a state y may hold the tangent (4 n, columns), row by row: how the end
-    changes with the beginning. In smooth variables nothing jumps as balls touch: its steps are the
-    derivative of those of the motion, without corrections.
+    changes with the beginning. It takes smooth variables, in which nothing jumps as balls touch:
+    its steps are the derivative of those of the motion, without corrections.
 
     history (steps + 1, 6, n) takes displacement, velocity and acceleration of the inner ring, then
     of the outer ring, at every step. Returns the number of steps after which all was still finite,

@@ -7,10 +7,10 @@ import numpy as np
 from bearingcore.model._kernels.compiling import called, inlined
 from bearingcore.model._kernels.contact import approach, contact_load, seen_from_the_cage, tilting
 from bearingcore.model._kernels.motion.planar import planar_slopes
-from bearingcore.model._kernels.structs import PLANAR, SMOOTH, VELOCITIES, Slopes
+from bearingcore.model._kernels.structs import PLANAR, Slopes
 
 
-def new_slopes(size, whole, n_contacts):
+def new_slopes(size, whole):
     """Empty work space of the tangent behind states of `size` numbers, `whole` with it."""
     columns = whole // size - 1
     return Slopes(
@@ -22,26 +22,21 @@ def new_slopes(size, whole, n_contacts):
         np.zeros(5),
         np.zeros(5),
         np.zeros((size // 2, columns)),
-        np.ones(n_contacts, dtype=np.bool_),
-        np.ones(n_contacts, dtype=np.bool_),
     )
 
 
 @called
-def march_tangent(y, part, k, at, system, work):
-    """Rate of the tangent into k, behind that of the state work.trial; part is 0 as a step begins.
+def march_tangent(k, at, system, work):
+    """Rate of the tangent into k, behind that of the state work.trial.
 
-    y, k and work.trial hold the tangent (4 n, columns) behind 4 n numbers of the state.
+    k and work.trial hold the tangent (4 n, columns) behind 4 n numbers of the state. The variables
+    are smooth: velocities jump as a ball touches, and their tangent would have to.
     """
     rotor = system.rotor
     slopes = work.slopes
     size = 4 * rotor.active.size
-    shape = (size, y.size // size - 1)
+    shape = (size, k.size // size - 1)
     tried = work.trial[size:].reshape(shape)
-    if part == 0.0 and rotor.variables == VELOCITIES:
-        saltation(tried, work.passage, at, rotor, system.contacts, work.forces, slopes)
-        for r in range(size, y.size):
-            y[r] = work.trial[r]
     if rotor.variables == PLANAR:
         planar_slopes(work.trial, work.passage, at, rotor, system.contacts, slopes)
     else:
@@ -54,11 +49,9 @@ def swivelling_slopes(passage, at, rotor, contacts, work, slopes):
     """Derivatives of Σ δ e and the force by x and v, into slopes.Sx, Px and Pv; contacts swivel.
 
     With e along a contact and t across it, in q, and their derivatives with the cage's turning:
-    de = t (t·dx)/A, dt = −e (t·dx)/A, dδ = dA = e·dx, and σ = (t·ṗ)/A. So the force itself,
-    (Q + c δ̇) e, changes by k1 ee' + (push/A) tt' + c σ et' + c ω e e_turn' with x, c ee' with v.
+    de = t (t·dx)/A, dt = −e (t·dx)/A, dδ = dA = e·dx, and σ = (t·ṗ)/A.
     """
     damping = rotor.contact_damping
-    smooth = rotor.variables == SMOOTH
     Sx = slopes.Sx
     Px = slopes.Px
     Pv = slopes.Pv
@@ -75,8 +68,6 @@ def swivelling_slopes(passage, at, rotor, contacts, work, slopes):
     w = rotor.cage_speed
     u = seen_from_the_cage(work.x, work.v, w)
     for i in range(work.touched[0]):
-        if work.contact[i, 4] == 0.0:
-            continue
         j = work.touching[i]
         delta = work.contact[i, 0]
         er = work.contact[i, 1]
@@ -94,32 +85,22 @@ def swivelling_slopes(passage, at, rotor, contacts, work, slopes):
         _, Q, k1 = contact_load(delta, contacts.factor[j], contacts.exponent[j])
         sigma = bend * (er * z_rate - ez * r_rate)
         along = er * r_rate + ez * z_rate
-        if smooth:
-            k2 = Q * bend
-            damped = damping * delta * bend
-            for b in range(5):
-                # of swivel = c δ σ, which pushes along −t
-                swivel = damping * sigma * (1.0 - delta * bend) * e[b] + damped * (
-                    w * t_turn[b] - along * bend * t[b]
+        k2 = Q * bend
+        damped = damping * delta * bend
+        for b in range(5):
+            # of swivel = c δ σ, which pushes along −t
+            swivel = damping * sigma * (1.0 - delta * bend) * e[b] + damped * (
+                w * t_turn[b] - along * bend * t[b]
+            )
+            for a in range(5):
+                Sx[a, b] += e[a] * e[b] + delta * bend * t[a] * t[b]
+                Px[a, b] += (
+                    k1 * e[a] * e[b]
+                    + (k2 * t[a] + damped * sigma * e[a]) * t[b]
+                    - t[a] * swivel
+                    - w * (damping * e_turn[a] * e[b] + damped * t_turn[a] * t[b])
                 )
-                for a in range(5):
-                    Sx[a, b] += e[a] * e[b] + delta * bend * t[a] * t[b]
-                    Px[a, b] += (
-                        k1 * e[a] * e[b]
-                        + (k2 * t[a] + damped * sigma * e[a]) * t[b]
-                        - t[a] * swivel
-                        - w * (damping * e_turn[a] * e[b] + damped * t_turn[a] * t[b])
-                    )
-                    Pv[a, b] -= damped * t[a] * t[b]
-        else:
-            k2 = (Q + damping * along) * bend
-            for b in range(5):
-                for a in range(5):
-                    Px[a, b] += (
-                        e[a] * (k1 * e[b] + damping * (sigma * t[b] + w * e_turn[b]))
-                        + k2 * t[a] * t[b]
-                    )
-                    Pv[a, b] += damping * e[a] * e[b]
+                Pv[a, b] -= damped * t[a] * t[b]
 
 
 @inlined
@@ -145,15 +126,13 @@ def tangent_rates(Y, kY, rotor, slopes):
     columns = Y.shape[1]
     damping = rotor.contact_damping
     rows = slopes.rows
-    smooth = rotor.variables != VELOCITIES
     for a in range(n):
         for column in range(columns):
             rows[a, column] = 0.0
-        if smooth:
-            for b in range(n):
-                stiff = damping * slopes.Sx[active[a], active[b]]
-                for column in range(columns):
-                    rows[a, column] += stiff * (Y[b, column] - Y[2 * n + b, column])
+        for b in range(n):
+            stiff = damping * slopes.Sx[active[a], active[b]]
+            for column in range(columns):
+                rows[a, column] += stiff * (Y[b, column] - Y[2 * n + b, column])
     for a in range(n):
         for column in range(columns):
             kY[a, column] = Y[n + a, column] - rotor.inverse_inner[a] * rows[a, column]
@@ -176,43 +155,3 @@ def tangent_rates(Y, kY, rotor, slopes):
                 - rotor.stiffness[a] * Y[2 * n + a, column]
                 - rotor.damping[a] * kY[2 * n + a, column]
             )
-
-
-@called
-def saltation(Y, passage, at, rotor, contacts, work, slopes):
-    """Apply to the tangent Y what contacts that touched during a step do to it.
-
-    The damper's force jumps by c δ̇ at δ = 0. A neighbouring motion touches a little earlier or
-    later; what that does to velocities is c (e·Δx) e over the mass, the rate δ̇ cancelling
-    (the saltation matrix). Without tension balls leave without a jump.
-    """
-    active = rotor.active
-    n = active.size
-    damping = rotor.contact_damping
-    e = slopes.e
-    pushed = slopes.pushed
-    pushing = slopes.pushing
-    for j in range(pushed.size):
-        pushed[j] = pushing[j]
-        pushing[j] = False
-    for i in range(work.touched[0]):
-        if work.contact[i, 4] == 0.0:
-            continue
-        j = work.touching[i]
-        pushing[j] = True
-        if pushed[j]:
-            continue
-        cj = passage.c[at, j]
-        sj = passage.s[at, j]
-        er = work.contact[i, 1]
-        ez = work.contact[i, 2]
-        et = tilting(er, ez, j, contacts)
-        directions_in_q(er, ez, cj, sj, et, e, slopes.e_turn)
-        for column in range(Y.shape[1]):
-            nearer = 0.0
-            for a in range(n):
-                nearer += e[active[a]] * (Y[a, column] - Y[2 * n + a, column])
-            for a in range(n):
-                jump = damping * e[active[a]] * nearer
-                Y[n + a, column] -= rotor.inverse_inner[a] * jump
-                Y[3 * n + a, column] += rotor.inverse_outer[a] * jump

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from bearingcore import Scene, equilibrium, frequency_bands, presets
-from bearingcore.model.dynamics._modes import modes_at, undamped_bands
+from bearingcore.model.dynamics._modes import BandSearch, modes_at
 from bearingcore.model.statics import STIFFNESS_TERMS, default_cage_angles
 
 RIG, ANGULAR = presets["fan-rig"], presets["liew-lim"]
@@ -24,19 +24,23 @@ SCENES = {
 
 
 def terms_of(scene: Scene, n: int = 121) -> np.ndarray:
-    """Return the 15 stiffness terms at n cage angles, (15, 1, n)."""
+    """Return the 15 stiffness terms at n cage angles, (15, n)."""
     state = equilibrium(scene, default_cage_angles(scene, n))
-    return np.stack([state.term(name) for name in STIFFNESS_TERMS])[:, None]
+    return np.stack([state.term(name) for name in STIFFNESS_TERMS])
+
+
+def search_of(scene: Scene, terms: np.ndarray) -> BandSearch:
+    """Return the search whose modes follow those of the mean of the terms."""
+    return BandSearch(scene, terms, np.ones(terms.shape[1]))
 
 
 @pytest.mark.parametrize("scene", SCENES.values(), ids=SCENES)
 def test_bands_of_many_matrices_are_those_of_single_modes(scene: Scene) -> None:
     single = modes_at(equilibrium(scene, default_cage_angles(scene, 121)))
-    least, greatest, [labels] = undamped_bands(scene, terms_of(scene))
-    frequency = single.undamped_frequency
-    assert labels == single.label
-    np.testing.assert_allclose(least[0], np.nanmin(frequency, axis=0), rtol=1e-10)
-    np.testing.assert_allclose(greatest[0], np.nanmax(frequency, axis=0), rtol=1e-10)
+    search = search_of(scene, terms_of(scene))
+    assert search.labels == single.label
+    frequencies = search.frequencies(terms_of(scene))
+    np.testing.assert_allclose(frequencies, single.undamped_frequency.T, rtol=1e-10)
 
 
 @pytest.mark.parametrize("extent", [0.0, 0.35, 1.1])
@@ -52,15 +56,13 @@ def test_approximate_damping_holds_where_modes_meet_and_balls_enter(extent: floa
 def test_unknown_terms_are_left_out_and_bands_without_any_are_nan() -> None:
     terms = terms_of(RIG)
     gone = terms.copy()
-    gone[:, 0, 30:60] = math.nan
-    least, greatest, _ = undamped_bands(RIG, np.concatenate([terms, gone, gone * math.nan], axis=1))
-    few = np.delete(terms, slice(30, 60), axis=2)
-    low, high, _ = undamped_bands(RIG, few)
-    np.testing.assert_allclose(least[1], low[0], rtol=1e-12)
-    np.testing.assert_allclose(greatest[1], high[0], rtol=1e-12)
-    assert np.isnan(least[2]).all()
-    assert np.isnan(greatest[2]).all()
-    assert np.isfinite(least[0]).all()
+    gone[:, 30:60] = math.nan
+    left = search_of(RIG, gone).frequencies(gone)
+    few = np.delete(terms, slice(30, 60), axis=1)
+    expected = search_of(RIG, few).frequencies(few)
+    np.testing.assert_allclose(np.delete(left, slice(30, 60), axis=1), expected, rtol=1e-12)
+    assert np.isnan(left[:, 30:60]).all()
+    assert np.isnan(search_of(RIG, gone * math.nan).frequencies(gone * math.nan)).all()
 
 
 @pytest.mark.parametrize("name", ["fan-rig", "liew-lim", "6205", "nu208"])

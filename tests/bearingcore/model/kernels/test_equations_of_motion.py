@@ -39,7 +39,7 @@ SCENES: dict[str, Scene] = {
 def test_rates_are_those_of_the_law(scene: Scene) -> None:
     dofs = scene.active_dofs
     system = kernels.System(
-        packing.rotor(scene, dofs, DAMPING, velocities=True),
+        packing.rotor(scene, dofs, DAMPING)._replace(variables=kernels.VELOCITIES),
         packing.contacts(scene.bearing),
         packing.path(scene),
     )

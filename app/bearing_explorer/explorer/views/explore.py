@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import panel as pn
 
-from bearing_explorer.explorer.plots.plane import Field
 from bearing_explorer.explorer.results.explore import (
     MAP_OUTPUTS,
     SIZES,

@@ -124,16 +124,11 @@
           is_inside(i, k) ? k : k = was.left.findIndex((_, k) => is_inside(i, k))))
       }
       const cells = cells_of_points.get(y)
-      const scales = Array.from(now.low, (low, k) => {
-        const height = now.top[k] - now.bottom[k], span = now.high[k] - low
-        const factor = (was.high[k] - was.low[k]) / span * height / (was.top[k] - was.bottom[k])
-        return [factor, now.bottom[k] + (was.low[k] - low) / span * height - factor * was.bottom[k]]
-      })
-      return y.map((one, i) => {
+      return y.map((before, i) => {
         const k = cells[i]
-        if (k < 0) return NaN
-        const height = scales[k][0] * one + scales[k][1]
-        return height >= now.bottom[k] && height <= now.top[k] ? height : NaN
+        const value = was.low[k] + (before - was.bottom[k]) / (was.top[k] - was.bottom[k]) * (was.high[k] - was.low[k])
+        const share = (value - now.low[k]) / (now.high[k] - now.low[k])
+        return share >= 0 && share <= 1 ? now.bottom[k] + share * (now.top[k] - now.bottom[k]) : NaN
       })
     }
     // A browser takes as long for each point of a curve, seen or not: those of a pixel are one.

@@ -8,8 +8,15 @@ from collections.abc import Sequence
 from typing import Any
 
 import panel as pn
-from bokeh import models
 from bokeh.core.properties import value
+from bokeh.models import (
+    ColumnDataSource,
+    CustomJS,
+    HoverTool,
+    Label,
+    Range1d,
+    Span,
+)
 
 from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.plots import style
@@ -123,7 +130,7 @@ class WorkPrecision:
     def _figure(self, height: int) -> Any:
         # with words, or no room would be left for them
         sides = [style.AxisQuantity(name, "", "") for name in ("Time", "Error")]
-        ranges = [models.Range1d(*ends, syncable=False) for ends in ((1e-4, 1.0), (1e-6, 10.0))]
+        ranges = [Range1d(*ends, syncable=False) for ends in ((1e-4, 1.0), (1e-6, 10.0))]
         plot = style.make_figure(
             *sides, *ranges, height=height, x_axis_type="log", y_axis_type="log",
             sizing_mode="stretch_width",
@@ -136,9 +143,8 @@ class WorkPrecision:
         self._points = column_source(*_POINTS)
         self._names = column_source(*_NAMES)
         self._used = column_source("cost", "error")
-        faint = style.FAINT_INK
-        self._allowed = models.Span(dimension="width", line_color=faint, line_dash=[6, 4])
-        self._limit = models.Label(x=4, y=1.0, x_units="screen", y_offset=2, text_color=faint,
+        self._allowed = Span(dimension="width", line_color=style.FAINT_INK, line_dash=[6, 4])
+        self._limit = Label(x=4, y=1.0, x_units="screen", y_offset=2, text_color=style.FAINT_INK,
                             text_font=style.FONT, text_font_size=style.SMALL_TEXT_SIZE)  # fmt: skip
         plot.add_layout(self._allowed)
         plot.add_layout(self._limit)
@@ -159,7 +165,7 @@ class WorkPrecision:
                       x_offset="right", y_offset="down")  # fmt: skip
         args = {"plot": plot, "points": self._points, "names": self._names,
                 "limit": self._limit}  # fmt: skip
-        place = models.CustomJS(args=args, code=_PLACE_LABELS)
+        place = CustomJS(args=args, code=_PLACE_LABELS)
         self._points.js_on_change("data", place)
         for change in ("inner_width", "inner_height"):
             plot.js_on_change(change, place)
@@ -167,7 +173,7 @@ class WorkPrecision:
             side.js_on_change("end", place)
         tips = [("method", "@method, @setting"), ("error", "@error"), ("time", "@seconds"),
                 ("evaluations", "@evaluations{0.[0]}"), ("status", "@status")]  # fmt: skip
-        plot.add_tools(models.HoverTool(renderers=[points], visible=False, tooltips=tips))
+        plot.add_tools(HoverTool(renderers=[points], visible=False, tooltips=tips))
         return plot
 
     def draw(self, shown: Experiment | None, error: str, cost: str, refused: str) -> None:
@@ -375,14 +381,14 @@ def _axis_ends(values: list[float], room: float) -> tuple[float, float]:
     return low / room, high * room
 
 
-def set_range(side: models.Range1d, start: float, end: float) -> None:
+def set_range(side: Range1d, start: float, end: float) -> None:
     """Set the ends of an axis, also for when it is reset."""
     side.update(start=start, end=end, reset_start=start, reset_end=end)
 
 
-def column_source(*columns: str) -> models.ColumnDataSource:
+def column_source(*columns: str) -> ColumnDataSource:
     """A source without numbers yet."""
-    return models.ColumnDataSource({column: [] for column in columns}, syncable=False)
+    return ColumnDataSource({column: [] for column in columns}, syncable=False)
 
 
 def columns_of(names: tuple[str, ...], rows: list[Any]) -> dict[str, list[Any]]:

@@ -100,41 +100,65 @@
   // now. Numbers are replaced as a whole, so that the old ones need not be copied. Curves in cells, whose
   // axes are numbers of a source that their tag names, are scaled anew.
   const paint_glyph = method(renderer, "_paint")
-  const paint_line = method(line, "_paint")
-  part("curves of before", [paint_glyph, paint_line], () => {
+  part("curves of before", [paint_glyph], () => {
     const FAINT = 0.3
-    const before = new Map()  // numbers of sources
-    let painted = []
-    const cells_of = ({ tags: [name] }) => name && globalThis.Bokeh.documents[0].get_model_by_name(name)
+    const before = new Map()  // of each line: its numbers, the source of its cells and their numbers
     addEventListener("explorer-hand", ({ detail: held }) => {
+      for (const view of before.keys()) view.request_paint()
       before.clear()
-      for (const view of painted) view.request_paint()
-      painted = held ? [...globalThis.Bokeh.index.query(({ glyph }) => glyph?.model.type === "Line")] : []
-      for (const { model } of painted)
-        for (const source of [model.data_source, cells_of(model)]) if (source) before.set(source, source.data)
+      const { index, documents: [page] } = globalThis.Bokeh
+      for (const view of held ? index.query(({ glyph }) => glyph?.model.type === "Line") : []) {
+        const { data_source: { data }, tags: [name] } = view.model
+        const cells = name ? page.get_model_by_name(name) : null  // looks through the whole page
+        before.set(view, { data, cells, was: cells?.data })
+      }
     })
+    const cells_of_points = new WeakMap()  // by the heights of a curve of before
     const rescaled = (x, y, was, now) => {
       if (was.left.length !== now.left.length) return []
-      return y.map((one, i) => {
-        const k = was.left.findIndex((left, k) => x[i] >= left && x[i] <= was.right[k]
-          && one >= was.bottom[k] - 1e-4 && one <= was.top[k] + 1e-4)
-        if (k < 0) return NaN
-        const value = was.low[k] + (one - was.bottom[k]) / (was.top[k] - was.bottom[k]) * (was.high[k] - was.low[k])
+      if (!cells_of_points.has(y)) {
+        const is_inside = (i, k) => x[i] >= was.left[k] && x[i] <= was.right[k]
+          && y[i] >= was.bottom[k] - 1e-4 && y[i] <= was.top[k] + 1e-4
+        let k = -1
+        cells_of_points.set(y, Int16Array.from(y, (_, i) =>
+          is_inside(i, k) ? k : k = was.left.findIndex((_, k) => is_inside(i, k))))
+      }
+      const cells = cells_of_points.get(y)
+      return y.map((before, i) => {
+        const k = cells[i]
+        const value = was.low[k] + (before - was.bottom[k]) / (was.top[k] - was.bottom[k]) * (was.high[k] - was.low[k])
         const share = (value - now.low[k]) / (now.high[k] - now.low[k])
         return share >= 0 && share <= 1 ? now.bottom[k] + share * (now.top[k] - now.bottom[k]) : NaN
       })
     }
+    // A browser takes as long for each point of a curve, seen or not: those of a pixel are one.
+    const stroke = (ctx, xs, ys) => {
+      let left = NaN, top = NaN
+      ctx.beginPath()
+      for (let i = 0; i < xs.length; i++) {
+        const x = xs[i], y = ys[i], apart = Math.abs(x - left) + Math.abs(y - top)
+        if (apart < 1) continue
+        if (isFinite(apart)) ctx.lineTo(x, y)
+        else if (isFinite(x + y)) ctx.moveTo(x, y)
+        left = x
+        top = y
+      }
+      ctx.stroke()
+    }
+    const differ = (before, now) => before.length !== now.length
+      || before.some((one, i) => Math.abs(one - now[i]) > 1e-3 || isNaN(one) !== isNaN(now[i]))
     renderer._paint = function (ctx) {
-      const { data_source: source, tags } = this.model, data = before.get(source)
-      if (data && data !== source.data && this.glyph.model.type === "Line") {
-        const { x, y } = this.glyph.model, cells = tags.length ? cells_of(this.model) : null
-        const old = [data[x.field], data[y.field]]
-        if (cells && cells.data !== before.get(cells)) old[1] = rescaled(...old, before.get(cells), cells.data)
-        const places = { sx: this.xscale.v_compute(old[0]), sy: this.yscale.v_compute(old[1]) }
-        ctx.save()
-        ctx.globalAlpha = FAINT
-        paint_line.call(this.glyph, ctx, places.sy.keys(), places)
-        ctx.restore()
+      const { data } = this.model.data_source, { data: old = data, cells, was } = before.get(this) ?? {}
+      if (old !== data) {
+        const { x: { field: x }, y: { field: y } } = this.glyph.model
+        const ys = cells && cells.data !== was ? rescaled(old[x], old[y], was, cells.data) : old[y]
+        if (!cells || differ(ys, data[y])) {
+          ctx.save()
+          ctx.globalAlpha = FAINT
+          this.glyph.visuals.line.set_value(ctx)
+          stroke(ctx, this.xscale.v_compute(old[x]), this.yscale.v_compute(ys))
+          ctx.restore()
+        }
       }
       paint_glyph.call(this, ctx)
     }

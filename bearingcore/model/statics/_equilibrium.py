@@ -132,7 +132,7 @@ class Equilibrium:
         """(n,) [rad] angles of the shaft, and of defects of the inner race."""
         return self.cage_angles / self.scene.bearing.cage_ratio + self.leads
 
-    @property
+    @cached_property
     def shares(self) -> Array:
         """(n,) share of the time of each angle: `weights`, else `time_shares`."""
         if self.weights is not None:

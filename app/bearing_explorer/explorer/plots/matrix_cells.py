@@ -16,13 +16,7 @@ from typing import Any
 
 import numpy as np
 import panel as pn
-from bokeh.models import (
-    ColumnDataSource,
-    CustomJS,
-    CustomJSTickFormatter,
-    FixedTicker,
-    Range1d,
-)
+from bokeh import models
 from bokeh.plotting import figure
 from numpy.typing import NDArray
 
@@ -90,7 +84,7 @@ def enlarge_on_click(plot: figure) -> None:
 const detail = {figure: plot.id, x: cb_obj.x, y: cb_obj.y}
 window.dispatchEvent(new CustomEvent("explorer-cell", {detail}))
 """
-    plot.js_on_event("tap", CustomJS(args={"plot": plot}, code=code))
+    plot.js_on_event("tap", models.CustomJS(args={"plot": plot}, code=code))
 
 
 def matrix_figure(
@@ -104,7 +98,7 @@ def matrix_figure(
 
     `least_width` [px] is that at which its words have room.
     """
-    plot = style.bare_figure(Range1d(*x), Range1d(*y), **options)
+    plot = style.bare_figure(models.Range1d(*x), models.Range1d(*y), **options)
     plot.toolbar_location = "left"  # on the right it would lie on the last column
     # as a property of the figure Panel would give the width to the whole card
     plot.min_width = None
@@ -122,7 +116,7 @@ def scrolled(plot: figure) -> pn.Column:
 
 def write(
     plot: figure,
-    source: ColumnDataSource,
+    source: models.ColumnDataSource,
     code: str,
     x: Any = "x",
     y: Any = "y",
@@ -137,7 +131,7 @@ def write(
 def write_names(plot: figure, cells: Sequence[Cell]) -> None:
     """The symbols of the terms above their cells, and the name of the last cell."""
     *terms, balls = cells
-    source = ColumnDataSource(
+    source = models.ColumnDataSource(
         {
             "x": [cell.left for cell in terms],
             "y": [cell.top for cell in terms],
@@ -147,7 +141,7 @@ def write_names(plot: figure, cells: Sequence[Cell]) -> None:
     serif = {"text_font": {"value": SERIF}, "text_color": style.INK}
     write(plot, source, "return 'k'", y_offset=-6, text_font_size="15px", **serif)
     write(plot, source, "return row.below", x_offset=9, y_offset=-3, **serif)
-    name = ColumnDataSource({"x": [balls.left], "y": [balls.top]})
+    name = models.ColumnDataSource({"x": [balls.left], "y": [balls.top]})
     look = {"y_offset": -6, "text_font_size": style.TEXT_SIZE, "text_color": style.INK}
     write(plot, name, f"return {NAMES[-1]!r}", **look)
 
@@ -214,7 +208,7 @@ def axes_when_zoomed(
     plot: figure,
     cells: Sequence[Cell],
     scale_of: str,
-    sources: Sequence[ColumnDataSource],
+    sources: Sequence[models.ColumnDataSource],
     **known: Any,
 ) -> None:
     """Show the axes of a bare figure while it is zoomed into.
@@ -234,12 +228,12 @@ def axes_when_zoomed(
     """
     axes = []
     for axis in (plot.xaxis[0], plot.yaxis[0]):
-        shown = ColumnDataSource({"at": [], "words": []}, syncable=False)
-        axis.ticker = FixedTicker(ticks=[], minor_ticks=[], syncable=False)
-        axis.formatter = CustomJSTickFormatter(args={"shown": shown}, code=_TICK_WORDS)
+        shown = models.ColumnDataSource({"at": [], "words": []}, syncable=False)
+        axis.ticker = models.FixedTicker(ticks=[], minor_ticks=[], syncable=False)
+        axis.formatter = models.CustomJSTickFormatter(args={"shown": shown}, code=_TICK_WORDS)
         axis.syncable = False  # it is the browser that shows and hides it
         axes.append([axis, axis.ticker, shown])
-    follow = CustomJS(
+    follow = models.CustomJS(
         args={
             "plot": plot,
             "axes": axes,

@@ -11,13 +11,7 @@ import numpy as np
 import panel as pn
 from bokeh.models import Plot
 
-from bearing_explorer.explorer.results.accuracy import (
-    SUBJECTS,
-    Found,
-    compute,
-    preset_like,
-    shipped,
-)
+from bearing_explorer.explorer.results import accuracy
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.explorer.views.scene_job_view import SceneJobView
@@ -69,7 +63,7 @@ _GRID = """
 """Style of charts side by side."""
 
 
-class Accuracy(SceneJobView[Found]):
+class Accuracy(SceneJobView[accuracy.Found]):
     """Error against cost, where steps are too long, and where the orbit is unstable."""
 
     name = "accuracy"
@@ -95,7 +89,7 @@ class Accuracy(SceneJobView[Found]):
     def build(self, packed: PackedSource) -> Any:
         self._chosen = Fields(lambda _: self._redraw())
         for name, label, options in (
-            ("charts", "Charts of", SUBJECTS.items()),
+            ("charts", "Charts of", accuracy.SUBJECTS.items()),
             ("error", "Error of", ((name, name) for name in ERRORS["motion"])),
             ("cost", "Cost as", COSTS),
         ):
@@ -152,7 +146,7 @@ class Accuracy(SceneJobView[Found]):
 
     def prepare(self, given: Mapping[str, str], editor: SceneEditor) -> Callable[[Work], str]:
         name, scene = given["experiment"], editor.scene
-        return lambda job: compute(job, scene, name)
+        return lambda job: accuracy.compute(job, scene, name)
 
     def begin(self, given: Mapping[str, str]) -> None:
         super().begin({"experiment": self._subject})
@@ -161,13 +155,13 @@ class Accuracy(SceneJobView[Found]):
 
     def _shown(self, results: Results) -> Mapping[str, Experiment]:
         """The experiments shown: of this machine, or else measured beforehand."""
-        base = shipped(preset_like(results.scene))
+        base = accuracy.shipped(accuracy.preset_like(results.scene))
         own = {} if self.job_result is None else self.job_result.result.experiments
         return {**base.experiments, **own}
 
     def sentence(self, results: Results) -> str:
         shown, scene = self.job_result, results.scene
-        preset = preset_like(scene)
+        preset = accuracy.preset_like(scene)
         words = f"Measured beforehand, for {preset_labels[preset]}."
         if presets[preset] != scene:
             words = (
@@ -183,7 +177,7 @@ class Accuracy(SceneJobView[Found]):
         return words
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
-        base = shipped(preset_like(results.scene))
+        base = accuracy.shipped(accuracy.preset_like(results.scene))
         shown = base if self.job_result is None else self.job_result.result
         return shown.table().named()
 
@@ -207,8 +201,8 @@ class Accuracy(SceneJobView[Found]):
             self._draw_charts(self._results)
 
     def _draw_charts(self, results: Results) -> None:
-        preset, subject = preset_like(results.scene), self._subject
-        base = shipped(preset)
+        preset, subject = accuracy.preset_like(results.scene), self._subject
+        base = accuracy.shipped(preset)
         known = [base] if self.job_result is None else [self.job_result.result, base]
         reasons = {
             **(base.refused if presets[preset] == results.scene else {}),

@@ -13,13 +13,8 @@ from bokeh.models import BoxAnnotation, Range1d
 
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.scene_editor import SceneEditor
+from bearing_explorer.explorer.views import work_precision
 from bearing_explorer.explorer.views.scene_job_view import SceneJobView
-from bearing_explorer.explorer.views.work_precision import (
-    ALLOWED,
-    column_source,
-    columns_of,
-    set_range,
-)
 from bearing_explorer.kit.compute import compiling
 from bearing_explorer.kit.compute.jobs import Work
 from bearing_explorer.kit.plots import style
@@ -31,7 +26,7 @@ from bearingcore.model.experiments import SPECTRUM, Alternative, Alternatives, a
 LEAST_HEIGHT = 60
 """[px] of the chart without a model."""
 _DOTS = ("error", "row", "slot", "marker", "words", "side", "right")
-GOOD_ENOUGH = {True: ALLOWED["dB"], False: ALLOWED["1"]}
+GOOD_ENOUGH = {True: work_precision.ALLOWED["dB"], False: work_precision.ALLOWED["1"]}
 """Errors up to which a model will do: of spectra [dB], and of curves over their swing."""
 
 
@@ -67,7 +62,7 @@ class OtherModels(SceneJobView[Alternatives]):
         plot.xaxis.formatter = style.logarithmic_ticks()
         near = {"fill_color": "#E6F3EE", "fill_alpha": 1.0, "line_color": None, "level": "image"}
         plot.add_layout(BoxAnnotation(right=1.0, **near))
-        self._dots = column_source(*_DOTS)
+        self._dots = work_precision.column_source(*_DOTS)
         color = by_number("slot", (style.INK, "#00704F", "#D55E00"))
         plot.scatter("error", "row", source=self._dots, marker="marker", size=9,
                      fill_color=color, line_color=color)  # fmt: skip
@@ -93,13 +88,13 @@ class OtherModels(SceneJobView[Alternatives]):
             dots.append((at, -i, 0 if not finite else 1 if share <= 1.0 else 2,
                          "circle" if finite else "x", words,
                          "right" if late else "left", -9 if late else 9))  # fmt: skip
-        self._dots.data = columns_of(_DOTS, dots)
+        self._dots.data = work_precision.columns_of(_DOTS, dots)
         names = {-i: one.name for i, one in enumerate(rows)}
         self.plot.min_border_left = 26 + round(6.6 * max(map(len, names.values()), default=0))
         style.fixed_ticks(self.plot.yaxis[0], list(names))
         self.plot.yaxis.major_label_overrides = names
-        set_range(self.plot.x_range, left, right)
-        set_range(self.plot.y_range, 0.4 - len(rows), 0.6)
+        work_precision.set_range(self.plot.x_range, left, right)
+        work_precision.set_range(self.plot.y_range, 0.4 - len(rows), 0.6)
         self.plot.update(height=LEAST_HEIGHT + 22 * len(rows), visible=bool(rows))
 
     def prepare(self, given: Mapping[str, str], editor: SceneEditor) -> Callable[[Work], str]:

@@ -17,19 +17,9 @@ from bearing_explorer.explorer.results.defect_shape import race_angles, race_dep
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.views.bearing_handles import handles, let_grab
 from bearing_explorer.explorer.views.comparing_view import ComparingView
-from bearing_explorer.kit.plots import color_scales, style
+from bearing_explorer.kit.plots import color_scales, layers, style
 from bearing_explorer.kit.plots.element_words import elements
 from bearing_explorer.kit.plots.heat_map import color_bar
-from bearing_explorer.kit.plots.layers import (
-    LIT,
-    Glyph,
-    Layer,
-    Words,
-    draw,
-    filled,
-    segments,
-    with_gaps,
-)
 from bearing_explorer.kit.plots.ranges import StickyRange
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import ANSWER, Ranges, Sources
@@ -114,40 +104,42 @@ _LINE = {"text_font_size": style.TEXT_SIZE, "text_color": style.FAINT_INK}
 _UNDER_A_ROW = {**_LINE, **_MIDDLE, "text_baseline": "top", "y_offset": 20}
 
 
-def layers(prefix: str, colors: LinearColorMapper, inks: LinearColorMapper) -> list[Layer]:
+def drawing_layers(
+    prefix: str, colors: LinearColorMapper, inks: LinearColorMapper
+) -> list[layers.Layer]:
     """From the lowest to the highest; `colors` of loads, and of the numbers on these colours."""
     load, number = ({"field": "load", "transform": mapper} for mapper in (colors, inks))
-    end = Glyph(
+    end = layers.Glyph(
         Circle,
         f"{prefix}_roller_ends",
         PLACE_AND_SIZE,
         {"fill_color": None, "line_color": _EDGE, "line_width": 1.0},
     )
-    ball = Glyph(
+    ball = layers.Glyph(
         Circle,
         f"{prefix}_balls",
         PLACE_AND_SIZE,
         {"fill_color": load, "line_color": _EDGE, "line_width": 1.2},
         ("element",),
-        LIT,
+        layers.LIT,
     )
 
-    def words(name: str, code: str, reads: tuple[str, ...], look: dict[str, Any]) -> Words:
-        return Words(f"{prefix}_{name}", "x", "y", code, reads, look=look)
+    def words(name: str, code: str, reads: tuple[str, ...], look: dict[str, Any]) -> layers.Words:
+        return layers.Words(f"{prefix}_{name}", "x", "y", code, reads, look=look)
 
     return [
-        filled(f"{prefix}_healthy_loads", style.HEALTHY, 0.25),
-        filled(f"{prefix}_rings", style.STEEL, line_color=style.STEEL_EDGE, line_width=1.2),
-        filled(f"{prefix}_defect", style.DEFECT, 0.55, line_color="#B87A00", line_width=1.2),
-        segments(f"{prefix}_spacings", "#8A5A00", 1.5),
+        layers.filled(f"{prefix}_healthy_loads", style.HEALTHY, 0.25),
+        layers.filled(f"{prefix}_rings", style.STEEL, line_color=style.STEEL_EDGE, line_width=1.2),
+        layers.filled(f"{prefix}_defect", style.DEFECT, 0.55, line_color="#B87A00", line_width=1.2),
+        layers.segments(f"{prefix}_spacings", "#8A5A00", 1.5),
         words(
             "marks",
             "return row.angle + '°'",
             ("angle", "turn"),
             {**_NUMBER, "text_color": style.FAINT_INK, "angle": "turn"},
         ),
-        segments(f"{prefix}_bars", load, 8, reads=("load",)),
-        Words(
+        layers.segments(f"{prefix}_bars", load, 8, reads=("load",)),
+        layers.Words(
             f"{prefix}_bars",
             "x",
             "y",
@@ -162,7 +154,7 @@ def layers(prefix: str, colors: LinearColorMapper, inks: LinearColorMapper) -> l
         ),
         ball,
         end,
-        Words(
+        layers.Words(
             f"{prefix}_balls",
             "x",
             "y",
@@ -171,8 +163,8 @@ def layers(prefix: str, colors: LinearColorMapper, inks: LinearColorMapper) -> l
             fitting=style.NARROW,
             look={**_NUMBER, "text_color": number},
         ),
-        filled(f"{prefix}_arrow", style.INK),
-        Words(
+        layers.filled(f"{prefix}_arrow", style.INK),
+        layers.Words(
             f"{prefix}_load_words",
             0.0,
             1.0,
@@ -241,12 +233,12 @@ class BearingDrawing(ComparingView):
                 code="for (const mapper of mappers) mapper.high = load.end",
             ),
         )
-        drawn = layers(self.prefix, colors, inks)
-        for layer, renderer in zip(drawn, draw(plot, packed, drawn), strict=True):
+        drawn = drawing_layers(self.prefix, colors, inks)
+        for layer, renderer in zip(drawn, layers.draw(plot, packed, drawn), strict=True):
             if layer.source in (f"{self.prefix}_bars", f"{self.prefix}_healthy_loads"):
                 renderer.tags = [ANSWER]
         if self.grabbed:
-            draw(plot, packed, compared_curves.curves(f"{self.prefix}_loads", "x", "y"))
+            layers.draw(plot, packed, compared_curves.curves(f"{self.prefix}_loads", "x", "y"))
             let_grab(plot, packed, f"{self.prefix}_handles")
         self._add_scale(plot, colors, load)
         return plot
@@ -392,7 +384,7 @@ def one_after_other(parts: list[dict[str, np.ndarray]], gaps: bool) -> dict[str,
     """Columns of several shapes as one, polygons with NaN between those that are not empty."""
     if not gaps:
         return {column: np.concatenate([part[column] for part in parts]) for column in parts[0]}
-    return with_gaps(((part["x"], part["y"]) for part in parts if part["x"].size), "x", "y")
+    return layers.with_gaps(((part["x"], part["y"]) for part in parts if part["x"].size), "x", "y")
 
 
 def roller_ends(scene: Scene, balls: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
@@ -680,7 +672,7 @@ class Shapes:
 
 def polar(*parts: tuple[NDArray[np.float64], NDArray[np.float64]]) -> dict[str, np.ndarray]:
     """Closed lines given as (angle [rad], radius), one after the other with NaN between."""
-    line = with_gaps(parts, "angle", "radius")
+    line = layers.with_gaps(parts, "angle", "radius")
     angle, radius = line["angle"], line["radius"]
     return {"x": radius * np.cos(angle), "y": radius * np.sin(angle)}
 

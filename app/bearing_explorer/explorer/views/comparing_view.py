@@ -24,7 +24,7 @@ class ComparingView(View[Results]):
 
     @classmethod
     def caption(cls, content: Results | None = None) -> str:
-        if content is not None and not content.reference_label:  # the grey scene is this one
+        if content is not None and not content.grey.label:  # the grey scene is this one
             return _GREY_KEY.sub("", cls.about)
         return cls.about.replace("{grey}", content.grey.name if content else WITHOUT_DEFECT)
 

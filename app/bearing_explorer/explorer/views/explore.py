@@ -14,16 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import panel as pn
 
-from bearing_explorer.explorer.plots.plane import Field
-from bearing_explorer.explorer.results.explore import (
-    MAP_OUTPUTS,
-    SIZES,
-    MapOutput,
-    Plane,
-    Question,
-    coarse,
-    refine,
-)
+from bearing_explorer.explorer.results import explore
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.explorer.state.value_range import (
@@ -48,7 +39,7 @@ if TYPE_CHECKING:
     from bearing_explorer.explorer.plots.plane import Field
 
 _FIRST = {"x": "extent_deg", "y": "fy_n", "output": "k_yy_mean", "grid": "2"}
-_GRIDS = [[str(stride), f"{n} × {m}"] for stride, (n, m) in SIZES.items() if stride < 16]
+_GRIDS = [[str(stride), f"{n} × {m}"] for stride, (n, m) in explore.SIZES.items() if stride < 16]
 _FADED = 0.35
 SIDES = {"x": "Horizontal axis", "y": "Vertical axis"}
 """Sides of a map."""
@@ -60,16 +51,16 @@ class MapRequest:
 
     x: Sweep
     y: Sweep
-    output: MapOutput
+    output: explore.MapOutput
     stride: int
     given: Mapping[str, str] = field(default_factory=dict, compare=False)
 
-    def of(self, results: Results) -> Question:
+    def of(self, results: Results) -> explore.Question:
         """The question for the scene shown."""
-        return Question(focused(results.scene, results.focus), self.x, self.y, self.output)
+        return explore.Question(focused(results.scene, results.focus), self.x, self.y, self.output)
 
 
-class ExplorePlane(SceneJobView[Plane]):
+class ExplorePlane(SceneJobView[explore.Plane]):
     """A map of one output over two quantities, with lines across it."""
 
     name = "explore"
@@ -85,8 +76,8 @@ class ExplorePlane(SceneJobView[Plane]):
     bounds = f"Coarse at once, finer while you wait: at most {longest:.0f} minutes a map."
 
     _request: MapRequest | None = None
-    _question: Question | None = None
-    _refining: tuple[Question, int] | None = None
+    _question: explore.Question | None = None
+    _refining: tuple[explore.Question, int] | None = None
 
     def build(self, packed: PackedSource) -> Any:
         from bearing_explorer.explorer.plots.plane import (
@@ -106,7 +97,9 @@ class ExplorePlane(SceneJobView[Plane]):
     # The form
 
     def fields(self) -> list[FieldSpec]:
-        outputs = [[output.name, output.label, output.group] for output in MAP_OUTPUTS.values()]
+        outputs = [
+            [output.name, output.label, output.group] for output in explore.MAP_OUTPUTS.values()
+        ]
         return [
             {"name": "output", "label": "What to draw", "options": outputs},
             *plane_fields(),
@@ -124,12 +117,12 @@ class ExplorePlane(SceneJobView[Plane]):
 
     def request_of(self, given: Mapping[str, str], editor: SceneEditor) -> MapRequest:
         """The map of the form; ValueError with a sentence where there can be none."""
-        if given["output"] not in MAP_OUTPUTS:
+        if given["output"] not in explore.MAP_OUTPUTS:
             raise ValueError("There is no such output.")
-        if given["grid"] not in map(str, SIZES):
+        if given["grid"] not in map(str, explore.SIZES):
             raise ValueError(f"A map has at most {_GRIDS[-1][1]} points.")
-        x, y = plane_sweeps(given, SIZES[1], editor.limits)
-        output = MAP_OUTPUTS[given["output"]]
+        x, y = plane_sweeps(given, explore.SIZES[1], editor.limits)
+        output = explore.MAP_OUTPUTS[given["output"]]
         return MapRequest(x, y, output, int(given["grid"]), given)
 
     def start_job(self, given: Mapping[str, str]) -> None:
@@ -155,7 +148,7 @@ class ExplorePlane(SceneJobView[Plane]):
         editor = results.editor
         self._request = request = self.request_of({**self.form(editor)[0], **choices}, editor)
         question = request.of(results)
-        self.job_result = last_shown(lambda job: refine(job, question, request.stride))
+        self.job_result = last_shown(lambda job: explore.refine(job, question, request.stride))
 
     # The picture
 
@@ -200,7 +193,7 @@ class ExplorePlane(SceneJobView[Plane]):
         }
         self.parts.change_scene({"typed": typed})
 
-    def columns(self, plane: Plane) -> dict[str, np.ndarray]:
+    def columns(self, plane: explore.Plane) -> dict[str, np.ndarray]:
         up, across = np.meshgrid(plane.y.own_values, plane.x.own_values, indexing="ij")
         return {
             plane.x.field.key: across.ravel(),
@@ -213,7 +206,7 @@ class ExplorePlane(SceneJobView[Plane]):
             },
         }
 
-    def _newest(self, results: Results) -> tuple[Plane | None, str]:
+    def _newest(self, results: Results) -> tuple[explore.Plane | None, str]:
         """The map as far as it is computed, or the reason why there can be none."""
         if self._request is None:
             return None, ""
@@ -223,24 +216,24 @@ class ExplorePlane(SceneJobView[Plane]):
         if not question.at_once:
             return None, ""
         try:
-            return coarse(question), ""
+            return explore.coarse(question), ""
         except ValueError as error:
             return None, sentence_of(error)
 
     # Refining
 
-    def _refine(self, jobs: Jobs, question: Question, start: Plane | None) -> None:
+    def _refine(self, jobs: Jobs, question: explore.Question, start: explore.Plane | None) -> None:
         """Start the job of a map."""
         assert self._request is not None
         stride = self._request.stride
         self._refining = question, stride
 
         def work(job: Work) -> str:
-            return refine(job, question, stride, start)
+            return explore.refine(job, question, stride, start)
 
         jobs.start(work, self._take, self.report)
 
-    def _take(self, plane: Plane) -> None:
+    def _take(self, plane: explore.Plane) -> None:
         if plane.question == self._question:
             self.job_result = plane
             self._draw()
@@ -288,7 +281,7 @@ def plane_sweeps(
     return x, y
 
 
-def field_of(plane: Plane) -> Field:
+def field_of(plane: explore.Plane) -> Field:
     """A map as the figures take it."""
     from bearing_explorer.explorer.plots.plane import Field
 
@@ -299,7 +292,7 @@ def field_of(plane: Plane) -> Field:
     return Field(x, y, words, output.unit, plane.values, plane.reasons)
 
 
-def summary(plane: Plane) -> str:
+def summary(plane: explore.Plane) -> str:
     """A sentence on a map: least and greatest value, their places, and missing points."""
     question, values = plane.question, plane.values
     words, size = field_of(plane).words, question.size_words(plane.stride)
@@ -319,7 +312,7 @@ def summary(plane: Plane) -> str:
     return f"{words}: {ends}.{missing} Computed at {size}."
 
 
-def _place(plane: Plane, at: tuple[Any, ...]) -> str:
+def _place(plane: explore.Plane, at: tuple[Any, ...]) -> str:
     output = plane.question.output
     value, unit = float(plane.values[at]), output.unit
     prefixed = unit not in ("", "°")

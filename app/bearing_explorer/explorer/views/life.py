@@ -11,12 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import panel as pn
 
-from bearing_explorer.explorer.results.endurance import (
-    ASSUMED_GROOVES,
-    ASSUMED_VISCOSITY,
-    Endurance,
-    LifeInputs,
-)
+from bearing_explorer.explorer.results import endurance
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.sentences import number_of
@@ -65,7 +60,8 @@ FIELDS = (
         0.1,
         1e4,
         "Of the oil, or a grease's base oil, at the temperature of the contact. Left empty, "
-        f"{ASSUMED_VISCOSITY * 1e3:g} mPa·s are assumed here, and no limit is judged by it.",
+        f"{endurance.ASSUMED_VISCOSITY * 1e3:g} mPa·s are assumed here, and no limit is judged by "
+        "it.",
         "not given",
     ),
     Field(
@@ -101,7 +97,7 @@ class LifeOfBearing(View):
     )
 
     def build(self, packed: PackedSource) -> Any:
-        self.inputs = LifeInputs()
+        self.inputs = endurance.LifeInputs()
         self._fields = Fields(self.take)
         self._refusal = facts_pane(visible=False)
         parts: list[Any] = []
@@ -196,7 +192,7 @@ def groups_of(results: Results) -> list[FactGroup]:
 PROFILE = "Rollers are taken to have the profile of ISO 16281, and not to tilt."
 
 
-def _life(results: Results, answer: Endurance) -> FactGroup:
+def _life(results: Results, answer: endurance.Endurance) -> FactGroup:
     title = "Life of the healthy bearing" if results.scene.defects else "Life"
     if answer.life is None or answer.healthy is None or answer.rating is None:
         return FactGroup(title, answer.no_life, [])
@@ -278,7 +274,7 @@ def _damaged_words(damaged: Life) -> str:
     )
 
 
-def _pressures(results: Results, answer: Endurance) -> FactGroup:
+def _pressures(results: Results, answer: endurance.Endurance) -> FactGroup:
     title = "Greatest contact pressure"
     if answer.pressures is None:
         return FactGroup(title, answer.no_pressures, [])
@@ -312,12 +308,12 @@ def _pressures(results: Results, answer: Endurance) -> FactGroup:
     return FactGroup(title + _assuming(answer), words, facts)
 
 
-def _assuming(answer: Endurance) -> str:
+def _assuming(answer: endurance.Endurance) -> str:
     """Words that a title adds where groove radii are assumed, by which no limit is judged."""
-    return ", with usual groove radii" if ASSUMED_GROOVES in answer.assumed else ""
+    return ", with usual groove radii" if endurance.ASSUMED_GROOVES in answer.assumed else ""
 
 
-def _film(results: Results, answer: Endurance) -> FactGroup:
+def _film(results: Results, answer: endurance.Endurance) -> FactGroup:
     title = "Oil film"
     if answer.film is None:
         return FactGroup(title, answer.no_film, [])
@@ -345,7 +341,7 @@ def _film(results: Results, answer: Endurance) -> FactGroup:
         )
     words = answer.film.sentence
     if results.life_inputs.viscosity is None:
-        viscosity = style.with_prefix(ASSUMED_VISCOSITY, "Pa·s")
+        viscosity = style.with_prefix(endurance.ASSUMED_VISCOSITY, "Pa·s")
         words = words[0].lower() + words[1:]
         words = f"With an assumed viscosity of {viscosity}, as none is given: {words}"
     return FactGroup(title + _assuming(answer), words, facts)

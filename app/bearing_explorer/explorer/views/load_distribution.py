@@ -15,16 +15,7 @@ from bearing_explorer.explorer.results.defect_shape import pieces, spans
 from bearing_explorer.explorer.results.load_curve import Curve, curves_table, load_curve, row_name
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.views.comparing_view import ComparingView
-from bearing_explorer.kit.plots import style
-from bearing_explorer.kit.plots.layers import (
-    Layer,
-    Words,
-    ball_dots,
-    curve,
-    draw,
-    strips,
-    with_gaps,
-)
+from bearing_explorer.kit.plots import layers, style
 from bearing_explorer.kit.plots.ranges import ROOM, StickyRange
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
@@ -37,18 +28,18 @@ OTHER_ROWS = style.DIRECTION_COLORS[1]
 
 
 CURVES = (
-    curve("load_distribution_other_rows", "angle", "load", OTHER_ROWS),
-    curve("load_distribution_curve", "angle", "load", style.DEFECTIVE),
+    layers.curve("load_distribution_other_rows", "angle", "load", OTHER_ROWS),
+    layers.curve("load_distribution_curve", "angle", "load", style.DEFECTIVE),
 )
-LAYERS: tuple[Layer, ...] = (
-    strips("load_distribution_defect", style.DEFECT, 0.16, low="start", high="end"),
-    curve("load_distribution_healthy", "angle", "load", style.HEALTHY),
-    curve("load_distribution_other_healthy", "angle", "load", style.HEALTHY, dash=(6, 4)),
+LAYERS: tuple[layers.Layer, ...] = (
+    layers.strips("load_distribution_defect", style.DEFECT, 0.16, low="start", high="end"),
+    layers.curve("load_distribution_healthy", "angle", "load", style.HEALTHY),
+    layers.curve("load_distribution_other_healthy", "angle", "load", style.HEALTHY, dash=(6, 4)),
     *compared_curves.curves("load_distribution", "angle", "load"),
-    curve("load_distribution_inner", "angle", "load", style.DEFECTIVE, 1.4, (5, 3)),
+    layers.curve("load_distribution_inner", "angle", "load", style.DEFECTIVE, 1.4, (5, 3)),
     *CURVES,
-    ball_dots("load_distribution_balls", "angle", "load"),
-    Words(
+    layers.ball_dots("load_distribution_balls", "angle", "load"),
+    layers.Words(
         "load_distribution_rows",
         "angle",
         "load",
@@ -85,7 +76,7 @@ class LoadDistribution(ComparingView):
         )
         style.fixed_ticks(plot.xaxis[0], range(0, 361, 45))
         plot.xgrid.ticker = plot.xaxis[0].ticker
-        drawn = draw(plot, packed, LAYERS)
+        drawn = layers.draw(plot, packed, LAYERS)
         curves = [glyph for layer, glyph in zip(LAYERS, drawn, strict=True) if layer in CURVES]
         plot.add_tools(
             HoverTool(
@@ -199,7 +190,7 @@ def _both_races_table(state: Equilibrium, row: int) -> ResultTable:
 
 def _one_line(curves: list[Curve]) -> dict[str, np.ndarray]:
     """Curves as one line with gaps, angles in degrees."""
-    return with_gaps(((np.degrees(angle), load) for angle, load in curves), "angle", "load")
+    return layers.with_gaps(((np.degrees(angle), load) for angle, load in curves), "angle", "load")
 
 
 NAMES_APART = 40.0

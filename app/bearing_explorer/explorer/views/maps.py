@@ -16,14 +16,6 @@ from bokeh.plotting import figure
 from numpy.typing import NDArray
 
 from bearing_explorer.explorer.plots import matrix_cells
-from bearing_explorer.explorer.plots.matrix_cells import (
-    NEGLIGIBLE,
-    PLACES,
-    SIDES,
-    UNITS,
-    Cell,
-    write,
-)
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.field_values import CAGE_ANGLE
 from bearing_explorer.explorer.state.references import massless
@@ -61,19 +53,19 @@ _TO_TWO_SIGNS, _TO_ONE_SIGN = 0.03, 0.01
 """The smaller sign's part of the greater one above which a map has two signs, below which one."""
 
 
-def _cell(row: int, column: int) -> Cell:
-    return Cell(column + 0.15, column + 0.785, -row - 0.885, -row - 0.2)
+def _cell(row: int, column: int) -> matrix_cells.Cell:
+    return matrix_cells.Cell(column + 0.15, column + 0.785, -row - 0.885, -row - 0.2)
 
 
-_BALLS = Cell(0.26, 1.98, -4.66, -3.36)
-_CELLS = [*(_cell(i, j) for i, j in PLACES), _BALLS]
+_BALLS = matrix_cells.Cell(0.26, 1.98, -4.66, -3.36)
+_CELLS = [*(_cell(i, j) for i, j in matrix_cells.PLACES), _BALLS]
 _N = len(_CELLS)
 
 
-def _bar(cell: Cell) -> Cell:
+def _bar(cell: matrix_cells.Cell) -> matrix_cells.Cell:
     """The colour scale right of a map."""
     width = 0.036 if cell is not _BALLS else 0.06
-    return Cell(cell.right + 0.02, cell.right + 0.02 + width, cell.bottom, cell.top)
+    return matrix_cells.Cell(cell.right + 0.02, cell.right + 0.02 + width, cell.bottom, cell.top)
 
 
 BAR_NUMBERS = 0.1
@@ -103,14 +95,14 @@ class StiffnessMaps(View):
     )
     needs = frozenset({"maps", "now"})
     cells = matrix_cells.named_cells(
-        [Cell(c.left, _bar(c).right + BAR_NUMBERS, c.bottom, c.top) for c in _CELLS]
+        [matrix_cells.Cell(c.left, _bar(c).right + BAR_NUMBERS, c.bottom, c.top) for c in _CELLS]
     )
 
     def build(self, packed: PackedSource) -> Any:
         """One canvas for all maps."""
-        self._one_sign = [StickyRange(0.0, 1.0) for _ in PLACES]
-        self._two_signs = [StickyRange(-1.0, 1.0, anchor="symmetric") for _ in PLACES]
-        self._two = [False] * len(PLACES)
+        self._one_sign = [StickyRange(0.0, 1.0) for _ in matrix_cells.PLACES]
+        self._two_signs = [StickyRange(-1.0, 1.0, anchor="symmetric") for _ in matrix_cells.PLACES]
+        self._two = [False] * len(matrix_cells.PLACES)
         self._balls = StickyRange(0.0, 1.0, shrink_below=0.0)
         looks = (
             ".bk-events.bk-events { cursor: crosshair; }"
@@ -122,7 +114,7 @@ class StiffnessMaps(View):
         cells = packed.source("maps_cells", *_CELL_COLUMNS, *_PLACES_OF_CELLS)
         grid = packed.source("maps_grid", *_GRID)
         ticks = packed.source("maps_ticks", "x", "y", "value", "at")
-        now = packed.source("maps_now", "x", "y", *SIDES)
+        now = packed.source("maps_now", "x", "y", *matrix_cells.SIDES)
         points = packed.source("maps_points", "bits")
         frames = _frames(plot)
         images = _images(plot, points)
@@ -143,7 +135,7 @@ class StiffnessMaps(View):
             fields={"@left": "value", "@right": "y", "@top": "x"},
             cells=cells,
             points=points,
-            units=list(UNITS),
+            units=list(matrix_cells.UNITS),
             head=_HEAD,
             none=NO_ANSWER,
             greatest=GREATEST,
@@ -162,15 +154,15 @@ class StiffnessMaps(View):
             at_now = float(now.term(term)[0])
             low, high, flat = self._limits(i, values, sizes[i])
             points.append(whole_numbers(values, low, high))
-            at_now = 0.0 if abs(at_now) < NEGLIGIBLE * sizes[i] else at_now
+            at_now = 0.0 if abs(at_now) < matrix_cells.NEGLIGIBLE * sizes[i] else at_now
             kind = FLAT if flat else TWO_SIGNS if self._two[i] else ONE_SIGN
-            cells.append((low, high, kind, at_now, UNITS.index(TERM_UNITS[term])))
+            cells.append((low, high, kind, at_now, matrix_cells.UNITS.index(TERM_UNITS[term])))
         counts = np.where(maps.converged, maps.loaded_balls, np.nan)
         low, high = self._balls.fit(counts)
         low, high = math.floor(low), math.ceil(high)
         points.append(whole_numbers(counts, low - 0.5, high + 0.5))
         at_now = float(now.loaded_balls[0]) if now.converged[0] else math.nan
-        cells.append((low - 0.5, high + 0.5, COUNT, at_now, len(UNITS)))
+        cells.append((low - 0.5, high + 0.5, COUNT, at_now, len(matrix_cells.UNITS)))
 
         columns = dict(zip(("low", "high", "kind", "now", "unit"), np.array(cells).T,
                            strict=True))  # fmt: skip
@@ -194,7 +186,7 @@ class StiffnessMaps(View):
         if not known.size:
             return math.nan, math.nan, False
         least, most = float(known.min()), float(known.max())
-        if max(-least, most) < NEGLIGIBLE * size:
+        if max(-least, most) < matrix_cells.NEGLIGIBLE * size:
             return -size, size, True
         lesser, greater = sorted((max(-least, 0.0), max(most, 0.0)))
         two = lesser > (_TO_ONE_SIGN if self._two[i] else _TO_TWO_SIGNS) * greater
@@ -333,7 +325,7 @@ def _tick_rows(grid: dict[str, float], least: int, most: int) -> dict[str, np.nd
     rows = []
     for at, cell in enumerate(_CELLS):
         large = cell is _BALLS
-        if not large and len(set(PLACES[at])) > 1:
+        if not large and len(set(matrix_cells.PLACES[at])) > 1:
             continue
         for at_side, first, last in (
             (_LEFT, grid["y_first"], grid["y_last"]),
@@ -366,7 +358,7 @@ def _round_numbers(first: float, last: float, parts: int) -> list[float]:
 def _frames(plot: figure) -> Any:
     """Hatching, seen where a map has no answer."""
     return plot.quad(
-        **{side: side for side in SIDES},
+        **{side: side for side in matrix_cells.SIDES},
         source=ColumnDataSource({**_SIDE_COLUMNS, "name": matrix_cells.NAMES}),
         fill_color="#F3F4F6",
         hatch_pattern="right_diagonal_line",
@@ -414,17 +406,17 @@ def _names(plot: figure, grid: ColumnDataSource) -> None:
     centered = {"text_align": "center", "text_color": style.INK}
     up = ColumnDataSource({"x": [_BALLS.left], "y": [0.5 * (_BALLS.bottom + _BALLS.top)]})
     extent = "return 'Length of the defect Δφf (°)'"
-    write(plot, up, extent, angle=0.5 * math.pi, x_offset=-31, **centered)
+    matrix_cells.write(plot, up, extent, angle=0.5 * math.pi, x_offset=-31, **centered)
     words = "return row.of_shaft ? 'Shaft angle φs (°)' : 'Cage angle φc (°)'"
     at = {"x": 0.5 * (_BALLS.left + _BALLS.right), "y": _BALLS.bottom, "y_offset": 36}
-    write(plot, grid, words, text_font_size=style.TEXT_SIZE, **at, **centered)
+    matrix_cells.write(plot, grid, words, text_font_size=style.TEXT_SIZE, **at, **centered)
     lines = range(len(_LEGEND))
     legend = {"x": [0.06 for _ in lines], "y": [-2.3 - 0.13 * i for i in lines], "text": _LEGEND}
-    write(plot, ColumnDataSource(legend), "return row.text")
+    matrix_cells.write(plot, ColumnDataSource(legend), "return row.text")
 
 
 _UNIT = f"""
-const unit = {[*UNITS, ""]}[row.unit]
+const unit = {[*matrix_cells.UNITS, ""]}[row.unit]
 const e = power(Math.max(Math.abs(row.low), Math.abs(row.high)))
 """
 _END = f"""{_UNIT}
@@ -450,11 +442,11 @@ def _scales(plot: figure, cells: ColumnDataSource) -> None:
         (_ZERO, "middle", "middle"),
     ):
         at = {"x": "bar", "y": y, "x_offset": 4}
-        write(plot, cells, code, text_baseline=baseline, **at)
+        matrix_cells.write(plot, cells, code, text_baseline=baseline, **at)
     above = {"x": "bar", "y": "top", "x_offset": 20, "y_offset": -6}
-    write(plot, cells, _NOW, fitting=NARROWEST, text_align="right", **above)
+    matrix_cells.write(plot, cells, _NOW, fitting=NARROWEST, text_align="right", **above)
     inside = {"x": "left", "y": "top", "x_offset": 8, "y_offset": 8}
-    write(plot, cells, _FLAT, fitting=NARROWEST, text_baseline="top", **inside)
+    matrix_cells.write(plot, cells, _FLAT, fitting=NARROWEST, text_baseline="top", **inside)
 
 
 def _ticks(plot: figure, ticks: ColumnDataSource) -> None:
@@ -464,7 +456,7 @@ def _ticks(plot: figure, ticks: ColumnDataSource) -> None:
         (_FOOT, "°", {"y_offset": 5, "text_align": "center", "text_baseline": "top"}),
         (_SCALE, "", {"x_offset": 6, "text_baseline": "middle"}),
     ):
-        write(plot, ticks, _ONLY % (side, unit), **look)
+        matrix_cells.write(plot, ticks, _ONLY % (side, unit), **look)
 
 
 def _crosshair(plot: figure, now: ColumnDataSource) -> None:

@@ -12,21 +12,8 @@ import numpy as np
 from bearing_explorer.explorer.plots import compared_curves
 from bearing_explorer.explorer.results.ball_mass import BallMass, entry_of
 from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.views import passage_view
 from bearing_explorer.explorer.views.folded_view import FoldedView
-from bearing_explorer.explorer.views.passage_view import (
-    BALL,
-    LABEL_WIDTH,
-    SLOTS,
-    PassageView,
-    ball_names,
-    both_directions,
-    event_lines,
-    event_names,
-    named,
-    places_of_labels,
-    slot_columns,
-    traces,
-)
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.layers import Layer, by_number, curve, strips
 from bearing_explorer.kit.plots.levels import SHOWN
@@ -38,14 +25,14 @@ WORDS = ("enters", "leaves", "strikes inner race", "strikes outer race", "at the
 
 _EVENT_WORDS = f"""
 const does = {json.dumps(WORDS)}[row.kind]
-return narrow ? does : `{BALL} ${{does}}, ${{si(row.time, 's')}}`
+return narrow ? does : `{passage_view.BALL} ${{does}}, ${{si(row.time, 's')}}`
 """
 
 MASSLESS: dict[str, Any] = {"color": style.INK, "alpha": 0.35, "width": 3.0}
 """Look of curves of massless balls."""
 
 
-class MassInTime(FoldedView[Results], PassageView):
+class MassInTime(FoldedView[Results], passage_view.PassageView):
     """Acceleration of the housing and loads at both contacts of the balls near the defect."""
 
     name = "mass-time"
@@ -67,8 +54,10 @@ class MassInTime(FoldedView[Results], PassageView):
             own = curve("mass_motion", "time", dof, style.color_along(dof), 1.4)
             other = curve("mass_motion", "time", f"{dof}_massless", **MASSLESS)
             compared = compared_curves.curves("mass_motion", "time", dof)
-            figures.append((quantity, 210, [event_lines("mass"), other, *compared, own]))
-        figures[0][2].append(event_names("mass", _EVENT_WORDS, ("kind",)))
+            figures.append(
+                (quantity, 210, [passage_view.event_lines("mass"), other, *compared, own])
+            )
+        figures[0][2].append(passage_view.event_names("mass", _EVENT_WORDS, ("kind",)))
         return figures
 
     def lower_figure(self) -> tuple[int, Sequence[Layer]]:
@@ -79,29 +68,29 @@ class MassInTime(FoldedView[Results], PassageView):
             *(curve("mass_loads", "time", f"inner{i}", color, 1.3, (5, 3)) for i, color in balls),
             *(curve("mass_loads", "time", f"outer{i}", color, 1.8) for i, color in balls),
             self.names_of_balls(),
-            event_lines("mass"),
+            passage_view.event_lines("mass"),
         ]
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         shown, bearing = results.ball_mass, results.scene.bearing
-        massless = both_directions(shown.time, shown.massless)
+        massless = passage_view.both_directions(shown.time, shown.massless)
         moved, numbers = self.motions(
             results,
             lambda one: (one.ball_mass.time, one.ball_mass.with_mass),
             {f"{dof}_massless": one for dof, one in massless.items()},
         )
-        balls = shown.balls[:SLOTS]
+        balls = shown.balls[: passage_view.SLOTS]
         loads: dict[str, np.ndarray] = {}
         for race, carried in zip(RACES_OF_LOADS, shown.loads, strict=True):
-            loads |= slot_columns(race, carried)
+            loads |= passage_view.slot_columns(race, carried)
         slot_of = {int(ball): float(slot) for slot, ball in enumerate(balls)}
         free = [(f.begin, f.end, slot_of[f.ball]) for f in shown.flights if f.ball in slot_of]
         flights = np.array(free, dtype=float).reshape(-1, 3).T
         sources: Sources = {
             **moved,
-            "mass_loads": traces(shown.time, loads),
+            "mass_loads": passage_view.traces(shown.time, loads),
             "mass_flights": dict(zip(("from", "to", "slot"), flights, strict=True)),
-            "mass_ball_names": ball_names(balls, bearing),
+            "mass_ball_names": passage_view.ball_names(balls, bearing),
             "mass_events": event_rows(shown, float(shown.time[0]), float(shown.time[-1])),
         }
         return sources, self.ranges(shown.time, numbers, shown.loads)
@@ -160,7 +149,9 @@ def event_rows(shown: BallMass, start: float, end: float) -> dict[str, np.ndarra
     times[np.abs(times) <= 1e-8] = 0.0
     return {
         "time": times,
-        **named(shown.scene.bearing, balls.astype(np.int64)),
+        **passage_view.named(shown.scene.bearing, balls.astype(np.int64)),
         "kind": kinds,
-        **places_of_labels(times.tolist(), start, end, 1.5 * LABEL_WIDTH, 1.3),
+        **passage_view.places_of_labels(
+            times.tolist(), start, end, 1.5 * passage_view.LABEL_WIDTH, 1.3
+        ),
     }

@@ -14,18 +14,8 @@ from bearing_explorer.explorer.plots.frequency_bands import BAND_NAME, BAND_SPAN
 from bearing_explorer.explorer.results import reasons
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.views.comparing_view import ComparingView
-from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.plots import layers, style
 from bearing_explorer.kit.plots.element_words import with_elements_of
-from bearing_explorer.kit.plots.layers import (
-    Layer,
-    Words,
-    by_number,
-    curve,
-    draw,
-    strips,
-    uprights,
-    with_gaps,
-)
 from bearing_explorer.kit.plots.ranges import ROOM, StickyRange
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
@@ -47,20 +37,20 @@ if (cb_obj.min_border_right != room) cb_obj.setv({{min_border_right: room}}, {{s
 _NAME_WORDS = f"{BAND_NAME}\nif (plot.min_border_right < larger*100) return name\n{BAND_SPAN}"
 
 
-def layers(colors: Any) -> Sequence[Layer]:
+def mode_layers(colors: Any) -> Sequence[layers.Layer]:
     """From the lowest to the highest; `colors` of bands and their names, by direction."""
     return (
-        strips("modes_bands", colors, 0.10, level=True),
+        layers.strips("modes_bands", colors, 0.10, level=True),
         *compared_curves.bands("modes_band", level=True),
         *compared_curves.curves("modes", "angle", "frequency"),
-        curve("modes_healthy", "angle", "frequency", style.HEALTHY, 1.5),
+        layers.curve("modes_healthy", "angle", "frequency", style.HEALTHY, 1.5),
         *(
-            curve(f"modes_{direction}", "angle", "frequency", color)
+            layers.curve(f"modes_{direction}", "angle", "frequency", color)
             for direction, color in zip(style.DIRECTIONS, style.DIRECTION_COLORS, strict=True)
         ),
-        uprights("modes_now"),
+        layers.uprights("modes_now"),
         # at the right edge of the frame, not cut off by it, also when it is zoomed
-        Words(
+        layers.Words(
             "modes_bands",
             1.0,
             "label_at",
@@ -104,8 +94,8 @@ class NaturalFrequencies(ComparingView):
         )
         room = CustomJS(args={"usual": NAMES_WIDTH, "below": NARROW}, code=_ROOM)
         plot.js_on_change("outer_width", room)
-        colors = by_number("direction", style.DIRECTION_COLORS)
-        draw(plot, packed, layers(colors))
+        colors = layers.by_number("direction", style.DIRECTION_COLORS)
+        layers.draw(plot, packed, mode_layers(colors))
         self._axis = plot.xaxis[0]
         return plot
 
@@ -183,4 +173,4 @@ def _band_words(band: tuple[float, float]) -> str:
 
 def lines(x: NDArray[np.float64], columns: NDArray[np.float64]) -> dict[str, np.ndarray]:
     """The columns over x as one line with a gap between one column and the next."""
-    return with_gaps(((x, column) for column in columns.T), "angle", "frequency")
+    return layers.with_gaps(((x, column) for column in columns.T), "angle", "frequency")

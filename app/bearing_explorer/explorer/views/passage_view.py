@@ -13,18 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from bearing_explorer.explorer.plots import compared_curves
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.views.comparing_view import ComparingView
-from bearing_explorer.kit.plots import style
-from bearing_explorer.kit.plots.layers import (
-    LIT,
-    ON_PAPER,
-    Layer,
-    Words,
-    add_all,
-    by_number,
-    least_and_greatest,
-    sources_of,
-    uprights,
-)
+from bearing_explorer.kit.plots import layers, style
 from bearing_explorer.kit.plots.levels import SHOWN
 from bearing_explorer.kit.plots.ranges import StickyRange
 from bearing_explorer.kit.serve.packed_source import PackedSource
@@ -64,11 +53,11 @@ class PassageView(ComparingView):
     def title_of(self, content: Results) -> str:
         return self.title if content.scene.defects else self.healthy_title
 
-    def upper_figures(self) -> Sequence[tuple[style.AxisQuantity, int, Sequence[Layer]]]:
+    def upper_figures(self) -> Sequence[tuple[style.AxisQuantity, int, Sequence[layers.Layer]]]:
         """Quantity, height [px] and layers of the figures of acceleration."""
         raise NotImplementedError
 
-    def lower_figure(self) -> tuple[int, Sequence[Layer]]:
+    def lower_figure(self) -> tuple[int, Sequence[layers.Layer]]:
         """Height [px] and layers of the figure of loads."""
         raise NotImplementedError
 
@@ -80,12 +69,12 @@ class PassageView(ComparingView):
         load = packed.range(f"{self.prefix}_load", 0.0, 100.0)
         figures = [(*figure, acceleration) for figure in self.upper_figures()]
         figures.append((style.BALL_LOAD, *self.lower_figure(), load))
-        sources = sources_of(packed, [layer for _, _, layers, _ in figures for layer in layers])
+        sources = layers.sources_of(packed, [layer for figure in figures for layer in figure[2]])
         plots = []
-        for number, (quantity, height, layers, shown) in enumerate(figures):
+        for number, (quantity, height, drawn, shown) in enumerate(figures):
             name = f"{self.prefix}_drawing_{number}"
             plot = style.make_figure(style.TIME, quantity, time, shown, height=height, name=name)
-            add_all(plot, sources, layers)
+            layers.add_all(plot, sources, drawn)
             plots.append(plot)
         return plots
 
@@ -127,9 +116,9 @@ class PassageView(ComparingView):
         sources: Sources = {**compared, name: traces(time, drawn)}
         return sources, np.concatenate([*drawn.values(), *numbers])
 
-    def names_of_balls(self) -> Layer:
+    def names_of_balls(self) -> layers.Layer:
         """The names of the balls in their colours."""
-        return Words(
+        return layers.Words(
             f"{self.prefix}_ball_names",
             "from",
             "at",
@@ -138,19 +127,19 @@ class PassageView(ComparingView):
             x_share=True,
             y_share=True,
             fitting=style.NARROW,
-            look={"text_color": by_number("slot", style.BALL_COLORS)},
+            look={"text_color": layers.by_number("slot", style.BALL_COLORS)},
         )
 
 
-def event_lines(prefix: str) -> Layer:
+def event_lines(prefix: str) -> layers.Layer:
     """The upright lines at events, of the source of that prefix."""
-    lines = uprights(f"{prefix}_events", "time", style.FAINT_INK, 1.0, 0.55)
-    return replace(lines, reads=("element",), lit=LIT)
+    lines = layers.uprights(f"{prefix}_events", "time", style.FAINT_INK, 1.0, 0.55)
+    return replace(lines, reads=("element",), lit=layers.LIT)
 
 
-def event_names(prefix: str, code: str, reads: tuple[str, ...]) -> Layer:
+def event_names(prefix: str, code: str, reads: tuple[str, ...]) -> layers.Layer:
     """Their names by some code, which knows the width of the frame."""
-    return Words(
+    return layers.Words(
         f"{prefix}_events",
         "label_from",
         "label_at",
@@ -158,7 +147,7 @@ def event_names(prefix: str, code: str, reads: tuple[str, ...]) -> Layer:
         reads=(*NAMED, *reads, "label_down"),
         y_share=True,
         fitting=style.NARROW,
-        look={"x_offset": 4, "y_offset": style.text_offset("label_down"), **ON_PAPER},
+        look={"x_offset": 4, "y_offset": style.text_offset("label_down"), **layers.ON_PAPER},
     )
 
 
@@ -199,7 +188,7 @@ def slot_columns(name: str, loads: Array) -> dict[str, Array]:
 
 def traces(time: Array, columns: Mapping[str, Array]) -> dict[str, np.ndarray]:
     """Columns over time, thinned out to what the pixels of a figure can show."""
-    rows, drawn = least_and_greatest(np.stack(list(columns.values()), axis=1), PIXELS)
+    rows, drawn = layers.least_and_greatest(np.stack(list(columns.values()), axis=1), PIXELS)
     return {"time": time[rows], **dict(zip(columns, drawn.T, strict=True))}
 
 

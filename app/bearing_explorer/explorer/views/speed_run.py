@@ -29,19 +29,8 @@ from bearing_explorer.explorer.state.value_range import (
 )
 from bearing_explorer.explorer.views.scene_job_view import SceneJobView
 from bearing_explorer.kit.compute.jobs import COMPUTATION, Work
-from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.plots import layers, style
 from bearing_explorer.kit.plots.heat_map import GridImage, Side, ends
-from bearing_explorer.kit.plots.layers import (
-    Glyph,
-    Layer,
-    Words,
-    add_all,
-    curve,
-    sources_of,
-    strips,
-    switch,
-    toggle,
-)
 from bearing_explorer.kit.plots.levels import FREQUENCY, HIGHEST, SHOWN, decibels
 from bearing_explorer.kit.plots.ranges import nice_range
 from bearing_explorer.kit.serve.packed_source import PackedSource
@@ -75,14 +64,14 @@ _ON_PICTURE = {
 """Look of words that lie on the picture."""
 
 
-def expected(dof: str) -> list[Layer]:
+def expected(dof: str) -> list[layers.Layer]:
     """The bands of the natural frequencies and the harmonics of the ball-pass frequency."""
     bands, names = f"speed_run_bands_{dof}", "speed_run_harmonic_names"
     edge: dict[str, Any] = {"line_color": style.LIGHT, "line_alpha": 0.9, "line_width": 1.0}
     below = {"text_baseline": "top", "y_offset": 36, "padding": 1}
     return [
-        strips(bands, style.LIGHT, 0.13, **edge),
-        Words(
+        layers.strips(bands, style.LIGHT, 0.13, **edge),
+        layers.Words(
             bands,
             "label_at",
             1.0,
@@ -92,8 +81,8 @@ def expected(dof: str) -> list[Layer]:
             fitting=style.NARROW,
             look={**_ON_PICTURE, "padding": 2, "y_offset": 16},
         ),
-        curve("speed_run_harmonics", "frequency", "speed", style.LIGHT, 1.0, (5, 4), 0.75),
-        Words(
+        layers.curve("speed_run_harmonics", "frequency", "speed", style.LIGHT, 1.0, (5, 4), 0.75),
+        layers.Words(
             names,
             "frequency",
             "speed",
@@ -106,15 +95,15 @@ def expected(dof: str) -> list[Layer]:
 
 
 _TRIANGLE = {"marker": "triangle", "angle": -0.5 * math.pi, "size": 7, "level": "annotation"}
-SCENE: list[Layer] = [
-    Glyph(
+SCENE: list[layers.Layer] = [
+    layers.Glyph(
         Scatter,
         "speed_run_marched",
         ("frequency", "speed"),
         {"fill_color": style.DEFECT, "line_color": None, **_TRIANGLE},
     ),
     *(
-        Glyph(HSpan, "speed_run_now", ("speed",), {"line_color": color, "line_width": width})
+        layers.Glyph(HSpan, "speed_run_now", ("speed",), {"line_color": color, "line_width": width})
         for color, width in ((style.SHADE, 3.0), (style.LIGHT, 1.2))
     ),
 ]
@@ -151,7 +140,7 @@ class SpeedRunSpectra(SceneJobView[FoundRun]):
         frequency = packed.range("speed_run_frequency", 0.0, HIGHEST)
         speed = packed.range("speed_run_speed", 0.0, 60.0)
         self._images: dict[str, GridImage] = {}
-        sources = sources_of(packed, ALL_LAYERS)
+        sources = layers.sources_of(packed, ALL_LAYERS)
         sides = list(_SIDES.values())
         plots: list[figure] = []
         marks: list[GlyphRenderer] = []
@@ -169,11 +158,11 @@ class SpeedRunSpectra(SceneJobView[FoundRun]):
             shown = packed.range(f"speed_run_level_{dof}", -80.0, -20.0)
             name, title = f"speed_run_cells_{dof}", f"S{dof} (dB re 1 (m/s²)²/Hz)"
             self._images[dof] = GridImage(plot, packed, name, shown, sides, _SAY, title)
-            marks += add_all(plot, sources, expected(dof))
-            add_all(plot, sources, SCENE)
+            marks += layers.add_all(plot, sources, expected(dof))
+            layers.add_all(plot, sources, SCENE)
             plots.append(plot)
-        along = switch([f"Along {dof}" for dof in SHOWN], plots, active=1)
-        box = toggle("Mark bands and ball-pass harmonics", marks, shown=True)
+        along = layers.switch([f"Along {dof}" for dof in SHOWN], plots, active=1)
+        box = layers.toggle("Mark bands and ball-pass harmonics", marks, shown=True)
         choices = pn.Row(along, box, margin=0, stylesheets=[style.WRAPPED])
         return [self.only_with_numbers(*plots, choices), self.job]
 

@@ -9,15 +9,7 @@ from typing import NamedTuple
 from bokeh.core.properties import value
 from bokeh.models import BoxAnnotation, FixedTicker, HoverTool, Label, Range1d, Span
 
-from bearing_explorer.explorer.views.work_precision import (
-    COLORS,
-    column_source,
-    columns_of,
-    look,
-    paragraph,
-    prose,
-    set_range,
-)
+from bearing_explorer.explorer.views import work_precision
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.layers import by_number
 from bearing_explorer.kit.widgets.form import stack
@@ -83,9 +75,9 @@ class StabilityPicture:
         self._now_words = Label(x=0, y=0, x_offset=4, y_offset=4, text_color=style.INK, **text)
         for part in (*self._areas, *self._words, self._now, self._now_words):
             plot.add_layout(part)
-        self._marks = column_source(*Mark._fields)
-        self._lines = column_source("xs", "ys", "slot")
-        color = by_number("slot", COLORS)
+        self._marks = work_precision.column_source(*Mark._fields)
+        self._lines = work_precision.column_source("xs", "ys", "slot")
+        color = by_number("slot", work_precision.COLORS)
         plot.multi_line("xs", "ys", source=self._lines, line_color=color, line_width=1.4)
         marks = plot.scatter("x", "y", source=self._marks, marker="marker", size=9,
                              fill_color=color, line_color=color, line_width=1.6)  # fmt: skip
@@ -93,23 +85,23 @@ class StabilityPicture:
                   text_font=value(style.FONT), text_font_size=style.SMALL_TEXT_SIZE,
                   text_align="align", x_offset="right", y_offset="down")  # fmt: skip
         plot.add_tools(HoverTool(renderers=[marks], visible=False, tooltips="@why"))
-        self._sentence = prose()
-        self.panel = stack(prose(f"<h4>{title}</h4>"), plot, self._sentence)
+        self._sentence = work_precision.prose()
+        self.panel = stack(work_precision.prose(f"<h4>{title}</h4>"), plot, self._sentence)
 
     def show(
         self, marks: list[Mark], stable: dict[str, float], now: tuple[float, str], words: str
     ) -> None:
         """Draw a `Picture`; an infinite mark is a cross on the upper edge."""
         self.plot.visible = bool(marks)
-        self._sentence.object = paragraph(words)
+        self._sentence.object = work_precision.paragraph(words)
         if not marks:
             return
         marks = [mark._replace(y=max(mark.y, LEAST)) for mark in marks]
         xs, ys = [m.x for m in marks], [m.y for m in marks if math.isfinite(m.y)]
         left, right = min(xs) / 1.2, max(xs) * 1.5
         bottom, top = min([*ys, 0.5]) / 2.0, max([*ys, 1.5]) * 4.0
-        set_range(self.plot.x_range, left, right)
-        set_range(self.plot.y_range, bottom, top)
+        work_precision.set_range(self.plot.x_range, left, right)
+        work_precision.set_range(self.plot.y_range, bottom, top)
         other = {"top": "bottom", "left": "right"}
         self._areas[0].update(**stable)
         self._areas[1].update(**{other[side]: place for side, place in stable.items()})
@@ -118,12 +110,12 @@ class StabilityPicture:
         self._now.location = now[0]
         self._now_words.update(x=now[0], y=bottom, text=now[1])
         placed = [m if math.isfinite(m.y) else m._replace(y=top / 1.5, marker="x") for m in marks]
-        self._marks.data = columns_of(Mark._fields, placed)
+        self._marks.data = work_precision.columns_of(Mark._fields, placed)
         lines = []
         for line in dict.fromkeys(mark.line for mark in marks):
             known = [(m.x, m.y) for m in marks if m.line == line and math.isfinite(m.y)]
             lines.append(([x for x, _ in known], [y for _, y in known], line))
-        self._lines.data = columns_of(("xs", "ys", "slot"), lines)
+        self._lines.data = work_precision.columns_of(("xs", "ys", "slot"), lines)
 
 
 def orbit_marks(orbits: tuple[OrbitAtSpeed, ...], shaft_speed: float) -> Picture:
@@ -152,7 +144,7 @@ def step_marks(chart: StabilityChart | None, in_use: float) -> Picture:
         return [], {}, (in_use, ""), steps_sentence(chart)
     marks = []
     for slot, method in enumerate(dict.fromkeys(trial.method for trial in chart.trials)):
-        color, marker = look(slot)
+        color, marker = work_precision.look(slot)
         trials = sorted((t for t in chart.trials if t.method == method), key=lambda t: t.step_rate)
         states = [trial.verdict == DIVERGED for trial in trials]
         for i, trial in enumerate(trials):

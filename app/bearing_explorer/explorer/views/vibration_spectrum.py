@@ -18,20 +18,8 @@ from bearing_explorer.explorer.results.excerpt import why_ended
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.references import HEALTHY, OTHER_BALLS
 from bearing_explorer.explorer.views.comparing_view import ComparingView
-from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.plots import layers, style
 from bearing_explorer.kit.plots.element_words import with_elements_of
-from bearing_explorer.kit.plots.layers import (
-    CENTERED,
-    ON_PAPER,
-    Layer,
-    Words,
-    add_all,
-    curve,
-    sources_of,
-    strips,
-    toggle,
-    uprights,
-)
 from bearing_explorer.kit.plots.levels import HIGHEST, SHOWN
 from bearing_explorer.kit.plots.ranges import StickyRange
 from bearing_explorer.kit.serve.packed_source import PackedSource
@@ -70,14 +58,14 @@ return `${row.inner ? 'BPFI' : 'BPFO'}${of} ${rounded(row.frequency, 4)}${give} 
 """
 
 
-def spectra(dof: str) -> list[Layer]:
+def spectra(dof: str) -> list[layers.Layer]:
     """Along a direction: the spectra over the bands of the natural frequencies."""
     color = style.color_along(dof)
     bands = f"spectrum_bands_{dof}"
     return [
-        strips(bands, color, 0.12),
+        layers.strips(bands, color, 0.12),
         *compared_curves.bands(f"spectrum_band_{dof}"),
-        Words(
+        layers.Words(
             bands,
             "label_at",
             0.94,
@@ -85,45 +73,42 @@ def spectra(dof: str) -> list[Layer]:
             reads=("direction", "number"),
             y_share=True,
             fitting=NAMED_IN_FULL,
-            look={"text_color": color, **CENTERED},
+            look={"text_color": color, **layers.CENTERED},
         ),
-        curve("spectrum_grey", "frequency", dof, style.HEALTHY, 1.5),
+        layers.curve("spectrum_grey", "frequency", dof, style.HEALTHY, 1.5),
         *compared_curves.curves("spectrum", "frequency", dof),
-        curve("spectrum_lines", "frequency", dof, color),
+        layers.curve("spectrum_lines", "frequency", dof, color),
     ]
 
 
-def wide_spectra(dof: str) -> list[Layer]:
+def wide_spectra(dof: str) -> list[layers.Layer]:
     """The same as far as the motion is known, over the band of the contact resonances."""
     return [
-        strips("spectrum_wide_resonance", style.DEFECT, 0.22, reads=("above",)),
-        curve("spectrum_wide_grey", "frequency", dof, style.HEALTHY, 1.5),
+        layers.strips("spectrum_wide_resonance", style.DEFECT, 0.22, reads=("above",)),
+        layers.curve("spectrum_wide_grey", "frequency", dof, style.HEALTHY, 1.5),
         *compared_curves.curves("spectrum_wide", "frequency", dof, width=1.3),
-        curve("spectrum_wide_lines", "frequency", dof, style.color_along(dof), 1.4),
-        Words(
+        layers.curve("spectrum_wide_lines", "frequency", dof, style.color_along(dof), 1.4),
+        layers.names_over(
             "spectrum_wide_resonance",
+            _RESONANCE_WORDS,
             "label_at",
             0.06,
-            _RESONANCE_WORDS,
-            y_share=True,
-            in_view="x",
-            look={"text_align": "right", "level": "annotation", **ON_PAPER},
+            style.INK,
+            text_align="right",
         ),
     ]
 
 
-PASSES: list[Layer] = [
-    uprights("spectrum_passes", "frequency", style.DEFECT, 1.0, 0.4, level="underlay"),
-    Words(
+PASSES: list[layers.Layer] = [
+    layers.uprights("spectrum_passes", "frequency", style.DEFECT, 1.0, 0.4, level="underlay"),
+    layers.names_over(
         "spectrum_first_pass",
+        _PASS_WORDS,
         "frequency",
         0.06,
-        _PASS_WORDS,
-        reads=("inner", "row", "spread"),
-        y_share=True,
-        in_view="x",
-        share=1.0,
-        look={"x_offset": 4, "level": "annotation", **ON_PAPER},
+        style.INK,
+        ("inner", "row", "spread"),
+        x_offset=4,
     ),
 ]
 """Marks of the ball-pass frequencies."""
@@ -156,9 +141,9 @@ class VibrationSpectra(ComparingView, LookView[Results]):
             StickyRange(-120.0, -20.0, least_span=60.0),
             WIDE_DEPTH,
         )
-        sources = sources_of(packed, PASSES)
-        passes = [one for plot in linear.plots for one in add_all(plot, sources, PASSES)]
-        box = toggle("Mark the ball-pass frequency and its harmonics", passes, shown=False)
+        sources = layers.sources_of(packed, PASSES)
+        passes = [one for plot in linear.plots for one in layers.add_all(plot, sources, PASSES)]
+        box = layers.toggle("Mark the ball-pass frequency and its harmonics", passes, shown=False)
         self._narrow = [*linear.plots, box]
         self._broad = stack(*self._wide.plots, visible=False, stylesheets=[AS_HIGH_AS_SHOWN])
         high = {"min-height": "calc(var(--room) - 170px)"}

@@ -11,19 +11,7 @@ from bearing_explorer.explorer.plots import compared_curves
 from bearing_explorer.explorer.results import reasons
 from bearing_explorer.explorer.results.excerpt import Event, Excerpt
 from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.explorer.views.passage_view import (
-    BALL,
-    LABEL_WIDTH,
-    SLOTS,
-    PassageView,
-    ball_names,
-    event_lines,
-    event_names,
-    named,
-    places_of_labels,
-    slot_columns,
-    traces,
-)
+from bearing_explorer.explorer.views import passage_view
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.element_words import element_name, with_elements_of
 from bearing_explorer.kit.plots.layers import Layer, curve, with_gaps
@@ -35,14 +23,14 @@ from bearingcore import Bearing
 ACCELERATION = style.AxisQuantity("Acceleration", "a", "m/s²", prefixed=True)
 EVENT_WORDS = f"""
 const does = row.enters ? 'enters' : 'leaves'
-const words = `{BALL} ${{does}}`
+const words = `{passage_view.BALL} ${{does}}`
 let room = Infinity
-try {{ room = {LABEL_WIDTH}*plot.inner_width }} catch {{}}
+try {{ room = {passage_view.LABEL_WIDTH}*plot.inner_width }} catch {{}}
 return words.length*5.8*larger < room ? words : `${{row.ball}} ${{does}}`
 """
 
 
-class VibrationInTime(PassageView):
+class VibrationInTime(passage_view.PassageView):
     """Acceleration of the housing, and the loads of the balls meanwhile."""
 
     name = "vibration-time"
@@ -73,7 +61,7 @@ class VibrationInTime(PassageView):
             for i, color in enumerate(style.BALL_COLORS)
         ]
         static = curve("vibration_static_loads", "time", "load", style.INK, 1.0)
-        return 230, [event_lines("vibration"), static, *lines, self.names_of_balls()]
+        return 230, [passage_view.event_lines("vibration"), static, *lines, self.names_of_balls()]
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         shown, bearing = results.excerpt, results.scene.bearing
@@ -83,10 +71,14 @@ class VibrationInTime(PassageView):
         start, end = float(shown.time[0]), float(shown.time[-1])
         sources: Sources = {
             **moved,
-            "vibration_loads": traces(shown.time, slot_columns("load", shown.ball_load)),
+            "vibration_loads": passage_view.traces(
+                shown.time, passage_view.slot_columns("load", shown.ball_load)
+            ),
             "vibration_static_loads": static_lines(shown),
             "vibration_events": event_rows(shown.events, start, end, bearing),
-            "vibration_ball_names": ball_names(shown.balls[:SLOTS], bearing),
+            "vibration_ball_names": passage_view.ball_names(
+                shown.balls[: passage_view.SLOTS], bearing
+            ),
         }
         carried = np.append(shown.ball_load.ravel(), shown.greatest_static_load)
         return sources, self.ranges(shown.time, numbers, carried)
@@ -128,18 +120,18 @@ class VibrationInTime(PassageView):
 def motion_layers(prefix: str) -> list[Layer]:
     """Acceleration along x and y, with the events, of the sources of that prefix."""
     return [
-        event_lines(prefix),
+        passage_view.event_lines(prefix),
         *(
             curve(f"{prefix}_motion", "time", dof, style.color_along(dof), 1.4)
             for dof in reversed(SHOWN)
         ),
-        event_names(prefix, EVENT_WORDS, ("enters",)),
+        passage_view.event_names(prefix, EVENT_WORDS, ("enters",)),
     ]
 
 
 def static_lines(shown: Excerpt) -> dict[str, np.ndarray]:
     """The static loads of all balls as one line with gaps."""
-    loads = shown.static_load.T[:SLOTS]
+    loads = shown.static_load.T[: passage_view.SLOTS]
     return with_gaps(((shown.static_time, load) for load in loads), "time", "load")
 
 
@@ -150,7 +142,7 @@ def event_rows(
     times = [event.time for event in events]
     return {
         "time": np.array(times),
-        **named(bearing, np.array([event.ball for event in events], dtype=np.int64)),
+        **passage_view.named(bearing, np.array([event.ball for event in events], dtype=np.int64)),
         "enters": np.array([float(event.enters) for event in events]),
-        **places_of_labels(times, start, end, apart=apart),
+        **passage_view.places_of_labels(times, start, end, apart=apart),
     }

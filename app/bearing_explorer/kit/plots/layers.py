@@ -298,7 +298,7 @@ def names_over(
     `row` is where, as a share of the frame's height. `x_offset` may be a column of pixels, for
     names on either side of their places.
     """
-    share = {"center": 0.5}.get(look.get("text_align", ""), 1.0)
+    share = {"center": 0.5, "right": 0.0}.get(look.get("text_align", ""), 1.0)
     if isinstance(shift := look.get("x_offset"), str):
         share, look["x_offset"], reads = 0.0, style.text_offset(shift), (*reads, shift)
     look = {"text_color": color, "level": "annotation", **ON_PAPER, **look}

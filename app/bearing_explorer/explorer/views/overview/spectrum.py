@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bearing_explorer.explorer.plots import compared_curves
-from bearing_explorer.explorer.plots.frequency_bands import (
-    BAND_NAME,
-    BAND_SPAN,
-    band_rows,
-    spread,
-)
+from bearing_explorer.explorer.plots import compared_curves, frequency_bands
 from bearing_explorer.explorer.plots.spectra import levels_of_compared
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.views.comparing_view import ComparingView
@@ -22,15 +17,8 @@ from bearing_explorer.explorer.views.vibration_spectrum import (
     loudest_words,
     why_words,
 )
-from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.plots import levels, style
 from bearing_explorer.kit.plots.layers import ON_PAPER, Layer, Words, by_number, curve, draw, strips
-from bearing_explorer.kit.plots.levels import (
-    FREQUENCY,
-    HIGHEST,
-    SHOWN,
-    drawn_levels,
-    seen_levels,
-)
 from bearing_explorer.kit.plots.ranges import StickyRange
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
@@ -41,16 +29,14 @@ TOP_ROOM = 16.0
 """[dB] above the loudest line, for the names of the bands."""
 NAME_ROOM = 0.06
 """Of the height of the frame: what the name of a curve needs."""
-NAME_WIDTH = 0.16
-"""Of the width of the frame."""
 BAND_NAME_WIDTH = 0.05
 """Of the width of the frame: what the short name of a band needs."""
 END = 0.8
 """Of the frequencies: beyond, a curve makes room for its name."""
 
 _BAND_WORDS = f"""
-const name = (() => {{ {BAND_NAME} return name }})()
-const whole = (() => {{ {BAND_SPAN} }})()
+const name = (() => {{ {frequency_bands.BAND_NAME} return name }})()
+const whole = (() => {{ {frequency_bands.BAND_SPAN} }})()
 let pixels = 0  // of a hertz
 try {{ pixels = plot.inner_width/(plot.x_range.end - plot.x_range.start) }} catch {{}}
 const room = row.room*pixels/(6.5*larger)
@@ -67,9 +53,12 @@ def layers() -> list[Layer]:
     of_curve = by_number("which", _OF_CURVES)
     return [
         strips("overview_bands", of_band, 0.13, reads=("direction",)),
-        *(curve("overview_healthy_lines", "frequency", dof, style.HEALTHY, 1.2) for dof in SHOWN),
+        *(
+            curve("overview_healthy_lines", "frequency", dof, style.HEALTHY, 1.2)
+            for dof in levels.SHOWN
+        ),
         *compared_curves.curves(
-            "overview_spectrum", "frequency", *SHOWN[::-1], width=1.6, thin="x"
+            "overview_spectrum", "frequency", *levels.SHOWN[::-1], width=1.6, thin="x"
         ),
         curve("overview_lines", "frequency", "x", blue),
         curve("overview_lines", "frequency", "y", orange),
@@ -109,37 +98,36 @@ class OverviewSpectrum(ComparingView):
     leads_to = "vibration"
 
     def build(self, packed: PackedSource) -> Any:
-        self._frequency = StickyRange(0.0, HIGHEST, anchor="zero")
+        self._frequency = StickyRange(0.0, levels.HIGHEST, anchor="zero")
         self._levels = StickyRange(-80.0, -20.0, least_span=40.0)
         plot = style.make_figure(
-            FREQUENCY,
+            levels.FREQUENCY,
             style.AxisQuantity("Vibration level", "", "dB"),
-            packed.range("overview_frequency", 0.0, HIGHEST),
+            packed.range("overview_frequency", 0.0, levels.HIGHEST),
             packed.range("overview_level", -80.0, -20.0),
             height=120,
         )
         plot.min_border_left = LEFT
         plot.tags = [compared_curves.THIN]
-        plot.xaxis[0].axis_label = f"{FREQUENCY.label()}, shaded: natural frequencies"
+        plot.xaxis[0].axis_label = f"{levels.FREQUENCY.label()}, shaded: natural frequencies"
         draw(plot, packed, layers())
         return plot
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
-        top = self._frequency.fit(HIGHEST, results.picture_top)[1]
-        drawn = drawn_levels(results.late_spectra, top)
-        healthy = drawn_levels(results.reference.late_spectra, top)
+        top = self._frequency.fit(levels.HIGHEST, results.picture_top)[1]
+        drawn = levels.drawn_levels(results.late_spectra, top)
+        healthy = levels.drawn_levels(results.reference.late_spectra, top)
         compared = levels_of_compared("overview_spectrum", results, top)
-        shown = self._levels.fit(*seen_levels(TOP_ROOM, drawn, *compared.values()))
-        names = end_names(drawn, shown, top)
+        shown = self._levels.fit(*levels.seen_levels(TOP_ROOM, drawn, *compared.values()))
+        named = [(drawn["frequency"], drawn[dof]) for dof in levels.SHOWN]
         if results.grey.label:
-            names += grey_name(healthy, drawn, shown)
-        x, y, which = np.array(names, dtype=float).reshape(-1, 3).T
+            named.append((healthy["frequency"], np.fmin(healthy["x"], healthy["y"])))
         return {
             **compared,
             "overview_lines": drawn,
             "overview_healthy_lines": healthy,
             "overview_bands": named_bands(results, top),
-            "overview_names": {"x": x, "y": y, "which": which},
+            "overview_names": end_names(named, shown, top),
         }, {"overview_frequency": (0.0, top), "overview_level": shown}
 
     def sentence(self, results: Results) -> str:
@@ -150,76 +138,31 @@ class OverviewSpectrum(ComparingView):
 
 def named_bands(results: Results, top: float) -> dict[str, NDArray[np.float64]]:
     """Bands by their frequency, in two lines of names, with the room [Hz] up to the next name."""
-    bands = band_rows(results.bands)
+    bands = frequency_bands.band_rows(results.bands)
     order = np.argsort(bands["low"], kind="stable")
     named = {name: column[order] for name, column in bands.items()}
     line = np.arange(order.size) % 2
     name_at, room = np.empty(order.size), np.empty(order.size)
     for own in (line == 0, line == 1):
         half = 0.5 * BAND_NAME_WIDTH * top
-        name_at[own] = spread(named["low"][own] + half, 2.0 * half, 0.0, top) - half
+        name_at[own] = frequency_bands.spread(named["low"][own] + half, 2.0 * half, 0.0, top) - half
         room[own] = np.diff(name_at[own], append=top)
     return {**named, "name_at": name_at, "room": room, "line": 8.0 + 17.0 * line}
 
 
 def end_names(
-    drawn: dict[str, NDArray[np.float64]], shown: tuple[float, float], top: float
-) -> list[tuple[float, float, int]]:
-    """Names of the curves at their right ends: above the upper one, below the lower one.
-
-    Where that is out of view the name of the lower one is above it, if there is room.
-    """
-    at_end = drawn["frequency"] > END * top
-    ends = {
-        dof: drawn[dof][at_end]
-        for dof in SHOWN
-        if at_end.any() and np.isfinite(drawn[dof][at_end]).all()
-    }
-    room = NAME_ROOM * (shown[1] - shown[0])
-    upper = max(ends, key=lambda dof: float(ends[dof].mean()), default="")
-    places = {
-        dof: float(end.max()) + room if dof == upper else float(end.min()) - room
-        for dof, end in ends.items()
-    }
-    for dof, end in ends.items():
-        above = float(end.max()) + room
-        if (
-            dof != upper
-            and places[dof] < shown[0] + room
-            and above < float(ends[upper].min()) - room
-        ):
-            places[dof] = above
-    return [
-        (top, min(max(y, least), shown[1] - 4.0 * room), SHOWN.index(dof))
-        for dof, y in places.items()
-        for least in [shown[0] + (3.0 if dof == upper else 1.0) * room]  # also at the bottom
-    ]
-
-
-def grey_name(
-    healthy: dict[str, NDArray[np.float64]],
-    drawn: dict[str, NDArray[np.float64]],
+    named: Sequence[tuple[NDArray[np.float64], NDArray[np.float64]]],
     shown: tuple[float, float],
-) -> list[tuple[float, float, int]]:
-    """Name of the grey curves, over one of their peaks, as far from all curves as it can be.
+    top: float,
+) -> dict[str, NDArray[np.float64]]:
+    """Places of the names of curves (frequency, level) at their right ends, apart and in view.
 
-    None where they are out of view.
+    The name of the upper curve is above it; those of the others are below them.
     """
-    if not healthy["frequency"].size or not drawn["frequency"].size:
-        return []
+    ends = [level[frequency > END * top] for frequency, level in named]
+    known = [k for k, end in enumerate(ends) if end.size and np.isfinite(end).all()]
     room = NAME_ROOM * (shown[1] - shown[0])
-    level = np.fmax(healthy["x"], healthy["y"])
-    wide = int(NAME_WIDTH * level.size)
-    free = []
-    # narrower cards leave less room to the left; beyond the end are the names of the others
-    for i in range(wide + wide // 3, int(END * level.size)):
-        y = level[i] + room
-        under = slice(i - wide, i + 1)
-        others = [level[under], *(drawn[dof][under] for dof in SHOWN)]
-        apart = min(float(np.nanmin(np.abs(other - y), initial=np.inf)) for other in others)
-        if shown[0] < level[i] < shown[1] - 4.0 * room:
-            free.append((min(apart, room), float(level[i]), i))
-    if not free:
-        return []
-    _, y, i = max(free)
-    return [(float(healthy["frequency"][i]), y + room, 2)]
+    upper = max(known, key=lambda k: float(ends[k].mean()), default=-1)
+    wanted = [ends[k].max() + room if k == upper else ends[k].min() - room for k in known]
+    y = frequency_bands.spread(np.array(wanted), 2.0 * room, shown[0], shown[1] - 3.0 * room)
+    return {"x": np.full(len(known), top), "y": y, "which": np.array(known, dtype=float)}

@@ -11,19 +11,7 @@ from bokeh.core.properties import value
 from bokeh.models import Quad, Range1d, Scatter
 from numpy.typing import NDArray
 
-from bearing_explorer.explorer.plots import compared_curves
-from bearing_explorer.explorer.plots.matrix_cells import (
-    SERIF,
-    SYMBOLS,
-    UNITS,
-    Cell,
-    cleaned,
-    crossing_layer,
-    crossing_lines,
-    sides_of,
-    term_sizes,
-    trace_limits,
-)
+from bearing_explorer.explorer.plots import compared_curves, matrix_cells
 from bearing_explorer.explorer.results import reasons
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.views.comparing_view import ComparingView
@@ -46,10 +34,10 @@ WIDE, HIGH = 5.0, 3.0
 HEAD = 0.55
 """Of those: room for the symbol and the value above a frame."""
 
-_UNIT = np.array([UNITS.index(unit) for unit in TERM_UNITS.values()])
-_SUBSCRIPTS = [symbol[2:] for symbol in SYMBOLS]
+_UNIT = np.array([matrix_cells.UNITS.index(unit) for unit in TERM_UNITS.values()])
+_SUBSCRIPTS = [symbol[2:] for symbol in matrix_cells.SYMBOLS]
 _VALUE_WORDS = f"""
-const unit = {list(UNITS)}[row.unit]
+const unit = {list(matrix_cells.UNITS)}[row.unit]
 if (isNaN(row.now)) return narrow ? '' : 'no value'
 let wide = Infinity
 try {{ wide = plot.inner_width*(row.right - row.left)/{WIDE} }} catch {{}}
@@ -57,7 +45,11 @@ const most = (wide/larger - 20)/6.2 - {_SUBSCRIPTS}[row.term].length  // letters
 return [3, 2].map(digits => si(row.now, unit, digits)).find(text => text.length < most) ?? ''
 """
 _VALUE_LOOK = {"text_align": "right", "text_baseline": "bottom", "y_offset": -3}
-_SYMBOL_LOOK = {"text_font": value(SERIF), "text_color": style.INK, "text_baseline": "bottom"}
+_SYMBOL_LOOK = {
+    "text_font": value(matrix_cells.SERIF),
+    "text_color": style.INK,
+    "text_baseline": "bottom",
+}
 _FRAME_LOOK = {"fill_color": "#FAFBFC", "line_color": style.GRID}
 _NOW_LOOK = {"size": 6, "color": style.DEFECTIVE, "line_color": "white"}
 LAYERS: tuple[Layer, ...] = (
@@ -68,7 +60,7 @@ LAYERS: tuple[Layer, ...] = (
           look={**_SYMBOL_LOOK, "x_offset": 8, "y_offset": -1}),
     Words("overview_terms", "right", "top", _VALUE_WORDS,
           ("now", "unit", "term", "left", "low", "high"), fitting=style.NARROW, look=_VALUE_LOOK),
-    crossing_layer("overview_crossings"),
+    matrix_cells.crossing_layer("overview_crossings"),
     *compared_curves.curves("overview_stiffness", "x", "y", width=1.3),
     curve("overview_healthy", "x", "y", style.HEALTHY, 1.3, cells="overview_terms"),
     curve("overview_lively", "x", "y", style.DEFECTIVE, 1.8, cells="overview_terms"),
@@ -77,12 +69,12 @@ LAYERS: tuple[Layer, ...] = (
 """Frames and symbols of the cells and what is in them, from the lowest to the highest."""
 
 
-def cells_for(count: int) -> list[Cell]:
+def cells_for(count: int) -> list[matrix_cells.Cell]:
     """So many cells, as large as they can be: beside one another, or in rows of three or five."""
     columns = count if count <= 3 else 3 if count <= 6 else 5
     rows = math.ceil(count / max(columns, 1))
     return [
-        Cell(
+        matrix_cells.Cell(
             WIDE * column / columns + 0.05,
             WIDE * (column + 1) / columns - 0.04,
             -HIGH * (row + 1) / rows + 0.03,
@@ -108,7 +100,7 @@ class OverviewStiffness(ComparingView):
     lead = "all fifteen"
 
     def build(self, packed: PackedSource) -> Any:
-        self._limits = [StickyRange(0.0, 1.0, room=ROOM) for _ in SYMBOLS]
+        self._limits = [StickyRange(0.0, 1.0, room=ROOM) for _ in matrix_cells.SYMBOLS]
         plot = style.bare_figure(
             Range1d(0.0, WIDE, syncable=False), Range1d(-HIGH, 0.0, syncable=False), height=70
         )
@@ -125,7 +117,9 @@ class OverviewStiffness(ComparingView):
             for answer, some in zip(answers, pick, strict=True)
         ]
         share = (results.cage_angle - first) % (last - first) / (last - first)
-        scales = term_sizes(lambda term: np.concatenate([e.term(term) for e in answers]))
+        scales = matrix_cells.term_sizes(
+            lambda term: np.concatenate([e.term(term) for e in answers])
+        )
         lively = lively_terms(results, answers, scales)
         cells = cells_for(len(lively))
         values, ends = np.empty(len(lively)), np.empty((2, len(lively)))
@@ -133,9 +127,9 @@ class OverviewStiffness(ComparingView):
         marks = np.empty((2, len(lively)))
         for i, (cell, index) in enumerate(zip(cells, lively, strict=True)):
             term, scale = STIFFNESS_TERMS[index], scales[index]
-            terms = [cleaned(answer.term(term), scale) for answer in answers]
-            values[i] = cleaned(now.term(term), scale)[0]
-            limits = ends[:, i] = trace_limits(self._limits[index], scale, *terms)
+            terms = [matrix_cells.cleaned(answer.term(term), scale) for answer in answers]
+            values[i] = matrix_cells.cleaned(now.term(term), scale)[0]
+            limits = ends[:, i] = matrix_cells.trace_limits(self._limits[index], scale, *terms)
             for trace, share_of, some, values_of in zip(traces, shares, pick, terms, strict=True):
                 trace.append((cell.x(share_of), cell.y(values_of[some], limits)))
             marks[:, i] = cell.x(np.array(share)), cell.y(np.array(values[i]), limits)
@@ -147,14 +141,14 @@ class OverviewStiffness(ComparingView):
             "overview_lively": drawn,
             "overview_healthy": reference,
             "overview_terms": {
-                **sides_of(cells),
+                **matrix_cells.sides_of(cells),
                 "term": np.array(lively, dtype=float),
                 "now": values,
                 "low": ends[0],
                 "high": ends[1],
                 "unit": _UNIT[lively],
             },
-            "overview_crossings": crossing_lines(results, cells),
+            "overview_crossings": matrix_cells.crossing_lines(results, cells),
             "overview_term_now": {"x": marks[0], "y": marks[1]},
         }, {}
 
@@ -181,7 +175,7 @@ def lively_terms(
     free = free_terms(results.equilibrium.dofs)
     terms = []
     for i, (term, scale) in enumerate(zip(STIFFNESS_TERMS, scales, strict=True)):
-        own, *others = (cleaned(answer.term(term), scale) for answer in answers)
+        own, *others = (matrix_cells.cleaned(answer.term(term), scale) for answer in answers)
         if term in free and (
             term in reasons.RADIAL or any(is_lively(own, other, scale) for other in others)
         ):

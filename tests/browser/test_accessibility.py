@@ -284,6 +284,7 @@ def test_a_view_fills_the_page_and_the_screen(desk: Visitor) -> None:
     page.wait_for_function(  # no part of the page is empty, and none out of view
         """() => {
           const [view] = [...deep(document, '.view-modes')], main = document.querySelector('main')
+          if (!view) return false
           const left = main.getBoundingClientRect().bottom - view.getBoundingClientRect().bottom
           return left > 0 && left < 40
         }"""

@@ -411,7 +411,7 @@ def test_a_measurement_is_brought_its_columns_chosen_and_its_part_named(desk: Vi
     desk.reads(re.compile("outer race is (probably )?damaged"))
     desk.bring(desk.main, "broken.csv", b"x,y\n1,2\nhello,3")
     desk.reads(re.compile("broken.csv cannot be used.*fan.wav stays"))
-    desk.main.get_by_label("Unit of the signal").select_option("m/s²")
+    desk.main.get_by_label("Unit of the signal, channel 2").select_option("m/s²")
     desk.reads(re.compile("outer race is (probably )?damaged"))
     desk.steady()
     assert len(desk.figures()) >= 3

@@ -134,8 +134,10 @@ def run(messages: int, files: int, first: int) -> Outcome:
     with tempfile.TemporaryDirectory() as folder, serving(WatchedServer(TMPDIR=folder)) as server:
         # browser tests keep a loop in the main thread
         run_coroutine(all_at_once(server.url, messages, files, first, outcome))
-        outcome.faults += server.faults()
+        outcome.faults += server.slow_turns()
         server.stop()
+        _, traceback, after = server.log.partition("Traceback")
+        outcome.faults += [after[:3000]] * bool(traceback)
         left = [str(path.relative_to(folder)) for path in Path(folder).rglob("*")]
     outcome.faults += [f"left behind: {name}" for name in left]
     errors, unanswered = outcome.tally.errors, outcome.tally.unanswered

@@ -717,19 +717,26 @@ def _keys(visitor: Visitor) -> list[str]:
 
 @pytest.mark.proof
 def test_back_leads_to_the_tab_part_and_lesson_that_was_open(visitor: Visitor) -> None:
+    def there(place: str) -> None:
+        """The server knows it too, and has given the address its entry."""
+        visitor.is_at(place)
+        visitor.page.wait_for_function(f"window.__tab == '{place.split()[-1].lower()}'")
+        visitor.page.wait_for_url(f"**tab={place.split()[-1].lower()}**")
+        visitor.steady()
+
     visitor.open(FAN_RIG + "life")
     visitor.go_to("More: Explore")
+    there("More: Explore")
     visitor.type("Length of the defect", "20")
     visitor.go_to("More: Paper")
+    there("More: Paper")
     for place in ("More: Explore", "Machine: Life"):
         visitor.page.go_back()
-        visitor.is_at(place)
-        visitor.steady()
+        there(place)
         assert visitor.number("Length of the defect") == 20.0, "the scene is for Undo"
     for place in ("More: Explore", "More: Paper"):
         visitor.page.go_forward()
-        visitor.is_at(place)
-        visitor.steady()
+        there(place)
     visitor.page.get_by_role("tab", name="Machine", exact=True).click()
     visitor.is_at("Machine: Life")
     part = visitor.views.get_by_role("button", name="Bearing", exact=True)

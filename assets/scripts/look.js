@@ -116,7 +116,7 @@
   window.addEventListener("explorer-projector", ({ detail }) => {
     large = detail
     root.toggleAttribute("data-projector", large)
-    paint_all()
+    queueMicrotask(paint_all)  // after all who listen: page.js gives fitted figures their own size back
   })
   window.addEventListener("explorer-figures", paint_all)  // the documents are there
 }

@@ -224,8 +224,8 @@
     }
     own_size.clear()
   }
-  // before the type of figures changes, and with it what their height is
-  window.addEventListener("explorer-projector", end_fit, { capture: true })
+  // before the type of figures changes, and with it what their height is (look.js)
+  on_event("projector", root, end_fit)
   on_event("lesson", root, (lesson) => { if (!lesson) end_fit() })
   new ResizeObserver(() => enlarge_soon()).observe(main)
   let coming = 0

@@ -10,15 +10,7 @@ from nbclient import NotebookClient
 OUTSIDE = re.compile(r"https?://[^\s\"\\]+\.css\b|<(?:script|link)[^>]*(?:src|href)=")
 FOLDER = Path(__file__).resolve().parents[2] / "assets" / "notebooks"
 NOTEBOOKS = sorted(FOLDER.glob("*.ipynb"))
-
-
-def test_there_are_notebooks() -> None:
-    assert [path.stem for path in NOTEBOOKS] == [
-        "first-steps",
-        "learning",
-        "rotor-in-ross",
-        "size-of-a-defect",
-    ]
+assert len(NOTEBOOKS) == 4
 
 
 @pytest.mark.proof

@@ -33,7 +33,7 @@ CHROMIUM_OPTIONS = (
     "--disable-sync",
 )
 QUICK_ONLY = pytest.mark.skipif(
-    PLAIN, reason="counts work that only private names of BokehJS save, which PLAIN leaves out"
+    PLAIN, reason="looks at what only private names of BokehJS do, which PLAIN leaves out"
 )
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = Path(__file__).parent / "pages"

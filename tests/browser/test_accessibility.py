@@ -87,6 +87,58 @@ def hold_to_rules(page: Page, theme: str, where: str = "main") -> None:
     page.evaluate("localStorage.removeItem('bearing-explorer.theme')")
 
 
+#: the figures that are wholly in the room that the page has for them, and how many there are
+WHOLE_FIGURES = """() => {
+  const room = document.querySelector("main").getBoundingClientRect()
+  const boxes = [...Bokeh.index.query(({ model, el }) => model.type === "Figure" && el.isConnected
+      && el.checkVisibility({ visibilityProperty: true }))]
+    .map(({ el }) => el.getBoundingClientRect()).filter(({ width }) => width > 2)
+  const inside = ({ left, top, right, bottom }) => left >= room.left - 1 && right <= room.right + 1
+    && top >= room.top - 1 && bottom <= room.bottom + 1
+  return [boxes.filter(inside).length, boxes.length]
+}"""
+
+
+#: how much is on screen of the first figure [px], and the controls above it in its tab
+FIRST_FIGURE = """() => {
+  const main = document.querySelector("main"), room = main.getBoundingClientRect()
+  const shown = [...deep(main, "canvas, svg.picture")].filter(
+    (one) => one.checkVisibility({ visibilityProperty: true }) && one.clientHeight > 60)
+  const boxes = shown.map((one) => one.getBoundingClientRect()).sort((a, b) => a.top - b.top)
+  const top = boxes[0]?.top ?? room.bottom
+  const controls = [...deep(main, "input, select, textarea, .bk-btn")]
+    .filter((one) => one.checkVisibility() && one.getBoundingClientRect().bottom <= top)
+  return [boxes.length && Math.min(boxes[0].bottom, room.bottom) - top, controls.length]
+}"""
+
+
+def hold_to_screens(page: Page) -> None:
+    """The first figure of the open tab is seen without scrolling past controls.
+
+    It is whole on a low laptop, also with the large type of a projector, and in part on a phone and
+    on a laptop at 200 %.
+    """
+    for projected in (True, False):
+        page.evaluate(
+            "on => dispatchEvent(new CustomEvent('explorer-projector', { detail: on }))", projected
+        )
+        page.set_viewport_size({"width": 1366, "height": 650})
+        settle(page)
+        page.wait_for_function(
+            f"() => {{ const [whole, all] = ({WHOLE_FIGURES})(); return whole || !all }}",
+            timeout=20_000,
+        )
+    for width, height in ((390, 844), (683, 325)):
+        page.set_viewport_size({"width": width, "height": height})
+        settle(page)
+        page.wait_for_function(
+            f"high => {{ const [part, above] = ({FIRST_FIGURE})(); return part > high && !above }}",
+            arg=0.3 * height,
+            timeout=20_000,
+        )
+    page.set_viewport_size(LAPTOP)
+
+
 def silent_figures(page: Page) -> list[str]:
     """Figures on screen without a title or a sentence for screen readers.
 
@@ -232,6 +284,7 @@ def test_a_view_fills_the_page_and_the_screen(desk: Visitor) -> None:
     page.wait_for_function(  # no part of the page is empty, and none out of view
         """() => {
           const [view] = [...deep(document, '.view-modes')], main = document.querySelector('main')
+          if (!view) return false
           const left = main.getBoundingClientRect().bottom - view.getBoundingClientRect().bottom
           return left > 0 && left < 40
         }"""

@@ -3,22 +3,9 @@
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.browser.explorer_page import open_page, settle, slider, value, wait
+from tests.browser.explorer_page import settle, slider, value, wait
 from tests.browser.helpers import Server, Watch, drag, unfold
-
-
-@pytest.mark.proof
-def test_a_browser_does_not_send_back_what_it_is_sent(
-    watch: tuple[Page, Watch], explorer: Server
-) -> None:
-    page, watching = watch
-    open_page(page, explorer)
-    frames, asked = watching.frames_sent, page.evaluate("window.__asked || 0")
-    drag(page, slider(page, "extent_deg"), 0.3, 0.6)
-    settle(page)
-    # a message may be of several frames; with its packets it would be of many more
-    changes = page.evaluate("window.__asked") - asked
-    assert 0 < watching.frames_sent - frames <= 4 * (changes + 2)
+from tests.browser.visitor import Visitor
 
 
 def query(page: Page) -> str:
@@ -32,7 +19,10 @@ def opened(page: Page, server: Server, text: str) -> None:
     settle(page)
 
 
-def test_the_address_follows_the_hand_and_steps_go_back(page: Page, explorer: Server) -> None:
+def test_the_address_follows_the_hand_and_steps_go_back(
+    watch: tuple[Page, Watch], explorer: Server
+) -> None:
+    page, watching = watch
     opened(page, explorer, "")
     assert query(page) == "", "nothing is written before anything is done"
     entries = page.evaluate("history.length")
@@ -46,8 +36,12 @@ def test_the_address_follows_the_hand_and_steps_go_back(page: Page, explorer: Se
           history.replaceState = (...a) => { window.__replaced++; old.apply(history, a) }
         }"""
     )
+    frames, asked = watching.frames_sent, page.evaluate("window.__asked || 0")
     drag(page, slider(page, "extent_deg"), 0.1, 0.6, steps=25)
     settle(page)
+    # a message may be of several frames; with its packets sent back it would be of many more
+    changes = page.evaluate("window.__asked") - asked
+    assert 0 < watching.frames_sent - frames <= 4 * (changes + 2)
     first = value(page, "extent_deg")
     page.wait_for_function("location.search.includes('extent_deg')")
     assert page.evaluate("window.__replaced") <= 2, "once a drag, not once a position"
@@ -134,11 +128,10 @@ def test_nothing_overtakes_a_position_that_waits(page: Page, explorer: Server) -
 
 
 @pytest.mark.proof
-def test_a_shorter_sentence_does_not_resize_the_drawing_above_it(
-    page: Page, explorer: Server
-) -> None:
+def test_a_shorter_sentence_does_not_resize_the_drawing_above_it(desk: Visitor) -> None:
+    page = desk.page
     page.set_viewport_size({"width": 1280, "height": 800})
-    open_page(page, explorer)
+    desk.begin("Load")
     sentence = page.locator(".view-bearing p[role=status]")
     heights, lengths = [], []
     for extent in ("30", "8", "30"):

@@ -5,6 +5,9 @@ from playwright.sync_api import BrowserContext, Page, expect
 
 from tests.browser.explorer_page import SEEN, open_page, rest, settle, show, slider, source
 from tests.browser.helpers import QUICK_ONLY, Server, move
+from tests.browser.visitor import Visitor
+
+pytestmark = QUICK_ONLY
 
 # Bokeh does not clear half a pixel along two edges: what is there depends on how often it painted.
 _INSIDE = """canvases => canvases.map((canvas) => {
@@ -63,10 +66,10 @@ _COLORS = """(was) => {
 }"""
 
 
-@QUICK_ONLY
-def test_the_last_state_stays_faintly_while_a_hand_drags(page: Page, explorer: Server) -> None:
-    page.add_init_script(SEEN)
-    open_page(page, explorer, "load")
+def test_the_last_state_stays_faintly_while_a_hand_drags(desk: Visitor) -> None:
+    page = desk.page
+    page.evaluate(SEEN)
+    desk.begin("Load")
     rest(page)
     was, extent = source(page, "load_distribution_curve"), slider(page, "extent_deg")
     move(extent, 60)

@@ -115,7 +115,7 @@ def test_a_disk_on_which_nothing_can_be_written(page: Page, tmp_path: Path) -> N
         "TMPDIR": "/run",
     }
     port = free_port()
-    start = ["unshare", "-m", "sh", "-c", f'{mounts} && exec "$@"', "sh", sys.executable, "-B"]
+    start = ["unshare", "-m", "sh", "-c", f'{mounts} && exec "$@"', "sh", sys.executable, "-BP"]
     start += ["-m", "bearing_explorer", "--no-browser", "--port", str(port)]
     with serving(Server(start, port, environment=environment)) as server:
         first_picture(page, server.url)

@@ -50,34 +50,6 @@ COUNTS = """() => {
 }"""
 
 
-def test_the_first_screen_is_seen_at_a_glance_and_a_figure_is_near_its_top(
-    page: Page, explorer: Server
-) -> None:
-    page.set_viewport_size({"width": 1440, "height": 900})
-    page.add_init_script(SEEN)
-    page.goto(explorer.url + "liveness")  # of the same origin, and quickly there
-    page.evaluate("localStorage.clear()")
-    page.goto(explorer.url)
-    page.wait_for_function("window.__frames >= 1")
-    rest(page)
-    counts: dict[str, Any] = page.evaluate(COUNTS)
-    assert len(counts["controls"]) <= 30, counts["controls"]
-    assert len(counts["words"]) <= 120, counts["words"]
-    sizes = sorted(float(size) for size in counts["sizes"])
-    assert len(sizes) <= 4, counts["sizes"]
-    assert sizes[0] >= 11.0, counts["sizes"]
-    expect(page.get_by_text("Bearing explorer", exact=True).first).to_be_visible()
-    expect(page.get_by_role("region", name="Introduction")).to_be_visible()
-    for width in (768, 1199):
-        page.set_viewport_size({"width": width, "height": 900})
-        rest(page)
-        first = page.locator("main canvas").first.bounding_box()
-        assert first is not None
-        assert first["y"] <= 450.0, width
-
-
-# --- no nonsense, from the first frame on ---------------------------------------------------------
-
 _SAMPLE = (
     SEEN
     + """
@@ -106,9 +78,28 @@ def samples(page: Page, server: Server) -> list[str]:
     return list(page.evaluate("[...window.__nonsense]"))
 
 
-def test_no_frame_says_undefined(page: Page, explorer: Server) -> None:
+def test_the_first_screen_is_seen_at_a_glance_and_a_figure_is_near_its_top(
+    page: Page, explorer: Server
+) -> None:
+    page.set_viewport_size({"width": 1440, "height": 900})
+    page.goto(explorer.url + "liveness")  # of the same origin, and quickly there
+    page.evaluate("localStorage.clear()")
     assert samples(page, explorer) == []
-    # what is looked for is found
+    counts: dict[str, Any] = page.evaluate(COUNTS)
+    assert len(counts["controls"]) <= 30, counts["controls"]
+    assert len(counts["words"]) <= 120, counts["words"]
+    sizes = sorted(float(size) for size in counts["sizes"])
+    assert len(sizes) <= 4, counts["sizes"]
+    assert sizes[0] >= 11.0, counts["sizes"]
+    expect(page.get_by_text("Bearing explorer", exact=True).first).to_be_visible()
+    expect(page.get_by_role("region", name="Introduction")).to_be_visible()
+    for width in (768, 1199):
+        page.set_viewport_size({"width": width, "height": 900})
+        rest(page)
+        first = page.locator("main canvas").first.bounding_box()
+        assert first is not None
+        assert first["y"] <= 450.0, width
+    # the nonsense that is looked for is seen
     page.evaluate("document.querySelector('footer').append(String(undefined))")
     page.wait_for_function("window.__nonsense.size === 1")
 

@@ -1,16 +1,11 @@
 """The page in a real browser behind a proxy, and what a browser shows when there is no room."""
 
-import os
 import signal
-import subprocess
-import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
 
 import pytest
 from playwright.sync_api import BrowserContext, Page, expect
 
-from tests.browser.explorer_page import can_be_used, settle, wait
+from tests.browser.explorer_page import can_be_used, wait
 from tests.browser.helpers import (
     ROOT,
     Server,
@@ -25,23 +20,6 @@ from tests.browser.helpers import (
 from tests.helpers.proxies import Proxy, running
 
 
-@contextmanager
-def proxied(port: int, under: str, own_port: int) -> Iterator[str]:
-    """A proxy on a loop of its own; where the page is behind it."""
-    proxy = Proxy(port, under, strip=False, own_port=own_port)
-    with running(proxy):
-        yield f"http://localhost:{proxy.port}{under}"
-
-
-def with_limits(proxy_port: int) -> Server:
-    server = explorer_server(
-        *("--root-path", "/bearing", "--max-sessions", "2"),
-        *("--allow-websocket-origin", f"localhost:{proxy_port}"),
-    )
-    server.path = "/bearing/liveness"  # waiting for the page itself would take a place
-    return server
-
-
 @pytest.mark.proof
 def test_the_page_works_behind_a_proxy_and_says_when_it_is_full(
     watch: tuple[Page, Watch],
@@ -50,7 +28,13 @@ def test_the_page_works_behind_a_proxy_and_says_when_it_is_full(
     missing: list[str] = []
     page.on("response", lambda one: missing.append(one.url) if one.status == 404 else None)
     port = free_port()
-    with serving(with_limits(port)) as server, proxied(server.port, "/bearing/", port) as url:
+    server = explorer_server(
+        *("--root-path", "/bearing", "--max-sessions", "2"),
+        *("--allow-websocket-origin", f"localhost:{port}"),
+    )
+    server.path = "/bearing/liveness"  # waiting for the page itself would take a place
+    url = f"http://localhost:{port}/bearing/"
+    with serving(server), running(Proxy(port, "/bearing/", server.port)):
         wait(page, lambda: "Ready after" in server.log)
         answer = page.goto(url)
         assert answer is not None
@@ -77,7 +61,10 @@ def test_the_page_works_behind_a_proxy_and_says_when_it_is_full(
         expect(third.locator("p").first).to_contain_text("Try again in a minute")
         second.close()
         third.close()
-        ends_cleanly(server, signal.SIGINT)
+        assert server.stop(signal.SIGINT) == 0, server.log
+        for words in ("Loading the page", "Ready after", str(server.port), "Stopped."):
+            assert words in server.log
+        assert "Traceback" not in server.log
 
 
 @pytest.mark.proof
@@ -115,29 +102,3 @@ def test_a_connection_that_is_over_is_told_on_the_page(
     assert box is not None
     assert box["y"] + box["height"] <= page.viewport_size["height"] + 1  # type: ignore[index]
     page.close()
-
-
-def ends_cleanly(server: Server, by: signal.Signals) -> None:
-    """Its log says what it did, and nothing of an error."""
-    assert server.stop(by) == 0, server.log
-    for words in ("Loading the page", "Ready after", str(server.port), "Stopped."):
-        assert words in server.log
-    assert "Traceback" not in server.log
-
-
-@pytest.mark.proof
-def test_the_page_works_without_the_speedups(page: Page) -> None:
-    plain = {"BEARING_EXPLORER_PLAIN": "1"}
-    compiled = [sys.executable, "-m", "tests.helpers.compiled"]
-    subprocess.run(compiled, check=True, env=os.environ | plain)
-    with serving(explorer_server(environment=plain)) as server:
-        page.goto(server.url)
-        can_be_used(page)
-        page.locator(".tab-load").click()
-        drag(page, page.locator("#control-extent_deg"), 0.2, 0.6)
-        page.wait_for_function("window.__asked > 0")
-        settle(page)  # a slow picture has fewer positions of the slider asked for
-        expect(page.get_by_text("The greatest load of a ball is").first).to_be_attached()
-        source = "Bokeh.documents[0].get_model_by_name('load_distribution_balls')"
-        assert page.evaluate(f"Object.values({source}.data)[0].length") > 3, "drawn without packets"
-        ends_cleanly(server, signal.SIGTERM)

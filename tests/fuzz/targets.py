@@ -2,10 +2,8 @@
 
 import io
 import random
-import time
 import wave
 from collections.abc import Callable
-from dataclasses import dataclass, field
 from importlib import resources
 from typing import Any
 
@@ -13,8 +11,6 @@ import h5py
 import numpy as np
 from bearing_explorer.diagnosis import form as forms
 from bearing_explorer.diagnosis.machine import Machine
-from bearing_explorer.explorer.state.address import opened, place_of, write
-from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from scipy.io import savemat
 
 from bearingcore import Scene, presets, read_catalogue, read_floor
@@ -23,40 +19,6 @@ from tests.fuzz.inputs import bytes_like, text_like
 from tests.helpers.saved import saved, zipped
 
 LONGEST_SENTENCE = 700  # characters
-LONGEST = 3.0  # [s] of processor time that one input may take
-
-
-@dataclass
-class Target:
-    """`make` an input from random numbers, and `meet` it; only a ValueError may be raised."""
-
-    name: str
-    make: Callable[[random.Random], Any]
-    meet: Callable[[Any], object]
-    refused: int = 0
-    taken: int = 0
-    faults: list[str] = field(default_factory=list)
-
-    def run(self, number: int) -> None:
-        """Meet the input with this number."""
-        given = self.make(random.Random(f"{self.name} {number}"))
-        began = time.process_time()
-        try:
-            self.meet(given)
-            self.taken += 1
-        except ValueError as error:
-            self.refused += 1
-            if (wrong := unclear(str(error))) is not None:
-                self._note(number, given, f"{wrong}: {str(error)[:200]!r}")
-        except Exception as error:
-            self._note(number, given, f"{type(error).__name__}: {str(error)[:200]}")
-        took = time.process_time() - began
-        if took > LONGEST:
-            self._note(number, given, f"took {took:.1f} s")
-
-    def _note(self, number: int, given: Any, what: str) -> None:
-        if len(self.faults) < 20:
-            self.faults.append(f"{self.name} {number}: {what}\n    {repr(given)[:300]}")
 
 
 def unclear(sentence: str) -> str | None:
@@ -199,35 +161,17 @@ def _table(content: bytes) -> object:
     return forms.read_form(told, form, Machine())
 
 
-def _addresses() -> list[str]:
-    editor = SceneEditor("fan-rig")
-    texts = [write(place_of(editor))]
-    for change in ({"extent_deg": 33.0}, {"fy_n": -70.0}, {"n_balls": 9}):
-        editor.set(change)
-        texts.append(write(place_of(editor, "stiffness")))
-    editor.choose({"defect": "add", "floor": "rough"})
-    return [*texts, write(place_of(editor, "maps"))]
+Target = tuple[Callable[[random.Random], Any], Callable[[Any], object]]
+"""What makes an input of random numbers, and the parser that takes it."""
 
 
-def _open_address(text: str) -> None:
-    editor = SceneEditor("fan-rig")
-    note = opened(text, editor).note
-    if note and (wrong := unclear(note)) is not None:
-        raise AssertionError(f"{wrong}: {note[:200]!r}")
-    if not isinstance(editor.scene, Scene):
-        raise AssertionError("there is no scene")
-
-
-def targets() -> list[Target]:
-    """All of them."""
-    scenes, floors, bearings = _texts(), _floors(), _bearings()
-    bearing_bytes = [text.encode() for text in bearings]
-    files, addresses = broken_files(), _addresses()
-    return [
-        Target("scene", lambda r: text_like(r, scenes), Scene.from_toml),
-        Target("floor", lambda r: text_like(r, floors), read_floor),
-        Target("bearings", lambda r: text_like(r, bearings), read_catalogue),
-        Target("bearings file", lambda r: bytes_like(r, bearing_bytes), read_catalogue),
-        *(Target(name, files[name], _table) for name in ("csv", "wav", "mat", "octave", "packed")),
-        Target("address", lambda r: text_like(r, addresses), _open_address),
-    ]
+def targets() -> dict[str, Target]:
+    """Return all parsers by name; of addresses `test_address.py` has its own."""
+    scenes, floors, bearings = _texts(), _floors(), [text.encode() for text in _bearings()]
+    files = broken_files()
+    return {
+        "scene": (lambda r: text_like(r, scenes), Scene.from_toml),
+        "floor": (lambda r: text_like(r, floors), read_floor),
+        "bearings": (lambda r: bytes_like(r, bearings), read_catalogue),
+        **{name: (files[name], _table) for name in ("csv", "wav", "mat", "octave", "packed")},
+    }

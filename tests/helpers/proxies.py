@@ -8,18 +8,16 @@ from contextlib import contextmanager
 
 
 class Proxy:
-    """Hands on all below `under` to a port; with `strip` without that part of the path."""
+    """Hands on all below `under` from one port to another."""
 
-    def __init__(self, port: int, under: str, strip: bool, own_port: int = 0) -> None:
-        self._to, self._under, self._strip = port, under, strip
-        self.port = own_port
+    def __init__(self, port: int, under: str, to: int) -> None:
+        self.port, self._under, self._to = port, under, to
         self._server: asyncio.Server | None = None
         self._tasks: set[asyncio.Task[None]] = set()
 
     async def start(self) -> None:
-        """Listen on the port that is given, or on a free one."""
+        """Listen on the port."""
         self._server = await asyncio.start_server(self._serve, "127.0.0.1", self.port)
-        self.port = self._server.sockets[0].getsockname()[1]
 
     async def stop(self) -> None:
         """Listen no more, and end what is open."""
@@ -48,8 +46,6 @@ class Proxy:
         if not path.startswith(self._under):
             writer.write(b"HTTP/1.1 404 Not Found\r\nContent-Length: 0\r\n\r\n")
             return
-        if self._strip:
-            path = "/" + path[len(self._under) :]
         rest = head.split("\r\n", 1)[1]
         if "upgrade: websocket" not in head.lower():
             rest = re.sub(r"(?im)^connection:.*\r\n", "", rest)

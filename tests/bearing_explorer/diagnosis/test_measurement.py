@@ -84,29 +84,6 @@ def brought(
 # -- good files ------------------------------------------------------------------------------------
 
 
-def test_a_file_from_elsewhere_is_understood_without_a_word():
-    """In g, with a clock 0.1 % off, offset and drift: columns and rate are found."""
-    rate = 16_000.0 * 6 / 5 * 1.001
-    time = np.arange(len(NOISE)) / rate
-    signal = 0.1 * NOISE + 0.4 + 0.3 * time[:, None]
-    rows = [f"{t:.7f};{x:.6e};{y:.6e}" for t, (x, y) in zip(time, signal, strict=True)]
-    made = brought("rig.csv", ("time [s];horizontal;vertical\n" + "\n".join(rows)).encode())
-    assert not made.state.bad
-    assert made.state.values["columns"] == "time s;x;y"
-    measured = made.measured
-    assert measured is not None
-    assert measured.directions == ("x", "y")
-    assert measured.recording.sample_rate == pytest.approx(rate, rel=1e-6)
-    assert measured.shaft_speed is None  # not the sliders'
-    assert measured.bearing is None
-    answer(made, unit="m/s²", speed="given", shaft_speed="720 rpm")
-    assert made.measured is not None
-    assert made.measured.shaft_speed == pytest.approx(2.0 * math.pi * 12.0)
-    np.testing.assert_allclose(
-        made.measured.recording.acceleration, measured.recording.acceleration
-    )
-
-
 def test_large_files_come_in_pieces_that_the_websocket_takes():
     columns = np.random.default_rng(0).standard_normal((400_000, 2))
     content = saved(wavfile.write, 51_200, columns.astype(np.float32))
@@ -152,20 +129,6 @@ def test_a_unit_that_the_file_does_not_say_is_asked_and_never_guessed():
     assert said.measured is not None
     assert said.measured.in_si
     assert not said.state.open
-
-
-def test_what_the_file_does_not_tell_is_asked_for():
-    before = signal()
-    made = brought("two.mat", matlab(a=NOISE), before)
-    assert made.measured is None  # no old figure under a new name
-    assert "sample rate is missing" in made.state.refused["sample_rate"]
-    assert "sample rate is missing" in made.state.words
-    assert set(made.state.open) == {"columns", "unit"}
-    answer(made, sample_rate="12 800", columns="x;y")
-    assert made.measured is not None
-    assert made.measured.recording.sample_rate == 12_800.0
-    assert not made.state.bad
-    assert made.state.open == ["unit"]
 
 
 @pytest.mark.parametrize(
@@ -351,7 +314,8 @@ def test_a_rate_that_could_not_be_is_a_question_and_agreeing_settles_it():
 def test_the_status_line_says_which_step_refuses_or_wants_an_answer():
     """A file that is read is not "not taken", and a refusal stands where the line says."""
     rows = "\n".join(f"{a:.6g},{b:.6g}" for a, b in NOISE)
-    made = brought("a.csv", f"ch 1 [g],ch 2 [g]\n{rows}".encode())
+    made = brought("a.csv", f"ch 1 [g],ch 2 [g]\n{rows}".encode(), signal())
+    assert made.measured is None, "no old figure under a new name"
     assert "is read" in made.state.words
     assert made.at_work == WANTED
     answer(made, columns="y;")
@@ -523,24 +487,14 @@ def test_dated_files_are_in_the_order_of_their_dates_and_the_newest_is_shown():
     made = brought("rig.zip", zipped(**{
         name: head.format(date).encode() + csv_of(NOISE[:, :1], "time [s],a [g]")
         for name, date in dates.items()
-    }))  # fmt: skip
+    }, readme_csv=b"no numbers"))  # fmt: skip
+    assert len(made.series.left_out) == 1
     assert made.measured.recording.name == "rig.zip/a.csv"
     series = made.recordings(made.measured, "y").recordings
     assert [one.name[-5:] for one in series] == ["b.csv", "c.csv", "a.csv"]
     about = made.known_about
     assert (about.machine, about.point) == ("Fan 3", "DE-H")
     assert about.date == "02 June 2026, 09:30, by the file"
-
-
-def test_the_files_of_a_zip_are_a_series():
-    parts = {
-        f"run{k}_csv": csv_of(NOISE[::-1][k * 300 : k * 300 + 300], "time [s],x [g],y [g]")
-        for k in range(6)
-    }
-    made = brought("rig.zip", zipped(**parts, readme_csv=b"no numbers"))
-    assert [table.name for table in made.series.tables] == [f"rig.zip/run{k}.csv" for k in range(6)]
-    assert len(made.series.left_out) == 1
-    assert made.measured.recording.name == "rig.zip/run5.csv"
 
 
 # -- bad files -------------------------------------------------------------------------------------
@@ -633,6 +587,12 @@ def test_names_of_files_are_shown_in_short_and_without_tricks():
     long = shown_name("x" * 300 + "-end.csv")
     assert len(long) <= LONGEST_NAME
     assert long.endswith("-end.csv")
+    name = "12k_Drive_End_Bearing_Fault_Data_IR_007_105_0.mat"
+    head, tail = without_middle(name, NAME_IN_LINE).split("…")
+    assert (name.startswith(head), tail) == (True, "7_105_0.mat")
+    made = brought(name, case_western())
+    assert made.state.line.startswith(f"{head}…{tail} · 167 ms")
+    assert made.state.whole_name == name
 
 
 def test_what_was_asked_last_wins():
@@ -670,19 +630,6 @@ def test_a_simulated_measurement_has_its_noise_and_knows_its_truth():
 def test_scenes_that_do_not_move_are_refused_in_a_sentence(scene):
     with pytest.raises(ValueError, match="Not possible"):
         simulated(scene, math.inf, 1)
-
-
-def test_a_long_file_name_loses_its_middle_and_keeps_its_end() -> None:
-    assert without_middle("105.mat", NAME_IN_LINE) == "105.mat"
-    long = "12k_Drive_End_Bearing_Fault_Data_IR_007_105_0.mat"
-    short = without_middle(long, NAME_IN_LINE)
-    assert len(short) == NAME_IN_LINE
-    head, tail = short.split("…")
-    assert long.startswith(head)
-    assert tail == "7_105_0.mat"
-    made = brought(long, case_western(), signal())
-    assert made.state.line.startswith(f"{short} · 167 ms")
-    assert made.state.whole_name == long
 
 
 def test_a_refused_file_says_whose_questions_stay() -> None:

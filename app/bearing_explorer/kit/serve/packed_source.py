@@ -132,7 +132,11 @@ class PackedSource:
         for name, columns in data.items():
             self._sources[name].data = dict(columns)
         for name, (start, end) in ranges.items():
-            self._ranges[name].update(start=start, end=end, reset_start=start, reset_end=end)
+            moved = self._ranges[name]
+            home = moved.reset_start, moved.reset_end
+            if home in ((None, None), (moved.start, moved.end)):  # else it is zoomed
+                moved.update(start=start, end=end)
+            moved.update(reset_start=start, reset_end=end)
 
     def introduce(self) -> None:
         """Let the browser's callback know all that is declared.

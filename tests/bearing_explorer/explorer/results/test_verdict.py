@@ -5,13 +5,16 @@ from dataclasses import replace
 import pytest
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.results.verdict import rows_of
+from bearing_explorer.explorer.state.settings import Settings
 from bearing_explorer.explorer.views.life import LifeOfBearing, groups_of
 from bearing_explorer.explorer.views.load_distribution import LoadDistribution
 from bearing_explorer.explorer.views.modes import NaturalFrequencies
 from bearing_explorer.kit.pictures import picture_of
 from bearing_explorer.kit.serve.packed_source import PackedSource
+from bearing_explorer.kit.widgets.limits import judged
 
-from bearingcore import Load, Scene, limits, presets
+import bearingcore
+from bearingcore import Load, Scene, limits, presets, simulate
 
 CONE = presets["30206-back-to-back"].bearing.replace(rows=())
 RIG = presets["nu208"].healthy()
@@ -82,3 +85,33 @@ def test_a_card_that_cannot_be_shown_is_in_the_status() -> None:
     for kind, words in ((NaturalFrequencies, "Computed without problems"),
                         (Refused, "Not all can be shown")):  # fmt: skip
         assert picture_of(results, [kind(PackedSource())]).status["words"] == words
+
+
+def test_the_status_line_says_what_happened() -> None:
+    good = Results(presets["fan-rig"]).status(0.0123)
+    assert (good["mood"], good["words"]) == ("good", "Computed without problems")
+    assert good["details"][1:] == [
+        "2 degrees of freedom: x y",
+        "361 cage angles",
+        "12.3 ms of computing",
+    ]
+    assert "residual at most" in good["details"][0]
+    bad = Results(presets["fan-rig"].replace(fy=0.0)).status(0.001)
+    assert bad["mood"] == "bad"
+    assert "nothing touches" in bad["words"]
+    kept, crossed = (
+        rows_of(Results(presets["fan-rig"].replace(fy=fy)).limits) for fy in (-100.0, -2e4)
+    )
+    assert judged(good, kept) == good
+    warned = judged(good, crossed)
+    assert (warned["mood"], warned["words"]) == ("warn", "Computed, limits exceeded")
+    assert judged(bad, crossed) == bad
+
+
+def test_a_motion_that_breaks_off_is_not_converged(monkeypatch: pytest.MonkeyPatch) -> None:
+    broken = simulate(presets["fan-rig"], 0.2, step_rate=1024.0)
+    monkeypatch.setattr(bearingcore, "simulate", lambda *_, **__: broken)
+    results = Results(presets["fan-rig"], settings=Settings(duration=0.2))
+    line = results.status(0.0, frozenset({"motion"}))
+    assert line["mood"] == "bad"
+    assert "diverged after" in line["words"]

@@ -25,7 +25,7 @@ from bearing_explorer.explorer.state.address import (
     unpacked,
     write,
 )
-from bearing_explorer.explorer.state.scene_editor import SceneEditor, drawn
+from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.page import TABS
 from hypothesis import given, settings, strategies as st
 
@@ -91,51 +91,24 @@ DEFECTS = st.builds(
 
 @st.composite
 def places(draw: st.DrawFn) -> Place:
+    """Scenes of several numbers and defects; `test_every_field.py` has each number alone."""
     preset = draw(st.sampled_from(list(presets)))
-    scene = presets[preset]
-    changed = draw(
-        st.fixed_dictionaries(
-            {},
-            optional={
-                "fx": numbers(-1e6, 1e6),
-                "fz": numbers(-1e6, 1e6),
-                "my": numbers(-1e5, 1e5),
-                "shaft_speed": numbers(0, 6000),
-                "contact_damping": st.one_of(st.none(), numbers(0, 1e6)),
-                "stiffness_rx": st.one_of(st.none(), numbers(1e-3, 1e9)),
-                "inner_inertia": st.one_of(st.none(), numbers(1e-9, 1e3)),
-                "outer_mass": numbers(1e-3, 1e3),
-                "damping_x": numbers(0, 1e6),
-                "radial_clearance": numbers(0, 1e-5),
-                "contact_angle": numbers(0, 1.3),
-                "n_balls": st.integers(1, 8),
-                "contact_law": st.sampled_from(CONTACT_LAWS),
-                "dofs": st.one_of(
-                    st.sampled_from([None, TILT_FREE]),
-                    st.lists(st.sampled_from(DOF_NAMES), min_size=1, unique=True).map(tuple),
-                ),
-            },
+    numbers_of_scene = {
+        "fx": numbers(-1e6, 1e6),
+        "shaft_speed": numbers(0, 6000),
+        "contact_damping": st.one_of(st.none(), numbers(0, 1e6)),
+        "stiffness_rx": st.one_of(st.none(), numbers(1e-3, 1e9)),
+        "outer_mass": numbers(1e-3, 1e3),
+        "n_balls": st.integers(1, 8),
+        "contact_law": st.sampled_from(CONTACT_LAWS),
+    }
+    kind = presets[preset].bearing.kind
+    if not kind.line_contact and kind.name != "self-aligning":  # which move in fewer directions
+        numbers_of_scene["dofs"] = st.one_of(
+            st.sampled_from([None, TILT_FREE]),
+            st.lists(st.sampled_from(DOF_NAMES), min_size=1, unique=True).map(tuple),
         )
-    )
-    if scene.bearing.kind.line_contact:  # radial only, and without a contact angle
-        for name in ("fz", "my", "contact_angle", "dofs"):
-            changed.pop(name, None)
-    if scene.bearing.kind.name == "self-aligning":  # it carries no moment, at any angle above 0
-        for name in ("my", "dofs"):
-            changed.pop(name, None)
-        if "contact_angle" in changed:
-            changed["contact_angle"] = min(max(changed["contact_angle"], 0.05), 0.6)
-    scene = scene.replace(**changed)
-    if draw(st.booleans()):
-        bearing = scene.bearing
-        fields = dict.fromkeys(
-            ("inner_groove_radius", "outer_groove_radius", "youngs_modulus", "poisson")
-        )
-        try:
-            other = dataclasses.replace(bearing, **fields) if bearing.is_drawn else drawn(bearing)
-        except ValueError:  # no drawing has these numbers
-            other = bearing
-        scene = scene.replace(bearing=other)
+    scene = presets[preset].replace(**draw(st.fixed_dictionaries({}, optional=numbers_of_scene)))
     defects = draw(st.lists(DEFECTS, min_size=1, max_size=4))
     if len(defects) > 1:
         # defects that touch are refused: each has a part of the race of its own

@@ -65,6 +65,8 @@ PARTS = ("load", "shaft_speed", "support")
 
 def test_a_bearing_by_number_comes_sound_and_keeps_what_a_person_set() -> None:
     editor = SceneEditor("liew-lim")
+    editor.choose({"bearing": "6208"})
+    assert editor.effects["preset"].startswith("The defect of 40° is gone.")
     for name in ("6205", "NU 208", "NJ 208", "7208 DT", "30206", "608"):
         editor.choose({"bearing": name})
         usual, scene = scene_of(name), editor.scene
@@ -88,7 +90,7 @@ def test_a_bearing_by_number_comes_sound_and_keeps_what_a_person_set() -> None:
     assert editor.scene.shaft_speed == scene_of("6308").shaft_speed
 
 
-def test_a_row_with_a_contact_angle_gets_the_axial_load_that_it_needs() -> None:
+def test_a_row_or_tandem_with_a_contact_angle_gets_the_axial_load_that_it_needs() -> None:
     editor = SceneEditor("fan-rig")
     editor.set({"fy_n": -100.0 - 1e-9})
     editor.choose({"bearing": "7208 BEP"})
@@ -99,6 +101,11 @@ def test_a_row_with_a_contact_angle_gets_the_axial_load_that_it_needs() -> None:
     assert equilibrium(editor.scene).converged.all()
     editor.choose({"bearing": "7308 BEP"})
     assert "Added" not in editor.state()["effects"]["preset"]  # there is an axial load by now
+    tandem = SceneEditor("fan-rig")
+    tandem.choose({"bearing": "7208 BECBP DT"})
+    assert tandem.scene.bearing.arrangement == "tandem"
+    assert tandem.scene.load.fz > 100.0
+    assert equilibrium(tandem.scene).converged.all()
 
 
 def test_an_estimated_bearing_says_so_wherever_its_name_is() -> None:
@@ -119,14 +126,6 @@ def test_an_estimated_bearing_says_so_wherever_its_name_is() -> None:
     assert editor.scene.bearing.estimated == ()
     assert "estimated" not in editor.name
     assert not any("inside dimensions" in limit.name for limit in limits(editor.scene))
-
-
-def test_a_pair_in_tandem_gets_the_axial_load_that_it_needs() -> None:
-    editor = SceneEditor("fan-rig")
-    editor.choose({"bearing": "7208 BECBP DT"})
-    assert editor.scene.bearing.arrangement == "tandem"
-    assert editor.scene.load.fz > 100.0
-    assert equilibrium(editor.scene).converged.all()
 
 
 def test_a_suffix_that_is_not_known_says_what_may_be_written() -> None:

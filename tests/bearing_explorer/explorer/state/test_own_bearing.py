@@ -153,13 +153,6 @@ def test_a_listed_bearing_that_is_changed_is_so_in_its_link_too() -> None:
         assert other.name == name
 
 
-def test_a_bearing_by_its_number_names_the_defect_that_it_drops() -> None:
-    editor = SceneEditor("fan-rig")
-    for number, words in (("6208", "The defect of 12.9° is gone."), ("6206", "Usual")):
-        assert editor.choose({"bearing": number}) == {}
-        assert editor.effects["preset"].startswith(words)
-
-
 def test_second_units_are_the_first_times_a_factor() -> None:
     editor = SceneEditor("6205")
     units = editor.state()["second_units"]

@@ -1,13 +1,18 @@
-"""The private names of Bokeh and Panel: whether they are there, and what happens without them."""
+"""The private names of Bokeh and Panel: they are there, and something happens without them."""
 
 import ast
+import re
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
 import bearing_explorer
+import bokeh
 import panel as pn
 import pytest
+from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.serve import bokeh_internals
+from bokeh import models
 from bokeh.core.property.descriptors import PropertyDescriptor
 from bokeh.core.serialization import Serializer
 from bokeh.document import Document
@@ -19,6 +24,7 @@ from panel.viewable import Viewable
 from tests.helpers.loops import run
 
 APP = Path(bearing_explorer.__file__).parent
+SCRIPT = Path(bokeh.__file__).parent / "server" / "static" / "js" / "bokeh.min.js"
 
 
 def test_this_version_has_all_of_them() -> None:
@@ -58,6 +64,21 @@ def test_no_other_file_uses_a_private_name() -> None:
                 elif not file.stem.endswith("_internals"):
                     used.setdefault(node.attr, set()).add(file.name)
     assert {name: files for name, files in used.items() if name not in made} == {}
+
+
+def test_this_version_of_bokehjs_has_them() -> None:
+    """Which of them is gone, and of which version, is what this says when it fails."""
+    named = set(re.findall(r'(?:method|getter)\(\w+, "(\w+)"\)', asset_text("fast_figures.js")))
+    assert len(named) > 10, "the script is written differently now"
+    library = SCRIPT.read_text(encoding="utf-8")
+    gone = {name for name in named if not re.search(rf"\b{name}\(", library)}
+    assert not gone, f"gone from BokehJS {version('bokeh')}: {sorted(gone)}"
+
+
+def test_the_models_are_there_whose_views_are_changed() -> None:
+    named = set(re.findall(r'(?:view_of|get)\("(\w+)"\)', asset_text("fast_figures.js")))
+    assert {"GlyphRenderer", "Column"} <= named
+    assert all(hasattr(models, name) for name in named)
 
 
 def test_a_name_that_is_gone_is_named_with_the_version(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -51,29 +51,6 @@ function svg_of(view) {
   return set_all(svg, { width, height, viewBox: `0 0 ${width} ${height}` })
 }
 
-// The part of a view's drawing that something is drawn in: { left, top, wide, high } [px].
-function drawn_part(svg, { frame }) {
-  const place = element("div", { style: "position: fixed; left: 0; top: 0; visibility: hidden" })
-  place.append(svg)
-  document.body.append(place)
-  const whole = svg.getBoundingClientRect(), room = 4  // px around it
-  const like = (box, { width, height }) => Math.abs(box.width - width) < 2 && Math.abs(box.height - height) < 2
-  let [left, top, right, bottom] = [whole.width, whole.height, 0, 0]
-  for (const one of svg.querySelectorAll("path, rect, text, image, circle, line")) {
-    const box = one.getBoundingClientRect()
-    if (one.closest("defs, clipPath") || !(box.width + box.height) || like(box, whole) || (frame && like(box, frame.bbox))) continue
-    left = Math.min(left, box.left - room)
-    top = Math.min(top, box.top - room)
-    right = Math.max(right, box.right + room)
-    bottom = Math.max(bottom, box.bottom + room)
-  }
-  svg.remove()
-  place.remove()
-  ;[left, top, right, bottom] = [Math.max(left, 0), Math.max(top, 0), Math.min(right, whole.width), Math.min(bottom, whole.height)]
-  return right > left && bottom > top ? { left, top, wide: Math.ceil(right - left), high: Math.ceil(bottom - top) }
-    : { left: 0, top: 0, wide: whole.width, high: whole.height }
-}
-
 // Ids within a drawing are its own: several stand in one file.
 function with_own_ids(svg, mark) {
   const ids = new Map()
@@ -117,14 +94,9 @@ function text_lines(words, size, color, width, looks = {}) {
 function drawing_of_all(views, { title, key = "", scene = "", link = "" }) {
   const boxes = views.map((view) => view.el.getBoundingClientRect())
   const left = Math.min(...boxes.map((box) => box.left)), top = Math.min(...boxes.map((box) => box.top))
-  let wide = Math.ceil(Math.max(...boxes.map((box) => box.right)) - left)
-  let high = Math.ceil(Math.max(...boxes.map((box) => box.bottom)) - top)
+  const wide = Math.ceil(Math.max(...boxes.map((box) => box.right)) - left)
+  const high = Math.ceil(Math.max(...boxes.map((box) => box.bottom)) - top)
   const drawn = views.map(svg_of)
-  if (views.length === 1) {  // without the bands around a drawing that is rounder than its place
-    const part = drawn_part(drawn[0], views[0])
-    ;({ wide, high } = part)
-    set_all(drawn[0], { width: wide, height: high, viewBox: `${part.left} ${part.top} ${wide} ${high}` })
-  }
   const width = Math.max(wide + 2 * PAD, LEAST_WIDTH)
   const look = getComputedStyle(document.documentElement)
   const [ink, soft, paper] = ["--ink", "--ink-soft", "--card"].map((name) => look.getPropertyValue(name))

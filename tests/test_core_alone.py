@@ -1,14 +1,12 @@
-"""The core without the page's packages: it needs what `requirements-core.txt` says."""
+"""The core without the page's packages, installed as `requirements-core.txt` says."""
 
 import os
 import subprocess
+import sys
 import tomllib
-import venv
-from collections.abc import Iterable
-from importlib import metadata
 from pathlib import Path
 
-from packaging.requirements import Requirement
+import pytest
 
 ROOT = Path(__file__).parents[1]
 SCRIPT = """
@@ -39,34 +37,22 @@ def test_the_requirements_are_some_of_the_package() -> None:
     assert set(lines) < set(project["dependencies"])
 
 
-def with_all_they_require(names: Iterable[str]) -> set[str]:
-    """Return distributions and those that they require, as their metadata say."""
-    waiting, known = list(names), set()
-    while waiting:
-        name = waiting.pop()
-        if name not in known:
-            known.add(name)
-            lines = map(Requirement, metadata.requires(name) or [])
-            waiting += [line.name for line in lines if not line.marker or line.marker.evaluate()]
-    return known
-
-
-def test_the_core_runs_where_no_other_package_is(tmp_path: Path) -> None:
-    """The environment holds links to the required packages; a process of it reads the file."""
-    lines = (ROOT / "requirements-core.txt").read_text(encoding="utf-8").splitlines()[1:]
-    venv.create(tmp_path / "core")
-    (packages,) = tmp_path.glob("core/lib/*/site-packages")
-    for name in with_all_they_require(Requirement(line).name for line in lines):
-        distribution = metadata.distribution(name)
-        for part in {file.parts[0] for file in distribution.files or ()} - {".."}:
-            (packages / part).symlink_to(str(distribution.locate_file(part)))
-    (packages / "bearingcore").symlink_to(ROOT / "bearingcore")
-    done = subprocess.run(
-        [tmp_path / "core/bin/python", "-c", SCRIPT],
-        cwd=tmp_path,
-        env={key: text for key, text in os.environ.items() if key != "PYTHONPATH"},
-        capture_output=True,
-        text=True,
-    )
-    assert done.returncode == 0, done.stderr
+@pytest.mark.proof
+def test_the_core_is_installed_alone_and_runs(tmp_path: Path) -> None:
+    names = ("PYTHONPATH", "NUMBA_CACHE_DIR")
+    environment = {key: text for key, text in os.environ.items() if key not in names}
+    python, install = str(tmp_path / "core/bin/python"), ["-m", "pip", "install", "--quiet"]
+    wanted = ["-r", str(ROOT / "requirements-core.txt")]
+    for command in (
+        [sys.executable, "-m", "venv", "core"],
+        [python, *install, *wanted],
+        [python, *install, "--no-deps", str(ROOT)],
+        [python, "-c", SCRIPT],
+    ):
+        done = subprocess.run(
+            command, cwd=tmp_path, env=environment, capture_output=True, text=True
+        )
+        if done.returncode and wanted[1] in command:
+            pytest.skip(f"the packages cannot be had from here: {done.stderr[-200:]}")
+        assert done.returncode == 0, done.stderr
     assert "allowed: one that needs no package pandas, which is not installed" in done.stdout

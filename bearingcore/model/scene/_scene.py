@@ -138,9 +138,7 @@ class Scene:
             checks.keep(self, dofs=self._held_dofs)
         self._check_directions()
         for defect in self.defects:
-            defect.check_row(self.bearing)
-            defect.check_depth(self.bearing)
-            defect.check_floor(self.bearing)
+            defect.check(self.bearing)
         if len(self.defects) > 1:
             path_tables(self.defects, self.bearing)  # refuses defects that exclude each other
 

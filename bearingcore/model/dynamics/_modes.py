@@ -325,9 +325,7 @@ def loaded_directions(state: Equilibrium) -> Array:
 
 def _assignment(likeness: Array) -> NDArray[np.int64]:
     """The column of each row (m,) that makes the sum of likeness (m, columns) greatest."""
-    from scipy.optimize import (
-        linear_sum_assignment,
-    )  # imported late: it would double the time to import this package
+    from scipy.optimize import linear_sum_assignment  # imported late: slow to import
 
     return np.asarray(linear_sum_assignment(-likeness)[1])
 

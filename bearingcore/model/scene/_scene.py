@@ -301,10 +301,7 @@ class Scene:
             table["defect"] = scene_file.from_data(Defect, "defect 1", only)
         table.setdefault("load", {})
         if isinstance(table.get("bearing"), dict):
-            bearing = {
-                "groove_center_distance": None,
-                **table["bearing"],
-            }  # of rollers there is none
+            bearing = {"groove_center_distance": None} | table["bearing"]  # rollers have none
             if "load_deflection_factor" in bearing:
                 bearing["load_deflection_factor"] = mended_factor(
                     bearing["load_deflection_factor"], bearing.get("roller_length")

@@ -32,7 +32,7 @@ from bearingcore.model.statics._shortage import explanation
 from bearingcore.model.statics._status import StaticStatus
 
 BALANCED = 1e-8
-"""Force left on a ball, over the greatest load, up to which its place counts as found."""
+"""Force left on a ball, over the greatest load, up to which its place counts as settled."""
 
 CARRYING = 0.05
 """Part of the heaviest load above which a ball counts as carrying."""
@@ -83,7 +83,7 @@ class BallPositions:
 
     @cached_property
     def converged(self) -> NDArray[np.bool_]:
-        """(n,) True where there is one equilibrium and it was found."""
+        """(n,) True where there is one equilibrium, and the solver reached it."""
         return self.status == StaticStatus.CONVERGED
 
     def term(self, name: str) -> Array:

@@ -114,7 +114,7 @@ class Equilibrium:
 
     @cached_property
     def converged(self) -> NDArray[np.bool_]:
-        """(n,) True where there is one equilibrium and it was found."""
+        """(n,) True where there is one equilibrium, and the solver reached it."""
         return self.status == StaticStatus.CONVERGED
 
     @property

@@ -86,7 +86,7 @@ class Maps:
 
     @cached_property
     def converged(self) -> NDArray[np.bool_]:
-        """(m, n) True where there is one equilibrium and it was found."""
+        """(m, n) True where there is one equilibrium, and the solver reached it."""
         return self.status == StaticStatus.CONVERGED
 
     def term(self, name: str) -> Array:

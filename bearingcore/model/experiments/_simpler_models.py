@@ -12,7 +12,6 @@ import numpy as np
 from bearingcore.common import Array, ResultTable, shown_as_table, table_of, with_prefix
 from bearingcore.model.dynamics import (
     Motion,
-    common_ball_passes,
     compare_motions,
     highest_natural_frequency,
     orbit,
@@ -266,8 +265,6 @@ class _Measure:
 
     def _orbit(self) -> Alternative:
         name, motion = "periodic orbit", self.own
-        if common_ball_passes(self.scene) is None:
-            return self._refused(name, "the motion never repeats itself")
         began = time.thread_time()
         answer = orbit(self.scene, step_rate=motion.step_rate, most_steps=MOST_CALLS // 4)
         seconds = time.thread_time() - began

@@ -129,42 +129,35 @@ def own_rows(bearing: Bearing) -> tuple[Bearing, ...]:
 @lru_cache(maxsize=256)
 def contacts(bearing: Bearing) -> kernels.Contacts:
     """All contacts of a bearing."""
-    rows = bearing.all_rows
-    bearings = [bearing.of_row(k) for k in range(len(rows))]
+    bearings = own_rows(bearing)
     counts = [row_bearing.n_balls for row_bearing in bearings]
-    made = [bearing.kind.contact(row_bearing) for row_bearing in bearings]
+    lines = [bearing.kind.contact(row_bearing) for row_bearing in bearings]
+    rows = list(zip(bearing.all_rows, lines, strict=True))
     lever = bearing.groove_center_radius
 
-    def each(*values: float) -> Array:
+    def each(values: Iterable[float]) -> Array:
         """The values of the rows, once for each of their contacts."""
-        return np.repeat(np.array(values, dtype=float), counts)
+        return np.repeat(np.array(list(values), dtype=float), counts)
 
     return kernels.Contacts(
         angle=np.concatenate(
             [
                 row.turn + row_bearing.ball_spacing * np.arange(row_bearing.n_balls)
-                for row, row_bearing in zip(rows, bearings, strict=True)
+                for row, row_bearing in zip(bearing.all_rows, bearings, strict=True)
             ]
         ),
-        relative_speed=each(*(bearing.pace(k) for k in range(len(rows)))),
-        arm=each(
-            *(
-                (row.place + row.facing * part.beyond) / lever
-                for row, part in zip(rows, made, strict=True)
-            )
-        ),
-        reach=each(*(part.lever / lever for part in made)),
-        line_r=each(*(math.cos(part.angle) for part in made)),
-        line_z=each(
-            *(row.facing * math.sin(part.angle) for row, part in zip(rows, made, strict=True))
-        ),
-        fixed=each(*(part.center_distance is None for part in made)).astype(bool),
-        distance=each(*(part.center_distance or 0.0 for part in made)),
-        clearance=each(*(bearing.radial_clearance + row.clearance for row in rows)),
-        offset=each(*(row.offset for row in rows)),
-        room=each(*(part.room for part in made)),
-        factor=each(*(part.factor for part in made)),
-        exponent=each(*(part.exponent for part in made)),
+        relative_speed=each(bearing.pace(k) for k in range(len(rows))),
+        arm=each((row.place + row.facing * line.beyond) / lever for row, line in rows),
+        reach=each(line.lever / lever for line in lines),
+        line_r=each(math.cos(line.angle) for line in lines),
+        line_z=each(row.facing * math.sin(line.angle) for row, line in rows),
+        fixed=each(line.center_distance is None for line in lines).astype(bool),
+        distance=each(line.center_distance or 0.0 for line in lines),
+        clearance=each(bearing.radial_clearance + row.clearance for row, _ in rows),
+        offset=each(row.offset for row, _ in rows),
+        room=each(line.room for line in lines),
+        factor=each(line.factor for line in lines),
+        exponent=each(line.exponent for line in lines),
         rows=np.array([[balls.start, balls.stop - balls.start] for balls in bearing.balls_of_rows]),
         most_tilt=SMALL_TILT * lever,
     )

@@ -346,7 +346,7 @@ def equilibrium_of(
     if cost := too_many_contacts(balls * angles.size):
         return _not_begun(packed, angles, leads, cost)
     units = packed.units
-    q, loads, stiffness, loaded, status, residual, *_ = kernels.static_states(
+    q, loads, stiffness, loaded, status, residual, _ = kernels.static_states(
         angles, leads, packed.contacts, packed.path, packed.load
     )
     displacement = q / units

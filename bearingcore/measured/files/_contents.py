@@ -181,7 +181,7 @@ def contents_of(table: FileColumns) -> FileContents:
     hours = table.names[0].strip().lower() in ("hour", "hours", "h", "stunde")
     clock = clock_columns(table.columns) if hours or not table.headed else 0
     clock = 0 if any(index < clock for index in table.given) else clock
-    known = recognize(table.names, clock, named, table.name)
+    known = recognize(table.names, clock, named)
     columns, sampling = _columns(table, clock, known)
     columns, choice = _chosen(table, columns, sampling, known, lines)
     picked = list(choice.columns.values()) or [
@@ -235,7 +235,8 @@ def _chosen(
         if words := kind_in_words(columns, table.columns, lines, table.name, name):
             return tuple(columns), Choice({}, "", words)
     choice = choose(columns, moving, why, table.name, known.place)
-    swings = (table.columns < 0.0).any(axis=0) & (table.columns > 0.0).any(axis=0)
+    signs = table.columns < 0.0, table.columns > 0.0
+    swings = np.logical_and(*(np.logical_or.reduce(sign, axis=0) for sign in signs))
     left = [
         index
         for index, column in enumerate(columns)
@@ -400,15 +401,12 @@ def _rate(
 def _unit(
     table: FileColumns, columns: Sequence[Column], picked: Sequence[int], known: Collection
 ) -> Finding[str]:
-    names = {
-        column.unit: column.name for index in reversed(picked) if (column := columns[index]).unit
-    }
-    (unit, name), *others = [*names.items()] or [(None, "")]
-    if unit is not None and not others:
-        return Finding(unit, f"the name “{name}”")
-    unit, *others = facts.units_said(table.remarks, table.texts) or [None]
-    if unit in UNITS and unit is not None and not others:
-        return Finding(unit, "a line of the file")
+    named = [columns[index] for index in picked if columns[index].unit]
+    if len({column.unit for column in named}) == 1:
+        return Finding(named[0].unit or "", f"the name “{named[0].name}”")
+    said = facts.units_said(table.remarks, table.texts)
+    if len(said) == 1 and said[0] is not None and said[0] in UNITS:
+        return Finding(said[0], "a line of the file")
     if of_collection := known.guess("unit", f", which is in {known.unit}"):
         return of_collection
     if not picked:
@@ -446,7 +444,8 @@ def _speed(
     for index, column in enumerate(columns):
         speeds = table.columns[:, index]
         speeds = speeds[np.isfinite(speeds)]
-        if column.role != SPEED or column.unit not in SPEEDS or not speeds.size:
+        unit = column.unit or ""
+        if column.role != SPEED or unit not in SPEEDS or not speeds.size:
             continue
         mean, words = float(speeds.mean()), f"the column “{column.name}”"
         least, most = float(speeds.min()), float(speeds.max())
@@ -454,8 +453,7 @@ def _speed(
             if not (steady := is_steady(speeds)):
                 words += f", which goes from {number(least, 4)} to {number(most, 4)}"
             # a run-up or coast-down is followed, see `Recording.shaft_angle`
-            stated, unit = steady or least >= 0.0, column.unit
-            return Finding(mean * SPEEDS[unit], words, stated, file_unit=unit)
+            return Finding(mean * SPEEDS[unit], words, steady or least >= 0.0, file_unit=unit)
     return facts.shaft_speed_in([*named, *_constants(table)], table.name)
 
 

@@ -83,6 +83,7 @@ def is_steady(values: Array) -> bool:
 
 
 MOST_REMARKS = 100
+"""Lines above the numbers."""
 
 _NUMBER = r"[-+]?\.?\d(?:[\d.,]| (?=\d{3}\b))*(?:[eE][-+]?\d+)?"
 _REMARK = re.compile(

@@ -60,7 +60,7 @@ class Sampling:
     trouble
         a sentence on what is wrong with the times; empty where nothing is.
     reason
-        how the rate was found, in a few words.
+        the origin of the rate, in a few words.
     parts
         rows (last excluded) of each long part without a jump, where there are several.
     """
@@ -326,7 +326,7 @@ def clock_columns(columns: Array) -> int:
 
 
 def clock_time(columns: Array, count: int) -> Array:
-    """Seconds since the first row of `count` columns that `clock_columns` found."""
+    """Seconds since the first row, of the `count` columns of `clock_columns`."""
     hour, minute, second = columns[:, :3].T
     time = 3600.0 * hour + 60.0 * minute + second
     midnights = np.cumsum(np.diff(time, prepend=time[0]) < -43_200.0)

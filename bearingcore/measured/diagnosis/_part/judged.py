@@ -475,7 +475,7 @@ class _Comparison:
         resolution = (combs.frequency[1] - combs.frequency[0]) * FINENESS
         low, high = (turns * combs.shaft for turns in FOREIGN)
         spacing = np.arange(low, high, resolution / FINENESS)
-        # a coarse resolution may have found the lines a little beside their place
+        # a coarse resolution may show the lines a little beside their place
         near_it = np.abs(combs.frequency - part.frequency) <= 0.5 * combs.shaft / TURNS[0]
         row = next(k for k, other in enumerate(combs.envelopes) if other is envelope)
         levels = np.where(near_it, combs.level[row], -np.inf)

@@ -144,12 +144,7 @@ def listen(
     frequency = np.arange(
         min(LOWEST_ORDER, slowest) * shaft, 1.25 * top * shaft, resolution / FINENESS
     )
-    level = np.stack(
-        [
-            comb_level(lines_at(envelope.cleared, envelope.levels.step, frequency))
-            for envelope in listened
-        ]
-    )
+    level = np.stack([comb_level(lines_at(e.cleared, e.levels.step, frequency)) for e in listened])
     combs = Combs(turns, shaft, tuple(listened), frequency, level, {})
     for lines in parts:
         inside = np.flatnonzero(mark_window(combs, lines, slip, stated or shaft, frequency))

@@ -287,14 +287,12 @@
     announce("play")
   })
 
-  // A class of Bokeh to change; undefined where Bokeh has moved it, and all is as Bokeh has it.
-  const bokeh_class = (place, name) => {
-    try { return Bokeh.require(place)[name]?.prototype } catch { /* moved */ }
-  }
-  // Figures have their places some time after their numbers: the event "laid-out".
+  // Figures have their places some time after their numbers: the event "laid-out". None comes where
+  // Bokeh has moved the class.
   const announce_layouts = () => {
-    const plot = bokeh_class("models/plots/plot", "PlotView"), follow = plot?.after_layout
-    let coming
+    let plot, coming
+    try { plot = Bokeh.require("models/plots/plot").PlotView.prototype } catch { return }
+    const follow = plot.after_layout
     if (follow) plot.after_layout = function () {
       follow.call(this)
       clearTimeout(coming)

@@ -7,6 +7,7 @@ import math
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -305,15 +306,17 @@ def compute(job: Work, scene: Scene, speeds: Sweep) -> str:
     whole = sum(one.values.size for one in runs)
     started = time.perf_counter()
     done, shown = 0, "Nothing is shown yet."
+
+    def progress(begun: float, share: float, part: float, _: str) -> None:
+        job.progress(begun + share * part)
+
     for one in runs:
         size = one.values.size
         run = speed_run(
             scene,
             one.in_si[1],
             resolution=RESOLUTION,
-            progress=lambda part, _, done=done, size=size: job.progress(
-                (done + part * size) / whole
-            ),
+            progress=partial(progress, done / whole, size / whole),
             cancelled=job.cancelled,
         )
         if run.cost and not done:

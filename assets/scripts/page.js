@@ -21,10 +21,7 @@
   scene.addEventListener("click", () => unfold_scene(scene.getAttribute("aria-expanded") !== "true"))
   on_event("tab", root, () => unfold_scene(false))
 
-  const show_theme = () => {
-    const dark = root.dataset.theme === "dark"
-    theme.setAttribute("aria-pressed", String(dark))
-  }
+  const show_theme = () => theme.setAttribute("aria-pressed", String(root.dataset.theme === "dark"))
   theme.addEventListener("click", () => announce("turn-theme"))
   on_event("theme", root, show_theme)
   show_theme()

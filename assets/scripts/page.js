@@ -284,8 +284,7 @@
     announce("play")
   })
 
-  // Figures have their places some time after their numbers: the event "laid-out". None comes where
-  // Bokeh has moved the class.
+  // Figures have their places after their numbers: the event "laid-out", unless Bokeh has moved the class.
   const announce_layouts = () => {
     let plot, coming
     try { plot = Bokeh.require("models/plots/plot").PlotView.prototype } catch { return }

@@ -7,6 +7,7 @@ import math
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -294,6 +295,10 @@ def compute(job: Work, scene: Scene, speeds: Sweep) -> str:
     whole = sum(one.values.size for one in runs)
     started = time.perf_counter()
     done, shown = 0, "Nothing is shown yet."
+
+    def progress(begun: float, share: float, part: float, _: str) -> None:
+        job.progress(begun + share * part)
+
     for one in runs:
         size = one.values.size
         try:
@@ -301,7 +306,7 @@ def compute(job: Work, scene: Scene, speeds: Sweep) -> str:
                 scene,
                 one.in_si[1],
                 resolution=RESOLUTION,
-                progress=job.within(done / whole, (done + size) / whole),
+                progress=partial(progress, done / whole, size / whole),
                 cancelled=job.cancelled,
             )
         except FieldError as error:

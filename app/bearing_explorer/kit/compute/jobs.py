@@ -96,14 +96,6 @@ class Work:
         """Report how much is done, 0 to 1."""
         self.part = min(max(float(part), 0.0), 1.0)
 
-    def within(self, begin: float, end: float) -> Callable[[float, str], None]:
-        """Progress of a share of the job, from `begin` to `end` of the whole."""
-
-        def progress(part: float, words: str) -> None:
-            self.progress(begin + (end - begin) * part, words)
-
-        return progress
-
     def cancelled(self) -> bool:
         """True once the job should end, with what it has."""
         if time.monotonic() - self.started > self._longest:

@@ -1,6 +1,7 @@
 """The load distribution: one closed curve, the balls on it, the defect shaded where it is."""
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -33,6 +34,12 @@ def test_the_balls_lie_on_the_curve(name: str, cage_angle_deg: float) -> None:
         assert np.all(balls["load"][own] >= near.min(axis=0) - slack), row
         assert np.all(balls["load"][own] <= near.max(axis=0) + slack), row
     assert balls["angle"].size == bearing.total_balls
+
+
+def test_the_key_names_what_is_drawn() -> None:
+    with_defect, healthy = Results(FAN_RIG), Results(FAN_RIG.healthy())
+    assert "Grey: the bearing without its defect. Shaded: " in LoadDistribution.caption(with_defect)
+    assert not {"Grey", "Shaded"} & set(re.findall(r"(\w+): ", LoadDistribution.caption(healthy)))
 
 
 def test_two_rows_have_a_curve_and_a_name_each() -> None:

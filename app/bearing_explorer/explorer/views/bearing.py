@@ -15,7 +15,7 @@ from bearing_explorer.explorer.plots import compared_curves
 from bearing_explorer.explorer.results import reasons
 from bearing_explorer.explorer.results.defect_shape import race_angles, race_depth, spans
 from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.explorer.views.bearing_handles import handles, let_grab
+from bearing_explorer.explorer.views.bearing_handles import handles, let_grab, points
 from bearing_explorer.explorer.views.comparing_view import ComparingView
 from bearing_explorer.kit.plots import color_scales, layers, style
 from bearing_explorer.kit.plots.element_words import elements
@@ -517,12 +517,7 @@ class Shapes:
         angle = np.array([angle for angle, _ in ticks])
         race, edge = np.array([ring for _, ring in ticks]).reshape(-1, 2).T
         middle = 0.5 * (race + edge)
-        return {
-            "x0": middle * np.cos(angle),
-            "y0": middle * np.sin(angle),
-            "x1": edge * np.cos(angle),
-            "y1": edge * np.sin(angle),
-        }
+        return points(middle, angle, "0") | points(edge, angle, "1")
 
     def angle_marks(self) -> dict[str, np.ndarray]:
         """0°, 90°, 180° and 270° on the outer ring."""
@@ -532,8 +527,7 @@ class Shapes:
         )
         radius = 0.5 * (self.outer_race + deepest + self.rim)
         return {
-            "x": radius * np.cos(np.radians(degrees)),
-            "y": radius * np.sin(np.radians(degrees)),
+            **points(radius, np.radians(degrees)),
             "angle": degrees,
             "turn": np.radians([90.0, 0.0, 90.0, 0.0]),  # along the ring, which can be thin
         }
@@ -553,8 +547,7 @@ class Shapes:
         """Balls where they are, sunk into a defect by their `drop` [m] as much as it is drawn."""
         angle, radius = self.ball_angles(), self.ball_radii(drop)
         return {
-            "x": radius * np.cos(angle),
-            "y": radius * np.sin(angle),
+            **points(radius, angle),
             "radius": np.full(angle.size, self.ball),
             "load": load,
             "number": np.arange(1.0, angle.size + 1.0),
@@ -580,10 +573,8 @@ class Shapes:
             "down": np.where(np.sin(angle) > -1e-9, -NUMBER_UP, NUMBER_UP),
             "room": np.full(angle.size, min(2.0 * math.pi * (start + 0.1) / angle.size, SIDE_ROOM)),
             "most": np.arange(load.size) == np.argmax(np.nan_to_num(load)),
-            "x0": start * np.cos(angle),
-            "y0": start * np.sin(angle),
-            "x1": end * np.cos(angle),
-            "y1": end * np.sin(angle),
+            **points(start, angle, "0"),
+            **points(end, angle, "1"),
             "load": load,
         }
 
@@ -640,8 +631,7 @@ class Shapes:
 def polar(*parts: tuple[NDArray[np.float64], NDArray[np.float64]]) -> dict[str, np.ndarray]:
     """Closed lines given as (angle [rad], radius), one after the other with NaN between."""
     line = layers.with_gaps(parts, "angle", "radius")
-    angle, radius = line["angle"], line["radius"]
-    return {"x": radius * np.cos(angle), "y": radius * np.sin(angle)}
+    return points(line["radius"], line["angle"])
 
 
 def round_down(value: float) -> float:

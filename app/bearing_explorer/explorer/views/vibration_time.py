@@ -9,7 +9,7 @@ import numpy as np
 
 from bearing_explorer.explorer.plots import compared_curves
 from bearing_explorer.explorer.results import reasons
-from bearing_explorer.explorer.results.excerpt import Event, Excerpt
+from bearing_explorer.explorer.results.excerpt import Event
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.views import passage_view
 from bearing_explorer.kit.plots import style
@@ -69,12 +69,13 @@ class VibrationInTime(passage_view.PassageView):
             results, lambda one: (one.excerpt.time, one.excerpt.acceleration)
         )
         start, end = float(shown.time[0]), float(shown.time[-1])
+        static = ((shown.static_time, load) for load in shown.static_load.T[: passage_view.SLOTS])
         sources: Sources = {
             **moved,
             "vibration_loads": passage_view.traces(
                 shown.time, passage_view.slot_columns("load", shown.ball_load)
             ),
-            "vibration_static_loads": static_lines(shown),
+            "vibration_static_loads": with_gaps(static, "time", "load"),
             "vibration_events": event_rows(shown.events, start, end, bearing),
             "vibration_ball_names": passage_view.ball_names(
                 shown.balls[: passage_view.SLOTS], bearing
@@ -127,12 +128,6 @@ def motion_layers(prefix: str) -> list[Layer]:
         ),
         passage_view.event_names(prefix, EVENT_WORDS, ("enters",)),
     ]
-
-
-def static_lines(shown: Excerpt) -> dict[str, np.ndarray]:
-    """The static loads of all balls as one line with gaps."""
-    loads = shown.static_load.T[: passage_view.SLOTS]
-    return with_gaps(((shown.static_time, load) for load in loads), "time", "load")
 
 
 def event_rows(

@@ -111,7 +111,8 @@ class OverviewStiffness(ComparingView):
         states, healthy, now = results.equilibrium, results.reference.equilibrium, results.now
         answers = [states, healthy, *(results.against(one).equilibrium for one in results.compared)]
         first, last, _ = results.stretch
-        pick = [_some(answer.cage_angles.size) for answer in answers]
+        sizes = [answer.cage_angles.size for answer in answers]
+        pick = [np.linspace(0, n - 1, min(n, MOST_POINTS)).round().astype(int) for n in sizes]
         shares = [
             (answer.cage_angles[some] - first) / (last - first)
             for answer, some in zip(answers, pick, strict=True)
@@ -190,8 +191,3 @@ def is_lively(values: NDArray[np.float64], healthy: NDArray[np.float64], scale: 
         return False
     ends = [known.min(), known.max(), *([usual.min(), usual.max()] if usual.size else [])]
     return bool(max(ends) - min(ends) > LIVELY * scale)
-
-
-def _some(size: int) -> NDArray[np.int64]:
-    """At most MOST_POINTS of this many points, both ends among them."""
-    return np.unique(np.linspace(0, size - 1, min(size, MOST_POINTS)).round().astype(np.int64))

@@ -58,18 +58,13 @@ function drawn_part(svg, { frame }) {
   document.body.append(place)
   const whole = svg.getBoundingClientRect(), room = 4  // px around it
   const like = (box, { width, height }) => Math.abs(box.width - width) < 2 && Math.abs(box.height - height) < 2
-  let [left, top, right, bottom] = [whole.width, whole.height, 0, 0]
-  for (const one of svg.querySelectorAll("path, rect, text, image, circle, line")) {
-    const box = one.getBoundingClientRect()
-    if (one.closest("defs, clipPath") || !(box.width + box.height) || like(box, whole) || (frame && like(box, frame.bbox))) continue
-    left = Math.min(left, box.left - room)
-    top = Math.min(top, box.top - room)
-    right = Math.max(right, box.right + room)
-    bottom = Math.max(bottom, box.bottom + room)
-  }
-  svg.remove()
+  const boxes = [...svg.querySelectorAll("path, rect, text, image, circle, line")]
+    .filter((one) => !one.closest("defs, clipPath")).map((one) => one.getBoundingClientRect())
+    .filter((box) => box.width + box.height && !like(box, whole) && !(frame && like(box, frame.bbox)))
   place.remove()
-  ;[left, top, right, bottom] = [Math.max(left, 0), Math.max(top, 0), Math.min(right, whole.width), Math.min(bottom, whole.height)]
+  const least = (side) => Math.max(0, Math.min(...boxes.map((box) => box[side])) - room)
+  const most = (side, end) => Math.min(end, Math.max(...boxes.map((box) => box[side])) + room)
+  const left = least("left"), top = least("top"), right = most("right", whole.width), bottom = most("bottom", whole.height)
   return right > left && bottom > top ? { left, top, wide: Math.ceil(right - left), high: Math.ceil(bottom - top) }
     : { left: 0, top: 0, wide: whole.width, high: whole.height }
 }

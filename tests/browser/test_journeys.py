@@ -1,4 +1,4 @@
-"""What a person does with the page, from end to end, by what is seen."""
+"""Journeys of a person through the page, from end to end, by what is seen."""
 
 import io
 import math

@@ -248,7 +248,7 @@ def test_what_a_lesson_asks_and_how_it_was_answered_are_on_the_screen(
             if not projected:
                 continue
             assert page.locator(".prediction label span").evaluate_all(BROKEN) == 0
-            words = page.locator(".words").bounding_box()
+            words = page.locator(".lesson .words").first.bounding_box()
             assert words is not None
             assert words["height"] <= 150.0, "a paragraph and its question"
             for view in page.locator(".watched").filter(has=page.locator("canvas:visible")).all():

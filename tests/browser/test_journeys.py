@@ -1,4 +1,4 @@
-"""What a person does with the page, from end to end, by what is seen."""
+"""Journeys of a person through the page, from end to end, by what is seen."""
 
 import io
 import math
@@ -190,7 +190,7 @@ def test_two_tabs_in_a_hurry_are_both_whole(visitor: Visitor) -> None:
         visitor.go_to(tab)
         cards, figures, *_ = TABS[tab]
         visitor.wait(lambda figures=figures: len(visitor.figures()) >= figures)  # type: ignore[misc]
-        assert visitor.main.get_by_role("heading", level=2).count() == cards
+        expect(visitor.main.get_by_role("heading", level=2)).to_have_count(cards)
         assert "blank" not in visitor.figures()
 
 

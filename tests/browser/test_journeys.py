@@ -751,7 +751,7 @@ def test_back_leads_to_the_tab_part_and_lesson_that_was_open(visitor: Visitor) -
     expect(title).to_have_text(second)
     visitor.wait(lambda: "extent_deg=" not in visitor.page.url)  # with its own scene
     visitor.press("Close the lessons")
-    for _ in range(2):  # a step for each of the two lessons
+    for _ in range(3):  # a step each time that a lesson began
         visitor.press("Undo", visitor.scene)
     expect(visitor.box("Length of the defect")).to_have_value("20")
 

@@ -11,6 +11,7 @@ import io
 import json
 import re
 import warnings
+import zlib
 from collections.abc import Callable, Sequence
 from typing import Any, cast
 
@@ -51,6 +52,9 @@ def read(name: str, content: bytes, most_numbers: int, most_columns: int) -> Ans
             return {"inside": names}, np.empty((0, 0))
         about, columns = read(names[0], content, most_numbers, most_columns)
         return {"name": f"{name.removesuffix('/' + names[0])}/{names[0]}", **about}, columns
+    if content[:2] == b"\x1f\x8b":
+        name = re.sub(r"(?i)\.gz$", "", name)
+        return read(name, _gunzipped(name, content), most_numbers, most_columns)
     if content[:4] in (b"RIFF", b"RIFX", b"RF64"):
         return _wav(name, content, most_numbers, most_columns)
     variables = Variables()
@@ -109,6 +113,18 @@ def _need(package: str, name: str, kind: str) -> None:
             f"installed (pip install {package}); else export it as CSV from the program that "
             "wrote it",
         )
+
+
+def _gunzipped(name: str, content: bytes) -> bytes:
+    """Unpack what gzip packed, up to the size that is allowed."""
+    try:
+        unpacked = zlib.decompressobj(wbits=31).decompress(content, libraries.MOST_UNPACKED + 1)
+    except zlib.error:
+        raise checks.refuse("file", name, "a whole file of gzip") from None
+    if len(unpacked) > libraries.MOST_UNPACKED:
+        most = f"one that holds at most {libraries.MOST_UNPACKED >> 20} MB unpacked"
+        raise checks.refuse("file", name, most)
+    return unpacked
 
 
 def _json(content: bytes) -> Any:

@@ -6,6 +6,7 @@ Fields of structs are named as in MATLAB: "bearing.gs", "runs(2).gs", "parts{3}"
 
 from __future__ import annotations
 
+import contextlib
 import importlib.util
 import io
 import json
@@ -116,15 +117,14 @@ def _need(package: str, name: str, kind: str) -> None:
 
 
 def _gunzipped(name: str, content: bytes) -> bytes:
-    """Unpack what gzip packed, up to the size that is allowed."""
-    try:
-        unpacked = zlib.decompressobj(wbits=31).decompress(content, libraries.MOST_UNPACKED + 1)
-    except zlib.error:
-        raise checks.refuse("file", name, "a whole file of gzip") from None
-    if len(unpacked) > libraries.MOST_UNPACKED:
-        most = f"one that holds at most {libraries.MOST_UNPACKED >> 20} MB unpacked"
-        raise checks.refuse("file", name, most)
-    return unpacked
+    """Unpack what gzip packed."""
+    unpacking = zlib.decompressobj(wbits=31)
+    with contextlib.suppress(zlib.error):
+        unpacked = unpacking.decompress(content, libraries.MOST_UNPACKED)
+        if unpacking.eof:
+            return unpacked
+    most = libraries.MOST_UNPACKED >> 20
+    raise checks.refuse("file", name, f"a whole file of gzip, at most {most} MB unpacked")
 
 
 def _json(content: bytes) -> Any:

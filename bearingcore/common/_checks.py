@@ -45,11 +45,6 @@ def _is_number(value: object) -> bool:
     return isinstance(value, SupportsFloat) and not isinstance(value, bool | np.bool_ | str)
 
 
-def _error(value: object) -> type[FieldError]:
-    """Return the type of error for a value: FieldTypeError if it is no number."""
-    return FieldError if _is_number(value) else FieldTypeError
-
-
 def real_number(
     field: str,
     value: SupportsFloat,
@@ -76,7 +71,8 @@ def real_number(
                 return x
     except (TypeError, ValueError, OverflowError):
         pass
-    raise _error(shown)(field, shown, Interval(at_least, at_most, above, below, note), unit)
+    error = FieldError if _is_number(shown) else FieldTypeError
+    raise error(field, shown, Interval(at_least, at_most, above, below, note), unit)
 
 
 def keep(part: object, **values: object) -> None:

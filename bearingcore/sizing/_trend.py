@@ -225,11 +225,10 @@ def trend(
         checks.instance("recordings", recording, Recording, "a sequence of Recording")
         checks.choice(f"direction of {recording.name}", along, recording.directions)
     last = recordings[-1]
-    chosen = band
-    if chosen is None:
-        chosen = _impulsive(last, bearing, _known_speed(_speed(last, shaft_speed)), along)
-    low = checks.real_number("lower end of the band", chosen[0], above=0.0, unit="Hz")
-    high = checks.real_number("upper end of the band", chosen[1], above=low, unit="Hz")
+    if band is None:
+        band = _impulsive(last, bearing, _known_speed(_speed(last, shaft_speed)), along)
+    low = checks.real_number("lower end of the band", band[0], above=0.0, unit="Hz")
+    high = checks.real_number("upper end of the band", band[1], above=low, unit="Hz")
     points: list[TrendPoint] = []
     for recording in recordings:
         speed = _speed(recording, shaft_speed)

@@ -114,13 +114,11 @@ def kurtogram(signal: ArrayLike, sample_rate: float, narrowest: float = 0.0) -> 
         raise checks.refuse("signal", "the same number throughout", "a signal")
     duration = len(samples) / rate
     least = max(least, FEWEST * PIECES / duration)
-    split_into = {parts: split(rate, least, (parts,)) for parts in BAND_COUNTS}
-    bands = [band for level in split_into.values() for band in level]
-    envelopes = squared_envelopes(samples, rate, bands, math.inf, loudest=math.inf)
+    numbers = {band: parts for parts in BAND_COUNTS for band in split(rate, least, (parts,))}
+    envelopes = squared_envelopes(samples, rate, list(numbers), math.inf, loudest=math.inf)
     whole, density = periodogram(samples, rate, detrend="constant")
     kept = tuple(envelope.band for envelope in envelopes)
     widths = np.array([band.high - band.low for band in kept])
-    numbers = {band: parts for parts, level in split_into.items() for band in level}
     return Kurtogram(
         kept,
         np.array([numbers[band] for band in kept]),

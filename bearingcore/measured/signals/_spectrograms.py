@@ -17,7 +17,6 @@ OVERLAP = 0.75
 FEWEST_SEGMENTS = 4
 """That fit into a signal one after the other, at least."""
 
-
 MOST_IN_ANGLE = 20_000_000
 """Samples equally far apart in angle that are made at most: some gigabytes."""
 

@@ -132,11 +132,8 @@ def _greatest(scene: Scene) -> _Gyroscopic | None:
     state = ball_positions(scene, default_cage_angles(scene, _ANGLES))
     if not state.converged.any():
         return None
-    rows = [
-        _worst_of_row(scene.bearing.of_row(k), state, balls)
-        for k, balls in enumerate(scene.bearing.balls_of_rows)
-    ]
-    return max(rows)
+    rows = enumerate(scene.bearing.balls_of_rows)
+    return max(_worst_of_row(scene.bearing.of_row(k), state, balls) for k, balls in rows)
 
 
 def _worst_of_row(bearing: Bearing, state: BallPositions, balls: slice) -> _Gyroscopic:

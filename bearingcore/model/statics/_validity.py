@@ -237,7 +237,6 @@ NOT_IN_STATICS_WITH_MASS = (
 
 NO_STATE = "no cage angle has a static equilibrium"
 
-
 Loaded = Sequence[tuple[Bearing, float]]
 """Rows that are unlike, and the greatest load [N] of an element of each; none without a motion."""
 

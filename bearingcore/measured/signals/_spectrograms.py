@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from bearingcore.common import Array, _checks as checks
 from bearingcore.measured.signals._resampling import resample_over_turns
+from bearingcore.recordings._spectrum import check_samples
 
 OVERLAP = 0.75
 """Of neighbouring segments."""
@@ -59,7 +60,7 @@ def spectrogram(signal: ArrayLike, sample_rate: float, resolution: float) -> Spe
     rate = checks.real_number("sample_rate", sample_rate, above=0.0, unit="Hz")
     step = checks.real_number("resolution", resolution, above=0.0, at_most=rate / 16.0, unit="Hz")
     length = round(rate / step)
-    samples = _row(signal, FEWEST_SEGMENTS * length)
+    samples = check_samples(signal, FEWEST_SEGMENTS * length, "in a row", (1,))
     hop = max(1, round((1.0 - OVERLAP) * length))
     transform = ShortTimeFFT(
         hann(length, sym=False), hop, rate, fft_mode="onesided2X", scale_to="psd"
@@ -105,7 +106,7 @@ def order_map(
         raise checks.refuse("speed", "not above 0 everywhere", "speeds above 0 Hz")
     if len(times) != len(speeds) or (np.diff(times) <= 0.0).any():
         raise checks.refuse("time", "not rising with the speeds", "a later time for each speed")
-    samples = _row(signal, 1)
+    samples = check_samples(signal, 1, "in a row", (1,))
     at = np.arange(len(samples)) / rate
     each = np.interp(at, times, speeds)
     turns = np.concatenate([[0.0], np.cumsum(0.5 * (each[1:] + each[:-1]))]) / rate
@@ -116,15 +117,3 @@ def order_map(
         raise checks.refuse("speed", f"{slowest:.2g} Hz", allowed)
     per_turn = next_fast_len(math.ceil(rate / slowest), real=True)
     return spectrogram(resample_over_turns(samples, turns, per_turn), per_turn, resolution)
-
-
-def _row(signal: ArrayLike, least: int) -> Array:
-    """The signal as floats (n,), or ValueError where it is no row of so many finite numbers."""
-    samples = np.asarray(signal, dtype=float)
-    if samples.ndim != 1 or len(samples) < least:
-        raise checks.refuse(
-            "signal", f"of shape {samples.shape}", f"a row of {least} samples at least"
-        )
-    if not np.isfinite(samples).all():
-        raise checks.refuse("signal", "not finite everywhere", "finite numbers")
-    return samples

@@ -140,8 +140,10 @@ def _multistep(rates: Rates, time: Array) -> Array:
     """Scaled states by LSODA at times [s]. It finds jumps by itself: its order falls."""
     from scipy.integrate import odeint  # imported late: slow to import
 
-    limits = {"rtol": TOLERANCE, "atol": TOLERANCE, "mxstep": 1_000_000}
-    return np.asarray(odeint(rates, rates.start, time, tfirst=True, **limits))
+    states: Array = odeint(
+        rates, rates.start, time, tfirst=True, rtol=TOLERANCE, atol=TOLERANCE, mxstep=1_000_000
+    )
+    return states
 
 
 def _embedded_pair(rates: Rates, time: Array) -> Array:

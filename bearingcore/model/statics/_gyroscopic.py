@@ -86,9 +86,8 @@ def gyroscopic_limit(scene: Scene) -> Limit | None:
     except ValueError as error:
         return unknown(GYROSCOPIC_MOMENT, LIMIT, "", str(error))
     if worst is None:
-        return unknown(
-            GYROSCOPIC_MOMENT, LIMIT, "", "no cage angle has a static state with centrifugal load"
-        )
+        why = "no cage angle has a static state with centrifugal load"
+        return unknown(GYROSCOPIC_MOMENT, LIMIT, "", why)
     if worst.share < 1e-9:
         return None
     fact = (

@@ -249,7 +249,7 @@ REFUSED: dict[str, list[tuple[Callable[[], object], str]]] = {
         (lambda: core.kurtogram(np.zeros(4096), 25_600.0), "same number throughout"),
         (lambda: core.kurtogram(np.zeros((4096, 2)), 25_600.0), r"\(4096, 2\)"),
         (lambda: core.kurtogram(np.zeros(4096), 0.0), "sample_rate"),
-        (lambda: spectrogram(np.zeros(1000), 6000.0, 10.0), "row of 2400 samples"),
+        (lambda: spectrogram(np.zeros(1000), 6000.0, 10.0), "at least 2400 samples"),
         (lambda: spectrogram(np.full(9000, NAN), 6000.0, 10.0), "finite"),
         (lambda: order_map(TIME, 6000.0, [0.0], [0.0]), "speeds above 0"),
         (lambda: order_map(TIME, 6000.0, [8.0, 0.0], [30.0, 20.0]), "a later time for each speed"),

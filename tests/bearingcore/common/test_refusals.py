@@ -16,7 +16,6 @@ import pytest
 import bearingcore as core
 from bearingcore.bearings import Row, bearing_of_frequencies
 from bearingcore.bearings._hertz import race_contact
-from bearingcore.bearings._kinds import kind_named
 from bearingcore.common import LARGEST_TEXT
 from bearingcore.errors import FieldError
 from bearingcore.measured.files._text import read_text
@@ -83,7 +82,7 @@ REFUSED: dict[str, list[tuple[Callable[[], object], str]]] = {
         (lambda: PAIR.replace(rows=(Row(), Row(inner_groove_radius=5e-3))), "row 2: inner_groove"),
     ],
     "kinds": [
-        (lambda: kind_named("thrust"), "kind is 'thrust'"),
+        (lambda: dataclasses.replace(MOTOR, kind="thrust"), "kind is 'thrust'"),
         (lambda: dataclasses.replace(MOTOR, kind="rows"), "^(number of )?rows "),
         (lambda: dataclasses.replace(MOTOR, kind="self-aligning"), "^(number of )?rows "),
         (lambda: dataclasses.replace(MOTOR, kind="roller"), "^roller_length "),

@@ -112,7 +112,7 @@ def _turn_words(worst: _Gyroscopic) -> str:
 
 
 def _speed_of_limit(scene: Scene, share: float) -> float:
-    """Shaft speed [rad/s] at which T/Q_o reaches the limit; NaN where none is found nearby."""
+    """Shaft speed [rad/s] at which T/Q_o reaches the limit; NaN where none is nearby."""
     speed = scene.shaft_speed
     for _ in range(_ROUNDS):
         speed *= math.sqrt(LIMIT / share)
@@ -127,7 +127,7 @@ def _speed_of_limit(scene: Scene, share: float) -> float:
 
 
 def _greatest(scene: Scene) -> _Gyroscopic | None:
-    """Of all balls of all rows at some cage angles; None where no state is known."""
+    """The greatest of all balls of all rows at some cage angles; None where no state is known."""
     state = ball_positions(scene, default_cage_angles(scene, _ANGLES))
     if not state.converged.any():
         return None

@@ -136,7 +136,7 @@ def state_of(
     state: Equilibrium | None,
     solve: Callable[..., Equilibrium] | None = None,
 ) -> Equilibrium:
-    """A static equilibrium that is given for a scene, else what `over_all_positions` finds.
+    """The equilibrium of a scene that was passed, else that of `over_all_positions`.
 
     ValueError for the equilibrium of another scene.
     """

@@ -358,7 +358,7 @@ def _centrifugal_share(bearing: Bearing, balls: slice, scene: Scene, state: Equi
 
 
 def _centrifugal_change(scene: Scene) -> Limit:
-    """Change of loads and stiffness by centrifugal load, found by solving with it."""
+    """Change of loads and stiffness by centrifugal load, by solving with it."""
     force = scene.bearing.centrifugal_load(scene.shaft_speed)
     name, limit = "change by centrifugal force", CENTRIFUGAL_CHANGE
     if words := scene.bearing.kind.mass_unknown:

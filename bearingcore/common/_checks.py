@@ -133,3 +133,15 @@ def finite(field: str, values: ArrayLike, unit: str, columns: int | None = None)
     if not np.all(np.isfinite(row)):
         raise refuse(field, reprlib.repr(values), allowed)
     return row
+
+
+def samples_of(
+    signal: ArrayLike, least: int, why: str, dimensions: tuple[int, ...] = (1, 2)
+) -> Array:
+    """Return a signal of at least `least` samples as floats; ValueError unless all are finite."""
+    samples: Array = np.asarray(signal, dtype=float)
+    if samples.ndim not in dimensions or len(samples) < least:
+        raise refuse("signal", f"of shape {samples.shape}", f"at least {least} samples, {why}")
+    if not np.all(np.isfinite(samples)):
+        raise refuse("signal", "not finite everywhere", "finite numbers")
+    return samples

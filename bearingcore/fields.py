@@ -47,7 +47,7 @@ class Range:
         )
 
     def holds(self, value: float) -> bool:
-        """Whether the slider reaches `value`, or it is left open (NaN)."""
+        """Return True if the slider reaches `value`, or if it is left open (NaN)."""
         return self.least <= value <= self.most or math.isnan(value)
 
     def around(self, value: float) -> Range:
@@ -120,7 +120,7 @@ class Field:
         floor of a defect), "pair" (a bearing of two rows), "second" (the second row of a bearing),
         or "" for a number of the page alone.
     label
-        what it is called.
+        name in words.
     symbol
         with an underscore before what stands below: "D_b".
     shown_unit
@@ -132,9 +132,9 @@ class Field:
     meaning
         what it is, in a sentence.
     optional
-        whether it may be left open: None in the scene.
+        True if it may be left open: None in the scene.
     whole
-        whether it is a whole number.
+        True if it is a whole number.
     sweep_range
         where maps over it begin and end if that shows more than its whole slider.
     reverse_label

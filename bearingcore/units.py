@@ -82,7 +82,7 @@ UNITS: Mapping[str, Unit] = {
 
 def units_like(unit: str) -> list[str]:
     """Units of the same kind as `unit`, itself among them."""
-    return [name for name, one in UNITS.items() if one.si == UNITS[unit].si]
+    return [name for name, other in UNITS.items() if other.si == UNITS[unit].si]
 
 
 def factor_between(given: str, wanted: str) -> float | None:

@@ -54,7 +54,6 @@ TIGHTEST = 1.02
 ROLLER_FILL = (0.72, 0.90, 0.815, 0.03)
 """Rollers of a row over those that would touch each other: least, most, usual and its spread."""
 
-
 TAPERED_FILL = 0.90
 """The same of tapered rollers, in a cage of pressed steel: assumed."""
 
@@ -107,7 +106,6 @@ TAPERED_BEARINGS, SAME_ROLLERS, TAPERED_SPREAD = 78, 57, 0.0347
 """Tapered bearings with ratings of two makers; how many get the same number of rollers from both,
 the others get one more or less; and the relative difference of roller over pitch diameter that 19
 of 20 stay below."""
-
 
 SPINDLE_BEARINGS, SAME_BALLS, ONE_OFF = 59, 16, 28
 """Bearings at 15° of a maker of spindle bearings (SNFA), of how many the number of balls is the

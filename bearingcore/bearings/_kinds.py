@@ -15,16 +15,13 @@ KINDS: dict[str, Kind] = {kind.name: kind for kind in (BALL, SELF_ALIGNING, ROWS
 """By name."""
 
 
-def kind_named(name: object) -> Kind:
-    """The kind of a name; ValueError where there is none."""
-    return KINDS[checks.choice("kind", name, tuple(KINDS))]
-
-
 def kind_of(bearing: InRows) -> Kind:
-    """The kind that a bearing is made with, by itself, by its name, or by its numbers."""
+    """The kind of a bearing; ValueError where its `kind` is no name of one."""
     if isinstance(bearing.kind, Kind):
         return bearing.kind
-    return kind_named(bearing.kind) if bearing.kind else recognized(bearing)
+    if not bearing.kind:
+        return recognized(bearing)
+    return KINDS[checks.choice("kind", bearing.kind, tuple(KINDS))]
 
 
 def recognized(bearing: InRows) -> Kind:

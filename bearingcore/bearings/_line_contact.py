@@ -50,15 +50,11 @@ class RollerContact:
         "outer" or "inner".
     curvature_sum [1/m], length [m]
         Σρ and l.
-    youngs_modulus [Pa], poisson
-        of roller and ring.
     """
 
     race: str
     curvature_sum: float
     length: float
-    youngs_modulus: float = STEEL_MODULUS
-    poisson: float = STEEL_POISSON
 
     ellipse_ratio = math.inf
     """A line is an ellipse without end."""
@@ -70,8 +66,8 @@ class RollerContact:
 
     @property
     def modulus(self) -> float:
-        """E/(1 − ν²) [Pa]."""
-        return self.youngs_modulus / (1.0 - self.poisson**2)
+        """E/(1 − ν²) [Pa] of roller and ring."""
+        return STEEL_MODULUS / (1.0 - STEEL_POISSON**2)
 
     def greatest_pressure(self, load: ArrayLike) -> Array:
         """Pressure [Pa] in the middle at a load [N]: p = (Q E Σρ/(2 π l (1 − ν²)))^½."""

@@ -66,9 +66,9 @@ class Numbers(Kinematics):
     @property
     def is_hybrid(self) -> bool:
         """True where the balls are of another material than the rings."""
-        own = (self.ball_youngs_modulus, self.ball_poisson)
+        balls = (self.ball_youngs_modulus, self.ball_poisson)
         rings = (self.youngs_modulus, self.poisson)
-        return any(one not in (None, ring) for one, ring in zip(own, rings, strict=True))
+        return any(ball not in (None, ring) for ball, ring in zip(balls, rings, strict=True))
 
     @property
     def is_drawn(self) -> bool:

@@ -101,7 +101,7 @@ class Tapered(Roller):
         if len(bearing.all_rows) == 1:
             return "tapered"
         name = PAIR_PREFIX + self.arrangement(bearing)
-        return name if name in [one.name for one in self.variants] else ""
+        return name if name in [offered.name for offered in self.variants] else ""
 
     def inputs(self, bearing: InRows) -> tuple[str, ...]:
         paired = ("row_distance", "preload") if self.arrangement(bearing) else ()

@@ -45,11 +45,6 @@ def _is_number(value: object) -> bool:
     return isinstance(value, SupportsFloat) and not isinstance(value, bool | np.bool_ | str)
 
 
-def _error(value: object) -> type[FieldError]:
-    """Return the type of error for a value: FieldTypeError if it is no number."""
-    return FieldError if _is_number(value) else FieldTypeError
-
-
 def real_number(
     field: str,
     value: SupportsFloat,
@@ -76,7 +71,8 @@ def real_number(
                 return x
     except (TypeError, ValueError, OverflowError):
         pass
-    raise _error(shown)(field, shown, Interval(at_least, at_most, above, below, note), unit)
+    error = FieldError if _is_number(shown) else FieldTypeError
+    raise error(field, shown, Interval(at_least, at_most, above, below, note), unit)
 
 
 def keep(part: object, **values: object) -> None:
@@ -139,12 +135,13 @@ def finite(field: str, values: ArrayLike, unit: str, columns: int | None = None)
     return row
 
 
-def row(field: str, values: ArrayLike, least: int) -> Array:
-    """Return values as floats (n,); ValueError where they are no row of so many finite numbers."""
-    numbers = np.asarray(values, dtype=float)
-    if numbers.ndim != 1 or len(numbers) < least:
-        allowed = f"a row of {least} samples at least"
-        raise refuse(field, f"of shape {numbers.shape}", allowed)
-    if not np.isfinite(numbers).all():
-        raise refuse(field, "not finite everywhere", "finite numbers")
-    return numbers
+def samples_of(
+    signal: ArrayLike, least: int, why: str, dimensions: tuple[int, ...] = (1, 2)
+) -> Array:
+    """Return a signal of at least `least` samples as floats; ValueError unless all are finite."""
+    samples: Array = np.asarray(signal, dtype=float)
+    if samples.ndim not in dimensions or len(samples) < least:
+        raise refuse("signal", f"of shape {samples.shape}", f"at least {least} samples, {why}")
+    if not np.all(np.isfinite(samples)):
+        raise refuse("signal", "not finite everywhere", "finite numbers")
+    return samples

@@ -28,6 +28,6 @@ else:
         def __get__(self, instance: Any, owner: type | None = None) -> Any:
             if instance is None:
                 return self
-            # where it is known, it is found in there before this is asked
+            # Python looks there first, so that this runs once
             value = vars(instance)[self._name] = self.func(instance)
             return value

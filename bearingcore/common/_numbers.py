@@ -88,9 +88,9 @@ def percent(share: float, digits: int = 3) -> str:
 
 
 def percent_off(share: float) -> str:
-    """By how much something is off, as percent with its sign: "+0.3 %", "−1.2 %"; nothing: "0.0 %".
+    """A deviation as percent with its sign, to a tenth: "+0.3 %", "−1.2 %"; nothing is "0.0 %".
 
-    To a tenth of a percent.
+    NaN and infinity have NO_VALUE.
     """
     if not math.isfinite(share):
         return NO_VALUE

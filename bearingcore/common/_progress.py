@@ -10,7 +10,7 @@ T = TypeVar("T")
 Progress = Callable[[float, str], object]
 """Called with the part done, 0 to 1, and what is being done."""
 Cancelled = Callable[[], bool]
-"""Asked between points; True ends the work with what was found so far."""
+"""Asked between points; True ends the work with the results so far."""
 
 
 class CancelledError(RuntimeError):

@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bearingcore.common import _checks as checks
-from bearingcore.units import UNITS, factor_between
+from bearingcore.units import UNITS, factor_between, units_like
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -76,9 +76,7 @@ class Column:
             return self
         factor = factor_between(self.unit, unit)
         if factor is None:
-            si = UNITS[self.unit].si
-            known = ", ".join(name for name, other in UNITS.items() if other.si == si)
-            raise checks.refuse(f"unit of {self.name}", unit, known)
+            raise checks.refuse(f"unit of {self.name}", unit, ", ".join(units_like(self.unit)))
         return Column(self.name, unit, self.values * factor, self.meaning)
 
 

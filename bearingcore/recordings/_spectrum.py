@@ -83,7 +83,7 @@ def spectrum(
     rate = checks.real_number("sample_rate", sample_rate, above=0.0, unit="Hz")
     step = checks.real_number("resolution", resolution, above=0.0, at_most=0.5 * rate, unit="Hz")
     segment = round(rate / step)
-    samples = _samples(signal, segment, "one segment")
+    samples = checks.samples_of(signal, segment, "one segment")
     # one signal after another in memory: a third faster than along the first axis
     rows = np.ascontiguousarray(samples.T)
     frequency, density = welch(rows, fs=rate, nperseg=segment)
@@ -128,7 +128,7 @@ def envelope_spectrum(
         raise checks.refuse("band", band, "two frequencies [Hz]") from None
     low = checks.real_number("lower end of the band", low, above=0.0, below=0.5 * rate, unit="Hz")
     high = checks.real_number("upper end of the band", high, above=low, below=0.5 * rate, unit="Hz")
-    samples = _samples(signal, 64, "a filter's length")
+    samples = checks.samples_of(signal, 64, "a filter's length")
     sections = butter(4, (low, high), "bandpass", fs=rate, output="sos")
     inside = sosfiltfilt(sections, samples, axis=0)
     size = next_fast_len(len(inside))  # a length with a great prime factor would take for ever
@@ -136,15 +136,3 @@ def envelope_spectrum(
     if resolution is None:
         resolution = rate / len(samples)
     return spectrum(envelope - envelope.mean(axis=0), rate, resolution)
-
-
-def _samples(signal: ArrayLike, least: int, why: str) -> Array:
-    """The signal as floats, or ValueError for a wrong shape, number, or a sample not finite."""
-    samples = np.asarray(signal, dtype=float)
-    if samples.ndim not in (1, 2) or len(samples) < least:
-        raise checks.refuse(
-            "signal", f"of shape {samples.shape}", f"at least {least} samples, {why}"
-        )
-    if not np.all(np.isfinite(samples)):
-        raise checks.refuse("signal", "not finite everywhere", "finite numbers")
-    return samples

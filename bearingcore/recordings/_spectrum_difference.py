@@ -81,8 +81,7 @@ def lines_that_count(lines: Spectrum, band: float) -> NDArray[np.bool_]:
 def _strong(density: Array) -> NDArray[np.bool_]:
     """(m, k) where a direction moves at all and is within 40 dB of its best."""
     level = density.max(axis=0)
-    strong: NDArray[np.bool_] = (density > COUNTS * level) & (level > 1e-12 * level.max())
-    return strong
+    return np.asarray((density > COUNTS * level) & (level > 1e-12 * level.max()))
 
 
 def third_octave_edges(low: float, high: float) -> Array:

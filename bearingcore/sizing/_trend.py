@@ -225,16 +225,14 @@ def trend(
         checks.instance("recordings", recording, Recording, "a sequence of Recording")
         checks.choice(f"direction of {recording.name}", along, recording.directions)
     last = recordings[-1]
-    chosen = band
-    if chosen is None:
-        chosen = _impulsive(last, bearing, _known_speed(_speed(last, shaft_speed)), along)
-    low = checks.real_number("lower end of the band", chosen[0], above=0.0, unit="Hz")
-    high = checks.real_number("upper end of the band", chosen[1], above=low, unit="Hz")
-    points: list[TrendPoint] = []
+    if band is None:
+        band = _impulsive(last, bearing, _known_speed(_speed(last, shaft_speed)), along)
+    low = checks.real_number("lower end of the band", band[0], above=0.0, unit="Hz")
+    high = checks.real_number("upper end of the band", band[1], above=low, unit="Hz")
+    done: tuple[TrendPoint, ...] = ()
     for recording in recordings:
         speed = _speed(recording, shaft_speed)
-        points.append(trend_point(recording, bearing, speed, along, (low, high)))
-        done = tuple(points)
+        done += (trend_point(recording, bearing, speed, along, (low, high)),)
         so_far = Trend(done, along, (low, high), baseline if baseline < len(done) else 0)
         if not goes_on(so_far, len(recordings)):
             break

@@ -49,9 +49,6 @@ class BallPasses:
         mean coefficient of each harmonic and direction; twice its size is the amplitude.
     power : (N, d)
         mean squared size of the coefficients of single passes.
-    prominence
-        how far the ball-pass lines are above those of other frequencies close by, in standard
-        deviations of the latter.
     begins : (passes + 1,) [s] or None
         when the passes begin, and the last one ends, where the cage was followed; None where it
         turns steadily.
@@ -61,7 +58,6 @@ class BallPasses:
     n_passes: int
     harmonics: NDArray[np.complex128]
     power: Array
-    prominence: float
     begins: Array | None = None
 
     @property
@@ -156,9 +152,7 @@ def average_passes(
     signal = signal[:kept] - signal[:kept].mean(axis=0)
     pass_up = butter(4, cut, "highpass", fs=sample_rate, output="sos")
     signal = sosfiltfilt(pass_up, signal, axis=0)
-    frequency, prominence = _ball_pass_frequency(
-        signal, sample_rate, nominal, slip, lowest, highest
-    )
+    frequency = _ball_pass_frequency(signal, sample_rate, nominal, slip, lowest, highest)
     # with so many samples a cycle that a spline follows the signal
     factor = max(math.ceil(SAMPLES_A_CYCLE * widest / sample_rate), 1)
     signal, sample_rate = oversampled(signal, factor), factor * sample_rate
@@ -183,7 +177,7 @@ def average_passes(
     mean, power = each.mean(axis=0), (np.abs(each) ** 2).mean(axis=0)
     if turns:
         mean, power = _weighted(each, load_zone_weights(each, turns, slip))
-    return BallPasses(frequency, n_passes, mean, power, prominence, begins)
+    return BallPasses(frequency, n_passes, mean, power, begins)
 
 
 def load_zone_weights(passes: NDArray[np.complex128], turns: float, slip: float) -> Array:
@@ -230,8 +224,8 @@ def _weighted(each: NDArray[np.complex128], weights: Array) -> tuple[NDArray[np.
 
 def _ball_pass_frequency(
     signal: Array, sample_rate: float, nominal: float, slip: float, lowest: float, highest: float
-) -> tuple[float, float]:
-    """The frequency whose harmonics are highest, and their height over the others."""
+) -> float:
+    """The frequency [Hz] whose harmonics are highest."""
     from scipy.fft import next_fast_len
 
     n = len(signal)
@@ -253,11 +247,7 @@ def _ball_pass_frequency(
     trials = nominal + spacing * np.arange(
         -math.ceil(slip * nominal / spacing), math.ceil(slip * nominal / spacing) + 1
     )
-    heights = comb(trials)
-    best = int(heights.argmax())
-    fine = trials[best] + spacing * np.linspace(-1.0, 1.0, 41)
+    fine = trials[comb(trials).argmax()] + spacing * np.linspace(-1.0, 1.0, 41)
     finely = comb(fine)
     near = finely >= finely.max() - 1e-3 * abs(finely.max())
-    spread = 1.4826 * float(np.median(np.abs(heights - np.median(heights))))
-    prominence = float(heights[best] - np.median(heights)) / max(spread, 1e-300)
-    return float(fine[near].mean()), prominence
+    return float(fine[near].mean())

@@ -78,7 +78,9 @@ def signal_faults(samples: Array) -> SignalFaults:
     low, high = float(samples.min()), float(samples.max())
     near = RAIL * (high - low)
     levels, times = np.unique(samples, return_counts=True)
-    step = _step_between(levels, times)
+    if times[times > 1].sum() > 0.5 * times.sum():  # numbers drawn into gaps are no levels
+        levels = levels[times > 1]
+    step = float(np.quantile(np.diff(levels), 0.05)) if len(levels) > 1 else 0.0
     short = 1 + _fewest(step, steps)
     held = np.zeros(len(samples), dtype=bool)
     clipped = 0
@@ -102,13 +104,6 @@ def signal_faults(samples: Array) -> SignalFaults:
 def _spread(dropped: NDArray[np.bool_]) -> float:
     """Share of samples within LOST_REACH of some (n,)."""
     return float((np.convolve(dropped, np.ones(2 * LOST_REACH + 1), "same") > 0.5).mean())
-
-
-def _step_between(levels: Array, times: NDArray[np.int64]) -> float:
-    """Step of the numbers of a signal, from those that occur and how many times each does."""
-    if times[times > 1].sum() > 0.5 * times.sum():  # numbers drawn into gaps are no levels
-        levels = levels[times > 1]
-    return float(np.quantile(np.diff(levels), 0.05)) if len(levels) > 1 else 0.0
 
 
 def _fewest(step: float, differences: Array) -> int:

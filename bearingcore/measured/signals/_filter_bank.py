@@ -27,7 +27,6 @@ LOUDEST_ENVELOPE = 12.0
 """Times its mean that a squared envelope may reach: noise does so once in 160,000, and one great
 blow must not outweigh all the others."""
 
-
 TAPER = 0.01
 """Share of a signal at either end that is faded out, and not listened to."""
 

@@ -220,7 +220,10 @@ def _rms_of_integral(
         drift = legendre.legvander(place, degree)
         motion = added - drift @ np.linalg.lstsq(drift, added, rcond=None)[0]
     turn = 0.5 * math.pi * np.arange(n) / n  # half the phase from sample to sample
-    kept = _share_kept(turn * rate / math.pi, low, high, rate / n)
+    frequency = turn * rate / math.pi
+    outside = np.maximum(np.maximum(low - frequency, frequency - high), 0.0)
+    fading = np.clip(outside / (KEPT_OUTSIDE * (rate / n)) - 1.0, 0.0, 1.0)
+    kept = 0.5 + 0.5 * np.cos(math.pi * fading)
     # the trapezium rule makes tan(turn) of what is turn
     mended = np.divide(np.tan(turn), turn, out=np.ones(n), where=turn > 0.0) ** integrations
     amplitudes = dct(motion, norm="ortho", axis=0) * (kept * mended)[:, None]
@@ -252,13 +255,6 @@ def shaft_share(recording: Recording, shaft_speed: float) -> Array:
             ends = line * (1.0 - SHAFT_WIDTH), line * (1.0 + SHAFT_WIDTH)
             squares += velocity_rms(recording.acceleration, recording.sample_rate, ends) ** 2
     return np.asarray(np.minimum(squares / level.velocity_rms**2, 1.0))
-
-
-def _share_kept(frequency: Array, low: float, high: float, line: float) -> Array:
-    """Share (m,) of amplitudes that is kept: see KEPT_OUTSIDE, `line` [Hz] is 1/duration."""
-    outside = np.maximum(np.maximum(low - frequency, frequency - high), 0.0)
-    fading = np.clip(outside / (KEPT_OUTSIDE * line) - 1.0, 0.0, 1.0)
-    return np.asarray(0.5 + 0.5 * np.cos(math.pi * fading))
 
 
 def severity_zone(velocity: float, machine: str, displacement: float = 0.0) -> str:

@@ -105,18 +105,16 @@ def kurtogram(signal: ArrayLike, sample_rate: float, narrowest: float = 0.0) -> 
 
     rate = checks.real_number("sample_rate", sample_rate, above=0.0, unit="Hz")
     least = checks.real_number("narrowest", narrowest, at_least=0.0, unit="Hz")
-    samples = checks.row("signal", signal, 32 * PIECES)[:MOST_JUDGED]
+    samples = checks.samples_of(signal, 32 * PIECES, "in a row", (1,))[:MOST_JUDGED]
     if not np.ptp(samples):
         raise checks.refuse("signal", "the same number throughout", "a signal")
     duration = len(samples) / rate
     least = max(least, FEWEST * PIECES / duration)
-    split_into = {parts: split(rate, least, (parts,)) for parts in BAND_COUNTS}
-    bands = [band for level in split_into.values() for band in level]
-    envelopes = squared_envelopes(samples, rate, bands, math.inf, loudest=math.inf)
+    numbers = {band: parts for parts in BAND_COUNTS for band in split(rate, least, (parts,))}
+    envelopes = squared_envelopes(samples, rate, list(numbers), math.inf, loudest=math.inf)
     whole, density = periodogram(samples, rate, detrend="constant")
     kept = tuple(envelope.band for envelope in envelopes)
     widths = np.array([band.high - band.low for band in kept])
-    numbers = {band: parts for parts, level in split_into.items() for band in level}
     return Kurtogram(
         kept,
         np.array([numbers[band] for band in kept]),

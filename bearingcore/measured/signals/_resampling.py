@@ -12,7 +12,6 @@ SAMPLES_AROUND = 32
 """Samples of the signal on either side that a new one is made of: flat within 0.01 dB up to 0.45 of
 the sample rate, and 80 dB down from 0.55 on."""
 
-
 OVERSAMPLED = 4
 """Times as many samples through which a spline is laid: then it is right within 0.1 % of power."""
 

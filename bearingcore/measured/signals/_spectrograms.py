@@ -17,7 +17,6 @@ OVERLAP = 0.75
 FEWEST_SEGMENTS = 4
 """That fit into a signal one after the other, at least."""
 
-
 MOST_IN_ANGLE = 20_000_000
 """Samples equally far apart in angle that are made at most: some gigabytes."""
 
@@ -60,7 +59,7 @@ def spectrogram(signal: ArrayLike, sample_rate: float, resolution: float) -> Spe
     rate = checks.real_number("sample_rate", sample_rate, above=0.0, unit="Hz")
     step = checks.real_number("resolution", resolution, above=0.0, at_most=rate / 16.0, unit="Hz")
     length = round(rate / step)
-    samples = checks.row("signal", signal, FEWEST_SEGMENTS * length)
+    samples = checks.samples_of(signal, FEWEST_SEGMENTS * length, "in a row", (1,))
     hop = max(1, round((1.0 - OVERLAP) * length))
     transform = ShortTimeFFT(
         hann(length, sym=False), hop, rate, fft_mode="onesided2X", scale_to="psd"
@@ -106,7 +105,7 @@ def order_map(
         raise checks.refuse("speed", "not above 0 everywhere", "speeds above 0 Hz")
     if len(times) != len(speeds) or (np.diff(times) <= 0.0).any():
         raise checks.refuse("time", "not rising with the speeds", "a later time for each speed")
-    samples = checks.row("signal", signal, 1)
+    samples = checks.samples_of(signal, 1, "in a row", (1,))
     at = np.arange(len(samples)) / rate
     each = np.interp(at, times, speeds)
     turns = np.concatenate([[0.0], np.cumsum(0.5 * (each[1:] + each[:-1]))]) / rate

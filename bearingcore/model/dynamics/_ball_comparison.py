@@ -106,7 +106,9 @@ def compare_motions(
     ValueError
         where a motion did not reach its end.
     """
-    edges = third_octave_edges(min(massless.bandwidth, with_mass.bandwidth))
+    highest = min(massless.bandwidth, with_mass.bandwidth)
+    count = math.floor(3.0 * math.log2(highest / LOWEST_COMPARED) + 1e-9)
+    edges = LOWEST_COMPARED * 2.0 ** (np.arange(max(count, 1) + 1) / 3.0)
     powers = []
     for motion in (massless, with_mass):
         if not motion.completed:
@@ -119,14 +121,7 @@ def compare_motions(
     within = np.asarray((~counts | (np.abs(added) <= budget)).all(axis=1))
     good = len(within) if within.all() else int(np.argmin(within))
     up_to = float(edges[good]) if good else math.nan
-    scene = with_mass.scene
-    return BallComparison(scene, budget, edges, added, up_to)
-
-
-def third_octave_edges(highest: float) -> Array:
-    """[Hz] from LOWEST_COMPARED to at most `highest`."""
-    count = math.floor(3.0 * math.log2(highest / LOWEST_COMPARED) + 1e-9)
-    return LOWEST_COMPARED * 2.0 ** (np.arange(max(count, 1) + 1) / 3.0)
+    return BallComparison(with_mass.scene, budget, edges, added, up_to)
 
 
 def compared_directions(dofs: tuple[str, ...]) -> tuple[str, ...]:

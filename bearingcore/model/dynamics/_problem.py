@@ -42,8 +42,7 @@ class MotionProblem:
 
     def rate(self, t: float, y: Array) -> Array:
         """dy/dt at time t [s], compiled."""
-        rates: Array = kernels.motion_rates(np.array([t]), y[None], 0.0, self.system)
-        return rates[0]
+        return np.asarray(kernels.motion_rates(np.array([t]), y[None], 0.0, self.system)[0])
 
     def kinks(self, duration: float) -> Array:
         """Times [s], rising, at which a ball meets an edge or the floor of a defect."""

@@ -133,6 +133,9 @@ def simulated_record(
     ValueError
         if the motion cannot be computed, with the reason.
     """
+    from scipy.interpolate import make_interp_spline  # imported late: see `spectrum`
+    from scipy.signal import resample_poly
+
     checks.instance("scene", scene, Scene)
     duration = checks.real_number("duration", duration, above=0.0, unit="s")
     seed = zlib.crc32(scene.to_toml().encode()) if seed is None else seed
@@ -149,7 +152,9 @@ def simulated_record(
     count = round(duration * sample_rate)
     time = np.arange(count) / sample_rate
     clock = start + wandering_clock(time, effects.cage_wander, scene, rng)
-    signal = _sample_at(motion.outer_acceleration[:, columns], sample_rate, clock)
+    fine = resample_poly(motion.outer_acceleration[:, columns], 4, 1, axis=0)
+    spline = make_interp_spline(np.arange(len(fine)) / (4.0 * sample_rate), fine, k=3)
+    signal = np.asarray(spline(clock))
     if effects.knock > 0.0 and scene.defects:
         peak = float(np.abs(signal).max())
         signal = signal + effects.knock * peak * _knocks(scene, effects, clock, time, directions)
@@ -191,15 +196,6 @@ def pink_noise(count: int, columns: int, rng: np.random.Generator) -> Array:
     number[0] = math.inf
     noise = np.fft.irfft(transform / np.sqrt(number)[:, None], count, axis=0)
     return np.asarray(noise / noise.std(axis=0))
-
-
-def _sample_at(signal: Array, rate: float, clock: Array) -> Array:
-    """The signal (n, d) at other times [s] than those of its samples."""
-    from scipy.interpolate import make_interp_spline  # imported late: see `spectrum`
-    from scipy.signal import resample_poly
-
-    fine = resample_poly(signal, 4, 1, axis=0)
-    return np.asarray(make_interp_spline(np.arange(len(fine)) / (4.0 * rate), fine, k=3)(clock))
 
 
 def _knocks(

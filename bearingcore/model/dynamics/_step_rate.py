@@ -21,7 +21,6 @@ error of the spectrum near 0.02 dB; half as many leave 0.25 dB. On the Liew-Lim 
 directions, 13 leave 0.05 dB up to 2.1 kHz and 0.11 dB beyond, 26 leave 0.005 dB: it is accuracy
 that needs them, as steps stay stable down to 2.2."""
 
-
 LEAST_STEPS_A_SAMPLE = 0.45
 """However slow the modes are: contacts that open and close shake faster. A heavy rotor on few
 balls, stepped at an eighth of the samples, was 4 dB off. As a whole fraction it is a half, and a

@@ -190,7 +190,7 @@ def _scipy(name: str, *tolerances: float, slow: bool = False) -> Method:
 
 
 HAS_CVODE = importlib.util.find_spec("sksundae") is not None
-"""Whether scikit-sundae is installed: the extra "cvode"."""
+"""True if scikit-sundae is installed: the extra "cvode"."""
 
 
 def cvode_states(rates: Rates, time: Array, tolerance: float, name: str = "Adams") -> Array:

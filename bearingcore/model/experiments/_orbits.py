@@ -48,14 +48,15 @@ MOST_ORBIT_STEPS = 200_000
 def orbits_over_speed(scene: Scene, watch: Watch = NOT_WATCHED) -> tuple[OrbitAtSpeed, ...]:
     """Stability of the periodic motion over the shaft speed, from half to eight times the scene's.
 
-    Balls are taken without mass. Ends early when cancelled.
+    It takes balls without mass and ends early when cancelled.
     """
-    scene = scene.replace(balls=MASSLESS)
     orbits = []
     for factor in in_turn(SPEEDS, str, watch.progress, watch.cancelled):
         speed = factor * scene.shaft_speed
         try:
-            answer = orbit(scene.replace(shaft_speed=speed), most_steps=MOST_ORBIT_STEPS)
+            answer = orbit(
+                scene.replace(shaft_speed=speed, balls=MASSLESS), most_steps=MOST_ORBIT_STEPS
+            )
         except ValueError as refused:
             orbits.append(OrbitAtSpeed(speed, f"refused: {refused}"))
             continue

@@ -112,11 +112,8 @@ def motion_reference(
     apart = [motion_errors(other, first, sample_rate, band) for other in histories[1:]]
     agreement = apart[0]
     finished = [bool(np.all(np.isfinite(history))) for history in histories]
-    unfinished = [
-        name.partition(" ")[0]
-        for (name, _), whole in zip(families, finished, strict=True)
-        if not whole
-    ]
+    finished_of = dict(zip((name for name, _ in families), finished, strict=True))
+    unfinished = [name.partition(" ")[0] for name, whole in finished_of.items() if not whole]
     # two families are a reference; a third one that stops at a kink takes nothing from it
     trusted = all(finished[:2]) and all(
         difference[name] <= TRUSTED[name]
@@ -129,9 +126,7 @@ def motion_reference(
         note = f"{' and '.join(unfinished)} did not finish"
     elif not trusted:
         note = "The motion may be sensitive to its start: errors grow whatever the method"
-    names = tuple(
-        name for (name, _), whole in zip(families, finished, strict=True) if whole or not trusted
-    )
+    names = tuple(name for name, whole in finished_of.items() if whole or not trusted)
     reference = Reference(names, agreement, trusted, note)
     return MotionReference(problem, duration, sample_rate, band, first, reference)
 

@@ -141,8 +141,8 @@ class Solved(NamedTuple):
     evaluations: int
 
 
-def refined(problem: StaticProblem, q: Array, steps: int = 4) -> Solved:
-    """Displacements q (m, 5) [m] after Newton steps whose forces are 80-bit numbers.
+def refined(problem: StaticProblem, q: Array) -> Solved:
+    """Displacements q (m, 5) [m] after four Newton steps whose forces are 80-bit numbers.
 
     The stiffness stays in double precision, which only makes the steps slightly wrong. Solved are
     angles whose unbalanced load is below 1e-15 of the load: the energy is convex, so that this
@@ -151,14 +151,14 @@ def refined(problem: StaticProblem, q: Array, steps: int = 4) -> Solved:
     active = problem.active
     precise = np.where(np.isfinite(q), q, 0.0).astype(np.longdouble)
     force = problem.force.astype(np.longdouble)
-    for _ in range(steps):
+    for _ in range(4):
         state = contacts(problem, precise)
         unbalanced = (state.force - force)[:, active].astype(float)
         stiffness = state.stiffness[:, active][:, :, active].astype(float)
         back = np.linalg.pinv(stiffness, rcond=1e-12, hermitian=True)
         precise[:, active] -= np.einsum("mij,mj->mi", back, unbalanced)
     exact = np.isfinite(q).all(axis=1) & (residuals(problem, precise) <= 1e-15)
-    return Solved(precise, exact, steps * len(q))
+    return Solved(precise, exact, 4 * len(q))
 
 
 def residuals(problem: StaticProblem, q: Any) -> Array:
@@ -195,12 +195,10 @@ def _scipy(
         return contacts(problem, full, slice(k, k + 1))
 
     def unbalanced(u: Array, k: int) -> Array:
-        forces: Array = (at(u, k).force[0] - problem.force)[active] / load
-        return forces
+        return np.asarray((at(u, k).force[0] - problem.force)[active] / load)
 
     def jacobian(u: Array, k: int) -> Array:
-        slopes: Array = at(u, k).stiffness[0][np.ix_(active, active)] * (length / load)
-        return slopes
+        return np.asarray(at(u, k).stiffness[0][np.ix_(active, active)] * (length / load))
 
     def energy(u: Array, k: int) -> tuple[float, Array]:
         """With the load's, over load times length, and its slopes."""
@@ -250,12 +248,10 @@ def _compiled(problem: StaticProblem, tolerance: float, warm: bool = True) -> So
     return Solved(q, status == kernels.CONVERGED, int(evaluations.sum()))
 
 
-Solver = Callable[[StaticProblem, float], Solved]
-
 _TOLERANCES = (1e-2, 1e-4, 1e-8, 1e-12)
 OWN = "compiled energy Newton"
 
-SOLVERS: dict[str, tuple[Solver, tuple[float, ...]]] = {
+SOLVERS: dict[str, tuple[Callable[[StaticProblem, float], Solved], tuple[float, ...]]] = {
     OWN: (_compiled, (kernels.RESIDUAL_AIM,)),
     f"{OWN}, cold start": (partial(_compiled, warm=False), (kernels.RESIDUAL_AIM,)),
     "scipy hybr": (partial(_scipy, method="hybr"), _TOLERANCES),

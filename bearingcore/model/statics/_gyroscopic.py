@@ -86,9 +86,8 @@ def gyroscopic_limit(scene: Scene) -> Limit | None:
     except ValueError as error:
         return unknown(GYROSCOPIC_MOMENT, LIMIT, "", str(error))
     if worst is None:
-        return unknown(
-            GYROSCOPIC_MOMENT, LIMIT, "", "no cage angle has a static state with centrifugal load"
-        )
+        why = "no cage angle has a static state with centrifugal load"
+        return unknown(GYROSCOPIC_MOMENT, LIMIT, "", why)
     if worst.share < 1e-9:
         return None
     fact = (
@@ -113,7 +112,7 @@ def _turn_words(worst: _Gyroscopic) -> str:
 
 
 def _speed_of_limit(scene: Scene, share: float) -> float:
-    """Shaft speed [rad/s] at which T/Q_o reaches the limit; NaN where none is found nearby."""
+    """Shaft speed [rad/s] at which T/Q_o reaches the limit; NaN where none is nearby."""
     speed = scene.shaft_speed
     for _ in range(_ROUNDS):
         speed *= math.sqrt(LIMIT / share)
@@ -128,15 +127,12 @@ def _speed_of_limit(scene: Scene, share: float) -> float:
 
 
 def _greatest(scene: Scene) -> _Gyroscopic | None:
-    """Of all balls of all rows at some cage angles; None where no state is known."""
+    """The greatest of all balls of all rows at some cage angles; None where no state is known."""
     state = ball_positions(scene, default_cage_angles(scene, _ANGLES))
     if not state.converged.any():
         return None
-    rows = [
-        _worst_of_row(scene.bearing.of_row(k), state, balls)
-        for k, balls in enumerate(scene.bearing.balls_of_rows)
-    ]
-    return max(rows)
+    rows = enumerate(scene.bearing.balls_of_rows)
+    return max(_worst_of_row(scene.bearing.of_row(k), state, balls) for k, balls in rows)
 
 
 def _worst_of_row(bearing: Bearing, state: BallPositions, balls: slice) -> _Gyroscopic:

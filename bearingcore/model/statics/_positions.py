@@ -124,10 +124,9 @@ def over_all_positions(
 
     `solve` is `static_state` for balls with mass; None solves `equilibrium`.
     """
-    packed = pack(scene)
     if solve is None:
-        return equilibrium_over_all(packed, n)
-    places = positions_of(packed, n)
+        return equilibrium_over_all(pack(scene), n)
+    places = positions(scene, n)
     state = solve(scene, places.cage_angles, shaft_angles=places.shaft_angles)
     return dataclasses.replace(state, weights=places.weights)
 
@@ -137,7 +136,7 @@ def state_of(
     state: Equilibrium | None,
     solve: Callable[..., Equilibrium] | None = None,
 ) -> Equilibrium:
-    """A static equilibrium that is given for a scene, else what `over_all_positions` finds.
+    """The equilibrium of a scene that was passed, else that of `over_all_positions`.
 
     ValueError for the equilibrium of another scene.
     """

@@ -24,9 +24,6 @@ from bearingcore.model.statics._status import StaticStatus
 _Z, _TILTS = 2, (3, 4)
 _TILTS_HELD = "the shaft's other bearing, or tilts that are held"
 
-
-EPSILON = float(np.finfo(float).eps)
-
 ROUNDING = 1e-13
 """A gradient below this is that of a ball which is across the direction to a digit."""
 
@@ -177,7 +174,7 @@ def descent_direction(
     pressing = still @ contacts.gradients(phi, ca, sa)[:, active].T
     # what is left free is known to a digit times how unevenly the rest is held
     unevenness = sizes[0] / sizes[held - 1] if held else 1.0
-    pressing[np.abs(pressing) < max(ROUNDING, 10.0 * EPSILON * unevenness)] = 0.0
+    pressing[np.abs(pressing) < max(ROUNDING, 10.0 * np.finfo(float).eps * unevenness)] = 0.0
     along = still @ load / np.linalg.norm(load)
     taken, _ = nnls(pressing, along, maxiter=100 * pressing.shape[1])
     left = along - pressing @ taken

@@ -237,7 +237,6 @@ NOT_IN_STATICS_WITH_MASS = (
 
 NO_STATE = "no cage angle has a static equilibrium"
 
-
 Loaded = Sequence[tuple[Bearing, float]]
 """Rows that are unlike, and the greatest load [N] of an element of each; none without a motion."""
 
@@ -359,7 +358,7 @@ def _centrifugal_share(bearing: Bearing, balls: slice, scene: Scene, state: Equi
 
 
 def _centrifugal_change(scene: Scene) -> Limit:
-    """Change of loads and stiffness by centrifugal load, found by solving with it."""
+    """Change of loads and stiffness by centrifugal load, by solving with it."""
     force = scene.bearing.centrifugal_load(scene.shaft_speed)
     name, limit = "change by centrifugal force", CENTRIFUGAL_CHANGE
     if words := scene.bearing.kind.mass_unknown:
@@ -394,8 +393,7 @@ def _compression(name: str, loaded: Loaded, no_load: str) -> Limit:
     """Compression of most loaded balls against the distance of the groove centres."""
     if not _are_known(loaded):
         return unknown(name, GREATEST_COMPRESSION, "", no_load)
-    moving = no_load == NO_MOTION
-    who = "In the simulated motion a ball is" if moving else "The most loaded ball is"
+    who = "In the simulated motion a ball" if no_load == NO_MOTION else "The most loaded ball"
     return _worst(_compressed(row, name, load, who) for row, load in loaded)
 
 
@@ -405,7 +403,7 @@ def _compressed(bearing: Bearing, name: str, load: float, who: str) -> Limit:
     share = compression / apart
     most = percent(GREATEST_COMPRESSION)
     fact = (
-        f"{who} compressed by {with_prefix(compression, 'm')}, {percent(share)} of the "
+        f"{who} is compressed by {with_prefix(compression, 'm')}, {percent(share)} of the "
         f"{with_prefix(apart, 'm')} between the groove centres"
     )
     beyond = (

@@ -16,7 +16,6 @@ import pytest
 import bearingcore as core
 from bearingcore.bearings import Row, bearing_of_frequencies
 from bearingcore.bearings._hertz import race_contact
-from bearingcore.bearings._kinds import kind_named
 from bearingcore.common import LARGEST_TEXT
 from bearingcore.errors import FieldError
 from bearingcore.measured.files._text import read_text
@@ -83,7 +82,7 @@ REFUSED: dict[str, list[tuple[Callable[[], object], str]]] = {
         (lambda: PAIR.replace(rows=(Row(), Row(inner_groove_radius=5e-3))), "row 2: inner_groove"),
     ],
     "kinds": [
-        (lambda: kind_named("thrust"), "kind is 'thrust'"),
+        (lambda: dataclasses.replace(MOTOR, kind="thrust"), "kind is 'thrust'"),
         (lambda: dataclasses.replace(MOTOR, kind="rows"), "^(number of )?rows "),
         (lambda: dataclasses.replace(MOTOR, kind="self-aligning"), "^(number of )?rows "),
         (lambda: dataclasses.replace(MOTOR, kind="roller"), "^roller_length "),
@@ -249,7 +248,7 @@ REFUSED: dict[str, list[tuple[Callable[[], object], str]]] = {
         (lambda: core.kurtogram(np.zeros(4096), 25_600.0), "same number throughout"),
         (lambda: core.kurtogram(np.zeros((4096, 2)), 25_600.0), r"\(4096, 2\)"),
         (lambda: core.kurtogram(np.zeros(4096), 0.0), "sample_rate"),
-        (lambda: spectrogram(np.zeros(1000), 6000.0, 10.0), "row of 2400 samples"),
+        (lambda: spectrogram(np.zeros(1000), 6000.0, 10.0), "at least 2400 samples"),
         (lambda: spectrogram(np.full(9000, NAN), 6000.0, 10.0), "finite"),
         (lambda: order_map(TIME, 6000.0, [0.0], [0.0]), "speeds above 0"),
         (lambda: order_map(TIME, 6000.0, [8.0, 0.0], [30.0, 20.0]), "a later time for each speed"),

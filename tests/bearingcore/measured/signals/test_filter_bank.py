@@ -1,12 +1,16 @@
-"""Squared envelopes in bands, and the levels of their lines."""
+"""Bands, envelopes and whitened spectra of signals, and indicators, against closed forms."""
 
 import itertools
+import math
 
 import numpy as np
 import pytest
 
+from bearingcore import Recording, envelope_spectrum, indicators, kurtogram
+from bearingcore.measured.signals import ZONES, local_median, severity_zone
 from bearingcore.measured.signals._filter_bank import LOWEST, Band, split, squared_envelopes
 from bearingcore.measured.signals._line_levels import line_levels
+from bearingcore.measured.signals._whitening import LOUDEST, whiten
 
 RATE = 16_000.0
 
@@ -54,3 +58,99 @@ def test_bands_cover_the_range_without_gap_and_none_is_too_narrow():
         assert len(level) == parts
         for one, following in itertools.pairwise(level):
             assert one.high == pytest.approx(following.low)
+
+
+WHITE_RATE = 8000.0
+
+
+def test_coloured_noise_becomes_white_and_tones_no_louder_than_told():
+    rng = np.random.default_rng(2)
+    count = 80_000
+    frequency = np.fft.rfftfreq(count, 1.0 / WHITE_RATE)
+    shape = 1.0 / np.maximum(frequency, 1.0) + 0.01 * np.exp(-(((frequency - 2000) / 50.0) ** 2))
+    noise = np.fft.irfft(np.fft.rfft(rng.standard_normal(count)) * shape, count)
+    time = np.arange(count) / WHITE_RATE
+    signal = noise + 100.0 * noise.std() * np.sin(2.0 * np.pi * 1234.0 * time)
+    white = whiten(np.fft.rfft(signal), WHITE_RATE / count, 20.0)
+    loudness = np.abs(white)
+    assert loudness.max() <= LOUDEST * (1.0 + 1e-12)
+    powers = [np.mean(part**2) for part in np.array_split(loudness[100:-100], 20)]
+    np.testing.assert_allclose(powers, 1.0, atol=0.15)
+
+
+def test_the_local_median_follows_a_slope_and_passes_over_a_line():
+    slope = np.exp(np.linspace(0.0, 3.0, 3000))
+    with_line = slope.copy()
+    with_line[1500:1503] *= 1e6
+    np.testing.assert_allclose(local_median(with_line, 101), slope, rtol=0.06)
+    assert local_median(np.ones(5), 101) == pytest.approx(np.ones(5))
+
+
+KNOCK_RATE = 25_600.0
+
+
+def knocking(ring: float, every: float = 40.0, tone: float = 0.0, noise: float = 0.2) -> np.ndarray:
+    """Knocks `every` [Hz] that ring at `ring` [Hz], a strong steady tone at 700 Hz, and noise."""
+    time = np.arange(25_600) / KNOCK_RATE
+    since = time % (1.0 / every)
+    signal = np.exp(-600.0 * since) * np.sin(2.0 * math.pi * ring * since)
+    signal += tone * np.sin(2.0 * math.pi * 700.0 * time)
+    return np.asarray(signal + noise * np.random.default_rng(3).standard_normal(time.size))
+
+
+@pytest.mark.parametrize("ring", [1500.0, 3000.0, 6000.0])
+def test_the_band_that_rings_is_found_although_a_tone_is_louder(ring):
+    signal = knocking(ring, tone=2.0)
+    low, high = kurtogram(signal, KNOCK_RATE).best(200.0)
+    assert low < ring < high
+    frequency, density = envelope_spectrum(signal, KNOCK_RATE, (low, min(high, 0.49 * KNOCK_RATE)))
+    shown = (frequency > 5.0) & (frequency < 200.0)
+    assert frequency[shown][density[shown].argmax()] == pytest.approx(40.0, abs=1.5)
+
+
+def test_what_is_too_faint_is_not_chosen():
+    """Faint knocks at 8 kHz, 60 dB below a tone at 1 kHz that swells, do not draw the band."""
+    time = np.arange(25_600) / KNOCK_RATE
+    swell = 1.0 + 0.8 * np.cos(2.0 * math.pi * 40.0 * time)
+    swelling = swell * np.sin(2.0 * math.pi * 1000.0 * time)
+    faint = knocking(8000.0, every=10.0, noise=0.0)
+    assert kurtogram(swelling + faint, KNOCK_RATE).best()[0] > 4000.0
+    low, high = kurtogram(swelling + 1e-4 * faint, KNOCK_RATE).best()
+    assert low < 1000.0 < high
+
+
+def test_a_single_mishap_does_not_decide():
+    signal = knocking(3000.0)
+    signal[9000] += 200.0
+    low, high = kurtogram(signal, KNOCK_RATE).best(200.0)
+    assert low < 3000.0 < high
+
+
+LEVEL_RATE = 12_000.0
+LEVEL_TIME = np.arange(36_000) / LEVEL_RATE
+
+
+def recorded(*columns: np.ndarray, rate: float = LEVEL_RATE) -> Recording:
+    return Recording(np.stack(columns, axis=1), rate, ("x", "y")[: len(columns)])
+
+
+@pytest.mark.parametrize(
+    ("recording", "why"),
+    [
+        (recorded(np.sin(LEVEL_TIME), rate=2000.0), "sample rate is 2000 Hz"),
+        (recorded(np.sin(100.0 * LEVEL_TIME[:1200])), "0.1 s long, and 10 Hz need 0.5 s"),
+    ],
+)
+def test_where_there_is_no_velocity_it_says_why(recording, why):
+    levels = indicators(recording)
+    assert np.isnan(levels.velocity_rms).all()
+    assert why in levels.velocity_reason
+    assert np.isfinite(levels.rms).all()
+
+
+@pytest.mark.parametrize("machine", ZONES)
+def test_zones_begin_at_their_boundaries(machine):
+    first, second, third = ZONES[machine]
+    for boundary, below, above in ((first, "A", "B"), (second, "B", "C"), (third, "C", "D")):
+        assert severity_zone(boundary, machine) == below
+        assert severity_zone(1.001 * boundary, machine) == above

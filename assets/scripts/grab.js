@@ -6,8 +6,6 @@
 const NEAR = { mouse: 12, pen: 18, touch: 26 }  // [px]
 const CUED = 36  // [px] of the radius of a bore in which there is room for the cue
 const KINDS = ["start", "end", "middle", "load"]
-const CUES = { start: "Drag: length of the defect", end: "Drag: length of the defect",
-  middle: "Drag: place of the defect", load: "Drag: load and its direction" }
 const NAMES = { start: "Beginning of the defect", end: "End of the defect", middle: "Place of the defect", load: "Load" }
 const STEP = 0.5          // [°] a key turns a handle by, ten times as much with Page up and down ...
 const LARGER = 0.05       // ... and what it adds to a load
@@ -130,7 +128,7 @@ if (view?.frame?.bbox?.width > 0) {
     if (!grabbed) {
       const over = event.buttons ? null : nearest(event, NEAR.mouse)
       el.style.cursor = over ? "grab" : ""
-      el.title = over ? CUES[over.kind] : ""
+      el.title = over ? `Drag: ${NAMES[over.kind]}` : ""
       return
     }
     event.stopPropagation()

@@ -1,18 +1,11 @@
-// Warnings: limits that are exceeded, in short, until they are dismissed; all limits in a table on demand.
+// Warnings: limits that are exceeded, in short; all limits in a table on demand.
 const STATES = { crossed: "exceeded", kept: "passed", unknown: "cannot be checked" }
 
 export function render({ model }) {
   const warnings = element("p", { class: "warnings", role: "status" })
   const more = element("button", { type: "button", "aria-controls": "limits-list", hidden: "" })
-  const dismissed = new Set()
-  const dismiss = button("\u00d7", () => {
-    for (const { name } of crossed()) dismissed.add(name)
-    write()
-    more.focus()
-  }, { class: "dismiss", "aria-label": "Dismiss the warning", title: "Dismiss" })
   const list = element("div", { class: "list", id: "limits-list" })
-  const strip = element("section", { class: "strip", "aria-label": "Limits of the model" }, warnings, more, dismiss, list)
-  const crossed = () => model.rows.filter(({ state }) => state === "crossed")
+  const strip = element("section", { class: "strip", "aria-label": "Limits of the model" }, warnings, more, list)
   const line = (cells, tag = "td") => cells.map((cell) => element(tag, {}, cell))
   const fill = () => list.replaceChildren(element("table", {},
     element("thead", {}, element("tr", {}, ...line(["Check", "Value", "Limit", "", "In words"], "th"))),
@@ -23,13 +16,12 @@ export function render({ model }) {
     if (shown) fill()
   })
   const write = () => {
-    const warned = crossed().filter(({ name }) => !dismissed.has(name))
-    const text = warned.map(({ short }) => short).join("; ")
+    const crossed = model.rows.filter(({ state }) => state === "crossed")
+    const text = crossed.map(({ short }) => short).join("; ")
     if (warnings.textContent !== text) warnings.textContent = text
-    dismiss.hidden = warned.length === 0
-    strip.dataset.crossed = String(crossed().length)
+    strip.dataset.crossed = String(crossed.length)
     // beside the status line where all is well, a line of its own where it is not
-    strip.getRootNode().host?.closest("footer")?.toggleAttribute("data-crossed", warned.length > 0)
+    strip.getRootNode().host?.closest("footer")?.toggleAttribute("data-crossed", crossed.length > 0)
     more.hidden = model.rows.length === 0  // before the first picture, and of a measured signal
     const [first, others = ""] = model.summary.split(/(?= \()/)
     const [count, why = ""] = others.replace(/\)$/, "").split(/(?=:)/)

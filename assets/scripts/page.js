@@ -21,10 +21,7 @@
   scene.addEventListener("click", () => unfold_scene(scene.getAttribute("aria-expanded") !== "true"))
   on_event("tab", root, () => unfold_scene(false))
 
-  const show_theme = () => {
-    const dark = root.dataset.theme === "dark"
-    theme.setAttribute("aria-pressed", String(dark))
-  }
+  const show_theme = () => theme.setAttribute("aria-pressed", String(root.dataset.theme === "dark"))
   theme.addEventListener("click", () => announce("turn-theme"))
   on_event("theme", root, show_theme)
   show_theme()
@@ -110,15 +107,17 @@
   }
   // A card that had nothing to show grows by its answer: then it is brought into view again.
   const GROWN = 150  // px
-  let followed = null, height = 0
+  let followed = null, height = 0, opened = null  // the last that was opened, of those that are folded
   const growth = new ResizeObserver(([{ contentRect: now }]) => {
     const answered = height > 0 && now.height > height + GROWN
     height = now.height
     if (answered) show_marked()
   })
-  // The first of the marked figures is brought into view: its head, where there is no room for all.
+  // The first of the marked figures, or one that was opened, is brought into view: its head, where there
+  // is no room for all.
   const show_marked = () => {
-    const view = [...inside(main)].find((one) => one.matches(".view.watched") && one.getClientRects().length)
+    const views = [...inside(main)].filter((one) => one.matches(".view.watched") && one.getClientRects().length)
+    const view = views.find((one) => one === opened) ?? views[0]
     if (!view) return
     if (view !== followed) {
       growth.disconnect()
@@ -181,7 +180,8 @@
     const room = main.clientHeight - 2 * parseFloat(getComputedStyle(main).paddingTop)
     if (!root.hasAttribute("data-lesson") || innerHeight <= LOW) return views.forEach((view) => fit_first_row(view, drawn_in(view), room))
     for (const view of views) {  // what waits to be opened stands beside the figure
-      view.classList.toggle("folded", view.matches(".watched") && !drawn_in(view).length)
+      const was_folded = view.matches(".folded")
+      if (was_folded > view.classList.toggle("folded", view.matches(".watched") && !drawn_in(view).length)) opened = view
       if (view.matches(".watched")) view.getRootNode().host.classList.toggle("beside", views.some((one) => one.matches(".folded")))
     }
     const folded = views.filter((one) => one.matches(".folded"))
@@ -284,14 +284,11 @@
     announce("play")
   })
 
-  // A class of Bokeh to change; undefined where Bokeh has moved it, and all is as Bokeh has it.
-  const bokeh_class = (place, name) => {
-    try { return Bokeh.require(place)[name]?.prototype } catch { /* moved */ }
-  }
-  // Figures have their places some time after their numbers: the event "laid-out".
+  // Figures have their places after their numbers: the event "laid-out", unless Bokeh has moved the class.
   const announce_layouts = () => {
-    const plot = bokeh_class("models/plots/plot", "PlotView"), follow = plot?.after_layout
-    let coming
+    let plot, coming
+    try { plot = Bokeh.require("models/plots/plot").PlotView.prototype } catch { return }
+    const follow = plot.after_layout
     if (follow) plot.after_layout = function () {
       follow.call(this)
       clearTimeout(coming)

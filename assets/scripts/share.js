@@ -118,8 +118,7 @@ export function render({ model }) {
     part("compare").disabled = compared.length >= MOST_COMPARED
     if (named !== (named = compared.join("\n"))) list_compared(compared)
     // The first is that of the page as it was opened: what is in the address stays, even if it
-    // could not be read. Back goes to the last tab or lesson. All changes of a scene are one entry, so that
-    // Back leads to the first scene and does not leave the page; single ones are undone by Undo.
+    // could not be read. Back goes to the last tab or lesson, and to the first scene; Undo to the last one.
     const place = place_of(address)
     const there = going === null || place.tab === going
     if (there) going = null

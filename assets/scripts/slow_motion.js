@@ -78,13 +78,6 @@ export function render({ model }) {
     if (playing) requestAnimationFrame(step)
   }
   place.addEventListener("input", () => { set_playing(false); show(Number(place.value)) })
-  play.addEventListener("keydown", (event) => {
-    const by = { ArrowLeft: -1, ArrowRight: 1 }[event.key]
-    if (!by) return
-    event.preventDefault()
-    set_playing(false)
-    show(Math.round(frame) + by)
-  })
   on_event("tab", root, () => { if (playing) set_playing(false) })
   // A new motion: the same share of it, from the first on the entry of a ball.
   const take = () => {

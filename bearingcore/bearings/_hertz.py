@@ -5,7 +5,7 @@ Quantity                                    | Symbol | Name                     
 D_b cos α0 / D_p                            | γ      |                          |
 radius of the groove                        | r      | groove_radius            | m
 curvature sum                               | Σρ     | curvature_sum            | 1/m
-curvature difference                        | F(ρ)   | curvature_difference     |
+curvature difference                        | F(ρ)   |                          |
 semi-axes, across and along the rolling     | a, b   | semi_axes                | m
 ellipse ratio a/b                           | χ      | ellipse_ratio            |
 complete elliptic integrals at 1 − 1/χ²     | K, E   | first_, second_integral  |
@@ -46,8 +46,8 @@ class RaceContact:
     ----------
     race
         "outer" or "inner".
-    curvature_sum [1/m], curvature_difference, ellipse_ratio
-        Σρ, F(ρ) and χ, which is at least 1.
+    curvature_sum [1/m], ellipse_ratio
+        Σρ and χ, which is at least 1.
     first_integral, second_integral
         complete elliptic integrals K and E of the ellipse.
     youngs_modulus [Pa], poisson
@@ -58,7 +58,6 @@ class RaceContact:
 
     race: str
     curvature_sum: float
-    curvature_difference: float
     ellipse_ratio: float
     first_integral: float
     second_integral: float
@@ -148,8 +147,7 @@ def race_contact(
     around = side * 2.0 * gamma / ((1.0 - side * gamma) * ball_diameter)
     groove = 1.0 / groove_radius
     total = 4.0 / ball_diameter + around - groove
-    difference = (groove + around) / total
-    if not difference > 0.0:
+    if not groove + around > 0.0:
         raise checks.refuse(
             name,
             groove_radius,
@@ -165,7 +163,6 @@ def race_contact(
     return RaceContact(
         race=race,
         curvature_sum=total,
-        curvature_difference=difference,
         ellipse_ratio=chi,
         first_integral=float(ellipkm1(m1)),
         second_integral=float(ellipe(1.0 - m1)),
@@ -183,7 +180,6 @@ def spherical_contact(
     return RaceContact(
         race="outer",
         curvature_sum=4.0 / ball_diameter - 2.0 / sphere_radius,
-        curvature_difference=0.0,
         ellipse_ratio=1.0,
         first_integral=0.5 * math.pi,
         second_integral=0.5 * math.pi,

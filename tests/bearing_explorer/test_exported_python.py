@@ -62,15 +62,16 @@ CASES = [
     *(("compared", name) for name in ("load-distribution", "stiffness", "vibration-spectrum")),
     *(("two defects", name) for name in ("depth-profile", "maps", "vibration-time")),
     *(("inner race", name) for name in ("load-distribution", "modes", "vibration-spectrum")),
-    *(("balls with mass", name) for name in ("bearing", "stiffness", "mass-time")),
+    *(("balls with mass", name) for name in ("bearing", "stiffness")),
 ]
 RECORDED = 'it\'s "a" file.wav'
 
 
 @cache
 def recorded() -> tuple[bytes, Measured]:
-    """A file with a signal, and what the page has read in it."""
-    file = saved(wavfile.write, 25_600, signal().recording.acceleration.astype(np.float32))
+    """A file with a signal of 2 s, and what the page has read in it."""
+    acceleration = signal().recording.acceleration[: 2 * 25_600]
+    file = saved(wavfile.write, 25_600, acceleration.astype(np.float32))
     read = read_file(RECORDED, file, at(presets["fan-rig"]))
     asked = read_form(
         read.table, {**read.form, "columns": "x;y", "unit": "m/s²"}, at(presets["fan-rig"])
@@ -111,13 +112,13 @@ for key, lines in scripts.items():
         scripts[key] = f"{type(error).__name__}: {error}\\n{lines}"
     else:
         scripts[key] = namespace["scene"], namespace["columns"]
-with open("found", "wb") as file:
+with open("made", "wb") as file:
     pickle.dump(scripts, file)
 """
 
 
 def made_by_the_lines(folder: Path) -> dict[tuple[str, str], Any]:
-    """What the lines of each case have made: the scene and the columns, or why they failed."""
+    """Return the scene and the columns that the lines of each case make, or why they failed."""
     (folder / RECORDED).write_bytes(recorded()[0])
     scripts = {case: shown(case)[0].python() for case in CASES}
     (folder / "scripts").write_bytes(pickle.dumps(scripts))
@@ -129,7 +130,7 @@ def made_by_the_lines(folder: Path) -> dict[tuple[str, str], Any]:
         check=True,
         timeout=600,
     )
-    return pickle.loads((folder / "found").read_bytes())
+    return pickle.loads((folder / "made").read_bytes())
 
 
 MEASURED_ANEW = {"accuracy": ("time_s",), "alternatives": ("time_s", "own_time_s")}

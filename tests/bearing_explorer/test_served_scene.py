@@ -23,7 +23,7 @@ def test_a_browser_can_change_no_more_than_its_own_scene(caplog: pytest.LogCaptu
             await client.connect()
             assert await client.until_drawn()
         documents = [session.document for session in session_of(server)]
-        [document] = [one for one in documents if one.models.get_by_id(mine.ids["packet"])]
+        [document] = [each for each in documents if each.models.get_by_id(mine.ids["packet"])]
         unpack = document.models.get_by_id(mine.ids["unpack"])
         code, count = unpack.code, len(document.models)
         for new in ("alert(1)", NEW_MODEL, [NEW_MODEL]):

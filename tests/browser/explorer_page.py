@@ -116,13 +116,25 @@ def place(page: Page, drawing: str, x: float, y: float) -> tuple[float, float]:
     return float(position[0]), float(position[1])
 
 
+def largest_share(page: Page) -> float:
+    """Return the share that is seen of the figure of which most is."""
+    share: float = page.locator(".bk-Figure").evaluate_all(
+        """figures => new Promise((done) => {
+             const seen = new IntersectionObserver((all) =>
+               done(Math.max(...all.map(({ intersectionRatio }) => intersectionRatio))))
+             figures.forEach((figure) => seen.observe(figure))
+           })"""
+    )
+    return share
+
+
 def status(page: Page) -> Locator:
     """The status line with its details, which are in a list that need not be open."""
     return page.locator("footer .status .line")
 
 
 def export(view: Locator, what: str) -> Locator:
-    """What takes a view along, ready to be clicked: png, svg, csv, table or python."""
+    """An item of the Export menu, ready to be clicked: png, svg, csv, table or python."""
     item = view.locator(f".save-{what}")
     if not item.is_visible():
         view.locator("header .opener").click()

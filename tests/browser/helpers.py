@@ -1,4 +1,4 @@
-"""What the browser tests share: a real server, a real browser, and a record of what went wrong."""
+"""A real server, a real browser and a record of what went wrong, for the browser tests."""
 
 import itertools
 import os
@@ -78,7 +78,7 @@ class Server:
 
     @property
     def log(self) -> str:
-        """What the server has printed so far."""
+        """The lines that the server has printed so far."""
         return Path(self._log.name).read_text(encoding="utf-8", errors="replace")
 
     def wait(self, seconds: float = 300.0) -> None:
@@ -160,7 +160,7 @@ def chromium(
 
 @dataclass
 class Watch:
-    """What a page did wrong: console errors, exceptions, requests that leave the server."""
+    """Faults of a page: console errors, exceptions, requests that leave the server."""
 
     errors: list[str] = field(default_factory=list)
     strangers: list[str] = field(default_factory=list)

@@ -12,17 +12,19 @@ from playwright.sync_api import Page, ViewportSize, expect
 from tests.browser.explorer_page import (
     SEEN,
     export,
+    largest_share,
     open_page,
     settle,
     show,
     slider,
     status,
     value,
+    wait,
 )
 from tests.browser.helpers import Server
 from tests.browser.visitor import Visitor
 
-NAMES = list({one.tab or one.title: one.name for one in reversed(SECTIONS)}.values())[::-1]
+NAMES = list({part.tab or part.title: part.name for part in reversed(SECTIONS)}.values())[::-1]
 """Of the tabs, each by that of its first part."""
 
 LAPTOP: ViewportSize = {"width": 1366, "height": 768}
@@ -37,7 +39,7 @@ def opened(page: Page, server: Server, tab: str) -> None:
 
 
 def findings(page: Page, where: str) -> list[str]:
-    """What axe finds serious or critical in a part of the page."""
+    """Return faults that axe calls serious or critical in a part of the page."""
     result = page.evaluate(
         """async (where) => {
              const options = { preload: false, resultTypes: ['violations'] }
@@ -64,7 +66,7 @@ def colors(page: Page) -> set[str]:
 
 
 def make_ready(page: Page) -> None:
-    """What `hold_to_rules` needs on an open page."""
+    """Load the scripts that `hold_to_rules` needs on an open page."""
     page.evaluate(SEEN)
     page.evaluate((files("axe_playwright_python") / "axe.min.js").read_text(encoding="utf-8"))
 
@@ -85,18 +87,6 @@ def hold_to_rules(page: Page, theme: str, where: str = "main") -> None:
     fits(page)
     page.set_viewport_size(LAPTOP)
     page.evaluate("localStorage.removeItem('bearing-explorer.theme')")
-
-
-#: the figures that are wholly in the room that the page has for them, and how many there are
-WHOLE_FIGURES = """() => {
-  const room = document.querySelector("main").getBoundingClientRect()
-  const boxes = [...Bokeh.index.query(({ model, el }) => model.type === "Figure" && el.isConnected
-      && el.checkVisibility({ visibilityProperty: true }))]
-    .map(({ el }) => el.getBoundingClientRect()).filter(({ width }) => width > 2)
-  const inside = ({ left, top, right, bottom }) => left >= room.left - 1 && right <= room.right + 1
-    && top >= room.top - 1 && bottom <= room.bottom + 1
-  return [boxes.filter(inside).length, boxes.length]
-}"""
 
 
 #: how much is on screen of the first figure [px], and the controls above it in its tab
@@ -124,10 +114,8 @@ def hold_to_screens(page: Page) -> None:
         )
         page.set_viewport_size({"width": 1366, "height": 650})
         settle(page)
-        page.wait_for_function(
-            f"() => {{ const [whole, all] = ({WHOLE_FIGURES})(); return whole || !all }}",
-            timeout=20_000,
-        )
+        if page.locator(".bk-Figure").count():
+            wait(page, lambda: largest_share(page) > 0.99)
     for width, height in ((390, 844), (683, 325)):
         page.set_viewport_size({"width": width, "height": height})
         settle(page)
@@ -167,7 +155,7 @@ def fits(page: Page) -> None:
 
 
 def sideways(page: Page) -> list[str]:
-    """What would have to be scrolled sideways, or is cut by the edge of the page."""
+    """Parts that would have to be scrolled sideways, or are cut by the edge of the page."""
     return page.evaluate(
         """() => {
           const odd = []
@@ -291,7 +279,7 @@ def test_a_view_fills_the_page_and_the_screen(desk: Visitor) -> None:
     )
     show(page, "vibration")
     view = page.locator(".view-vibration-time")
-    heights = "all => all.map(one => one.getBoundingClientRect().height)"
+    heights = "all => all.map(part => part.getBoundingClientRect().height)"
     before = view.locator("canvas").evaluate_all(heights)
     enlarge = view.locator(".enlarge")
     enlarge.press("Enter")
@@ -299,10 +287,10 @@ def test_a_view_fills_the_page_and_the_screen(desk: Visitor) -> None:
     box = view.bounding_box()
     assert box is not None
     assert (box["x"], box["y"], box["width"], box["height"]) == (0.0, 0.0, 1920.0, 1080.0)
-    large = "([all, least]) => all.every(one => one.getBoundingClientRect().height > least)"
+    large = "([all, least]) => all.every(part => part.getBoundingClientRect().height > least)"
     page.wait_for_function(
         f"least => ({large})([[...deep(document, '.view-vibration-time')].flatMap(view =>"
-        " [...deep(view.shadowRoot, 'canvas')]).filter(one => one.clientHeight), least])",
+        " [...deep(view.shadowRoot, 'canvas')]).filter(part => part.clientHeight), least])",
         arg=1.4 * max(before),
     )
     enlarge.press("Escape")

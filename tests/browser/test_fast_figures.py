@@ -1,4 +1,4 @@
-"""What is left out of BokehJS's repaints changes no pixel, and comes back when it is needed."""
+"""BokehJS repaints less, changes no pixel by that, and paints again what is needed."""
 
 import pytest
 from playwright.sync_api import BrowserContext, Page, expect

@@ -69,7 +69,7 @@ def comes_back(page: Page) -> None:
 
 
 def test_a_server_that_stands_still_and_one_that_is_started_anew(watch: tuple[Page, Watch]) -> None:
-    """What is on its way arrives later; where the connection ends, the page says so."""
+    """Changes on their way arrive later; where the connection ends, the page says so."""
     page, watching = watch
     compile_once()
     with serving(explorer_server()) as server:

@@ -70,7 +70,7 @@ setInterval(() => {
 
 
 def samples(page: Page, server: Server) -> list[str]:
-    """What is wrong in the text of the page, ten times a second until it rests."""
+    """Look for nonsense in the text of the page, ten times a second until it rests."""
     page.add_init_script(_SAMPLE)
     page.goto(server.url)
     page.wait_for_function("window.__samples >= 3")

@@ -1,4 +1,4 @@
-"""What a person does with the page, from end to end, by what is seen."""
+"""Journeys of a person through the page, from end to end, by what is seen."""
 
 import io
 import math
@@ -190,7 +190,7 @@ def test_two_tabs_in_a_hurry_are_both_whole(visitor: Visitor) -> None:
         visitor.go_to(tab)
         cards, figures, *_ = TABS[tab]
         visitor.wait(lambda figures=figures: len(visitor.figures()) >= figures)  # type: ignore[misc]
-        assert visitor.main.get_by_role("heading", level=2).count() == cards
+        expect(visitor.main.get_by_role("heading", level=2)).to_have_count(cards)
         assert "blank" not in visitor.figures()
 
 
@@ -751,7 +751,7 @@ def test_back_leads_to_the_tab_part_and_lesson_that_was_open(visitor: Visitor) -
     expect(title).to_have_text(second)
     visitor.wait(lambda: "extent_deg=" not in visitor.page.url)  # with its own scene
     visitor.press("Close the lessons")
-    for _ in range(2):  # a step for each of the two lessons
+    for _ in range(3):  # a step each time that a lesson began
         visitor.press("Undo", visitor.scene)
     expect(visitor.box("Length of the defect")).to_have_value("20")
 

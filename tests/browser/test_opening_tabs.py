@@ -1,4 +1,4 @@
-"""What opening a tab costs the browser does not depend on the tabs that were open before."""
+"""The cost of opening a tab does not depend on the tabs that were open before."""
 
 from collections.abc import Callable
 

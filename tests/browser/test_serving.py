@@ -26,7 +26,7 @@ def test_the_page_works_behind_a_proxy_and_says_when_it_is_full(
 ) -> None:
     page, watching = watch
     missing: list[str] = []
-    page.on("response", lambda one: missing.append(one.url) if one.status == 404 else None)
+    page.on("response", lambda answer: missing.append(answer.url) if answer.status == 404 else None)
     port = free_port()
     server = explorer_server(
         *("--root-path", "/bearing", "--max-sessions", "2"),
@@ -45,7 +45,7 @@ def test_the_page_works_behind_a_proxy_and_says_when_it_is_full(
         page.locator(".tab-stiffness").click()
         expect(page.locator(".view-stiffness canvas").first).to_be_visible()
         outside = [
-            one for one in watching.requests if "/bearing/" not in one and "blob:" not in one
+            url for url in watching.requests if "/bearing/" not in url and "blob:" not in url
         ]
         assert missing == []
         assert not outside, f"asked for beside the path of the proxy: {outside}"

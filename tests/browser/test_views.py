@@ -1,4 +1,4 @@
-"""What only a browser can show of the views: proportions, words apart, what lights up together."""
+"""Views in a browser: proportions, words that stand apart, balls that light up together."""
 
 from contextlib import suppress
 

@@ -2,7 +2,6 @@
 
 import math
 import random
-import struct
 import time
 from collections import Counter
 from contextlib import suppress
@@ -13,7 +12,7 @@ from tornado.httpclient import HTTPClientError
 from tornado.iostream import StreamClosedError
 from tornado.websocket import WebSocketClosedError
 
-from tests.fuzz.hostile_messages import SHAPES, Frames, Raw, any_shape
+from tests.fuzz.hostile_messages import SHAPES, any_shape
 from tests.helpers.page_client import PageClient
 
 PATIENCE = 60.0
@@ -51,26 +50,12 @@ class _Client(PageClient):
 
         self._socket.on_pong = on_pong  # type: ignore[method-assign]
 
-    async def write(self, frames: Frames) -> None:
-        """Send frames as they are, masked with zeros."""
-        stream = getattr(getattr(self._socket, "protocol", None), "stream", None)
-        if stream is None or self.closed:
-            raise StreamClosedError
-        for frame in frames:
-            sent = frame if isinstance(frame, Raw) else _framed(frame)
-            size = len(sent.payload)
-            head = struct.pack("B", 0x80 * sent.whole | sent.flags | sent.opcode)
-            if size < 126:
-                head += struct.pack("B", 0x80 | size)
-            else:
-                head += struct.pack("!BQ", 0x80 | 127, size)
-            await stream.write(head + bytes(4) + sent.payload)
-
     async def all_is_taken(self) -> bool:
         """Wait until the server has taken all that was sent: it answers a ping after that."""
+        assert self._socket is not None
         before, end = self.pongs, time.perf_counter() + PATIENCE
         try:
-            await self.write([Raw(9, b"")])
+            self._socket.ping()
         except _GONE:
             return True
         while self.pongs == before and not self.closed:
@@ -78,10 +63,6 @@ class _Client(PageClient):
                 return False
             await self.news(left)
         return True
-
-
-def _framed(frame: str | bytes) -> Raw:
-    return Raw(2, frame) if isinstance(frame, bytes) else Raw(1, frame.encode())
 
 
 async def attack(url: str, number: int, messages: int, tally: Tally) -> None:
@@ -103,7 +84,7 @@ async def attack(url: str, number: int, messages: int, tally: Tally) -> None:
         tally.sent[name] += 1
         since_page += 1
         with suppress(*_GONE):
-            await client.write(SHAPES[name][0](random_, client.ids))
+            await client.send_frames(*SHAPES[name][0](random_, client.ids))
         if not await client.all_is_taken():
             tally.unanswered += 1
             since_page = math.inf

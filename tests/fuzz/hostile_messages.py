@@ -1,15 +1,14 @@
 """Messages that no page sends, each made out of a random number: broken versions of good ones.
 
 `GOOD` is the schema of the messages that the page's scripts send; tests of good messages and of
-hostile ones take them from here. A message is a list of frames of a websocket; text goes as text,
-bytes as bytes, and a `Raw` frame as it stands, with any opcode and flags.
+hostile ones take them from here. A message is a list of frames of a websocket: text or bytes.
 """
 
 import copy
 import json
 import random
 from collections.abc import Callable, Mapping
-from typing import Any, NamedTuple
+from typing import Any
 
 from bearing_explorer.explorer.state.choice_list import CHOICE_LIST
 from bearing_explorer.explorer.state.field_values import SHOWN_FIELDS
@@ -49,16 +48,7 @@ GOOD: tuple[tuple[str, dict[str, Any]], ...] = (
 """Components of the page, by the names of their classes, and what their scripts send."""
 
 
-class Raw(NamedTuple):
-    """A frame with an opcode and flags of its own."""
-
-    opcode: int
-    payload: bytes
-    whole: bool = True
-    flags: int = 0
-
-
-Frames = list[str | bytes | Raw]
+Frames = list[str | bytes]
 Ids = Mapping[str, str]
 """Of a page's components, by the names of their classes."""
 
@@ -171,11 +161,7 @@ def framing(random_: random.Random, ids: Ids) -> Frames:
             [header(num_buffers=buffers), "{}", '{"events": []}', '{"id": "a"}', noise],
             [*good[: random_.randrange(3)], mutated],
             [header(msgid=random_.choice((None, [1], "x" * 10_000))), *good[1:]],
-            [header(), "{}", Raw(1, b'{"events": ["\xc3\x28\xed\xa0\x80"]}')],
             [noise],
-            [Raw(random_.choice((3, 7, 0xB, 0xF)), noise[:100])],
-            [Raw(1, header().encode(), flags=0x40)],
-            [Raw(0, b"{}")],
             [header("PULL-DOC-REQ"), "{}", "{}"],
         )
     )
@@ -198,7 +184,7 @@ SHAPES: dict[str, tuple[Callable[[random.Random, Ids], Frames], int]] = {
     "upload": (upload, 6),
     "large": (large, 6),
 }
-"""What makes the messages, and how often of a hundred."""
+"""Makers of the messages, and their shares in a hundred."""
 
 
 def any_shape(random_: random.Random) -> str:

@@ -22,7 +22,7 @@ LONGEST_SENTENCE = 700  # characters
 
 
 def unclear(sentence: str) -> str | None:
-    """What keeps a sentence from being shown to people; None where nothing does."""
+    """Return why a sentence cannot be shown to people; None where it can."""
     if not sentence.strip():
         return "no words"
     if len(sentence) > LONGEST_SENTENCE:
@@ -47,9 +47,9 @@ def _floors() -> list[str]:
 
 def _bearings() -> list[str]:
     shipped = resources.files("bearingcore.bearings").joinpath("bearings.csv")
-    own = "name,balls,ball_diameter_mm,pitch_diameter_mm,note\na,9,7.94,39.04,ours\nb,8,7,30,"
+    small = "name,balls,ball_diameter_mm,pitch_diameter_mm,note\na,9,7.94,39.04,ours\nb,8,7,30,"
     german = "name;balls;ball_diameter_mm;pitch_diameter_mm\n6205;9;7,94;39,04"
-    return [shipped.read_text("utf-8"), own, german]
+    return [shipped.read_text("utf-8"), small, german]
 
 
 def _signal(n: int = 600) -> np.ndarray:
@@ -149,8 +149,8 @@ def broken_files() -> dict[str, Callable[[random.Random], bytes]]:
 def _table(content: bytes) -> object:
     table = read_table("a file", content)
     form = forms.guess(table)
-    asked, given = forms.questions(table), forms.reasons(table)
-    for words in (*asked.values(), *given.values(), forms.said(table)):
+    asked, reasons = forms.questions(table), forms.reasons(table)
+    for words in (*asked.values(), *reasons.values(), forms.said(table)):
         if words and (wrong := unclear(words)) is not None:
             raise AssertionError(f"{wrong}: {words[:200]!r}")
     roles = form["columns"].split(forms.APART)
@@ -162,7 +162,7 @@ def _table(content: bytes) -> object:
 
 
 Target = tuple[Callable[[random.Random], Any], Callable[[Any], object]]
-"""What makes an input of random numbers, and the parser that takes it."""
+"""A maker of an input out of random numbers, and the parser that takes it."""
 
 
 def targets() -> dict[str, Target]:

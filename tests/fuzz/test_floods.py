@@ -11,13 +11,12 @@ from typing import Any
 import psutil
 import pytest
 from bearing_explorer.diagnosis.upload import PIECE
-from bearing_explorer.kit.serve.serving import SESSION_GRACE_SECONDS
 
 from tests.browser.helpers import serving
 from tests.fuzz.attacker import PATIENCE
 from tests.fuzz.broken_uploads import Uploader
 from tests.fuzz.hostile_messages import GOOD, LARGEST
-from tests.fuzz.watched_server import WatchedServer
+from tests.fuzz.watched_server import GRACE, WatchedServer
 from tests.helpers.loops import run
 from tests.helpers.page_client import PageClient, message
 
@@ -140,7 +139,7 @@ def test_what_is_in_a_zip_is_read_no_further_once_its_page_is_closed() -> None:
         for client in (*clients, third):
             await client.close()
         # a page that lost its connection may come back for a while
-        end = time.perf_counter() + SESSION_GRACE_SECONDS + 20.0
+        end = time.perf_counter() + GRACE + 20.0
         quiet_since = time.perf_counter()
         while time.perf_counter() - quiet_since < 3.0:  # nor is the next one begun
             assert time.perf_counter() < end, "nobody waits for it any longer"

@@ -17,6 +17,8 @@ from tests.browser.helpers import Server, free_port
 
 LONGEST_HOLD = 1.0
 """Processor time of a turn of the event loop [s] that nothing from outside may cause."""
+GRACE = 2.0
+"""For how long a session waits [s] for a page that lost its connection."""
 _KEPT = 6
 
 
@@ -68,6 +70,8 @@ class WatchedServer(Server):
 
 if __name__ == "__main__":
     from bearing_explorer.__main__ import main
+    from bearing_explorer.kit.serve import serving
 
+    serving.SESSION_GRACE_SECONDS = GRACE
     watch(Path(sys.argv[1]))
     sys.exit(main(sys.argv[2:]))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from textwrap import fill
@@ -170,7 +171,11 @@ def _diagnose_file(
 ) -> Diagnosis:
     table = table_at(path)
     says = table.contents
-    named = says.bearing or _known(says.designation)
+    named = says.bearing
+    if named is None and says.designation is not None:
+        with suppress(ValueError):  # a number of no bearing
+            read_designation(says.designation.value)
+            named = says.designation
     if bearing is None and named is not None and named.taken:
         bearing = named.value
         more = {"bearing_source": _source(named, f"{bearing}, ")} | more
@@ -179,16 +184,6 @@ def _diagnose_file(
         more = {"speed_source": _source(says.shaft_speed)} | more
     recording = recording_of(table, with_guesses=True, **choices)
     return diagnose_recording(recording, bearing, shaft_speed, **more)
-
-
-def _known(designation: Finding[str] | None) -> Finding[str] | None:
-    """The designation that a file gives, where a bearing has it."""
-    if designation is not None:
-        try:
-            read_designation(designation.value)
-        except ValueError:
-            return None
-    return designation
 
 
 def _source(finding: Finding[Any], words: str = "") -> str:

@@ -117,31 +117,25 @@ def _assign_roles(
 ) -> Table:
     """The table with the roles that are given."""
     for role in columns:
-        checks.choice("columns", role, ("signal", "time", "speed", "nothing"))
+        checks.choice("columns", role, (SIGNAL, TIME, SPEED, "nothing"))
     if columns.get("speed") is not None and speed_unit is None:
         raise checks.missing("speed_unit", "one of " + ", ".join((*SPEEDS, PULSE_TRAIN)))
     guessed = table.contents.columns
-    given: dict[int | str, Column] = {}
-    for role, key, of_role in (
-        (SIGNAL, "signal", unit), (TIME, "time", time_unit), (SPEED, "speed", speed_unit),
-        (OTHER, "nothing", None),
-    ):  # fmt: skip
-        if key in columns and role in (TIME, SPEED):  # it is this one, or none
-            given |= {i: Column("", OTHER) for i, one in enumerate(guessed) if one.role == role}
-        for column in _listed(columns.get(key)):
-            index = table.index_of(column)
-            known = guessed[index]
-            fits = known.role == role
-            given[index] = Column(
-                "",
-                role,
-                of_role or (known.unit if fits else None),
-                known.direction if role == SIGNAL else "",
-            )
+    known_as: dict[int | str, Column] = {}
+    units = {SIGNAL: unit, TIME: time_unit, SPEED: speed_unit, "nothing": None}
+    for key in (name for name in units if name in columns):
+        role = OTHER if key == "nothing" else key
+        if role in (TIME, SPEED):  # it is this one, or none
+            known_as |= {i: Column("", OTHER) for i, c in enumerate(guessed) if c.role == role}
+        for index in map(table.index_of, _listed(columns[key])):
+            column = guessed[index]
+            of_file = column.unit if column.role == role else None
+            direction = column.direction if role == SIGNAL else ""
+            known_as[index] = Column("", role, units[key] or of_file, direction)
     if time_unit is not None and "time" not in columns:
         timed = [index for index, column in enumerate(guessed) if column.role == TIME]
-        given |= {index: Column("", TIME, time_unit) for index in timed[:1]}
-    return table.with_columns(given)
+        known_as |= {index: Column("", TIME, time_unit) for index in timed[:1]}
+    return table.with_columns(known_as)
 
 
 def recording_of(

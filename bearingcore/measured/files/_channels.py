@@ -125,7 +125,7 @@ def column_of(name: str) -> Column:
     first, *more = [word for word in re.split(r"[\W_]+", bare.lower()) if word] or [""]
     if unit is None and len(first) > 1 and more in ([], ["elapsed"]):
         unit = written if (written := unit_named(first)) in TIMES else None  # "seconds_elapsed"
-    if unit in TIMES or (unit is None and _names_a_time(name, first, more)):
+    if unit in TIMES or (unit is None and _names_a_time(first, more)):
         return Column(name, TIME, unit)
     if unit in SPEEDS:
         return Column(name, OTHER if names_a_frequency(name) else SPEED, unit)
@@ -138,11 +138,11 @@ def column_of(name: str) -> Column:
     return Column(name, SIGNAL, unit, direction, place_in(name))
 
 
-def _names_a_time(name: str, first: str, more: Sequence[str]) -> bool:
+def _names_a_time(first: str, more: Sequence[str]) -> bool:
     """Return True if a heading with this first word and these others is that of times."""
-    if first in _TIMES or (first in _BEFORE_TIME and more and more[0] in _TIMES | {"stamp"}):
-        return True
-    return bool(re.fullmatch(r"x[_ ]values?", name.strip().lower()))  # LabVIEW's, of each row
+    before = first in _BEFORE_TIME and bool(more) and more[0] in _TIMES | {"stamp"}
+    of_labview = first == "x" and more in (["value"], ["values"])  # of each row
+    return first in _TIMES or before or of_labview
 
 
 def names_a_frequency(name: str) -> bool:

@@ -40,9 +40,6 @@ MOST_NUMBERS = 16_000_000
 
 MOST_COLUMNS = 1024
 
-TOO_SLOW = f"one that can be read within {PROCESSOR_SECONDS} s"
-DAMAGED = "one without a damaged or unknown part"
-
 _TICK = 0.1
 """[s] between two looks at the process."""
 
@@ -55,9 +52,7 @@ _ENVIRONMENT = {
 
 
 def read_file(
-    name: str,
-    content: bytes,
-    give_up: Callable[[], bool] | None = None,
+    name: str, content: bytes, give_up: Callable[[], bool] | None = None
 ) -> tuple[dict[str, Any], Array]:
     """Words and numbers of a file: text (CSV), WAV, MATLAB or HDF5, as its first bytes show.
 
@@ -73,7 +68,7 @@ def read_file(
     Returns
     -------
     about
-        the other fields of `contents.FileColumns` by name.
+        the other fields of `_table.Table` by name.
     columns : (n, c)
         the numbers; gaps are NaN.
 
@@ -82,7 +77,6 @@ def read_file(
     FieldError
         for a damaged, empty or mis-shaped file, or one that takes too much time or memory.
     """
-    limits = [PROCESSOR_SECONDS, MEMORY, MOST_NUMBERS, MOST_COLUMNS]
     try:
         child = subprocess.Popen(
             [sys.executable, "-I", str(_PROGRAM)],
@@ -95,6 +89,7 @@ def read_file(
         raise checks.refuse("file", name, "one; the system starts no process to read it") from None
     assert child.stdin is not None
     assert child.stdout is not None
+    limits = PROCESSOR_SECONDS, MEMORY, MOST_NUMBERS, MOST_COLUMNS
     head = json.dumps([name, *limits]).encode() + b"\n"
     sender = Thread(target=_send, args=(child.stdin, head, content), daemon=True)
     ended = Event()
@@ -111,8 +106,10 @@ def read_file(
         child.stdout.close()
         sender.join()
     if answer is None:
-        slow = late or code == -getattr(signal, "SIGXCPU", 0)
-        raise checks.refuse("file", name, TOO_SLOW if slow else DAMAGED)
+        allowed = "one without a damaged or unknown part"
+        if late or code == -getattr(signal, "SIGXCPU", 0):
+            allowed = f"one that can be read within {PROCESSOR_SECONDS} s"
+        raise checks.refuse("file", name, allowed)
     about, columns = answer
     if "refused" in about:
         raise checks.refuse(*about["refused"])
@@ -131,11 +128,9 @@ def _watch(
 
 
 def _send(pipe: IO[bytes], head: bytes, content: bytes) -> None:
-    with suppress(OSError):  # a process that has ended reads no more
+    with suppress(OSError), pipe:  # a process that has ended reads no more
         pipe.write(head)
         pipe.write(content)
-    with suppress(OSError):
-        pipe.close()
 
 
 def _received(pipe: IO[bytes]) -> tuple[dict[str, Any], Array] | None:

@@ -27,8 +27,6 @@ class Collection:
         the clue that is named as the reason.
     variable
         regular expression of the whole name of a column.
-    file
-        beginning of the file's name.
     scalars
         last parts of names of single numbers that must be there.
     width, clock
@@ -46,7 +44,6 @@ class Collection:
     name: str
     clue: str
     variable: str = ""
-    file: str = ""
     scalars: tuple[str, ...] = ()
     width: int | None = None
     clock: int | None = None
@@ -76,7 +73,6 @@ _ALL_OF_CASE_WESTERN: Any = {"unit": "g", "clue": "variables named", "rpm": 1764
 """Speeds are from 1730 to 1797 rpm, by the load; most files say it."""
 _ENDS = "_(DE|FE|BA)_time"
 _DRIVE_END: Any = {"bearing": "6205-2RS, CWRU drive end", "place": "drive end"}
-_FAN_END: Any = {"bearing": "6203-2RS, CWRU fan end", "place": "fan end"}
 _AT_48_KHZ = (
     "09[789]|100|109|11[0-2]|12[2-5]|13[5-8]|148|149|15[01]|16[1-4]|17[4-7]|189|19[0-2]"
     "|20[1-4]|21[3-7]|22[6-9]|23[89]|24[01]|25[0-4]|26[2-5]"
@@ -89,7 +85,7 @@ COLLECTIONS = (
     ),
     Collection(
         _CASE_WESTERN, **_ALL_OF_CASE_WESTERN, variable=f"X(2[789]|3[01])\\d{_ENDS}",
-        sample_rate=12_000.0, **_FAN_END,
+        sample_rate=12_000.0, bearing="6203-2RS, CWRU fan end", place="fan end",
     ),
     Collection(
         _CASE_WESTERN, **_ALL_OF_CASE_WESTERN, variable=f"X\\d{{3}}{_ENDS}",
@@ -99,23 +95,16 @@ COLLECTIONS = (
         "MFPT", "fields", variable=r"(.*\.)?gs", scalars=("sr", "rate"), unit="g",
         bearing="NICE, MFPT",
     ),
-    *(
-        Collection(
-            "FEMTO-ST", "columns", file=file, width=6, clock=4, unit="g",
-            sample_rate=25_600.0, rpm=rpm, bearing="6804RS, FEMTO-ST", directions=("x", "y"),
-        )
-        for file, rpm in (
-            ("Bearing1_", 1800.0), ("Bearing2_", 1650.0), ("Bearing3_", 1500.0), ("", None),
-        )
+    Collection(
+        "FEMTO-ST", "columns", width=6, clock=4, unit="g", sample_rate=25_600.0,
+        bearing="6804RS, FEMTO-ST", directions=("x", "y"),
     ),
 )  # fmt: skip
 """Descriptions of the files are those of the collections' own documents, and of programs that read
 them."""
 
 
-def recognize(
-    names: Sequence[str], clock: int, named: Sequence[Named], file_name: str
-) -> Collection:
+def recognize(names: Sequence[str], clock: int, named: Sequence[Named]) -> Collection:
     """The collection that a file looks like; one without a name where it looks like none.
 
     Parameters
@@ -126,14 +115,11 @@ def recognize(
         how many of the first columns are hours, minutes, seconds and their parts.
     named
         the single numbers of the file.
-    file_name
-        without folders.
     """
     ends = {item.name.rpartition(".")[2] for item in named}
     for row in COLLECTIONS:
         if (
-            file_name.startswith(row.file)
-            and any(re.fullmatch(row.variable or ".*", name) for name in names)
+            any(re.fullmatch(row.variable or ".*", name) for name in names)
             and ends >= set(row.scalars)
             and row.width in (None, len(names))
             and row.clock in (None, clock)

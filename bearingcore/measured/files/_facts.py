@@ -83,6 +83,7 @@ def is_steady(values: Array) -> bool:
 
 
 MOST_REMARKS = 100
+"""Lines above the numbers."""
 
 _NUMBER = r"[-+]?\.?\d(?:[\d.,]| (?=\d{3}\b))*(?:[eE][-+]?\d+)?"
 _REMARK = re.compile(
@@ -121,11 +122,10 @@ _SPEEDS = {
     "speed", "shaftspeed", "rotationspeed", "rotationalspeed", "rotatingspeed", "runningspeed",
     "motorspeed", "drehzahl",
 }  # fmt: skip
-_KNOWN = _RATES | _INTERVALS | _FREQUENCIES | _SPEEDS | {"rpm"}
 BEARING_FREQUENCIES = ("bpfo", "bpfi", "ftf", "bsf")
 """Outer and inner race, cage, and one turn of a ball."""
 _LOADS = {"load", "radialload", "last", "radiallast", "force", "radialforce", "loadn", "loadlb"}
-_FACTS = _KNOWN | _LOADS
+_FACTS = _RATES | _INTERVALS | _FREQUENCIES | _SPEEDS | _LOADS | {"rpm"}
 
 LEAST_STATED, GREATEST_STATED = 90.0, 5e6
 """[Hz] of recordings of vibration, from the 100 Hz of phones, which are not exact, on; another

@@ -1,6 +1,6 @@
 """Contents of text, WAV, MATLAB and HDF5 files. Runs in the process of `_child` alone.
 
-Each reader gives the fields of `_contents.FileColumns`: words and single numbers, and a matrix.
+Each reader gives the fields of `_table.Table`: words and single numbers, and a matrix.
 Fields of structs are named as in MATLAB: "bearing.gs", "runs(2).gs", "parts{3}".
 """
 

@@ -12,13 +12,7 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from bearingcore.common import Array
-from bearingcore.measured.files._channels import (
-    OTHER,
-    QUANTITIES,
-    SIGNAL,
-    Column,
-    words_of,
-)
+from bearingcore.measured.files._channels import OTHER, QUANTITIES, SIGNAL, Column, words_of
 from bearingcore.recordings import FEWEST_SAMPLES
 
 _ENVELOPE = re.compile(
@@ -108,19 +102,17 @@ def kind_in_words(
         return SPECTRUM.format(axis, " of an envelope" if enveloped else "")
     if enveloped:
         return ENVELOPE.format(enveloped[0])
-    return "" if signals else _no_signal_words(columns, values, said)
-
-
-def _no_signal_words(columns: Sequence[Column], values: Array, said: Iterable[str]) -> str:
+    if signals:
+        return ""
     for line in filter(_SPECTRUM.search, said):
         return SPECTRUM.format(f"“{line[:60]}”: this is", "")
-    others = [index for index, column in enumerate(columns) if column.role == OTHER]
-    for column in (columns[index] for index in others):
+    left = [index for index, column in enumerate(columns) if column.role == OTHER]
+    for column in (columns[index] for index in left):
         for quantity, (units, names) in QUANTITIES.items():
             of_name = column.unit is None and words_of(column.name) & {*names.split()}
             if of_name or column.unit in units.split():
                 return f"“{column.name}” is {quantity}, not a vibration: {BRING}."
-    for index in others:
+    for index in left:
         if is_lopsided(values[:, index]):
             words = "never changes its sign, like a spectrum, an envelope or a trend"
             return f"“{columns[index].name}” {words}: {BRING}."

@@ -60,7 +60,7 @@ class Sampling:
     trouble
         a sentence on what is wrong with the times; empty where nothing is.
     reason
-        how the rate was found, in a few words.
+        the origin of the rate, in a few words.
     parts
         rows (last excluded) of each long part without a jump, where there are several.
     """
@@ -73,9 +73,6 @@ class Sampling:
     reason: str = "the time column"
     parts: tuple[tuple[int, int], ...] = ()
 
-
-LIKELY_RATES = 100.0, 1e6
-"""[Hz]"""
 
 _SINCE_1970 = 1e9, 2.6e9
 """[s] from 2001 to 2052, counted as computers do."""
@@ -94,7 +91,8 @@ def times_of(time: Array, unit: str | None = None, *, sure: bool = False) -> Sam
     finite = time[np.isfinite(time)]
     first = float(finite[0]) if finite.size else 0.0
     dated = since_1970(time)
-    sampling = sampling_of(time, TIMES[unit or dated or "s"])
+    in_unit = unit or dated or "s"
+    sampling = sampling_of(time, TIMES[in_unit])
     if unit is None and dated is not None:
         sampling = dataclasses.replace(sampling, reason=f"the time column, in {dated} since 1970")
     rate = sampling.sample_rate
@@ -105,17 +103,16 @@ def times_of(time: Array, unit: str | None = None, *, sure: bool = False) -> Sam
             f"A row each {with_prefix(1.0 / rate, 's', 2)} is no signal of vibration: a trend?"
         )
         return dataclasses.replace(sampling, sample_rate=None, stated=False, trouble=trouble)
-    per_second = rate * TIMES[unit or dated or "s"]
-    low, high = LIKELY_RATES
+    per_second = rate * TIMES[in_unit]
     parts = () if unit or dated else _PARTS if first > _SINCE_1900 else _PARTS[:-1]
-    likely = next((name for name in parts if low <= per_second / TIMES[name] <= high), None)
-    said = f"{unit or dated or 's'} it would be {number(rate, 6)} Hz"
+    rates = {name: per_second / TIMES[name] for name in parts}
+    likely = next((n for n, r in rates.items() if LEAST_STATED <= r <= GREATEST_STATED), None)
+    said = f"{in_unit} it would be {number(rate, 6)} Hz"
     if likely is None:
         reason = f"{sampling.reason}; no recording of vibration is so: in {said}"
         return dataclasses.replace(sampling, stated=False, reason=reason)
     reason = f"{sampling.reason}, if it is in {likely}; in {said}"
-    rate = per_second / TIMES[likely]
-    return dataclasses.replace(sampling, sample_rate=rate, stated=False, reason=reason)
+    return dataclasses.replace(sampling, sample_rate=rates[likely], stated=False, reason=reason)
 
 
 _PARTS = ("s", "ms", "µs", "ns", "d")
@@ -329,7 +326,7 @@ def clock_columns(columns: Array) -> int:
 
 
 def clock_time(columns: Array, count: int) -> Array:
-    """Seconds since the first row of `count` columns that `clock_columns` found."""
+    """Seconds since the first row, of the `count` columns of `clock_columns`."""
     hour, minute, second = columns[:, :3].T
     time = 3600.0 * hour + 60.0 * minute + second
     midnights = np.cumsum(np.diff(time, prepend=time[0]) < -43_200.0)

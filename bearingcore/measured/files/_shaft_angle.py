@@ -27,10 +27,10 @@ LOW, HIGH = 0.35, 0.65
 
 def angle_columns(columns: Sequence[Column]) -> list[int]:
     """Columns that may hold the shaft's angle: those of speeds, then those of a tachometer."""
-    speeds = [i for i, one in enumerate(columns) if one.role == SPEED and one.unit is not None]
-    return speeds + [
-        i for i, one in enumerate(columns) if one.role == OTHER and words_of(one.name) & PULSES
-    ]
+    numbered = list(enumerate(columns))
+    speeds = [i for i, column in numbered if column.role == SPEED and column.unit is not None]
+    others = [i for i, column in numbered if column.role == OTHER]
+    return speeds + [i for i in others if words_of(columns[i].name) & PULSES]
 
 
 def shaft_angle(values: Array, unit: str | None, sample_rate: float) -> Array | None:

@@ -11,15 +11,16 @@ from __future__ import annotations
 import dataclasses
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import pairwise
+from types import MappingProxyType
 
 import numpy as np
 
 from bearingcore.common import Array, _checks as checks, cached_property, count, number, runs
 from bearingcore.measured.files._channels import OTHER, ROLES, SIGNAL, SPEED, TIME, Column
 from bearingcore.measured.files._child import MOST_NUMBERS, read_file
-from bearingcore.measured.files._contents import FileColumns, FileContents, contents_of
+from bearingcore.measured.files._contents import FileContents, contents_of
 from bearingcore.measured.files._sampling import Sampling, long_parts, longest_run, single_gaps
 from bearingcore.measured.files._shaft_angle import angle_columns, shaft_angle
 from bearingcore.measured.files._units import (
@@ -53,13 +54,66 @@ _UNITS_OF: Mapping[str, Mapping[str, float]] = {
 
 
 @dataclass(frozen=True)
-class Table(FileColumns):
+class Table:
     """Columns of numbers out of a file, with their meaning, for making a recording.
 
-    `chosen` names, in words, the one of several recordings in the file.
+    Attributes
+    ----------
+    names
+        of the columns.
+    columns : (n, c)
+        their numbers; gaps are NaN, as is the rest after the end of a shorter column.
+    sample_rate
+        [Hz] where the file's format has it (WAV), else None.
+    scalars
+        single numbers that the file names, such as a speed or a rate.
+    name
+        of the file.
+    texts
+        words that the file names.
+    remarks
+        lines above the numbers.
+    headed
+        whether the file itself names its columns.
+    stamps
+        columns of dates or times of day, in seconds since the first.
+    full_scale_known
+        whether the numbers are in a unit; False for parts of full scale (WAV).
+    notes
+        sentences on what was not read.
+    given
+        what is said of columns by hand, by index; it goes before all guesses.
+    chosen
+        the one of several recordings in the file, in words.
+
+    Raises
+    ------
+    ValueError
+        for too few rows.
     """
 
+    names: tuple[str, ...]
+    columns: Array = field(repr=False)
+    sample_rate: float | None = None
+    scalars: Mapping[str, float] = field(default_factory=dict)
+    name: str = ""
+    texts: Mapping[str, str] = field(default_factory=dict)
+    remarks: tuple[str, ...] = ()
+    headed: bool = True
+    stamps: tuple[int, ...] = ()
+    full_scale_known: bool = True
+    notes: tuple[str, ...] = ()
+    given: Mapping[int, Column] = field(default_factory=dict)
     chosen: str = ""
+
+    def __post_init__(self) -> None:
+        rows = len(self.columns)
+        if rows < FEWEST_SAMPLES:
+            raise checks.refuse(
+                f"number of rows in {self.name}", rows, f"at least {FEWEST_SAMPLES} samples"
+            )
+        for name in ("scalars", "texts", "given"):
+            checks.keep(self, **{name: MappingProxyType(dict(getattr(self, name)))})
 
     @cached_property
     def contents(self) -> FileContents:
@@ -110,8 +164,7 @@ class Table(FileColumns):
     @property
     def first_rows(self) -> list[list[float]]:
         """Return the first rows of numbers, to show under the columns' names."""
-        rows: list[list[float]] = self.columns[:SHOWN_ROWS].tolist()
-        return rows
+        return self.columns[:SHOWN_ROWS].tolist()
 
     def with_columns(self, given: Mapping[int | str, Column]) -> Table:
         """Return the table with the meaning of some columns set; it replaces all guesses.
@@ -184,8 +237,15 @@ class Table(FileColumns):
             raise checks.refuse(
                 "columns", list(columns), f"{len(directions)} different ones, one a direction"
             )
-        self._check_one_bearing(picked)
         contents = self.contents
+        guessed = [index for index in picked if index not in self.given]
+        places = {contents.columns[index].place: self.names[index] for index in guessed}
+        places.pop("", None)
+        if len(places) > 1:
+            sensors = " and ".join(f"{name} ({place})" for place, name in places.items())
+            raise checks.refuse(
+                "columns", sensors, "directions of one place; these are sensors at two places"
+            )
         units = [self._unit(index, unit) for index in picked]
         scale = checks.real_number("full_scale", full_scale, above=0.0, unit=unit or "")
         rate, notes = self._rate(sample_rate)
@@ -210,9 +270,9 @@ class Table(FileColumns):
 
     def _angle(self, rows: slice, rate: float) -> tuple[Array | None, int | None]:
         """The shaft's angle (n,) [rad] in some rows, and the column it is from, where there is."""
-        for index in angle_columns(self.contents.columns):
-            unit = self.contents.columns[index].unit
-            angle = shaft_angle(self.columns[rows, index], unit, rate)
+        columns = self.contents.columns
+        for index in angle_columns(columns):
+            angle = shaft_angle(self.columns[rows, index], columns[index].unit, rate)
             if angle is not None:
                 return angle, index
         return None, None
@@ -237,9 +297,8 @@ class Table(FileColumns):
         more = f" and {len(left) - MOST_NAMED} more" if len(left) > MOST_NAMED else ""
         words = f"Not used: {', '.join(left[:MOST_NAMED])}{more}." if left else ""
         if angle_from is not None and self.contents.columns[angle_from].role != SPEED:
-            name = self.names[angle_from]
-            words = f"{words} The shaft's angle is taken from the pulses in “{name}”.".strip()
-        return words
+            words += f" The shaft's angle is taken from the pulses in “{self.names[angle_from]}”."
+        return words.strip()
 
     def _make_acceleration(
         self, signal: Array, units: Sequence[str], rate: float, sensitivity: float | None
@@ -263,16 +322,6 @@ class Table(FileColumns):
                     "1 kHz) is not in it."
                 ]
         return notes
-
-    def _check_one_bearing(self, picked: Sequence[int]) -> None:
-        guessed = [index for index in picked if index not in self.given]
-        places = {self.contents.columns[i].place: self.names[i] for i in guessed}
-        places.pop("", None)
-        if len(places) > 1:
-            sensors = " and ".join(f"{name} ({place})" for place, name in places.items())
-            raise checks.refuse(
-                "columns", sensors, "directions of one place; these are sensors at two places"
-            )
 
     def _unit(self, index: int, unit: str | None) -> str:
         of_file = self.contents.unit
@@ -408,8 +457,7 @@ def read_table(name: str, content: bytes, give_up: Callable[[], bool] | None = N
             f"a zip of one file, not of {len(inside)} ({', '.join(inside[:6])}): unpack it, or "
             f"write which one after the zip's name, as in {name}/{inside[0]}",
         )
-    for words in ("names", "remarks", "stamps", "notes"):
-        about[words] = tuple(about.get(words, ()))
+    about |= {key: tuple(about.get(key, ())) for key in ("names", "remarks", "stamps", "notes")}
     return Table(columns=columns, **{"name": name, **about})
 
 
@@ -439,8 +487,16 @@ def join_tables(tables: Sequence[Table]) -> Table:
     if not tables:
         raise checks.refuse("tables", "none", "one or more")
     first = tables[0]
-    for table in tables[1:]:
-        _check_alike(first, table)
+    for other in tables[1:]:
+        if other.names != first.names:
+            names = ", ".join(other.names)
+            raise checks.refuse(f"columns of {other.name}", names, f"those of {first.name}")
+        rates = [part.contents.sample_rate for part in (first, other)]
+        known = [rate.value for rate in rates if rate is not None]
+        if len(known) == 1 or (len(known) == 2 and abs(known[1] / known[0] - 1.0) > RATE_DOUBT):
+            raise checks.refuse(
+                f"sample rate of {other.name}", known[-1], "that of the first", "Hz"
+            )
     if sum(table.columns.size for table in tables) > MOST_NUMBERS:
         raise checks.refuse("count of numbers in all files", "more", f"at most {MOST_NUMBERS}")
     columns = np.concatenate([table.columns for table in tables])
@@ -461,15 +517,3 @@ def join_tables(tables: Sequence[Table]) -> Table:
         notes.append(f"{len(tables)} files are joined{gap}.")
     name = first.name if len(tables) == 1 else f"{first.name} to {tables[-1].name}"
     return dataclasses.replace(first, columns=columns, name=name, notes=tuple(notes))
-
-
-def _check_alike(first: Table, other: Table) -> None:
-    """Refuse a file whose columns or sample rate are not those of the first."""
-    if other.names != first.names:
-        raise checks.refuse(
-            f"columns of {other.name}", ", ".join(other.names), f"those of {first.name}"
-        )
-    rates = [part.contents.sample_rate for part in (first, other)]
-    known = [rate.value for rate in rates if rate is not None]
-    if len(known) == 1 or (len(known) == 2 and abs(known[1] / known[0] - 1.0) > RATE_DOUBT):
-        raise checks.refuse(f"sample rate of {other.name}", known[-1], "that of the first", "Hz")

@@ -24,12 +24,9 @@ from numpy.typing import NDArray
 
 from bearingcore.common import Array, _checks as checks, thousands
 from bearingcore.measured.files._channels import TIME, column_of
-from bearingcore.measured.files._facts import named_in, names_a_fact, units_said
+from bearingcore.measured.files._facts import MOST_REMARKS, named_in, names_a_fact, units_said
 from bearingcore.measured.files._units import UNITS, unit_in, unit_named
 from bearingcore.recordings import FEWEST_SAMPLES
-
-MOST_HEADINGS = 100
-"""Lines with words before the first line of numbers."""
 
 LONGEST_REMARK = 200
 """[characters] of a line above the numbers that are kept."""
@@ -71,7 +68,7 @@ def read_text(
     Returns
     -------
     about
-        the fields of `contents.FileColumns` about names, remarks, times and lines not read.
+        the fields of `_table.Table` about names, remarks, times and lines not read.
     columns : (n, c)
         the numbers; gaps are NaN, dates and times of day are seconds since the first of them.
         Columns of words, and empty ones, are left out.
@@ -107,7 +104,7 @@ def read_text(
     for index, heading in enumerate(headings or ()):
         if _SENSOR.fullmatch(heading.strip()):
             refuse_mixed_rows(name, read[:, index])
-    return _text_fields(read, headings, remarks + said, stamps, notes)
+    return _text_fields(read, headings, remarks + said, stamps=stamps, notes=notes)
 
 
 def _read_numbers(
@@ -170,12 +167,11 @@ def _decode_to_utf8(name: str, content: bytes) -> bytes:
 
 
 def _text_fields(
-    columns: Array, headings: list[str] | None, remarks: list[str], *more: list[Any]
+    columns: Array, headings: list[str] | None, remarks: list[str], **more: list[Any]
 ) -> tuple[dict[str, Any], Array]:
     names = headings or [f"column {i + 1}" for i in range(columns.shape[1])]
     kept = [line[:LONGEST_REMARK] for line in remarks]
-    fields = {"names": names, "remarks": kept, "headed": headings is not None}
-    return {**fields, **dict(zip(("stamps", "notes"), more, strict=False))}, columns
+    return {"names": names, "remarks": kept, "headed": headings is not None, **more}, columns
 
 
 # -- how numbers are written -----------------------------------------------------------------------
@@ -429,7 +425,7 @@ def _beginning(name: str, content: bytes) -> tuple[_Style, int, list[str]]:
     for line in io.BytesIO(content):
         bare = _decoded(line).strip()
         if bare[:1] in ("#", "%"):
-            if len(remarks) < MOST_HEADINGS:
+            if len(remarks) < MOST_REMARKS:
                 remarks.append(bare.lstrip("#% ")[:LONGEST_LINE])
         elif bare:
             begin = begin or bare
@@ -445,7 +441,7 @@ def _beginning(name: str, content: bytes) -> tuple[_Style, int, list[str]]:
                 return style, place, remarks
             words += 1
             remarks.append(_decoded(line) if numbered else bare[:LONGEST_LINE])
-            if words > MOST_HEADINGS:
+            if words > MOST_REMARKS:
                 break
         place += len(line)
     if not begin:
@@ -713,9 +709,9 @@ def _mended(
     again = {line[:40] for line in remarks}  # headings of a second recording are no news
     lacking = [(above + index, text) for index, text, _ in wrong if text not in again]
     if lacking:
-        many = "One line lacks" if len(lacking) == 1 else f"{thousands(len(lacking))} lines lack"
+        lack = "One line lacks" if len(lacking) == 1 else f"{thousands(len(lacking))} lines lack"
         number, text = lacking[0]
-        notes.append(f"{many} numbers (line {number}, “{text}”), which count as missing.")
+        notes.append(f"{lack} numbers (line {number}, “{text}”), which count as missing.")
     return b"".join(lines), notes, [text for _, text in lacking[:SAMPLE]]
 
 

@@ -199,9 +199,6 @@ def level_doubt(level: float) -> str:
     >>> level_doubt(3.0)
     ''
     """
-    words = f"{number(level, 2)} m/s² ({number(level / STANDARD_GRAVITY, 2)} g)"
-    if level > GREATEST_LEVEL:
-        return f"A root mean square of {words} is more than bearings give: the unit may be another."
-    if level < LEAST_LEVEL:
-        return f"A root mean square of {words} is less than bearings give: the unit may be another."
-    return ""
+    size = "more" if level > GREATEST_LEVEL else "less" if level < LEAST_LEVEL else ""
+    words = f"{number(level, 2)} m/s² ({number(level / STANDARD_GRAVITY, 2)} g) is {size}"
+    return size and f"A root mean square of {words} than bearings give: the unit may be another."

@@ -169,9 +169,9 @@ def _keep_plain() -> bool:
     """Have Numba keep code in a folder of these sources alone; False where it cannot be written."""
     here = Path(__file__).parent
     folder = Path(numba.config.CACHE_DIR or here / "__pycache__") / f"plain-{sources(here)}"
-    try:
+    with suppress(OSError):
         folder.mkdir(parents=True, exist_ok=True)
-    except OSError:
+    if not os.access(folder, os.W_OK):  # Numba refuses a folder that it can only read
         _not_kept.append("plain")
         return False
     numba.config.CACHE_DIR = str(folder)

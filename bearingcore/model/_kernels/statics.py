@@ -635,7 +635,7 @@ def new_map_work(angle):
 def static_maps(cage_angles, contacts, paths, load, rows, memory, answers):
     """Static states of the rows (first, last) of a map: see `solve_maps`."""
     work = new_map_work(contacts.angle)
-    return solve_maps(cage_angles, contacts, paths, load, rows, memory, answers, work)
+    solve_maps(cage_angles, contacts, paths, load, rows, memory, answers, work)
 
 
 @inlined
@@ -695,7 +695,7 @@ def solve_maps(cage_angles, contacts, paths, load, rows, memory, answers, work):
 
     Points that are not OPEN are left alone; each is started from those before it in its row.
     `memory` carries states and drops over from row to row, NaN before the first, and holds those of
-    the last row then. Returns how many points were solved, and how often the energy was evaluated.
+    the last row then.
 
     Where all balls have sunk as deep as in the row before, the answer is that of the row before:
     most of a map of square defects is, as a ball is on the race or on the floor and seldom between.
@@ -713,8 +713,6 @@ def solve_maps(cage_angles, contacts, paths, load, rows, memory, answers, work):
     guess = work.guess
     first, last = rows
     first_guess(contacts, load, guess)
-    solved = 0
-    evaluations = 0
     for e in range(first, last):
         path = Path(paths.defects[e, : paths.counts[e]], paths.tables)
         for k in range(n):
@@ -739,16 +737,12 @@ def solve_maps(cage_angles, contacts, paths, load, rows, memory, answers, work):
                 extrapolate(cage_angles, k, q, active, state)
             circle_c = work.circle_c
             place_balls(cage_angles[k], contacts, circle_c, work.circle_s, place.c, place.s)
-            now, status[e, k], residual[e, k], memory.iterations[k], calls = minimise_energy(
+            now, status[e, k], residual[e, k], _, memory.evaluations[k] = minimise_energy(
                 state, place, contacts, load, work.descent
             )
-            solved += 1
-            evaluations += calls
-            memory.evaluations[k] = calls
             for i in range(5):
                 q[k, i] = state[i]
             keep_answer(e, k, now, contacts, work, memory, answers)
-    return solved, evaluations
 
 
 _TERMS = np.zeros((5, 5), dtype=np.int64)
@@ -761,8 +755,8 @@ def static_states(cage_angles, leads, contacts, path, load):
     leads (n,) [rad]: how far defects that turn are ahead of where the cage angle has them.
 
     A map of one row. Returns q (n, 5), contact loads (n, contacts), stiffness (n, 5, 5), loaded
-    contacts, status, residual, iterations and evaluations (n,), tilts and moments scaled as at the
-    head of `structs`; NaN for the stiffness where there is no equilibrium.
+    contacts, status, residual and evaluations (n,), tilts and moments scaled as at the head of
+    `structs`; NaN for the stiffness where there is no equilibrium.
     """
     n = cage_angles.size
     count = np.array([path.defects.shape[0]])
@@ -784,7 +778,6 @@ def static_states(cage_angles, leads, contacts, path, load):
         answers.loaded[0],
         answers.status[0],
         answers.residual[0],
-        memory.iterations,
         memory.evaluations,
     )
 
@@ -796,7 +789,6 @@ def new_memory(n, contacts):
         np.zeros((n, 5)),
         np.full((n, n_contacts), math.nan),
         np.zeros((n, n_contacts)),
-        np.zeros(n, dtype=np.int64),
         np.zeros(n, dtype=np.int64),
     )
 

@@ -224,14 +224,13 @@ class MapMemory(NamedTuple):
     q : (n, 5) [m]
         states, tilts times r_d.
     drops : (n, contacts) [m], loads : (n, contacts) [N]
-    iterations, evaluations : (n,)
-        Newton steps, and how often the energy was evaluated.
+    evaluations : (n,)
+        how often the energy was evaluated.
     """
 
     q: Array
     drops: Array
     loads: Array
-    iterations: Integers
     evaluations: Integers
 
 

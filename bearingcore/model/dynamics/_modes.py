@@ -54,8 +54,6 @@ class Modes:
         angles.
     label : (m,)
         direction with the largest motion, numbered by rising frequency: "x1", "y1", "x2", "y2".
-    cost
-        the number of contacts if they exceeded MOST_CONTACTS; else empty.
     state
         the static states that were linearised.
 
@@ -70,12 +68,11 @@ class Modes:
     undamped_frequency: Array
     shape: Array
     label: tuple[str, ...]
-    cost: str = ""
-    state: Equilibrium | None = field(default=None, repr=False, compare=False)
+    state: Equilibrium = field(repr=False, compare=False)
 
     def reason(self, i: int) -> str:
         """Status of the static state at cage angle i in words."""
-        return self.cost or (self.state.reason(i) if self.state else "")
+        return self.state.reason(i)
 
     def table(self) -> ResultTable:
         """A row for each cage angle: frequency and damping ratio of each mode, static status."""
@@ -239,7 +236,7 @@ def modes_at(state: Equilibrium, template: Array | None = None, *, nearly: bool 
         label = _labels(template, mass, dofs)
         rows = np.broadcast_to(np.float64(math.nan), (len(state.cage_angles), 2 * nd))
         shapes = np.broadcast_to(np.float64(math.nan), (*rows.shape, 2 * nd))
-        return Modes(scene, dofs, state.cage_angles, rows, rows, rows, shapes, label, state.cost)
+        return Modes(scene, dofs, state.cage_angles, rows, rows, rows, shapes, label, state)
     K_b = state.stiffness[:, index][:, :, index]
     C_b = contact_damping(scene) * loaded_directions(state)[:, index][:, :, index]
     K = two_body_matrix(K_b, scene.support.stiffness(dofs))
@@ -261,9 +258,7 @@ def modes_at(state: Equilibrium, template: Array | None = None, *, nearly: bool 
         damped = _approximate_damping if nearly else _exact_damping
         frequency[known], ratio[known] = damped(K[known], C[known], mass, shape[known])
     label = _labels(template, mass, dofs)
-    return Modes(
-        scene, dofs, state.cage_angles, frequency, ratio, undamped, shape, label, state=state
-    )  # fmt: skip
+    return Modes(scene, dofs, state.cage_angles, frequency, ratio, undamped, shape, label, state)
 
 
 def _frequencies_like(template: Array, terms: Array, support: Array) -> Array:
@@ -330,9 +325,7 @@ def loaded_directions(state: Equilibrium) -> Array:
 
 def _assignment(likeness: Array) -> NDArray[np.int64]:
     """The column of each row (m,) that makes the sum of likeness (m, columns) greatest."""
-    from scipy.optimize import (
-        linear_sum_assignment,
-    )  # imported late: it would double the time to import this package
+    from scipy.optimize import linear_sum_assignment  # imported late: slow to import
 
     return np.asarray(linear_sum_assignment(-likeness)[1])
 

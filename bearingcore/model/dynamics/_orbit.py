@@ -1,4 +1,4 @@
-"""The periodic steady state, found by shooting, and its stability by Floquet multipliers.
+"""The periodic steady state by shooting, and its stability by Floquet multipliers.
 
 Quantity                                              | Symbol | Name            | Unit
 ----------------------------------------------------- | ------ | --------------- | ----
@@ -111,7 +111,7 @@ class Orbit:
 
     @property
     def stable(self) -> bool:
-        """True if the orbit was found and disturbances of it decay."""
+        """True if there is an orbit and disturbances of it decay."""
         return self.status == OrbitStatus.STABLE
 
     @property

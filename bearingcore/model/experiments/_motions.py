@@ -29,6 +29,9 @@ from bearingcore.model.experiments._references import (
 from bearingcore.model.scene import Scene
 from bearingcore.recordings._spectrum_difference import BAND
 
+SAMPLE_RATE = 65536.0
+"""[Hz] of the instants at which motions are compared."""
+
 SHARE_OF_REFERENCE = 0.3
 """Part of the work that the reference usually is."""
 
@@ -82,7 +85,6 @@ def motion_experiment(
     scene: Scene,
     *,
     duration: float = 0.35,
-    sample_rate: float = 65536.0,
     methods: Sequence[str] | None = None,
     watch: Watch = NOT_WATCHED,
 ) -> Experiment:
@@ -94,8 +96,6 @@ def motion_experiment(
         what moves; the active directions are the scene's.
     duration
         [s] of motion.
-    sample_rate
-        [Hz] of the instants at which motions are compared.
     methods
         names out of `integrators.METHODS`; None takes all that are installed.
     watch
@@ -107,7 +107,6 @@ def motion_experiment(
         for unknown methods, a shaft that stands still, or a scene without a static state.
     """
     duration = checks.real_number("duration", duration, above=0.0, unit="s")
-    sample_rate = checks.real_number("sample_rate", sample_rate, above=0.0, unit="Hz")
     names = usable_methods() if methods is None else tuple(methods)
     for name in names:
         checks.choice("method", name, tuple(METHODS))
@@ -117,11 +116,10 @@ def motion_experiment(
     report(0.0)
     for name in names:
         if METHODS[name].fixed_step:  # so that nothing is compiled while time is taken
-            METHODS[name].march(
-                problem, settings_of(METHODS[name], sample_rate)[0], 1e-3, sample_rate
-            )
-    reference = motion_reference(problem, duration, sample_rate, BAND * highest, report)
-    usual = default_step_rate(scene, sample_rate)
+            first = settings_of(METHODS[name], SAMPLE_RATE)[0]
+            METHODS[name].march(problem, first, 1e-3, SAMPLE_RATE)
+    reference = motion_reference(problem, duration, SAMPLE_RATE, BAND * highest, report)
+    usual = default_step_rate(scene, SAMPLE_RATE)
     tasks = [(METHODS[name], s) for name in names for s in settings_of(METHODS[name], usual)]
     experiment = Experiment(
         "motion",

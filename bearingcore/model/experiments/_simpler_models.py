@@ -4,16 +4,14 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
-from typing import Any
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from bearingcore.common import Array, ResultTable, shown_as_table, table_of, with_prefix
 from bearingcore.model.dynamics import (
     Motion,
-    common_ball_passes,
     compare_motions,
     highest_natural_frequency,
     orbit,
@@ -70,8 +68,6 @@ class Alternative:
         [s] of computing it, and the same of the scene's own model.
     note
         what else there is to know, or why there is no error.
-    changes
-        what takes it: fields of `Scene.replace`; none for what these do not change.
     """
 
     name: str
@@ -80,7 +76,6 @@ class Alternative:
     seconds: float
     own_seconds: float
     note: str = ""
-    changes: Mapping[str, Any] = field(default_factory=dict)
 
     @property
     def saved(self) -> float:
@@ -171,13 +166,11 @@ class _Measure:
             return
         self.band = BAND * highest_natural_frequency(self.scene)
         for dofs in fewer_directions(self.scene):
-            row = self._other_march(f"directions {' '.join(dofs)}", self.scene.replace(dofs=dofs))
-            yield replace(row, changes={"dofs": dofs})
+            yield self._other_march(f"directions {' '.join(dofs)}", self.scene.replace(dofs=dofs))
         yield from self._edges()
         for factor, words in ((0.5, "half as many steps"), (2.0, "twice as many steps")):
             yield self._other_march(words, self.scene, factor * self.own.step_rate)
-        other = MASSLESS if self.scene.balls == WITH_MASS else WITH_MASS
-        yield replace(self._balls(), changes={"balls": other})
+        yield self._balls()
         if self.scene.balls == MASSLESS and self.scene.contact_law == CONTACT_LAWS[0]:
             yield self._orbit()
         yield self._quasi_static()
@@ -256,8 +249,7 @@ class _Measure:
         for edge in EDGES if defects else ():
             if any(defect.edge != edge for defect in defects):
                 scene = self.scene.replace(defect=tuple(replace(d, edge=edge) for d in defects))
-                row = self._other_march(f"{edge} edges", scene)
-                yield replace(row, changes={"edge": edge} if len(defects) == 1 else {})
+                yield self._other_march(f"{edge} edges", scene)
 
     def _balls(self) -> Alternative:
         heavy = self.scene.balls == WITH_MASS
@@ -273,8 +265,6 @@ class _Measure:
 
     def _orbit(self) -> Alternative:
         name, motion = "periodic orbit", self.own
-        if common_ball_passes(self.scene) is None:
-            return self._refused(name, "the motion never repeats itself")
         began = time.thread_time()
         answer = orbit(self.scene, step_rate=motion.step_rate, most_steps=MOST_CALLS // 4)
         seconds = time.thread_time() - began

@@ -246,7 +246,7 @@ def _compiled(problem: StaticProblem, tolerance: float, warm: bool = True) -> So
         kernels.static_states(part, np.zeros_like(part), problem.packed, path, load)
         for part in parts
     ]
-    q, status, evaluations = (np.concatenate([state[i] for state in states]) for i in (0, 4, 7))
+    q, status, evaluations = (np.concatenate([state[i] for state in states]) for i in (0, 4, 6))
     return Solved(q, status == kernels.CONVERGED, int(evaluations.sum()))
 
 

@@ -124,8 +124,16 @@ class Defect:
             bearing.inner_raceway_radius if self.race == "inner" else bearing.outer_raceway_radius
         )
 
-    def check_depth(self, bearing: Bearing) -> None:
-        """Raise ValueError if the floor is deeper than a ball of `bearing` could roll over."""
+    def check(self, bearing: Bearing) -> None:
+        """Raise ValueError for a defect that `bearing` cannot have.
+
+        It may name a row that is not there, be deeper than a ball could roll over, or have a floor
+        that is finer than can be computed.
+        """
+        if self.row is not None and self.row >= len(bearing.all_rows):
+            raise checks.refuse(
+                "row of a defect", self.row, f"None, or below the {len(bearing.all_rows)} rows"
+            )
         rows = range(len(bearing.all_rows)) if self.row is None else [self.row]
         least = min(bearing.of_row(row).ball_radius for row in rows)
         if self.depth > least:
@@ -135,16 +143,6 @@ class Defect:
                 "at most the ball radius of {radius:m}, or no ball rolls over the edge",
                 radius=least,
             )
-
-    def check_row(self, bearing: Bearing) -> None:
-        """Raise ValueError if `bearing` has no such row."""
-        if self.row is not None and self.row >= len(bearing.all_rows):
-            raise checks.refuse(
-                "row of a defect", self.row, f"None, or below the {len(bearing.all_rows)} rows"
-            )
-
-    def check_floor(self, bearing: Bearing) -> None:
-        """Raise ValueError if the floor is finer than can be computed on a race of `bearing`."""
         if isinstance(self.floor, RoughFloor):
             self.floor.check_length(self.extent * self.raceway_radius(bearing))
 
@@ -190,7 +188,7 @@ class Defect:
         `cage_angle` [rad] sets the angle of cage and shaft, and with it the place of an inner-race
         defect. Shapes broadcast. Raises ValueError for a defect too deep for the balls.
         """
-        self.check_depth(bearing)
+        self.check(bearing)
         return drop_into((self,), bearing, ball_angle, cage_angle)
 
 

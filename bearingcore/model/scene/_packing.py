@@ -129,42 +129,35 @@ def own_rows(bearing: Bearing) -> tuple[Bearing, ...]:
 @lru_cache(maxsize=256)
 def contacts(bearing: Bearing) -> kernels.Contacts:
     """All contacts of a bearing."""
-    rows = bearing.all_rows
-    owns = [bearing.of_row(k) for k in range(len(rows))]
-    counts = [own.n_balls for own in owns]
-    made = [bearing.kind.contact(own) for own in owns]
+    bearings = own_rows(bearing)
+    counts = [row_bearing.n_balls for row_bearing in bearings]
+    lines = [bearing.kind.contact(row_bearing) for row_bearing in bearings]
+    rows = list(zip(bearing.all_rows, lines, strict=True))
     lever = bearing.groove_center_radius
 
-    def each(*values: float) -> Array:
+    def each(values: Iterable[float]) -> Array:
         """The values of the rows, once for each of their contacts."""
-        return np.repeat(np.array(values, dtype=float), counts)
+        return np.repeat(np.array(list(values), dtype=float), counts)
 
     return kernels.Contacts(
         angle=np.concatenate(
             [
-                row.turn + own.ball_spacing * np.arange(own.n_balls)
-                for row, own in zip(rows, owns, strict=True)
+                row.turn + row_bearing.ball_spacing * np.arange(row_bearing.n_balls)
+                for row, row_bearing in zip(bearing.all_rows, bearings, strict=True)
             ]
         ),
-        relative_speed=each(*(bearing.pace(k) for k in range(len(rows)))),
-        arm=each(
-            *(
-                (row.place + row.facing * part.beyond) / lever
-                for row, part in zip(rows, made, strict=True)
-            )
-        ),
-        reach=each(*(part.lever / lever for part in made)),
-        line_r=each(*(math.cos(part.angle) for part in made)),
-        line_z=each(
-            *(row.facing * math.sin(part.angle) for row, part in zip(rows, made, strict=True))
-        ),
-        fixed=each(*(part.center_distance is None for part in made)).astype(bool),
-        distance=each(*(part.center_distance or 0.0 for part in made)),
-        clearance=each(*(bearing.radial_clearance + row.clearance for row in rows)),
-        offset=each(*(row.offset for row in rows)),
-        room=each(*(part.room for part in made)),
-        factor=each(*(part.factor for part in made)),
-        exponent=each(*(part.exponent for part in made)),
+        relative_speed=each(bearing.pace(k) for k in range(len(rows))),
+        arm=each((row.place + row.facing * line.beyond) / lever for row, line in rows),
+        reach=each(line.lever / lever for line in lines),
+        line_r=each(math.cos(line.angle) for line in lines),
+        line_z=each(row.facing * math.sin(line.angle) for row, line in rows),
+        fixed=each(line.center_distance is None for line in lines).astype(bool),
+        distance=each(line.center_distance or 0.0 for line in lines),
+        clearance=each(bearing.radial_clearance + row.clearance for row, _ in rows),
+        offset=each(row.offset for row, _ in rows),
+        room=each(line.room for line in lines),
+        factor=each(line.factor for line in lines),
+        exponent=each(line.exponent for line in lines),
         rows=np.array([[balls.start, balls.stop - balls.start] for balls in bearing.balls_of_rows]),
         most_tilt=SMALL_TILT * lever,
     )
@@ -188,13 +181,13 @@ def races(scene: Scene, contact_damping: float, *, weight: bool) -> kernels.Race
     would move as the published law has them: damping over stiffness alike on both sides. Alike
     contacts have 2 c each. `weight`: whether the balls' weight acts.
     """
-    owns = own_rows(scene.bearing)
-    softer = [(own.race_factors[0] / own.race_factors[1]) ** (1.0 / own.kind.exponent)
-              for own in owns]  # fmt: skip
+    rows = own_rows(scene.bearing)
+    softer = [(row.race_factors[0] / row.race_factors[1]) ** (1.0 / row.kind.exponent)
+              for row in rows]  # fmt: skip
 
     def each(values: Iterable[float]) -> Array:
         """The values of the rows, once for each of their balls."""
-        return np.repeat(np.array(list(values), dtype=float), [own.n_balls for own in owns])
+        return np.repeat(np.array(list(values), dtype=float), [row.n_balls for row in rows])
 
     def both(values: Iterable[tuple[float, float]]) -> Array:
         """The same of pairs of values, for the inner and the outer race."""
@@ -202,15 +195,16 @@ def races(scene: Scene, contact_damping: float, *, weight: bool) -> kernels.Race
         return np.stack([each(inner), each(outer)])
 
     return kernels.Races(
-        factor=both(own.race_factors for own in owns),
-        distance=both(own.kind.race_distances(own) for own in owns),
+        factor=both(row.race_factors for row in rows),
+        distance=both(row.kind.race_distances(row) for row in rows),
         damping=both(
-            (contact_damping * (1.0 + one), contact_damping * (1.0 + 1.0 / one)) for one in softer
+            (contact_damping * (1.0 + ratio), contact_damping * (1.0 + 1.0 / ratio))
+            for ratio in softer
         ),
-        mass=each(own.ball_mass for own in owns),
-        inverse_mass=each(1.0 / own.ball_mass for own in owns),
-        centrifugal=each(own.centrifugal_load(scene.shaft_speed) for own in owns),
-        weight=each(own.ball_mass * STANDARD_GRAVITY if weight else 0.0 for own in owns),
+        mass=each(row.ball_mass for row in rows),
+        inverse_mass=each(1.0 / row.ball_mass for row in rows),
+        centrifugal=each(row.centrifugal_load(scene.shaft_speed) for row in rows),
+        weight=each(row.ball_mass * STANDARD_GRAVITY if weight else 0.0 for row in rows),
     )
 
 

@@ -138,9 +138,7 @@ class Scene:
             checks.keep(self, dofs=self._held_dofs)
         self._check_directions()
         for defect in self.defects:
-            defect.check_row(self.bearing)
-            defect.check_depth(self.bearing)
-            defect.check_floor(self.bearing)
+            defect.check(self.bearing)
         if len(self.defects) > 1:
             path_tables(self.defects, self.bearing)  # refuses defects that exclude each other
 
@@ -303,10 +301,7 @@ class Scene:
             table["defect"] = scene_file.from_data(Defect, "defect 1", only)
         table.setdefault("load", {})
         if isinstance(table.get("bearing"), dict):
-            bearing = {
-                "groove_center_distance": None,
-                **table["bearing"],
-            }  # of rollers there is none
+            bearing = {"groove_center_distance": None} | table["bearing"]  # rollers have none
             if "load_deflection_factor" in bearing:
                 bearing["load_deflection_factor"] = mended_factor(
                     bearing["load_deflection_factor"], bearing.get("roller_length")

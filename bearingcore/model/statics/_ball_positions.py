@@ -32,7 +32,7 @@ from bearingcore.model.statics._shortage import explanation
 from bearingcore.model.statics._status import StaticStatus
 
 BALANCED = 1e-8
-"""Force left on a ball, over the greatest load, up to which its place counts as found."""
+"""Force left on a ball, over the greatest load, up to which its place counts as settled."""
 
 CARRYING = 0.05
 """Part of the heaviest load above which a ball counts as carrying."""
@@ -61,7 +61,7 @@ class BallPositions:
         of each ball, radial and axial, against the ball that touches the outer race at the unloaded
         contact angle. A ball that carries nothing has its position inside the clearance.
     stiffness : (n, 5, 5) [N/m, N/rad, N·m/rad]
-    status, residual, iterations : (n,)
+    status, residual : (n,)
         as of `Equilibrium`; a load that no contact can carry is not solved again.
     leads, cost
         as of `Equilibrium`.
@@ -78,13 +78,12 @@ class BallPositions:
     stiffness: Array
     status: NDArray[np.int8]
     residual: Array
-    iterations: NDArray[np.int64]
     leads: Array
     cost: str = ""
 
     @cached_property
     def converged(self) -> NDArray[np.bool_]:
-        """(n,) True where there is one equilibrium and it was found."""
+        """(n,) True where there is one equilibrium, and the solver reached it."""
         return self.status == StaticStatus.CONVERGED
 
     def term(self, name: str) -> Array:
@@ -172,11 +171,11 @@ def ball_positions(
         return BallPositions(
             scene, active, massless.cage_angles, float(races.centrifugal[0]),
             massless.displacement, loads, loads, np.swapaxes(loads, 0, 1), massless.stiffness,
-            massless.status, massless.residual, massless.iterations, massless.leads, massless.cost,
+            massless.status, massless.residual, massless.leads, massless.cost,
         )  # fmt: skip
     start = np.where(np.isfinite(massless.state), massless.state, 0.0)
     with _refuse_overflow(scene):
-        q, load, angle, place, stiffness, status, residual, iterations = kernels.ball_positions(
+        q, load, angle, place, stiffness, status, residual, _ = kernels.ball_positions(
             massless.cage_angles,
             massless.leads,
             start,
@@ -210,7 +209,6 @@ def ball_positions(
         stiffness,
         status.astype(np.int8),
         residual,
-        iterations,
         massless.leads,
     )
 
@@ -275,8 +273,6 @@ def static_state(
         loaded_balls=np.where(known, carries.sum(axis=1), 0),
         status=answer.status,
         residual=answer.residual,
-        iterations=answer.iterations,
-        evaluations=answer.iterations,
         state=answer.displacement * packing.length_units(scene),
         leads=answer.leads,
         cost=answer.cost,

@@ -87,8 +87,6 @@ class Equilibrium:
         unbalanced load over total load, moments divided by r_d; the total includes loads of held
         directions. A state has converged at 1e-9 or less, or at the rounding error of the
         displacement where a very light load meets very stiff balls.
-    iterations, evaluations : (n,)
-        number of Newton steps, and of evaluations of the energy.
     state : (n, 5) [m]
         the last displacement reached, tilts times r_d, also where the solver failed.
     leads : (n,) [rad]
@@ -109,8 +107,6 @@ class Equilibrium:
     loaded_balls: NDArray[np.int64]
     status: NDArray[np.int8]
     residual: Array
-    iterations: NDArray[np.int64]
-    evaluations: NDArray[np.int64]
     state: Array = field(repr=False)
     leads: Array = field(repr=False)
     cost: str = ""
@@ -118,7 +114,7 @@ class Equilibrium:
 
     @cached_property
     def converged(self) -> NDArray[np.bool_]:
-        """(n,) True where there is one equilibrium and it was found."""
+        """(n,) True where there is one equilibrium, and the solver reached it."""
         return self.status == StaticStatus.CONVERGED
 
     @property
@@ -350,7 +346,7 @@ def equilibrium_of(
     if cost := too_many_contacts(balls * angles.size):
         return _not_begun(packed, angles, leads, cost)
     units = packed.units
-    q, loads, stiffness, loaded, status, residual, iterations, evaluations = kernels.static_states(
+    q, loads, stiffness, loaded, status, residual, _ = kernels.static_states(
         angles, leads, packed.contacts, packed.path, packed.load
     )
     displacement = q / units
@@ -377,8 +373,6 @@ def equilibrium_of(
         loaded_balls=loaded,
         status=status,
         residual=residual,
-        iterations=iterations,
-        evaluations=evaluations,
         state=q,
         leads=leads,
     )
@@ -395,7 +389,7 @@ def too_many_contacts(contacts: int) -> str:
 def _not_begun(packed: PackedScene, angles: Array, leads: Array, cost: str) -> Equilibrium:
     """NaN everywhere, without the memory of it."""
     n, balls, unknown = angles.size, packed.contacts.angle.size, np.float64(math.nan)
-    rows, none = np.broadcast_to(unknown, (n, 5)), np.broadcast_to(np.int64(0), n)
+    rows = np.broadcast_to(unknown, (n, 5))
     return Equilibrium(
         scene=packed.scene,
         dofs=packed.dofs,
@@ -403,11 +397,9 @@ def _not_begun(packed: PackedScene, angles: Array, leads: Array, cost: str) -> E
         displacement=rows,
         ball_load=np.broadcast_to(unknown, (n, balls)),
         stiffness=np.broadcast_to(unknown, (n, 5, 5)),
-        loaded_balls=none,
+        loaded_balls=np.broadcast_to(np.int64(0), n),
         status=np.broadcast_to(np.int8(StaticStatus.TOO_MANY_CONTACTS), n),
         residual=rows[:, 0],
-        iterations=none,
-        evaluations=none,
         state=rows,
         leads=leads,
         cost=cost,

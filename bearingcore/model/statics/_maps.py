@@ -69,9 +69,6 @@ class Maps:
         each a `StaticStatus`; `reason(i, k)` puts it into words.
     residual : (m, n)
         unbalanced load over total load, moments divided by r_d.
-    solved, evaluations
-        number of points that were solved instead of copied from the previous extent, and number of
-        evaluations of the energy.
     refusals : (m,)
         the reason why a scene with this extent is impossible; empty if it is possible.
     """
@@ -85,13 +82,11 @@ class Maps:
     greatest_load: Array
     status: NDArray[np.int8]
     residual: Array
-    solved: int
-    evaluations: int
     refusals: tuple[str, ...]
 
     @cached_property
     def converged(self) -> NDArray[np.bool_]:
-        """(m, n) True where there is one equilibrium and it was found."""
+        """(m, n) True where there is one equilibrium, and the solver reached it."""
         return self.status == StaticStatus.CONVERGED
 
     def term(self, name: str) -> Array:
@@ -196,24 +191,22 @@ def stiffness_maps(
     status[refused] = StaticStatus.REFUSED
     memory = kernels.new_memory(angles.size, contacts)
 
-    def solve(begin: int, end: int) -> tuple[int, int]:
-        counts = np.zeros(2, dtype=np.int64)
+    def solve(begin: int, end: int) -> None:
         for rows in kernels.parts(begin, end, max(FIRST_POINTS // max(angles.size, 1), 1)):
-            counts += kernels.static_maps(angles, contacts, ways, load, rows, memory, answers)
+            kernels.static_maps(angles, contacts, ways, load, rows, memory, answers)
             if progress is not None:
                 progress(rows[1] / sizes.size, f"{rows[1]} of {sizes.size} extents")
-        return int(counts[0]), int(counts[1])
 
     # Whether a load can be carried depends on the cage angle alone, and to find out that it cannot
     # takes long: the first row shows which cage angles the others need not try.
     start = int(np.argmin(refused)) if not refused.all() else sizes.size
     begun = min(start + 1, sizes.size)
-    solved, evaluations = solve(start, begun)
+    solve(start, begun)
     failed = np.flatnonzero(np.isin(status[start:begun], UNEXPLAINED).any(axis=0))
     force = load.force[load.active]
     gone = [k for k in failed if is_unbounded(contacts, float(angles[k]), load.active, force)]
     status[:, gone] = np.where(refused[:, None], StaticStatus.REFUSED, StaticStatus.NOT_CARRIED)
-    more, calls = solve(begun, sizes.size)
+    solve(begun, sizes.size)
     units = packed.units
     stiffness = answers.stiffness
     stiffness *= np.outer(units, units)[np.triu_indices(5)][:, None, None]
@@ -227,8 +220,6 @@ def stiffness_maps(
         greatest_load=answers.greatest,
         status=status,
         residual=answers.residual,
-        solved=solved + more,
-        evaluations=evaluations + calls,
         refusals=refusals,
     )
 

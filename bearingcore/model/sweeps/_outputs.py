@@ -366,12 +366,7 @@ def of_scene(
     computations: dict[str, Callable[[], SweepStatus]] = {
         PRESSURE: lambda: _pressure(scene, settings, numbers),
         LIFE: lambda: _life(scene, settings, numbers),
-        MODES: lambda: _bands_over_all_positions(
-            ranges if scene.balls == MASSLESS else _massless_states(scene, settings.cage_angles),
-            labels,
-            settings.cage_angles,
-            numbers,
-        ),
+        MODES: lambda: _bands_over_all_positions(ranges, labels, settings.cage_angles, numbers),
         MOTION: lambda: _motion(scene, settings, numbers, progress),
         RECORD: lambda: _record(scene, settings, numbers, progress),
         MASS: lambda: _mass(scene, settings, numbers, progress),
@@ -404,16 +399,14 @@ def _statics_of_ranges(ranges: StaticRanges) -> tuple[NDArray[np.int8], Numbers]
     return code, numbers
 
 
-def _massless_states(scene: Scene, n: int) -> StaticRanges:
-    """States of the scene without its balls' mass, which natural frequencies leave out."""
-    return static_ranges(scene.replace(balls=MASSLESS), (), n, rounds=0)
-
-
 def _bands_over_all_positions(
     ranges: StaticRanges, labels: tuple[str, ...], n: int, numbers: Numbers
 ) -> SweepStatus:
     """Put the edges (len(labels),) of the bands of one scene into `numbers`."""
-    scene, terms = ranges.state.scene, stiffness_terms(ranges.state)
+    scene = ranges.state.scene.replace(balls=MASSLESS)  # frequencies leave the balls' mass out
+    if scene != ranges.state.scene:
+        ranges = static_ranges(scene, (), n, rounds=0)
+    terms = stiffness_terms(ranges.state)
     if not scene.defect_turns:
         of_one = _bands(scene, terms[:, None], labels)
         numbers |= {name: values[0] for name, values in of_one.items()}

@@ -265,8 +265,8 @@ def test_a_unit_chosen_over_a_column_is_that_of_all_until_another_has_its_own():
     assert made.state.values["unit"] == "g"
     np.testing.assert_allclose(choose(2, "y", "m/s²"), NOISE * [9.80665, 1.0], rtol=1e-5)
     assert columns_as_said(made.state) == (["time", "x", "y"], ["", "g", "m/s²"])
-    given = made.measured.origin.given
-    assert [given[index].unit for index in (1, 2)] == ["g", "m/s²"]
+    roles = made.measured.origin.given
+    assert [roles[index].unit for index in (1, 2)] == ["g", "m/s²"]
     np.testing.assert_allclose(choose(1, "", "g")[:, 0], NOISE[:, 1], rtol=1e-5)
     assert made.state.values["unit"] == "m/s²"
 
@@ -477,7 +477,10 @@ def test_columns_given_for_one_file_leave_others_as_they_propose_themselves():
                                         for name, columns in files.items()}))  # fmt: skip
     answer(made, columns="time s;y;")
     joined = made.recordings(made.measured, "y")
-    assert [one.name for one in joined.recordings] == ["rig.zip/alone.csv", "rig.zip/two.csv"]
+    assert [recording.name for recording in joined.recordings] == [
+        "rig.zip/alone.csv",
+        "rig.zip/two.csv",
+    ]
     assert joined.left_out == ()
 
 
@@ -491,7 +494,7 @@ def test_dated_files_are_in_the_order_of_their_dates_and_the_newest_is_shown():
     assert len(made.series.left_out) == 1
     assert made.measured.recording.name == "rig.zip/a.csv"
     series = made.recordings(made.measured, "y").recordings
-    assert [one.name[-5:] for one in series] == ["b.csv", "c.csv", "a.csv"]
+    assert [recording.name[-5:] for recording in series] == ["b.csv", "c.csv", "a.csv"]
     about = made.known_about
     assert (about.machine, about.point) == ("Fan 3", "DE-H")
     assert about.date == "02 June 2026, 09:30, by the file"

@@ -9,16 +9,8 @@ from bokeh.plotting import figure
 
 from bearing_explorer.explorer.plots import compared_curves
 from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.plots import levels, style
 from bearing_explorer.kit.plots.layers import Layer, add_all, sources_of
-from bearing_explorer.kit.plots.levels import (
-    DEPTH_OF_VIEW,
-    FREQUENCY,
-    SHOWN,
-    density_axis,
-    drawn_levels,
-    seen_levels,
-)
 from bearing_explorer.kit.plots.ranges import StickyRange
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
@@ -41,7 +33,7 @@ class SpectrumFigures:
         of the figure along a direction.
     frequencies
         [Hz] at first; from 0 the axis is linear, else logarithmic.
-    levels
+    level_range
         range of the axis [dB].
     depth
         [dB] below the loudest line for which there is room.
@@ -53,21 +45,21 @@ class SpectrumFigures:
         name: str,
         layers: Callable[[str], list[Layer]],
         frequencies: tuple[float, float],
-        levels: StickyRange,
-        depth: float = DEPTH_OF_VIEW,
+        level_range: StickyRange,
+        depth: float = levels.DEPTH_OF_VIEW,
     ) -> None:
-        self._name, self._levels, self._depth = name, levels, depth
+        self._name, self._levels, self._depth = name, level_range, depth
         self._lowest, _ = frequencies
         frequency = packed.range(f"{name}_frequency", *frequencies)
-        level = packed.range(f"{name}_level", levels.start, levels.end)
-        sources = sources_of(packed, [layer for dof in SHOWN for layer in layers(dof)])
+        level = packed.range(f"{name}_level", level_range.start, level_range.end)
+        sources = sources_of(packed, [layer for dof in levels.SHOWN for layer in layers(dof)])
         logarithmic = self._lowest > 0.0
         #: along x and along y
         self.plots: list[figure] = []
-        for dof in SHOWN:
+        for dof in levels.SHOWN:
             plot = style.make_figure(
-                FREQUENCY_WITH_UNITS if logarithmic else FREQUENCY,
-                density_axis(f"S{dof}"),
+                FREQUENCY_WITH_UNITS if logarithmic else levels.FREQUENCY,
+                levels.density_axis(f"S{dof}"),
                 frequency,
                 level,
                 height=HEIGHT,
@@ -84,12 +76,12 @@ class SpectrumFigures:
         """
         name, lowest = self._name, self._lowest
         both = results.late_spectra, results.reference.late_spectra
-        drawn, grey = (drawn_levels(one, top, lowest) for one in both)
+        drawn, grey = (levels.drawn_levels(one, top, lowest) for one in both)
         compared = levels_of_compared(name, results, top, lowest)
         seen = [drawn, *compared.values(), *([grey] if lowest else [])]
         return {**compared, f"{name}_lines": drawn, f"{name}_grey": grey}, {
             f"{name}_frequency": (lowest, top),
-            f"{name}_level": self._levels.fit(*seen_levels(ROOM, *seen, depth=self._depth)),
+            f"{name}_level": self._levels.fit(*levels.seen_levels(ROOM, *seen, depth=self._depth)),
         }
 
 
@@ -99,9 +91,9 @@ def levels_of_compared(
     """Spectra of the compared scenes from `lowest` to `top` [Hz], for `compared_curves`."""
     return compared_curves.sources(
         name,
-        ("frequency", *SHOWN),
+        ("frequency", *levels.SHOWN),
         results.compared_results,
-        lambda other: drawn_levels(other.late_spectra, top, lowest),
+        lambda other: levels.drawn_levels(other.late_spectra, top, lowest),
     )
 
 

@@ -14,38 +14,19 @@ from bokeh.models import Plot
 from bearing_explorer.explorer.results import accuracy
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.scene_editor import SceneEditor
+from bearing_explorer.explorer.views import stability_charts, work_precision
 from bearing_explorer.explorer.views.scene_job_view import SceneJobView
-from bearing_explorer.explorer.views.stability_charts import (
-    StabilityPicture,
-    orbit_marks,
-    step_marks,
-    steps_sentence,
-)
-from bearing_explorer.explorer.views.work_precision import (
-    WorkPrecision,
-    details,
-    paragraph,
-    prose,
-    verdict,
-)
 from bearing_explorer.kit.compute.jobs import Work
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import SessionParts, figures_in
 from bearing_explorer.kit.widgets.form import Fields, choices, row, select, stack
 from bearingcore import presets
-from bearingcore.model.experiments import (
-    HARD_CASES,
-    MOTION_ERRORS,
-    STABILITY,
-    STATIC_ERRORS,
-    Experiment,
-    Measurements,
-)
+from bearingcore.model import experiments
 from bearingcore.model.scene import WITH_MASS, preset_labels
 
-CHARTS = {"motion": ("",), "statics": ("", *HARD_CASES)}
+CHARTS = {"motion": ("",), "statics": ("", *experiments.HARD_CASES)}
 """The references of each experiment: a chart for each."""
-ERRORS = {"motion": tuple(MOTION_ERRORS), "statics": tuple(STATIC_ERRORS)}
+ERRORS = {"motion": tuple(experiments.MOTION_ERRORS), "statics": tuple(experiments.STATIC_ERRORS)}
 """Errors that can be drawn, by experiment."""
 
 _CONTROLS = """
@@ -94,16 +75,17 @@ class Accuracy(SceneJobView[accuracy.Found]):
             ("cost", "Cost as", COSTS),
         ):
             self._chosen.add(name, select(label, [list(option) for option in options]))
-        self._origin, self._foot = prose(), prose()
+        self._origin, self._foot = work_precision.prose(), work_precision.prose()
         self._charts = {
-            name: {case: WorkPrecision(case) for case in cases} for name, cases in CHARTS.items()
+            name: {case: work_precision.WorkPrecision(case) for case in cases}
+            for name, cases in CHARTS.items()
         }
-        self._orbits = StabilityPicture(
+        self._orbits = stability_charts.StabilityPicture(
             "Periodic motion: growth of a disturbance with each ball pass",
             "Shaft speed",
             "Largest growth factor",
         )
-        self._steps = StabilityPicture(
+        self._steps = stability_charts.StabilityPicture(
             "Fixed steps: amplitude of the vibration",
             "Steps per second",
             "Amplitude over the right one",
@@ -113,7 +95,7 @@ class Accuracy(SceneJobView[accuracy.Found]):
             for name, cases in self._charts.items()
         }
         both = side_by_side((self._orbits.panel, self._steps.panel))
-        self._sections[STABILITY] = both, stack()
+        self._sections[experiments.STABILITY] = both, stack()
         first, more = zip(*self._sections.values(), strict=True)
         self._first, self._more = stack(*first), stack(*more)
         controls = row(*self._chosen.widgets.values(), self.job, stylesheets=[_CONTROLS])
@@ -153,7 +135,7 @@ class Accuracy(SceneJobView[accuracy.Found]):
 
     # The picture
 
-    def _shown(self, results: Results) -> Mapping[str, Experiment]:
+    def _shown(self, results: Results) -> Mapping[str, experiments.Experiment]:
         """The experiments shown: of this machine, or else measured beforehand."""
         base = accuracy.shipped(accuracy.preset_like(results.scene))
         own = {} if self.job_result is None else self.job_result.result.experiments
@@ -183,10 +165,10 @@ class Accuracy(SceneJobView[accuracy.Found]):
 
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)
-        self._origin.object = paragraph(sentence)
+        self._origin.object = work_precision.paragraph(sentence)
         if self.parts is None and self.job_result is not None:  # outside of the page
-            experiments = self.job_result.result.experiments
-            self._chosen.put({"charts": next(iter(experiments), STABILITY)})
+            measured = self.job_result.result.experiments
+            self._chosen.put({"charts": next(iter(measured), experiments.STABILITY)})
         self._redraw()
 
     def _redraw(self) -> None:
@@ -210,31 +192,37 @@ class Accuracy(SceneJobView[accuracy.Found]):
         }
         error, cost = self._chosen.values["error"], self._chosen.values["cost"]
         steps = next((results.stability for results in known if results.stability), None)
-        fails = f"{steps_sentence(steps)} See Charts of: Stability." if subject == "motion" else ""
+        fails = ""
+        if subject == "motion":
+            fails = f"{stability_charts.steps_sentence(steps)} See Charts of: Stability."
         shown = self._shown(results)
         parts = shown[subject].per_reference() if subject in shown else {}
         for case, chart in self._charts.get(subject, {}).items():
             chart.draw(parts.get(case), error, cost, reasons.get(subject, ""), fails)
-        if subject == STABILITY:
+        if subject == experiments.STABILITY:
             orbits = next((results.orbits for results in known if results.orbits), ())
             points = shown["motion"].points if "motion" in shown else ()
             in_use = next((point.value for point in points if point.in_use), math.nan)
-            self._orbits.show(*orbit_marks(orbits, results.scene.shaft_speed))
-            self._steps.show(*step_marks(steps, in_use))
+            self._orbits.show(*stability_charts.orbit_marks(orbits, results.scene.shaft_speed))
+            self._steps.show(*stability_charts.step_marks(steps, in_use))
             self._caption.put(line="Crosses failed: point at one for the reason.")
         self._caption.put(title=self.title_of(results))
-        words = "".join(details(part, error) for part in parts.values() if part.points)
+        words = "".join(
+            work_precision.details(part, error) for part in parts.values() if part.points
+        )
         self._foot.object = foot(words, known, shown)
 
     def title_of(self, results: Results) -> str:
         """The verdict on the chart that is shown."""
-        if self._subject == STABILITY:
+        if self._subject == experiments.STABILITY:
             return "Where methods fail: unstable speeds, and steps that are too long"
         experiment = self._shown(results).get(self._subject)
         part = None if experiment is None else experiment.per_reference().get("")
         if part is None or not part.points:
             return self.title
-        return verdict(part, self._chosen.values["error"], self._chosen.values["cost"])
+        return work_precision.verdict(
+            part, self._chosen.values["error"], self._chosen.values["cost"]
+        )
 
 
 def side_by_side(panels: Iterable[pn.Column]) -> pn.Column:
@@ -242,7 +230,11 @@ def side_by_side(panels: Iterable[pn.Column]) -> pn.Column:
     return stack(*panels, stylesheets=[_GRID])
 
 
-def foot(words: str, known: Sequence[Measurements], shown: Mapping[str, Experiment]) -> str:
+def foot(
+    words: str,
+    known: Sequence[experiments.Measurements],
+    shown: Mapping[str, experiments.Experiment],
+) -> str:
     """The words on the charts, methods left out and machines, as HTML that opens on a click."""
     left = "".join(
         f"<li>{html.escape(name.capitalize())}: {html.escape(one.left_out)}.</li>"

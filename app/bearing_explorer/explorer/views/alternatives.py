@@ -81,7 +81,8 @@ class OtherModels(SceneJobView[Alternatives]):
             finite = math.isfinite(share)
             at = min(max(share, 1.5 * left), right / 1.5) if finite else right / 1.5
             late = math.log(at / left) > 0.6 * math.log(right / left)
-            words = error_words(one) if finite else one.note
+            error = decibels(one.error) if one.quantity == SPECTRUM else percent(one.error, 2)
+            words = error if finite else one.note
             if finite and math.isfinite(one.saved):
                 saving = "saves" if one.saved >= 0.0 else "costs more:"
                 words += f", {saving} {style.with_prefix(abs(one.saved), 's')}"
@@ -131,10 +132,3 @@ class OtherModels(SceneJobView[Alternatives]):
 
     def columns(self, models: Alternatives) -> dict[str, np.ndarray]:
         return models.table().named()
-
-
-def error_words(row: Alternative) -> str:
-    """An error with its unit."""
-    if not math.isfinite(row.error):
-        return "not known"
-    return decibels(row.error) if row.quantity == SPECTRUM else percent(row.error, 2)

@@ -15,7 +15,7 @@ from bearing_explorer.explorer.plots import compared_curves
 from bearing_explorer.explorer.results import reasons
 from bearing_explorer.explorer.results.defect_shape import race_angles, race_depth, spans
 from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.explorer.views.bearing_handles import handles, let_grab
+from bearing_explorer.explorer.views.bearing_handles import handles, let_grab, points
 from bearing_explorer.explorer.views.comparing_view import ComparingView
 from bearing_explorer.kit.plots import color_scales, layers, style
 from bearing_explorer.kit.plots.element_words import elements
@@ -58,7 +58,7 @@ const bore = more ? `, bore = ${si(more, 'N')}` : '', at = narrow ? '' : ` at ${
 if (kind == 0) return value > 0 ? `${si(value, 'N')}${at}${bore}` : 'No radial load'
 if (kind == 1) return `Axial ${value > 0 ? '⊙' : '⊗'} ${si(Math.abs(value), 'N')}`
 const times = value >= 1 ? value : rounded(value, 2)
-if (kind == 4) return `Depth × ${times}${more && !narrow ? `, always ${more} inside` : ''}`
+if (kind == 4) return `Depth × ${times}`
 return `Moment M${kind == 2 ? 'x' : 'y'} ${si(value, 'N·m')}`
 """
 _BAR_WORDS = """
@@ -124,8 +124,12 @@ def drawing_layers(
         layers.LIT,
     )
 
-    def words(name: str, code: str, reads: tuple[str, ...], look: dict[str, Any]) -> layers.Words:
-        return layers.Words(f"{prefix}_{name}", "x", "y", code, reads, look=look)
+    def words(
+        name: str, code: str, reads: tuple[str, ...], x: Any = "x", y: Any = "y", **look: Any
+    ) -> layers.Words:
+        return layers.Words(
+            f"{prefix}_{name}", x, y, code, reads, x == 0.0, y == 1.0, style.NARROW, look=look
+        )
 
     return [
         layers.filled(f"{prefix}_healthy_loads", style.HEALTHY, 0.25),
@@ -136,46 +140,34 @@ def drawing_layers(
             "marks",
             "return row.angle + '°'",
             ("angle", "turn"),
-            {**_NUMBER, "text_color": style.FAINT_INK, "angle": "turn"},
+            angle="turn",
+            text_color=style.FAINT_INK,
+            **_NUMBER,
         ),
         layers.segments(f"{prefix}_bars", load, 8, reads=("load",)),
-        layers.Words(
-            f"{prefix}_bars",
-            "x",
-            "y",
+        words(
+            "bars",
             _BAR_WORDS,
             ("load", "room", "most", "right", "down"),
-            fitting=style.NARROW,
-            look={
-                **_MIDDLE,
-                "x_offset": style.text_offset("right"),
-                "y_offset": style.text_offset("down"),
-            },
+            x_offset=style.text_offset("right"),
+            y_offset=style.text_offset("down"),
+            **_MIDDLE,
         ),
         ball,
         end,
-        layers.Words(
-            f"{prefix}_balls",
-            "x",
-            "y",
-            _BALL_WORDS,
-            ("load", "number", "radius"),
-            fitting=style.NARROW,
-            look={**_NUMBER, "text_color": number},
-        ),
+        words("balls", _BALL_WORDS, ("load", "number", "radius"), text_color=number, **_NUMBER),
         layers.filled(f"{prefix}_arrow", style.INK),
-        layers.Words(
-            f"{prefix}_load_words",
-            0.0,
-            1.0,
+        words(
+            "load_words",
             _LOAD_WORDS,
             ("kind", "value", "angle", "more", "down"),
-            x_share=True,
-            y_share=True,
-            fitting=style.NARROW,
-            look={**_LINE, "text_baseline": "top", "y_offset": style.text_offset("down")},
+            0.0,
+            1.0,
+            text_baseline="top",
+            y_offset=style.text_offset("down"),
+            **_LINE,
         ),
-        words("row_words", _ROW_WORDS, ("row", "place"), _UNDER_A_ROW),
+        words("row_words", _ROW_WORDS, ("row", "place"), **_UNDER_A_ROW),
     ]
 
 
@@ -211,28 +203,13 @@ class BearingDrawing(ComparingView):
         shown.js_on_change("end", aspect)
         plot.js_on_change("inner_width", aspect)
         plot.js_on_change("inner_height", aspect)
-        colors = LinearColorMapper(
-            palette=color_scales.LOADS,
-            low=1e-9,
-            high=load.end,
-            low_color=IDLE_BALL,
-            nan_color=NO_VALUE,
-            syncable=False,
-        )
-        inks = LinearColorMapper(
-            palette=color_scales.INKS,
-            low=0.0,
-            high=load.end,
-            nan_color=style.INK,
-            syncable=False,
-        )
-        load.js_on_change(
-            "end",
-            CustomJS(
-                args={"load": load, "mappers": [colors, inks]},
-                code="for (const mapper of mappers) mapper.high = load.end",
-            ),
-        )
+        scale = {"high": load.end, "syncable": False}
+        idle = {"low": 1e-9, "low_color": IDLE_BALL, "nan_color": NO_VALUE}
+        colors = LinearColorMapper(palette=color_scales.LOADS, **idle, **scale)
+        inks = LinearColorMapper(palette=color_scales.INKS, low=0.0, nan_color=style.INK, **scale)
+        follow = "for (const mapper of mappers) mapper.high = load.end"
+        args = {"load": load, "mappers": [colors, inks]}
+        load.js_on_change("end", CustomJS(args=args, code=follow))
         drawn = drawing_layers(self.prefix, colors, inks)
         for layer, renderer in zip(drawn, layers.draw(plot, packed, drawn), strict=True):
             if layer.source in (f"{self.prefix}_bars", f"{self.prefix}_healthy_loads"):
@@ -312,9 +289,7 @@ class BearingDrawing(ComparingView):
             f"{self.prefix}_loads", ("x", "y"), results.compared_results, rims
         )
         sources |= {
-            f"{self.prefix}_load_words": load_words(
-                scene.load, drawn.depth_scale, bore_load, always_inside(scene)
-            ),
+            f"{self.prefix}_load_words": load_words(scene.load, drawn.depth_scale, bore_load),
             f"{self.prefix}_row_words": row_words(scene, wide),
         }
         return sources, {f"{self.prefix}_load": load_range, f"{self.prefix}_width": (-wide, wide)}
@@ -406,18 +381,17 @@ def row_words(scene: Scene, wide: float) -> dict[str, np.ndarray]:
 
 
 def load_words(
-    load: Load, depth_scale: float = 0.0, bore_load: float = 0.0, inside: int = 0
+    load: Load, depth_scale: float = 0.0, bore_load: float = 0.0
 ) -> dict[str, np.ndarray]:
     """Rows of text in the corner: the radial load always, the others where there are any.
 
     Under them how many times as deep as they are defects are drawn, which is 0 without any.
-    `bore_load` [N] is that of an arrow that ends at the bore; `inside`, how many elements always
-    are in a defect.
+    `bore_load` [N] is that of an arrow that ends at the bore.
     """
     angle = math.degrees(math.atan2(load.fy, load.fx)) % 360.0
     rows: list[tuple[float, ...]] = [(0, radial_load(load), angle, bore_load)]
     rows += [
-        (kind, value, 0.0, inside if kind == 4 else 0.0)
+        (kind, value, 0.0, 0.0)
         for kind, value in ((1, load.fz), (2, load.mx), (3, load.my), (4, depth_scale))
         if value != 0.0
     ]
@@ -434,13 +408,6 @@ def load_words(
 def radial_load(load: Load) -> float:
     """Return the size [N] of the radial load."""
     return math.hypot(load.fx, load.fy)
-
-
-def always_inside(scene: Scene) -> int:
-    """Return how many elements of a row are in the longest defect at any cage angle."""
-    longest = max((defect.extent for defect in scene.defects), default=0.0)
-    widest = max(own.ball_spacing for own, _ in scene.bearing.unlike_rows)
-    return math.floor(longest / widest + 1e-9)
 
 
 class Shapes:
@@ -550,12 +517,7 @@ class Shapes:
         angle = np.array([angle for angle, _ in ticks])
         race, edge = np.array([ring for _, ring in ticks]).reshape(-1, 2).T
         middle = 0.5 * (race + edge)
-        return {
-            "x0": middle * np.cos(angle),
-            "y0": middle * np.sin(angle),
-            "x1": edge * np.cos(angle),
-            "y1": edge * np.sin(angle),
-        }
+        return points(middle, angle, "0") | points(edge, angle, "1")
 
     def angle_marks(self) -> dict[str, np.ndarray]:
         """0°, 90°, 180° and 270° on the outer ring."""
@@ -565,8 +527,7 @@ class Shapes:
         )
         radius = 0.5 * (self.outer_race + deepest + self.rim)
         return {
-            "x": radius * np.cos(np.radians(degrees)),
-            "y": radius * np.sin(np.radians(degrees)),
+            **points(radius, np.radians(degrees)),
             "angle": degrees,
             "turn": np.radians([90.0, 0.0, 90.0, 0.0]),  # along the ring, which can be thin
         }
@@ -586,8 +547,7 @@ class Shapes:
         """Balls where they are, sunk into a defect by their `drop` [m] as much as it is drawn."""
         angle, radius = self.ball_angles(), self.ball_radii(drop)
         return {
-            "x": radius * np.cos(angle),
-            "y": radius * np.sin(angle),
+            **points(radius, angle),
             "radius": np.full(angle.size, self.ball),
             "load": load,
             "number": np.arange(1.0, angle.size + 1.0),
@@ -613,10 +573,8 @@ class Shapes:
             "down": np.where(np.sin(angle) > -1e-9, -NUMBER_UP, NUMBER_UP),
             "room": np.full(angle.size, min(2.0 * math.pi * (start + 0.1) / angle.size, SIDE_ROOM)),
             "most": np.arange(load.size) == np.argmax(np.nan_to_num(load)),
-            "x0": start * np.cos(angle),
-            "y0": start * np.sin(angle),
-            "x1": end * np.cos(angle),
-            "y1": end * np.sin(angle),
+            **points(start, angle, "0"),
+            **points(end, angle, "1"),
             "load": load,
         }
 
@@ -673,8 +631,7 @@ class Shapes:
 def polar(*parts: tuple[NDArray[np.float64], NDArray[np.float64]]) -> dict[str, np.ndarray]:
     """Closed lines given as (angle [rad], radius), one after the other with NaN between."""
     line = layers.with_gaps(parts, "angle", "radius")
-    angle, radius = line["angle"], line["radius"]
-    return {"x": radius * np.cos(angle), "y": radius * np.sin(angle)}
+    return points(line["radius"], line["angle"])
 
 
 def round_down(value: float) -> float:

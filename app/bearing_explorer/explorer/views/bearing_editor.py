@@ -184,10 +184,10 @@ class Fact(NamedTuple):
     of_all: Callable[[Bearing], str] | None = None
 
 
-def _field_fact(name: str, words: Callable[[Bearing], str]) -> Fact:
+def _field_fact(name: str, *words: Callable[[Bearing], str], **more: Any) -> Fact:
     """A number that other bearings are given by, and that follows here."""
     field = FIELD_OF[name]
-    return Fact(field.label, field.symbol_html, html.escape(field.meaning), words)
+    return Fact(field.label, field.symbol_html, html.escape(field.meaning), *words, **more)
 
 
 _GROOVE_OVER_BALL = "Groove radius in ball diameters; makers use 0.505 to 0.54."
@@ -200,10 +200,8 @@ FACTS = {
         "against tilt.",
         of_all=_length("pressure_centers_apart", 4),
     ),
-    "preload_force": Fact(
-        FIELD_OF["preload_force"].label,
-        FIELD_OF["preload_force"].symbol_html,
-        FIELD_OF["preload_force"].meaning,
+    "preload_force": _field_fact(
+        "preload_force",
         of_all=lambda bearing: style.with_prefix(bearing.preload_force or 0.0, "N", 3),
     ),
     "sphere_rows_apart": Fact(

@@ -6,9 +6,12 @@ keys once it has the focus, and the sliders follow.
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from bokeh.models import CustomJS, Scatter
 from bokeh.plotting import figure
+from numpy.typing import NDArray
 
 from bearing_explorer.explorer.results.defect_shape import Span
 from bearing_explorer.kit.assets import asset_text
@@ -19,6 +22,11 @@ from bearingcore import Scene
 COLUMNS = ("x", "y", "x0", "kind", "defect", "value", "angle", "bore", "newtons")
 START, END, MIDDLE, LOAD = range(4)
 """Kinds of handles, as `grab.js` numbers them."""
+
+
+def points(radius: Any, angle: NDArray[np.float64], end: str = "") -> dict[str, np.ndarray]:
+    """Columns of points about the middle of the shaft, such as `x0` and `y0` for the `end` "0"."""
+    return {f"x{end}": radius * np.cos(angle), f"y{end}": radius * np.sin(angle)}
 
 
 def dots(source: str) -> Glyph:
@@ -65,8 +73,7 @@ def handles(
     places.append((tip, direction, LOAD, 0, size))
     radius, angle, kind, defect, value = np.array(places, dtype=float).reshape(-1, 5).T
     return {
-        "x": radius * np.cos(angle),
-        "y": radius * np.sin(angle),
+        **points(radius, angle),
         "x0": np.zeros(angle.size),
         "kind": kind,
         "defect": defect,

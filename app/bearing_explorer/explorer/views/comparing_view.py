@@ -11,7 +11,7 @@ from bearing_explorer.explorer.state.references import WITHOUT_DEFECT
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import View
 
-_GREY_KEY = re.compile(r" Grey[ a-z]*: \{grey\}\.")
+_OF_DEFECT = re.compile(r" (Grey[ a-z]*: \{grey\}|Shaded: the defect)\.")
 
 
 class ComparingView(View[Results]):
@@ -24,8 +24,8 @@ class ComparingView(View[Results]):
 
     @classmethod
     def caption(cls, content: Results | None = None) -> str:
-        if content is not None and not content.grey.label:  # the grey scene is this one
-            return _GREY_KEY.sub("", cls.about)
+        if content is not None and not content.grey.label:  # grey is this scene, healthy
+            return _OF_DEFECT.sub("", cls.about)
         return cls.about.replace("{grey}", content.grey.name if content else WITHOUT_DEFECT)
 
     def say(self, results: Results | None, sentence: str) -> None:

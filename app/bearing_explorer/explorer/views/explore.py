@@ -7,7 +7,7 @@ refines it level by level.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -33,7 +33,6 @@ from bearing_explorer.kit.sentences import sentence_of, with_unit
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.job_view import last_shown
 from bearing_explorer.kit.widgets.form import FieldSpec, stack
-from bearingcore.fields import Range
 
 if TYPE_CHECKING:
     from bearing_explorer.explorer.plots.plane import Field
@@ -100,14 +99,35 @@ class ExplorePlane(SceneJobView[explore.Plane]):
         outputs = [
             [output.name, output.label, output.group] for output in explore.MAP_OUTPUTS.values()
         ]
+        quantities = [
+            [q.key, f"{q.read_label} ({q.shown_unit})" if q.shown_unit else q.read_label, q.group]
+            for q in SWEEPABLE.values()
+        ]
+        sides: list[FieldSpec] = []
+        for side, words in SIDES.items():
+            sides += [
+                {"name": side, "label": words, "options": quantities},
+                {"name": f"{side}_from", "label": "from"},
+                {"name": f"{side}_to", "label": "to"},
+            ]
         return [
             {"name": "output", "label": "What to draw", "options": outputs},
-            *plane_fields(),
+            *sides,
             {"name": "grid", "label": "Fineness", "options": _GRIDS},
         ]
 
     def form(self, editor: SceneEditor) -> tuple[dict[str, str], dict[str, Any]]:
-        fills = plane_fills(editor.limits)
+        usual = {
+            name: [f"{v:g}".replace("-", "−") for v in usual_range(name, editor.limits)]
+            for name in SWEEPABLE
+        }
+        fills = {  # a side -> the quantity chosen there -> fields
+            side: {
+                name: {f"{side}_from": low, f"{side}_to": high}
+                for name, (low, high) in usual.items()
+            }
+            for side in SIDES
+        }
         values = {**_FIRST, **fills["x"][_FIRST["x"]], **fills["y"][_FIRST["y"]]}
         # loads that point down, as weights do: without a load there is nothing to map
         values["y_from"] = f"{-0.05 * editor.limits['fy_n'].least:g}"
@@ -121,7 +141,12 @@ class ExplorePlane(SceneJobView[explore.Plane]):
             raise ValueError("There is no such output.")
         if given["grid"] not in map(str, explore.SIZES):
             raise ValueError(f"A map has at most {_GRIDS[-1][1]} points.")
-        x, y = plane_sweeps(given, explore.SIZES[1], editor.limits)
+        if given["x"] == given["y"]:
+            raise ValueError("Choose two different quantities.")
+        x, y = (
+            sweep(given[side], given[f"{side}_from"], given[f"{side}_to"], count, editor.limits)
+            for side, count in zip(SIDES, explore.SIZES[1], strict=True)
+        )
         output = explore.MAP_OUTPUTS[given["output"]]
         return MapRequest(x, y, output, int(given["grid"]), given)
 
@@ -237,48 +262,6 @@ class ExplorePlane(SceneJobView[explore.Plane]):
         if plane.question == self._question:
             self.job_result = plane
             self._draw()
-
-
-def plane_fields() -> list[FieldSpec]:
-    """The fields of the form for both sides of a map."""
-    quantities = [
-        [q.key, f"{q.read_label} ({q.shown_unit})" if q.shown_unit else q.read_label, q.group]
-        for q in SWEEPABLE.values()
-    ]
-    fields: list[FieldSpec] = []
-    for side, words in SIDES.items():
-        fields += [
-            {"name": side, "label": words, "options": quantities},
-            {"name": f"{side}_from", "label": "from"},
-            {"name": f"{side}_to", "label": "to"},
-        ]
-    return fields
-
-
-def plane_fills(limits: Mapping[str, Range]) -> dict[str, dict[str, dict[str, str]]]:
-    """The fields of a side once a quantity is chosen there: side -> quantity -> fields."""
-    usual = {
-        name: [f"{v:g}".replace("-", "−") for v in usual_range(name, limits)] for name in SWEEPABLE
-    }
-    return {
-        side: {
-            name: {f"{side}_from": low, f"{side}_to": high} for name, (low, high) in usual.items()
-        }
-        for side in SIDES
-    }
-
-
-def plane_sweeps(
-    given: Mapping[str, str], counts: Sequence[int], limits: Mapping[str, Range]
-) -> tuple[Sweep, Sweep]:
-    """The sweeps to the right and upwards; ValueError with a sentence where there are none."""
-    if given["x"] == given["y"]:
-        raise ValueError("Choose two different quantities.")
-    x, y = (
-        sweep(given[side], given[f"{side}_from"], given[f"{side}_to"], count, limits)
-        for side, count in zip(SIDES, counts, strict=True)
-    )
-    return x, y
 
 
 def field_of(plane: explore.Plane) -> Field:

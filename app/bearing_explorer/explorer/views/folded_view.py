@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import C, Ranges, SessionParts, Sources, View
 from bearing_explorer.kit.widgets.form import button
@@ -65,6 +63,3 @@ class FoldedView(View[C]):
     @property
     def is_empty(self) -> bool:
         return not self.opened or super().is_empty
-
-    def choices(self) -> dict[str, Any]:
-        return {}

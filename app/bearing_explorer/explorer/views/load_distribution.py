@@ -10,6 +10,7 @@ import numpy as np
 from bokeh.models import HoverTool, Range1d
 
 from bearing_explorer.explorer.plots import compared_curves
+from bearing_explorer.explorer.plots.frequency_bands import spread
 from bearing_explorer.explorer.results import reasons
 from bearing_explorer.explorer.results.defect_shape import pieces, spans
 from bearing_explorer.explorer.results.load_curve import Curve, curves_table, load_curve, row_name
@@ -205,11 +206,7 @@ def _names(curves: list[Curve]) -> dict[str, np.ndarray]:
         if len(curves) > 1 and np.isfinite(load).any()
     ]
     angle, load, row = np.array(rows, dtype=float).reshape(-1, 3).T
-    at = np.clip(angle % 360.0, 12.0, 348.0)
-    if at.size == 2 and abs(at[1] - at[0]) < NAMES_APART and np.ptp(load) < 0.1 * load.max():
-        middle = np.clip(at.mean(), NAMES_APART, 360.0 - NAMES_APART)
-        at[np.argsort(at, kind="stable")] = middle + np.array([-0.5, 0.5]) * NAMES_APART
-    return {"angle": at, "load": load, "row": row}
+    return {"angle": spread(angle % 360.0, NAMES_APART, 0.0, 360.0), "load": load, "row": row}
 
 
 def shaded(scene: Scene, cage_angle: float) -> dict[str, np.ndarray]:

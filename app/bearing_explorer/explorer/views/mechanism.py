@@ -11,8 +11,7 @@ from bearing_explorer.explorer.plots.spectra import FREQUENCY_WITH_UNITS, write_
 from bearing_explorer.explorer.results.ball_mass import BallMass
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.views.folded_view import FoldedView
-from bearing_explorer.kit.plots import style
-from bearing_explorer.kit.plots.layers import Glyph, Layer, Words, draw
+from bearing_explorer.kit.plots import layers, style
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
 from bearingcore.model.dynamics import LOWEST_COMPARED
@@ -32,10 +31,10 @@ return narrow ? minus(`${(100*row.share).toFixed(0)}%`) : `${rounded(100*row.sha
 _BAR_LOOK = {"fill_color": style.DEFECTIVE, "fill_alpha": "alpha", "line_color": None}
 _WORDS_LOOK = {"text_align": "center", "text_baseline": "bottom"}
 _SPREAD = ("middle", "low", "middle", "high")
-LAYERS: tuple[Layer, ...] = (
-    Glyph(Quad, "mechanism_bars", ("left", "right", "top", 0.0), _BAR_LOOK, ("alpha",)),
-    Glyph(Segment, "mechanism_bars", _SPREAD, {"line_color": style.INK}),
-    Words(
+LAYERS: tuple[layers.Layer, ...] = (
+    layers.Glyph(Quad, "mechanism_bars", ("left", "right", "top", 0.0), _BAR_LOOK, ("alpha",)),
+    layers.Glyph(Segment, "mechanism_bars", _SPREAD, {"line_color": style.INK}),
+    layers.Words(
         "mechanism_bars",
         "middle",
         "label_at",
@@ -72,7 +71,7 @@ class WhichMechanism(FoldedView[Results]):
             name="mechanism",
         )
         write_hertz(plot)
-        draw(plot, packed, LAYERS)
+        layers.draw(plot, packed, LAYERS)
         plot.add_layout(Span(location=0.0, dimension="width", line_color=style.STEEL_EDGE))
         return plot
 

@@ -50,8 +50,6 @@ class PaperFigures(View[Results]):
 
     def build(self, packed: PackedSource) -> Any:
         self._figure = FIGURES[0]
-        #: the figure whose numbers are known, and these
-        self._known: tuple[PaperFigure, list[list[str]]] | None = None
         self._buttons = {
             one.number: button(f"Figure {one.number}", partial(self._show, one)) for one in FIGURES
         }
@@ -92,17 +90,9 @@ class PaperFigures(View[Results]):
     def scene_drawn(self, results: Results) -> Scene:
         return self._figure.scenes[-1]
 
-    def rows(self) -> list[list[str]]:
-        """Name, printed and own value of each number of the figure."""
-        figure = self._figure
-        if self._known is None or self._known[0] is not figure:
-            ours = [[one.name, one.paper, one.ours(figure.scenes)] for one in figure.printed]
-            self._known = figure, ours
-        return self._known[1]
-
     def sentence(self, results: Results) -> str:
         figure = self._figure
-        self.rows()
+        _ = figure.rows  # computed here, in a thread
         bearing = "Liew and Lim's bearing" if figure.preset == "liew-lim" else "the fan rig"
         return (
             f"Figure {figure.number}, {figure.title.lower()}, shows {bearing}, whatever the "
@@ -112,7 +102,7 @@ class PaperFigures(View[Results]):
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)
         figure = self._figure
-        rows = ([_symbols(name), html.escape(a), html.escape(b)] for name, a, b in self.rows())
+        rows = ([_symbols(name), html.escape(a), html.escape(b)] for name, a, b in figure.rows)
         slip = f"<p><b>Errors in the paper.</b> {_symbols(figure.slip)}</p>" if figure.slip else ""
         self._numbers.object = html_table(("", "Paper", "Here"), rows, named=True) + slip
         self._live.label = f"Open it on the tab {TAB_TITLES[figure.tab]}"
@@ -120,7 +110,7 @@ class PaperFigures(View[Results]):
             one.css_classes = ["main"] if number == figure.number else []
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
-        names, paper, here = zip(*self.rows(), strict=True)
+        names, paper, here = zip(*self._figure.rows, strict=True)
         return {"number": np.array(names), "paper": np.array(paper), "here": np.array(here)}
 
 

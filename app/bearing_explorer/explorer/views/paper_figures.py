@@ -19,7 +19,7 @@ from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.levels import decibels
 from bearingcore import STIFFNESS_TERMS, Maps, Scene, presets, stiffness_maps
-from bearingcore.common import number, prefixed_span, span
+from bearingcore.common import cached_property, number, prefixed_span, span
 from bearingcore.model.statics import TERM_UNITS, crossings
 
 Array = NDArray[np.float64]
@@ -57,6 +57,11 @@ class PaperFigure:
         """The preset with a defect of this extent, or without one for 0."""
         scene = presets[self.preset]
         return scene.replace(extent=math.radians(extent_deg)) if extent_deg else scene.healthy()
+
+    @cached_property
+    def rows(self) -> list[tuple[str, str, str]]:
+        """Name, printed and computed value of each number, for all sessions."""
+        return [(one.name, one.paper, one.ours(self.scenes)) for one in self.printed]
 
     @property
     def slip(self) -> str:

@@ -7,26 +7,10 @@ from typing import Any, ClassVar
 import numpy as np
 from bokeh.models import Range1d
 from bokeh.plotting import figure
-from numpy.typing import NDArray
 
-from bearing_explorer.explorer.results.excerpt import Excerpt
 from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.explorer.views.bearing import (
-    BAR_LENGTH,
-    BAR_START,
-    HALF_WIDTH,
-    NUMBER_RIGHT,
-    NUMBER_UP,
-    BearingDrawing,
-    Shapes,
-    load_words,
-)
+from bearing_explorer.explorer.views import bearing, vibration_time
 from bearing_explorer.explorer.views.passage_view import both_directions, traces
-from bearing_explorer.explorer.views.vibration_time import (
-    ACCELERATION,
-    event_rows,
-    motion_layers,
-)
 from bearing_explorer.kit.assets import asset_text, scripts
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.element_words import element_name
@@ -36,7 +20,6 @@ from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.serve.panel_internals import LiveComponent
 from bearing_explorer.kit.views.base import Ranges, Sources
 from bearing_explorer.kit.widgets.form import stack
-from bearingcore import Bearing
 from bearingcore.common import table_of
 from bearingcore.model.scene import ball_angles
 
@@ -50,7 +33,7 @@ class SlowMotion(LiveComponent):
     ]
 
 
-class SlowPassage(BearingDrawing):
+class SlowPassage(bearing.BearingDrawing):
     """The bearing with its moving balls at an instant of the motion, and where that instant is.
 
     What moves is sent once for the whole stretch; the script `slow_motion.js` shows an instant.
@@ -68,7 +51,7 @@ class SlowPassage(BearingDrawing):
     at_rest = True
 
     def build(self, packed: PackedSource) -> Any:
-        bearing = super().build(packed)
+        drawing = super().build(packed)
         self._acceleration = StickyRange(-5.0, 5.0, anchor="symmetric", least_span=2e-6)
         for name, columns in {
             "frames": ("time", "turned", "shaft"),
@@ -81,15 +64,15 @@ class SlowPassage(BearingDrawing):
             packed.source(f"slow_{name}", *columns)
         motion = style.make_figure(
             style.TIME,
-            ACCELERATION,
+            vibration_time.ACCELERATION,
             packed.range("slow_time", 0.0, 0.04),
             packed.range("slow_acceleration", -5.0, 5.0),
             height=200,
             name="slow_drawing",
         )
         cursor = uprights("slow_cursor", "now", style.DEFECT, 2.5, 1.0)
-        draw(motion, packed, [*motion_layers("slow"), cursor])
-        figures = stack(bearing, motion, stylesheets=[style.SIDE_BY_SIDE])
+        draw(motion, packed, [*vibration_time.motion_layers("slow"), cursor])
+        figures = stack(drawing, motion, stylesheets=[style.SIDE_BY_SIDE])
         return self.only_with_numbers(SlowMotion(), figures)
 
     def _figure(self, x: Range1d, y: Range1d) -> figure:
@@ -97,12 +80,13 @@ class SlowPassage(BearingDrawing):
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         shown, scene = results.excerpt, results.scene
-        row = row_shown(shown, scene.bearing)
+        entry = next((event for event in shown.events if event.enters), None)
+        row = scene.bearing.row_of_ball(entry.ball)[0] if entry else 0
         own = scene.bearing.balls_of_rows[row]
         top_range = self._load_range.fit(shown.moving_load)
         at = int(np.argmin(np.abs(shown.static_time)))
         cage = shown.static_cage_angle
-        drawn = Shapes(scene, float(cage[at]), row)
+        drawn = bearing.Shapes(scene, float(cage[at]), row)
         load = shown.moving_load[:, own]
         drop = {race: drops[:, own] for race, drops in shown.drop.items()}
         shapes = drawn.all(load[at], {race: one[at] for race, one in drop.items()}, top_range[1])
@@ -116,7 +100,7 @@ class SlowPassage(BearingDrawing):
         signals = both_directions(shown.time, shown.acceleration)
         start, end = float(shown.time[0]), float(shown.time[-1])
         sources = {f"slow_{name}": columns for name, columns in shapes.items()} | {
-            "slow_load_words": load_words(scene.load, drawn.depth_scale),
+            "slow_load_words": bearing.load_words(scene.load, drawn.depth_scale),
             "slow_frames": frames,
             "slow_path": {"radius": drawn.ball_radii(drop).ravel(), "load": load.ravel()},
             "slow_start": {"angle": turned[at]},
@@ -125,19 +109,19 @@ class SlowPassage(BearingDrawing):
                 shapes["defect"], [float(span.race == "inner") for span in drawn.spans]
             ),
             "slow_scale": {
-                "bar_start": np.array([drawn.rim + BAR_START]),
-                "bar_length": np.array([BAR_LENGTH / top_range[1]]),
-                "number_right": np.array([NUMBER_RIGHT]),
-                "number_up": np.array([NUMBER_UP]),
+                "bar_start": np.array([drawn.rim + bearing.BAR_START]),
+                "bar_length": np.array([bearing.BAR_LENGTH / top_range[1]]),
+                "number_right": np.array([bearing.NUMBER_RIGHT]),
+                "number_up": np.array([bearing.NUMBER_UP]),
             },
             "slow_motion": traces(shown.time, signals),
-            "slow_events": event_rows(shown.events, start, end, scene.bearing, 1.5),
+            "slow_events": vibration_time.event_rows(shown.events, start, end, scene.bearing, 1.5),
             "slow_cursor": {"now": shown.static_time[[at]]},
         }
-        peak = 1.4 * max(map(_peak, signals.values()))
+        peak = 1.4 * np.nanmax(np.abs([*signals.values()]), initial=0.0)
         return sources, {
             "slow_load": top_range,
-            "slow_width": (-HALF_WIDTH, HALF_WIDTH),
+            "slow_width": (-bearing.HALF_WIDTH, bearing.HALF_WIDTH),
             "slow_time": (start, end),
             "slow_acceleration": self._acceleration.fit(peak),
         }
@@ -146,14 +130,15 @@ class SlowPassage(BearingDrawing):
         return self.title if content.scene.defects else "The balls in slow motion"
 
     def sentence(self, results: Results) -> str:
-        shown, bearing = results.excerpt, results.scene.bearing
+        shown = results.excerpt
         if shown.broke_off:
             return f"{shown.broke_off[0].upper()}{shown.broke_off[1:]}."
         loads = np.nan_to_num(shown.moving_load)
         at, ball = np.unravel_index(np.argmax(loads), loads.shape)
         length = float(shown.time[-1] - shown.time[0])
+        name = element_name(results.scene.bearing, int(ball))
         return (
-            f"In these {style.with_prefix(length, 's')} {element_name(bearing, int(ball))} "
+            f"In these {style.with_prefix(length, 's')} {name} "
             f"carries most: {style.with_prefix(loads[at, ball], 'N')} at "
             f"{style.with_prefix(float(shown.static_time[at]), 's')}."
         )
@@ -164,16 +149,6 @@ class SlowPassage(BearingDrawing):
         time = ("time", "s", shown.static_time)
         cage = ("cage_angle", "rad", shown.static_cage_angle)
         return table_of(time, cage, *loads).in_units().named()
-
-
-def row_shown(shown: Excerpt, bearing: Bearing) -> int:
-    """The row whose ball enters the defect at 0, or the first."""
-    entry = next((event for event in shown.events if event.enters), None)
-    return bearing.row_of_ball(entry.ball)[0] if entry else 0
-
-
-def _peak(signal: NDArray[np.float64]) -> float:
-    return float(np.nanmax(np.abs(signal), initial=0.0))
 
 
 def _turning(shape: dict[str, np.ndarray], turns: list[float]) -> dict[str, np.ndarray]:

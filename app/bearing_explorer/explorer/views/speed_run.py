@@ -7,6 +7,7 @@ import math
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -17,16 +18,8 @@ from numpy.typing import NDArray
 
 from bearing_explorer.explorer.plots.frequency_bands import SHORT_BAND_WORDS, bands_along, highest
 from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.state import value_range
 from bearing_explorer.explorer.state.scene_editor import SceneEditor
-from bearing_explorer.explorer.state.value_range import (
-    SWEEPABLE,
-    Sweep,
-    alike_but_for,
-    focused,
-    sweep,
-    usual_range,
-    value_of,
-)
 from bearing_explorer.explorer.views.scene_job_view import SceneJobView
 from bearing_explorer.kit.compute.jobs import COMPUTATION, Work
 from bearing_explorer.kit.plots import layers, style
@@ -51,7 +44,10 @@ DEPTH_OF_VIEW = 60.0  # [dB] below the loudest point
 HARMONICS = 8
 HEIGHT = 330
 
-_SIDES = {"frequency": Side("", "Frequency", "f", "Hz"), SPEED: Side.of(SWEEPABLE[SPEED])}
+_SIDES = {
+    "frequency": Side("", "Frequency", "f", "Hz"),
+    SPEED: Side.of(value_range.SWEEPABLE[SPEED]),
+}
 _SAY = "return isNaN(cell) ? 'not computed' : `${cell.toFixed(1).replace('-', '\\u2212')} dB`"
 _HARMONIC_WORDS = "if (narrow && row.number % 2 == 0) return ''\n"
 _HARMONIC_WORDS += "return row.number == 1 ? (row.inner ? 'BPFI' : 'BPFO') : `${row.number}×`"
@@ -116,7 +112,7 @@ class FoundRun:
     """A run, and its speeds [Hz]."""
 
     run: SpeedRun
-    speeds: Sweep
+    speeds: value_range.Sweep
 
 
 class SpeedRunSpectra(SceneJobView[FoundRun]):
@@ -176,15 +172,17 @@ class SpeedRunSpectra(SceneJobView[FoundRun]):
         ]
 
     def form(self, editor: SceneEditor) -> tuple[dict[str, str], dict[str, Any]]:
-        low, high = usual_range(SPEED, editor.limits)
+        low, high = value_range.usual_range(SPEED, editor.limits)
         return {"from": f"{low:g}", "to": f"{high:g}", "count": "97"}, {}
 
     def prepare(self, given: Mapping[str, str], editor: SceneEditor) -> Callable[[Work], str]:
         if given["count"] not in map(str, COUNTS):
             counts = ", ".join(map(str, COUNTS[:-1]))
             raise ValueError(f"A run has {counts} or at most {COUNTS[-1]} speeds.")
-        speeds = sweep(SPEED, given["from"], given["to"], int(given["count"]), editor.limits)
-        scene = focused(editor.scene, editor.selected)
+        speeds = value_range.sweep(
+            SPEED, given["from"], given["to"], int(given["count"]), editor.limits
+        )
+        scene = value_range.focused(editor.scene, editor.selected)
         return lambda job: compute(job, scene, speeds)
 
     # The picture
@@ -209,7 +207,9 @@ class SpeedRunSpectra(SceneJobView[FoundRun]):
         limits = ends(speeds.values)
         sources |= harmonics(run, speeds, top)
         not_proven = speeds.values[~run.from_orbit & np.isfinite(run.density).any(axis=(1, 2))]
-        sources["speed_run_now"] = {"speed": np.array([value_of(results.scene, speeds.field)])}
+        sources["speed_run_now"] = {
+            "speed": np.array([value_range.value_of(results.scene, speeds.field)])
+        }
         sources["speed_run_marched"] = {
             "frequency": np.full(not_proven.size, 0.006 * top),
             "speed": not_proven,
@@ -222,8 +222,8 @@ class SpeedRunSpectra(SceneJobView[FoundRun]):
 
     def _is_of_another(self, results: Results, answer: FoundRun) -> bool:
         """True if a run is of another scene than that on screen."""
-        scene = focused(results.scene, results.focus)
-        return not alike_but_for(scene, answer.run.scene, (answer.speeds,))
+        scene = value_range.focused(results.scene, results.focus)
+        return not value_range.alike_but_for(scene, answer.run.scene, (answer.speeds,))
 
     def sentence(self, results: Results) -> str:
         if self.job_result is None:
@@ -281,7 +281,7 @@ def words_of(answer: FoundRun) -> str:
     return text
 
 
-def compute(job: Work, scene: Scene, speeds: Sweep) -> str:
+def compute(job: Work, scene: Scene, speeds: value_range.Sweep) -> str:
     """A coarse run and then the full one, each shown. Runs in a job's thread.
 
     Raises
@@ -294,6 +294,10 @@ def compute(job: Work, scene: Scene, speeds: Sweep) -> str:
     whole = sum(one.values.size for one in runs)
     started = time.perf_counter()
     done, shown = 0, "Nothing is shown yet."
+
+    def progress(begun: float, share: float, part: float, _: str) -> None:
+        job.progress(begun + share * part)
+
     for one in runs:
         size = one.values.size
         try:
@@ -301,7 +305,7 @@ def compute(job: Work, scene: Scene, speeds: Sweep) -> str:
                 scene,
                 one.in_si[1],
                 resolution=RESOLUTION,
-                progress=job.within(done / whole, (done + size) / whole),
+                progress=partial(progress, done / whole, size / whole),
                 cancelled=job.cancelled,
             )
         except FieldError as error:
@@ -335,7 +339,7 @@ def level_range(level: NDArray[np.float64], frequency: NDArray[np.float64]) -> t
     return top - DEPTH_OF_VIEW, top
 
 
-def harmonics(run: SpeedRun, speeds: Sweep, top: float) -> Sources:
+def harmonics(run: SpeedRun, speeds: value_range.Sweep, top: float) -> Sources:
     """The lines of the ball-pass frequency and its harmonics up to `top` [Hz], and their names.
 
     Names stand where a line leaves the picture.

@@ -9,12 +9,11 @@ import numpy as np
 
 from bearing_explorer.explorer.plots import compared_curves
 from bearing_explorer.explorer.results import reasons
-from bearing_explorer.explorer.results.excerpt import Event, Excerpt
+from bearing_explorer.explorer.results.excerpt import Event
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.views import passage_view
-from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.plots import layers, style
 from bearing_explorer.kit.plots.element_words import element_name, with_elements_of
-from bearing_explorer.kit.plots.layers import Layer, curve, with_gaps
 from bearing_explorer.kit.plots.levels import SHOWN
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
@@ -49,18 +48,18 @@ class VibrationInTime(passage_view.PassageView):
         upper.tags = [compared_curves.THIN]
         return [upper, lower]
 
-    def upper_figures(self) -> Sequence[tuple[style.AxisQuantity, int, Sequence[Layer]]]:
+    def upper_figures(self) -> Sequence[tuple[style.AxisQuantity, int, Sequence[layers.Layer]]]:
         compared = compared_curves.curves(
             "vibration_motion", "time", *SHOWN[::-1], width=1.4, thin="x"
         )
         return [(ACCELERATION, 270, [*compared, *motion_layers("vibration")])]
 
-    def lower_figure(self) -> tuple[int, Sequence[Layer]]:
+    def lower_figure(self) -> tuple[int, Sequence[layers.Layer]]:
         lines = [
-            curve("vibration_loads", "time", f"load{i}", color, alpha=0.9)
+            layers.curve("vibration_loads", "time", f"load{i}", color, alpha=0.9)
             for i, color in enumerate(style.BALL_COLORS)
         ]
-        static = curve("vibration_static_loads", "time", "load", style.INK, 1.0)
+        static = layers.curve("vibration_static_loads", "time", "load", style.INK, 1.0)
         return 230, [passage_view.event_lines("vibration"), static, *lines, self.names_of_balls()]
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
@@ -69,12 +68,13 @@ class VibrationInTime(passage_view.PassageView):
             results, lambda one: (one.excerpt.time, one.excerpt.acceleration)
         )
         start, end = float(shown.time[0]), float(shown.time[-1])
+        static = ((shown.static_time, load) for load in shown.static_load.T[: passage_view.SLOTS])
         sources: Sources = {
             **moved,
             "vibration_loads": passage_view.traces(
                 shown.time, passage_view.slot_columns("load", shown.ball_load)
             ),
-            "vibration_static_loads": static_lines(shown),
+            "vibration_static_loads": layers.with_gaps(static, "time", "load"),
             "vibration_events": event_rows(shown.events, start, end, bearing),
             "vibration_ball_names": passage_view.ball_names(
                 shown.balls[: passage_view.SLOTS], bearing
@@ -117,22 +117,16 @@ class VibrationInTime(passage_view.PassageView):
         return results.excerpt.table().named()
 
 
-def motion_layers(prefix: str) -> list[Layer]:
+def motion_layers(prefix: str) -> list[layers.Layer]:
     """Acceleration along x and y, with the events, of the sources of that prefix."""
     return [
         passage_view.event_lines(prefix),
         *(
-            curve(f"{prefix}_motion", "time", dof, style.color_along(dof), 1.4)
+            layers.curve(f"{prefix}_motion", "time", dof, style.color_along(dof), 1.4)
             for dof in reversed(SHOWN)
         ),
         passage_view.event_names(prefix, EVENT_WORDS, ("enters",)),
     ]
-
-
-def static_lines(shown: Excerpt) -> dict[str, np.ndarray]:
-    """The static loads of all balls as one line with gaps."""
-    loads = shown.static_load.T[: passage_view.SLOTS]
-    return with_gaps(((shown.static_time, load) for load in loads), "time", "load")
 
 
 def event_rows(

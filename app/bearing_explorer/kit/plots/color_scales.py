@@ -29,16 +29,19 @@ def _rgb(colors: Sequence[str]) -> np.ndarray:
     return np.array([list(bytes.fromhex(color[1:])) for color in colors])
 
 
+def _scale(colors: str) -> np.ndarray:
+    """A scale of `STEPS` colours through these, which are evenly apart."""
+    return _rgb(interp_palette([f"#{color}" for color in colors.split()], STEPS))
+
+
 SEQUENTIAL = _rgb(Viridis256)
 """(256, 3) sRGB, dark to light."""
 # colours whose lightness goes evenly in Oklab (Ottosson 2020)
-_LIGHT = ("#0e60a4", "#3d86cc", "#71ace9", "#afd1f5", "#f6f6f7",
-          "#f3c1a8", "#e39065", "#c3642c", "#9a3e00")  # fmt: skip
-_DARK = ("#73bcff", "#4b94db", "#336da5", "#2c4a68", "#262727",
-         "#653c26", "#9e5226", "#d2723b", "#fe9963")  # fmt: skip
-DIVERGING = _rgb(interp_palette(_LIGHT, STEPS))
+_LIGHT = "0e60a4 3d86cc 71ace9 afd1f5 f6f6f7 f3c1a8 e39065 c3642c 9a3e00"
+_DARK = "73bcff 4b94db 336da5 2c4a68 262727 653c26 9e5226 d2723b fe9963"
+DIVERGING = _scale(_LIGHT)
 """(256, 3) sRGB, blue to white to orange."""
-DIVERGING_DARK = _rgb(interp_palette(_DARK, STEPS))
+DIVERGING_DARK = _scale(_DARK)
 """(256, 3) sRGB, blue to black to orange."""
 
 

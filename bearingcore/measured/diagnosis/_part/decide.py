@@ -57,7 +57,7 @@ healthy."""
 
 
 def decide(signal: ListenedSignal, judged: Judged, shaft: float | None, source: str) -> Diagnosis:
-    """The answer, and its sentence; `shaft` [Hz] is None where no speed was found."""
+    """The answer, and its sentence; `shaft` [Hz] is None where no speed is known."""
     part = judged.leading
     fault, probability = CANNOT_TELL, part.probability
     others_stand_out = judged.other_above_noise >= NOISE_MARGIN

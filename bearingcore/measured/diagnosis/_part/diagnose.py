@@ -280,6 +280,6 @@ def _second_opinion(
     if again.fault in (OUTER, INNER):
         return again
     seen = again.status in _INSTEAD_OF.get(answer.status, ())
-    if answer.fault == NONE_SEEN and judged.turning.swing < ENOUGH_SWING:
+    if answer.fault == NONE_SEEN and judged.leading.swing < ENOUGH_SWING:
         return answer
     return again if seen else answer

@@ -149,10 +149,8 @@ class Judged:
 
     def counting(self, share: float) -> Judged:
         """The same where a share of each swing counts."""
-        return replace(
-            self,
-            evidence=_weighed(replace(part, swing=share * part.swing) for part in self.evidence),
-        )
+        counted = [replace(part, swing=share * part.swing) for part in self.evidence]
+        return replace(self, evidence=_weighed(counted))
 
     def discounted(self, speeds: float) -> Judged:
         """The same where so many speeds were open: another source fits one of them as often more.
@@ -244,9 +242,7 @@ def _clearest(
 ) -> PartEvidence:
     """The evidence of a part at the resolution that speaks most for it."""
     # the band is chosen by the lines alone: chosen by the sidebands, it is where noise has some
-    best = max(
-        (comparison.clearest(lines, around, beside) for comparison in compared), key=log_probability
-    )
+    best = max((c.clearest(lines, around, beside) for c in compared), key=log_probability)
     return max((comparison.weigh_sidebands(best) for comparison in compared), key=log_probability)
 
 
@@ -260,9 +256,7 @@ def _race(
     if lines.part == INNER:
         return best
     # short segments do not resolve what lies beside the cage's lines
-    foreign, spacing = min(
-        comparison.lead_over_foreign(best) for comparison in compared[1:] or compared
-    )
+    foreign, spacing = min(c.lead_over_foreign(best) for c in compared[1:] or compared)
     spacing = spacing if foreign < LEAD else math.nan
     return replace(best, lead=min(best.lead, foreign), foreign_spacing=spacing)
 
@@ -282,9 +276,7 @@ def _judge_other_race(
     second = _race(compared, lines, first)
     second = replace(second, lead=min(second.lead, first.lead))
     told = _weighed(second if part.part == second.part else part for part in evidence)
-    return tuple(
-        replace(part, probability=min(part.probability, first.probability)) for part in told
-    )
+    return tuple(replace(p, probability=min(p.probability, first.probability)) for p in told)
 
 
 def _weighed(evidence: Iterable[PartEvidence]) -> tuple[PartEvidence, ...]:
@@ -342,9 +334,7 @@ class _Comparison:
         level = combs.level[:, inside]
         if lines.part == BALL:
             at, away = combs.frequency[inside], self.cage
-            level = np.stack(
-                [comb_level(_or_sidebands(envelope, at, away)) for envelope in combs.envelopes]
-            )
+            level = np.stack([comb_level(_or_sidebands(e, at, away)) for e in combs.envelopes])
         explained: dict[float, NDArray[np.float64]] = {}
         directions = []
         for place in np.argsort(-level.max(axis=1))[:MOST_BANDS].tolist():
@@ -475,7 +465,7 @@ class _Comparison:
         resolution = (combs.frequency[1] - combs.frequency[0]) * FINENESS
         low, high = (turns * combs.shaft for turns in FOREIGN)
         spacing = np.arange(low, high, resolution / FINENESS)
-        # a coarse resolution may have found the lines a little beside their place
+        # a coarse resolution may show the lines a little beside their place
         near_it = np.abs(combs.frequency - part.frequency) <= 0.5 * combs.shaft / TURNS[0]
         row = next(k for k, other in enumerate(combs.envelopes) if other is envelope)
         levels = np.where(near_it, combs.level[row], -np.inf)
@@ -566,7 +556,9 @@ class _Comparison:
         if lines.part == BALL:
             levels = _or_sidebands(envelope, np.array([frequency]), spacing)[:, 0]
         depth = np.where(envelope.hidden, 0.0, envelope.levels.depth)
-        swings = [_lines(envelope, depth, frequency, away) for away in (0.0, -spacing, spacing)]
+        sides = -spacing, spacing
+        swings = [_lines(envelope, depth, frequency, away) for away in (0.0, *sides)]
+        sidebands = [_lines(envelope, envelope.cleared, frequency, away) for away in sides]
         nominal = lines.order * combs.shaft
         level = float(comb_level(levels[:, None])[0])
         evidence = PartEvidence(
@@ -588,13 +580,7 @@ class _Comparison:
             # the highest line of a comb resolves the most
             magnetic=magnetic_share(frequency, tolerance(combs, 0.0).item() / HARMONICS, self.slip),
             probability=0.0,
-            sidebands=np.stack(
-                [
-                    _lines(envelope, envelope.cleared, frequency, away)
-                    for away in (-spacing, spacing)
-                ],
-                axis=1,
-            ),
+            sidebands=np.stack(sidebands, axis=1),
             sideband_spacing=spacing,
             sideband_source="cage" if lines.part == BALL else "shaft",
             band=envelope.band,
@@ -603,9 +589,8 @@ class _Comparison:
         )
         if lines.part == BALL:
             return replace(evidence, line_lead=evidence.lead)
-        lead = min(
-            evidence.lead, _lead_over_gaps(_lines(envelope, envelope.levels.depth, frequency))
-        )
+        gaps = _lines(envelope, envelope.levels.depth, frequency)
+        lead = min(evidence.lead, _lead_over_gaps(gaps))
         return replace(evidence, lead=lead, line_lead=lead)
 
     def others(self, evidence: Sequence[PartEvidence]) -> tuple[OtherLines, float, float]:

@@ -4,15 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from bearingcore.common import (
-    count,
-    decibels,
-    number,
-    percent,
-    percent_off,
-    probability,
-    span,
-)
+from bearingcore.common import count, decibels, number, percent, percent_off, probability, span
 from bearingcore.measured.diagnosis._part.evidence import OtherLines, PartEvidence
 from bearingcore.measured.diagnosis._part.mains import twice_mains
 from bearingcore.measured.diagnosis._part.parts import BALL

@@ -133,7 +133,7 @@ def listen(
     for direction, envelope in envelopes:
         levels = line_levels(envelope.values, envelope.rate, segment, highest, SURROUNDINGS * shaft)
         width = 1.5 * resolution + 5e-4 * shaft
-        # the speed is found to a tenth of what the highest of its lines resolves
+        # the speed is known to a tenth of what the highest of its lines resolves
         error = 0.1 / HARMONICS / min(TURNS[-1] / shaft, duration)
         hidden = mark_multiples(levels, shaft if known_speed else 0.0, width, error)
         cleared = cut(levels, hidden)
@@ -144,12 +144,7 @@ def listen(
     frequency = np.arange(
         min(LOWEST_ORDER, slowest) * shaft, 1.25 * top * shaft, resolution / FINENESS
     )
-    level = np.stack(
-        [
-            comb_level(lines_at(envelope.cleared, envelope.levels.step, frequency))
-            for envelope in listened
-        ]
-    )
+    level = np.stack([comb_level(lines_at(e.cleared, e.levels.step, frequency)) for e in listened])
     combs = Combs(turns, shaft, tuple(listened), frequency, level, {})
     for lines in parts:
         inside = np.flatnonzero(mark_window(combs, lines, slip, stated or shaft, frequency))
@@ -165,7 +160,7 @@ def mark_window(
     """Mark the frequencies [Hz] that may be a part's first line.
 
     Within the slip of the speed that the shaft's lines show and of the stated speed: otherwise a
-    shaft found wrongly would open the window to twice the slip.
+    shaft mistaken for another would open the window to twice the slip.
     """
     middle = 0.5 * (combs.shaft + stated) * lines.order
     reach = slip * middle - 0.5 * abs(combs.shaft - stated) * lines.order

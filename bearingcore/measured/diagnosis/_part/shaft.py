@@ -2,7 +2,7 @@
 
 A comb of lines is the shaft's only where nothing else makes it: neither the mains, whose multiples
 are next to those of a motor's shaft, nor something two or three times as fast. The lines that each
-of these leaves must stand out by themselves. What is found is as good as `ERROR`, or not taken.
+of these leaves must stand out by themselves. A speed is as good as `ERROR`, or not taken.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ SUBMULTIPLES = (5, 4, 3, 2)
 """Parts of a frequency that may be the shaft's instead."""
 
 CLEAR = 3.0
-"""[dB] above what noise reaches from which the shaft's lines count as found."""
+"""[dB] above what noise reaches from which the shaft's lines count."""
 
 FEWEST = 3
 """Lines that must be left where others may be of another source: the loudest of them counts for
@@ -66,7 +66,7 @@ class ShaftLines(NamedTuple):
 
     @property
     def clear(self) -> bool:
-        """Return True if the lines count as found, and give the speed."""
+        """Return True if the lines count, and give the speed."""
         return self.excess >= CLEAR and 2.0 * self.error <= ERROR
 
 

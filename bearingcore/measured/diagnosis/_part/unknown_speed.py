@@ -67,7 +67,7 @@ def diagnose_in_range(
     if holding:
         return _choose(signal, holding, slip, low, high, source)
     if shaft.clear:
-        return decide(signal, hypotheses[0].judged, shaft.frequency, _FOUND)
+        return decide(signal, hypotheses[0].judged, shaft.frequency, _BY_SHAFT_LINES)
     if hypotheses:
         return _undecided_speed(signal, hypotheses, strongest, source)
     # no lines, or such as no part has at any of these speeds
@@ -113,7 +113,7 @@ def _choose(
     if rival is not None and first.shaft.excess < rival.shaft.excess + SHAFT_MARGIN:
         return _undecided_speed(signal, [first, rival], first.judged.leading.frequency, source)
     if first.shaft.clear:
-        return decide(signal, first.judged, first.judged.shaft, _FOUND)
+        return decide(signal, first.judged, first.judged.shaft, _BY_SHAFT_LINES)
     # any source with lines somewhere in the range would have been taken for the part's
     width = 2.0 * math.atanh(max(slip, ERROR))
     judged = first.judged.discounted(1.0 + math.log(high / low) / width)
@@ -121,7 +121,7 @@ def _choose(
     return decide(signal, judged, judged.shaft, f"taken from the lines of the {part}")
 
 
-_FOUND = "found by the shaft's own lines"
+_BY_SHAFT_LINES = "found by the shaft's own lines"
 
 
 def _undecided_speed(

@@ -1,7 +1,7 @@
 """Several files as a trend: good ones read, bad ones named, numbers as a table and in Python."""
 
 import asyncio
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from functools import cache
 
 import numpy as np
@@ -22,17 +22,9 @@ from tests.helpers.saved import saved
 MODEL = Model(presets["fan-rig"])
 
 
-@pytest.fixture(autouse=True, scope="module")
-def quick() -> Iterator[None]:
-    """Files are read in this process; that of their own has its tests with the core."""
-    with pytest.MonkeyPatch.context() as patched:
-        read_in_this_process(patched)
-        yield
-
-
 RATE = 5000.0
 LOUD = (1.0, 2.0, 6.0)
-"""How loud the good files are, in their order."""
+"""Loudness of the good files, in their order."""
 
 
 @cache
@@ -76,7 +68,9 @@ async def bring_all(made: Measurement, after: Callable[[int], None] = lambda num
 @cache
 def brought() -> Measurement:
     made = measuring()
-    run(bring_all(made))
+    with pytest.MonkeyPatch.context() as patched:
+        read_in_this_process(patched)
+        run(bring_all(made))
     return made
 
 
@@ -121,6 +115,7 @@ def test_a_bad_file_among_good_ones_is_named_and_nothing_is_lost(view: TrendOfFi
     assert "times" not in words
 
 
+@pytest.mark.usefixtures("files_read_here")
 def test_cancel_while_files_are_read_keeps_the_signal_before() -> None:
     made = measuring(signal())
     read: list[int] = []

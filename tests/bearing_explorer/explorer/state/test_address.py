@@ -46,7 +46,7 @@ FROZEN = tomllib.loads((Path(__file__).parent / "frozen_links.toml").read_text("
 
 
 def changed(kept: Any, change: Any) -> Any:
-    """What a file says of a scene, with what differs put in; of lists each of their tables."""
+    """Put what differs into what a file says of a scene; of lists into each of their tables."""
     if isinstance(kept, dict) and isinstance(change, dict):
         return kept | {n: changed(kept.get(n), value) for n, value in change.items()}
     if isinstance(kept, list) and isinstance(change, list) and isinstance(change[0], dict):

@@ -60,7 +60,7 @@ def test_every_entry_can_be_taken() -> None:
 
 
 PARTS = ("load", "shaft_speed", "support")
-"""What comes with a bearing, as its defect does."""
+"""Parts of a scene that come with a bearing, as its defect does."""
 
 
 def test_a_bearing_by_number_comes_sound_and_keeps_what_a_person_set() -> None:

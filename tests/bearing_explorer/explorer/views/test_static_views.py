@@ -2,6 +2,7 @@
 
 import dataclasses
 import math
+import re
 from xml.etree import ElementTree
 
 import numpy as np
@@ -125,8 +126,6 @@ def test_ticks_stand_at_whole_ball_spacings(extent: float, inside: int) -> None:
     angle = np.degrees(np.arctan2(ticks["y1"], ticks["x1"])) % 360.0
     begins = 270.0 - 0.5 * extent
     np.testing.assert_allclose(angle - begins, 360.0 / 14.0 * np.arange(1, inside + 2))
-    words = drawn(scene)["bearing_load_words"]
-    assert words["more"][words["kind"] == 4.0].tolist() == [inside]
     drops = Results(scene).ranges.state.cage_angles
     met = [int((Results(scene, float(at)).drop["outer"] > 0.0).sum()) for at in drops[::9]]
     assert min(met) == inside
@@ -192,6 +191,12 @@ def test_the_balls_lie_on_the_curve(name: str, cage_angle_deg: float) -> None:
         assert np.all(balls["load"][own] >= near.min(axis=0) - slack), row
         assert np.all(balls["load"][own] <= near.max(axis=0) + slack), row
     assert balls["angle"].size == bearing.total_balls
+
+
+def test_the_key_names_what_is_drawn() -> None:
+    with_defect, healthy = Results(FAN_RIG), Results(FAN_RIG.healthy())
+    assert "Grey: the bearing without its defect. Shaded: " in LoadDistribution.caption(with_defect)
+    assert not {"Grey", "Shaded"} & set(re.findall(r"(\w+): ", LoadDistribution.caption(healthy)))
 
 
 def test_two_rows_have_a_curve_and_a_name_each() -> None:

@@ -67,7 +67,7 @@ def test_no_other_file_uses_a_private_name() -> None:
 
 
 def test_this_version_of_bokehjs_has_them() -> None:
-    """Which of them is gone, and of which version, is what this says when it fails."""
+    """A failure names those that are gone, and the version."""
     named = set(re.findall(r'(?:method|getter)\(\w+, "(\w+)"\)', asset_text("fast_figures.js")))
     assert len(named) > 10, "the script is written differently now"
     library = SCRIPT.read_text(encoding="utf-8")
@@ -112,7 +112,7 @@ def session_of(document: Document, socket: Socket) -> ServerSession:
 
 
 def changed(act: Any = bokeh_internals.locked) -> tuple[list[Any], Range1d]:
-    """What a browser is sent when a range is moved to 1 to 2, and the range."""
+    """Return the messages that a browser gets when a range is moved to 1 to 2, and the range."""
     document, socket = Document(), Socket()
     moved = Range1d(0, 1)
     document.add_root(moved)

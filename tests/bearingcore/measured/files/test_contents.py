@@ -77,21 +77,10 @@ def test_femto_columns_of_clock_and_signals(delimiter: str, rounding: int, begin
     assert [column.role for column in contents.columns] == ["time"] * 4 + ["signal"] * 2
     assert contents.choice.columns == {"x": 4, "y": 5}
     assert "FEMTO" in contents.choice.reason
-    assert contents.unit.value == "g"
+    assert (contents.unit.value, contents.bearing.value) == ("g", "6804RS, FEMTO-ST")
     got = table.recording([4, 5], ["x", "y"], "g")
     assert got.sample_rate == 25_600.0
     assert got.duration == pytest.approx(0.1)
-
-
-def test_speed_of_a_bearing_of_femto_is_in_the_name_of_its_files() -> None:
-    micro = np.arange(2560) / 25_600.0 * 1e6
-    clock = [np.full(2560, 9.0), np.full(2560, 39.0), np.full(2560, 39.0), micro]
-    rows = lines(np.column_stack([*clock, NOISE[:2560, :2]]))
-    contents: Any = read_table("Bearing2_1_acc_00911.csv", rows).contents
-    assert (contents.collection, contents.bearing.value) == ("FEMTO-ST", "6804RS, FEMTO-ST")
-    assert contents.choice.columns == {"x": 4, "y": 5}
-    assert (round(rpm(contents.shaft_speed.value)), contents.shaft_speed.taken) == (1650, True)
-    assert (contents.sample_rate.value, contents.sample_rate.taken) == (25_600.0, True)
 
 
 def test_channels_of_structs_are_called_by_their_names() -> None:

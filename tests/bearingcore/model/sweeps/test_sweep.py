@@ -276,7 +276,7 @@ def test_a_store_holds_what_memory_would(reference: xarray.Dataset, tmp_path: Pa
         assert dataset[name].attrs == reference[name].attrs
     assert [part for part, _ in told] == sorted(part for part, _ in told)
     assert told[-1] == (1.0, "1,200 of 1,200 scenes")
-    assert len({part for part, _ in told}) == 60, "a busy machine repeats some"
+    assert len({part for part, _ in told if part > 0.0}) == 60, "each but those that waited"
     xarray.testing.assert_equal(xarray.open_zarr(path).load(), reference)
 
 

@@ -11,12 +11,8 @@ from numpy.typing import NDArray
 from bearing_explorer.explorer.plots import compared_curves, frequency_bands
 from bearing_explorer.explorer.plots.spectra import levels_of_compared
 from bearing_explorer.explorer.results.results import Results
+from bearing_explorer.explorer.views import vibration_spectrum
 from bearing_explorer.explorer.views.comparing_view import ComparingView
-from bearing_explorer.explorer.views.vibration_spectrum import (
-    VibrationSpectra,
-    loudest_words,
-    why_words,
-)
 from bearing_explorer.kit.plots import levels, style
 from bearing_explorer.kit.plots.layers import ON_PAPER, Layer, Words, by_number, curve, draw, strips
 from bearing_explorer.kit.plots.ranges import StickyRange
@@ -93,7 +89,7 @@ class OverviewSpectrum(ComparingView):
         "re 1 (m/s²)²/Hz once the start is forgotten. Grey: {grey}. Shaded: the bands "
         "of the natural frequencies."
     )
-    needs = VibrationSpectra.needs | {"bands"}
+    needs = vibration_spectrum.VibrationSpectra.needs | {"bands"}
     compact = True
     leads_to = "vibration"
 
@@ -131,9 +127,11 @@ class OverviewSpectrum(ComparingView):
         }, {"overview_frequency": (0.0, top), "overview_level": shown}
 
     def sentence(self, results: Results) -> str:
-        return why_words(results, briefly=True) or loudest_words(results)
+        return vibration_spectrum.why_words(
+            results, briefly=True
+        ) or vibration_spectrum.loudest_words(results)
 
-    table = VibrationSpectra.table
+    table = vibration_spectrum.VibrationSpectra.table
 
 
 def named_bands(results: Results, top: float) -> dict[str, NDArray[np.float64]]:

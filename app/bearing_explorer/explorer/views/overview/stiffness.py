@@ -15,9 +15,8 @@ from bearing_explorer.explorer.plots import compared_curves, matrix_cells
 from bearing_explorer.explorer.results import reasons
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.views.comparing_view import ComparingView
-from bearing_explorer.kit.plots import style
+from bearing_explorer.kit.plots import layers, style
 from bearing_explorer.kit.plots.element_words import with_elements_of
-from bearing_explorer.kit.plots.layers import Glyph, Layer, Words, curve, draw, with_gaps
 from bearing_explorer.kit.plots.ranges import ROOM, StickyRange
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
@@ -52,19 +51,19 @@ _SYMBOL_LOOK = {
 }
 _FRAME_LOOK = {"fill_color": "#FAFBFC", "line_color": style.GRID}
 _NOW_LOOK = {"size": 6, "color": style.DEFECTIVE, "line_color": "white"}
-LAYERS: tuple[Layer, ...] = (
-    Glyph(Quad, "overview_terms", ("left", "right", "top", "bottom"), _FRAME_LOOK),
-    Words("overview_terms", "left", "top", "return 'k'", (),
+LAYERS: tuple[layers.Layer, ...] = (
+    layers.Glyph(Quad, "overview_terms", ("left", "right", "top", "bottom"), _FRAME_LOOK),
+    layers.Words("overview_terms", "left", "top", "return 'k'", (),
           look={**_SYMBOL_LOOK, "y_offset": -3, "text_font_size": "13px"}),
-    Words("overview_terms", "left", "top", f"return {_SUBSCRIPTS}[row.term]", ("term",),
+    layers.Words("overview_terms", "left", "top", f"return {_SUBSCRIPTS}[row.term]", ("term",),
           look={**_SYMBOL_LOOK, "x_offset": 8, "y_offset": -1}),
-    Words("overview_terms", "right", "top", _VALUE_WORDS,
+    layers.Words("overview_terms", "right", "top", _VALUE_WORDS,
           ("now", "unit", "term", "left", "low", "high"), fitting=style.NARROW, look=_VALUE_LOOK),
     matrix_cells.crossing_layer("overview_crossings"),
     *compared_curves.curves("overview_stiffness", "x", "y", width=1.3),
-    curve("overview_healthy", "x", "y", style.HEALTHY, 1.3, cells="overview_terms"),
-    curve("overview_lively", "x", "y", style.DEFECTIVE, 1.8, cells="overview_terms"),
-    Glyph(Scatter, "overview_term_now", ("x", "y"), _NOW_LOOK),
+    layers.curve("overview_healthy", "x", "y", style.HEALTHY, 1.3, cells="overview_terms"),
+    layers.curve("overview_lively", "x", "y", style.DEFECTIVE, 1.8, cells="overview_terms"),
+    layers.Glyph(Scatter, "overview_term_now", ("x", "y"), _NOW_LOOK),
 )  # fmt: skip
 """Frames and symbols of the cells and what is in them, from the lowest to the highest."""
 
@@ -104,14 +103,15 @@ class OverviewStiffness(ComparingView):
         plot = style.bare_figure(
             Range1d(0.0, WIDE, syncable=False), Range1d(-HIGH, 0.0, syncable=False), height=70
         )
-        draw(plot, packed, LAYERS)
+        layers.draw(plot, packed, LAYERS)
         return self.only_with_numbers(plot, sizing_mode="stretch_both")
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         states, healthy, now = results.equilibrium, results.reference.equilibrium, results.now
         answers = [states, healthy, *(results.against(one).equilibrium for one in results.compared)]
         first, last, _ = results.stretch
-        pick = [_some(answer.cage_angles.size) for answer in answers]
+        sizes = [answer.cage_angles.size for answer in answers]
+        pick = [np.linspace(0, n - 1, min(n, MOST_POINTS)).round().astype(int) for n in sizes]
         shares = [
             (answer.cage_angles[some] - first) / (last - first)
             for answer, some in zip(answers, pick, strict=True)
@@ -133,7 +133,7 @@ class OverviewStiffness(ComparingView):
             for trace, share_of, some, values_of in zip(traces, shares, pick, terms, strict=True):
                 trace.append((cell.x(share_of), cell.y(values_of[some], limits)))
             marks[:, i] = cell.x(np.array(share)), cell.y(np.array(values[i]), limits)
-        drawn, reference, *compared = (with_gaps(lines, "x", "y") for lines in traces)
+        drawn, reference, *compared = (layers.with_gaps(lines, "x", "y") for lines in traces)
         return {
             **compared_curves.sources(
                 "overview_stiffness", ("x", "y"), compared, lambda line: line
@@ -190,8 +190,3 @@ def is_lively(values: NDArray[np.float64], healthy: NDArray[np.float64], scale: 
         return False
     ends = [known.min(), known.max(), *([usual.min(), usual.max()] if usual.size else [])]
     return bool(max(ends) - min(ends) > LIVELY * scale)
-
-
-def _some(size: int) -> NDArray[np.int64]:
-    """At most MOST_POINTS of this many points, both ends among them."""
-    return np.unique(np.linspace(0, size - 1, min(size, MOST_POINTS)).round().astype(np.int64))

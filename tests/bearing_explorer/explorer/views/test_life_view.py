@@ -1,4 +1,4 @@
-"""Life on the page, and the paper's figures: the core's numbers, or a sentence why there are none."""
+"""Life and the figures of the paper on the page: numbers of the core, or a sentence why none."""
 
 import math
 

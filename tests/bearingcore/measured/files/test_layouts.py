@@ -11,9 +11,10 @@ import h5py
 import numpy as np
 import pandas as pd
 import pytest
+from scipy.io import savemat, wavfile
 
 from bearingcore import join_tables, read_recording, read_table
-from bearingcore.measured.files import Column, _facts as facts, _table as table
+from bearingcore.measured.files import Column, _facts as facts, _table as table, read_table
 from tests.helpers.saved import matlab, saved, zipped
 
 pytestmark = pytest.mark.usefixtures("files_read_here")
@@ -890,11 +891,6 @@ def test_what_a_file_says(content: bytes | str, said: dict[str, Any]) -> None:
 NOISE = np.random.default_rng(3).standard_normal((20_480, 8))
 
 
-def rows_as_text(rows: np.ndarray, delimiter: str = ",", heading: str = "") -> bytes:
-    told = [delimiter.join(f"{value:.9g}" for value in row) for row in rows]
-    return "\n".join([heading, *told] if heading else told).encode()
-
-
 def rpm(speed: float) -> float:
     return speed * 30.0 / math.pi
 
@@ -971,7 +967,7 @@ def test_channels_of_structs_are_called_by_their_names() -> None:
 def test_a_velocity_is_differentiated_with_a_note() -> None:
     time = np.arange(4000) / 4000.0
     velocity = 1e3 * np.sin(2.0 * np.pi * 80.0 * time)  # [mm/s]
-    content = rows_as_text(np.column_stack([time, velocity]), heading="time [s],v [mm/s]")
+    content = rows(np.column_stack([time, velocity]), heading="time [s],v [mm/s]")
     got = read_table("v.csv", content).recording([1], ["y"])
     exact = 2.0 * np.pi * 80.0 * np.cos(2.0 * np.pi * 80.0 * time)
     inside = slice(20, -20)
@@ -981,23 +977,19 @@ def test_a_velocity_is_differentiated_with_a_note() -> None:
 
 def test_a_column_of_speed_is_the_shafts_and_followed() -> None:
     both = np.column_stack([NOISE[:600, 0], 1480.0 + np.arange(600)])
-    speed: Any = read_table(
-        "a.csv", rows_as_text(both, heading="acc [g],speed [rpm]")
-    ).contents.shaft_speed
+    speed: Any = read_table("a.csv", rows(both, heading="acc [g],speed [rpm]")).contents.shaft_speed
     assert speed.stated
     assert "goes from 1480 to 2079" in speed.reason
 
 
 def test_gravity_in_the_mean_tells_the_unit() -> None:
     shaken = 0.05 * NOISE[:600, :1]
-    assert read_table("a.csv", rows_as_text(shaken + 1.0)).contents.unit.value == "g"
-    assert read_table("a.csv", rows_as_text(shaken + 9.81)).contents.unit.value == "m/s²"
+    assert read_table("a.csv", rows(shaken + 1.0)).contents.unit.value == "g"
+    assert read_table("a.csv", rows(shaken + 9.81)).contents.unit.value == "m/s²"
 
 
 def test_a_rate_that_the_times_contradict_is_taken_but_said() -> None:
-    content = rows_as_text(
-        np.column_stack([np.arange(600) / 1e4, NOISE[:600, 0]]), heading="time,acc [g]"
-    )
+    content = rows(np.column_stack([np.arange(600) / 1e4, NOISE[:600, 0]]), heading="time,acc [g]")
     got = read_table("a.csv", content).recording([1], ["y"], sample_rate=12e3)
     assert got.sample_rate == 12e3
     assert "typed as 12000 Hz; the time column says 10000 Hz" in got.notes[0]
@@ -1027,9 +1019,107 @@ def test_a_speed_is_in_si_and_names_the_unit_of_the_file(
 def test_what_rises_like_a_speed_is_no_sure_clock(speed_first: bool) -> None:
     signal, speed = NOISE[:, :1], np.linspace(1200.0, 1800.0, len(NOISE))[:, None]
     both = [speed, signal] if speed_first else [signal, speed]
-    rate: Any = read_table("run.csv", rows_as_text(np.hstack(both))).contents.sample_rate
+    rate: Any = read_table("run.csv", rows(np.hstack(both))).contents.sample_rate
     assert not rate.taken
     assert "if it is no speed: it rises from 1200 to 1800" in rate.reason
     time = np.arange(len(NOISE))[:, None] / 8000.0
-    rate = read_table("a.csv", rows_as_text(np.hstack([time, signal, speed]))).contents.sample_rate
+    rate = read_table("a.csv", rows(np.hstack([time, signal, speed]))).contents.sample_rate
     assert (rate.value, rate.taken) == (8000.0, True)
+
+
+READ_RATE = 12_800.0
+SAMPLES = 3000
+SAMPLED = np.random.default_rng(5).standard_normal((SAMPLES, 2))
+INSTANTS = np.arange(SAMPLES) / READ_RATE
+
+
+def text_of(rows, delimiter=",", heading="", decimal=".") -> bytes:
+    lines = [delimiter.join(f"{v:.9g}".replace(".", decimal) for v in row) for row in rows]
+    return (heading + "\n".join(lines)).encode()
+
+
+SAMPLED_TABLE = np.column_stack([INSTANTS, SAMPLED])
+
+
+def test_gaps_matter_only_in_the_columns_taken():
+    """The rows to the longest gap are left out, gaps of one are bridged, and notes say so."""
+    lines = text_of(SAMPLED_TABLE).decode().splitlines()
+    for row in (700, 701, 2000, 2100):
+        lines[row] = lines[row].rsplit(",", 1)[0] + ","
+    table = read_table("rig.csv", "\n".join(lines).encode())
+    assert len(table.recording([1], ["x"], "g").acceleration) == SAMPLES
+    got = table.recording([2], ["y"], "m/s²")
+    expected = SAMPLED[702:, 1].copy()
+    for row in (2000 - 702, 2100 - 702):
+        expected[row] = 0.5 * (expected[row - 1] + expected[row + 1])
+    np.testing.assert_allclose(got.acceleration[:, 0], expected, rtol=1e-7, atol=1e-9)
+    assert "missing in 2 rows. Each is bridged by the mean" in got.notes[0]
+    assert "missing in 2 rows. Only" in got.notes[0]
+    assert "rows 703 to 3000 of 3000" in got.notes[0]
+
+
+@pytest.mark.parametrize(
+    ("data", "full_scale"),
+    [
+        ((SAMPLED * 3000.0).astype(np.int16), 32768.0),
+        ((SAMPLED * 1e8).astype(np.int32), 2.0**31),
+        ((SAMPLED * 20.0 + 128.0).clip(0, 255).astype(np.uint8), None),
+        (SAMPLED.astype(np.float32), 1.0),
+    ],
+)
+def test_wav(data, full_scale):
+    table = read_table("rig.wav", saved(wavfile.write, 12_800, data))
+    assert table.contents.sample_rate.value == 12_800.0
+    wanted = data / full_scale if full_scale else data / 128.0 - 1.0
+    got = table.recording([0, 1], ["x", "y"], "m/s²", full_scale=50.0)
+    np.testing.assert_allclose(got.acceleration, wanted * 50.0, rtol=1e-6)
+
+
+@pytest.mark.parametrize("options", [{}, {"do_compression": True}, {"format": "4"}])
+def test_matlab(options):
+    variables = {
+        "vertical": SAMPLED[:, :1],
+        "horizontal": SAMPLED[:, 1],
+        "fs": READ_RATE,
+        "rpm": 420.0,
+    }
+    if "format" not in options:
+        variables |= {"short": SAMPLED[:9], "words": "remark", "turned": SAMPLED * 1j}
+    table = read_table("rig.mat", saved(savemat, variables, **options))
+    assert table.names == ("vertical", "horizontal")
+    assert table.scalars == {"fs": READ_RATE, "rpm": 420.0}
+    if "format" not in options:
+        assert table.texts == {"words": "remark", "short": "not used: 9 × 2 numbers"}
+    got = table.recording(["vertical", "horizontal"], ["y", "x"], "m/s²")
+    assert got.sample_rate == READ_RATE
+    assert got.shaft_speed == pytest.approx(2.0 * np.pi * 7.0)
+    np.testing.assert_allclose(got.acceleration, SAMPLED)
+
+
+def test_structs_and_cells_are_read_by_their_paths():
+    run = {"gs": SAMPLED[:, :1], "sr": 48_828.0, "rate": 25.0, "load": "150"}
+    parts = np.empty(2, dtype=object)
+    parts[:] = [SAMPLED[:, :1], {"deep": SAMPLED[:, 1:], "word": "inside"}]
+    held = {"bearing": run, "parts": parts}
+    table = read_table("s.mat", saved(savemat, held, do_compression=True))
+    assert table.names == ("bearing.gs", "parts{1}", "parts{2}.deep")
+    assert table.scalars == {"bearing.sr": 48_828.0, "bearing.rate": 25.0}
+    assert table.texts == {"bearing.load": "150", "parts{2}.word": "inside"}
+    np.testing.assert_array_equal(table.columns, SAMPLED[:, [0, 0, 1]])
+
+
+def test_a_struct_array_is_numbered_and_shorter_vectors_end_earlier():
+    runs = np.empty((1, 2), dtype=[("gs", "O")])
+    runs["gs"][0] = [SAMPLED[:, 0], SAMPLED[:2000, 1]]
+    table = read_table("r.mat", matlab(runs=runs))
+    assert table.names == ("runs(1).gs", "runs(2).gs")
+    got = table.recording([1], ["y"], "g", 1000.0)
+    np.testing.assert_allclose(got.acceleration[:, 0], SAMPLED[:2000, 1] * 9.80665)
+
+
+def test_what_is_missing_is_counted_in_whole_steps_of_rounded_times():
+    time = np.arange(24_000) / 12_000.0
+    time[15_001:] += 0.5
+    lines = "".join(f"{t:.6f},{np.sin(400.0 * t):.4f}\n" for t in time)
+    table = read_table("gap.csv", ("t [s],ay [m/s²]\n" + lines).encode())
+    assert "6\u202f000 samples are missing" in table.contents.sampling.trouble

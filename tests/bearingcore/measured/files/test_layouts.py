@@ -14,7 +14,7 @@ import pytest
 from scipy.io import savemat, wavfile
 
 from bearingcore import join_tables, read_recording, read_table
-from bearingcore.measured.files import Column, _facts as facts, _table as table, read_table
+from bearingcore.measured.files import Column, _facts as facts, _table as table
 from tests.helpers.saved import matlab, saved, zipped
 
 pytestmark = pytest.mark.usefixtures("files_read_here")
@@ -1033,17 +1033,12 @@ SAMPLED = np.random.default_rng(5).standard_normal((SAMPLES, 2))
 INSTANTS = np.arange(SAMPLES) / READ_RATE
 
 
-def text_of(rows, delimiter=",", heading="", decimal=".") -> bytes:
-    lines = [delimiter.join(f"{v:.9g}".replace(".", decimal) for v in row) for row in rows]
-    return (heading + "\n".join(lines)).encode()
-
-
 SAMPLED_TABLE = np.column_stack([INSTANTS, SAMPLED])
 
 
 def test_gaps_matter_only_in_the_columns_taken():
     """The rows to the longest gap are left out, gaps of one are bridged, and notes say so."""
-    lines = text_of(SAMPLED_TABLE).decode().splitlines()
+    lines = rows(SAMPLED_TABLE, digits=9).decode().splitlines()
     for row in (700, 701, 2000, 2100):
         lines[row] = lines[row].rsplit(",", 1)[0] + ","
     table = read_table("rig.csv", "\n".join(lines).encode())

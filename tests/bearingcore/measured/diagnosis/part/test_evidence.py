@@ -150,18 +150,14 @@ def steady_answer(signal: np.ndarray, speed: float = STEADY_MOTOR.shaft_speed):
     return diagnose(Recording(signal, STEADY_MOTOR.rate, ("y",)), STEADY_MOTOR.bearing, speed)
 
 
-@pytest.fixture(scope="module")
-def hidden() -> np.ndarray:
+def test_a_part_that_fills_a_band_is_named_whatever_knocks_elsewhere():
     """An inner race that knocks as steadily as a tone, beneath another source in a lower band."""
     rng = np.random.default_rng(21)
     knocking = steady(STEADY_MOTOR.lines["inner race"], 3600.0) * turning_with(STEADY_MOTOR.turns)
     elsewhere = steady(4.286 * STEADY_MOTOR.turns, 600.0)
     noise = rng.standard_normal(len(TIME))
-    return 0.5 * knocking / knocking.std() + 4.0 * elsewhere / elsewhere.std() + noise
-
-
-def test_a_part_that_fills_a_band_is_named_whatever_knocks_elsewhere(hidden):
-    diagnosis = steady_answer(hidden)
+    signal = 0.5 * knocking / knocking.std() + 4.0 * elsewhere / elsewhere.std() + noise
+    diagnosis = steady_answer(signal)
     assert diagnosis.fault == "inner race"
     assert diagnosis.probability < 0.99
     assert diagnosis.of("inner race").band.low > 2000.0

@@ -137,3 +137,14 @@ def finite(field: str, values: ArrayLike, unit: str, columns: int | None = None)
     if not np.all(np.isfinite(row)):
         raise refuse(field, reprlib.repr(values), allowed)
     return row
+
+
+def row(field: str, values: ArrayLike, least: int) -> Array:
+    """Return values as floats (n,); ValueError where they are no row of so many finite numbers."""
+    numbers = np.asarray(values, dtype=float)
+    if numbers.ndim != 1 or len(numbers) < least:
+        allowed = f"a row of {least} samples at least"
+        raise refuse(field, f"of shape {numbers.shape}", allowed)
+    if not np.isfinite(numbers).all():
+        raise refuse(field, "not finite everywhere", "finite numbers")
+    return numbers

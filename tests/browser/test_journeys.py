@@ -720,6 +720,7 @@ def test_back_leads_to_the_tab_part_and_lesson_that_was_open(visitor: Visitor) -
     visitor.go_to("More: Explore")
     there("More: Explore")
     visitor.type("Length of the defect", "20")
+    visitor.wait(lambda: "extent_deg=20" in visitor.page.url)
     visitor.go_to("More: Paper")
     there("More: Paper")
     changed, first = ("More: Explore", 20.0), ("More: Explore", 12.9)

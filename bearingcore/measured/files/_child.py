@@ -68,7 +68,7 @@ def read_file(
     Returns
     -------
     about
-        the other fields of `_table.Table` by name.
+        the other fields of `contents.FileColumns` by name.
     columns : (n, c)
         the numbers; gaps are NaN.
 

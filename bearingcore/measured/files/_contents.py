@@ -7,11 +7,11 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import datetime
-from typing import TYPE_CHECKING
+from types import MappingProxyType
 
 import numpy as np
 
-from bearingcore.common import Array, number
+from bearingcore.common import Array, _checks as checks, number
 from bearingcore.measured.files import _dates as dates, _facts as facts
 from bearingcore.measured.files._channels import (
     OTHER,
@@ -41,9 +41,6 @@ from bearingcore.measured.files._units import ACCELERATIONS, SPEEDS, TIMES, UNIT
 from bearingcore.recordings import FEWEST_SAMPLES
 from bearingcore.units import STANDARD_GRAVITY
 
-if TYPE_CHECKING:
-    from bearingcore.measured.files._table import Table
-
 LIKELY_IN_G, LIKELY_IN_SI = 0.299, 3.07
 """Root mean square up to which one of g and m/s² is called likely, and from which the other: there
 it is nine times as probable. The level in the middle of 88 public records that say their unit is 3
@@ -54,6 +51,66 @@ TWO_RATES = 0.01
 
 GRAVITY_SHARE = 0.1
 """Relative difference to gravity up to which a mean is taken for it."""
+
+
+@dataclass(frozen=True)
+class FileColumns:
+    """Columns of numbers out of a file.
+
+    Attributes
+    ----------
+    names
+        of the columns.
+    columns : (n, c)
+        their numbers; gaps are NaN, as is the rest after the end of a shorter column.
+    sample_rate
+        [Hz] where the file's format has it (WAV), else None.
+    scalars
+        single numbers that the file names, such as a speed or a rate.
+    name
+        of the file.
+    texts
+        words that the file names.
+    remarks
+        lines above the numbers.
+    headed
+        whether the file itself names its columns.
+    stamps
+        columns of dates or times of day, in seconds since the first.
+    full_scale_known
+        whether the numbers are in a unit; False for parts of full scale (WAV).
+    notes
+        sentences on what was not read.
+    given
+        what is said of columns by hand, by index; it goes before all guesses.
+
+    Raises
+    ------
+    ValueError
+        for too few rows.
+    """
+
+    names: tuple[str, ...]
+    columns: Array = field(repr=False)
+    sample_rate: float | None = None
+    scalars: Mapping[str, float] = field(default_factory=dict)
+    name: str = ""
+    texts: Mapping[str, str] = field(default_factory=dict)
+    remarks: tuple[str, ...] = ()
+    headed: bool = True
+    stamps: tuple[int, ...] = ()
+    full_scale_known: bool = True
+    notes: tuple[str, ...] = ()
+    given: Mapping[int, Column] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        rows = len(self.columns)
+        if rows < FEWEST_SAMPLES:
+            raise checks.refuse(
+                f"number of rows in {self.name}", rows, f"at least {FEWEST_SAMPLES} samples"
+            )
+        for name in ("scalars", "texts", "given"):
+            checks.keep(self, **{name: MappingProxyType(dict(getattr(self, name)))})
 
 
 @dataclass(frozen=True)
@@ -112,7 +169,7 @@ class FileContents:
     point: Finding[str] | None = None
 
 
-def contents_of(table: Table) -> FileContents:
+def contents_of(table: FileColumns) -> FileContents:
     """Statements of a table about itself, and guesses at the rest."""
     texts = [f"{name}: {text}" for name, text in table.texts.items()]
     lines = [*table.remarks, *texts]
@@ -157,7 +214,7 @@ def contents_of(table: Table) -> FileContents:
 
 
 def _chosen(
-    table: Table,
+    table: FileColumns,
     columns: Sequence[Column],
     sampling: Sampling | None,
     known: Collection,
@@ -194,7 +251,7 @@ def _chosen(
 
 
 def _columns(
-    table: Table, clock: int, known: Collection
+    table: FileColumns, clock: int, known: Collection
 ) -> tuple[tuple[Column, ...], Sampling | None]:
     """The columns, and what the times say where some of them are times."""
     columns = [_described(column_of(name), table.texts) for name in table.names]
@@ -225,7 +282,7 @@ def _columns(
     return tuple(columns), dataclasses.replace(sampling, stated=sampling.sample_rate is not None)
 
 
-def _add_units(table: Table, columns: list[Column]) -> list[Column]:
+def _add_units(table: FileColumns, columns: list[Column]) -> list[Column]:
     """The columns with the units that lines give, each its own; one may be that of no signal."""
     units = facts.units_said(table.remarks, table.texts)
     signals = [index for index, column in enumerate(columns) if column.role == SIGNAL]
@@ -239,7 +296,7 @@ def _add_units(table: Table, columns: list[Column]) -> list[Column]:
 
 
 def _read_times(
-    table: Table, columns: list[Column], stamped: Sequence[int]
+    table: FileColumns, columns: list[Column], stamped: Sequence[int]
 ) -> tuple[tuple[Column, ...], Sampling | None]:
     """The columns, and what those say that count rows or are times: by name, or as they rise."""
     samplings: dict[int, Sampling] = {}
@@ -307,7 +364,7 @@ def _described(column: Column, texts: Mapping[str, str]) -> Column:
     return column
 
 
-def _frequencies(table: Table, columns: Sequence[Column], *, timed: bool) -> int | None:
+def _frequencies(table: FileColumns, columns: Sequence[Column], *, timed: bool) -> int | None:
     """The column of the frequencies of a spectrum; beside times it need not be called so."""
     for index, column in enumerate(columns):
         if index in table.given or column.role not in (OTHER, SPEED):
@@ -324,7 +381,7 @@ def _moves(signal: Array) -> bool:
 
 
 def _rate(
-    table: Table, sampling: Sampling | None, named: Sequence[Named], known: Collection
+    table: FileColumns, sampling: Sampling | None, named: Sequence[Named], known: Collection
 ) -> Finding[float] | None:
     if table.sample_rate is not None:
         return Finding(table.sample_rate, "the head of the file")
@@ -342,7 +399,7 @@ def _rate(
 
 
 def _unit(
-    table: Table, columns: Sequence[Column], picked: Sequence[int], known: Collection
+    table: FileColumns, columns: Sequence[Column], picked: Sequence[int], known: Collection
 ) -> Finding[str]:
     named = [columns[index] for index in picked if columns[index].unit]
     if len({column.unit for column in named}) == 1:
@@ -382,7 +439,7 @@ def _unit_by_level(signals: Array, all_signals: Array) -> Finding[str]:
 
 
 def _speed(
-    table: Table, columns: Sequence[Column], named: Sequence[Named]
+    table: FileColumns, columns: Sequence[Column], named: Sequence[Named]
 ) -> Finding[float] | None:
     for index, column in enumerate(columns):
         speeds = table.columns[:, index]
@@ -401,7 +458,7 @@ def _speed(
 
 
 def _speed_of_pulses(
-    table: Table,
+    table: FileColumns,
     columns: Sequence[Column],
     rate: Finding[float] | None,
     sampling: Sampling | None,
@@ -421,7 +478,7 @@ def _speed_of_pulses(
     return None
 
 
-def _constants(table: Table) -> list[Named]:
+def _constants(table: FileColumns) -> list[Named]:
     """Columns that hold one number: in every row, or in one alone."""
     made = []
     for name, column in zip(table.names, table.columns.T, strict=True):

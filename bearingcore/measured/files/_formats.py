@@ -1,16 +1,18 @@
 """Contents of text, WAV, MATLAB and HDF5 files. Runs in the process of `_child` alone.
 
-Each reader gives the fields of `_table.Table`: words and single numbers, and a matrix.
+Each reader gives the fields of `_contents.FileColumns`: words and single numbers, and a matrix.
 Fields of structs are named as in MATLAB: "bearing.gs", "runs(2).gs", "parts{3}".
 """
 
 from __future__ import annotations
 
+import contextlib
 import importlib.util
 import io
 import json
 import re
 import warnings
+import zlib
 from collections.abc import Callable, Sequence
 from typing import Any, cast
 
@@ -51,6 +53,9 @@ def read(name: str, content: bytes, most_numbers: int, most_columns: int) -> Ans
             return {"inside": names}, np.empty((0, 0))
         about, columns = read(names[0], content, most_numbers, most_columns)
         return {"name": f"{name.removesuffix('/' + names[0])}/{names[0]}", **about}, columns
+    if content[:2] == b"\x1f\x8b":
+        name = re.sub(r"(?i)\.gz$", "", name)
+        return read(name, _gunzipped(name, content), most_numbers, most_columns)
     if content[:4] in (b"RIFF", b"RIFX", b"RF64"):
         return _wav(name, content, most_numbers, most_columns)
     variables = Variables()
@@ -109,6 +114,17 @@ def _need(package: str, name: str, kind: str) -> None:
             f"installed (pip install {package}); else export it as CSV from the program that "
             "wrote it",
         )
+
+
+def _gunzipped(name: str, content: bytes) -> bytes:
+    """Unpack what gzip packed."""
+    unpacking = zlib.decompressobj(wbits=31)
+    with contextlib.suppress(zlib.error):
+        unpacked = unpacking.decompress(content, libraries.MOST_UNPACKED)
+        if unpacking.eof:
+            return unpacked
+    most = libraries.MOST_UNPACKED >> 20
+    raise checks.refuse("file", name, f"a whole file of gzip, at most {most} MB unpacked")
 
 
 def _json(content: bytes) -> Any:

@@ -11,16 +11,15 @@ from __future__ import annotations
 import dataclasses
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from itertools import pairwise
-from types import MappingProxyType
 
 import numpy as np
 
 from bearingcore.common import Array, _checks as checks, cached_property, count, number, runs
 from bearingcore.measured.files._channels import OTHER, ROLES, SIGNAL, SPEED, TIME, Column
 from bearingcore.measured.files._child import MOST_NUMBERS, read_file
-from bearingcore.measured.files._contents import FileContents, contents_of
+from bearingcore.measured.files._contents import FileColumns, FileContents, contents_of
 from bearingcore.measured.files._sampling import Sampling, long_parts, longest_run, single_gaps
 from bearingcore.measured.files._shaft_angle import angle_columns, shaft_angle
 from bearingcore.measured.files._units import (
@@ -54,66 +53,13 @@ _UNITS_OF: Mapping[str, Mapping[str, float]] = {
 
 
 @dataclass(frozen=True)
-class Table:
+class Table(FileColumns):
     """Columns of numbers out of a file, with their meaning, for making a recording.
 
-    Attributes
-    ----------
-    names
-        of the columns.
-    columns : (n, c)
-        their numbers; gaps are NaN, as is the rest after the end of a shorter column.
-    sample_rate
-        [Hz] where the file's format has it (WAV), else None.
-    scalars
-        single numbers that the file names, such as a speed or a rate.
-    name
-        of the file.
-    texts
-        words that the file names.
-    remarks
-        lines above the numbers.
-    headed
-        whether the file itself names its columns.
-    stamps
-        columns of dates or times of day, in seconds since the first.
-    full_scale_known
-        whether the numbers are in a unit; False for parts of full scale (WAV).
-    notes
-        sentences on what was not read.
-    given
-        what is said of columns by hand, by index; it goes before all guesses.
-    chosen
-        the one of several recordings in the file, in words.
-
-    Raises
-    ------
-    ValueError
-        for too few rows.
+    `chosen` names, in words, the one of several recordings in the file.
     """
 
-    names: tuple[str, ...]
-    columns: Array = field(repr=False)
-    sample_rate: float | None = None
-    scalars: Mapping[str, float] = field(default_factory=dict)
-    name: str = ""
-    texts: Mapping[str, str] = field(default_factory=dict)
-    remarks: tuple[str, ...] = ()
-    headed: bool = True
-    stamps: tuple[int, ...] = ()
-    full_scale_known: bool = True
-    notes: tuple[str, ...] = ()
-    given: Mapping[int, Column] = field(default_factory=dict)
     chosen: str = ""
-
-    def __post_init__(self) -> None:
-        rows = len(self.columns)
-        if rows < FEWEST_SAMPLES:
-            raise checks.refuse(
-                f"number of rows in {self.name}", rows, f"at least {FEWEST_SAMPLES} samples"
-            )
-        for name in ("scalars", "texts", "given"):
-            checks.keep(self, **{name: MappingProxyType(dict(getattr(self, name)))})
 
     @cached_property
     def contents(self) -> FileContents:
@@ -429,8 +375,8 @@ def read_table(name: str, content: bytes, give_up: Callable[[], bool] | None = N
     """Read the columns of numbers in a file: text (CSV), WAV, MATLAB, HDF5, and others.
 
     JSON and NumPy's files are read too, and with the packages of the extra `files`
-    UFF, TDMS, Parquet and Excel's .xlsx; also a zip of one of them. The first bytes decide the
-    format. The file is read in its own process with limits of time and memory: see
+    UFF, TDMS, Parquet and Excel's .xlsx; also a zip or gzip of one of them. The first bytes
+    decide the format. The file is read in its own process with limits of time and memory: see
     `bearingcore.measured.files._child`.
 
     Parameters

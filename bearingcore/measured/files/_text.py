@@ -68,7 +68,7 @@ def read_text(
     Returns
     -------
     about
-        the fields of `_table.Table` about names, remarks, times and lines not read.
+        the fields of `contents.FileColumns` about names, remarks, times and lines not read.
     columns : (n, c)
         the numbers; gaps are NaN, dates and times of day are seconds since the first of them.
         Columns of words, and empty ones, are left out.

@@ -15,7 +15,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from bearingcore.common import Array, ResultTable, _checks as checks, shown_as_table, table_of
 from bearingcore.measured.signals._filter_bank import BAND_COUNTS, Band, split, squared_envelopes
-from bearingcore.measured.signals._spectrograms import check_row
 
 MOST_JUDGED = 2**18
 """Of a signal that are looked at: the first ones."""
@@ -106,7 +105,7 @@ def kurtogram(signal: ArrayLike, sample_rate: float, narrowest: float = 0.0) -> 
 
     rate = checks.real_number("sample_rate", sample_rate, above=0.0, unit="Hz")
     least = checks.real_number("narrowest", narrowest, at_least=0.0, unit="Hz")
-    samples = check_row(signal, 32 * PIECES)[:MOST_JUDGED]
+    samples = checks.row("signal", signal, 32 * PIECES)[:MOST_JUDGED]
     if not np.ptp(samples):
         raise checks.refuse("signal", "the same number throughout", "a signal")
     duration = len(samples) / rate

@@ -60,7 +60,7 @@ def spectrogram(signal: ArrayLike, sample_rate: float, resolution: float) -> Spe
     rate = checks.real_number("sample_rate", sample_rate, above=0.0, unit="Hz")
     step = checks.real_number("resolution", resolution, above=0.0, at_most=rate / 16.0, unit="Hz")
     length = round(rate / step)
-    samples = check_row(signal, FEWEST_SEGMENTS * length)
+    samples = checks.row("signal", signal, FEWEST_SEGMENTS * length)
     hop = max(1, round((1.0 - OVERLAP) * length))
     transform = ShortTimeFFT(
         hann(length, sym=False), hop, rate, fft_mode="onesided2X", scale_to="psd"
@@ -106,7 +106,7 @@ def order_map(
         raise checks.refuse("speed", "not above 0 everywhere", "speeds above 0 Hz")
     if len(times) != len(speeds) or (np.diff(times) <= 0.0).any():
         raise checks.refuse("time", "not rising with the speeds", "a later time for each speed")
-    samples = check_row(signal, 1)
+    samples = checks.row("signal", signal, 1)
     at = np.arange(len(samples)) / rate
     each = np.interp(at, times, speeds)
     turns = np.concatenate([[0.0], np.cumsum(0.5 * (each[1:] + each[:-1]))]) / rate
@@ -117,15 +117,3 @@ def order_map(
         raise checks.refuse("speed", f"{slowest:.2g} Hz", allowed)
     per_turn = next_fast_len(math.ceil(rate / slowest), real=True)
     return spectrogram(resample_over_turns(samples, turns, per_turn), per_turn, resolution)
-
-
-def check_row(signal: ArrayLike, least: int) -> Array:
-    """Return a signal as floats (n,); ValueError where it is no row of so many finite numbers."""
-    samples = np.asarray(signal, dtype=float)
-    if samples.ndim != 1 or len(samples) < least:
-        raise checks.refuse(
-            "signal", f"of shape {samples.shape}", f"a row of {least} samples at least"
-        )
-    if not np.isfinite(samples).all():
-        raise checks.refuse("signal", "not finite everywhere", "finite numbers")
-    return samples

@@ -1,6 +1,7 @@
 """Files as programs, loggers and instruments lay them out, and what must come out of them."""
 
 import csv
+import gzip
 import io
 import json
 import math
@@ -627,6 +628,7 @@ ONE_SIGNAL: list[tuple[Any, ...]] = [
     (written(lambda t, a: f"| {t:.6f} | {a:.4f} |", "| time | acc |\n|---|---|"), RATE),
     (written(lambda t, a: f"{t:.6f},{a:.4f}", "s,g"), RATE),
     (written(lambda t, a: f"{t:.6f},{a:.4f},{5 * (t % 0.03 < 0.01)}", "t,acc [g],Tacho [V]"), RATE),
+    (gzip.compress(FRAME.to_csv().encode()), RATE),
     # lists and records of JSON, arrays of NumPy
     (json.dumps(LIST), None, "a.json"),
     (f"[{' '.join(map(str, LIST))}]", None),

@@ -37,7 +37,7 @@ from bearingcore import (
     stiffness_maps,
 )
 from bearingcore.model.scene._packing import length_units
-from tests.benchmarks.yardstick import CMotion, CStatics, start_state
+from tests.benchmarks.machine import CMotion, CStatics, start_state
 from tests.browser.helpers import find_chromium
 
 REFERENCE = Path(__file__).parent.parent / "reference" / "motion_reference.npz"

@@ -1,9 +1,13 @@
-"""Results as tables: names, units and numbers are those of the result."""
+"""Results as tables of their own numbers; equal scenes give equal results, bit for bit."""
 
 import csv
+import hashlib
 import io
 import math
+import subprocess
+import sys
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import numpy as np
@@ -12,6 +16,7 @@ import pytest
 from bearingcore import (
     STIFFNESS_TERMS,
     contact_pressures,
+    diagnose,
     equilibrium,
     kurtogram,
     life,
@@ -24,6 +29,9 @@ from bearingcore import (
 )
 from bearingcore.common import ResultTable, as_csv, table_of
 from bearingcore.model.dynamics import speed_run
+from bearingcore.model.statics import ball_positions
+from bearingcore.model.sweeps import Grid
+from bearingcore.recordings import Recording
 from bearingcore.units import UNITS
 
 FAN_RIG, LIEW_LIM = presets["fan-rig"], presets["liew-lim"]
@@ -183,3 +191,65 @@ def test_the_stiffness_is_a_table_to_copy_at_an_angle_or_on_average() -> None:
     assert np.isnan(loose["per_m_x"]).all()
     with pytest.raises(ValueError, match="i is 3; allowed: a whole number from 0 to 2"):
         state.stiffness_table(3)
+
+
+def _sweep() -> list[np.ndarray]:
+    over = {"extent": [0.1, 0.2, 0.3], "fy": [-2000.0, -1800.0]}
+    status, numbers = Grid.of(LIEW_LIM, over, ["k_yy_*", "band_*"]).compute()
+    return [status, *(numbers[name] for name in sorted(numbers))]
+
+
+def _diagnosis() -> list[np.ndarray]:
+    noise = np.random.default_rng(1).standard_normal((2**15, 1))
+    diagnosis = diagnose(Recording(noise, 12_000.0, ("y",)), presets["6205"].bearing, 180.0)
+    return [np.array([part.level for part in diagnosis.evidence])]
+
+
+ANSWERS: dict[str, Callable[[], list[np.ndarray]]] = {
+    "equilibrium": lambda: [equilibrium(LIEW_LIM).stiffness, equilibrium(LIEW_LIM).displacement],
+    "maps": lambda: [stiffness_maps(LIEW_LIM, [0.2, 0.4, 0.6]).stiffness],
+    "positions": lambda: [ball_positions(presets["6205"].replace(shaft_speed=900.0)).load],
+    "modes": lambda: [modes(FAN_RIG).undamped_frequency, modes(FAN_RIG).shape],
+    "motion": lambda: [simulate(FAN_RIG, 0.05).outer_acceleration],
+    "five directions": lambda: [simulate(LIEW_LIM, 0.02).outer_acceleration],
+    "with mass": lambda: [simulate(FAN_RIG.replace(balls="with mass"), 0.01).outer_acceleration],
+    "orbit": lambda: [orbit(FAN_RIG).history, orbit(FAN_RIG).multipliers],
+    "spectrum": lambda: [spectrum(simulate(FAN_RIG, 0.05).outer_acceleration, 65536.0).density],
+    "life": lambda: [np.array(life(presets["6205"], 14_800.0).million_revolutions)],
+    "sweep": _sweep,
+    "diagnosis": _diagnosis,
+}
+
+
+def print_of(name: str) -> str:
+    """A fingerprint of all bytes of an answer."""
+    digest = hashlib.sha256()
+    for array in ANSWERS[name]():
+        digest.update(np.ascontiguousarray(array).tobytes())
+    return digest.hexdigest()
+
+
+@pytest.fixture(scope="module")
+def first() -> dict[str, str]:
+    """All, one after the other."""
+    return {name: print_of(name) for name in ANSWERS}
+
+
+@pytest.mark.proof
+def test_the_same_again_in_two_threads(first: dict[str, str]) -> None:
+    names = [*ANSWERS, *reversed(ANSWERS)]  # others beside each the second time
+    with ThreadPoolExecutor(2) as threads:
+        again = list(zip(names, threads.map(print_of, names), strict=True))
+    assert [(name, first[name]) for name in names] == again
+
+
+@pytest.mark.proof
+def test_the_same_in_another_process(first: dict[str, str]) -> None:
+    """Another order of hashes and of everything in memory."""
+    ask = (
+        "from tests.bearingcore.common.test_table import ANSWERS, print_of\n"
+        "for name in reversed(ANSWERS): print(name, print_of(name), sep='=')"
+    )
+    said = subprocess.run([sys.executable, "-c", ask], capture_output=True, text=True, check=True)
+    other = dict(line.rsplit("=", 1) for line in said.stdout.splitlines())
+    assert other == first

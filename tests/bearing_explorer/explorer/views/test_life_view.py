@@ -1,13 +1,17 @@
-"""Life, pressure and film on the page: the core's numbers, and a sentence where there are none."""
+"""Life and the figures of the paper on the page: numbers of the core, or a sentence why none."""
 
 import math
 
 import numpy as np
 import pytest
+from bearing_explorer import figures
 from bearing_explorer.explorer.results.endurance import LifeInputs, assume_usual_grooves, endurance
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.results.verdict import rows_of
 from bearing_explorer.explorer.views.life import groups_of
+from bearing_explorer.explorer.views.paper import TAB_TITLES
+from bearing_explorer.explorer.views.paper_figures import FIGURES, PaperFigure
+from bearing_explorer.page import SECTIONS
 
 from bearingcore import Limit, contact_pressures, dynamic_load_rating, life, presets
 from bearingcore.model.statics import state_of_limits
@@ -91,3 +95,35 @@ def test_every_preset_has_an_answer_or_a_sentence(name: str) -> None:
         assert rated.life is not None
         assert math.isfinite(rated.life.million_revolutions)
         assert rated.pressures is not None
+
+
+BY_NUMBER = {figure.number: figure for figure in FIGURES}
+
+
+def ours(figure: int) -> dict[str, str]:
+    """Our values by their names."""
+    paper_figure = BY_NUMBER[figure]
+    return {printed.name: printed.ours(paper_figure.scenes) for printed in paper_figure.printed}
+
+
+def test_all_figures_from_3_to_10_are_there() -> None:
+    assert [figure.number for figure in FIGURES] == list(range(3, 11))
+    assert {figure.tab for figure in FIGURES} <= {section.name for section in SECTIONS}
+
+
+@pytest.mark.parametrize("figure", FIGURES, ids=lambda figure: f"figure {figure.number}")
+def test_each_has_the_sentence_of_the_model_and_every_value(figure: PaperFigure) -> None:
+    assert figure.slip.endswith(".")
+    assert all(value and "no value" not in value for value in ours(figure.number).values())
+
+
+def test_the_numbers_of_a_figure_are_had_outside_of_the_page() -> None:
+    shown = figures.paper(presets["6205"], choices={"figure": 8})
+    assert shown.table()["paper"][0] == "25.7°"
+    assert "the tab Frequencies draws it" in shown.sentence
+    with pytest.raises(ValueError, match="figure is 2"):
+        figures.paper(presets["6205"], choices={"figure": 2})
+
+
+def test_every_tab_of_a_figure_has_its_title() -> None:
+    assert {figure.tab for figure in FIGURES} == set(TAB_TITLES)

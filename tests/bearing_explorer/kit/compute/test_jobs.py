@@ -1,12 +1,17 @@
-"""Work in the background: progress, cancel, newest wins, and nothing left behind."""
+"""Work in the background: progress, cancel, newest wins; results are kept and computed once."""
 
 import asyncio
 import threading
 import time
-from collections.abc import Callable, Generator
+from collections.abc import Callable, Generator, Iterator
 from functools import partial
 
+import cachetools
+import numpy as np
 import pytest
+from bearing_explorer.kit.compute import cache, drawing_loop
+from bearing_explorer.kit.compute.cache import cached
+from bearing_explorer.kit.compute.drawing_loop import DrawingLoop
 from bearing_explorer.kit.compute.executors import Pool
 from bearing_explorer.kit.compute.jobs import SEARCH, Jobs, JobState, Kind, Work
 
@@ -248,3 +253,208 @@ def test_a_job_cannot_go_on_for_ever() -> None:
     work.started -= 61.0
     assert work.cancelled()
     assert work.timed_out
+
+
+class DrawnPage:
+    """Notes what is drawn; `gate` holds the fine picture up."""
+
+    def __init__(self, seconds: float = 0.0) -> None:
+        self.drawn: list[int] = []
+        self.refining: list[int] = []
+        self.fine: list[int] = []
+        self.errors: list[Exception] = []
+        self.gate = threading.Event()
+        self.gate.set()
+        self.seconds = seconds
+        self.loop: DrawingLoop[int, int] = DrawingLoop(
+            self.draw, self.refine, self.draw_fine, self.failed
+        )
+
+    async def draw(self, inputs: int) -> int:
+        await asyncio.sleep(self.seconds)
+        if inputs < 0:
+            raise ValueError("a bug")
+        self.drawn.append(inputs)
+        return inputs
+
+    def refine(self, inputs: int) -> int | None:
+        self.refining.append(inputs)
+        assert self.gate.wait(30.0)
+        return None if inputs == 0 else 10 * inputs
+
+    async def draw_fine(self, inputs: int, picture: int) -> None:
+        self.fine.append(picture)
+
+    async def failed(self, error: Exception) -> None:
+        self.errors.append(error)
+
+
+@pytest.fixture(autouse=True)
+def soon(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(drawing_loop, "RESTS_AFTER", 0.05)
+
+
+async def until(done: Callable[[], object]) -> None:
+    async with asyncio.timeout(30.0):
+        while not done():
+            await asyncio.sleep(0.002)
+
+
+def test_a_drag_is_drawn_by_its_newest_position_and_finely_once_it_rests() -> None:
+    page = DrawnPage(seconds=0.01)
+
+    async def live() -> None:
+        for position in range(1, 41):
+            page.loop.submit(position)
+            await asyncio.sleep(0.002)
+        assert not page.refining, "nothing finer is computed while a slider moves"
+        await until(lambda: page.loop.idle)
+
+    run(live())
+    assert page.drawn[-1] == 40
+    assert page.drawn == sorted(page.drawn)
+    assert len(page.drawn) < 35, "what was overtaken is not drawn"
+    assert page.fine == [400]
+
+
+def test_newer_inputs_do_not_wait_for_a_fine_picture() -> None:
+    page = DrawnPage()
+
+    async def live() -> None:
+        page.gate.clear()
+        page.loop.submit(1)
+        await until(lambda: page.refining)
+        page.loop.submit(2)
+        await until(lambda: page.drawn == [1, 2])
+        page.gate.set()
+        await until(lambda: page.loop.idle)
+
+    run(live())
+    assert page.fine == [20], "the first fine picture was no longer wanted"
+
+
+def test_a_failure_is_reported_and_where_nothing_is_finer_nothing_more_is_drawn() -> None:
+    page = DrawnPage()
+
+    async def live() -> None:
+        for inputs in (-1, 0):
+            page.loop.submit(inputs)
+            await until(lambda: page.loop.idle)
+
+    run(live())
+    assert [str(error) for error in page.errors] == ["a bug"]
+    assert (page.drawn, page.fine) == ([0], [])
+
+
+def test_a_thread_takes_the_newest_and_a_stopped_loop_takes_nothing() -> None:
+    page = DrawnPage(seconds=0.05)
+
+    async def live() -> None:
+        page.loop.submit(1)
+        await asyncio.sleep(0.01)
+        page.loop.submit(2)
+        assert page.loop.waiting
+        assert page.loop.newest(1) == 2
+        assert page.loop.newest(1) == 1
+        page.loop.stop()
+        page.loop.submit(3)
+        await asyncio.sleep(0.1)
+
+    run(live())
+    assert page.drawn == []
+
+
+@pytest.fixture(autouse=True)
+def small(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """A cache of its own, of a megabyte."""
+    own = cachetools.LRUCache(1_000_000, getsizeof=lambda kept: kept[1])
+    monkeypatch.setattr(cache, "_results", own)
+    yield
+    assert not cache._under_way
+
+
+def run_in_threads(*acts: Callable[[], object]) -> list[object]:
+    values: list[object] = [None] * len(acts)
+
+    def run(k: int) -> None:
+        try:
+            values[k] = acts[k]()
+        except Exception as error:
+            values[k] = error
+
+    threads = [threading.Thread(target=run, args=(k,)) for k in range(len(acts))]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join(30.0)
+    return values
+
+
+def test_each_key_is_computed_once_by_several_threads() -> None:
+    begun, go_on = threading.Event(), threading.Event()
+    calls: list[int] = []
+
+    @cached
+    def slow(key: int) -> list[int]:
+        calls.append(key)
+        begun.set()
+        assert go_on.wait(30.0)
+        return [key]
+
+    def late() -> object:
+        assert begun.wait(30.0)
+        threading.Timer(0.05, go_on.set).start()
+        return slow(1)
+
+    first, second, third = run_in_threads(lambda: slow(1), late, late)
+    assert calls == [1]
+    assert first is second is third
+    assert slow(1) is first
+    assert slow.knows(1)
+    assert not slow.knows(2)
+
+
+def test_functions_do_not_share_keys_and_what_is_raised_is_not_kept() -> None:
+    tries = [0]
+
+    @cached
+    def one(key: int) -> str:
+        return f"one {key}"
+
+    @cached
+    def fails_first(key: int) -> str:
+        tries[0] += 1
+        if tries[0] == 1:
+            raise ValueError("no")
+        return f"two {key}"
+
+    assert one(1) == "one 1"
+    with pytest.raises(ValueError, match="no"):
+        fails_first(1)
+    assert not fails_first.knows(1)
+    assert fails_first(1) == "two 1"
+
+
+def test_bytes_are_bounded_and_the_least_used_go_first() -> None:
+    calls: list[int] = []
+
+    @cached
+    def large(key: int) -> np.ndarray:
+        calls.append(key)
+        return np.zeros(25_000)  # 200 kB
+
+    for key in (1, 2, 3, 4):
+        large(key)
+    large(1)
+    large(5)
+    assert sum(size for _, size in cache.kept_results().values()) <= 1_000_000
+    assert large.knows(1)
+    assert not large.knows(2)
+
+    @cached
+    def too_large() -> np.ndarray:
+        return np.zeros(200_000)
+
+    assert too_large().size == 200_000
+    assert not too_large.knows()
+    assert large.knows(1), "and nothing had to go for it"

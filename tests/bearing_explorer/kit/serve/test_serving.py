@@ -1,12 +1,17 @@
-"""Access, the messages a browser may send, and the answers it gets."""
+"""Access, the messages a browser may send, what a connection may send, and what is sent back."""
 
 import asyncio
 import logging
+import os
+import time
 from socket import IPPROTO_TCP, TCP_NODELAY
 from types import SimpleNamespace
 from typing import Any
+from urllib.parse import urlsplit
 
+import numpy as np
 import panel as pn
+import psutil
 import pytest
 from bearing_explorer.kit.serve.allowed_messages import (
     component_message,
@@ -15,8 +20,10 @@ from bearing_explorer.kit.serve.allowed_messages import (
 )
 from bearing_explorer.kit.serve.headers import policy
 from bearing_explorer.kit.serve.hosts import AllowedHosts
+from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.serve.pages import SERVER_IS_FULL, message_page
 from bearing_explorer.kit.serve.serving import Limits
+from bearing_explorer.kit.serve.tornado_internals import LARGEST_HEADERS, MOST_UNFINISHED
 from bearing_explorer.kit.serve.websocket import MOST_SOCKETS, LiveSocket
 from bokeh.document import Document
 from bokeh.model import util as model_util
@@ -356,3 +363,123 @@ def test_an_idle_page_is_disconnected_with_a_sentence() -> None:
         assert "The page was not used for 1 min." in str(client._socket.close_reason)
 
     served(wait, Limits(idle=60.0))
+
+
+async def connect(url: str) -> tuple[asyncio.StreamReader, asyncio.StreamWriter]:
+    return await asyncio.open_connection("127.0.0.1", urlsplit(url).port)
+
+
+async def answer(reader: asyncio.StreamReader) -> str:
+    return (await asyncio.wait_for(reader.read(), 30.0)).decode()
+
+
+@pytest.mark.parametrize("framing", ["Content-Length: 95000000", "Transfer-Encoding: chunked"])
+def test_bodies_are_refused_at_once(framing: str) -> None:
+    """Before they come: eight of 95 MB held 750 MB."""
+
+    async def post(url: str, server: Any) -> None:
+        reader, writer = await connect(url)
+        writer.write(f"POST / HTTP/1.1\r\nHost: localhost\r\n{framing}\r\n\r\n".encode())
+        if "chunked" in framing:
+            writer.write(b"f0000\r\n" + b"a" * 0xF0000)
+        try:
+            said = await answer(reader)  # to its end: the connection is closed
+        except ConnectionResetError:  # while the body was still under way
+            said = ""
+        assert "200" not in said.partition("\r\n")[0]
+        writer.close()
+
+    served(post)
+
+
+def test_an_address_that_is_far_too_long_is_said_to_be() -> None:
+    """Up to the most that headers may have; the page makes links of an eighth of that."""
+
+    async def ask(url: str, server: Any) -> None:
+        reader, writer = await connect(url)
+        head = f"GET /?v=1&points={'A' * LARGEST_HEADERS} HTTP/1.1\r\nHost: localhost\r\n\r\n"
+        writer.write(head.encode())
+        assert await answer(reader) == "", "the line is cut"
+        writer.close()
+        shorter = await get(f"{url}?v=1&points={'A' * 40_000}", max_redirects=0)
+        assert shorter.headers["Location"].endswith("v=too-long")
+
+    served(ask)
+
+
+def test_dripping_connections_hold_nobody_up() -> None:
+    """A hundred send headers byte by byte; the server answers others, and keeps little of it."""
+
+    async def drip(url: str, server: Any) -> None:
+        before = psutil.Process(os.getpid()).memory_info().rss
+        writers = []
+        for _ in range(100):
+            reader, writer = await connect(url)
+            writer.write(b"GET / HTTP/1.1\r\nX-Long: " + b"a" * 50_000)
+            writers.append((reader, writer))
+        await asyncio.sleep(0.2)
+        assert len(server._http._unfinished) <= MOST_UNFINISHED
+        worked = []
+        for _ in range(10):
+            for _, writer in writers:
+                if not writer.is_closing():
+                    writer.write(b"a" * 100)
+            began = time.thread_time()  # of this loop: a clock counts what neighbours take as well
+            assert (await get(f"{url}liveness")).code == 200
+            worked.append(time.thread_time() - began)
+        assert sorted(worked)[5] < 0.3
+        assert psutil.Process(os.getpid()).memory_info().rss - before < 50e6
+        for _, writer in writers:
+            writer.close()
+
+    served(drip)
+
+
+def packed_source() -> PackedSource:
+    made = PackedSource()
+    made.source("a", "x", "y")
+    made.source("b", "z")
+    made.range("r", 0, 1)
+    return made
+
+
+def test_the_packet_says_what_it_holds() -> None:
+    packed = packed_source().pack(
+        {"b": {"z": [1, np.nan]}, "a": {"y": [3], "x": [2]}}, {"r": (5, 6)}, 7, 0.25
+    )
+    head = [7, 0.25, 2, 1, 1, 1, 2, 0, 2, 1, 0, 5, 6]
+    np.testing.assert_array_equal(packed, np.float32([*head, 1, np.nan, 2, 3]))
+    assert packed.dtype == np.float32
+
+
+def test_what_did_not_change_is_not_sent_again() -> None:
+    made = packed_source()
+    first = {"a": {"x": [1, np.nan], "y": [0, 0]}, "b": {"z": [1]}}
+    made.pack(first, {"r": (0, 2)})
+    np.testing.assert_array_equal(made.pack(first, {"r": (0, 2)}, 1), [1, 0, 0, 0])
+    first["b"]["z"] = [2]
+    np.testing.assert_array_equal(made.pack(first, {"r": (0, 2)}, 2), [2, 0, 1, 0, 1, 1, 1, 2])
+
+
+@pytest.mark.parametrize(
+    ("data", "ranges", "message"),
+    [
+        ({"c": {"x": [1]}}, {}, "'c' was not declared"),
+        ({}, {"s": (0, 1)}, "'s' was not declared"),
+        ({"a": {"x": [1]}}, {}, "'a' has columns"),
+        ({"a": {"x": [1], "y": [1, 2]}}, {}, "differ in length"),
+    ],
+)
+def test_what_the_browser_could_not_place_is_refused(data, ranges, message) -> None:
+    with pytest.raises(ValueError, match=message):
+        packed_source().pack(data, ranges)
+
+
+def test_names_are_one_per_session() -> None:
+    made = packed_source()
+    with pytest.raises(ValueError, match="declared twice"):
+        made.source("a", "x")
+    with pytest.raises(ValueError, match="declared twice"):
+        made.range("r", 0, 1)
+    with pytest.raises(ValueError, match="no columns"):
+        made.source("c")

@@ -13,11 +13,13 @@ import pytest
 from bearingcore.measured.files import (
     _child as child,
     _libraries as libraries,
+    _table as table,
     read_file,
     read_table,
 )
 from tests.helpers.saved import zipped
 
+SIGNAL = np.random.default_rng(5).standard_normal((3000, 2))
 TIME, MEMORY = r"read within \d+ s", r"read in \d+ MB"
 
 
@@ -129,3 +131,69 @@ def test_a_zip_is_bounded_as_a_whole(monkeypatch) -> None:
     with pytest.raises(ValueError, match="a zip of at most"):
         libraries.unzipped("rig.zip", content)
     assert libraries.unzipped("rig.zip/a.csv", content)[0] == ["a.csv"]
+
+
+def hdf5(fill) -> bytes:
+    """A file of MATLAB's version 7.3: HDF5 after 512 bytes of text."""
+    buffer = io.BytesIO()
+    with h5py.File(buffer, "w", userblock_size=512) as file:
+        fill(file)
+    content = bytearray(buffer.getvalue())
+    content[:116] = b"MATLAB 7.3 MAT-file, Platform: GLNXA64".ljust(116)
+    content[124:128] = b"\x00\x02IM"
+    return bytes(content)
+
+
+def matlab_7_3(file) -> None:
+    """Write a struct `bearing` with numbers and words, and a cell that points, as MATLAB does."""
+    bearing = file.create_group("bearing")
+    bearing.attrs["MATLAB_class"] = b"struct"
+    bearing["gs"] = SIGNAL[:, :1].T  # MATLAB's columns are rows here
+    bearing["sr"] = np.array([[48_828]], dtype="u2")
+    bearing["rate"] = np.array([[25.0]])
+    bearing["load"] = np.array([[ord(letter)] for letter in "150"], dtype="u2")
+    bearing["load"].attrs["MATLAB_class"] = np.bytes_(b"char")
+    kept = file.create_group("#refs#").create_dataset("b", data=SIGNAL[:, 1:].T)
+    file.create_dataset("cell", data=np.array([[kept.ref]], dtype=h5py.ref_dtype))
+
+
+def test_matlab_7_3_is_read_like_the_versions_before():
+    table = read_table("new.mat", hdf5(matlab_7_3))
+    assert table.names == ("bearing.gs", "cell")
+    assert table.scalars == {"bearing.sr": 48_828.0, "bearing.rate": 25.0}
+    assert table.texts == {"bearing.load": "150"}
+    np.testing.assert_array_equal(table.columns, SIGNAL)
+    assert table.contents.sample_rate.value == 48_828.0
+
+
+def test_hdf5_names_no_other_files(tmp_path):
+    """External links, data kept outside and views of other files would read this machine."""
+    (tmp_path / "secret").write_bytes(SIGNAL.tobytes())
+    with h5py.File(tmp_path / "other.h5", "w") as other:
+        other["a"] = SIGNAL
+
+    def fill(file):
+        file["linked"] = h5py.ExternalLink(str(tmp_path / "other.h5"), "/a")
+        file["soft"] = h5py.SoftLink("/own")
+        external = [(str(tmp_path / "secret"), 0, SIGNAL.nbytes)]
+        file.create_dataset("outside", SIGNAL.shape, "f8", external=external)
+        layout = h5py.VirtualLayout(SIGNAL.shape, "f8")
+        layout[:] = h5py.VirtualSource(str(tmp_path / "other.h5"), "a", SIGNAL.shape)
+        file.create_virtual_dataset("view", layout)
+        file["own"] = SIGNAL[:, 0]
+
+    assert read_table("x.mat", hdf5(fill)).names == ("own",)
+
+
+def test_a_cut_file_of_matlab_7_3_is_refused():
+    with pytest.raises(ValueError, match="damaged or unknown part"):
+        read_table("a.mat", hdf5(matlab_7_3)[:9000])
+
+
+def test_huge_files_are_refused_before_they_are_read(monkeypatch):
+    monkeypatch.setattr(table, "MOST_BYTES", 2**20)
+    with pytest.raises(ValueError, match=r"size of a.csv is '2 MB'.*split it by rows .* join"):
+        read_table("a.csv", bytes(2**21))
+    monkeypatch.setattr(child, "MOST_NUMBERS", 5000)
+    with pytest.raises(ValueError, match=r"count of numbers in a\.csv is 'over 5000'"):
+        child.read_file("a.csv", b"1,2\n" * 3000)

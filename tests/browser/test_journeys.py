@@ -262,7 +262,7 @@ def test_a_plane_is_explored_and_a_click_goes_there(desk: Visitor) -> None:
     desk.begin("More: Explore")
     desk.wait(lambda: len(desk.figures()) >= 3)
     desk.sees_change(lambda: desk.choose("Horizontal axis", "Radial clearance (µm)"))
-    shown = desk.page.locator(".bk-Tooltip").filter(visible=True, has_text="clearance")
+    shown = desk.page.locator(".bk-Tooltip").filter(visible=True, has_text="µm")
 
     def clearance_under_the_pointer() -> bool:
         desk.point(0, 0.4, 0.5)

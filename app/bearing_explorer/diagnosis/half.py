@@ -55,6 +55,8 @@ class DiagnosisOfSignal(Half):
         measurement = self.measurement.snapshot()
         if why := measurement.out_of_date:
             return why
+        if measurement.question() is None:
+            return "nothing is diagnosed yet."
         results: Mapping[str, Any] = {
             view.name: view.job_result
             for view in self.page.views_made()

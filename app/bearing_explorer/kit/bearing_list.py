@@ -100,7 +100,7 @@ def _designation(text: str) -> Designation | None:
 def _rank(wanted: str, name: str, note: str) -> int:
     """0 where all words begin words of the name, 1 where some are in the note, else 2.
 
-    Words are also found together in a name without its spaces: "nu208" in "NU 208". Short ones are
+    Words also match together in a name without its spaces: "nu208" in "NU 208". Short ones are
     not looked for in notes.
     """
     words, low = wanted.split(), f" {name} ".lower()

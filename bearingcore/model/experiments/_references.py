@@ -67,7 +67,7 @@ def motion_errors(
 ) -> dict[str, float]:
     """Errors of a history against another one, by the names in MOTION_ERRORS; band [Hz].
 
-    Infinite where the motion found is not finite.
+    Infinite where the motion is not finite.
     """
     n = min(len(history), len(expected))
     history, expected = history[:n], expected[:n]

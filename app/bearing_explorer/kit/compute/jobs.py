@@ -1,7 +1,7 @@
 """Everything that a session computes in the background: one type of work, said in one place.
 
 A job computes in a thread and never touches the page. It reports its progress, checks whether to go
-on, and shows what it has found; all of that is taken up on the event loop of the session. Its kind
+on, and shows what it has; all of that is taken up on the event loop of the session. Its kind
 says in which pool it runs and what it overtakes: of each kind a session has one job at work and at
 most one that waits. A newer job takes the place of the one that waits, and asks the one at work to
 end. So no message, however often it is sent, starts more than one job at a time, and the end of the
@@ -36,7 +36,7 @@ Result = TypeVar("Result")
 class Kind:
     """A kind of job, of which the newest of a session wins: its pool, and how long it may work.
 
-    `longest` [s]: a job that works for longer is asked to end, with what it has found.
+    `longest` [s]: a job that works for longer is asked to end, with what it has.
     """
 
     name: str
@@ -199,13 +199,13 @@ class Jobs:
         self.start(show, take, kind=kind)
 
     def cancel(self, kind: Kind = COMPUTATION) -> None:
-        """End the jobs of a kind; what the one at work has found stays."""
+        """End the jobs of a kind; what the one at work has shown stays."""
         if (lane := self._lanes.get(kind)) is not None:
             for job in filter(None, (lane.at_work, lane.waiting)):
                 job.work.stop()
 
     def drop(self, kind: Kind) -> None:
-        """End the jobs of a kind, and take nothing of what they have found."""
+        """End the jobs of a kind, and take nothing of their results."""
         if (lane := self._lanes.get(kind)) is not None:
             lane.waiting = None
             if lane.at_work is not None:

@@ -134,7 +134,7 @@ def dispatch_event(model: Model, event: DataEvent) -> None:
 
 
 def sockets_of(session: Any) -> list[Any]:
-    """The websockets of a session; none where they cannot be found."""
+    """The websockets of a session; none where they cannot be had."""
     connections = () if PLAIN else tuple(getattr(session, "_subscribed_connections", ()))
     sockets = (getattr(connection, "_socket", None) for connection in connections)
     return [socket for socket in sockets if socket is not None]
@@ -199,7 +199,7 @@ def find_models_quickly() -> None:
         log.warning("models are looked for everywhere: %s", "; ".join(gone))
         return
     model_util.visit_immediate_value_references = _visit
-    # each model looks for these in the environment; what is set once is found at once
+    # each model looks for these in the environment; what is set once is seen at once
     settings.simple_ids = settings.simple_ids()
     settings.serialize_include_defaults = settings.serialize_include_defaults()
     changed = HasProps.__dict__["_overridden_defaults"].__func__

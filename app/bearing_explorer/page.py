@@ -126,7 +126,7 @@ def page(lessons: Path | None = None) -> PageTemplate:
         "themes": themes(),
         "look_script": asset_text("look.js"),
         "connection_script": asset_text("connection.js"),
-        "order_script": asset_text("in_order.js"),
+        "order_script": "" if PLAIN else asset_text("in_order.js"),
         "figures_script": "" if PLAIN else asset_text("fast_figures.js"),
         "python_install": PYTHON_INSTALL,
         "scene": scene is not None,

@@ -188,7 +188,7 @@ export function render({ model }) {
     rows[spec.extent].slider.style.setProperty("--spacing", spacing / (most - least))
     rows[spec.extent].slider.title = `Ticks: rolling elements are ${spacing.toFixed(1)}\u00b0 apart`
     cue.hidden = !count
-    cue.textContent = `Now always ${count === 1 ? "one rolling element" : `${count} rolling elements`} inside`
+    cue.textContent = `Now always at least ${count === 1 ? "one rolling element" : `${count} rolling elements`} inside`
     if (inside_before !== null && count !== inside_before)
       cue.animate([{ color: "var(--card)", background: "var(--accent)" }, {}], still ? 0 : 1200)
     inside_before = count

@@ -149,7 +149,7 @@ export function render({ model }) {
         return
       }
       form.dataset.said = hides ? "" : is_right ? "right" : "other"
-      verdict.textContent = hides ? `Noted: ${said(given)}.` : is_right ? `Right: ${said(given)}.` : `Not quite: ${said(given)}. The answer is ${said(best)}.`
+      verdict.textContent = hides ? `Noted: ${said(given)}.` : is_right ? `Right: ${said(best)}${given === best ? "" : `, and ${said(given)} is near enough`}.` : `Not quite: ${said(given)}. The answer is ${said(best)}.`
       remember_answer({ given })
       settled()
       announce("predicted")

@@ -24,7 +24,7 @@ clearly grown."""
 MOST = 0.5
 """Share of the velocity's power from which on it is the shaft's own."""
 
-ONE_RECORD = "One record cannot show how fast the damage grows; a second one can."
+ONE_RECORD = "How fast the damage grows is not known: a trend of several records shows it."
 PRACTICE = (
     "These intervals are a rule of thumb: neither computed nor checked against a standard. A "
     "machine that must not fail needs shorter ones."

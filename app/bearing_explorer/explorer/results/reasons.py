@@ -303,7 +303,7 @@ def stiffness_term(results: Results, term: str) -> str:
         why = ""
         if term in RADIAL and results.scene.defects and results.grey.label:
             why = why_softer(term, radial(results), radial(results.reference))
-        why = f" With the defect {why}." if why else ""
+        why = f" With the defect, {why}." if why else ""
         balls = states.loaded_balls[states.converged]
         if balls.min() < balls.max():
             place = "the loaded zone" + (" or the defect" if results.scene.defects else "")

@@ -187,7 +187,9 @@ class Bookmarks:
         if isinstance(name := message.get("compare_here"), str):
             self._compare(self._editor.scene, one_line(name, LONGEST_NAME), self._editor.name)
         number = message.get("number")
-        if message.get("remove") is True and isinstance(number, int):
+        if message.get("remove") is True and isinstance(number, int) and number >= 0:
+            for removed in self.compared[number : number + 1]:
+                self.say(f"“{removed.name}” is compared no longer.")
             self._compared = self._compared[:number] + self._compared[number + 1 :]
 
     def _compare(self, scene: Scene, name: str, bearing: str = "") -> None:

@@ -188,8 +188,7 @@ class Bookmarks:
             self._compare(self._editor.scene, one_line(name, LONGEST_NAME), self._editor.name)
         number = message.get("number")
         if message.get("remove") is True and isinstance(number, int) and number >= 0:
-            for removed in self.compared[number : number + 1]:
-                self.say(f"“{removed.name}” is compared no longer.")
+            self.say("")  # what was said of their colours holds no longer
             self._compared = self._compared[:number] + self._compared[number + 1 :]
 
     def _compare(self, scene: Scene, name: str, bearing: str = "") -> None:

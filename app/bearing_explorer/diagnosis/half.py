@@ -55,7 +55,7 @@ class DiagnosisOfSignal(Half):
         measurement = self.measurement.snapshot()
         if why := measurement.out_of_date:
             return why
-        if measurement.question() is None:
+        if measurement.diagnosis() is None:
             return "nothing is diagnosed yet."
         results: Mapping[str, Any] = {
             view.name: view.job_result

@@ -340,7 +340,7 @@ def part_words(shown: Trend) -> str:
         LABELS[line] for k, line in enumerate(LINES) if np.isfinite(shown.clear_lines[:, k]).any()
     ]
     seen = f"Lines above noise: {style.list_words(clear)}." if clear else "No line is above noise."
-    if not np.isfinite([point.lines for point in shown.points]).any():
+    if not np.isfinite(shown.column("shaft_speed")).any():
         seen = "The part's lines are not looked for: no shaft speed is known."
     if last.extent.race and math.isfinite(last.extent.high):
         return f"{seen} In the last: {last.extent.sentence}"

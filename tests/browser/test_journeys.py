@@ -73,7 +73,7 @@ TABS = {
     "Machine: Life": (1, 0, None, None),
     "Diagnosis": (1, 0, lambda _: "No signal yet", None),
     "Accuracy": (2, 1, None, None),
-    "More: Explore": (1, 3, None, "Depth"),
+    "More: Explore": (1, 3, None, "Load, sideways"),
     "More: Over speed": (1, 1, None, "Length of the defect"),
     "More: Paper": (1, 0, None, None),
 }

@@ -214,3 +214,4 @@ class Visitor:
         act()
         self.wait(lambda: self.sentences() != said and self.figures() != drawn)
         self.steady()
+        assert self.sentences() != said, "what differed was on its way only: choose another act"

@@ -29,9 +29,9 @@ def files_read_here(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def pytest_xdist_auto_num_workers() -> int:
-    """As many as there are processors that this process may use, real or not."""
+    """One more than there are processors: a test that waits for a browser leaves its own free."""
     may_use = getattr(os, "sched_getaffinity", None)
-    return min(MOST, len(may_use(0)) if may_use else os.cpu_count() or 1)
+    return min(MOST, 1 + (len(may_use(0)) if may_use else os.cpu_count() or 1))
 
 
 @pytest.hookimpl(tryfirst=True)
@@ -46,10 +46,10 @@ def pytest_sessionstart(session: pytest.Session) -> None:
 
 
 @pytest.hookimpl(trylast=True)
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Two processes begin with what takes long, one with a browser; both end with what is short.
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Two processes begin with what takes long, one with a browser; all end with what is short.
 
-    Each gets a half of the list, and takes from the end of the other's once its own is done.
+    Each gets an equal part of the list, and takes from the end of another's once its own is done.
     """
     kinds: dict[str, list[pytest.Item]] = {"browser": [], "proof": [], "": []}
     for item in items:
@@ -57,5 +57,6 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
             item
         )
     driving, long, short = kinds.values()
-    middle = max(0, len(items) // 2 - len(driving))
-    items[:] = [*driving, *short[:middle], *long, *short[middle:]]
+    processes = getattr(config, "workerinput", {"workercount": 2})["workercount"]
+    part = max(0, len(items) // processes - len(driving))
+    items[:] = [*driving, *short[:part], *long, *short[part:]]

@@ -216,7 +216,8 @@ BROKEN = """(all) => all.filter((element) => {
 LESSONS = len(list(own_folder().glob("*.md")))
 
 
-@pytest.mark.parametrize("projected", [False, pytest.param(True, marks=pytest.mark.proof)])
+@pytest.mark.proof
+@pytest.mark.parametrize("projected", [False, True])
 def test_what_a_lesson_asks_and_how_it_was_answered_are_on_the_screen(
     page: Page, explorer: Server, projected: bool
 ) -> None:

@@ -18,7 +18,8 @@ Private names of Numba stand in this file alone, and are looked for as it is loa
 * `FunctionCache`, `CompileResultCacheImpl`, `dumps`: the cache above (`KernelCache`).
 
 Where one is gone, or with the environment variable ``BEARING_EXPLORER_PLAIN=1``, kernels are
-compiled in Numba's public ways, and kept in a folder that is named after the sources.
+compiled in Numba's public ways, and kept in a folder that is named after the sources. The value
+"page" asks this of the page alone, whose modules read the same variable.
 """
 
 from __future__ import annotations
@@ -42,7 +43,7 @@ from numba import njit
 
 log = logging.getLogger(__name__)
 
-PLAIN = os.environ.get("BEARING_EXPLORER_PLAIN", "0") not in ("", "0")
+PLAIN = os.environ.get("BEARING_EXPLORER_PLAIN", "0") not in ("", "0", "page")
 """True where Numba's public ways are taken."""
 
 try:

@@ -24,7 +24,7 @@ from bearingcore.model.statics import (
     equilibrium,
 )
 from bearingcore.model.statics._equilibrium import equilibrium_of
-from bearingcore.model.statics._positions import equilibrium_over_all, extremes, positions_of
+from bearingcore.model.statics._positions import equilibrium_over_all, extremes, positions
 
 MIXED = 0.25
 """Share of another mode that dampers add to a mode, at most, where damped frequencies are computed
@@ -144,7 +144,6 @@ def frequency_bands(scene: Scene, *, coarse: bool = False) -> dict[str, tuple[fl
     n = ANGLES_A_PERIOD if scene.defect_turns else 3 * ANGLES_A_PERIOD - 2
     n, rounds = ((n - 1) // 3 + 1, 2) if coarse else (n, ROUNDS)
     packed = pack(scene)
-    positions = positions_of(packed, n)
     state = equilibrium_over_all(packed, n)
     if not state.converged.any():
         return modes_at(state).bands()
@@ -161,7 +160,7 @@ def frequency_bands(scene: Scene, *, coarse: bool = False) -> dict[str, tuple[fl
     def closer(cage_angles: Array, shaft_angles: Array) -> Array:
         return frequencies(equilibrium_of(packed, cage_angles, shaft_angles))
 
-    ends = extremes(positions, frequencies(state), closer, rounds=rounds)
+    ends = extremes(positions(scene, n), frequencies(state), closer, rounds=rounds)
     there = equilibrium_of(packed, ends.cage_angles.ravel(), ends.shaft_angles.ravel())
     least, greatest = map(np.diagonal, np.split(modes_at(there, search.template).frequency, 2))
     pairs = zip(least.tolist(), greatest.tolist(), strict=True)

@@ -29,7 +29,7 @@ from bearingcore.model.dynamics._ball_motion import (
     loads_of_races,
     place_parts,
 )
-from bearingcore.model.dynamics._damping import damped
+from bearingcore.model.dynamics._damping import packed_motion
 from bearingcore.model.dynamics._force import ForceSamples, with_force
 from bearingcore.model.dynamics._low_pass import bandwidth, hermite_weights, low_passed, rows_needed
 from bearingcore.model.dynamics._modes import highest_frequency_of
@@ -316,9 +316,7 @@ def simulate(
     duration = checks.real_number("duration", duration, above=0.0, unit="s")
     sample_rate = checks.real_number("sample_rate", sample_rate, above=0.0, unit="Hz")
     checks.real_number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")
-    dofs = scene.active_dofs
-    packed = packing.pack_motion(scene, dofs)  # refuses a support that lacks a number
-    packed = damped(packed)
+    packed = packed_motion(scene)  # refuses a support that lacks a number
     highest = highest_frequency_of(packed)
     if sample_rate < 2.0 * highest:
         raise checks.refuse(
@@ -533,9 +531,8 @@ def static_start(packed: PackedMotion, rest: Equilibrium) -> Array | None:
     """
     if rest.status[0] not in (StaticStatus.CONVERGED, StaticStatus.FREE_DIRECTION):
         return None
-    bodies = packed.bodies
     y = np.zeros((4, len(packed.dofs)))
-    y[2] = bodies.force / bodies.stiffness  # the housing sinks into its support
+    y[2] = packed.rotor.force / packed.rotor.stiffness  # the housing sinks into its support
     y[0] = y[2] + rest.state[0, packed.load.active]
     return y.ravel()
 

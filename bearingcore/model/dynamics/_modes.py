@@ -228,29 +228,24 @@ def modes_at(state: Equilibrium, template: Array | None = None, *, nearly: bool 
     scene, dofs = state.scene, state.dofs
     nd = len(dofs)
     index = [DOF_NAMES.index(name) for name in dofs]
-    mass = scene.support.inertias(dofs)
+    mass, support = scene.support.inertias(dofs), scene.support.stiffness(dofs)
+    unloaded = two_body_matrix(np.zeros((nd, nd)), support)
     if state.cost:
-        support = two_body_matrix(np.zeros((nd, nd)), scene.support.stiffness(dofs))
-        _, template = _undamped(support, mass)
-        label = _labels(template, mass, dofs)
+        label = _labels(_undamped(unloaded, mass)[1], mass, dofs)
         rows = np.broadcast_to(np.float64(math.nan), (len(state.cage_angles), 2 * nd))
         shapes = np.broadcast_to(np.float64(math.nan), (*rows.shape, 2 * nd))
         return Modes(scene, dofs, state.cage_angles, rows, rows, rows, shapes, label, state)
     K_b = state.stiffness[:, index][:, :, index]
     C_b = contact_damping(scene) * loaded_directions(state)[:, index][:, :, index]
-    K = two_body_matrix(K_b, scene.support.stiffness(dofs))
+    K = two_body_matrix(K_b, support)
     C = two_body_matrix(C_b, scene.support.damping(dofs))
     # where a direction is free to move the stiffness is known, but not where the ring comes to rest
     known = state.converged & np.isfinite(K).all(axis=(1, 2))
     n, m = len(K), 2 * nd
     undamped, frequency, ratio = (np.full((n, m), np.nan) for _ in range(3))
     shape = np.full((n, m, m), np.nan)
-    mean = (
-        K[known].mean(axis=0)
-        if known.any()
-        else two_body_matrix(np.zeros((nd, nd)), scene.support.stiffness(dofs))
-    )
     if template is None:
+        mean = K[known].mean(axis=0) if known.any() else unloaded
         template = _undamped(mean, mass)[1]
     if known.any():
         undamped[known], shape[known] = _follow(*_undamped(K[known], mass), template, mass)

@@ -93,7 +93,7 @@ def from_data(kind: type[T], name: str, data: object, *, top: bool = False) -> T
     fields = {field.name: field for field in dataclasses.fields(kind)}  # type: ignore[arg-type]
     for asked in entries:
         if asked not in fields:
-            raise checks.refuse(f"field of {name}", short(asked), ", ".join(sorted(fields)))
+            raise checks.refuse(f"field of {name}", asked, ", ".join(sorted(fields)))
     parts = _parts(kind)
     values = {}
     for field in sorted(fields.values(), key=lambda field: not parts[field.name]):
@@ -105,7 +105,7 @@ def from_data(kind: type[T], name: str, data: object, *, top: bool = False) -> T
     try:
         return kind(**values)
     except (TypeError, OverflowError) as error:
-        raise checks.refuse(name, short(values), f"values that fit it ({error})") from None
+        raise checks.refuse(name, values, f"values that fit it ({error})") from None
 
 
 def to_toml(data: Mapping[str, Any]) -> str:
@@ -137,7 +137,7 @@ def from_toml(text: str) -> dict[str, Any]:
     try:
         return tomllib.loads(text)
     except (tomllib.TOMLDecodeError, RecursionError) as error:
-        raise checks.refuse("text", short(text), f"TOML ({error})") from None
+        raise checks.refuse("text", " ".join(text.split()), f"TOML ({error})") from None
     except ValueError:  # the interpreter's own limit, inside a list
         raise checks.refuse(
             "a number in the text", "one of many digits", f"{MOST_DIGITS} at most"
@@ -147,14 +147,8 @@ def from_toml(text: str) -> dict[str, Any]:
 def table(name: str, data: object, allowed: str = "a table") -> dict[str, Any]:
     """`data` if it is a table, a copy; else ValueError."""
     if not isinstance(data, Mapping):
-        raise checks.refuse(name, "missing" if data is None else short(data), allowed)
+        raise checks.refuse(name, "missing" if data is None else data, allowed)
     return dict(data)
-
-
-def short(value: object) -> str:
-    """A value of a file, short enough for a sentence, on one line."""
-    text = " ".join(value.split()) if isinstance(value, str) else repr(value)
-    return text if len(text) <= 60 else text[:57] + "..."
 
 
 def _parts(kind: type) -> dict[str, tuple[type, ...]]:
@@ -181,7 +175,7 @@ def _plain(held: Any, named: bool) -> Any:
 def _held(kinds: tuple[type, ...], name: str, value: Any) -> Any:
     if kinds and isinstance(value, list):
         if len(value) > MOST_TABLES:
-            raise checks.refuse(name, short(value), f"at most {MOST_TABLES} tables")
+            raise checks.refuse(name, value, f"at most {MOST_TABLES} tables")
         return tuple(_held(kinds, f"{name} {i + 1}", item) for i, item in enumerate(value))
     if not kinds or dataclasses.is_dataclass(value):
         return tuple(value) if isinstance(value, list) else value

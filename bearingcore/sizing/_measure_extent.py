@@ -259,10 +259,11 @@ def measure_extent(
     # the inner race turns with the shaft
     turning = 0.0 if race == "outer" else 1.0 / (TURN * bearing.bpfi(1.0))
     knocks = find_knocks(recording, nominal, slip, turning)
-    needed = math.isfinite(knocks.separation) or math.isfinite(knocks.hidden)
-    offset = plausible_offset(bearing, race, load, clearance, edge) if needed else (math.nan,) * 3
-    if needed and math.isnan(offset[1]):
-        raise checks.refuse("load", load, "one that balls lose in a spall", "N")
+    offset = (math.nan,) * 3
+    if math.isfinite(knocks.separation) or math.isfinite(knocks.hidden):
+        offset = plausible_offset(bearing, race, load, clearance, edge)
+        if math.isnan(offset[1]):
+            raise checks.refuse("load", load, "one that balls lose in a spall", "N")
     return _answer(knocks, bearing, race, offset)
 
 

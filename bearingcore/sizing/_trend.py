@@ -226,12 +226,12 @@ def trend(
         checks.choice(f"direction of {recording.name}", along, recording.directions)
     last = recordings[-1]
     if band is None:
-        band = _impulsive(last, bearing, _known_speed(_speed(last, shaft_speed)), along)
+        band = _impulsive(last, bearing, _known_speed(last.shaft_speed or shaft_speed), along)
     low = checks.real_number("lower end of the band", band[0], above=0.0, unit="Hz")
     high = checks.real_number("upper end of the band", band[1], above=low, unit="Hz")
     done: tuple[TrendPoint, ...] = ()
     for recording in recordings:
-        speed = _speed(recording, shaft_speed)
+        speed = recording.shaft_speed or shaft_speed
         done += (trend_point(recording, bearing, speed, along, (low, high)),)
         so_far = Trend(done, along, (low, high), baseline if baseline < len(done) else 0)
         if not goes_on(so_far, len(recordings)):
@@ -277,13 +277,6 @@ def trend_point(
         extent,
         recording.recorded or time_in(recording.name),
     )
-
-
-def _speed(
-    recording: Recording, shaft_speed: float | tuple[float, float] | None
-) -> float | tuple[float, float] | None:
-    """Shaft speed [rad/s] of a recording, as `diagnose` takes it."""
-    return recording.shaft_speed if recording.shaft_speed is not None else shaft_speed
 
 
 def _known_speed(shaft_speed: float | tuple[float, float] | None) -> float | None:

@@ -29,7 +29,7 @@ from numpy.typing import NDArray
 from bearingcore import DOF_NAMES, Scene, contact_damping, equilibrium, presets
 from bearingcore.model.dynamics._damping import packed_motion
 from bearingcore.model.dynamics._motion import static_start
-from bearingcore.model.scene._packing import body_numbers
+from bearingcore.model.scene._packing import rotor
 
 SOURCES = Path(__file__).parent / "c_loops"
 FLAGS = ("-O3", "-march=native")
@@ -150,12 +150,13 @@ class CMotion:
         self, scene: Scene, start: Array, samples: int, rate: float, damping: float
     ) -> tuple[Array, Array]:
         """In five directions, tilts times r_d: states (n, 20), the outer ring's acceleration."""
-        force, inner, outer, stiffness, support_damping = body_numbers(scene, DOF_NAMES)
+        bodies = rotor(scene, DOF_NAMES, damping)
         angle = scene.bearing.contact_angle
         tilting = np.concatenate(
             [
                 [np.cos(angle), np.sin(angle), scene.bearing.groove_center_distance],
-                *(force, 1.0 / inner, 1.0 / outer, stiffness, support_damping),
+                *(bodies.force, bodies.inverse_inner, bodies.inverse_outer),
+                *(bodies.stiffness, bodies.damping),
             ]
         )
         numbers = self._numbers(scene, damping)

@@ -73,14 +73,14 @@ def ball_start(packed: PackedMotion, massless: Equilibrium) -> Array | None:
     )
     if status[0] not in (StaticStatus.CONVERGED, StaticStatus.FREE_DIRECTION):
         return None
-    bodies, number = packed.bodies, packed.load.active
+    rotor, number = packed.rotor, packed.load.active
     angle = system.contacts.angle
     c, s = np.cos(angle), np.sin(angle)
     radial = system.races.centrifugal - system.races.weight * s
     arm = system.contacts.arm
     carried = np.array([radial @ c, radial @ s, 0.0, -(radial * arm) @ s, (radial * arm) @ c])
     outer = np.zeros(5)  # the housing sinks into its support, under the balls too
-    outer[number] = (bodies.force + carried[number]) / bodies.stiffness
+    outer[number] = (rotor.force + carried[number]) / rotor.stiffness
     rings = np.zeros((4, len(dofs)))
     rings[0], rings[2] = outer[number] + q[0, number], outer[number]
     reach = system.contacts.reach

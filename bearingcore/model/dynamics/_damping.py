@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import dataclasses
 import math
 
 import numpy as np
 
 from bearingcore.common import _checks as checks
 from bearingcore.common._byte_cache import lru_cache_by_bytes
-from bearingcore.model.scene import PackedMotion, PackedScene, Scene
-from bearingcore.model.scene._packing import pack, pack_motion
+from bearingcore.model.scene import WITH_MASS, PackedMotion, PackedScene, Scene
+from bearingcore.model.scene._packing import pack, rotor
 from bearingcore.model.statics._equilibrium import equilibrium_of, remove_defects
 
 DAMPING_OVER_STIFFNESS = 1e-5
@@ -65,13 +64,8 @@ def packed_motion(scene: Scene, dofs: tuple[str, ...] | None = None) -> PackedMo
     ValueError
         for a support that lacks a number.
     """
-    return damped(pack_motion(scene, scene.active_dofs if dofs is None else dofs))
-
-
-def damped(packed: PackedMotion) -> PackedMotion:
-    """The same with the contact damping of its scene."""
+    packed = pack(scene, dofs, balls=scene.balls == WITH_MASS)
     c, balls = damping_of(packed), packed.balls
     if balls is not None:
         balls = balls._replace(races=balls.races._replace(damping=c * balls.races.damping))
-    rotor = packed.rotor._replace(contact_damping=c)
-    return dataclasses.replace(packed, rotor=rotor, balls=balls)
+    return PackedMotion(**vars(packed) | {"balls": balls}, rotor=rotor(scene, packed.dofs, c))

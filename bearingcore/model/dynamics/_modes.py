@@ -24,7 +24,7 @@ from bearingcore.model.statics import (
     equilibrium,
 )
 from bearingcore.model.statics._equilibrium import equilibrium_of
-from bearingcore.model.statics._positions import equilibrium_over_all, extremes, positions_of
+from bearingcore.model.statics._positions import equilibrium_over_all, extremes, positions
 
 MIXED = 0.25
 """Share of another mode that dampers add to a mode, at most, where damped frequencies are computed
@@ -144,7 +144,6 @@ def frequency_bands(scene: Scene, *, coarse: bool = False) -> dict[str, tuple[fl
     n = ANGLES_A_PERIOD if scene.defect_turns else 3 * ANGLES_A_PERIOD - 2
     n, rounds = ((n - 1) // 3 + 1, 2) if coarse else (n, ROUNDS)
     packed = pack(scene)
-    positions = positions_of(packed, n)
     state = equilibrium_over_all(packed, n)
     if not state.converged.any():
         return modes_at(state).bands()
@@ -161,7 +160,7 @@ def frequency_bands(scene: Scene, *, coarse: bool = False) -> dict[str, tuple[fl
     def closer(cage_angles: Array, shaft_angles: Array) -> Array:
         return frequencies(equilibrium_of(packed, cage_angles, shaft_angles))
 
-    ends = extremes(positions, frequencies(state), closer, rounds=rounds)
+    ends = extremes(positions(scene, n), frequencies(state), closer, rounds=rounds)
     there = equilibrium_of(packed, ends.cage_angles.ravel(), ends.shaft_angles.ravel())
     least, greatest = map(np.diagonal, np.split(modes_at(there, search.template).frequency, 2))
     pairs = zip(least.tolist(), greatest.tolist(), strict=True)
@@ -229,29 +228,24 @@ def modes_at(state: Equilibrium, template: Array | None = None, *, nearly: bool 
     scene, dofs = state.scene, state.dofs
     nd = len(dofs)
     index = [DOF_NAMES.index(name) for name in dofs]
-    mass = scene.support.inertias(dofs)
+    mass, support = scene.support.inertias(dofs), scene.support.stiffness(dofs)
+    unloaded = two_body_matrix(np.zeros((nd, nd)), support)
     if state.cost:
-        support = two_body_matrix(np.zeros((nd, nd)), scene.support.stiffness(dofs))
-        _, template = _undamped(support, mass)
-        label = _labels(template, mass, dofs)
+        label = _labels(_undamped(unloaded, mass)[1], mass, dofs)
         rows = np.broadcast_to(np.float64(math.nan), (len(state.cage_angles), 2 * nd))
         shapes = np.broadcast_to(np.float64(math.nan), (*rows.shape, 2 * nd))
         return Modes(scene, dofs, state.cage_angles, rows, rows, rows, shapes, label, state)
     K_b = state.stiffness[:, index][:, :, index]
     C_b = contact_damping(scene) * loaded_directions(state)[:, index][:, :, index]
-    K = two_body_matrix(K_b, scene.support.stiffness(dofs))
+    K = two_body_matrix(K_b, support)
     C = two_body_matrix(C_b, scene.support.damping(dofs))
     # where a direction is free to move the stiffness is known, but not where the ring comes to rest
     known = state.converged & np.isfinite(K).all(axis=(1, 2))
     n, m = len(K), 2 * nd
     undamped, frequency, ratio = (np.full((n, m), np.nan) for _ in range(3))
     shape = np.full((n, m, m), np.nan)
-    mean = (
-        K[known].mean(axis=0)
-        if known.any()
-        else two_body_matrix(np.zeros((nd, nd)), scene.support.stiffness(dofs))
-    )
     if template is None:
+        mean = K[known].mean(axis=0) if known.any() else unloaded
         template = _undamped(mean, mass)[1]
     if known.any():
         undamped[known], shape[known] = _follow(*_undamped(K[known], mass), template, mass)

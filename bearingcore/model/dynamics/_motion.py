@@ -29,7 +29,7 @@ from bearingcore.model.dynamics._ball_motion import (
     loads_of_races,
     place_parts,
 )
-from bearingcore.model.dynamics._damping import damped
+from bearingcore.model.dynamics._damping import packed_motion
 from bearingcore.model.dynamics._force import ForceSamples, with_force
 from bearingcore.model.dynamics._low_pass import bandwidth, hermite_weights, low_passed, rows_needed
 from bearingcore.model.dynamics._modes import highest_frequency_of
@@ -316,9 +316,7 @@ def simulate(
     duration = checks.real_number("duration", duration, above=0.0, unit="s")
     sample_rate = checks.real_number("sample_rate", sample_rate, above=0.0, unit="Hz")
     checks.real_number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")
-    dofs = scene.active_dofs
-    packed = packing.pack_motion(scene, dofs)  # refuses a support that lacks a number
-    packed = damped(packed)
+    packed = packed_motion(scene)  # refuses a support that lacks a number
     highest = highest_frequency_of(packed)
     if sample_rate < 2.0 * highest:
         raise checks.refuse(
@@ -365,13 +363,7 @@ def _marched(
     """Motion at one step rate [Hz]; `rest`: state at cage angle 0."""
     scene, dofs = packed.scene, packed.dofs
     with_mass = scene.balls == WITH_MASS
-    a_step, a_sample = _ratio(sample_rate, step_rate)  # refuses a step rate that does not fit
-    if with_mass and a_step > 1:
-        raise checks.refuse(
-            "step_rate",
-            step_rate,
-            f"a multiple of the sample_rate of {sample_rate:g} Hz for balls with mass",
-        )
+    _, a_sample = _ratio(sample_rate, step_rate, with_mass)  # refuses a rate that does not fit
     n = max(round(duration * sample_rate), 1)
     # balls with mass take many steps a sample, of which accelerations do not need every one
     kept = max(k for k in range(1, KEPT + 1) if a_sample % k == 0) if with_mass else a_sample
@@ -533,22 +525,23 @@ def static_start(packed: PackedMotion, rest: Equilibrium) -> Array | None:
     """
     if rest.status[0] not in (StaticStatus.CONVERGED, StaticStatus.FREE_DIRECTION):
         return None
-    bodies = packed.bodies
     y = np.zeros((4, len(packed.dofs)))
-    y[2] = bodies.force / bodies.stiffness  # the housing sinks into its support
+    y[2] = packed.rotor.force / packed.rotor.stiffness  # the housing sinks into its support
     y[0] = y[2] + rest.state[0, packed.load.active]
     return y.ravel()
 
 
-def _ratio(sample_rate: float, step_rate: float) -> tuple[int, int]:
-    """(samples a step, steps a sample), one of them 1; ValueError where neither is whole."""
+def _ratio(sample_rate: float, step_rate: float, with_mass: bool = False) -> tuple[int, int]:
+    """(samples a step, steps a sample), one of them 1; ValueError where neither is whole.
+
+    Balls `with_mass` take a whole number of steps a sample.
+    """
     step_rate = checks.real_number("step_rate", step_rate, above=0.0, unit="Hz")
     ratio = max(sample_rate, step_rate) / min(sample_rate, step_rate)
     whole = round(ratio)
-    if abs(ratio - whole) > 1e-9 * ratio:
-        raise checks.refuse(
-            "step_rate",
-            step_rate,
-            f"a multiple or a whole fraction of the sample_rate of {sample_rate:g} Hz",
-        )
+    if abs(ratio - whole) > 1e-9 * ratio or (with_mass and sample_rate > step_rate):
+        allowed = f"a multiple or a whole fraction of the sample_rate of {sample_rate:g} Hz"
+        if with_mass:
+            allowed = f"a multiple of the sample_rate of {sample_rate:g} Hz for balls with mass"
+        raise checks.refuse("step_rate", step_rate, allowed)
     return (whole, 1) if sample_rate > step_rate else (1, whole)

@@ -68,7 +68,7 @@ def motion_problem(scene: Scene) -> MotionProblem:
     if rest is None:
         reason = state.reason(0)
         raise checks.refuse("scene", reason, "one with a static state to start from")
-    load = float(np.linalg.norm(packed.bodies.force)) or 1.0
+    load = float(np.linalg.norm(packed.rotor.force)) or 1.0
     compression = packed.contacts.compression(load)
     turning = 2.0 * math.pi * (highest_frequency_of(packed) or 1000.0)
     scale = compression * np.repeat([1.0, turning, 1.0, turning], len(packed.dofs))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -17,7 +18,6 @@ from bearingcore.common import (
     table_of,
     thousands,
 )
-from bearingcore.common._progress import Cancelled
 from bearingcore.model.dynamics._low_pass import PASSED
 from bearingcore.model.dynamics._modes import frequency_bands
 from bearingcore.model.dynamics._motion import (
@@ -103,7 +103,7 @@ def speed_run(
     most_steps: int = MOST_STEPS,
     most_steps_in_all: int = MOST_STEPS_IN_ALL,
     progress: Progress | None = None,
-    cancelled: Cancelled | None = None,
+    cancelled: Callable[[], bool] | None = None,
 ) -> SpeedRun:
     """Compute the steady spectrum at each shaft speed [rad/s].
 

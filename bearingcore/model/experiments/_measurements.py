@@ -201,12 +201,14 @@ def measure(
             break
 
         def report(part: float, words: str, begin: int = k) -> None:
+            if cancelled():
+                raise CancelledError
             progress((begin + part) / len(names), words)
 
         def show(experiment: Experiment, name: str = name, before: Measurements = results) -> None:
             shown(replace(before, experiments={**before.experiments, name: experiment}))
 
-        watch = Watch(report, cancelled, show)
+        watch = Watch(report, show)
         try:
             if name == STABILITY:
                 chart = stability_chart(scene, duration=0.1, watch=watch)

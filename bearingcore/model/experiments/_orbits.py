@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from bearingcore.common._progress import in_turn
 from bearingcore.model.dynamics import orbit
 from bearingcore.model.dynamics._orbit import LOSSES
 from bearingcore.model.experiments._points import NOT_WATCHED, Watch
@@ -51,7 +50,7 @@ def orbits_over_speed(scene: Scene, watch: Watch = NOT_WATCHED) -> tuple[OrbitAt
     It takes balls without mass and ends early when cancelled.
     """
     orbits = []
-    for factor in in_turn(SPEEDS, str, watch.progress, watch.cancelled):
+    for factor in watch.in_turn(SPEEDS, str):
         speed = factor * scene.shaft_speed
         try:
             answer = orbit(

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
 import numpy as np
 
 from bearingcore.common import Progress, scientific
-from bearingcore.common._progress import Cancelled, CancelledError, in_turn
+from bearingcore.common._progress import CancelledError
 
 T = TypeVar("T")
 
@@ -189,37 +190,32 @@ class Watch:
     Attributes
     ----------
     progress
-        called with the part done, 0 to 1, and what is being done.
-    cancelled
-        called before each point; True ends with the points that are there. Called within
-        references too, where True raises CancelledError.
+        called with the part done, 0 to 1, and what is being done. Where it raises CancelledError
+        between points the experiment ends with those that are there; within references, which are
+        needed for any point, the error goes on.
     shown
         called with the experiment as far as it is, after each point.
     """
 
-    progress: Progress | None = None
-    cancelled: Cancelled | None = None
-    shown: ShowExperiment | None = None
-
-    def show(self, experiment: Experiment) -> None:
-        """Show what there is."""
-        if self.shown is not None:
-            self.shown(experiment)
+    progress: Progress = lambda part, words: None
+    shown: ShowExperiment = lambda experiment: None
 
     def within(self, begin: float, end: float) -> Callable[[float], object]:
-        """Progress of references, which are the part from `begin` to `end` of the work.
+        """Return the progress of references, which are the part from `begin` to `end` of it all."""
+        return lambda part: self.progress(begin + (end - begin) * part, "references")
 
-        What it returns raises CancelledError where the work is cancelled: an experiment without
-        its references has no points.
+    def in_turn(
+        self, tasks: Sequence[T], name: Callable[[T], str], begin: float = 0.0
+    ) -> Iterator[T]:
+        """Yield the tasks one after another until the work is cancelled.
+
+        `begin` is the part of the work that was done before.
         """
-
-        def report(part: float) -> None:
-            if self.cancelled is not None and self.cancelled():
-                raise CancelledError
-            if self.progress is not None:
-                self.progress(begin + (end - begin) * part, "references")
-
-        return report
+        with suppress(CancelledError):
+            for i, task in enumerate(tasks):
+                self.progress(begin + (1.0 - begin) * i / len(tasks), name(task))
+                yield task
+            self.progress(1.0, "done")
 
 
 NOT_WATCHED = Watch()
@@ -239,11 +235,11 @@ def measured_in_turn(
 
     `begin` is the part of the work that its references were.
     """
-    for task in in_turn(tasks, name, watch.progress, watch.cancelled, begin=begin):
+    for task in watch.in_turn(tasks, name, begin):
         experiment = replace(
             experiment, points=(*experiment.points, measure(task)), completed=False
         )
-        watch.show(experiment)
+        watch.shown(experiment)
     return replace(experiment, completed=len(experiment.points) == len(tasks))
 
 

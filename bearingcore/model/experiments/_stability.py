@@ -14,7 +14,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import ResultTable, shown_as_table, table_of
-from bearingcore.common._progress import in_turn
 from bearingcore.model.dynamics import contact_damping, default_step_rate, highest_natural_frequency
 from bearingcore.model.dynamics._modes import loaded_directions, two_body_matrix
 from bearingcore.model.dynamics._problem import motion_problem
@@ -177,9 +176,7 @@ def stability_chart(
     rates = highest * 2.0 ** np.arange(0.0, 6.01, 0.5)
     tasks = [(name, rate) for name in FIXED_STEP for rate in rates.tolist()]
     trials = []
-    for name, rate in in_turn(
-        tasks, lambda task: f"{task[0]}, {task[1]:.0f} steps/s", watch.progress, watch.cancelled
-    ):
+    for name, rate in watch.in_turn(tasks, lambda task: f"{task[0]}, {task[1]:.0f} steps/s"):
         with np.errstate(all="ignore"):
             size = _size(METHODS[name].march(problem, rate, duration, rate))
         trials.append(Trial(name, rate, size / max(good, 1e-300)))

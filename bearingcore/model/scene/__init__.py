@@ -13,7 +13,6 @@ from bearingcore.model.scene._floor import (
 )
 from bearingcore.model.scene._load import Load as Load
 from bearingcore.model.scene._packing import (
-    BodyNumbers as BodyNumbers,
     PackedMotion as PackedMotion,
     PackedScene as PackedScene,
     ball_angles as ball_angles,

@@ -1,7 +1,7 @@
 """A scene as the structs that kernels take: the one place that fills them.
 
-`pack` and `pack_motion` make all of them at once; solvers take what these return and need not come
-back. Tilts are carried times r_d and moments over r_d, r_d being `Bearing.groove_center_radius`.
+`pack` makes all of a scene at rest at once; solvers take what it returns and need not come back.
+Tilts are carried times r_d and moments over r_d, r_d being `Bearing.groove_center_radius`.
 """
 
 from __future__ import annotations
@@ -10,7 +10,6 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +18,7 @@ from bearingcore.bearings import Bearing
 from bearingcore.common import Array
 from bearingcore.model import _kernels as kernels
 from bearingcore.model.scene._defect import path_tables
-from bearingcore.model.scene._scene import DOF_NAMES, WITH_MASS, Scene
+from bearingcore.model.scene._scene import DOF_NAMES, Scene
 from bearingcore.units import STANDARD_GRAVITY
 
 SMALL_TILT = 0.2
@@ -28,20 +27,6 @@ out of the place of its groove's centres, r_d θ²/2, is 2 % of their radius."""
 
 HEALTHY_PATH = kernels.Path(np.zeros((0, len(kernels.PATH_COLUMNS))), np.zeros(0))
 """The way of a ball's centre where there is no defect."""
-
-
-class BodyNumbers(NamedTuple):
-    """Both bodies along n directions, each (n,), tilts scaled to lengths.
-
-    Load [N], inertia of the inner and of the outer body [kg], stiffness [N/m] and damping [N·s/m]
-    of the support.
-    """
-
-    force: Array
-    inner_mass: Array
-    outer_mass: Array
-    stiffness: Array
-    damping: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,7 +64,6 @@ class PackedScene:
 class PackedMotion(PackedScene):
     """A scene that moves along `dofs`: `PackedScene`, and both bodies."""
 
-    bodies: BodyNumbers
     rotor: kernels.Rotor
 
 
@@ -102,22 +86,6 @@ def pack(scene: Scene, dofs: tuple[str, ...] | None = None, *, balls: bool = Fal
         ways.append(whole if alone else path_tables(on_race, bearing) if on_race else HEALTHY_PATH)
     of_balls = None if both is None else kernels.StaticBalls(every, both, *ways)
     return PackedScene(scene, free, every, whole, ways[0], load, units, rows, of_balls)
-
-
-def pack_motion(scene: Scene, dofs: tuple[str, ...]) -> PackedMotion:
-    """A scene that moves along `dofs`, as numbers; its contacts have no damping yet.
-
-    Balls have the damping of `pack`, if they have mass. `dynamics.damping.damped` adds what the
-    scene has.
-
-    Raises
-    ------
-    ValueError
-        for a support that lacks a number.
-    """
-    bodies, undamped = body_numbers(scene, dofs), rotor(scene, dofs, 0.0)
-    packed = pack(scene, dofs, balls=scene.balls == WITH_MASS)
-    return PackedMotion(**vars(packed), bodies=bodies, rotor=undamped)
 
 
 @lru_cache(maxsize=256)
@@ -219,43 +187,30 @@ def length_units(scene: Scene, dofs: Sequence[str] = DOF_NAMES) -> Array:
     return np.array([lever if name in ("rx", "ry") else 1.0 for name in dofs])
 
 
-def body_numbers(scene: Scene, dofs: tuple[str, ...]) -> BodyNumbers:
-    """Load, inertia and support along `dofs`.
+def rotor(scene: Scene, dofs: tuple[str, ...], contact_damping: float) -> kernels.Rotor:
+    """Both bodies of a scene that moves along `dofs`, and what its motion is marched in.
+
+    That is variables without jumps where the contact law has them, with the shorter sums of
+    contacts that stay in the plane where they do. contact_damping: c [N·s/m] of Eq. 18.
 
     Raises
     ------
     ValueError
         for a support that lacks a number.
     """
-    units = length_units(scene, dofs)
-    return BodyNumbers(
-        scene.load.vector[direction_numbers(dofs)] / units,
-        scene.support.inertia("inner", dofs) / units**2,
-        scene.support.inertia("outer", dofs) / units**2,
-        scene.support.stiffness(dofs) / units**2,
-        scene.support.damping(dofs) / units**2,
-    )
-
-
-def rotor(scene: Scene, dofs: tuple[str, ...], contact_damping: float) -> kernels.Rotor:
-    """Both bodies of a scene that moves along `dofs`, and what its motion is marched in.
-
-    That is variables without jumps where the contact law has them, with the shorter sums of
-    contacts that stay in the plane where they do. contact_damping: c [N·s/m] of Eq. 18.
-    """
     published = scene.contact_law == "published"
     variables = kernels.VELOCITIES
     if published:
         flat = is_planar(scene) and dofs == DOF_NAMES[:2]
         variables = kernels.PLANAR if flat else kernels.SMOOTH
-    bodies = body_numbers(scene, dofs)
+    support, units, active = scene.support, length_units(scene, dofs), direction_numbers(dofs)
     return kernels.Rotor(
-        force=bodies.force,
-        inverse_inner=1.0 / bodies.inner_mass,
-        inverse_outer=1.0 / bodies.outer_mass,
-        stiffness=bodies.stiffness,
-        damping=bodies.damping,
-        active=direction_numbers(dofs),
+        force=scene.load.vector[active] / units,
+        inverse_inner=1.0 / (support.inertia("inner", dofs) / units**2),
+        inverse_outer=1.0 / (support.inertia("outer", dofs) / units**2),
+        stiffness=support.stiffness(dofs) / units**2,
+        damping=support.damping(dofs) / units**2,
+        active=active,
         cage_speed=float(scene.cage_speed),
         contact_damping=float(contact_damping),
         variables=variables,

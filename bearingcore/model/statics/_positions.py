@@ -42,6 +42,7 @@ from bearingcore.model.scene._packing import pack
 from bearingcore.model.statics._equilibrium import (
     ANGLES_A_PERIOD,
     Equilibrium,
+    equilibrium,
     equilibrium_of,
     remove_defects,
 )
@@ -118,23 +119,19 @@ class Extremes(NamedTuple):
 def over_all_positions(
     scene: Scene,
     n: int = ANGLES_A_PERIOD,
-    solve: Callable[..., Equilibrium] | None = None,
+    solve: Callable[..., Equilibrium] = equilibrium,
 ) -> Equilibrium:
     """Static equilibrium at all pairs of `positions`, with their weights.
 
-    `solve` is `static_state` for balls with mass; None solves `equilibrium`.
+    `solve` is `static_state` for balls with mass.
     """
-    if solve is None:
-        return equilibrium_over_all(pack(scene), n)
     places = positions(scene, n)
     state = solve(scene, places.cage_angles, shaft_angles=places.shaft_angles)
     return dataclasses.replace(state, weights=places.weights)
 
 
 def state_of(
-    scene: Scene,
-    state: Equilibrium | None,
-    solve: Callable[..., Equilibrium] | None = None,
+    scene: Scene, state: Equilibrium | None, solve: Callable[..., Equilibrium] = equilibrium
 ) -> Equilibrium:
     """The equilibrium of a scene that was passed, else that of `over_all_positions`.
 
@@ -147,30 +144,23 @@ def state_of(
 
 def equilibrium_over_all(packed: PackedScene, n: int) -> Equilibrium:
     """`over_all_positions` of a scene that is packed."""
-    places = positions_of(packed, n)
+    places = positions(packed.scene, n)
     state = equilibrium_of(packed, places.cage_angles, places.shaft_angles)
     return dataclasses.replace(state, weights=places.weights)
 
 
-def positions(scene: Scene, n: int = ANGLES_A_PERIOD) -> Positions:
-    """The positions of a scene, see `positions_of`."""
-    return positions_of(pack(scene), n)
-
-
 @lru_cache_by_bytes(
     16_000_000,
-    lambda places, packed, _: 24 * places.weights.size + floor_bytes(packed.scene.defects),
-    lambda packed, n: (packed.scene, n),
+    lambda places, scene, _: 24 * places.weights.size + floor_bytes(scene.defects),
 )
-def positions_of(packed: PackedScene, n: int) -> Positions:
-    """The positions of a scene that is packed.
+def positions(scene: Scene, n: int) -> Positions:
+    """The positions of a scene.
 
     n : cage angles to the bearing's period, ends included, where no defect turns with the shaft.
     Else (n − 1)/ALL_AROUND to each ball spacing, all around, with one where the ball is on the line
     of the load, and further ones where it meets an edge of the outer race.
     """
-    scene = packed.scene
-    bearing = scene.bearing
+    packed, bearing = pack(scene), scene.bearing
     period, ratio = bearing.period, bearing.cage_ratio
     if not scene.defect_turns:
         columns, weights = _cage_angles(packed, n)

@@ -39,6 +39,8 @@ from bearingcore.model.dynamics import speed_run, to_ross
 from bearingcore.model.dynamics._problem import motion_problem
 from bearingcore.model.experiments._motions import motion_experiment
 from bearingcore.model.experiments._statics import statics_experiment
+from bearingcore.model.statics import ball_drop
+from bearingcore.model.sweeps import sweep
 from bearingcore.sizing import read_floor
 from tests.helpers.judge import verdict
 from tests.helpers.saved import matlab
@@ -76,6 +78,10 @@ def taken(*asked: object) -> core.Recording:
     return core.read_table("a.csv", TABLE).recording(*asked)
 
 
+def swept(over: Any = None, outputs: Any = ("k_yy_*",), **more: Any) -> object:
+    return sweep(RIG, {"extent": [0.1]} if over is None else over, outputs, **more)
+
+
 def nested(depth: int) -> dict[str, object]:
     """Structs inside one another."""
     return {"s": nested(depth - 1)} if depth else {"a": TWO}
@@ -92,6 +98,8 @@ REFUSED: dict[str, list[tuple[Callable[[], object], str]]] = {
     "rows": [
         (lambda: Row(facing=0), "facing of a row is 0; allowed: 1 or -1"),
         (lambda: Row(place=INF), "place of a row"),
+        *((lambda angle=angle: Row(contact_angle=angle), "contact_angle of a row")
+          for angle in (-0.1, 2.0, NAN, "steep")),
         (lambda: Row(clearance=1.0), "clearance of a row"),
         (lambda: PAIR.replace(rows=(Row(), Row(n_balls=40))), "row 2: n_balls is 40"),
         (lambda: PAIR.replace(rows=(Row(), Row(ball_diameter=0.07))), "row 2: ball_diameter is 0"),
@@ -102,6 +110,9 @@ REFUSED: dict[str, list[tuple[Callable[[], object], str]]] = {
         (lambda: dataclasses.replace(MOTOR, kind="rows"), "^(number of )?rows "),
         (lambda: dataclasses.replace(MOTOR, kind="self-aligning"), "^(number of )?rows "),
         (lambda: dataclasses.replace(MOTOR, kind="roller"), "^roller_length "),
+        (lambda: core.presets["nu208"].bearing.replace(roller_length=None), "^roller_length "),
+        *((lambda name=name: core.presets[name].bearing.replace(roller_length=0.01),
+           "^roller_length is 0.01") for name in ("fan-rig", "1208")),
     ],
     "drawings": [
         (lambda: contact("inner", 11.5e-3, 43.5e-3, 5.7e-3), r"inner_groove_radius is 0.0057; .*"),
@@ -137,7 +148,19 @@ REFUSED: dict[str, list[tuple[Callable[[], object], str]]] = {
                                      core.Defect(0.2, 5e-5, 0.1, edge="exact"))),
          "run into one another"),
     ],
+    "parts by themselves": [
+        (lambda: Defect(-1.0, 0.0, 0.0), "^extent is -1; "),
+        (lambda: Defect(1.0, 1e-5, 0.0, edge="soft"), "^edge is 'soft'; "),
+        (lambda: Defect(1.0, 5e-3, 0.0).path(0.0, LIEW_LIM.bearing), "^depth is 0.005; "),
+        (lambda: LIEW_LIM.replace(defect=(LIEW_LIM.defect, Defect(0.1, 4e-3, 0.0))),
+         "^depth is 0.004; "),
+        (lambda: Load(fx=NAN), "^fx is nan; "),
+        (lambda: Support(1.0, 1.0, 1e8, 1e8, -1.0, 0.0), "^damping_x is -1; "),
+        (lambda: Bearing(9, 8e-3, 39e-3, 0.0, 19e-3, 5e-5, -5e-3, 1e10, 23e-3, 15e-3),
+         "^radial_clearance is -0.005; "),
+    ],
     "maps": [
+        (lambda: ball_drop(RIG, 0.0, race="middle"), "race is 'middle'; allowed: outer, inner"),
         (lambda: maps(extents=[-0.1]), "extents"),
         (lambda: maps(extents=[NAN]), "extents"),
         (lambda: maps(extents=[7.0]), "extents"),
@@ -165,6 +188,7 @@ REFUSED: dict[str, list[tuple[Callable[[], object], str]]] = {
     ],
     "motions": [
         (lambda: core.orbit(RIG.replace(balls="with mass")), "massless"),
+        (lambda: core.orbit(RIG.replace(contact_law="no tension")), "^contact_law is 'no tension"),
         (lambda: core.orbit(STILL), "shaft_speed"),
         (lambda: core.orbit(RIG).spectrum(duration=1e9), "^duration is"),
         (lambda: core.orbit(RIG).spectrum(resolution=1e-6), "^resolution is"),
@@ -176,6 +200,7 @@ REFUSED: dict[str, list[tuple[Callable[[], object], str]]] = {
         (lambda: core.simulated_record(DRAWN.replace(shaft_speed=0.0)), "shaft_speed is 0"),
     ],
     "samples and steps of motions": [
+        (lambda: simulate(STILL, 0.01), "^shaft_speed is 0; .*above 0"),
         (lambda: moved(0.0), "^duration is 0; .*above 0"),
         (lambda: moved(NAN), "^duration is nan; .*above 0"),
         (lambda: moved(INF), "^duration is inf; .*finite"),
@@ -184,6 +209,29 @@ REFUSED: dict[str, list[tuple[Callable[[], object], str]]] = {
         (lambda: moved(0.01, 65536.0, step_rate=0.0), "^step_rate is 0; .*above 0"),
         (lambda: moved(0.01, 65536.0, step_rate=98304.0), "^step_rate is 98304; .*whole fraction"),
         (lambda: moved(0.01, 65536.0, step_rate=26214.4), "^step_rate is 26214.4; .*whole fract"),
+    ],
+    "sweeps": [
+        (lambda: swept({}), "over is"),
+        (lambda: swept({"extend": [0.1]}), "extend"),
+        (lambda: swept({"extent": []}), "number of values of extent"),
+        (lambda: swept({"extent": [0.1, 0.1]}), "different"),
+        (lambda: swept({"extent": [NAN]}), "extent"),
+        (lambda: swept({"edge": ["round"]}), "edge is 'round'; allowed"),
+        (lambda: swept({"n_balls": [3.5]}), "n_balls"),
+        (lambda: swept(outputs=[]), "outputs"),
+        (lambda: swept(outputs=["k_yy"]), "k_yy_mean"),
+        (lambda: swept(outputs=["acceleration_rms_z"]), "directions"),
+        (lambda: swept({"shaft_speed": [0.0]}, ["acceleration_rms_y"]), "shaft_speed"),
+        (lambda: swept({"depth": [0.0]}), "no defect"),
+        (lambda: swept(dict.fromkeys(("fx", "fy", "fz", "mx"), np.arange(400.0))),
+         "number of scenes"),
+        (lambda: swept({"fx": np.arange(9e3), "fy": np.arange(9e3)}, ["*_mean"]), "give a store"),
+        (lambda: swept(outputs=["life_turns"]), "inner_groove_radius"),
+        (lambda: swept(seed=-1), "seed is"),
+        (lambda: swept(seed=(1, 1)), "different"),
+        (lambda: swept(seed=()), "different"),
+        (lambda: swept(effects=3.0), "PathEffects"),
+        (lambda: swept(durration=1.0), "durration.*duration"),
     ],
     "scenes of files": [
         (lambda: data(version=2), "version is 2"),
@@ -298,6 +346,10 @@ REFUSED: dict[str, list[tuple[Callable[[], object], str]]] = {
         (lambda: diagnosis(150.0, bearing_source="rumour"), "bearing_source is 'rumour'"),
         (lambda: diagnosis(150.0, unit="g"), "unit is 'g'; allowed: None for a recording"),
         (lambda: core.diagnose("no/such.csv", "6205"), "one to read \\(No such file"),
+        (lambda: core.size_defect(NOISE, STILL), "shaft_speed"),
+        (lambda: core.size_defect(NOISE, RIG.replace(dofs=("x",))), "dofs"),
+        (lambda: core.size_defect(NOISE, RIG.replace(stiffness_x=None), support_known=True),
+         "stiffness"),
         (lambda: extent(race="cage"), "race"),
         (lambda: extent(load=0.0), "load"),
         (lambda: extent(load=NAN), "load"),
@@ -467,23 +519,6 @@ def test_a_field_that_does_not_exist(name: str) -> None:
         assert known in allowed
 
 
-def test_parts_refuse_on_their_own_too() -> None:
-    refused("extent", "-1", lambda: Defect(-1.0, 0.0, 0.0))
-    refused("edge", "'soft'", lambda: Defect(1.0, 1e-5, 0.0, edge="soft"))
-    refused("fx", "nan", lambda: Load(fx=NAN))
-    refused("damping_x", "-1", lambda: Support(1.0, 1.0, 1e8, 1e8, -1.0, 0.0))
-    numbers = (9, 8e-3, 39e-3, 0.0, 19e-3, 5e-5, -5e-3, 1e10, 23e-3, 15e-3)
-    refused("radial_clearance", "-0.005", lambda: Bearing(*numbers))
-    deep = Defect(1.0, 5e-3, 0.0)
-    refused("depth", "0.005", lambda: deep.path(0.0, LIEW_LIM.bearing))
-
-
-def test_a_bad_number_does_not_hide_behind_a_good_one() -> None:
-    """Of several defects each is checked."""
-    good, deep = LIEW_LIM.defect, Defect(0.1, 4e-3, 0.0)
-    refused("depth", "0.004", lambda: LIEW_LIM.replace(defect=(good, deep)))
-
-
 def test_numbers_that_only_look_bad() -> None:
     """Values that a caller may mean: whole floats, NumPy numbers, integers, 360° as a decimal."""
     assert LIEW_LIM.replace(n_balls=12.0) == LIEW_LIM
@@ -512,12 +547,6 @@ def test_the_least_sample_rate_is_twice_the_highest_natural_frequency() -> None:
     assert enough == pytest.approx(2.0 * highest, rel=2e-3)
     assert simulate(RIG, 0.01, enough + 1.0).completed
     refused("sample_rate", f"{enough - 1.0:g}", lambda: simulate(RIG, 0.01, enough - 1.0))
-
-
-def test_a_shaft_that_stands_still_makes_no_motion() -> None:
-    still = RIG.replace(shaft_speed=0.0)
-    assert "above 0" in refused("shaft_speed", "0", lambda: simulate(still, 0.01))
-    assert equilibrium(still).converged.all()
 
 
 @pytest.mark.parametrize("function", [lambda scene: simulate(scene, 0.01), modes])

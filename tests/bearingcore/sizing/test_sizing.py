@@ -10,7 +10,6 @@ import pytest
 from scipy.optimize import brentq
 
 from bearingcore import Defect, Load, Recording, Scene, modes, presets, size_defect, trend
-from bearingcore.errors import FieldError
 from bearingcore.measured.diagnosis import CANNOT_TELL
 from bearingcore.model.statics import equilibrium
 from bearingcore.sizing import LINES, Sizing, SizingStatus
@@ -115,15 +114,6 @@ def test_progress_is_called_often_and_ends_the_search() -> None:
         size_defect(RECORDING, RIG, support_known=True, progress=progress)
     assert parts == sorted(parts)
     assert parts[-1] < 0.1
-
-
-def test_refusals_name_the_field() -> None:
-    with pytest.raises(FieldError, match="shaft_speed"):
-        size_defect(RECORDING, RIG.replace(shaft_speed=0.0), support_known=True)
-    with pytest.raises(FieldError, match="dofs"):
-        size_defect(RECORDING, RIG.replace(dofs=("y",)), support_known=True)
-    with pytest.raises(FieldError, match="stiffness"):
-        size_defect(RECORDING, RIG.replace(stiffness_x=None), support_known=True)
 
 
 BEARING = presets["6205"].bearing

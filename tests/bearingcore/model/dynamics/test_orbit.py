@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from bearingcore import FieldError, Scene, orbit, presets, simulate
+from bearingcore import Scene, orbit, presets, simulate
 from bearingcore.model.dynamics import OrbitStatus, common_ball_passes
 from bearingcore.model.dynamics._damping import packed_motion
 from bearingcore.model.dynamics._orbit import _Shooting, _state_at_start
@@ -78,11 +78,6 @@ def test_multipliers_are_of_the_derivative_of_a_period(name: str, changes: dict[
     assert cycle.largest_multiplier == pytest.approx(
         np.abs(np.linalg.eigvals(slopes)).max(), rel=1e-3
     )
-
-
-def test_contacts_that_let_go_have_no_tangent_and_so_no_orbit() -> None:
-    with pytest.raises(FieldError, match="contact_law is 'no tension'"):
-        orbit(presets["fan-rig"].replace(contact_law="no tension"))
 
 
 def test_no_orbit_is_claimed_where_there_is_none() -> None:

@@ -10,7 +10,6 @@ import pytest
 import xarray
 
 from bearingcore import diagnose, scene_of, simulated_record, spectrum
-from bearingcore.errors import FieldError
 from bearingcore.model.dynamics import PathEffects
 from bearingcore.model.sweeps import OUTPUTS, Settings, sweep
 from bearingcore.model.sweeps._outputs import chosen_outputs
@@ -55,23 +54,6 @@ def test_a_seed_of_a_sweep_keeps_the_path_and_several_are_a_dimension() -> None:
     bare = level(seed=5, effects=BARE)
     single = simulated_record(SCENE.replace(extent=lengths[3]), BARE, 0.4, seed=5)
     assert bare[3] == pytest.approx(np.sqrt(np.mean(single.acceleration[:, 1] ** 2)), rel=1e-12)
-
-
-@pytest.mark.parametrize(
-    ("settings", "words"),
-    [
-        ({"seed": -1}, "seed is"),
-        ({"seed": (1, 1)}, "different"),
-        ({"seed": ()}, "different"),
-        ({"effects": 3.0}, "PathEffects"),
-        ({"durration": 1.0}, "durration.*duration"),
-    ],
-)
-def test_settings_of_a_sweep_that_cannot_be_are_refused(
-    settings: dict[str, Any], words: str
-) -> None:
-    with pytest.raises(FieldError, match=words):
-        sweep(SCENE, {"extent": [0.1]}, ["record_y"], **settings)
 
 
 def test_effects_add_what_they_say() -> None:

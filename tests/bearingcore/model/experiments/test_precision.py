@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from bearingcore import presets
+from bearingcore.common._progress import CancelledError
 from bearingcore.model.dynamics._problem import motion_problem
 from bearingcore.model.experiments import DIVERGED, Experiment, Measurements, measure
 from bearingcore.model.experiments._integrators import HAS_CVODE
@@ -138,12 +139,13 @@ def test_motion() -> None:
 def test_an_experiment_reports_its_progress_and_can_be_cancelled() -> None:
     shares: list[float] = []
     shown: list[Experiment] = []
-    answers = iter([*[False] * 7, True])  # five of them within the references
-    experiment = statics_experiment(
-        FAN_RIG,
-        n_angles=5,
-        watch=Watch(lambda part, doing: shares.append(part), lambda: next(answers), shown.append),
-    )
+
+    def progress(part: float, doing: str) -> None:
+        if len(shares) == 7:  # five of them within the references
+            raise CancelledError
+        shares.append(part)
+
+    experiment = statics_experiment(FAN_RIG, n_angles=5, watch=Watch(progress, shown.append))
     assert [len(experiment.points) for experiment in shown] == [1, 2]
     assert len(experiment.points) == 2
     assert not experiment.completed

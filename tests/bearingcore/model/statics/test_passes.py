@@ -73,5 +73,3 @@ def test_drops_into_each_race_add_to_the_whole() -> None:
     apart = ball_drop(scene, angle, race="outer") + ball_drop(scene, angle, race="inner")
     np.testing.assert_allclose(whole, apart)
     assert whole.max() == pytest.approx(70e-6)
-    with pytest.raises(ValueError, match="race is 'middle'; allowed: outer, inner"):
-        ball_drop(scene, angle, race="middle")

@@ -187,34 +187,6 @@ def test_regions_cover_a_grid_once(sizes: list[int], scenes: int | None, row: in
         assert np.prod(shape) <= scenes
 
 
-# ------------------------------------------------------------------------------ refusals
-
-
-@pytest.mark.parametrize(
-    ("over", "outputs", "words"),
-    [
-        ({}, FEW, "over is"),
-        ({"extend": [0.1]}, FEW, "extend"),
-        ({"extent": []}, FEW, "number of values of extent"),
-        ({"extent": [0.1, 0.1]}, FEW, "different"),
-        ({"extent": [float("nan")]}, FEW, "extent"),
-        ({"edge": ["round"]}, FEW, "edge is 'round'; allowed"),
-        ({"n_balls": [3.5]}, FEW, "n_balls"),
-        ({"extent": [0.1]}, [], "outputs"),
-        ({"extent": [0.1]}, ["k_yy"], "k_yy_mean"),
-        ({"extent": [0.1]}, ["acceleration_rms_z"], "directions"),
-        ({"shaft_speed": [0.0]}, ["acceleration_rms_y"], "shaft_speed"),
-        ({"depth": [0.0]}, FEW, "no defect"),
-        (dict.fromkeys(("fx", "fy", "fz", "mx"), np.arange(400.0)), FEW, "number of scenes"),
-        ({"fx": np.arange(9000.0), "fy": np.arange(9000.0)}, ["*_mean"], "give a store"),
-        ({"fy": [-100.0]}, ["life_turns"], "inner_groove_radius"),
-    ],
-)
-def test_impossible_sweeps_are_refused(over: Any, outputs: Any, words: str) -> None:
-    with pytest.raises(ValueError, match=words):
-        sweep(RIG, over, outputs)
-
-
 # ------------------------------------------------------------------------------ the store
 
 

@@ -28,9 +28,9 @@ NOT_KEPT = (
 
 
 READ_FROM_DISK = 5.0
-"""[s] after which machine code on disk has turned out to be of no use."""
+"""Time [s] after which machine code on disk has turned out to be of no use."""
 LOADS_HOLOVIEWS = 10.0
-"""[s] after the start, when the first picture is drawn; then no tab waits for it."""
+"""Time [s] after the start when the first picture is drawn; then no tab waits for HoloViews."""
 
 
 def options(arguments: Sequence[str] | None = None) -> argparse.Namespace:

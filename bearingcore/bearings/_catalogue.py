@@ -48,7 +48,7 @@ CATALOGUE_COLUMNS = (
 USUAL_CLEARANCE_UM = 10.0
 
 _SEPARATORS = (";", "\t", ",")
-"""Of columns; the most frequent one in the headings is taken."""
+"""Separators of columns; the most frequent one in the headings is taken."""
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""From the dimensions on a drawing to the numbers of the contact model.
+"""Numbers of the contact model out of the dimensions on a drawing.
 
 Quantity                                    | Symbol | Name                     | Unit
 ------------------------------------------- | ------ | ------------------------ | ----

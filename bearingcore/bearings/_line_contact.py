@@ -30,11 +30,11 @@ STEEL_MODULUS, STEEL_POISSON = 210e9, 0.3
 """E [Pa] and ν of rollers and rings: the factor is for steel."""
 
 SERIES_CONSTANT = 35_948.0
-"""[N/mm^2] c_L/l^(8/9) of ISO 16281, of a steel roller between BOTH its races. Palmgren's
-3.84e-5 mm of 1 N on 1 mm, 8.06e4, is ONE contact: two of it in series are 3.73e4."""
+"""Constant c_L/l^(8/9) [N/mm^2] of ISO 16281, of a steel roller between BOTH its races. Palmgren's
+3.84e-5 mm of 1 N on 1 mm, 8.06e4, is for ONE contact: two in series make 3.73e4."""
 
 ONE_CONTACT = 8.06e4
-"""The same by Palmgren of one contact, which scenes of rollers were saved with as that of both."""
+"""Palmgren's constant of one contact: old saved scenes of rollers hold it as that of both."""
 
 LONG_ROLLER = 2.5
 """Length over diameter above which the profile of a roller has a straight part (ISO 16281)."""

@@ -168,7 +168,7 @@ def read_suffix(name: str, kind: str, text: str, count: str, is_ceramic: bool) -
 
 
 def _suffix_of(kind: str, text: str, count: str, is_ceramic: bool) -> Suffix:
-    """As `read_suffix`; ValueError with what is allowed."""
+    """Read a suffix like `read_suffix`; ValueError with what is allowed."""
     if second := _SECOND.search(text):
         raise ValueError(ONE_NUMBER.format(second[0]))
     if _BORE.match(text):

@@ -32,7 +32,7 @@ READ_UNITS = {"rad": "deg", "m": "µm"}
 """Units for people instead of radians and metres."""
 
 MOST_ROWS, MOST_COLUMNS = 10, 8
-"""Of a table that is printed; the middle of a larger one is left out."""
+"""Size of a printed table; the middle of a larger one is left out."""
 
 LONGEST_VALUE, LONGEST_REPR = 24, 120
 """Letters of a value beside its meaning, and of a result in a line."""

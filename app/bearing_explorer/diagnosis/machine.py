@@ -26,22 +26,22 @@ FILE, GIVEN, ROUGH, SCENE, SIMULATED = "file", "given", "rough", "scene", "simul
 BY_DESIGNATION, BY_FREQUENCIES = "designation", "frequencies"
 """Ways to say which bearing it is, besides SCENE and the name of a listed one."""
 TOLERANCE = 0.1
-"""By how much a rough shaft speed may be off, as a fraction."""
+"""Fraction by which a rough shaft speed may be off."""
 SAME_ORDERS = 0.01
 """Relative difference up to which a bearing's frequencies are those of a file."""
 PITCH_DIAMETER = 39e-3
-"""[m] of bearings known by their frequencies, for their picture: no answer depends on it."""
+"""Diameter [m] for the picture of a bearing known by its frequencies: no answer depends on it."""
 SPEEDS = (1e-3, 1e4)
-"""[Hz] between which a shaft speed may be typed."""
+"""Least and greatest shaft speed [Hz] that may be typed."""
 
 RATIOS = (0.01, 100.0)
-"""Between which a bearing's shaft may turn as often as the measured one."""
+"""Least and greatest ratio of the speed of a bearing's shaft to the measured one."""
 
 FASTEST_BARE = 300.0
-"""[Hz] above which a number without a unit may be meant in rpm: 18,000 rpm."""
+"""Frequency [Hz] above which a number without a unit may be meant in rpm: 18,000 rpm."""
 
 FIELDS = ("bearing", "designation", *FREQUENCIES, "speed", "shaft_speed", "ratio")
-"""Of the form that says it."""
+"""Fields of the form that describes the machine."""
 
 GROUPS = {
     "bearing": ("bearing", "designation", *FREQUENCIES),
@@ -120,7 +120,7 @@ class Machine:
             object.__setattr__(self, "bearing_source", NOT_KNOWN)
 
     def knowing(self, speed: float | str) -> Machine:
-        """With the shaft speed as it is, ROUGH, "unknown", or another one [rad/s]."""
+        """Return the machine with its shaft speed ROUGH, "unknown", or another number [rad/s]."""
         if speed in ("unknown", NOT_KNOWN):
             return dataclasses.replace(self, shaft_speed=None)
         if isinstance(speed, str):
@@ -354,7 +354,7 @@ def _order(name: str, text: str, turns: float | None) -> float:
 
 
 def read_speed(text: str) -> float:
-    """[Hz], of a number with its unit, or of one in Hz so low that no rpm can be meant."""
+    """Read a speed [Hz] from a number with its unit, or a bare one that is too low for rpm."""
     words, (least, most) = "The shaft speed", SPEEDS
     bare = text.lower()
     bare = re.sub(r"\s*(rpm|[ur1]?/min|min(-|\^-|⁻|−)[1¹])$", " rpm", bare)

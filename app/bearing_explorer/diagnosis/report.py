@@ -41,7 +41,7 @@ from bearingcore.common import number, percent, with_prefix
 FILE = "bearing-report-{}.html"
 NOT_SAID = "not said"
 WIDTH, HEIGHT = 600, 260
-"""Of a figure as it is drawn [px]; two are side by side."""
+"""Size [px] in which a figure is drawn; two stand side by side."""
 MOST_FIGURES = 4
 _ORIGINS = {
     "Said by": "From the file,", "A guess:": "Assumed:", "The file does not say it.": "Assumed",

@@ -164,7 +164,7 @@ class SignalForm:
 
     @property
     def shaft_speed(self) -> float | None:
-        """[rad/s] that is given, or that the diagnosis shows; None without either.
+        """Shaft speed [rad/s] that is given, or that the diagnosis shows; None without either.
 
         It is not looked for without the bearing: knocks of a race repeat more clearly than turns of
         the shaft, and would be taken for them.

@@ -8,10 +8,10 @@ from __future__ import annotations
 from typing import Any
 
 MOST_BYTES = 24 * 2**20
-"""Of a file that is taken from a browser."""
+"""Size of the largest file that is taken from a browser."""
 
 PIECE = 2**20
-"""[bytes] of the pieces that the browser sends; far below the limit of the websocket."""
+"""Size [bytes] of the pieces that the browser sends; far below the limit of the websocket."""
 
 FIRST_LINES, LONGEST_LINE = 5, 120
 """Lines of a refused text that are shown, and characters of each."""

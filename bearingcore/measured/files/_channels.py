@@ -1,4 +1,4 @@
-"""Which columns of a file are signals, where and in which direction they were measured."""
+"""Channels of a file: its columns that are signals, where and along what they were measured."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ QUANTITIES = {
     "a speed": ("rpm", "speed rpm drehzahl"),
     "a tachometer's signal": ("", " ".join(PULSES)),
 }
-"""What is no vibration: its units, and words of its headings."""
+"""Quantities that are no vibration: their units, and words of their headings."""
 
 _NOT_SIGNALS = {word for _, words in QUANTITIES.values() for word in words.split()} | {
     "power", "humidity", "flow", "load", "magnetic", "magnetometer", "quat", "quaternion",

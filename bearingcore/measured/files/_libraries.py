@@ -22,10 +22,10 @@ from bearingcore.measured.files._other_kinds import BRING
 from bearingcore.measured.files._variables import Variables
 
 MOST_UNPACKED = 2**28
-"""[bytes] of a file in a zip."""
+"""Size [bytes] of the largest file in a zip."""
 
 MOST_TOGETHER = 2**30
-"""[bytes] of all files in a zip that are to be read."""
+"""Size [bytes] of all files in a zip that are to be read."""
 
 MOST_INSIDE = 1000
 """Files in a zip that are named."""

@@ -36,7 +36,7 @@ from bearingcore.measured.signals._dropouts import cut_off
 from bearingcore.recordings import FEWEST_SAMPLES, Recording
 
 MOST_BYTES = 64 * 2**20
-"""Of a file."""
+"""Size of the largest file."""
 
 SHOWN_ROWS = 8
 
@@ -44,7 +44,7 @@ MOST_NAMED = 4
 """Columns that are not used which are named."""
 
 RATE_DOUBT = 0.005
-"""By how much a typed rate may differ from the one that the times say, unsaid."""
+"""Fraction by which a typed rate may differ from that of the times before this is said."""
 
 
 _UNITS_OF: Mapping[str, Mapping[str, float]] = {

@@ -117,7 +117,7 @@ _DETECTOR = re.compile(r"[-_(]*(?:pk-?pk|p-p|0-?pk?|rms|peak|pk|eff)\)?$")
 """A way to take the size of a signal, at the end of its unit: "g-pk", "mm/s RMS"."""
 
 LEAST_LEVEL, GREATEST_LEVEL = 3e-3, 2e3
-"""[m/s²] root mean squares that housings of running bearings have: from a shaft that turns a few
+"""Root mean squares [m/s²] that housings of running bearings have: from a shaft that turns a few
 times a second (0.3 mg) to a machine that comes apart (200 g)."""
 
 

@@ -19,7 +19,7 @@ MOST_SCALARS = 200
 """Single numbers and words of a file that are kept."""
 
 LONGEST_TEXT = 1000
-"""[characters] of words that are kept."""
+"""Longest text [characters] that is kept."""
 
 Answer = tuple[dict[str, Any], Array]
 

@@ -23,7 +23,7 @@ from bearingcore.measured.signals._order_tracking import followed, smooth_lag
 from bearingcore.measured.signals._resampling import oversampled
 
 FEWEST_PASSES = 6
-"""Below this an average says nothing about its own scatter."""
+"""Number of passes below which an average says nothing about its own scatter."""
 
 CUT = 0.3
 """Share of the lowest frequency below which a signal is filtered out."""

@@ -12,7 +12,7 @@ from bearingcore.common import Array, _checks as checks
 from bearingcore.measured.signals._resampling import resample_over_turns
 
 OVERLAP = 0.75
-"""Of neighbouring segments."""
+"""Overlap of neighbouring segments."""
 
 FEWEST_SEGMENTS = 4
 """That fit into a signal one after the other, at least."""

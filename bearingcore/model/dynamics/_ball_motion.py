@@ -29,7 +29,7 @@ STABLE_DECAY, GREATEST_DECAY = 2.6, 2.785
 steps."""
 
 RACES_OF_LOADS = ("inner", "outer")
-"""In the order of the loads."""
+"""Races, in the order of the loads."""
 
 LIGHTLY = 0.1
 """Part of the heaviest load from which on a ball counts for the band of contact resonances."""

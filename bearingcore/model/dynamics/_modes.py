@@ -311,7 +311,7 @@ def highest_frequency_of(packed: PackedScene) -> float:
 
 
 def two_body_matrix(bearing: Array, support: Array) -> Array:
-    """[B, −B; −B, B + diag(support)] (Eq. 25) of bearing matrices (..., nd, nd)."""
+    """Assemble [B, −B; −B, B + diag(support)] (Eq. 25) of bearing matrices (..., nd, nd)."""
     return np.block([[bearing, -bearing], [-bearing, bearing + np.diag(support)]])
 
 

@@ -30,7 +30,7 @@ from bearingcore.model.scene import Scene
 from bearingcore.recordings._spectrum_difference import BAND
 
 SAMPLE_RATE = 65536.0
-"""[Hz] of the instants at which motions are compared."""
+"""Rate [Hz] of the instants at which motions are compared."""
 
 SHARE_OF_REFERENCE = 0.3
 """Part of the work that the reference usually is."""

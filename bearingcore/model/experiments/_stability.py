@@ -1,4 +1,4 @@
-"""Where steps are too long for Runge-Kutta.
+"""Limits of stability: steps that are too long for Runge-Kutta.
 
 The linear limit is the longest step at which a linear oscillation does not grow, for the stiffest
 static state of the scene: the eigenvalues λ of the linearised motion (Eq. 28, signs mended) go

@@ -44,8 +44,8 @@ STATICS_LEFT_OUT = (
 )
 
 WRONG_STIFFNESS, STRICT = 0.1, 1e-6
-"""Where a solver with the second tolerance or less calls an answer solved whose
-stiffness errs by more than the first, it has failed."""
+"""Error and tolerance of a failure: a solver with the second tolerance or less has failed
+where it calls an answer solved whose stiffness errs by more than the first."""
 
 
 @dataclass(frozen=True)
@@ -201,7 +201,7 @@ def _scipy(
         return np.asarray(at(u, k).stiffness[0][np.ix_(active, active)] * (length / load))
 
     def energy(u: Array, k: int) -> tuple[float, Array]:
-        """With the load's, over load times length, and its slopes."""
+        """Return the energy with that of the load, over load times length, and its slopes."""
         state = at(u, k)
         work = float(u @ problem.force[active]) * length
         slopes = (state.force[0] - problem.force)[active] / load
@@ -278,7 +278,7 @@ class StaticReference:
 
 NEARBY = 1.01
 GRAZING = 1e-14
-"""Of the greatest load of a ball: less is rounding."""
+"""Share of the greatest load of a ball: less is rounding."""
 
 
 def static_reference(problem: StaticProblem) -> StaticReference:

@@ -23,7 +23,7 @@ from bearingcore.model.scene._scene import DOF_NAMES, WITH_MASS, Scene
 from bearingcore.units import STANDARD_GRAVITY
 
 SMALL_TILT = 0.2
-"""[rad] up to which a rotation of a ring counts as small: its sine is 0.7 % less, and what is left
+"""Rotation [rad] of a ring up to which it counts as small: its sine is 0.7 % less, and what is left
 out of the place of its groove's centres, r_d θ²/2, is 2 % of their radius."""
 
 HEALTHY_PATH = kernels.Path(np.zeros((0, len(kernels.PATH_COLUMNS))), np.zeros(0))

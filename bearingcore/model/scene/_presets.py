@@ -41,7 +41,7 @@ FAN_RIG_SUPPORT = Support(
 )
 
 WIDTH_7208 = 18e-3
-"""[m] of a 7208 by ISO 15: two of them side by side have their rows as far apart."""
+"""Width [m] of a 7208 by ISO 15: the rows of two of them side by side are as far apart."""
 
 ASSUMED = (
     "groove radii of 0.52 (inner) and 0.53 (outer) ball diameters, steel with 210 GPa and 0.3, "

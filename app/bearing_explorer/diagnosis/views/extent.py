@@ -27,7 +27,7 @@ HEIGHT = 236
 BANDS = 3
 """Mean passes that are drawn: of the best bands."""
 BEFORE = 0.14
-"""Of a ball pass that is drawn before the entry."""
+"""Share of a ball pass that is drawn before the entry."""
 
 FIELDS: list[FieldSpec] = [
     {
@@ -49,7 +49,7 @@ return narrow || row.shift < 0 ? short : long
 
 
 def layers() -> list[Layer]:
-    """From the lowest to the highest: edges, and mean passes of which the best is strong."""
+    """Return the layers from the lowest up: edges, and mean passes, of which the best is strong."""
     names = names_over(
         "extent_edges", EDGE_WORDS, "angle", "row", style.INK, ("exit",), x_offset="shift"
     )

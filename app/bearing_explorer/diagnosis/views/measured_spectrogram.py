@@ -22,10 +22,10 @@ from bearingcore.measured.signals import spectrogram
 Array = NDArray[np.float64]
 
 MOST_COLUMNS, MOST_ROWS = 220, 320
-"""Of the picture."""
+"""Largest size of the picture in points."""
 DEPTH_OF_VIEW = 50.0  # [dB]
 SEGMENTS = 60.0
-"""Of a spectrogram, one after the other."""
+"""Number of segments of a spectrogram, counted without their overlap."""
 SEGMENT_LENGTHS = (64, 8192)
 _SIDES = (Side("", "Time", "t", "s"), Side("", "Frequency", "f", "Hz"))
 _SAY = "return `${rounded(cell, 3)} dB`"

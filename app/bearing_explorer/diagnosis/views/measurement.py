@@ -32,7 +32,7 @@ DRAWN_PARTS = 700
 PASSES = 4.0
 """Ball passes of the close view."""
 CLOSE = 0.05
-"""[s] of the close view, where ball passes are not known."""
+"""Length [s] of the close view where ball passes are not known."""
 
 BALL_PASSES = f"{PASSES:.0f} ball passes"
 

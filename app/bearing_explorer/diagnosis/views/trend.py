@@ -48,7 +48,7 @@ NUMBER = style.AxisQuantity("File", "", "number")
 HOURS = style.AxisQuantity("Time since the first", "t", "h")
 DAYS = style.AxisQuantity("Time since the first", "t", "d")
 MOST_HOURS = 72.0
-"""From which on the time is in days."""
+"""Length of a trend above which its time is in days."""
 RMS = style.AxisQuantity("RMS", "", "")
 AMPLITUDE = style.AxisQuantity("Envelope", "", "")
 AXES = {

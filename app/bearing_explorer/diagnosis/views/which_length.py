@@ -47,9 +47,9 @@ from bearingcore.sizing import Candidate
 HEIGHT = 300
 ACCELERATION = style.AxisQuantity("Amplitude", "A", "m/s²")
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#AA3377")
-"""Of the candidates, the best first: there are four at most."""
+"""Colours of the candidates, the best first: there are four at most."""
 BAND_ROW = 0.075
-"""Of the frame's height, that a candidate's bands take at its top."""
+"""Share of the frame's height that a candidate's bands take at its top."""
 KNOWN = "scene"
 """The answer that the support of the machine is that of the scene."""
 

@@ -17,7 +17,7 @@ from bearing_explorer.kit.views.base import Ranges, Sources
 
 TICKS = [m * 10.0**e for e in range(1, 6) for m in (1, 3)]  # [Hz] of logarithmic axes
 FREQUENCY_WITH_UNITS = style.AxisQuantity("Frequency", "f", "")
-"""Of such an axis, whose numbers have their units."""
+"""Quantity of such an axis: its numbers have their units."""
 HEIGHT = 286  # [px]: the label of the axis is whole in large type too
 ROOM = 6.0  # [dB] above the loudest line
 

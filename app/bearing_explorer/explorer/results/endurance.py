@@ -33,7 +33,7 @@ ASSUMED_GROOVES = (
 )
 ESTIMATED = "Estimated: the inside of the bearing follows from its designation."
 ASSUMED_VISCOSITY = 0.02
-"""[Pa·s] assumed where no viscosity is given: a usual oil, warm."""
+"""Viscosity [Pa·s] that is assumed where none is given: a usual oil, warm."""
 
 
 @dataclass(frozen=True)
@@ -159,7 +159,7 @@ def assume_usual_grooves(scene: Scene) -> Scene | None:
 
 
 def _state_of_contacts(scene: Scene) -> Equilibrium | None:
-    """None of balls with mass: they press as they do at speed, which limits leave out."""
+    """State of the contacts; None for balls with mass, whose forces at speed limits leave out."""
     return None if scene.balls == WITH_MASS else state_of_limits(scene)
 
 

@@ -27,21 +27,21 @@ if TYPE_CHECKING:
     from bearingcore import Bearing, Equilibrium, Scene, Spectrum
 
 LEAST = 0.01
-"""Of a stiffness: less is no change."""
+"""Share of a stiffness: less is no change."""
 ALIKE = 0.01
-"""Of the greatest load: balls that carry as much within this carry the most together."""
+"""Share of the greatest load within which balls carry the most together."""
 NEAR = 0.65
 """Mean cos²φ of loaded balls from which they lie near an axis; all of one side have 0.5 to 0.6."""
 SEPARATE = 4.0
 """Lines of a spectrum between two peaks that stand apart; a Hann window widens each to four."""
 STANDS_OUT = 3.0
-"""[dB] over its surroundings, halfway to its neighbours, from which a peak is one."""
+"""Height [dB] of a peak over its surroundings, which lie halfway to its neighbours."""
 LOADED = 0.01
-"""Of the greatest load at rest from which a ball counts as loaded."""
+"""Share of the greatest load at rest from which a ball counts as loaded."""
 AT_AN_EDGE = 0.07
-"""Of an excerpt, a tenth of a ball pass: farther from an entry or exit a jolt is not its effect."""
+"""Share of an excerpt, a tenth of a ball pass: a jolt farther from an edge is not its effect."""
 KEPT = 0.25
-"""Of its greatest load: a ball that carries more throughout does not lose it."""
+"""Share of its greatest load: a ball that carries more throughout does not lose it."""
 LARGE_SWING = 1.25
 """Greatest load in motion over that at rest from which a swing is not small."""
 _ACROSS = {"x": "the horizontal", "y": "the vertical"}

@@ -242,7 +242,7 @@ class Results(SceneContent):
 
     @cached_property
     def bands(self) -> dict[str, tuple[float, float]]:
-        """Between which frequencies [Hz] each mode moves, over all positions of the bearing.
+        """Least and greatest frequency [Hz] of each mode over all positions of the bearing.
 
         Looked for between the angles too, and in all turns of the shaft: the same however finely
         curves are drawn. Coarser while a slider moves.

@@ -21,7 +21,7 @@ from bearingcore.fields import Field
 MOST_NUMBERS = 3
 """Numbers that are named one by one; more are said to be another bearing, or several at once."""
 WHOLE = 0.02
-"""Of a ball spacing: nearer to a whole number of them a change counts as one."""
+"""Share of a ball spacing: a change this close to whole spacings counts as whole."""
 
 
 def difference(now: Scene, before: Scene, focus: int = 0) -> str:

@@ -24,7 +24,7 @@ from bearingcore.common import decibels, percent
 from bearingcore.model.experiments import SPECTRUM, Alternative, Alternatives, alternatives
 
 LEAST_HEIGHT = 60
-"""[px] of the chart without a model."""
+"""Height [px] of the chart without a model."""
 _DOTS = ("error", "row", "slot", "marker", "words", "side", "right")
 GOOD_ENOUGH = {True: work_precision.ALLOWED["dB"], False: work_precision.ALLOWED["1"]}
 """Errors up to which a model will do: of spectra [dB], and of curves over their swing."""

@@ -107,7 +107,7 @@ _UNDER_A_ROW = {**_LINE, **_MIDDLE, "text_baseline": "top", "y_offset": 20}
 def drawing_layers(
     prefix: str, colors: LinearColorMapper, inks: LinearColorMapper
 ) -> list[layers.Layer]:
-    """From the lowest to the highest; `colors` of loads, and of the numbers on these colours."""
+    """Return the layers from the lowest up; `colors` map loads, `inks` the numbers on them."""
     load, number = ({"field": "load", "transform": mapper} for mapper in (colors, inks))
     end = layers.Glyph(
         Circle,
@@ -330,7 +330,7 @@ class BearingDrawing(ComparingView):
 
 
 def _inside_words(bearing: Bearing, balls: NDArray[np.int64]) -> str:
-    """Which balls, counted from 0, are in a defect, row by row."""
+    """Say which balls, counted from 0, are in a defect, row by row."""
     if balls.size == 0:
         return ""
     words = []
@@ -369,7 +369,7 @@ def roller_ends(scene: Scene, balls: dict[str, np.ndarray]) -> dict[str, np.ndar
 
 
 def row_words(scene: Scene, wide: float) -> dict[str, np.ndarray]:
-    """Which row is which and where on the shaft, below each; nothing of a single row."""
+    """Name and place on the shaft of each row, below it; empty for a single row."""
     rows = scene.bearing.rows
     number = np.arange(float(len(rows)))
     return {
@@ -601,7 +601,7 @@ class Shapes:
         return angle, self.rim + BAR_START + BAR_LENGTH * load / top
 
     def handles(self) -> dict[str, np.ndarray]:
-        """Where the defects and the arrow can be grabbed."""
+        """Points where the defects and the arrow can be grabbed."""
         race = {"outer": self.outer_race, "inner": self.inner_race}
         tip = min(self.arrow, ARROW_END)
         return handles(self.scene, self.spans, self.row, race, tip, self.bore, self.newtons)

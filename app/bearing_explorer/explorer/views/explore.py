@@ -90,7 +90,7 @@ class ExplorePlane(SceneJobView[explore.Plane]):
 
     @property
     def is_empty(self) -> bool:
-        """Before the first map, or where no point of it has an answer."""
+        """True before the first map, and where no point of it has an answer."""
         return self.job_result is None or self.job_result.missing == self.job_result.values.size
 
     # The form

@@ -49,7 +49,7 @@ LAYERS: tuple[layers.Layer, ...] = (
         look={"y_offset": -5, "text_align": "center", "text_baseline": "bottom"},
     ),
 )
-"""From the lowest to the highest."""
+"""Layers from the lowest to the highest."""
 
 
 class LoadDistribution(ComparingView):
@@ -195,7 +195,7 @@ def _one_line(curves: list[Curve]) -> dict[str, np.ndarray]:
 
 
 NAMES_APART = 40.0
-"""[degrees] between the names of two rows that carry their most at about one place."""
+"""Least gap [degrees] between the names of rows that carry their most at about one place."""
 
 
 def _names(curves: list[Curve]) -> dict[str, np.ndarray]:

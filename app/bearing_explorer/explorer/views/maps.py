@@ -47,7 +47,7 @@ MOST_LEVELS_NAMED = 14
 """Steps of the scale of loaded balls up to which each gets its number."""
 HEIGHT = 460
 NARROWEST = 700
-"""[px] width below which the maps have no room for their values at the cross."""
+"""Width [px] below which the maps have no room for their values at the cross."""
 
 _TO_TWO_SIGNS, _TO_ONE_SIGN = 0.03, 0.01
 """The smaller sign's part of the greater one above which a map has two signs, below which one."""
@@ -345,7 +345,7 @@ def _tick_rows(grid: dict[str, float], least: int, most: int) -> dict[str, np.nd
 
 
 def _round_numbers(first: float, last: float, parts: int) -> list[float]:
-    """From zero to about `parts` equal round steps further, within the ends [deg]."""
+    """Return about `parts` equal round steps from zero on, within the ends [deg]."""
     span = last - max(first, 0.0)
     steps = [s for s in (1, 2, 5, 10, 15, 20, 30, 45, 60, 90, 120, 180) if s * parts >= 0.85 * span]
     step = steps[0] if steps else span / parts

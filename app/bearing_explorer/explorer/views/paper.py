@@ -33,7 +33,7 @@ TAB_TITLES = {
 SIZED = presets["fan-rig"].replace(extent=math.radians(38.6))
 """The scene of Section 4, "Defect size estimation": entry and exit alone suggest 12.9°."""
 NOISE = "20"
-"""Of its simulated signal, by its name in `NOISES`."""
+"""Noise of its simulated signal, a name in `NOISES`."""
 
 
 class PaperFigures(View[Results]):

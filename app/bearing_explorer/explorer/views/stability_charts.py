@@ -1,4 +1,4 @@
-"""Where methods fail: growth of a disturbance over the shaft speed, amplitude over the steps."""
+"""Failures of methods: growth of a disturbance over shaft speed, amplitude over step length."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from bearingcore.model.experiments import DIVERGED, OrbitAtSpeed, StabilityChart
 HEIGHT = 340
 UNSTABLE = "#D55E00"
 LEAST = 1e-6
-"""What is less is drawn there, as the axis has no zero."""
+"""Least value that is drawn: smaller ones stand there too, as the axis has no zero."""
 STABLE_PAPER, STABLE_INK = "#E6F3EE", "#00704F"
 
 

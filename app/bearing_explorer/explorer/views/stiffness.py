@@ -29,9 +29,9 @@ from bearingcore.common import prefixed_span
 from bearingcore.model.statics import TERM_UNITS
 
 NARROWEST = 920
-"""[px] width from which a cell has room for its symbol and its value."""
+"""Width [px] from which a cell has room for its symbol and its value."""
 NARROWEST_WITH_UNITS = 800
-"""[px] width from which it has room for the unit alone, as on paper."""
+"""Width [px] from which a cell has room for the unit alone, as on paper."""
 LEFT = 0.31
 """Room for the numbers left of a cell."""
 

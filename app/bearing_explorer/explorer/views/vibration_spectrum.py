@@ -43,11 +43,11 @@ AXIS: FieldSpec = {
 """The switches above the figures."""
 
 NAMED_IN_FULL = 580.0
-"""[px] width of a frame from which the names of bands have room for their frequencies."""
+"""Width [px] of a frame from which the names of bands have room for their frequencies."""
 LOWEST = 100.0
-"""[Hz] on the logarithmic axis."""
+"""Lowest frequency [Hz] of the logarithmic axis."""
 WIDE_DEPTH = 90.0
-"""[dB] below the loudest line that are seen there."""
+"""Range [dB] below the loudest line that this axis shows."""
 _RESONANCE_WORDS = (
     "return `contact resonance ${si(row.low, 'Hz')}${row.above ? ', above this range' : ''}`"
 )

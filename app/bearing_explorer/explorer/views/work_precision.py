@@ -26,7 +26,7 @@ from bearingcore.common import decibels, percent, scientific
 from bearingcore.model.experiments import METHODS, Experiment, Point
 
 HEIGHT, TALL = 280, 360
-"""[px] of a chart, and of one that has a row for itself."""
+"""Height [px] of a chart, and of one that has a row for itself."""
 COLORS = (
     "#0072B2", "#D55E00", "#009E73", "#AA3377", "#665511", "#5544FF", style.INK, "#FF4466",
     "#661100",

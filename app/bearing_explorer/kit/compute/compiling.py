@@ -24,7 +24,7 @@ __all__ = ["BALLS_WITH_MASS", "MOTION", "ORBITS", "STATICS", "StillCompiling"]
 log = logging.getLogger(__name__)
 
 FIRST_PICTURE = 5.0
-"""For which compiling waits for a first picture [s]."""
+"""Time [s] that compiling waits for a first picture."""
 
 _WORDS = {
     STATICS: "loads and stiffness",

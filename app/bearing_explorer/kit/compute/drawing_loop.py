@@ -12,7 +12,7 @@ from bearing_explorer.kit.compute.executors import FINE, run_in_thread
 log = logging.getLogger(__name__)
 
 RESTS_AFTER = 0.3
-"""[s] without newer inputs after the last picture after which a slider counts as at rest."""
+"""Time [s] after the last picture after which a slider without newer inputs counts as at rest."""
 
 Inputs = TypeVar("Inputs")
 Fine = TypeVar("Fine")

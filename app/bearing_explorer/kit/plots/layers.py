@@ -346,7 +346,7 @@ def with_gaps(
 def least_and_greatest(
     values: NDArray[np.float64], parts: int
 ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-    """At most 2·`parts` numbers that draw the same line as the rows of `values` (n, k).
+    """Choose at most 2·`parts` numbers that draw the same line as the rows of `values` (n, k).
 
     Of each of `parts` stretches the least and the greatest number are kept, in the order in which
     they came, so that no peak is lost that a pixel would show. Returns the row numbers at which

@@ -42,7 +42,7 @@ DARK_COLORS = {
     "#5544FF": "#AA55EE",
     "#FF4466": "#EE4488",
 }
-"""By the light colour, as upper-case hex."""
+"""Dark colours by the light ones, as upper-case hex."""
 
 DARK_PALETTES = [
     (color_scales.LOADS, color_scales.DARK_LOADS),

@@ -220,7 +220,7 @@ def _is_made(descriptor: PropertyDescriptor, kind: type[HasProps]) -> bool:
 
 
 def _has_unstable_default(self: PropertyDescriptor, obj: HasProps) -> bool:
-    """Not while a model is made: the browser makes by itself what is not asked for."""
+    """Return False while a model is made: the browser makes the defaults that nobody asks for."""
     return obj._initialized is not False and _is_made(self, type(obj))
 
 

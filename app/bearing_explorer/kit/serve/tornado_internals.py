@@ -28,11 +28,11 @@ from bearing_explorer.kit.serve.log import log
 from bearing_explorer.kit.serve.pages import HasControls, Missing
 
 LARGEST_HEADERS = 64_000
-"""Of a request [bytes], its address among them."""
+"""Size [bytes] of the largest headers of a request, with its address."""
 LARGEST_BODY = 64_000
-"""Of a request [bytes]; only GET and HEAD are answered."""
+"""Size [bytes] of the largest body of a request; only GET and HEAD are answered."""
 SLOWEST_HEADERS = 8.0
-"""For which headers may be under way, and a connection may wait for its next request [s]."""
+"""Time [s] that headers may take, and that a connection may wait for its next request."""
 MOST_UNFINISHED = 60
 """Connections at once whose headers are under way; the oldest makes room for another."""
 HTTP_OPTIONS = {

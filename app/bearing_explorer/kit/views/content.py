@@ -39,7 +39,7 @@ class Content:
 
     @property
     def picture_key(self) -> object:
-        """While nothing can be drawn, the last picture stays, if it was of the same key."""
+        """Key of a picture: while nothing can be drawn, the last one of the same key stays."""
         return None
 
     def log_name(self) -> str:

@@ -185,7 +185,7 @@ class JobView(View[C], Generic[C, Result, E]):
 
     @property
     def is_empty(self) -> bool:
-        """Before a job has shown anything."""
+        """True before a job has shown anything."""
         return self.job_result is None
 
     def fields(self) -> list[FieldSpec]:

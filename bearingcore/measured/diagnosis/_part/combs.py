@@ -16,10 +16,10 @@ from bearingcore.measured.signals._line_levels import LineLevels
 
 HARMONICS = 6
 COUNTED = 5
-"""Of the harmonics: all but the loudest."""
+"""Number of harmonics that count: all but the loudest."""
 
 FAINTEST, LOUDEST = -3.0, 40.0
-"""[dB] to which a line's level is cut."""
+"""Least and greatest level [dB] of a line: others are cut to them."""
 
 _DRAWS = 40_000
 _TAIL = 0.005

@@ -30,10 +30,10 @@ KEPT_OF = 64
 """Samples of the finely sampled turns, of which as many are kept as the measured rate has."""
 
 USUAL = 5.0, 100.0
-"""[Hz] of a shaft whose tachometer is taken to give one pulse a turn where no speed is given."""
+"""Speeds [Hz] of a shaft between which a tachometer counts as giving one pulse a turn."""
 
 LEAST_CHANGE = 0.05
-"""Of an unmeasured speed that is said: resonances and the resolution of short spectra move the
+"""Least change of an unmeasured speed that is said: resonances and short spectra move the
 lines of a steady shaft by up to 0.03."""
 
 WINDOW, NEAR = 8.0, (0.7, 1.4)
@@ -41,15 +41,15 @@ WINDOW, NEAR = 8.0, (0.7, 1.4)
 they are looked for."""
 
 JUMP, FOLLOWED = 0.03, 0.9
-"""By how much a speed may be off the mean of its neighbours, and the share of the spectra in which
-it is not: lines of a shaft reach 0.95, those of noise 0.4, of single tones 0.8."""
+"""Fraction by which a speed may be off the mean of its neighbours, and share of the spectra where
+it must not be off: lines of a shaft reach 0.95, those of noise 0.4, of single tones 0.8."""
 
 FEWEST_PIECES, TOGETHER, LEAST_SHARED_CHANGE = 12, 0.75, 0.02
 """Pieces of a signal in which the shaft's lines are followed by their phase; the rank correlation
 of the speeds by three lines, which noise and single blows bring to 0.6; and a change so shown."""
 
 BESIDE = 0.02
-"""By how much a given speed may be outside those that were measured, as a fraction."""
+"""Fraction by which a given speed may lie outside those that were measured."""
 
 
 def resample_to_steady_speed(

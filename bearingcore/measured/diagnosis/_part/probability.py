@@ -21,8 +21,8 @@ SURE = 0.99
 """The greatest probability: a cause outside the model is always possible."""
 
 LEAD, LEAD_SCALE = 1.2, 1.0
-"""[dB] at which lines are there as probably as not, and in which the odds grow by e. Chance reaches
-the level that a lead counts from once in a thousand signals."""
+"""Lead [dB] at which lines are as probably there as not; scale [dB] on which the odds grow by e.
+A lead counts from the level that chance reaches once in a thousand signals."""
 
 
 DEVIATIONS, DEVIATIONS_SCALE = 2.8, 0.6

@@ -38,7 +38,7 @@ SURROUNDINGS = 2.0
 """Turns of the shaft a second over which a line's background is taken."""
 
 WANDER = 0.003
-"""By how much a cage's speed may wander while it is measured, as a fraction."""
+"""Fraction by which a cage's speed may wander while it is measured."""
 
 RARE = 1e-3
 """Probability with which noise reaches the level of noise anywhere."""

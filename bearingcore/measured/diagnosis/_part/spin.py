@@ -21,7 +21,7 @@ from bearingcore.measured.diagnosis._part.parts import BALL, INNER, OUTER, PartL
 from bearingcore.measured.diagnosis._part.search import Combs
 
 SPIN_HARMONICS = 3
-"""Of twice the spin frequency: the lines of higher ones are too broad."""
+"""Harmonics of twice the spin frequency: the lines of higher ones are too broad."""
 
 LAG, AHEAD = 0.06, 0.02
 """Shares by which a ball may spin slower and faster than it would by rolling alone."""
@@ -70,7 +70,7 @@ class Spin:
 
     @property
     def deviations(self) -> float:
-        """By how much a ball's lines stand out more than what else explains them.
+        """Return how far a ball's lines stand out above everything else that explains them.
 
         Sidebands of a race may be in a ball's window, but are no stronger than the race's own
         lines. Shaft sidebands where the cage's should be are those of another bearing's inner race.

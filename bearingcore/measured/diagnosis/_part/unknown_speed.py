@@ -27,7 +27,7 @@ NARROW = 1.3
 """A range of speeds whose ends differ by this factor at most is believed without shaft lines."""
 
 SHAFT_MARGIN = 6.0
-"""[dB] by which the shaft's lines at one speed must be above those at another."""
+"""Lead [dB] that the shaft's lines at one speed must have over those at another."""
 
 
 def diagnose_in_range(

@@ -14,15 +14,15 @@ from bearingcore.model.statics import TERM_SYMBOLS
 from bearingcore.model.sweeps import mode_symbol
 
 LEAST = 0.01
-"""Of a number: less is no change."""
+"""Share of a number: less is no change."""
 LEAST_TURN = math.radians(1.0)
-"""[rad] that the loads have to move on average to have moved."""
+"""Angle [rad] by which the loads have to move on average to count as moved."""
 LEAST_LOAD = 0.05
-"""Of the greatest load of a ball."""
+"""Share of the greatest load of a ball: less is no change."""
 LEAST_LEVEL = 2.0
-"""[dB] of the loudest line."""
+"""Change of the loudest line [dB]: less is no change."""
 ALMOST_NONE = 30.0
-"""[dB] below another level: next to it there is nothing."""
+"""Distance [dB] below another level at which next to nothing is left."""
 _SAME = 1e-7  # of a number: rounding
 _OF_STIFFNESS, _SHIFT = 0.75, 0.15  # of a logarithm: its root has 0.5, and masses may change too
 _SECOND = 1.5  # times the change of a stiffness that another one has to have to be named too

@@ -29,7 +29,7 @@ class Range:
     step
         of the slider.
     typed_least, typed_most
-        what may be typed; NaN: no more than the slider reaches.
+        least and greatest number that may be typed; NaN: no more than the slider reaches.
     """
 
     least: float
@@ -128,15 +128,15 @@ class Field:
     group
         heading that its slider stands under; empty where it has none.
     range
-        what it may be, or a function of a preset's scene.
+        possible numbers, or a function of a preset's scene that returns them.
     meaning
-        what it is, in a sentence.
+        meaning in a sentence.
     optional
         True if it may be left open: None in the scene.
     whole
         True if it is a whole number.
     sweep_range
-        where maps over it begin and end if that shows more than its whole slider.
+        ends of maps over it, if they show more than its whole slider.
     reverse_label
         name of the number with the other sign, where people read that: "Load, downwards".
     """

@@ -25,7 +25,7 @@ import math
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
-from bearingcore.bearings._hertz import in_series, race_contact
+from bearingcore.bearings._hertz import race_contact, series_factor
 from bearingcore.common import _checks as checks
 from bearingcore.fields import WIDEST_CONFORMITY
 
@@ -167,7 +167,7 @@ def derive(
     return Derived(
         groove_center_radius=pitch_radius + (inner_groove_radius - r_b) * math.cos(contact_angle),
         groove_center_distance=inner_groove_radius + outer_groove_radius - ball_diameter,
-        load_deflection_factor=in_series(*factors),
+        load_deflection_factor=series_factor(*factors),
         outer_raceway_radius=pitch_radius + r_b,
         inner_raceway_radius=pitch_radius - r_b,
     )

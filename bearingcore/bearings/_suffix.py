@@ -96,7 +96,7 @@ class Suffix(NamedTuple):
     inside
         column of `reinforced.csv`; empty: the plain inside.
     arrangement
-        of a pair; empty of a single bearing.
+        of a pair; empty for a single bearing.
     matched
         class of axial clearance of a pair, "CA" to "GC"; empty where none is said.
     axial_play

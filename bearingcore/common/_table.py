@@ -50,7 +50,7 @@ class Column:
         "" for words and counts, "1" for ratios.
     values : (n,)
     meaning
-        what it is, in a few words; may be empty.
+        meaning in a few words; may be empty.
     """
 
     name: str

@@ -195,7 +195,7 @@ def trend(
     Parameters
     ----------
     recordings
-        at least one.
+        recordings, at least one.
     bearing
         the measured bearing; None if it is unknown: no part is then named.
     shaft_speed

@@ -66,11 +66,11 @@ def noise_level(
     Parameters
     ----------
     scene
-        that is measured.
+        scene that is measured.
     signal : (n, d) [m/s²]
         what its housing does.
     columns
-        of a motion of the scene, that are measured.
+        columns of the scene's motion that are measured.
     noise_db
         signal over noise [dB].
     duration, sample_rate

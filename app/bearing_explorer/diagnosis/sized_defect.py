@@ -68,7 +68,7 @@ def machine_of(measured: Measured, scene: Scene, race: str, shaft_speed: float |
     scene
         with the load and the support of the machine; a simulated signal has its own.
     race
-        that is damaged; empty where nothing says it: that of the scene.
+        damaged race; empty where nothing says it, which means the race of the scene.
     shaft_speed
         [rad/s] that is given or that the diagnosis shows; None: that of the scene.
 

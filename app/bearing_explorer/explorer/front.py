@@ -12,7 +12,7 @@ from bearing_explorer.explorer.state.lessons import (
     Fault,
     Tabs,
     lessons_in,
-    own_lessons,
+    shipped_lessons,
 )
 from bearing_explorer.explorer.views.accuracy import Accuracy
 from bearing_explorer.explorer.views.alternatives import OtherModels
@@ -54,7 +54,7 @@ __all__ = [
     "figure_of",
     "help_texts",
     "lessons_in",
-    "own_lessons",
+    "shipped_lessons",
 ]
 
 SECTIONS = (

@@ -105,7 +105,7 @@ class Session:
     halves
         of the program, by the tabs of each; the page has the tabs in this order.
     tab
-        that is open at first; the first one where there is no such tab.
+        tab that is open at first; the first one where there is no such tab.
     """
 
     def __init__(self, halves: Mapping[Section, Half], tab: str = "") -> None:

@@ -210,13 +210,13 @@ def choose(
     columns
         of the table.
     moving
-        whether each holds a signal at all.
+        true for each column that holds a signal at all.
     why
         the directions of the columns are known.
     file_name
-        which may say which place it is about.
+        name of the file, which may name the place.
     place
-        that of the bearing, where it is known.
+        place of the bearing, where it is known.
     """
     signals = [
         index

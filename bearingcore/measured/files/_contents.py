@@ -82,7 +82,7 @@ class FileColumns:
     notes
         sentences on what was not read.
     given
-        what is said of columns by hand, by index; it goes before all guesses.
+        facts that a person gives of columns, by index; they go before all guesses.
 
     Raises
     ------
@@ -132,7 +132,7 @@ class FileContents:
     load
         [N]
     sampling
-        what the column of times says, where there is one.
+        sampling by the column of times, where there is one.
     said
         everything else that the file names, in its own words.
     frequencies
@@ -144,7 +144,7 @@ class FileContents:
     bearing
         that of the collection, by its name in the catalogue or its designation.
     designation
-        of the bearing, as a line of the file has it: it may be that of none.
+        designation of the bearing in a line of the file; such a bearing may not exist.
     recorded
         date and time of the recording.
     machine, point

@@ -103,7 +103,7 @@ def is_npz(content: bytes) -> bool:
 
 
 def names_in(content: bytes) -> list[str]:
-    """Return the names of the files in a zip; none of a damaged one."""
+    """Return the names of the files in a zip; none for a damaged zip."""
     try:
         with zipfile.ZipFile(io.BytesIO(content)) as packed:
             return packed.namelist()

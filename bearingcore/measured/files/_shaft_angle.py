@@ -41,7 +41,7 @@ def shaft_angle(values: Array, unit: str | None, sample_rate: float) -> Array | 
     Parameters
     ----------
     unit
-        of speeds; any other is that of a tachometer, of which each pulse counts as a turn.
+        unit of speeds; any other unit is that of a tachometer whose pulses count as turns.
     """
     if unit is None or unit not in SPEEDS:
         begins = pulse_begins(values)

@@ -122,7 +122,7 @@ times a second (0.3 mg) to a machine that comes apart (200 g)."""
 
 
 def unit_named(text: str) -> str | None:
-    """The unit that a text is, in this module's way of writing; None where it is none.
+    """The unit that a text names, as this module writes it; None if it names none.
 
     >>> unit_named("m/s^2"), unit_named("in/sec²"), unit_named("furlongs")
     ('m/s²', 'in/s²', None)

@@ -51,7 +51,7 @@ def followed(
     cut
         gives the coefficients (passes, N, d) of passes that are late by some lags (passes,).
     slip
-        by how much the ball-pass frequency may be off, as a fraction.
+        fraction by which the ball-pass frequency may be off.
     """
     steady = cut(np.zeros(n_passes))
     # a cage that hardly wanders is nearest to a steady one, another to its neighbours' delays

@@ -41,7 +41,7 @@ class BallComparison:
     Attributes
     ----------
     scene, budget [dB]
-        what was compared, and how much may be off.
+        compared scene, and the difference that is allowed.
     edges : (m + 1,) [Hz]
         of the third octaves that are compared.
     added : (m, d) [dB]

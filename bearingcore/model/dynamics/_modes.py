@@ -126,7 +126,7 @@ def frequency_bands(scene: Scene, *, coarse: bool = False) -> dict[str, tuple[fl
     Parameters
     ----------
     scene
-        as of `modes`.
+        scene, as in `modes`.
     coarse
         True for a third of the cage angles and half the refinements.
 

@@ -19,7 +19,7 @@ from bearingcore.model.experiments._points import (
     Point,
     Watch,
     least_time,
-    measured_in_turn,
+    measure_in_turn,
 )
 from bearingcore.model.experiments._references import (
     MOTION_ERRORS,
@@ -93,7 +93,7 @@ def motion_experiment(
     Parameters
     ----------
     scene
-        what moves; the active directions are the scene's.
+        scene that moves, along its own directions.
     duration
         [s] of motion.
     methods
@@ -131,7 +131,7 @@ def motion_experiment(
         if HAS_CVODE
         else f"{MOTIONS_LEFT_OUT}; CVODE, as scikit-sundae is not installed",
     )
-    return measured_in_turn(
+    return measure_in_turn(
         experiment,
         tasks,
         lambda task: f"{task[0].name}, {scientific(task[1])}",

@@ -57,7 +57,7 @@ class Alternative:
     Attributes
     ----------
     name
-        what is different, such as "directions x y".
+        difference from the scene, such as "directions x y".
     quantity
         SPECTRUM, CURVES or DISPLACEMENT: what the error is of.
     error
@@ -67,7 +67,7 @@ class Alternative:
     seconds, own_seconds
         [s] of computing it, and the same of the scene's own model.
     note
-        what else there is to know, or why there is no error.
+        further remark, or the reason why there is no error.
     """
 
     name: str

@@ -66,7 +66,7 @@ class StabilityChart:
     highest_frequency
         [Hz] of the stiffest static state.
     trials
-        what was found.
+        trials at each speed.
     completed
         False where it was cancelled.
     """
@@ -157,7 +157,7 @@ def stability_chart(
     Parameters
     ----------
     scene
-        what moves.
+        scene that moves.
     duration
         [s] of motion.
     watch

@@ -51,7 +51,7 @@ class PackedScene:
     Attributes
     ----------
     scene, dofs
-        what was packed, and the free directions.
+        scene that was packed, and the free directions.
     contacts, path, load
         all contacts, the way of the balls over all defects, load and free directions.
     inner_path

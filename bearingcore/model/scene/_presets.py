@@ -391,7 +391,7 @@ class _Scenes(Mapping[str, Scene]):
     def __getitem__(self, name: str) -> Scene:
         if name not in _PRESETS:
             known = ", ".join(_PRESETS)
-            raise UnknownPresetError(f"there is no preset {name!r}; there are {known}")
+            raise UnknownPresetError(f"there is no preset {name!r}; possible: {known}")
         if name not in self._made:
             self._made[name] = _PRESETS[name].make()
         return self._made[name]

@@ -328,7 +328,7 @@ def extremes(
         gives the quantities (q, k) at cage and shaft angles (k,): around each extreme of the grid
         they are looked at ever closer.
     rounds
-        how often closer: by PARTS times each.
+        number of rounds; each looks PARTS times closer.
     """
     r, n, q = places.rows.size, places.columns.size, len(values)
     whole = values.reshape(q, places.weights.size // n, n)[:, places.alike].reshape(q, r * n)

@@ -36,7 +36,7 @@ _NOTICED = 1e-6
 
 
 def thrust_limits(scene: Scene, state: Equilibrium) -> Iterator[Limit]:
-    """Limits on thrust; none of a bearing whose rows all carry it both ways, or not at all."""
+    """Limits on thrust; none for a bearing whose rows all carry it both ways, or not at all."""
     if any(_one_way(scene.bearing)):
         yield _wrong_way(scene, state)
         if (induced := induced_thrust(scene)) > 0.0:

@@ -84,12 +84,12 @@ class Output:
     Attributes
     ----------
     unit, meaning
-        for people; the unit is "1" where there is none.
+        unit and meaning for people; the unit is "1" where there is none.
     group, label
         for lists and axes: the heading that it stands under, and a few words. With a number for
         each mode, "{}" stands for the mode in the label.
     needs
-        which computation: "statics", "pressure", "life", "modes", "motion", "orbit", "mass" or
+        computation it needs: "statics", "pressure", "life", "modes", "motion", "orbit", "mass" or
         "record".
     dof
         the direction that must be free for it; empty where none.

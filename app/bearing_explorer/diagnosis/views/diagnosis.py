@@ -126,7 +126,7 @@ class PartDiagnosis(MeasuredView):
         if measured is None:
             return
         if "speed" in choices:  # as lines of Python said it once
-            machine = measured.machine.knowing(choices["speed"])
+            machine = measured.machine.replace_speed(choices["speed"])
             measurement.measured = dataclasses.replace(measured, machine=machine)
         question = measurement.question()
         if question is not None:

@@ -76,7 +76,7 @@ def plain(answer: Diagnosis, question: Question) -> str:
 
 
 def counted(question: Question) -> str:
-    """Sentence on an estimated number of balls or rollers; empty of a given one."""
+    """Sentence on an estimated number of balls or rollers; empty for a given one."""
     bearing = question.bearing
     return COUNTED.format(bearing.kind.elements) if "n_balls" in bearing.estimated else ""
 

@@ -139,7 +139,7 @@ class TrendOfFiles(JobView[Model, FoundTrend, Editor], MeasuredView):
 
             try:
                 done = trend(
-                    gathered.recordings, machine.bearing, machine.range, direction=direction,
+                    gathered.recordings, machine.bearing, machine.speed_range, direction=direction,
                     band=band, goes_on=goes_on,
                 )  # fmt: skip
             except FieldError as error:
@@ -357,7 +357,7 @@ def python_lines(newest: FoundTrend, model: Model) -> str:
     scene, shown = newest.measured.scene(model.scene), newest.trend
     machine, lines = newest.measured.machine, []
     bearing = "None" if machine.bearing is None else "scene.bearing"
-    speed = "None" if machine.range is None else code_of(machine.range)
+    speed = "None" if machine.speed_range is None else code_of(machine.speed_range)
     read = newest.recordings
     for recording, origin in zip(read.recordings, read.origins, strict=True):
         turning = "None" if recording.shaft_speed is None else short(recording.shaft_speed)

@@ -52,7 +52,7 @@ class Field:
     x, y
         the quantities of the sides, and evenly spaced values in their units, (nx,) and (ny,).
     words, unit
-        of the numbers.
+        words for the numbers, and their unit.
     values : (ny, nx)
         NaN where there is no answer.
     reasons : (ny, nx)

@@ -28,7 +28,7 @@ class SpectrumFigures:
     Parameters
     ----------
     name
-        of the sources and ranges; "lines" are the spectra of the scene, "grey" the grey ones.
+        prefix of sources and ranges: "lines" for the spectra of the scene, "grey" for the others.
     layers
         of the figure along a direction.
     frequencies

@@ -65,7 +65,7 @@ class BallMass:
     Attributes
     ----------
     scene, sample_rate [Hz]
-        what moves.
+        scene that moves; sample rate of its motions.
     broke_off
         why one of the motions ended early; empty if none did.
     time : (n,) [s]

@@ -78,13 +78,13 @@ class Results(SceneContent):
     cage_angle
         [rad] shown.
     settings
-        how finely it is computed.
+        fineness of the computation.
     focus
         number of the defect that is looked at.
     moving
-        whether a slider moves: be quick.
+        whether a slider moves, so that a quick answer is wanted.
     held
-        whether a hand still holds what it moves: scales that it measures by stay.
+        whether a hand still holds a slider or handle: the scales that it measures by stay.
     compared
         scenes that are drawn too, each under a name.
     before

@@ -51,7 +51,7 @@ class Choice:
         "scene" or "defect" where it is the value of a field of that, "scene" also where it is one
         of the bearing, the load or the support; else the editor of the scene knows what it does.
     field
-        that field.
+        the field that it is about.
     all_alike
         all defects have it alike.
     in_lessons

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from bearing_explorer.explorer.plots import matrix_cells
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.field_values import CAGE_ANGLE
-from bearing_explorer.explorer.state.references import massless
+from bearing_explorer.explorer.state.references import massless_reference
 from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.plots import color_scales, style
 from bearing_explorer.kit.plots.element_words import elements
@@ -145,7 +145,7 @@ class StiffnessMaps(View):
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         """Points as whole numbers, their scales, and where the sliders stand."""
-        maps, now = results.maps, results.against(massless(results.scene)).now
+        maps, now = results.maps, results.against(massless_reference(results.scene)).now
         sizes = matrix_cells.term_sizes(maps.term)
         cells: list[tuple[float, ...]] = []
         points = [np.empty(0, np.uint16)]
@@ -218,7 +218,7 @@ class StiffnessMaps(View):
             words = f"Fewest {names} carry load {where}: {least:.1f} of {n_balls} on average"
             if at and np.isfinite(mean[0]):
                 words += f", against {mean[0]:.1f} without the defect"
-        now = results.against(massless(results.scene)).now
+        now = results.against(massless_reference(results.scene)).now
         if now.converged[0]:
             place = f"{in_degrees(results.extent)}, {in_degrees(results.cage_angle)}"
             stiff = with_prefix(float(now.term("k_yy")[0]), "N/m")

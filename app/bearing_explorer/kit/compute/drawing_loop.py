@@ -34,7 +34,7 @@ class DrawingLoop(Generic[Inputs, Fine]):
     draw_fine
         draws such a picture, on the event loop.
     failed
-        is called where one of them raises an exception.
+        function that is called where one of them raises an exception.
     """
 
     def __init__(

@@ -212,7 +212,7 @@ class Words:
         "x" or "y": words that the frame would cut off along that side once it is zoomed are left
         out, and the code knows whether the frame is `narrow`, as below `style.NARROW`.
     share
-        of each text that is right of its place: what goes too far over the right edge is left out.
+        share of a text right of its place: a text that crosses the right edge is left out.
     """
 
     source: str

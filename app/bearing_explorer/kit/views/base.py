@@ -61,7 +61,7 @@ class Caption(LiveComponent):
     rest = param.String()
     #: files are called bearing- and this
     name_of_files = param.String()
-    #: of what its numbers are, for names of files and beneath pictures; empty of the scene
+    #: subject of its numbers, for names of files and beneath pictures; empty for the scene
     subject = param.String()
     #: whether the view draws an SVG of the class "picture" by itself
     picture = param.Boolean(default=False)

@@ -66,9 +66,9 @@ class JobForm(pn.Column):
     cancel
         called to end the job.
     words
-        of the button that starts it.
+        words of the button that starts it.
     fields
-        of the form.
+        fields of the form.
     at_once
         whether a changed field starts the job, without the button.
     """

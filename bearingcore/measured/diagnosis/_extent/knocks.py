@@ -203,9 +203,9 @@ class Knocks:
     frequency
         ball passes a second [Hz].
     n_passes
-        how many were averaged.
+        number of averaged passes.
     status
-        what the bands show together.
+        verdict of all bands together.
     separation, deviation
         from entry to exit as a share of a ball pass, the shorter way round, and its standard
         deviation; NaN where there are no two knocks.
@@ -349,7 +349,7 @@ def judged(passes: Sequence[MeanPass], frequency: float, n_passes: int) -> Knock
     frequency
         ball passes a second [Hz].
     n_passes
-        how many were averaged.
+        number of averaged passes.
     """
     passes = tuple(sorted(passes, key=lambda mean_pass: -mean_pass.contrast))
     if not passes or passes[0].contrast < LEAST_CONTRAST:

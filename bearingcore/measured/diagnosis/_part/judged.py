@@ -131,7 +131,7 @@ class Judged:
     detectable
         the least swing of the envelope, as a share of its mean, that would have been seen.
     resolutions
-        what it rests on.
+        resolutions that the evidence rests on.
     """
 
     shaft: float

@@ -68,7 +68,7 @@ def resample_to_steady_speed(
         pulses a turn, its mean speed is that of the angle; else a given speed is the mean one, as
         of a shaft behind a gear.
     source
-        where the given speed is from.
+        source of the given speed.
     """
     if recording.shaft_angle is None:
         return recording, low, high, source

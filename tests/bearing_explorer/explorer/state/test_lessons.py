@@ -22,9 +22,9 @@ from bearing_explorer.explorer.state.lessons import (
     LessonError,
     Part,
     lessons_in,
-    own_folder,
-    own_lessons,
     read_lesson,
+    shipped_folder,
+    shipped_lessons,
 )
 from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.page import SECTIONS, TABS
@@ -52,7 +52,7 @@ from tests.helpers.sessions import SceneSession
 
 FILES = [
     path
-    for path in sorted(own_folder().glob("*.md"))
+    for path in sorted(shipped_folder().glob("*.md"))
     if "diagnosis" in dict(TABS)
     or not re.search("diagnosis|simulate:", path.read_text(encoding="utf-8"))
 ]
@@ -567,7 +567,7 @@ def test_scenes_of_lessons_lie_inside_the_limits_or_the_lesson_says_so(path: Pat
 
 
 def test_words_asked_for_again_leave_the_scene_alone() -> None:
-    explorer = SceneSession(SECTIONS, lessons=lessons_in(own_folder(), TABS))
+    explorer = SceneSession(SECTIONS, lessons=lessons_in(shipped_folder(), TABS))
     explorer.draw = lambda: None  # type: ignore[method-assign]
     explorer.change_scene({"mark": 1, "typed": {"fy_n": -77.0}})
     before = explorer.scene
@@ -585,7 +585,7 @@ def test_words_asked_for_again_leave_the_scene_alone() -> None:
 
 
 def test_the_lessons_that_come_along_are_in_order() -> None:
-    lessons = own_lessons(TABS)
+    lessons = shipped_lessons(TABS)
     assert len(lessons) == len(FILES), "one has a fault"
     assert 8 <= len(lessons) <= 16
     for lesson in lessons:
@@ -658,10 +658,10 @@ def test_a_lesson_sets_a_scene_and_its_buttons_change_it() -> None:
             'tab = "load"',
             'tab = "load"\ntap = "load"',
             4,
-            "“tap” is no entry here; there are title",
+            "“tap” is not an entry here; possible: title",
         ),
         ("right = 2", 'right = "2"', 15, "right cannot be read: Expected `float`, got `str`"),
-        ('"load"', '"lode"', 3, "“lode” is not a tab; there are overview, load"),
+        ('"load"', '"lode"', 3, "“lode” is not a tab; possible: overview, load"),
         ('["fy_n"]', '"fy_n"', 5, "Expected `array`, got `str`"),
         ('["fy_n"]', '["fy"]', 5, "“fy” is not a control of the page"),
         ('watch = ["bearing"]', 'term = "kyy"', 6, "“kyy” is not a term"),
@@ -671,7 +671,7 @@ def test_a_lesson_sets_a_scene_and_its_buttons_change_it() -> None:
             9,
             "640° is out of range: length of the defect goes from 0",
         ),
-        ("extent_deg = 64", "extent = 64", 9, "“extent” is no number or choice of the page; was"),
+        ("extent_deg = 64", "extent = 64", 9, "“extent” is not a number or choice of the page"),
         ("## Question", "Question", 17, "parts begin with"),
         ("## Answer", "Answer", 17, "two parts at least"),
         ('choose = ["this", "that"]', 'choose = ["this"]', 14, "length >= 2"),
@@ -681,9 +681,9 @@ def test_a_lesson_sets_a_scene_and_its_buttons_change_it() -> None:
         ("set:extent_deg=62", "set:extent_deg=6200", 18, "6200° is out of range"),
         ("show:maps", "show:map", 18, "“map” is not a tab"),
         ("show:maps", "ftp://a/b", 18, "links go to set:, show:, simulate: or https:"),
-        ("show:maps", "simulate:noise=5", 18, "noise is “5”; there are 40, 20, 10, none"),
+        ("show:maps", "simulate:noise=5", 18, "noise is “5”; possible: 40, 20, 10, none"),
         ("3/2}", "3/2", 20, "its braces do not match"),
-        ("So $x", "So\n$\\href{https://a}{x}$ $x", 23, "holds what a formula may not"),
+        ("So $x", "So\n$\\href{https://a}{x}$ $x", 23, "has an element not allowed"),
     ],
 )
 def test_what_is_wrong_with_a_file_is_said_with_its_line(

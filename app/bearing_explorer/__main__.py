@@ -22,8 +22,8 @@ for _library in ("OPENBLAS", "MKL", "OMP"):
 from bearing_explorer.kit.serve.log import LEVELS, begin  # noqa: E402
 
 NOT_KEPT = (
-    "Compiled kernels are kept nowhere, as neither the program's folder nor the home can be "
-    "written: each start compiles. NUMBA_CACHE_DIR may name a folder that can."
+    "Compiled kernels cannot be kept, because neither the program's folder nor the home can be "
+    "written: each start compiles them again. Set NUMBA_CACHE_DIR to a folder that can be written."
 )
 
 
@@ -94,7 +94,7 @@ def options(arguments: Sequence[str] | None = None) -> argparse.Namespace:
         type=_number(1, 99_999),
         default=60,
         metavar="N",
-        help="after which a page that is not used is closed (60)",
+        help="minutes after which an unused page is closed (60)",
     )
     parser.add_argument(
         "--log-level",

@@ -78,6 +78,7 @@ class Visitor:
         """Wait until a tab is open, or "Tab: Part"."""
         tab, _, part = place.partition(": ")
         expect(self.page.get_by_role("tab", name=tab, exact=True, selected=True)).to_be_visible()
+        expect(self.main).not_to_have_attribute("aria-busy", "true")  # its cards are drawn
         if part:
             parts = self.views.get_by_role("group", name=tab, exact=True)
             expect(parts.get_by_role("button", pressed=True)).to_have_text(part)

@@ -270,7 +270,7 @@ def reasons(table: Table) -> dict[str, str]:
     texts = {"columns": choice.reason} if choice.reason else {}
     texts["unit"] = _because(contents.unit) if contents.unit.taken else "The file does not say it."
     if _unit(table) == AS_HEADED:
-        texts["unit"] = "By the heading of each column, or as given over it."
+        texts["unit"] = "From the heading of each column, or from the list above it."
     if not table.full_scale_known:
         texts["full_scale"] = "Full scale of the recorder, in the unit."
     sensor = contents.sensitivity
@@ -459,7 +459,7 @@ def read_form(
             sensitivity=sensitivity,
         )
     except ValueError as error:
-        raise FormError({"columns": f"These columns are no signal: {_said_by(error)}."}) from None
+        raise FormError({"columns": f"These columns are not signals: {_said_by(error)}."}) from None
     contents = table.contents
     places = sorted({contents.columns[i].place for i in columns} - {""})
     point = "" if contents.point is None else contents.point.value

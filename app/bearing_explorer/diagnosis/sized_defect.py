@@ -17,8 +17,8 @@ BY_FREQUENCIES = (
 )
 WITHOUT_UNIT = "The unit of the signal is not known: say it in step 1."
 WITHOUT_DEFECT = (
-    "The scene has no defect: give it one on the outer race, of which place, depth and edges are "
-    "taken."
+    "The scene has no defect: give it one on the outer race, because its place, depth and edges "
+    "are needed."
 )
 CLEARLY = 1.5
 """Times the misfit of the best length that an unlikelier one has."""

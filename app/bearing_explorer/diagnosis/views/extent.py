@@ -67,12 +67,12 @@ class SpallExtent(LookView, MeasuredView):
     name = "extent"
     title = "3  How long"
     about = (
-        "Length of a spall, from entry to exit. Drawn is the mean envelope of a ball pass. A "
-        "ball that enters a spall and one that leaves it each give a peak; their distance and the "
-        "angle over which a ball carries nothing yet, or no longer, are the extent. Strong: the "
-        "frequency band that shows both best. Faint: other bands. A ball that enters is released "
-        "gradually, which shows at low frequency; one that leaves strikes the edge, which shows "
-        "at high frequency. The card below simulates the lengths that remain."
+        "Length of a spall, from entry to exit. Drawn is the mean envelope of a ball pass. A ball "
+        "that enters a spall and one that leaves it each give a peak. The distance of the peaks "
+        "and the angle at the edges over which the ball carries nothing make the extent. Strong: "
+        "the frequency band that shows both best. Faint: other bands. A ball that enters is "
+        "released gradually, which shows at low frequency; one that leaves strikes the edge, which "
+        "shows at high frequency. The card below simulates the lengths that remain."
     )
     finds_speed = True
     computes = True

@@ -209,8 +209,8 @@ def highest_line(
     near = [line for line in near if fault and _TITLES[fault] in line[3]] or near
     if not near:
         return (
-            f"{words} is at none of the bearing's frequencies: another part of the machine, or "
-            "bearing or shaft speed are others."
+            f"{words} is at none of the bearing's frequencies: it comes from another part of the "
+            "machine, or the bearing or the shaft speed is not the given one."
         )
     same = [line[3] for line in near if abs(line[1] - near[0][1]) < shown.resolution]
     if len(same) > 1:
@@ -221,7 +221,7 @@ def highest_line(
     if abs(at - line) > 1.5 * shown.resolution:
         off = 100.0 * (at / line - 1.0)
         side = "above" if off > 0.0 else "below"
-        words += f", {style.number(abs(off), 2)} % {side} what the geometry says"
+        words += f", {style.number(abs(off), 2)} % {side} the frequency by the geometry"
     return f"{words}."
 
 

@@ -37,9 +37,8 @@ class MeasuredSpectrogram(MeasuredView):
     name = "measured-spectrogram"
     title = "Spectrogram"
     about = (
-        "Spectra over time. Lines that stay level are of a steady speed, as the diagnosis takes "
-        "it; lines that slope together follow a speed that changes, and `order_map` in Python "
-        "counts in turns of the shaft instead."
+        "Spectra over time. Level lines belong to a steady speed. Lines that slope together follow "
+        "a changing speed; `order_map` in Python draws them over turns of the shaft instead."
     )
 
     def build(self, packed: PackedSource) -> Any:

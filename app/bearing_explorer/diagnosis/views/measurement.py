@@ -43,8 +43,8 @@ class MeasuredSignal(MeasuredView):
     name = "measurement"
     title = "1  Your measurement"
     about = (
-        "The vibration a sensor on the housing measures. Nothing of the scene counts for it unless "
-        "you say so: which bearing it was, and how fast the shaft turned, is asked with the answer."
+        "The vibration a sensor on the housing measures. The bearing and the speed of the scene "
+        "count only if you choose them; the questions stand with the answer."
     )
     waits = False
 

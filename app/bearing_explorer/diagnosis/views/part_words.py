@@ -135,7 +135,7 @@ def assumed(question: Question) -> str:
         if listed := [one for name, one in names.items() if name in assumed]:
             words += f" {why}: {style.list_words(listed)}."
     if machine.unread:
-        words += f" “{machine.unread}” in the designation is not known here, and is passed over."
+        words += f" “{machine.unread}” in the designation is not known here and was ignored."
     return words
 
 

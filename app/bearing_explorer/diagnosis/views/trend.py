@@ -90,8 +90,8 @@ class TrendOfFiles(JobView[Model, FoundTrend, Editor], MeasuredView):
         "Several files of one machine, or a folder of them. They are chosen in step 1, in their "
         "order. Dashed: the first file. Bars: intervals of 95 %, without a dot an upper bound. The "
         "last file is the one that the rest of this tab shows. Lines of the parts are drawn where "
-        "they are more than noise, all in the band of the last file; one there need not be the "
-        "bearing's. An extent is there where a damaged race is named."
+        "they are more than noise, all in the band of the last file; such a line need not come "
+        "from the bearing. There is an extent where a damaged race is named."
     )
     finds_speed = True
     start = "Compute the trend"

@@ -27,7 +27,7 @@ from bearingcore.model.scene import WITH_MASS
 from bearingcore.model.statics import GIVEN, NO_DRAWING, OF_A_CATALOGUE, state_of_limits, unknown
 
 ASSUMED_GROOVES = (
-    f"Assumed, as the groove radii are not known: {USUAL_GROOVES['inner']} (inner) and "
+    f"The groove radii are not known. Assumed: {USUAL_GROOVES['inner']} (inner) and "
     f"{USUAL_GROOVES['outer']} (outer) ball diameters, as usual; no limit is judged by them. "
     "Enter yours on the Machine tab, under Bearing."
 )

@@ -424,8 +424,8 @@ def passes(
     if not rate > 0.0:
         return ""
     why = (
-        " No defect: a healthy bearing also shakes as its balls pass, because as they change "
-        "places the stiffness under the load changes."
+        " No defect: a healthy bearing also shakes as its balls pass, because the stiffness under "
+        "the load changes with their places."
         if healthy
         else ""
     )
@@ -446,7 +446,7 @@ def passes(
         text = f"No peak stands out at the ball-pass frequency, {hertz}: "
         if not rate < lowest_mode:
             return f"{text}there the level is {below}."
-        return f"{text}so slow a force moves the housing little, {below}."
+        return f"{text}such a slow force moves the housing little, {below}."
     most = float(frequency[int(np.argmax(level))])
     if abs(most - max(round(most / rate), 1) * rate) <= 0.51 * spacing:
         return f"Peaks stand {hertz} apart, the ball-pass frequency.{why}"

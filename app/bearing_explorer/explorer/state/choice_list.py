@@ -281,7 +281,7 @@ MATERIAL = Choice(
             "silicon nitride",
             "Silicon nitride (hybrid bearing)",
             "Ceramic balls in steel rings: stiffer contacts, and balls of less than half the mass. "
-            "The load rating of steel balls is not theirs.",
+            "The load rating of steel balls does not apply to them.",
         ),
     ),
     first=True,

@@ -65,7 +65,7 @@ class ExplorePlane(SceneJobView[explore.Plane]):
     name = "explore"
     title = "Map of an output over two quantities"
     about = (
-        "Any output over any two quantities. The sliders set all else. Hatched: no answer. "
+        "Any output over any two quantities. The sliders set everything else. Hatched: no answer. "
         "Ring: this scene. Point at the map to move the curves, click to go there."
     )
     start = "Compute the map"

@@ -42,9 +42,9 @@ class PaperFigures(View[Results]):
     name = "paper"
     title = "Figures of the paper"
     about = (
-        "Figures 3 to 10 of the paper, computed anew. Petersen, Howard and Prime (2014). The "
-        "scene stays as it is until a figure or Section 4 is opened, which simulates the signal "
-        "of a spall and finds its length on the Diagnosis tab."
+        "Figures 3 to 10 of the paper, computed anew. Petersen, Howard and Prime (2014). The scene "
+        "stays as it is until you open a figure or Section 4. Section 4 simulates the signal of a "
+        "spall and finds its length on the Diagnosis tab."
     )
     computes = True
 

@@ -204,7 +204,7 @@ def orbits_sentence(orbits: tuple[OrbitAtSpeed, ...]) -> str:
     changed = [b for a, b in pairwise(known) if a.loss != b.loss]
     changes = [f"{one.loss or 'stable again'} from {speed_words(one)}" for one in changed]
     first = f"{'Unstable' if known[0].loss else 'Stable'} at {speed_words(known[0])}"
-    words = ", ".join([first, *(changes or [f"and so to {speed_words(known[-1])}"])])
+    words = ", ".join([first, *(changes or [f"and up to {speed_words(known[-1])}"])])
     missing = len(orbits) - len(known)
     rest = f" No orbit was found at {missing} of {len(orbits)} speeds." if missing else ""
     return f"{words}.{rest}"

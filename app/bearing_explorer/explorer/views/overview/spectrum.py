@@ -86,7 +86,7 @@ class OverviewSpectrum(ComparingView):
     title = "Vibration"
     about = (
         "Spectrum of the housing's acceleration, blue x, orange y. Power spectral density in dB "
-        "re 1 (m/s²)²/Hz once the start is forgotten. Grey: {grey}. Shaded: the bands "
+        "re 1 (m/s²)²/Hz once the start has died away. Grey: {grey}. Shaded: the bands "
         "of the natural frequencies."
     )
     needs = vibration_spectrum.VibrationSpectra.needs | {"bands"}

@@ -214,8 +214,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         compiling.wait(READ_FROM_DISK if compiled else 0.0)
     server.start()
     _say(f"Ready after {time.perf_counter() - started:.1f} s: {url} (Ctrl+C ends)")
-    holoviews = "bearing_explorer.explorer.plots.plane"
-    loop.call_later(LOADS_HOLOVIEWS, loop.run_in_executor, None, import_module, holoviews)
+    if scene is not None:
+        holoviews = "bearing_explorer.explorer.plots.plane"
+        loop.call_later(LOADS_HOLOVIEWS, loop.run_in_executor, None, import_module, holoviews)
     if not chosen.no_browser:
         loop.add_callback(lambda: server.show("/"))
     try:

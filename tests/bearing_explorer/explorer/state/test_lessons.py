@@ -339,7 +339,7 @@ CLAIMS: dict[str, Callable[[], list[tuple[str, tuple[float, ...]]]]] = {
         ("at 64° they carry 523, 23 and 523 N",
          (64, *equilibrium(liew_lim(64.0), [0.0]).ball_load[0, IN_DEFECT])),
         ("Eq. 6 as published", (6,)),
-        ("a factor of 0.25 under the root", (0.25,)),
+        ("the factor 0.25 under the root", (0.25,)),
         ("= 2.4° and = 1.1°, and the fewest balls are at 63.5°",
          (*edges_freed("published"), fewest("published")[0])),
         ("they are 1.2° and 0.6°, and the extent is 61.75°",
@@ -417,7 +417,7 @@ CLAIMS: dict[str, Callable[[], list[tuple[str, tuple[float, ...]]]]] = {
         ("Under 50 N the same ball flies, and strikes: there mass adds 87 %",
          (50, mass_shares(LIGHT_PIT, 16e3)[0])),
         ("that is 20 to 29 kHz", tuple(1e-3 * f for f in contact_resonance_band(FAN))),
-        ("a ball of 2.1 g moves a housing of 2 kg little",
+        ("a ball of 2.1 g hardly moves a housing of 2 kg",
          (1e3 * FAN.bearing.ball_mass, FAN.support.outer_mass)),
     ],
     "12": lambda: [

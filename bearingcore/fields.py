@@ -51,7 +51,7 @@ class Range:
         return self.least <= value <= self.most or math.isnan(value)
 
     def around(self, value: float) -> Range:
-        """The same, with a slider that reaches `value`: to the end or a round number past it."""
+        """Extend the slider so that it reaches `value`: to the end or a round number past it."""
         if self.holds(value):
             return self
         low, high = self.allowed

@@ -98,8 +98,8 @@ def roller_contact(
 def profile_drop(place: ArrayLike, diameter: float, length: float) -> Array:
     """P [m] of a cylindrical roller at places [m] from its middle: Eqs. (42), (43) of ISO 16281.
 
-    Its reference profile: 0.00035 D ln(1/(1 − (2x/l)²)), and of rollers longer than 2.5 D straight
-    but for 1.25 D at each end, there with 0.0005 D.
+    Its reference profile is 0.00035 D ln(1/(1 − (2x/l)²)). A roller longer than 2.5 D is straight
+    except for 1.25 D at each end, which has 0.0005 D instead.
     """
     rounded = min(length, LONG_ROLLER * diameter)
     part = np.maximum(2.0 * np.abs(np.asarray(place)) - (length - rounded), 0.0) / rounded
@@ -108,7 +108,7 @@ def profile_drop(place: ArrayLike, diameter: float, length: float) -> Array:
 
 
 def tapered_profile_drop(place: ArrayLike, diameter: float, length: float) -> Array:
-    """The same of a tapered roller, 0.00045 D ln(1/(1 − (2x/l)²)): Eq. (44)."""
+    """P [m] of a tapered roller, 0.00045 D ln(1/(1 − (2x/l)²)): Eq. (44) of ISO 16281."""
     return np.asarray(-0.00045 * diameter * np.log1p(-((2.0 * np.asarray(place) / length) ** 2)))
 
 

@@ -209,7 +209,7 @@ def _inside_of(kind: str, said: Suffix, rest: str) -> Suffix:
 
 
 def _inside_at_an_angle(said: Suffix, rest: str) -> Suffix:
-    """The same of angular contact, whose letters name the angle and a reinforced inside."""
+    """Suffix of angular contact, whose letters name the angle and a reinforced inside."""
     if _PRECISION.match(rest):
         raise ValueError(PRECISION)
     if _OF_ANOTHER_MAKER.match(rest):

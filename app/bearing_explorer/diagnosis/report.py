@@ -231,7 +231,7 @@ def assumptions(
     given = dict(part_words.facts(answer, question))
     for name, source in (
         ("Shaft", machine.source_of("speed")), ("Bearing", machine.source_of("bearing")),
-        ("Slip", "assumed"), ("Demodulation band", "found"),
+        ("Slip", "assumed"), ("Demodulation band", "chosen"),
     ):  # fmt: skip
         if source and name in given:  # it stands in a column of its own
             given[name] = given[name].replace(f", {source}", "", 1)
@@ -281,5 +281,5 @@ def limits(question: Question, answer: Diagnosis) -> list[str]:
         NOT_JUDGED,
         *([NOT_FORESEEN] if answer.names_a_part else []),
         *([] if question.measured.in_si else [NO_SIZE]),
-        *(words.strip() for words in [part_words.counted(question)] if words),
+        *(words.strip() for words in [part_words.estimate_warning(question)] if words),
     ]

@@ -1,4 +1,4 @@
-"""All that the page takes of the scene's half: tabs, session, lessons, help, compiled kernels."""
+"""Front of the scene's half for the page: tabs, session, lessons, help, compiled kernels."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ EXPLAINED = ("Defect", "Turning", "Load", "Balls", "Rows", "Drawing", "Contact",
 
 
 def begin_compiling(**report: Callable[..., object]) -> None:
-    """Begin `compiling`; the results that come along are drawn until it has ended."""
+    """Begin `compiling`; until it ends, the results that come with the program are drawn."""
     compiling.begin(default_results.keep, **report)
 
 

@@ -97,7 +97,7 @@ class Explorer(Half):
 
     @property
     def focused_scene(self) -> Scene:
-        """The same, the defect that the sliders move first."""
+        """The scene with the defect that the sliders move in first place."""
         return focused(self.editor.scene, self.editor.selected)
 
     def content(self) -> Results:

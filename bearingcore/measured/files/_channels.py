@@ -255,7 +255,7 @@ def _choose_by_place(
 
 
 def only_signal(name: str, index: int, why: str) -> Choice:
-    """Choose the one signal of a file, whatever its name says."""
+    """Choose the only signal of a file, without regard to its name."""
     reason = f"{why}, the only signal there" if why else "the only signal there"
     note = f"“{name}” is read as the vibration across the shaft, since it is the only signal."
     return Choice({"y": index}, reason, note=note)

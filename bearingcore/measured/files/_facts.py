@@ -208,7 +208,7 @@ def _key(name: str) -> str:
 
 
 def _rate_key(name: str) -> str:
-    """The same without the unit at its end, "fs_hz", and what it is of, "NI_CM_Dt"."""
+    """The key of a rate without its unit ("fs_hz") and its owner ("NI_CM_Dt")."""
     key = re.sub(r"(?<=\w\w)(in)?[km]?hz$", "", _key(name))
     bare = _OWNERS.sub("", key)
     return bare if bare in _RATES | _INTERVALS else key

@@ -15,7 +15,7 @@ LEAST_RUN = 16
 numbers."""
 
 LEAST_RUN_AT_RAIL = 256
-"""The same at the greatest or least value, where a clipped swing stays for a while too."""
+"""Equal samples in a row at the greatest or least value, where a clipped swing stays too."""
 
 BY_CHANCE = 1e-5
 """Share of the samples at which numbers as coarse as a signal's may look held, on a straight line

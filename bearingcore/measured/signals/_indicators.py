@@ -71,7 +71,7 @@ DISPLACEMENT_ZONES: Mapping[str, tuple[float, float, float]] = MappingProxyType(
         "large, flexible": (45e-6, 90e-6, 140e-6),
     }
 )
-"""The same of displacements [m], of the same tables: stricter below some 10 Hz."""
+"""Zones of displacements [m] from the same tables: stricter below some 10 Hz."""
 
 
 @shown_as_table

@@ -69,7 +69,7 @@ def packed_motion(scene: Scene, dofs: tuple[str, ...] | None = None) -> PackedMo
 
 
 def damped(packed: PackedMotion) -> PackedMotion:
-    """The same with the contact damping of its scene."""
+    """Add the contact damping of its scene to a motion."""
     c, balls = damping_of(packed), packed.balls
     if balls is not None:
         balls = balls._replace(races=balls.races._replace(damping=c * balls.races.damping))

@@ -439,7 +439,7 @@ def _marched(
 def _refusal(
     shown: int, most_steps: int, step_rate: float, least: float
 ) -> tuple[MotionStatus, str] | None:
-    """Reason not to begin a motion of so many steps, at a rate of at least `least` [Hz]; or None.
+    """Reason not to begin a motion with too many steps at a rate from `least` [Hz] on, or None.
 
     Explicit steps that are too long for the stiffest mode of a ball grow without end.
     """

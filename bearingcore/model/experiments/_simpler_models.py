@@ -41,7 +41,7 @@ REPEATS, LONG = 3, 0.1
 one that takes longer [s] is not repeated."""
 
 N_ANGLES = 361
-"""Cage angles over a period of the curves as they are drawn."""
+"""Cage angles over a period of the drawn curves."""
 
 
 _TERMS = np.triu_indices(5)

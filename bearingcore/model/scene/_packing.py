@@ -190,7 +190,7 @@ def races(scene: Scene, contact_damping: float, *, weight: bool) -> kernels.Race
         return np.repeat(np.array(list(values), dtype=float), [row.n_balls for row in rows])
 
     def both(values: Iterable[tuple[float, float]]) -> Array:
-        """The same of pairs of values, for the inner and the outer race."""
+        """Pairs of values of the rows, for the inner and the outer race, once for each ball."""
         inner, outer = zip(*values, strict=True)
         return np.stack([each(inner), each(outer)])
 

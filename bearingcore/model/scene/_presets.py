@@ -91,7 +91,7 @@ def _row(
     angle_deg: float | None = None,
     groove_center_radius: float | None = None,
 ) -> Bearing:
-    """A row of balls in grooves as they are usual; without an angle 10 µm of diametral clearance.
+    """A row of balls in usual grooves; without an angle 10 µm of diametral clearance.
 
     Such grooves are the widest that ISO 281 rates in full.
     """

@@ -137,7 +137,7 @@ def layers(prefix: str) -> list[Layer]:
 
 
 def head_room(shown: Sequence[str], sets: int, height: float) -> float:
-    """Share of the frame's height [px] that the names take, with so many sets of lines."""
+    """Share of the frame's height [px] that the names of some sets of lines take."""
     return ROW_PIXELS / height * (sets * len(shown) + 0.6)
 
 

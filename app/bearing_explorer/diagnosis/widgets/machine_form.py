@@ -93,7 +93,7 @@ class MachineForm(pn.Column):
         )  # fmt: skip
 
     def show(self, state: MeasurementState) -> None:
-        """Show the answers on the machine as they are."""
+        """Show the current answers on the machine."""
         fields = self._fields
         values = {name: state.values.get(name, "") for name in FIELDS}
         if self._shown != (state.bearings, state.speeds):

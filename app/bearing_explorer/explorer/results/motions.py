@@ -25,7 +25,7 @@ MOST_STEPS = 400_000
 """Steps of a motion on the page: where a defect is passed so fast that it takes more, the motion is
 shorter, or one person's drag would fill the memory of the server."""
 MOST_STEPS_WITH_MASS = 1_600_000
-"""The same of balls with mass, of which samples are kept and not steps: about a second."""
+"""Most steps with mass of the balls, about a second: samples are kept instead of steps."""
 SHORTEST = 0.1
 """Shortest motion [s]: a shorter one shows nothing at the resolution of the spectra."""
 
@@ -48,9 +48,9 @@ MOST_IN_FULL = 2.0e5
 """Contacts, a step each, of a flat bearing that are marched in full while a slider moves: about
 3 ms. A frame of a drag has 30 ms, in which the browser has its work too."""
 MOST_TOUCHED = 2.0e6
-"""The same of what is shortened until it can follow a slider: about 40 ms."""
+"""Contacts, a step each, of a motion that is shortened to follow a slider: about 40 ms."""
 MOST_COMPARED = 6.0e7
-"""The same of balls with mass at rest, to be compared with massless ones: a second."""
+"""Contacts, a step each, of balls with mass once a slider rests, for comparison: a second."""
 
 
 class SettledMotion(NamedTuple):
@@ -193,7 +193,7 @@ def dynamic_load(scene: Scene, how: Marching) -> float:
 
 
 def limit_to_known(light: Scene, how: Marching) -> Marching:
-    """The same for massless balls, with which their motion is known as far as one with mass is."""
+    """Limit the march of massless balls to what is known of the march with mass."""
     if how.coarse:
         return how
     return dataclasses.replace(how, step_rate=fine_step_rate(light, how.sample_rate))

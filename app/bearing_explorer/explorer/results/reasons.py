@@ -1,4 +1,4 @@
-"""Why results are as they are: a sentence each, from the results alone.
+"""Reasons for results: a sentence each, from the results alone.
 
 Where the results do not show a reason the sentence is empty, or says that there is none here.
 """
@@ -126,7 +126,7 @@ def _neighbours(bearing: Bearing, which: NDArray[np.int64]) -> NDArray[np.int64]
 
 
 def greatest_load(results: Results) -> str:
-    """The same at the cage angle where a ball carries the most of all, which it names."""
+    """Say why a ball carries the most at the worst cage angle, and name that angle."""
     states = results.ranges.state
     load = np.where(states.converged[:, None], states.ball_load, -1.0).max(axis=1)
     state = [int(np.argmax(load))]

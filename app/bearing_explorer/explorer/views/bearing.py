@@ -544,7 +544,7 @@ class Shapes:
     def balls(
         self, drop: dict[str, NDArray[np.float64]], load: NDArray[np.float64]
     ) -> dict[str, np.ndarray]:
-        """Balls where they are, sunk into a defect by their `drop` [m] as much as it is drawn."""
+        """Balls at their places, sunk by their `drop` [m] on the scale of a defect's depth."""
         angle, radius = self.ball_angles(), self.ball_radii(drop)
         return {
             **points(radius, angle),

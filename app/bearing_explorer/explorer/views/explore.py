@@ -232,7 +232,7 @@ class ExplorePlane(SceneJobView[explore.Plane]):
         }
 
     def _newest(self, results: Results) -> tuple[explore.Plane | None, str]:
-        """The map as far as it is computed, or the reason why there can be none."""
+        """The map as far as it is computed, or the reason why there is none."""
         if self._request is None:
             return None, ""
         question = self._request.of(results)

@@ -174,7 +174,7 @@ class Stiffness(ComparingView):
         return self._lesson_limits
 
     def sentence(self, results: Results) -> str:
-        """Why the radial stiffness is as it is, its range, and the number of loaded balls."""
+        """Say why the radial stiffness has its size, its range, and the number of loaded balls."""
         ranges, healthy = results.ranges, results.reference.ranges
         states = ranges.state
         if not states.converged.any():

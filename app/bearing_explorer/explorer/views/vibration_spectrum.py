@@ -82,7 +82,7 @@ def spectra(dof: str) -> list[layers.Layer]:
 
 
 def wide_spectra(dof: str) -> list[layers.Layer]:
-    """The same as far as the motion is known, over the band of the contact resonances."""
+    """Layers of a spectrum as far as the motion is known, with the contact resonances."""
     return [
         layers.strips("spectrum_wide_resonance", style.DEFECT, 0.22, reads=("above",)),
         layers.curve("spectrum_wide_grey", "frequency", dof, style.HEALTHY, 1.5),

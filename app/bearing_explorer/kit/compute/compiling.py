@@ -84,7 +84,7 @@ class Compilation:
         self._drawn.set()
 
     def wait(self, seconds: float) -> bool:
-        """True if it has ended, after so many seconds at most."""
+        """Wait at most this many seconds; return True if compiling has ended."""
         return self._over.wait(seconds)
 
     def left(self) -> tuple[str, ...]:

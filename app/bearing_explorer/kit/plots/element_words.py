@@ -12,7 +12,7 @@ _BALL = re.compile(r"\b([Bb])all(?=s?\b)(?![- ]pass)")
 
 
 def elements(bearing: Bearing, count: int = 2) -> str:
-    """The word for so many of them."""
+    """The word for a number of elements."""
     return bearing.kind.element if count == 1 else bearing.kind.elements
 
 

@@ -144,7 +144,7 @@ def uprights(
     alpha: float = 0.75,
     **look: Any,
 ) -> Glyph:
-    """Upright lines through the whole frame; as it is at the current cage angle."""
+    """Vertical lines through the whole frame, by default in the look of the current cage angle."""
     line = {"line_color": color, "line_width": width, "line_alpha": alpha}
     return Glyph(models.VSpan, source, (x,), {**line, **look})
 

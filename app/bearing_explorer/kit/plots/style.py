@@ -117,7 +117,7 @@ let narrow = false
 if (plot) try { narrow = plot.inner_width > 0 && plot.inner_width < larger*below } catch {}
 """
 )
-"""JavaScript: whether the frame of a `plot` is `narrow`, `below` so many pixels."""
+"""JavaScript that sets `narrow`: true if the frame of a `plot` is `below` this width [px]."""
 
 
 def text_offset(column: str) -> dict[str, Any]:

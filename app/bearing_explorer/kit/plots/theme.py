@@ -52,7 +52,7 @@ DARK_PALETTES = [
 
 
 def dark_properties() -> str:
-    """The same for styles in HTML, see `style.css_color`."""
+    """Dark colours for styles in HTML, see `style.css_color`."""
     words = (f"--in-dark-{light[1:].upper()}: {dark};" for light, dark in DARK_COLORS.items())
     return f':root[data-theme="dark"] {{ {" ".join(words)} }}'
 

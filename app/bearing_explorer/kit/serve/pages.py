@@ -104,7 +104,7 @@ class Missing(RequestHandler):
     """Every other path."""
 
     def prepare(self) -> None:
-        """A sentence, whatever the method."""
+        """Answer any method with a sentence."""
         write_html(self, 404, "There is no such page", "The explorer is one page up.")
         self.finish()
 

@@ -129,7 +129,7 @@ _ended = itertools.count(1)
 
 
 def collect_now_and_then() -> None:
-    """Free the memory of ended sessions, once for every so many; to be called as one ends."""
+    """Free the memory of ended sessions, a number of them at once; call it as a session ends."""
     if next(_ended) % _ENDED_SESSIONS == 0:
         gc.collect()
         with suppress(AttributeError, OSError):  # another C library than glibc

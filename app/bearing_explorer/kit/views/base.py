@@ -236,7 +236,7 @@ class View(Generic[C]):
         return {**self._empty, **sources}, ranges
 
     def sentence(self, results: C) -> str:
-        """One sentence on the figure as it is now, numbers with units."""
+        """One sentence on the current figure, numbers with units."""
         raise NotImplementedError
 
     def table(self, results: C) -> dict[str, np.ndarray]:

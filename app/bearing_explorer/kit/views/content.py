@@ -51,7 +51,7 @@ class Content:
         return text
 
     def at_rest(self, rested: bool = True) -> Self:
-        """The same, as it is once the slider rests."""
+        """The content once the slider rests."""
         return replace(self, moving=not rested)  # type: ignore[type-var]
 
     @property

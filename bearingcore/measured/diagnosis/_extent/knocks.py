@@ -38,10 +38,10 @@ LOWEST = 3.0
 """Ball-pass frequencies from which bands are looked at: below lie shaft, cage and rigid bodies."""
 
 PARTS = (1, 2, 3, 4, 6)
-"""Into how many equal bands the range is split: more would hold no knock any more compactly."""
+"""Numbers of equal bands into which the range is split: in narrower ones knocks are not compact."""
 
 LOW_PARTS = (12, 24)
-"""The same of which only the lowest two bands are taken: a release is soft, and fades upwards."""
+"""Numbers of bands of which only the lowest two are taken: a release is soft, and fades upwards."""
 
 PREDICTED_FROM = 50
 """Samples before each from which it is predicted. What rings can be predicted, knocks cannot: what

@@ -65,7 +65,7 @@ def comb_level(lines: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def noise_level(chance: float, averages: float, lines: int = HARMONICS) -> float:
-    """The level [dB] that noise reaches with a small chance in a comb of so many lines."""
+    """The level [dB] that noise reaches with a small chance in a comb of some lines."""
     sorted_levels, edge, scale = _noise(max(1, round(4.0 * averages)), lines)
     if chance <= _TAIL:
         return float(edge + scale * np.log(_TAIL / chance))

@@ -264,7 +264,7 @@ def _second_opinion(
     stated: float,
     slip: float,
 ) -> Diagnosis:
-    """Diagnosis of the signal as it is, where the whitened one names no race.
+    """Diagnosis of the signal without whitening, where the whitened one names no race.
 
     A cage that keeps its speed makes lines as sharp as tones, and whitening cuts those. Tones that
     are none of the bearing's show too, so that lines count by a part of their swing; where they do

@@ -148,12 +148,12 @@ class Judged:
         return max(self.evidence, key=leading_by)
 
     def counting(self, share: float) -> Judged:
-        """The same where a share of each swing counts."""
+        """Judge anew with a share of each swing."""
         counted = [replace(part, swing=share * part.swing) for part in self.evidence]
         return replace(self, evidence=_weighed(counted))
 
     def discounted(self, speeds: float) -> Judged:
-        """The same where so many speeds were open: another source fits one of them as often more.
+        """Judge anew where several `speeds` were open: another source fits one more often.
 
         The odds that lines are those of the bearing fall by that number.
         """

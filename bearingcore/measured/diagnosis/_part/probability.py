@@ -26,8 +26,8 @@ A lead counts from the level that chance reaches once in a thousand signals."""
 
 
 DEVIATIONS, DEVIATIONS_SCALE = 2.8, 0.6
-"""The same of a ball's broad lines, in deviations: the greatest of the dozen places where they may
-be is above 2.8 by chance in one signal of thirty, and fewer damaged balls than races are met."""
+"""Lead and scale of a ball's broad lines, in deviations: by chance the greatest of their dozen
+places is above 2.8 in one signal of thirty, and damaged balls are rarer than damaged races."""
 
 
 class Calibration(NamedTuple):

@@ -27,7 +27,7 @@ LAG, AHEAD = 0.06, 0.02
 """Shares by which a ball may spin slower and faster than it would by rolling alone."""
 
 RACE_SLIP = 0.025
-"""The same of a race's line."""
+"""Share by which the line of a race may be off."""
 
 WITH_ONE_LINE = 1.5
 """Times the deviations of a ball's comb without its loudest line that the whole one counts at most.

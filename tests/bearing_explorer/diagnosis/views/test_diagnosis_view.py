@@ -148,7 +148,7 @@ def test_a_part_that_is_hardly_told_is_only_probably_damaged():
     assert part_words.headline(diagnosis) == "The inner race is probably damaged"
     ball = dataclasses.replace(diagnosed("inner race"), fault="ball")
     assert part_words.headline(ball) == "A ball is damaged"
-    assert "ball-spin frequency" in part_words.plain(ball, asked("inner race"))
+    assert "ball-spin frequency" in part_words.explanation(ball, asked("inner race"))
     assert panel_state(asked("inner race"), ball)["part"] == "ball"
 
 

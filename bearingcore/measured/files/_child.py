@@ -59,7 +59,7 @@ def read_file(
     Parameters
     ----------
     name
-        of the file, for sentences; ".mat" at its end marks MATLAB's version 4.
+        name of the file, for sentences; ".mat" at its end marks MATLAB's version 4.
     content
         the whole file.
     give_up
@@ -68,7 +68,7 @@ def read_file(
     Returns
     -------
     about
-        the other fields of `contents.FileColumns` by name.
+        the other fields of `_contents.FileColumns` by name.
     columns : (n, c)
         the numbers; gaps are NaN.
 

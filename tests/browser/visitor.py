@@ -156,7 +156,8 @@ class Visitor:
         ).to_be_visible()
 
     def read_more(self) -> None:
-        """Open what stands behind "?" of the cards on screen."""
+        """Open what stands behind "?" of the cards on screen, once there are any."""
+        expect(self.main.get_by_role("heading", level=2).first).to_be_visible()
         for more in self.main.get_by_role("button", name=re.compile("^More about")).all():
             more.click()
 

@@ -340,11 +340,6 @@ class Grid:
     # ---------------------------------------------------------------------------- in words
 
     @cached_property
-    def scene_text(self) -> str:
-        """The scene as TOML."""
-        return self.scene.to_toml()
-
-    @cached_property
     def request(self) -> str:
         """The request as JSON: axes by name, outputs, settings."""
         return json.dumps(

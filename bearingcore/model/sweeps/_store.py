@@ -39,7 +39,7 @@ def attributes(grid: Grid) -> dict[str, Any]:
         "title": "Sweep over " + ", ".join(grid.dims),
         "program": PROGRAM,
         "program_version": program_version(),
-        "scene": grid.scene_text,
+        "scene": grid.scene.to_toml(),
         "request": grid.request,
         "period": f"{grid.settings.cage_angles} cage angles in a period",
     }

@@ -378,7 +378,7 @@ def test_bearing_and_speed_are_kept_for_the_next_file_unless_that_says_otherwise
         await settled(made)
         await bring(made, "fifth.csv", csv_of(two, "time [s],a [g],tacho [V]"))
         assert made.measured.machine.kept == {"bearing", "speed"}
-        assert "another, from the tachometer: about 6000 rpm" in kept_html(made.state)
+        assert "another speed, from the tachometer: about 6000 rpm" in kept_html(made.state)
         made.forget_machine()
         await settled(made)
         assert (made.measured.bearing, made.state.kept_from) == (None, "")

@@ -203,18 +203,14 @@ class SpallExtent(LookView, MeasuredView):
         known = "" if truth is None else (
             f" The signal is simulated: the true extent is {math.degrees(truth):.1f}°."
         )  # fmt: skip
-        if (size := self._simulated_size()) and not answer.measured:
+        sizing = None if answer.measured else self.measurement.sizing()
+        if sizing is not None and (size := size_in_words(sizing)):
             spacing = f"{math.degrees(answer.ball_spacing):.1f}°"
             return (
                 f"Entry and exit alone allow {answer.size}, or whole ball spacings of {spacing} "
                 f"more. The natural frequencies decide, see below: {size}.{known}{grounds(answer)}"
             )
         return answer.sentence + known + grounds(answer)
-
-    def _simulated_size(self) -> str:
-        """The length by simulation, in words; empty without one."""
-        sizing = self.measurement.sizing()
-        return "" if sizing is None else size_in_words(sizing)
 
     def table(self, model: Model) -> dict[str, np.ndarray]:
         answer = self.answer()

@@ -136,11 +136,6 @@ def layers(prefix: str) -> list[Layer]:
     return drawn
 
 
-def head_room(shown: Sequence[str], sets: int, height: float) -> float:
-    """Share of the frame's height [px] that the names of some sets of lines take."""
-    return ROW_PIXELS / height * (sets * len(shown) + 0.6)
-
-
 def columns(
     prefix: str, sets: Sequence[dict[str, float]], shown: Sequence[str], top: float, height: float
 ) -> dict[str, dict[str, NDArray[np.float64]]]:

@@ -167,7 +167,8 @@ def _lines_near(
             abs(at / (multiple * first[name]) - 1.0),
             multiple * first[name],
             first.get(f"{name}_spread", 0.0) / first[name],
-            _times(multiple) + (title if len(sets) == 1 else f"{title} of row {row + 1}"),
+            ("" if multiple == 1 else f"{multiple}×")
+            + (title if len(sets) == 1 else f"{title} of row {row + 1}"),
         )
         for row, first in enumerate(sets)
         for title, (name, multiples) in _PLACES.items()
@@ -223,7 +224,3 @@ def highest_line(
         side = "above" if off > 0.0 else "below"
         words += f", {style.number(abs(off), 2)} % {side} the frequency by the geometry"
     return f"{words}."
-
-
-def _times(multiple: int) -> str:
-    return "" if multiple == 1 else f"{multiple}×"

@@ -59,7 +59,7 @@ class SpectrumFigures:
         for dof in levels.SHOWN:
             plot = style.make_figure(
                 FREQUENCY_WITH_UNITS if logarithmic else levels.FREQUENCY,
-                levels.density_axis(f"S{dof}"),
+                style.AxisQuantity("Density", f"S{dof}", "dB re 1 (m/s²)²/Hz"),
                 frequency,
                 level,
                 height=HEIGHT,

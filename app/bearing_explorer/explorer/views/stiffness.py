@@ -24,7 +24,7 @@ from bearing_explorer.kit.plots.ranges import ROOM, StickyRange
 from bearing_explorer.kit.plots.style import with_prefix
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
-from bearingcore import STIFFNESS_TERMS, Scene
+from bearingcore import STIFFNESS_TERMS
 from bearingcore.common import prefixed_span
 from bearingcore.model.statics import TERM_UNITS
 
@@ -202,7 +202,8 @@ class Stiffness(ComparingView):
 
     def show(self, results: Results) -> None:
         """Say in the legend whether there is a defect."""
-        words = _legend_words(results.scene)
+        defect = "with the defect" if results.scene.defects else "without a defect"
+        words = [defect, "healthy bearing", _NOW_WORDS]  # blue, grey, and the upright line
         if words != self._legend.data["text"]:
             self._legend.data = {**self._legend.data, "text": words}
 
@@ -257,12 +258,6 @@ def _static_parts(plot: figure) -> ColumnDataSource:
     look = {"text_font_size": style.TEXT_SIZE, "text_color": style.INK}
     write(plot, legend, "return row.text", text_baseline="middle", **look)
     return legend
-
-
-def _legend_words(scene: Scene) -> list[str]:
-    """Words of the legend: blue, grey, and the upright line."""
-    own = "with the defect" if scene.defects else "without a defect"
-    return [own, "healthy bearing", _NOW_WORDS]
 
 
 _UNIT = f"const unit = {[*UNITS, '']}[row.unit]\n"

@@ -70,7 +70,8 @@ def story(by: Cause, now: Chain, before: Chain) -> str:
         whose = by.words or "With the defect"
         return f"{whose}: now there is an equilibrium."
     along = direction(now, before)
-    stiff = stiffness_words(now, before, along)
+    terms = named_terms(now, before, along)
+    stiff = [f"k_{TERM_SYMBOLS[term][2:]} {_growth(_change(now, before, term))}" for term in terms]
     text = _load_and_stiffness(by, now, before, along, stiff)
     text = _add_band_and_peak(text, by, now, before, along, stiff)
     if before.silent and not now.silent:
@@ -201,14 +202,8 @@ def load_of_one(now: Chain, before: Chain) -> str:
     return f"the greatest load of a ball {_growth(grown)}" if abs(grown) >= LEAST_LOAD else ""
 
 
-def stiffness_words(now: Chain, before: Chain, along: str) -> list[str]:
-    """Change of the mean stiffness along a direction, and in another where it is larger."""
-    terms = named_terms(now, before, along)
-    return [f"k_{TERM_SYMBOLS[term][2:]} {_growth(_change(now, before, term))}" for term in terms]
-
-
 def named_terms(now: Chain, before: Chain, along: str) -> list[str]:
-    """The terms whose change is named."""
+    """The terms whose change is named: along a direction, and another where it is larger."""
     main = f"k_{along}{along}"
     own = abs(_change(now, before, main))
     others = [term for term in now.stiffness if term != main]

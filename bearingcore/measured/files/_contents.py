@@ -208,8 +208,8 @@ def contents_of(table: FileColumns) -> FileContents:
         known.guess("bearing"),
         facts.designation_in(lines),
         dates.recorded_in(lines, table.name),
-        dates.machine_in(lines, table.name),
-        dates.point_in(lines, table.name),
+        dates.named_in("machine", lines, table.name),
+        dates.named_in("point", lines, table.name),
     )
 
 

@@ -271,11 +271,6 @@ def _hdf5(item: Any, path: str, variables: Variables, depth: int) -> None:
         return
     elif item.shape is not None and "MATLAB_empty" not in item.attrs:
         variables.add(path, _matlab_values(item))
-    _attributes(item, path, variables)
-
-
-def _attributes(item: Any, path: str, variables: Variables) -> None:
-    """Add words and single numbers of a group or a data set."""
     for name, value in item.attrs.items():
         word = np.size(value) == 1 or np.asarray(value).dtype.kind in "OSU"
         if word and not name.startswith(_OF_THE_FORMAT):

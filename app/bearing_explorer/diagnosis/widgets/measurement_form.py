@@ -112,7 +112,7 @@ class MeasurementForm(pn.Column):
         )  # fmt: skip
         note = "Uses the current scene; the true size is shown for comparison."
         records = [
-            button(words, partial(self._measurement.open_record, name), css_classes=["record"])
+            button(words, partial(self._open_record, name), css_classes=["record"])
             for name, words in RECORDS.items()
         ]
         about = "Or open the record of a motor on a 6205, simulated by another program."
@@ -125,6 +125,9 @@ class MeasurementForm(pn.Column):
         )
 
     # What is chosen here
+
+    def _open_record(self, name: str) -> None:
+        self._measurement.open_record(name)
 
     def _uploaded(self, message: UploadBegins | UploadPiece) -> None:
         if isinstance(message, UploadBegins):

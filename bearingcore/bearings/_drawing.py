@@ -37,7 +37,7 @@ OPTIONAL_FIELDS = (*GROOVES, "youngs_modulus", "poisson")
 """Fields of a `Bearing` that only one with a drawing has."""
 
 BALL_MATERIAL = ("ball_youngs_modulus", "ball_poisson")
-"""Those that such a one may have: None where the balls are of the material of the rings."""
+"""Fields that such a bearing may have: None where balls and rings are of one material."""
 
 DIMENSIONS = ("ball_diameter", "pitch_diameter", "contact_angle", *OPTIONAL_FIELDS, *BALL_MATERIAL)
 """Fields of a `Bearing` that others are derived from."""

@@ -30,7 +30,7 @@ SURROUNDINGS, FEWEST_AROUND = 2.0, 9
 """Width, in shaft speeds, over which the median is a line's background, and its fewest lines."""
 
 CHANCE = 1e-3
-"""That noise alone reaches the level from which a line counts."""
+"""Probability that noise alone reaches the level from which a line counts."""
 
 OF_THE_SHAFT = 0.6
 """Lines of the finest spectrum from a multiple of the shaft speed within which a peak is a tone of

@@ -281,7 +281,7 @@ def _sample_jumps(time: Array, steps: Array, unit: float) -> Sampling:
 
 
 def long_parts(parts: Iterable[Sequence[int]]) -> tuple[tuple[int, int], ...]:
-    """Those of parts (first row, last excluded) that are recordings; none where it is one alone."""
+    """Parts (first row, last excluded) that are recordings; none for a single recording."""
     all_parts = [(first, last) for first, last in parts]
     longest = max((last - first for first, last in all_parts), default=0)
     least = max(FEWEST_SAMPLES, SHORTEST_PART * longest)

@@ -80,7 +80,7 @@ class BallComparison:
 
     @property
     def directions(self) -> tuple[str, ...]:
-        """Those of x and y in which the housing moves."""
+        """Directions, x or y, in which the housing moves."""
         return compared_directions(self.scene.active_dofs)
 
 

@@ -42,7 +42,7 @@ _TOOLTIP = (
 NO_ANSWER = 65535
 """The whole number of a point without an answer."""
 GREATEST = 65534
-"""That of the upper end of a map's scale; the lower end is 0."""
+"""The whole number of the upper end of a map's scale; the lower end is 0."""
 MOST_LEVELS_NAMED = 14
 """Steps of the scale of loaded balls up to which each gets its number."""
 HEIGHT = 460

@@ -31,7 +31,7 @@ COLORS = (
     "#0072B2", "#D55E00", "#009E73", "#AA3377", "#665511", "#5544FF", style.INK, "#FF4466",
     "#661100",
 )  # fmt: skip
-"""One for each method, which colour-blind people can distinguish on a light and a dark page."""
+"""Colours of the methods, distinct for colour-blind people on a light and a dark page."""
 MARKERS = ("circle", "square", "triangle", "diamond", "inverted_triangle", "plus", "star")
 ALLOWED = {"dB": 0.1, "1": 0.01}
 """The error that is allowed, by its unit: drawn as a line."""

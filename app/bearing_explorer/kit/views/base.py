@@ -317,7 +317,7 @@ class View(Generic[C]):
         return cls.about
 
     def put_away(self) -> None:
-        """It is off screen: let go of the results, of which a motion alone is megabytes."""
+        """Drop the results of a view that is off screen: a motion alone has megabytes."""
         self._results = None
 
     def end(self) -> None:

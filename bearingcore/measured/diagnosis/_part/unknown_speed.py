@@ -147,7 +147,7 @@ def _undecided_speed(
 
 @dataclass(frozen=True)
 class _Hypothesis:
-    """That the shaft turns at a speed, and what the signal says then."""
+    """A possible speed of the shaft, and the evidence of the signal at it."""
 
     shaft: ShaftLines
     judged: Judged

@@ -145,7 +145,7 @@ def direction(now: Chain, before: Chain) -> str:
 
 
 def unchanged(now: Chain, before: Chain, why_not: str = "") -> str:
-    """That nothing changes, or nothing by as much as is named."""
+    """Sentence for a change without effects, or with effects too small to name."""
     numbers = [np.concatenate(list(of.table().in_units().named().values())) for of in (now, before)]
     alike = numbers[0].size == numbers[1].size and np.allclose(
         numbers[0], numbers[1], rtol=_SAME, atol=_SAME, equal_nan=True

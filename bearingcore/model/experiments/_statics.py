@@ -278,7 +278,6 @@ class StaticReference:
     reference: Reference
 
 
-NEARBY = 1.01
 GRAZING = 1e-14
 """Share of the greatest load of a ball: less is rounding."""
 
@@ -296,7 +295,7 @@ def static_reference(problem: StaticProblem) -> StaticReference:
     other = other._replace(solved=other.solved & (residuals(problem, other.q) <= STRICT))
     missed = int((exact.solved & ~other.solved).sum())
     if missed:
-        near = _scipy(problem, 1e-12, "hybr", False, NEARBY * exact.q.astype(float))
+        near = _scipy(problem, 1e-12, "hybr", False, 1.01 * exact.q.astype(float))  # 1 % beside
         q = np.where(other.solved[:, None], other.q, near.q)
         other = Solved(q, other.solved | near.solved, 0)
     at = contacts(problem, exact.q)

@@ -76,7 +76,7 @@ class SpectrumFigures:
         """
         name, lowest = self._name, self._lowest
         both = results.late_spectra, results.reference.late_spectra
-        drawn, grey = (levels.drawn_levels(one, top, lowest) for one in both)
+        drawn, grey = (levels.drawn_levels(spectra, top, lowest) for spectra in both)
         compared = levels_of_compared(name, results, top, lowest)
         seen = [drawn, *compared.values(), *([grey] if lowest else [])]
         return {**compared, f"{name}_lines": drawn, f"{name}_grey": grey}, {

@@ -245,7 +245,7 @@ class BearingDrawing(ComparingView):
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         scene, now = results.scene, results.now
-        compared = [load for one in results.compared_results for _, load in one.load_curves]
+        compared = [load for other in results.compared_results for _, load in other.load_curves]
         load_range = self._load_range.fit(
             results.equilibrium.ball_load, results.reference.equilibrium.ball_load, *compared
         )
@@ -270,7 +270,7 @@ class BearingDrawing(ComparingView):
             several.append(moved(shapes, (2 * row + 1) * half - wide))
         sources = {
             f"{self.prefix}_{name}": one_after_other(
-                [one[name] for one in several], gaps=name in POLYGONS
+                [outlines[name] for outlines in several], gaps=name in POLYGONS
             )
             for name in several[0]
         }

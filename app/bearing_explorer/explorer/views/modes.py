@@ -105,7 +105,7 @@ class NaturalFrequencies(ComparingView):
         compared = compared_curves.sources(
             "modes",
             ("angle", "frequency"),
-            (results.against(one) for one in results.compared),
+            (results.against(reference) for reference in results.compared),
             lambda other: lines(results.along(other.modes.cage_angles), other.modes.frequency),
         )
         shown = self._range.fit(

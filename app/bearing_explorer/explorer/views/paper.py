@@ -51,7 +51,8 @@ class PaperFigures(View[Results]):
     def build(self, packed: PackedSource) -> Any:
         self._figure = FIGURES[0]
         self._buttons = {
-            one.number: button(f"Figure {one.number}", partial(self._show, one)) for one in FIGURES
+            figure.number: button(f"Figure {figure.number}", partial(self._show, figure))
+            for figure in FIGURES
         }
         self._live = button("Open it", self._open_live, css_classes=["main"])
         self._numbers = facts_pane(sizing_mode="stretch_width")

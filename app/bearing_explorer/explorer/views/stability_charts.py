@@ -193,7 +193,7 @@ def _steps_in_period(chart: StabilityChart, step_rate: float) -> str:
 
 def orbits_sentence(orbits: tuple[OrbitAtSpeed, ...]) -> str:
     """Say where the periodic motion loses its stability, and how."""
-    known = [one for one in orbits if one.multipliers]
+    known = [orbit for orbit in orbits if orbit.multipliers]
     if not known:
         why = orbits[0].status if orbits else "not measured yet"
         return f"No periodic motion over the shaft speed: {why}."
@@ -202,7 +202,7 @@ def orbits_sentence(orbits: tuple[OrbitAtSpeed, ...]) -> str:
         return f"{style.number(orbit.shaft_speed / (2.0 * math.pi), 3)} Hz"
 
     changed = [b for a, b in pairwise(known) if a.loss != b.loss]
-    changes = [f"{one.loss or 'stable again'} from {speed_words(one)}" for one in changed]
+    changes = [f"{orbit.loss or 'stable again'} from {speed_words(orbit)}" for orbit in changed]
     first = f"{'Unstable' if known[0].loss else 'Stable'} at {speed_words(known[0])}"
     words = ", ".join([first, *(changes or [f"and up to {speed_words(known[-1])}"])])
     missing = len(orbits) - len(known)

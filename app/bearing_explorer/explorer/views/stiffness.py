@@ -100,7 +100,7 @@ class Stiffness(ComparingView):
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         """All traces, scaled into their cells."""
         states, now = results.equilibrium, results.now
-        alike = [results.reference, *(results.against(one) for one in results.compared)]
+        alike = [results.reference, *(results.against(other) for other in results.compared)]
         answers = [states, *(other.equilibrium for other in alike)]
         first, last, _ = results.stretch
         shares = [(e.cage_angles - first) / (last - first) for e in answers]

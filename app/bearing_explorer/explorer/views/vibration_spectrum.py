@@ -142,7 +142,7 @@ class VibrationSpectra(ComparingView, LookView[Results]):
             WIDE_DEPTH,
         )
         sources = layers.sources_of(packed, PASSES)
-        passes = [one for plot in linear.plots for one in layers.add_all(plot, sources, PASSES)]
+        passes = [line for plot in linear.plots for line in layers.add_all(plot, sources, PASSES)]
         box = layers.toggle("Mark the ball-pass frequency and its harmonics", passes, shown=False)
         self._narrow = [*linear.plots, box]
         self._broad = stack(*self._wide.plots, visible=False, stylesheets=[AS_HIGH_AS_SHOWN])
@@ -193,7 +193,7 @@ class VibrationSpectra(ComparingView, LookView[Results]):
     def _resonance(self, results: Results, top: float) -> dict[str, np.ndarray]:
         """The band of the contact resonances, where balls have mass; `top` [Hz] is the axis's."""
         scenes = results.scene, results.grey.scene
-        bands = [contact_resonance_band(one) for one in scenes if one.balls == WITH_MASS]
+        bands = [contact_resonance_band(scene) for scene in scenes if scene.balls == WITH_MASS]
         low, high = np.array(bands[-1:]).reshape(-1, 2).T
         above = (low >= top).astype(float)
         return {"low": low, "high": high, "above": above, "label_at": 0.97 * np.minimum(low, top)}

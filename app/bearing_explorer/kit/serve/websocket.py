@@ -140,7 +140,7 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
 
 
 def close_idle(seconds: float) -> None:
-    """Disconnect browsers that have sent nothing for so long; their pages show the reason."""
+    """Disconnect browsers that sent nothing for these `seconds`; their pages show the reason."""
     now = time.monotonic()
-    for socket in [one for one in LiveSocket.connected if now - one.last_message_at > seconds]:
+    for socket in [peer for peer in LiveSocket.connected if now - peer.last_message_at > seconds]:
         socket.close(1001, f"The page was not used for {seconds / 60.0:.0f} min.")

@@ -108,7 +108,8 @@ class OverviewStiffness(ComparingView):
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         states, healthy, now = results.equilibrium, results.reference.equilibrium, results.now
-        answers = [states, healthy, *(results.against(one).equilibrium for one in results.compared)]
+        others = [results.against(other).equilibrium for other in results.compared]
+        answers = [states, healthy, *others]
         first, last, _ = results.stretch
         sizes = [answer.cage_angles.size for answer in answers]
         pick = [np.linspace(0, n - 1, min(n, MOST_POINTS)).round().astype(int) for n in sizes]

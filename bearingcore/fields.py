@@ -29,7 +29,7 @@ class Range:
     step
         of the slider.
     typed_least, typed_most
-        what may be typed; NaN: no more than the slider reaches.
+        least and greatest number that may be typed; NaN: no more than the slider reaches.
     """
 
     least: float
@@ -51,7 +51,7 @@ class Range:
         return self.least <= value <= self.most or math.isnan(value)
 
     def around(self, value: float) -> Range:
-        """The same, with a slider that reaches `value`: to the end or a round number past it."""
+        """Extend the slider so that it reaches `value`: to the end or a round number past it."""
         if self.holds(value):
             return self
         low, high = self.allowed
@@ -73,13 +73,13 @@ RangeOf = Callable[[Any, float], Range]
 
 
 def _usual(_: Any, value: float) -> Range:
-    """From nothing to a few times the preset's number; what is typed may go much further."""
+    """Range from nothing to twice the preset's number; a typed number may be much larger."""
     most = round_up(2.0 * value) if value > 0.0 else 100.0  # NaN too: its size is not known
     return Range(0.0, most, round_up(most / 2000.0), 0.0, 1e9)
 
 
 def _usual_of_first_row(name: str) -> RangeOf:
-    """As `_usual`, about the number of the first row [mm]."""
+    """Range like `_usual`, around the number of the first row [mm]."""
     return lambda scene, _: _usual(scene, getattr(scene.bearing, name) * 1e3)
 
 
@@ -89,19 +89,19 @@ def _largest_force(scene: Any) -> float:
 
 
 def _force(scene: Any, _: float) -> Range:
-    """Up to a few times the preset's largest force, either way."""
+    """Range of a force, either way: a few times the preset's largest."""
     most = _largest_force(scene)
     return Range(-most, most, most / 500.0, -1e6, 1e6)
 
 
 def _moment(scene: Any, _: float) -> Range:
-    """Up to the moment of such a force at the pitch radius, either way."""
+    """Range of a moment, either way: that of such a force at the pitch radius."""
     most = round_up(0.25 * _largest_force(scene) * scene.bearing.pitch_diameter)
     return Range(-most, most, most / 500.0, -1e5, 1e5)
 
 
 def groove_range(scene: Any, _: float = math.nan) -> Range:
-    """From hardly wider than a ball to the widest groove that guides one."""
+    """Range from hardly wider than a ball to the widest groove that guides one."""
     ball = scene.bearing.ball_diameter * 1e3
     widest = float(f"{WIDEST_CONFORMITY * ball:.12g}")
     return Range(float(f"{0.501 * ball:.6g}"), widest, 0.0005 * ball, 0.0, 1e4)
@@ -128,15 +128,15 @@ class Field:
     group
         heading that its slider stands under; empty where it has none.
     range
-        what it may be, or a function of a preset's scene.
+        possible numbers, or a function of a preset's scene that returns them.
     meaning
-        what it is, in a sentence.
+        meaning in a sentence.
     optional
         True if it may be left open: None in the scene.
     whole
         True if it is a whole number.
     sweep_range
-        where maps over it begin and end if that shows more than its whole slider.
+        ends of maps over it, if they show more than its whole slider.
     reverse_label
         name of the number with the other sign, where people read that: "Load, downwards".
     """

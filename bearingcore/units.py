@@ -23,9 +23,9 @@ class Unit:
     si
         the SI unit of the same kind: "m" for millimetres.
     factor
-        what a number in this unit is multiplied by to be one in the SI unit.
+        factor that converts a number in this unit to the SI unit.
     suffix
-        what it is called at the end of a name: "mm" in ``ball_diameter_mm``.
+        end of a name in this unit: "mm" in ``ball_diameter_mm``.
     """
 
     si: str

@@ -10,8 +10,8 @@ def as_markdown() -> str:
         "",
         "All numbers of a scene, printed from `bearingcore.fields.FIELDS`. `Scene.replace` and "
         "sweeps use the name, with a value in SI units; links use the name with the unit of the "
-        "page. `cage_angle` is no number of a scene: links hold it, and functions take it, as in "
-        "`equilibrium(scene, cage_angles)`.",
+        "page. `cage_angle` is not a number of a scene: links hold it, and functions take it, as "
+        "in `equilibrium(scene, cage_angles)`.",
         "",
         "| name | of | symbol | SI unit | in links | unit there | meaning |",
         "| --- | --- | --- | --- | --- | --- | --- |",

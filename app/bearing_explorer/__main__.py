@@ -22,15 +22,15 @@ for _library in ("OPENBLAS", "MKL", "OMP"):
 from bearing_explorer.kit.serve.log import LEVELS, begin  # noqa: E402
 
 NOT_KEPT = (
-    "Compiled kernels are kept nowhere, as neither the program's folder nor the home can be "
-    "written: each start compiles. NUMBA_CACHE_DIR may name a folder that can."
+    "Compiled kernels cannot be kept, because neither the program's folder nor the home can be "
+    "written: each start compiles them again. Set NUMBA_CACHE_DIR to a folder that can be written."
 )
 
 
 READ_FROM_DISK = 5.0
-"""[s] after which machine code on disk has turned out to be of no use."""
+"""Time [s] after which machine code on disk has turned out to be of no use."""
 LOADS_HOLOVIEWS = 10.0
-"""[s] after the start, when the first picture is drawn; then no tab waits for it."""
+"""Time [s] after the start when the first picture is drawn; then no tab waits for HoloViews."""
 
 
 def options(arguments: Sequence[str] | None = None) -> argparse.Namespace:
@@ -94,7 +94,7 @@ def options(arguments: Sequence[str] | None = None) -> argparse.Namespace:
         type=_number(1, 99_999),
         default=60,
         metavar="N",
-        help="after which a page that is not used is closed (60)",
+        help="minutes after which an unused page is closed (60)",
     )
     parser.add_argument(
         "--log-level",
@@ -214,8 +214,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         compiling.wait(READ_FROM_DISK if compiled else 0.0)
     server.start()
     _say(f"Ready after {time.perf_counter() - started:.1f} s: {url} (Ctrl+C ends)")
-    holoviews = "bearing_explorer.explorer.plots.plane"
-    loop.call_later(LOADS_HOLOVIEWS, loop.run_in_executor, None, import_module, holoviews)
+    if scene is not None:
+        holoviews = "bearing_explorer.explorer.plots.plane"
+        loop.call_later(LOADS_HOLOVIEWS, loop.run_in_executor, None, import_module, holoviews)
     if not chosen.no_browser:
         loop.add_callback(lambda: server.show("/"))
     try:

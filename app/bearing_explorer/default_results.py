@@ -12,7 +12,7 @@ from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.page import SECTIONS, Halves
 
 TABS = ("overview", "load", "stiffness", "modes", "vibration")
-"""Those that are drawn before kernels are compiled."""
+"""Tabs that are drawn before kernels are compiled."""
 
 
 def draw_all() -> list[Picture]:

@@ -108,7 +108,7 @@ def lessons_of(folder: Path | None = None) -> Any:
     """Lessons of a folder, or the program's own."""
     if scene is None:
         return ()
-    return scene.lessons_in(folder, TABS) if folder else scene.own_lessons(TABS)
+    return scene.lessons_in(folder, TABS) if folder else scene.shipped_lessons(TABS)
 
 
 def page(lessons: Path | None = None) -> PageTemplate:

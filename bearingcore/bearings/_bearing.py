@@ -378,7 +378,7 @@ class Bearing(InRows):
     def pressure_centers_apart(self) -> float | None:
         """Distance [m] of the points in which the lines of contact of a pair meet the shaft.
 
-        With it a pair resists tilt. None of a bearing that is no pair, or one in tandem.
+        With it a pair resists tilt. None for a bearing that is no pair, and for one in tandem.
         """
         if self.arrangement not in ("back-to-back", "face-to-face"):
             return None

@@ -48,7 +48,7 @@ CATALOGUE_COLUMNS = (
 USUAL_CLEARANCE_UM = 10.0
 
 _SEPARATORS = (";", "\t", ",")
-"""Of columns; the most frequent one in the headings is taken."""
+"""Separators of columns; the most frequent one in the headings is taken."""
 
 
 @dataclass(frozen=True)
@@ -171,7 +171,7 @@ def _bearing(at: str, texts: Mapping[str, str], decimal_comma: bool) -> Catalogu
         return value
 
     def groove(race: str) -> float:
-        """Groove radius [mm] of a race, by its radius or its ratio, or as it is usual."""
+        """Groove radius [mm] of a race, by its radius or its ratio, or else the usual one."""
         names = f"{race}_groove_radius_mm", f"{race}_groove_ratio"
         radius, ratio = map(number, names)
         if radius is not None and ratio is not None:

@@ -1,4 +1,4 @@
-"""From a bearing of one kind to the one of another kind with the same dimensions."""
+"""Conversion of a bearing to another kind with the same dimensions."""
 
 from __future__ import annotations
 

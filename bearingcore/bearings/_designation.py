@@ -72,7 +72,7 @@ CATALOGUE_ANGLE = math.radians(30.0)
 """Contact angle for which the table has the ratings of angular-contact bearings."""
 
 OTHER_ANGLES = {"719": math.radians(15.0)}
-"""The same of series for which it is another one."""
+"""That angle for series whose ratings are for another one."""
 
 ROWS_OF_BALLS, ROWS_OF_ROLLERS = 0.7, 7.0 / 9.0
 """Powers with which C_r of ISO 281 grows with the rows of balls and of rollers."""

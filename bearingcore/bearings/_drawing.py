@@ -1,4 +1,4 @@
-"""From the dimensions on a drawing to the numbers of the contact model.
+"""Numbers of the contact model out of the dimensions on a drawing.
 
 Quantity                                    | Symbol | Name                     | Unit
 ------------------------------------------- | ------ | ------------------------ | ----
@@ -25,7 +25,7 @@ import math
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
-from bearingcore.bearings._hertz import in_series, race_contact
+from bearingcore.bearings._hertz import race_contact, series_factor
 from bearingcore.common import _checks as checks
 from bearingcore.fields import WIDEST_CONFORMITY
 
@@ -37,7 +37,7 @@ OPTIONAL_FIELDS = (*GROOVES, "youngs_modulus", "poisson")
 """Fields of a `Bearing` that only one with a drawing has."""
 
 BALL_MATERIAL = ("ball_youngs_modulus", "ball_poisson")
-"""Those that such a one may have: None where the balls are of the material of the rings."""
+"""Fields that such a bearing may have: None where balls and rings are of one material."""
 
 DIMENSIONS = ("ball_diameter", "pitch_diameter", "contact_angle", *OPTIONAL_FIELDS, *BALL_MATERIAL)
 """Fields of a `Bearing` that others are derived from."""
@@ -167,7 +167,7 @@ def derive(
     return Derived(
         groove_center_radius=pitch_radius + (inner_groove_radius - r_b) * math.cos(contact_angle),
         groove_center_distance=inner_groove_radius + outer_groove_radius - ball_diameter,
-        load_deflection_factor=in_series(*factors),
+        load_deflection_factor=series_factor(*factors),
         outer_raceway_radius=pitch_radius + r_b,
         inner_raceway_radius=pitch_radius - r_b,
     )

@@ -34,8 +34,8 @@ from numpy.typing import ArrayLike
 from bearingcore.common import Array, _checks as checks
 
 GREATEST_LOG_RATIO = 40.0
-"""ln χ up to which the ellipse is sought. A groove wider than the ball by one part in 10^15 of
-its diameter is far inside."""
+"""ln χ up to which the ellipse is looked for. Even a groove that is wider than the ball by only
+10^-15 of its diameter lies far below."""
 
 
 @dataclass(frozen=True)
@@ -100,7 +100,7 @@ class RaceContact:
         0 at no load.
         """
         Q = np.asarray(load, dtype=float)
-        # a b grows as Q^⅔, so p as Q^⅓: from the ellipse at 1 N, which exists at no load too
+        # a b grows as Q^⅔, so p as Q^⅓; the ellipse at 1 N serves a load of zero too
         a, b = self.semi_axes(1.0)
         return 1.5 / (math.pi * a * b) * np.cbrt(Q)
 
@@ -117,7 +117,7 @@ def race_contact(
     ball_youngs_modulus: float | None = None,
     ball_poisson: float | None = None,
 ) -> RaceContact:
-    """The contact of a ball with a race, from the drawing.
+    """Compute the contact of a ball with a race from the dimensions on a drawing.
 
     Parameters
     ----------
@@ -151,7 +151,7 @@ def race_contact(
         raise checks.refuse(
             name,
             groove_radius,
-            "below {most:m}, the radius of the race itself, or it is no groove",
+            "below {most:m}, the radius of the race itself",
             most=1.0 / -around,
         )
     from scipy.special import ellipe, ellipkm1  # imported late, as scipy.special is slow to import
@@ -205,7 +205,7 @@ def _ellipse_ratio(rest: float) -> float:
     return math.exp(brentq(off, 0.0, GREATEST_LOG_RATIO, xtol=1e-15, rtol=1e-15))
 
 
-def in_series(inner: float, outer: float) -> float:
+def series_factor(inner: float, outer: float) -> float:
     """Load-deflection factor K [N/m^1.5] of both contacts of a ball, one after the other.
 
     Approaches add at equal load: K = (K_i^(−2/3) + K_e^(−2/3))^(−3/2) (Harris).

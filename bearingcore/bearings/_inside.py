@@ -55,7 +55,7 @@ ROLLER_FILL = (0.72, 0.90, 0.815, 0.03)
 """Rollers of a row over those that would touch each other: least, most, usual and its spread."""
 
 TAPERED_FILL = 0.90
-"""The same of tapered rollers, in a cage of pressed steel: assumed."""
+"""Usual fill of tapered rollers, assumed for a cage of pressed steel."""
 
 ROLLER_SHARE = (0.25, 0.75)
 """Roller diameter over the height of the cross-section, within which tapered ones are looked for.

@@ -12,7 +12,7 @@ from bearingcore.bearings._tapered import TAPERED
 from bearingcore.common import _checks as checks
 
 KINDS: dict[str, Kind] = {kind.name: kind for kind in (BALL, SELF_ALIGNING, ROWS, ROLLER, TAPERED)}
-"""By name."""
+"""Kinds of bearing by name."""
 
 
 def kind_of(bearing: InRows) -> Kind:

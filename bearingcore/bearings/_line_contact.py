@@ -30,11 +30,11 @@ STEEL_MODULUS, STEEL_POISSON = 210e9, 0.3
 """E [Pa] and ν of rollers and rings: the factor is for steel."""
 
 SERIES_CONSTANT = 35_948.0
-"""[N/mm^2] c_L/l^(8/9) of ISO 16281, of a steel roller between BOTH its races. Palmgren's
-3.84e-5 mm of 1 N on 1 mm, 8.06e4, is ONE contact: two of it in series are 3.73e4."""
+"""Constant c_L/l^(8/9) [N/mm^2] of ISO 16281, of a steel roller between BOTH its races. Palmgren's
+3.84e-5 mm of 1 N on 1 mm, 8.06e4, is for ONE contact: two in series make 3.73e4."""
 
 ONE_CONTACT = 8.06e4
-"""The same by Palmgren of one contact, which scenes of rollers were saved with as that of both."""
+"""Palmgren's constant of one contact: old saved scenes of rollers hold it as that of both."""
 
 LONG_ROLLER = 2.5
 """Length over diameter above which the profile of a roller has a straight part (ISO 16281)."""
@@ -98,8 +98,8 @@ def roller_contact(
 def profile_drop(place: ArrayLike, diameter: float, length: float) -> Array:
     """P [m] of a cylindrical roller at places [m] from its middle: Eqs. (42), (43) of ISO 16281.
 
-    Its reference profile: 0.00035 D ln(1/(1 − (2x/l)²)), and of rollers longer than 2.5 D straight
-    but for 1.25 D at each end, there with 0.0005 D.
+    Its reference profile is 0.00035 D ln(1/(1 − (2x/l)²)). A roller longer than 2.5 D is straight
+    except for 1.25 D at each end, which has 0.0005 D instead.
     """
     rounded = min(length, LONG_ROLLER * diameter)
     part = np.maximum(2.0 * np.abs(np.asarray(place)) - (length - rounded), 0.0) / rounded
@@ -108,7 +108,7 @@ def profile_drop(place: ArrayLike, diameter: float, length: float) -> Array:
 
 
 def tapered_profile_drop(place: ArrayLike, diameter: float, length: float) -> Array:
-    """The same of a tapered roller, 0.00045 D ln(1/(1 − (2x/l)²)): Eq. (44)."""
+    """P [m] of a tapered roller, 0.00045 D ln(1/(1 − (2x/l)²)): Eq. (44) of ISO 16281."""
     return np.asarray(-0.00045 * diameter * np.log1p(-((2.0 * np.asarray(place) / length) ** 2)))
 
 

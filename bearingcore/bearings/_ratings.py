@@ -34,10 +34,10 @@ MATERIAL_FACTOR = 1.3
 """b_m of ISO 281 for deep-groove, angular-contact and self-aligning ball bearings of today."""
 
 ROLLER_MATERIAL_FACTOR = 1.1
-"""The same for cylindrical roller bearings whose rings are machined, and for tapered rollers."""
+"""b_m of cylindrical roller bearings whose rings are machined, and of tapered rollers."""
 
 LARGE_BALL = 25.4
-"""[mm] above which ISO 281 lets the rating grow less with the ball."""
+"""Ball diameter [mm] above which ISO 281 lets the rating grow less with the ball."""
 
 _SELF_ALIGNING_GAMMA = (
     *(0.05, 0.06, 0.07, 0.08, 0.09, 0.10, 0.12, 0.14, 0.16, 0.18, 0.20),

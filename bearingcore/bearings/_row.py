@@ -27,7 +27,7 @@ OWN = ("n_balls", "contact_angle", *LENGTHS)
 
 @dataclass(frozen=True)
 class Row:
-    """One row of balls. What it does not give of its own is the bearing's.
+    """One row of balls. A dimension that it leaves open is that of the bearing.
 
     The cage of a row with dimensions of its own may turn at another speed than the bearing's. A
     cage angle φ is that of the bearing's own numbers; the cage of a row is at φ times its speed

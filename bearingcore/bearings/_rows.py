@@ -55,9 +55,10 @@ class Rows(Ball):
         return (*names, "row_distance", *(("preload",) if arrangement != "tandem" else ()), *second)
 
     def contact(self, bearing: InRows) -> Contact:
-        """That of a row: its inner groove's centres are where the line of contact meets r_d.
+        """Contact of a row, whose inner groove centres lie where the line of contact meets r_d.
 
-        They are (r_d − D_p/2) tan α0 beyond the balls', which of a drawing is (r_i − D_b/2) sin α0.
+        They are (r_d − D_p/2) tan α0 beyond the centres of the balls; for a bearing with a drawing
+        this is (r_i − D_b/2) sin α0.
         """
         beyond = bearing.groove_center_radius - 0.5 * bearing.pitch_diameter
         return super().contact(bearing)._replace(beyond=beyond * math.tan(bearing.contact_angle))

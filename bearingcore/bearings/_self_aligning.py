@@ -12,7 +12,7 @@ import math
 from typing import Any
 
 from bearingcore.bearings import _drawing as drawing
-from bearingcore.bearings._hertz import RaceContact, in_series, race_contact, spherical_contact
+from bearingcore.bearings._hertz import RaceContact, race_contact, series_factor, spherical_contact
 from bearingcore.bearings._in_rows import InRows
 from bearingcore.bearings._kind import ISO_76_SELF_ALIGNING, Kind, Picture, Variant
 from bearingcore.bearings._kinematics import check_contact_angle
@@ -84,7 +84,7 @@ def _contacts(
 
 
 def _factor(inner: RaceContact, outer: RaceContact) -> float:
-    return in_series(inner.load_deflection_factor, outer.load_deflection_factor)
+    return series_factor(inner.load_deflection_factor, outer.load_deflection_factor)
 
 
 def inner_groove(bearing: InRows) -> float:

@@ -96,7 +96,7 @@ class Suffix(NamedTuple):
     inside
         column of `reinforced.csv`; empty: the plain inside.
     arrangement
-        of a pair; empty of a single bearing.
+        of a pair; empty for a single bearing.
     matched
         class of axial clearance of a pair, "CA" to "GC"; empty where none is said.
     axial_play
@@ -168,7 +168,7 @@ def read_suffix(name: str, kind: str, text: str, count: str, is_ceramic: bool) -
 
 
 def _suffix_of(kind: str, text: str, count: str, is_ceramic: bool) -> Suffix:
-    """As `read_suffix`; ValueError with what is allowed."""
+    """Read a suffix like `read_suffix`; ValueError with what is allowed."""
     if second := _SECOND.search(text):
         raise ValueError(ONE_NUMBER.format(second[0]))
     if _BORE.match(text):
@@ -209,7 +209,7 @@ def _inside_of(kind: str, said: Suffix, rest: str) -> Suffix:
 
 
 def _inside_at_an_angle(said: Suffix, rest: str) -> Suffix:
-    """The same of angular contact, whose letters name the angle and a reinforced inside."""
+    """Suffix of angular contact, whose letters name the angle and a reinforced inside."""
     if _PRECISION.match(rest):
         raise ValueError(PRECISION)
     if _OF_ANOTHER_MAKER.match(rest):

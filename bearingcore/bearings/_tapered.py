@@ -37,7 +37,7 @@ USUAL_ANGLE = math.radians(14.0361)
 """14°02′10″, the angle of most bearings of the series 302 and 322 (ISO 355)."""
 
 PAIR_PREFIX = "tapered-"
-"""Before the arrangement in the name of a pair."""
+"""Prefix of the arrangement in the name of a pair."""
 
 
 class Tapered(Roller):

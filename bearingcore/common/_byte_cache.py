@@ -29,12 +29,12 @@ def lru_cache_by_bytes(
     Parameters
     ----------
     most_bytes
-        of all that is kept. What is larger is not kept at all.
+        size of all kept results. A result that is larger is not kept at all.
     size
         bytes of the arrays of a result and of what it keeps alive: called with the result, then
         the arguments.
     key
-        what a result belongs to, of the arguments; None: the arguments themselves, which are kept.
+        function that makes a result's key of the arguments; None: the arguments are the key.
     """
 
     def key_of(*arguments: Any, **named: Any) -> Hashable:

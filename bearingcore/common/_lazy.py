@@ -17,7 +17,7 @@ if TYPE_CHECKING or sys.version_info >= (3, 12):
 else:
 
     class cached_property:  # noqa: N801  # as in functools
-        """As `functools.cached_property`, without the lock."""
+        """Copy of `functools.cached_property` without the lock."""
 
         def __init__(self, func: Any) -> None:
             self.func, self.__doc__, self._name = func, func.__doc__, func.__name__

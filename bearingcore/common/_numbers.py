@@ -139,7 +139,7 @@ def count(n: int, thing: str, plural: str = "") -> str:
 
 
 def span(low: float, high: float, unit: str, digits: int = 3) -> str:
-    """From the least to the greatest number: "365 to 436 Hz", or "670 Hz" where they look alike."""
+    """Range between two numbers in words: "365 to 436 Hz", or "670 Hz" where they look alike."""
     if not (math.isfinite(low) and math.isfinite(high)):
         return NO_VALUE
     low_text, other = number(low, digits), number(high, digits)
@@ -147,7 +147,7 @@ def span(low: float, high: float, unit: str, digits: int = 3) -> str:
 
 
 def prefixed_span(low: float, high: float, unit: str) -> str:
-    """From the least to the greatest number with a prefix: "11.1 to 20.1 MN/m"."""
+    """Range between two numbers with a prefix in words: "11.1 to 20.1 MN/m"."""
     low_text, other = with_prefix(low, unit), with_prefix(high, unit)
     first, its_unit = low_text.rsplit(" ", 1)
     if low_text == other or not (math.isfinite(low) and math.isfinite(high)):

@@ -35,7 +35,7 @@ from typing import Any, TypeVar
 from bearingcore.common import _checks as checks
 
 VERSION = 1
-"""Of the format. A reader refuses other versions instead of guessing."""
+"""Version of the format. A reader refuses other versions instead of guessing."""
 
 LARGEST_TEXT = 2_000_000
 """Characters that are read at the most: a measured floor of 100,000 points fits."""
@@ -152,7 +152,7 @@ def table(name: str, data: object, allowed: str = "a table") -> dict[str, Any]:
 
 
 def _parts(kind: type) -> dict[str, tuple[type, ...]]:
-    """For each field of a dataclass the dataclasses that it can hold."""
+    """Return, for each field of a dataclass, the dataclasses that it can hold."""
 
     def inside(hint: Any) -> tuple[type, ...]:
         if dataclasses.is_dataclass(hint) and isinstance(hint, type):

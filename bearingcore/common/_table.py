@@ -32,10 +32,10 @@ READ_UNITS = {"rad": "deg", "m": "µm"}
 """Units for people instead of radians and metres."""
 
 MOST_ROWS, MOST_COLUMNS = 10, 8
-"""Of a table that is printed; the middle of a larger one is left out."""
+"""Size of a printed table; the middle of a larger one is left out."""
 
 LONGEST_VALUE, LONGEST_REPR = 24, 120
-"""Letters of a value beside its meaning, and of a result in a line."""
+"""Most letters of a value beside its meaning, and of a result in a line."""
 
 
 @dataclass(frozen=True)
@@ -50,7 +50,7 @@ class Column:
         "" for words and counts, "1" for ratios.
     values : (n,)
     meaning
-        what it is, in a few words; may be empty.
+        meaning in a few words; may be empty.
     """
 
     name: str
@@ -152,22 +152,22 @@ class ResultTable(Mapping[str, NDArray[Any]]):
         return all(column.values.size == 1 for column in self.columns)
 
     def _lines(self) -> list[tuple[str, str, str]]:
-        """A line a column of a single row: its name, its value with the unit, its meaning."""
+        """Lines of a single row, one for each column: name, value with unit, meaning."""
         return [
             (column.name, f"{_digits(column.values[0])} {_unit(column)}".rstrip(), column.meaning)
             for column in self.columns
         ]
 
     def _headed(self) -> DataFrame:
-        size = self.columns[0].values.size  # what is as long as the first stands in its rows
+        size = self.columns[0].values.size  # columns as long as the first one share its rows
         alike = [column for column in self.columns if column.values.size == size]
         heads = [f"{column.name} [{_unit(column)}]".removesuffix(" []") for column in alike]
         return self.only(*(column.name for column in alike)).frame().set_axis(heads, axis=1)
 
     def __str__(self) -> str:
-        """The table as text: of a single row a line a column, of many the first and last rows.
+        """The table as text: the first and last rows; or for a single row, a line for each column.
 
-        Without pandas, which cuts out the middle, all of many rows as CSV.
+        Without pandas, which leaves out the middle, a table of several rows is complete CSV.
         """
         if not self._is_one_row and find_spec("pandas") is None:
             return self.csv()
@@ -201,20 +201,20 @@ def table_of(
 ) -> ResultTable:
     """A table of (name, unit, numbers) or (name, unit, numbers, meaning).
 
-    Instead of its numbers a column may have the name of an attribute `of` each of some values.
+    Instead of numbers a column may have the name of an attribute, which each value in `of` has.
     """
-    made = []
+    named = []
     for name, unit, values, *meaning in columns:
         if isinstance(values, str):
             values = [getattr(column, values) for column in of]
-        made.append(Column(name, unit, np.asarray(values).ravel(), meaning[0] if meaning else ""))
-    return ResultTable(made)
+        named.append(Column(name, unit, np.asarray(values).ravel(), meaning[0] if meaning else ""))
+    return ResultTable(named)
 
 
 def shown_as_table(result: type[T]) -> type[T]:
     """A class with `.table()` that is printed as its table, in notebooks too.
 
-    Its `repr` is one line: the first fields, of arrays their shapes.
+    Its `repr` is one line: the first fields, and the shapes of arrays.
     """
 
     def heading(self: Any) -> str:
@@ -235,7 +235,7 @@ def shown_as_table(result: type[T]) -> type[T]:
 
 
 def short_repr(value: Any) -> str:
-    """Class and first fields of a dataclass or named tuple in a line, of arrays the shapes."""
+    """Class and first fields of a dataclass or named tuple in a line, and the shapes of arrays."""
     fields = dataclasses.fields(value) if dataclasses.is_dataclass(value) else ()
     names = [field.name for field in fields if field.repr] or value._fields
     parts = [f"{name}{of}" for name in names if (of := _short(getattr(value, name)))]
@@ -243,7 +243,7 @@ def short_repr(value: Any) -> str:
 
 
 def _short(value: Any) -> str:
-    """A field in short; empty where it is a value of several fields itself, or nothing."""
+    """A field in short; empty for None, and for a value that has fields itself."""
     if isinstance(value, np.ndarray) and value.ndim:
         return f" {value.shape}"
     if value is None or (isinstance(value, str) and not value):
@@ -264,7 +264,7 @@ def _unit(column: Column) -> str:
 
 
 def _digits(value: Any) -> str:
-    """A number with six digits, anything else as it is."""
+    """A number with six digits, anything else by `str`."""
     return f"{value:.6g}" if isinstance(value, float | np.floating) else str(value)
 
 

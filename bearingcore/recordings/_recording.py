@@ -97,7 +97,7 @@ class Recording:
 
     @property
     def duration(self) -> float:
-        """[s]"""
+        """Length of the signal [s]."""
         return len(self.acceleration) / self.sample_rate
 
     def scale_shaft(self, ratio: float) -> Recording:

@@ -17,7 +17,7 @@ COUNTS = 1e-4
 """Lines and bands in which a direction is below this part of its greatest do not count."""
 
 RESOLUTION = 32.0
-"""[Hz] of spectra that are compared; coarser where signals are short."""
+"""Resolution [Hz] of spectra that are compared; coarser where signals are short."""
 
 GROWN = 1e100
 """A signal that is greater than this anywhere has no spectrum."""

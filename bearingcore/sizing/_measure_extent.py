@@ -27,17 +27,17 @@ from bearingcore.recordings import Recording
 from bearingcore.sizing._release import plausible_offset
 
 SLIP_OF_LINES = 0.004
-"""By how much balls may pass faster or slower than the lines of a diagnosis."""
+"""Fraction by which balls may pass faster or slower than the lines of a diagnosis."""
 
 SAMPLES_A_DEGREE = 1.0
-"""Of the recording for a degree of the race, below which knocks cannot be located."""
+"""Samples for a degree of the race below which knocks cannot be located."""
 
 NO_ANSWER = "no clear result"
 
 TURN = 2.0 * math.pi
 
 LONGEST_BOUND = 1.0 / 3.0
-"""Of a ball spacing, from which a bound would say nothing."""
+"""Share of a ball spacing from which a bound would say nothing."""
 
 
 @shown_as_table

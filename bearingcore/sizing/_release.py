@@ -41,7 +41,7 @@ CLEARANCE_SPREAD = 0.25
 """Deviation of a given clearance as a share of it."""
 
 LEAST_CLEARANCE = 3e-4
-"""Of a ball diameter: the typical radial clearance where a bearing gives none."""
+"""Share of a ball diameter: the typical radial clearance where a bearing gives none."""
 
 EDGE_WEIGHTS = {"exact": 0.48, "chord": 0.48, "published": 0.04}
 """Probability of each edge model. The first two are geometry and nearly agree. `published` halves

@@ -34,32 +34,32 @@ from bearingcore.model.scene import MASSLESS, Scene
 from bearingcore.recordings import Recording
 
 BAND, FEWEST_LINES = (0.25, 1.35), 6.0
-"""Of the lowest and the highest natural frequency of the healthy bearing: what is compared; lines
-of the mean ball pass up to there, at least."""
+"""Compared band, over the lowest and the highest natural frequency without the defect; fewest
+lines of the mean ball pass up to there."""
 
 STEP = math.radians(0.5)
 SHORTEST, LONGEST = math.radians(0.5), math.radians(90.0)
-"""[rad] between extents that are simulated, as the misfit is steep; the first and the last."""
+"""Step [rad] between simulated extents, for a steep misfit; the first extent and the last."""
 
 APART = 0.16
-"""Of a ball spacing: extents that are closer to each other are one candidate."""
+"""Share of a ball spacing: extents closer than this are one candidate."""
 
 EXPLAINED, AHEAD = 0.25, 1.5
-"""Misfit below which an extent explains the pass, and how many times as much the next one has."""
+"""Misfit below which an extent explains the pass, and least ratio of the next misfit to it."""
 
 NEARLY = 0.1
-"""Lengths whose misfit is greater by no more than this are in the interval of the best: it holds
-the truth where the scene is that of the machine."""
+"""Excess of the misfit up to which lengths are in the interval of the best. The interval holds the
+truth where the scene is that of the machine."""
 
 AVERAGED, STEPS_A_CYCLE, MOST_STEPS = 0.12, 10.0, 200_000
-"""[s] of a simulation that are averaged; steps in a cycle of the highest frequency, and in a spall,
-an error near 0.2 dB; steps of one simulation at most."""
+"""Time [s] of a simulation that is averaged; steps in a cycle of the highest frequency, and in a
+spall, which leave an error near 0.2 dB; most steps of one simulation."""
 
 FINEST = math.radians(0.02)
-"""[rad] to which an extent is refined."""
+"""Step [rad] to which an extent is refined."""
 
 DELAYS = 4096
-"""Of a ball pass, under which a simulated one is laid over the measured one."""
+"""Number of delays in a ball pass under which a simulated pass is laid over the measured one."""
 
 
 class SizingStatus(Status):

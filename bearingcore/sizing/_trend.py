@@ -27,10 +27,10 @@ LOWEST_LINE = 3.0
 """Times the resolution from which a line is looked for."""
 
 SURROUNDINGS, FEWEST_AROUND = 2.0, 9
-"""[shaft speeds] over which the median is the background of a line, and its lines at least."""
+"""Width, in shaft speeds, over which the median is a line's background, and its fewest lines."""
 
 CHANCE = 1e-3
-"""That noise alone reaches the level from which a line counts."""
+"""Probability that noise alone reaches the level from which a line counts."""
 
 OF_THE_SHAFT = 0.6
 """Lines of the finest spectrum from a multiple of the shaft speed within which a peak is a tone of
@@ -43,7 +43,7 @@ FIRST_BAND = 5.0
 """Times BPFO from which the band of the envelope is looked for."""
 
 HIGHEST_SHARE = 0.49
-"""Of the sample rate up to which a band reaches."""
+"""Share of the sample rate that a band may reach."""
 
 
 @dataclass(frozen=True)
@@ -195,7 +195,7 @@ def trend(
     Parameters
     ----------
     recordings
-        at least one.
+        recordings, at least one.
     bearing
         the measured bearing; None if it is unknown: no part is then named.
     shaft_speed

@@ -109,7 +109,7 @@ def test_a_measured_signal_has_its_answer_pictures_and_assumptions_on_one_page()
         part_words.headline(answer),
         f"Probability {probability(answer.probability)}",
         part_words.length(extent),
-        part_words.plain(answer, question),
+        part_words.explanation(answer, question),
         next_steps(answer, question, zone_of(measured, "medium, rigid")),
         severity(measured, "medium, rigid"),
         f"BPFO {number(scene.bearing.bpfo(scene.shaft_speed), 4)} Hz",

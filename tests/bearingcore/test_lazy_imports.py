@@ -2,7 +2,8 @@
 
 import subprocess
 import sys
-from importlib import metadata
+from importlib import import_module, metadata
+from pkgutil import walk_packages
 
 import pytest
 
@@ -41,6 +42,17 @@ def test_every_public_name_is_there(name: str) -> None:
     assert name in dir(bearingcore)
     module = getattr(thing, "__module__", "bearingcore")
     assert module.startswith(("bearingcore", "builtins", "types", "numpy")), module
+
+
+def test_no_public_name_is_that_of_a_public_module_and_inner_modules_are_private() -> None:
+    modules = {"bearingcore": True}
+    modules |= {m.name: m.ispkg for m in walk_packages(bearingcore.__path__, "bearingcore.")}
+    public = [name for name in modules if "._" not in name]
+    single = {name for name in public if not modules[name]}
+    assert single == {f"bearingcore.{name}" for name in ("errors", "fields", "units")}
+    for front in public:
+        names = {thing for thing in dir(import_module(front)) if f"{front}.{thing}" not in modules}
+        assert not names & {name.rpartition(".")[2] for name in public}, front
 
 
 def test_the_version_is_that_of_the_distribution() -> None:

@@ -114,7 +114,7 @@ def hold_to_screens(page: Page) -> None:
         )
         page.set_viewport_size({"width": 1366, "height": 650})
         settle(page)
-        if page.locator(".bk-Figure").count():
+        if page.locator(".bk-Figure").locator("visible=true").count():
             wait(page, lambda: largest_share(page) > 0.99)
     for width, height in ((390, 844), (683, 325)):
         page.set_viewport_size({"width": width, "height": height})

@@ -7,7 +7,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from bearing_explorer.explorer.state.lessons import own_folder
+from bearing_explorer.explorer.state.lessons import shipped_folder
 from playwright.sync_api import BrowserContext, Page, expect
 
 from tests.browser.explorer_page import (
@@ -213,7 +213,7 @@ BROKEN = """(all) => all.filter((element) => {
   range.selectNodeContents(element)
   return new Set([...range.getClientRects()].map(({ bottom }) => Math.round(bottom))).size > 1
 }).length"""
-LESSONS = len(list(own_folder().glob("*.md")))
+LESSONS = len(list(shipped_folder().glob("*.md")))
 
 
 @pytest.mark.proof

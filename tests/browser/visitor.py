@@ -78,6 +78,7 @@ class Visitor:
         """Wait until a tab is open, or "Tab: Part"."""
         tab, _, part = place.partition(": ")
         expect(self.page.get_by_role("tab", name=tab, exact=True, selected=True)).to_be_visible()
+        expect(self.main).not_to_have_attribute("aria-busy", "true")  # its cards are drawn
         if part:
             parts = self.views.get_by_role("group", name=tab, exact=True)
             expect(parts.get_by_role("button", pressed=True)).to_have_text(part)
@@ -155,7 +156,8 @@ class Visitor:
         ).to_be_visible()
 
     def read_more(self) -> None:
-        """Open what stands behind "?" of the cards on screen."""
+        """Open what stands behind "?" of the cards on screen, once there are any."""
+        expect(self.main.get_by_role("heading", level=2).first).to_be_visible()
         for more in self.main.get_by_role("button", name=re.compile("^More about")).all():
             more.click()
 

@@ -21,7 +21,7 @@ def signal() -> Measured:
 def at(scene: Scene, shaft_speed: float | None = None) -> Machine:
     """A machine that a person gave: the bearing of a scene, at its speed or another [rad/s]."""
     machine = scene_machine(scene, GIVEN)
-    return machine if shaft_speed is None else machine.knowing(shaft_speed)
+    return machine if shaft_speed is None else machine.replace_speed(shaft_speed)
 
 
 def measuring(

@@ -69,7 +69,7 @@ class Question:
                 bearing.contact_angle,
                 *(number for row in bearing.rows for number in row.own.values()),
             )
-        speed = measured.machine.range
+        speed = measured.machine.speed_range
         return cls(measured, speed, numbers, id(measured.recording), **more)
 
     @property

@@ -52,7 +52,7 @@ SIGNAL_FIELDS = ("columns", "part", "unit", "full_scale", "sensitivity", "sample
 FIELDS = (*SIGNAL_FIELDS, *machine.FIELDS)
 LONGEST_TEXT = 40
 LONGEST_ROLES = 20_000
-"""[characters] of a field, and of that with the roles of all columns."""
+"""Longest text [characters] of a field, and of that with the roles of all columns."""
 NOTHING = ""
 """The role of a column that is not used."""
 ROLES = (
@@ -67,7 +67,7 @@ ROLES = (
 DIRECTIONS = ("x", "y")
 """Roles that are signals; each may have its unit behind it: "x g"."""
 APART = ";"
-"""Between the roles of the columns in their field."""
+"""Sign between the roles of the columns in their field."""
 NOT_KNOWN = ""
 """A unit or a sensitivity that has not been answered."""
 AS_HEADED = "units of their own"
@@ -220,7 +220,7 @@ def _unit(table: Table) -> str:
 
 
 def bearings_of(table: Table) -> list[list[str]]:
-    """[value, words, heading] of the bearings to choose from.
+    """Rows [value, words, heading] of the bearings to choose from.
 
     The one of the file's collection comes first.
     """
@@ -238,14 +238,14 @@ def bearings_of(table: Table) -> list[list[str]]:
 
 
 def recordings_of(table: Table) -> list[list[str]]:
-    """[value, words] of the recordings in a file; none where there is one alone."""
+    """Rows [value, words] of the recordings in a file; none where there is only one."""
     rows = [f"{k}: rows {a + 1} to {b}" for k, (a, b) in enumerate(table.recordings, 1)]
     longest = [["", "the longest"]] if rows else []
     return [*longest, *([str(k), words] for k, words in enumerate(rows, 1))]
 
 
 def speeds_of(table: Table) -> list[list[str]]:
-    """[value, words] of the answers on the shaft speed."""
+    """Rows [value, words] of the answers on the shaft speed."""
     speed = table.contents.shaft_speed
     of_file = []
     if speed is not None:
@@ -270,7 +270,7 @@ def reasons(table: Table) -> dict[str, str]:
     texts = {"columns": choice.reason} if choice.reason else {}
     texts["unit"] = _because(contents.unit) if contents.unit.taken else "The file does not say it."
     if _unit(table) == AS_HEADED:
-        texts["unit"] = "By the heading of each column, or as given over it."
+        texts["unit"] = "From the heading of each column, or from the list above it."
     if not table.full_scale_known:
         texts["full_scale"] = "Full scale of the recorder, in the unit."
     sensor = contents.sensitivity
@@ -459,7 +459,7 @@ def read_form(
             sensitivity=sensitivity,
         )
     except ValueError as error:
-        raise FormError({"columns": f"These columns are no signal: {_said_by(error)}."}) from None
+        raise FormError({"columns": f"These columns are not signals: {_said_by(error)}."}) from None
     contents = table.contents
     places = sorted({contents.columns[i].place for i in columns} - {""})
     point = "" if contents.point is None else contents.point.value

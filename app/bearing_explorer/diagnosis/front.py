@@ -1,4 +1,4 @@
-"""All that the page takes of the measured signal's half: its tab and its session."""
+"""Front of the measured signal's half for the page: its tab and its session."""
 
 from __future__ import annotations
 

@@ -36,7 +36,7 @@ class DiagnosisOfSignal(Half):
 
     @property
     def scene(self) -> Scene:
-        """The scene with which a signal is compared, as it is now."""
+        """The current scene, with which a signal is compared."""
         return self._scene()
 
     def stop(self) -> None:

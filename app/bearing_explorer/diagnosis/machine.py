@@ -1,7 +1,7 @@
 """The machine of a measurement: which bearing, how fast the shaft turned, and who said so.
 
-What is not said is not known. The scene's bearing and speed are taken only where a person chose
-them, by `scene_machine`: nothing else here looks at a scene.
+A fact that neither the file nor a person states stays unknown. The scene's bearing and speed are
+taken only where a person chose them, by `scene_machine`: nothing else here looks at a scene.
 """
 
 from __future__ import annotations
@@ -22,32 +22,32 @@ from bearingcore.measured.files import FileContents, Finding
 
 NOT_KNOWN = ""
 FILE, GIVEN, ROUGH, SCENE, SIMULATED = "file", "given", "rough", "scene", "simulated"
-"""Sources of a shaft speed; with GIVEN a person typed it, with ROUGH too, good to `TOLERANCE`."""
+"""Sources of a shaft speed. A person types GIVEN and ROUGH ones; ROUGH is good to `TOLERANCE`."""
 BY_DESIGNATION, BY_FREQUENCIES = "designation", "frequencies"
 """Ways to say which bearing it is, besides SCENE and the name of a listed one."""
 TOLERANCE = 0.1
-"""By how much a rough shaft speed may be off, as a fraction."""
+"""Fraction by which a rough shaft speed may be off."""
 SAME_ORDERS = 0.01
 """Relative difference up to which a bearing's frequencies are those of a file."""
 PITCH_DIAMETER = 39e-3
-"""[m] of bearings known by their frequencies, for their picture: no answer depends on it."""
+"""Diameter [m] for the picture of a bearing known by its frequencies: no answer depends on it."""
 SPEEDS = (1e-3, 1e4)
-"""[Hz] between which a shaft speed may be typed."""
+"""Least and greatest shaft speed [Hz] that may be typed."""
 
 RATIOS = (0.01, 100.0)
-"""Between which a bearing's shaft may turn as often as the measured one."""
+"""Least and greatest ratio of the speed of a bearing's shaft to the measured one."""
 
 FASTEST_BARE = 300.0
-"""[Hz] above which a number without a unit may be meant in rpm: 18,000 rpm."""
+"""Frequency [Hz] above which a number without a unit may be meant in rpm: 18,000 rpm."""
 
 FIELDS = ("bearing", "designation", *FREQUENCIES, "speed", "shaft_speed", "ratio")
-"""Of the form that says it."""
+"""Fields of the form that describes the machine."""
 
 GROUPS = {
     "bearing": ("bearing", "designation", *FREQUENCIES),
     "speed": ("speed", "shaft_speed", "ratio"),
 }
-"""The fields that answer one question, by the first of them."""
+"""Fields of each question, by the name of the first field."""
 
 KNOWN = (GIVEN, ROUGH)
 MEASURED = (FILE, *KNOWN)
@@ -64,7 +64,7 @@ BEARING_SOURCES = {
 """Sources of a bearing, in words."""
 
 OWN_FREQUENCIES = " Choose “by its frequencies” to type them."
-"""Follows the refusal of a bearing that is not in the table: a way on."""
+"""Sentence after the refusal of a bearing that is not in the table."""
 
 
 class Turning(NamedTuple):
@@ -76,7 +76,7 @@ class Turning(NamedTuple):
 
 @dataclass(frozen=True)
 class Machine:
-    """The knowledge of the machine on which a signal was measured.
+    """The machine on which a signal was measured, as far as it is known.
 
     Attributes
     ----------
@@ -89,15 +89,15 @@ class Machine:
     bearing_source
         FILE, GIVEN, SCENE or SIMULATED; NOT_KNOWN without a bearing.
     bearing_name
-        as the page has it; empty of the scene's.
+        name of the bearing on the page; empty for that of the scene.
     guessed
-        names of "bearing" and "speed" which a file only suggests.
+        those of "bearing" and "speed" that a file only suggests.
     kept
-        names of "bearing" and "speed" which a person gave for the file before.
+        those of "bearing" and "speed" that a person gave for the file before.
     by_frequencies
-        whether the bearing is known by the frequencies of its parts alone: it has no size then.
+        True where only the frequencies of the bearing's parts are known; it then has no size.
     unread
-        letters of the bearing's designation of which no meaning is known.
+        letters of the bearing's designation whose meaning is not known.
     ratio
         turns of the bearing's shaft for each turn of the shaft whose speed was measured.
     """
@@ -119,8 +119,8 @@ class Machine:
         if self.bearing is None:
             object.__setattr__(self, "bearing_source", NOT_KNOWN)
 
-    def knowing(self, speed: float | str) -> Machine:
-        """With the shaft speed as it is, ROUGH, "unknown", or another one [rad/s]."""
+    def replace_speed(self, speed: float | str) -> Machine:
+        """Return the machine with its shaft speed ROUGH, "unknown", or another number [rad/s]."""
         if speed in ("unknown", NOT_KNOWN):
             return dataclasses.replace(self, shaft_speed=None)
         if isinstance(speed, str):
@@ -129,7 +129,7 @@ class Machine:
 
     @property
     def ratio_words(self) -> str:
-        """The speed as one of the measured shaft's, after a comma; empty without a gear."""
+        """Relation to the speed of the measured shaft, after a comma; empty without a gear."""
         if self.ratio == 1.0 or self.shaft_speed is None:
             return ""
         measured = number(30.0 / math.pi * self.shaft_speed / self.ratio, 4)
@@ -145,15 +145,15 @@ class Machine:
         return (BEARING_SOURCES if name == "bearing" else SPEED_SOURCES).get(source, "")
 
     @property
-    def range(self) -> float | tuple[float, float] | None:
-        """The shaft speed [rad/s] as `bearingcore.diagnose` wants it."""
+    def speed_range(self) -> float | tuple[float, float] | None:
+        """The shaft speed [rad/s], or its least and greatest, for `bearingcore.diagnose`."""
         if self.shaft_speed is None or self.speed_source != ROUGH:
             return self.shaft_speed
         return (1.0 - TOLERANCE) * self.shaft_speed, (1.0 + TOLERANCE) * self.shaft_speed
 
     @property
     def exact_speed(self) -> float | None:
-        """The shaft speed [rad/s] where it is known, and not only roughly."""
+        """The shaft speed [rad/s]; None where it is known only roughly, or not at all."""
         return None if self.speed_source == ROUGH else self.shaft_speed
 
 
@@ -163,7 +163,7 @@ def scene_machine(scene: Scene, source: str = SCENE) -> Machine:
 
 
 class FormError(ValueError):
-    """Sentences by the fields of a form that they belong to."""
+    """Refused answers of a form: sentences by field."""
 
     def __init__(self, sentences: Mapping[str, str]) -> None:
         super().__init__(" ".join(sentences.values()))
@@ -171,11 +171,11 @@ class FormError(ValueError):
 
 
 def guess(contents: FileContents) -> dict[str, str]:
-    """The first values of the form: what the file says; the rest is not known."""
+    """Return the first values of the form: the facts of the file; the rest is not known."""
     speed = contents.shaft_speed
     return {
         "speed": FILE if speed is not None and speed.taken else NOT_KNOWN,
-        "shaft_speed": "" if speed is None else written(speed),
+        "shaft_speed": "" if speed is None else speed_text(speed),
         "ratio": "",
         "designation": "",
         **_bearing(contents),
@@ -183,7 +183,7 @@ def guess(contents: FileContents) -> dict[str, str]:
 
 
 def kept_answers(first: Mapping[str, str], given: Mapping[str, str]) -> dict[str, str]:
-    """Answers `given` for the file before, where this one, as it was filled in `first`, has none.
+    """Answers that were `given` for the file before, where `first`, those of this file, lack them.
 
     >>> kept_answers({"bearing": "", "speed": "file"}, {"speed": "given", "shaft_speed": "25"})
     {}
@@ -195,13 +195,13 @@ def kept_answers(first: Mapping[str, str], given: Mapping[str, str]) -> dict[str
 def _bearing(contents: FileContents) -> dict[str, str]:
     """The first values of the bearing and of its frequencies.
 
-    What the file says of frequencies is taken before what its collection is known for.
+    Frequencies that the file states go before those of the collection that it belongs to.
     """
     texts = dict.fromkeys(FREQUENCIES, "")
-    said, speed, listed = contents.frequencies, contents.shaft_speed, contents.bearing
-    if {"bpfo", "bpfi"} <= set(said):
-        texts |= {name: f"{value:.6g} Hz" for name, value in said.items()}
-        if listed is None or speed is None or not _agree(listed.value, said, speed.value):
+    stated, speed, listed = contents.frequencies, contents.shaft_speed, contents.bearing
+    if {"bpfo", "bpfi"} <= set(stated):
+        texts |= {name: f"{value:.6g} Hz" for name, value in stated.items()}
+        if listed is None or speed is None or not _agree(listed.value, stated, speed.value):
             return {"bearing": BY_FREQUENCIES, **texts}
     named = contents.designation
     if listed is None and named is not None:
@@ -213,15 +213,15 @@ def _bearing(contents: FileContents) -> dict[str, str]:
     return {"bearing": NOT_KNOWN if listed is None else listed.value, **texts}
 
 
-def _agree(name: str, said: Mapping[str, float], speed: float) -> bool:
-    """True where a listed bearing has the frequencies [Hz] that a file says, at a speed [rad/s]."""
+def _agree(name: str, stated: Mapping[str, float], speed: float) -> bool:
+    """True where a listed bearing has the `stated` frequencies [Hz] at a speed [rad/s]."""
     bearing = find_bearing(name).bearing
     computed = {"bpfo": bearing.bpfo(speed), "bpfi": bearing.bpfi(speed)}
-    return all(abs(said[key] / value - 1.0) < SAME_ORDERS for key, value in computed.items())
+    return all(abs(stated[key] / value - 1.0) < SAME_ORDERS for key, value in computed.items())
 
 
-def written(speed: Finding[float]) -> str:
-    """A speed in rpm where the file gives it so, else in Hz."""
+def speed_text(speed: Finding[float]) -> str:
+    """Text of a speed: in rpm where the file has it so, else in Hz."""
     if speed.file_unit == "rpm":
         return f"{speed.in_file_unit:.6g} rpm"
     return f"{speed.value / (2.0 * math.pi):.6g} Hz"
@@ -238,27 +238,27 @@ def read_machine(
     Parameters
     ----------
     texts
-        of `FIELDS`.
+        answers of the form, by `FIELDS`.
     first
-        the same as the file filled them in.
+        answers as the file filled them in.
     contents
-        of the file.
+        contents of the file.
     scene
         bearing and speed of the scene, see `scene_machine`: used only where the form says so.
     """
     speed, ratio = _speed_in(texts, contents, scene), _ratio_in(texts)
     speed = None if speed is None else ratio * speed
-    bearing, name, by, unread = _bearing_in(texts, speed, scene)
+    bearing, name, source, unread = _bearing_in(texts, speed, scene)
     guessed = set()
-    stated = contents.shaft_speed
-    if texts["speed"] == FILE and stated is not None and not stated.stated:
+    file_speed = contents.shaft_speed
+    if texts["speed"] == FILE and file_speed is not None and not file_speed.stated:
         guessed.add("speed")
-    if by == GIVEN and all(texts[field] == first[field] for field in GROUPS["bearing"]):
-        by = FILE
+    if source == GIVEN and all(texts[field] == first[field] for field in GROUPS["bearing"]):
+        source = FILE
         if not contents.frequencies and not texts["designation"]:
-            guessed.add("bearing")  # known from the collection the file seems to be of
+            guessed.add("bearing")  # that of the collection to which the file seems to belong
     return Machine(
-        speed, bearing, texts["speed"], by, name, frozenset(guessed),
+        speed, bearing, texts["speed"], source, name, frozenset(guessed),
         by_frequencies=texts["bearing"] == BY_FREQUENCIES, unread=unread, ratio=ratio,
     )  # fmt: skip
 
@@ -274,7 +274,7 @@ def _speed_in(texts: Mapping[str, str], contents: FileContents, scene: Machine) 
         except ValueError as error:
             raise FormError({"shaft_speed": str(error)}) from None
     if source not in (SCENE, NOT_KNOWN):
-        raise FormError({"speed": "There is no such answer on the shaft speed."})
+        raise FormError({"speed": "The shaft speed has no such answer."})
     return scene.shaft_speed if source == SCENE else None
 
 
@@ -305,7 +305,7 @@ def read_ratio(text: str) -> float:
 def _bearing_in(
     texts: Mapping[str, str], speed: float | None, scene: Machine
 ) -> tuple[Bearing | None, str, str, str]:
-    """The bearing of a form, its name, who says it, and what of the name was not read."""
+    """The bearing of a form, its name, its source, and the letters of the name with no meaning."""
     name = texts["bearing"]
     try:
         if name == SCENE:
@@ -316,7 +316,7 @@ def _bearing_in(
             return _bearing_by_frequencies(texts, turns), f"frequencies {typed}", GIVEN, ""
         if name == BY_DESIGNATION:
             name = texts["designation"]
-            if not name:  # it is not typed yet
+            if not name:  # the person has not typed it yet
                 return None, "", GIVEN, ""
             entry = find_bearing(name)
             return entry.bearing, name, GIVEN, entry.unread
@@ -328,19 +328,19 @@ def _bearing_in(
 
 
 def _bearing_by_frequencies(texts: Mapping[str, str], turns: float | None) -> Bearing | None:
-    """The bearing with frequencies that were typed, at so many `turns` of the shaft a second.
+    """The bearing with the typed frequencies; `turns` are those of the shaft per second, or None.
 
-    None before there are two of them. ValueError for frequencies that are those of no bearing.
+    None until two frequencies are typed. ValueError where no bearing can have them.
     """
-    given = [key for key in FREQUENCIES if texts[key]]
-    if not {"bpfo", "bpfi"} & set(given) or len(given) < 2:
+    typed = [key for key in FREQUENCIES if texts[key]]
+    if not {"bpfo", "bpfi"} & set(typed) or len(typed) < 2:
         return None
-    orders = {key: _order(key, texts[key], turns) for key in given}
+    orders = {key: _order(key, texts[key], turns) for key in typed}
     return bearing_of_frequencies(orders, PITCH_DIAMETER)
 
 
 def _order(name: str, text: str, turns: float | None) -> float:
-    """A frequency in turns of the shaft, out of "81.1 Hz" or "3.245 x"."""
+    """Order of a frequency, in turns of the shaft, out of "81.1 Hz" or "3.245 x"."""
     bare = re.sub(r"\s*(x|×|orders?)$", "", text.lower())
     least, most = 1e-3, 1e5
     if bare != text.lower():
@@ -354,7 +354,7 @@ def _order(name: str, text: str, turns: float | None) -> float:
 
 
 def read_speed(text: str) -> float:
-    """[Hz], of a number with its unit, or of one in Hz so low that no rpm can be meant."""
+    """Read a speed [Hz] from a number with its unit, or a bare one that is too low for rpm."""
     words, (least, most) = "The shaft speed", SPEEDS
     bare = text.lower()
     bare = re.sub(r"\s*(rpm|[ur1]?/min|min(-|\^-|⁻|−)[1¹])$", " rpm", bare)

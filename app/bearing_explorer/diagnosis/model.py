@@ -9,9 +9,9 @@ from bearing_explorer.kit.views.content import SceneContent
 from bearingcore import Scene
 
 NOT_TAKEN = "Not taken: see step {}"
-"""In the status line where a file or an answer is refused: the step that says why."""
+"""Words of the status line for a refused file or answer; they name the step that says why."""
 WANTED = "An answer is missing: see step 1"
-"""In the status line while nothing can be drawn."""
+"""Words of the status line while nothing can be drawn."""
 
 
 @dataclass(frozen=True)

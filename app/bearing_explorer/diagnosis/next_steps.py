@@ -72,9 +72,9 @@ def next_steps(
     zone
         of ISO 20816-3; empty where it is not known.
     trend
-        of several records, where there is one; a complete one.
+        complete trend of several records, where there is one.
     shaft_share
-        of the velocity's power, that the shaft's own lines carry; NaN where it is not known.
+        share of the velocity's power in the shaft's own lines; NaN where it is not known.
     """
     compared = trend is not None and len(trend.points) > 1 and question.measured.in_si
     change = float(trend.rms_change[-1]) if trend is not None and compared else 1.0

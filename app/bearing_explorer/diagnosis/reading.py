@@ -29,14 +29,15 @@ from bearingcore.measured.files import files_inside
 log = logging.getLogger(__name__)
 
 MOST_NAMED = 3
-"""Files left out that are named."""
+"""Greatest number of left-out files that are named."""
 
 
 @dataclass
 class Arrival:
-    """Files that come one after the other, and what was read of them.
+    """Files that arrive one after the other, and their contents.
 
-    `why`: the sentence on the first that cannot be read. `lines`: the first ones of one alone.
+    `why`: the sentence on the first file that cannot be read. `lines`: its first lines, if it came
+    alone.
     """
 
     count: int
@@ -49,7 +50,7 @@ class Arrival:
 
     @property
     def words(self) -> str:
-        """Number of the file and of all, in words; empty of one alone."""
+        """Number of the file and of all, in words; empty for a single file."""
         if self.count == 1:
             return ""
         of = f" (some of {self.chosen}, from first to last)" if self.chosen > self.count else ""
@@ -57,7 +58,7 @@ class Arrival:
 
     @property
     def which(self) -> str:
-        """Rows left out of the file that is shown; of several, its name, and those left out."""
+        """Sentences on left-out rows; for several files also on the shown and the left-out ones."""
         if self.newest is None:
             return ""
         words, count = [self.newest.cut], len(self.series.tables)
@@ -70,7 +71,7 @@ class Arrival:
         return " ".join(filter(None, words))
 
     def take(self, name: str, read: Read | str, inside: int = 1) -> None:
-        """Take what was read, or why nothing was; one of so many `inside` one file."""
+        """Take a file that was read, or the reason why not; a zip has several files `inside`."""
         if inside > 1 and self.count == 1 and not self.series.together:
             self.series = Series(together=True)  # of the files in a zip
         if isinstance(read, str):

@@ -41,7 +41,7 @@ from bearingcore.common import number, percent, with_prefix
 FILE = "bearing-report-{}.html"
 NOT_SAID = "not said"
 WIDTH, HEIGHT = 600, 260
-"""Of a figure as it is drawn [px]; two are side by side."""
+"""Size [px] in which a figure is drawn; two stand side by side."""
 MOST_FIGURES = 4
 _ORIGINS = {
     "Said by": "From the file,", "A guess:": "Assumed:", "The file does not say it.": "Assumed",
@@ -231,7 +231,7 @@ def assumptions(
     given = dict(part_words.facts(answer, question))
     for name, source in (
         ("Shaft", machine.source_of("speed")), ("Bearing", machine.source_of("bearing")),
-        ("Slip", "assumed"), ("Demodulation band", "found"),
+        ("Slip", "assumed"), ("Demodulation band", "chosen"),
     ):  # fmt: skip
         if source and name in given:  # it stands in a column of its own
             given[name] = given[name].replace(f", {source}", "", 1)
@@ -281,5 +281,5 @@ def limits(question: Question, answer: Diagnosis) -> list[str]:
         NOT_JUDGED,
         *([NOT_FORESEEN] if answer.names_a_part else []),
         *([] if question.measured.in_si else [NO_SIZE]),
-        *(words.strip() for words in [part_words.counted(question)] if words),
+        *(words.strip() for words in [part_words.estimate_warning(question)] if words),
     ]

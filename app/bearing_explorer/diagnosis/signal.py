@@ -97,7 +97,7 @@ class Measured:
 
     @property
     def shaft_speed(self) -> float | None:
-        """[rad/s]; None where it is not known."""
+        """Shaft speed [rad/s]; None where it is not known."""
         return self.machine.shaft_speed
 
     @property

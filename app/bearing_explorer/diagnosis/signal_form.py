@@ -1,4 +1,4 @@
-"""The signal of a session as it is now, the answers of a person, and what is known of it.
+"""The current signal of a session, the answers of a person, and the known facts on it.
 
 Holds no Panel and draws nothing.
 """
@@ -156,7 +156,7 @@ class SignalForm:
         return answer if isinstance(answer, MeasuredExtent) else None
 
     def sizing(self) -> Sizing | None:
-        """The choice between lengths of the spall, of this signal on the machine of now."""
+        """The choice between lengths of the spall, for this signal on the current machine."""
         sized = self.sized
         if sized is None or self.measured is None:
             return None
@@ -164,7 +164,7 @@ class SignalForm:
 
     @property
     def shaft_speed(self) -> float | None:
-        """[rad/s] that is given, or that the diagnosis shows; None without either.
+        """Shaft speed [rad/s] that is given, or that the diagnosis shows; None without either.
 
         It is not looked for without the bearing: knocks of a race repeat more clearly than turns of
         the shaft, and would be taken for them.
@@ -261,7 +261,7 @@ class SignalForm:
 
     @property
     def whole_trend(self) -> Trend | None:
-        """The same trend, once all files are in it."""
+        """The trend once all files are in it."""
         trend = self.trend_now
         return trend.trend if trend is not None and trend.complete else None
 

@@ -23,10 +23,10 @@ from bearingcore import Defect, Motion, Recording, Scene, simulate
 from bearingcore.model.scene import WITH_MASS
 
 REFERENCE_EXTENT, REFERENCE_DEPTH = math.radians(5.0), 50e-6
-"""[rad], [m] of the defect under the load to whose vibration the noise is relative."""
+"""Extent [rad] and depth [m] of the loaded defect whose vibration is the measure of noise."""
 
 RATE = 25_600.0
-"""[Hz] of simulated measurements."""
+"""Sample rate [Hz] of simulated measurements."""
 
 PASSES = 200.0
 """Ball passes in one, where that is neither very short nor very long: enough to separate lines that
@@ -66,11 +66,11 @@ def noise_level(
     Parameters
     ----------
     scene
-        that is measured.
+        scene that is measured.
     signal : (n, d) [m/s²]
         what its housing does.
     columns
-        of a motion of the scene, that are measured.
+        columns of the scene's motion that are measured.
     noise_db
         signal over noise [dB].
     duration, sample_rate

@@ -17,8 +17,8 @@ BY_FREQUENCIES = (
 )
 WITHOUT_UNIT = "The unit of the signal is not known: say it in step 1."
 WITHOUT_DEFECT = (
-    "The scene has no defect: give it one on the outer race, of which place, depth and edges are "
-    "taken."
+    "The scene has no defect: give it one on the outer race, because its place, depth and edges "
+    "are needed."
 )
 CLEARLY = 1.5
 """Times the misfit of the best length that an unlikelier one has."""
@@ -68,7 +68,7 @@ def machine_of(measured: Measured, scene: Scene, race: str, shaft_speed: float |
     scene
         with the load and the support of the machine; a simulated signal has its own.
     race
-        that is damaged; empty where nothing says it: that of the scene.
+        damaged race; empty where nothing says it, which means the race of the scene.
     shaft_speed
         [rad/s] that is given or that the diagnosis shows; None: that of the scene.
 

@@ -1,6 +1,6 @@
 """A file from a browser, in pieces, as a message may hold no more than a few MB.
 
-Name, size and pieces are checked here, as any program can send them.
+Name, size and pieces are checked here, because any program can send them.
 """
 
 from __future__ import annotations
@@ -8,10 +8,10 @@ from __future__ import annotations
 from typing import Any
 
 MOST_BYTES = 24 * 2**20
-"""Of a file that is taken from a browser."""
+"""Size of the largest file that is taken from a browser."""
 
 PIECE = 2**20
-"""[bytes] of the pieces that the browser sends; far below the limit of the websocket."""
+"""Size [bytes] of the pieces that the browser sends; far below the limit of the websocket."""
 
 FIRST_LINES, LONGEST_LINE = 5, 120
 """Lines of a refused text that are shown, and characters of each."""
@@ -66,7 +66,7 @@ class Upload:
 
 
 def first_lines(content: bytes) -> str:
-    """The first lines of a text, for a person who looks why it is refused; empty of other files."""
+    """The first lines of a refused text, which may show the reason; empty for other files."""
     coded = "utf-16" if content[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8"
     text = content[:20_000].decode(coded, "replace")
     lines = [line.expandtabs(4)[:LONGEST_LINE] for line in text.splitlines()[:FIRST_LINES]]
@@ -81,9 +81,9 @@ def shown_name(name: Any) -> str:
 
 
 def without_middle(name: str, longest: int) -> str:
-    """A name with its middle left out where it is longer than so many characters.
+    """Shorten a name to `longest` characters by leaving out its middle.
 
-    Its end, with the number and the kind of a file, distinguishes files of one set.
+    The end stays: its number and suffix distinguish the files of one set.
     """
     if len(name) <= longest:
         return name

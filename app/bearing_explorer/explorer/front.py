@@ -1,4 +1,4 @@
-"""All that the page takes of the scene's half: tabs, session, lessons, help, compiled kernels."""
+"""Front of the scene's half for the page: tabs, session, lessons, help, compiled kernels."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from bearing_explorer.explorer.state.lessons import (
     Fault,
     Tabs,
     lessons_in,
-    own_lessons,
+    shipped_lessons,
 )
 from bearing_explorer.explorer.views.accuracy import Accuracy
 from bearing_explorer.explorer.views.alternatives import OtherModels
@@ -54,7 +54,7 @@ __all__ = [
     "figure_of",
     "help_texts",
     "lessons_in",
-    "own_lessons",
+    "shipped_lessons",
 ]
 
 SECTIONS = (
@@ -87,7 +87,7 @@ EXPLAINED = ("Defect", "Turning", "Load", "Balls", "Rows", "Drawing", "Contact",
 
 
 def begin_compiling(**report: Callable[..., object]) -> None:
-    """Begin `compiling`; the results that come along are drawn until it has ended."""
+    """Begin `compiling`; until it ends, the results that come with the program are drawn."""
     compiling.begin(default_results.keep, **report)
 
 

@@ -1,7 +1,7 @@
 """The scene's half of a session: messages -> controls -> Scene -> Results -> views.
 
-Messages are whole: `messages.take` has let none pass that the scripts of the page do not send.
-Words and numbers in them are not to be trusted.
+Messages have a known form: `messages.take` drops all that the scripts of the page do not send. The
+words and numbers in them are not trusted.
 """
 
 from __future__ import annotations
@@ -97,7 +97,7 @@ class Explorer(Half):
 
     @property
     def focused_scene(self) -> Scene:
-        """The same, the defect that the sliders move first."""
+        """The scene with the defect that the sliders move in first place."""
         return focused(self.editor.scene, self.editor.selected)
 
     def content(self) -> Results:
@@ -135,8 +135,8 @@ class Explorer(Half):
     def show_controls(self, **news: Any) -> None:
         """Send news to all panels of controls; each shows its own part.
 
-        Controls are moved (`state`), or it is said what was refused (`refused`).
-        The mark lets a panel pass over what a slider has moved on from meanwhile.
+        `state` moves controls, and `refused` has sentences on refused values. The mark lets a panel
+        ignore news that a slider has overtaken.
         """
         if "state" in news:
             news["state"] = {**news["state"], "mark": self.mark}
@@ -185,9 +185,9 @@ class Explorer(Half):
             self.draw()  # even a refusal is answered, or the browser would wait for its mark
 
     def _set(self, numbers: Mapping[Any, Any], confirm: bool) -> None:
-        """Take numbers; what is refused stays as it was, with a sentence.
+        """Take numbers; a refused one stays unchanged, with a sentence.
 
-        A slider knows where it is; what was typed is confirmed as it was understood.
+        A slider knows its position; a typed number is confirmed as it was read.
         """
         editor = self.editor
         was_changed, had_effects = editor.changed, editor.effects
@@ -203,7 +203,7 @@ class Explorer(Half):
             self.show_controls(refused=refused)
 
     def _take_place(self, request: OpenRequest, place: Place | str) -> None:
-        """Open or compare a place; where there is none, say why."""
+        """Open or compare a place; show the reason where there is none."""
         self.bookmarks.take(request, place)
         self.show_controls(state=self.editor.state())
         self.show_links()
@@ -233,7 +233,7 @@ class Explorer(Half):
         self.change_scene(message)  # the mark, and a reset
 
     def open_link(self, name: str, text: str) -> None:
-        """Open what a link of the page's own holds, and its tab."""
+        """Open the scene and the tab of a link that comes with the page."""
         request = OpenRequest("open", name, text)
         self._take_place(request, place := read_request(request))
         if isinstance(place, Place):

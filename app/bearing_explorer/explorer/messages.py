@@ -57,7 +57,7 @@ class LinksChange(SceneChange, omit_defaults=True):
     compare_here
         the name under which the current scene is drawn too; empty for the usual one.
     number
-        which of the compared scenes to `remove`.
+        number of the compared scene to `remove`.
     keep
         the name under which the browser keeps the current scene.
     want

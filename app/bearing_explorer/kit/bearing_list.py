@@ -90,7 +90,7 @@ def _no_match(text: str) -> str:
 
 
 def _designation(text: str) -> Designation | None:
-    """The bearing that a text is the designation of; None where it is none."""
+    """The bearing whose designation a text is; None if it is no designation."""
     try:
         return read_designation(text)
     except ValueError:

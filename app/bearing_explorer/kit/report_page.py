@@ -1,4 +1,4 @@
-"""The frame of a report: a page of HTML that stands alone, and its head."""
+"""Frame of a report: a page of HTML that needs no other file, and its head."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ _POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'"
 
 @dataclass(frozen=True)
 class About:
-    """Head of a report: bearing, link, day.
+    """Facts in the head of a report.
 
-    `title`, `machine` and `remarks` are free text; they may be empty.
+    `title`, `machine` and `remarks` are free text, and may be empty.
     """
 
     bearing: str
@@ -58,7 +58,7 @@ def document(about: About, title: str, body: Iterable[str], style_sheet: str) ->
 
 
 def _link(address: str) -> str:
-    """An address as a link; nothing where it is none of the web's."""
+    """Link to an address; empty where it is no address of the web."""
     try:
         parts = urlsplit(address)
     except ValueError:

@@ -1,4 +1,4 @@
-"""A session and its halves: newest content -> what is drawn of it -> the views on screen."""
+"""A session and its halves: newest content -> picture -> views on screen."""
 
 from __future__ import annotations
 
@@ -31,23 +31,23 @@ from bearing_explorer.kit.widgets.status import StatusLine, Tabs
 
 log = logging.getLogger(__name__)
 
-#: slow views are drawn together with the others while a slider moves, or all would be painted
-#: twice. Where they cost more than this [s] they come after them, and may be skipped while newer
-#: content waits ...
+#: slow views are drawn together with the others while a slider moves, so that nothing is painted
+#: twice. If they cost more than this [s] they come after the others, and may be skipped while
+#: newer content waits ...
 _HEAVY = 0.04
 #: ... but not for longer than this [s]
 _PATIENCE = 0.25
 
-#: pictures that took less than this [s] of a processor are made on the event loop: where thirty
-#: people share the interpreter, threads that wait for one another take half as long again
+#: pictures that took less than this [s] of a processor are made on the event loop: with thirty
+#: people on one interpreter, threads that wait for each other take half as long again
 _AT_ONCE = 0.025
 
 #: a tab opens together with its fine picture where that takes less than this [s]
 _SOON = 0.2
 
-#: warnings are looked for when the slider rests, and with the first change after so long [s]: what
-#: was typed may be far over a limit. While a slider moves they are looked for after so long, and
-#: where many share the machine, after so many pictures: they cost as much as two
+#: warnings are computed when the slider rests, and with the first change after this time [s],
+#: because a typed number may be far over a limit. While a slider moves they are computed after this
+#: time and this number of pictures: they cost as much as two pictures, and many share the machine
 _WARNINGS_EVERY = 1.0
 _WARNINGS_PICTURES = 10
 
@@ -69,7 +69,7 @@ class Half:
     sections: tuple[Section, ...]
     """Its tabs."""
     kind_of_content: type
-    """The type of its content, which another half's is not."""
+    """Type of its content; the other half has another one."""
     page: Session
     jobs: Jobs
     """The background of the session."""
@@ -91,10 +91,10 @@ class Half:
         view.attach(self)
 
     def tab_opened(self, name: str) -> None:
-        """A tab of the page was opened, of whichever half."""
+        """Note that a tab of either half was opened."""
 
     def stop(self) -> None:
-        """The session is over."""
+        """End what the half has begun: the session is over."""
 
 
 class Session:
@@ -105,7 +105,7 @@ class Session:
     halves
         of the program, by the tabs of each; the page has the tabs in this order.
     tab
-        that is open at first; the first one where there is no such tab.
+        tab that is open at first; the first one where there is no such tab.
     """
 
     def __init__(self, halves: Mapping[Section, Half], tab: str = "") -> None:
@@ -165,7 +165,7 @@ class Session:
         return [view for views in self._views.values() for view in views]
 
     def start(self) -> None:
-        """The page is up: draw."""
+        """Draw for the first time, once the page is up."""
         send_at_once(self._doc)
         self.draw()
         if compiling.left():
@@ -173,7 +173,7 @@ class Session:
             self._compiling = asyncio.get_running_loop().create_task(drawing)
 
     def stop(self) -> None:
-        """The session is over: nothing is begun any longer, and what waits for its turn is not."""
+        """End the session: begin nothing more, and drop what waits for its turn."""
         self._loop.stop()
         self.jobs.stop()
         if self._compiling is not None:
@@ -189,7 +189,7 @@ class Session:
         self._loop.submit(content.at_rest(self._refined == (self._shown, *content.fine_key)))
 
     async def _draw_when_compiled(self) -> None:
-        """Draw anew whenever a part of the kernels is ready, and say how far it is."""
+        """Draw anew whenever a part of the kernels is ready, and show the progress."""
         left: tuple[str, ...] | None = None
         while left != ():
             if left == (left := compiling.left()):
@@ -210,11 +210,11 @@ class Session:
             self.draw()
 
     async def _make_tab(self, name: str) -> None:
-        """Have the section that is to be on screen: its figures are made when it is first opened.
+        """Make the figures of a section when it is first opened.
 
-        All of it holds the interpreter, and is done on the event loop, one session after the other:
-        where 30 come at once, threads that take it from each other have the last picture come a
-        sixth later.
+        All of this holds the interpreter, and is done on the event loop, one session after the
+        other. In threads, which take the interpreter from each other, the last picture of 30 people
+        who come at once is a sixth later.
         """
         if name not in self._views:
             kinds = self._sections[name].views
@@ -252,9 +252,9 @@ class Session:
         self.tabs.active = self._attached = name
 
     async def _opens_finely(self, content: Content) -> bool:
-        """Open the tab with its fine picture, if that is there soon, or empty and say no.
+        """Open the tab with its fine picture and return True, if that is ready soon; else empty.
 
-        Else it would be laid out and painted three times: empty, coarsely and finely.
+        Otherwise it would be laid out and painted three times: empty, coarsely and finely.
         """
         fine, views = content.at_rest(), self._views[self._on_screen]
         drawing = asyncio.ensure_future(run_in_thread(picture_of, fine, views, True))
@@ -274,7 +274,7 @@ class Session:
         if opens:
             await self._make_tab(self._shown)
             self._slow_cost = self._quick_cost = math.inf  # not known yet
-        if not self._is_for_screen(content):  # of before the tab of the other half was opened
+        if not self._is_for_screen(content):  # older than the tab of the other half
             content = self._halves[self._on_screen].content()
         if opens and await self._opens_finely(content):
             content = content.at_rest()
@@ -283,12 +283,12 @@ class Session:
         write.update(self._doc, content.log_name, self._on_screen, time.perf_counter() - started)
         compiling.drawn()
         if self._on_screen != self._shown:
-            # opened meanwhile, and this content may have been the newest
+            # another tab was opened meanwhile, and no newer content may be waiting
             self.draw()
         return content
 
     async def _draw_following(self, content: Content) -> Content:
-        """Draw what follows a slider, what takes long after the others."""
+        """Draw the views that follow a slider, slow ones after the others."""
         quick, slow = self._quick_and_slow(content)
         if quick or not slow:
             run = run_in_turn if self._quick_cost < _AT_ONCE else run_in_thread
@@ -305,12 +305,12 @@ class Session:
         return content
 
     def _quick_and_slow(self, content: Content) -> tuple[list[View], list[View]]:
-        """Views that follow a slider, and those that are drawn after them, if now at all."""
+        """Views that follow a slider, and slow ones to draw after them, unless they are skipped."""
         started = time.perf_counter()
         views = [view for view in self._views[self._on_screen] if not view.at_rest]
         slow = [view for view in views if view.needs & content.slow]
         quick = [view for view in views if view not in slow]
-        # where nothing else follows the slider there is nothing to delay
+        # slow views alone delay nothing
         heavy = self._slow_cost > _HEAVY and any(view.needs for view in quick)
         if slow and not heavy and math.isfinite(self._slow_cost) and content.moving:
             quick, slow = [], views

@@ -32,7 +32,7 @@ class FolderDiagnosis:
     names
         of the files.
     answers
-        a `Diagnosis` each; None of a file that cannot be read.
+        a `Diagnosis` each; None for a file that cannot be read.
     sentences
         of the answers, or why a file cannot be read.
     """

@@ -1,4 +1,4 @@
-"""A recording out of a file in one call, with whatever is known of it said by hand."""
+"""A recording out of a file in one call, with facts that a person gives."""
 
 from __future__ import annotations
 

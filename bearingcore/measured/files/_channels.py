@@ -1,4 +1,4 @@
-"""Which columns of a file are signals, where and in which direction they were measured."""
+"""Channels of a file: its columns that are signals, where and along what they were measured."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ QUANTITIES = {
     "a speed": ("rpm", "speed rpm drehzahl"),
     "a tachometer's signal": ("", " ".join(PULSES)),
 }
-"""What is no vibration: its units, and words of its headings."""
+"""Quantities that are no vibration: their units, and words of their headings."""
 
 _NOT_SIGNALS = {word for _, words in QUANTITIES.values() for word in words.split()} | {
     "power", "humidity", "flow", "load", "magnetic", "magnetometer", "quat", "quaternion",
@@ -210,13 +210,13 @@ def choose(
     columns
         of the table.
     moving
-        whether each holds a signal at all.
+        true for each column that holds a signal at all.
     why
         the directions of the columns are known.
     file_name
-        which may say which place it is about.
+        name of the file, which may name the place.
     place
-        that of the bearing, where it is known.
+        place of the bearing, where it is known.
     """
     signals = [
         index
@@ -255,7 +255,7 @@ def _choose_by_place(
 
 
 def only_signal(name: str, index: int, why: str) -> Choice:
-    """Choose the one signal of a file, whatever its name says."""
+    """Choose the only signal of a file, without regard to its name."""
     reason = f"{why}, the only signal there" if why else "the only signal there"
     note = f"“{name}” is read as the vibration across the shaft, since it is the only signal."
     return Choice({"y": index}, reason, note=note)

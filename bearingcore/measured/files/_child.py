@@ -24,16 +24,16 @@ import numpy as np
 from bearingcore.common import Array, _checks as checks
 
 PROCESSOR_SECONDS = 10
-"""[s] of computing that reading a file may take."""
+"""Processor time [s] that reading a file may take."""
 
 WALL_SECONDS = 20.0
-"""[s] that reading a file may take by the clock."""
+"""Time by the clock [s] that reading a file may take."""
 
 MEMORY = 500 * 10**6
-"""[bytes] that the process may take in addition to its libraries."""
+"""Memory [bytes] that the process may take in addition to its libraries."""
 
 LONGEST_ANSWER = 2**22
-"""[bytes] of the line of words that is read back."""
+"""Longest line of words [bytes] that is read back."""
 
 MOST_NUMBERS = 16_000_000
 """Numbers in a file, all columns together."""
@@ -41,7 +41,7 @@ MOST_NUMBERS = 16_000_000
 MOST_COLUMNS = 1024
 
 _TICK = 0.1
-"""[s] between two looks at the process."""
+"""Time [s] between two looks at the process."""
 
 _PROGRAM = Path(__file__).with_name("_child_program.py")
 _ENVIRONMENT = {
@@ -59,7 +59,7 @@ def read_file(
     Parameters
     ----------
     name
-        of the file, for sentences; ".mat" at its end marks MATLAB's version 4.
+        name of the file, for sentences; ".mat" at its end marks MATLAB's version 4.
     content
         the whole file.
     give_up
@@ -68,7 +68,7 @@ def read_file(
     Returns
     -------
     about
-        the other fields of `contents.FileColumns` by name.
+        the other fields of `_contents.FileColumns` by name.
     columns : (n, c)
         the numbers; gaps are NaN.
 

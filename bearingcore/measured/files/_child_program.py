@@ -1,4 +1,4 @@
-"""The process that reads one file: see `child`. Run as a script, apart from the package's front."""
+"""The process that reads one file, see `_child`. It runs as a script, without the front."""
 
 from __future__ import annotations
 
@@ -30,9 +30,9 @@ def limit(seconds: int, memory: int) -> None:
 
 
 def find_core() -> None:
-    """Let the packages of the core be imported from where this file is, though -I hides the path.
+    """Make the packages of the core importable from this folder, although -I hides the path.
 
-    The root would be looked for on the path; nothing of its own is needed.
+    An empty root serves: Python would look for the real one on the path.
     """
     root = ModuleType("bearingcore")
     root.__path__ = [str(Path(__file__).parents[2])]
@@ -65,7 +65,7 @@ def main() -> None:
     for part in parts:
         out.write(part.tobytes())
     out.flush()
-    os._exit(0)  # nothing of a damaged library's state is taken apart
+    os._exit(0)  # without cleaning up, as a damaged file may have broken a library
 
 
 if __name__ == "__main__":

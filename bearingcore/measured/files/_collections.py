@@ -36,7 +36,7 @@ class Collection:
     bearing
         a name of the catalogue, or a designation.
     place
-        which of several places of sensors is at the bearing.
+        place of the sensor at the bearing, where there are several.
     directions
         of the last columns.
     """
@@ -112,7 +112,7 @@ def recognize(names: Sequence[str], clock: int, named: Sequence[Named]) -> Colle
     names
         of all columns.
     clock
-        how many of the first columns are hours, minutes, seconds and their parts.
+        number of first columns that are hours, minutes, seconds and their parts.
     named
         the single numbers of the file.
     """

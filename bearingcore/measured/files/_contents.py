@@ -80,9 +80,9 @@ class FileColumns:
     full_scale_known
         whether the numbers are in a unit; False for parts of full scale (WAV).
     notes
-        sentences on what was not read.
+        sentences on parts that were not read.
     given
-        what is said of columns by hand, by index; it goes before all guesses.
+        facts that a person gives of columns, by index; they go before all guesses.
 
     Raises
     ------
@@ -132,7 +132,7 @@ class FileContents:
     load
         [N]
     sampling
-        what the column of times says, where there is one.
+        sampling by the column of times, where there is one.
     said
         everything else that the file names, in its own words.
     frequencies
@@ -140,11 +140,11 @@ class FileContents:
     sensitivity
         [V/(m/s²)] of the sensor.
     collection
-        the public collection that it looks like; empty where it looks like none.
+        public collection to which it seems to belong; empty for none.
     bearing
         that of the collection, by its name in the catalogue or its designation.
     designation
-        of the bearing, as a line of the file has it: it may be that of none.
+        designation of the bearing in a line of the file; such a bearing may not exist.
     recorded
         date and time of the recording.
     machine, point
@@ -183,7 +183,7 @@ def contents_of(table: FileColumns) -> FileContents:
     clock = 0 if any(index < clock for index in table.given) else clock
     known = recognize(table.names, clock, named)
     columns, sampling = _columns(table, clock, known)
-    columns, choice = _chosen(table, columns, sampling, known, lines)
+    columns, choice = _choose(table, columns, sampling, known, lines)
     picked = list(choice.columns.values()) or [
         index
         for index, column in enumerate(columns)
@@ -208,19 +208,19 @@ def contents_of(table: FileColumns) -> FileContents:
         known.guess("bearing"),
         facts.designation_in(lines),
         dates.recorded_in(lines, table.name),
-        dates.machine_in(lines, table.name),
-        dates.point_in(lines, table.name),
+        dates.named_in("machine", lines, table.name),
+        dates.named_in("point", lines, table.name),
     )
 
 
-def _chosen(
+def _choose(
     table: FileColumns,
     columns: Sequence[Column],
     sampling: Sampling | None,
     known: Collection,
     lines: Sequence[str],
 ) -> tuple[tuple[Column, ...], Choice]:
-    """The columns without those of spectra, and those of this bearing or a question."""
+    """Leave out the columns of spectra; choose those of this bearing, or ask a question."""
     headed = not all(re.fullmatch(r"column \d+|channel \d+", name) for name in table.names)
     why = known.why or ("as the headings say" if headed else "")
     moving = [_moves(values) for values in table.columns.T]
@@ -244,7 +244,7 @@ def _chosen(
     ]
     if len(left) != 1 or choice.columns or choice.options or known.why:
         return tuple(columns), choice
-    # of no signals by their names, the only column that swings about zero is the signal
+    # no name means a signal: the only column that swings about zero is it
     columns = list(columns)
     columns[left[0]] = dataclasses.replace(columns[left[0]], role=SIGNAL)
     return tuple(columns), only_signal(columns[left[0]].name, left[0], why)
@@ -253,8 +253,8 @@ def _chosen(
 def _columns(
     table: FileColumns, clock: int, known: Collection
 ) -> tuple[tuple[Column, ...], Sampling | None]:
-    """The columns, and what the times say where some of them are times."""
-    columns = [_described(column_of(name), table.texts) for name in table.names]
+    """The columns, and the sampling by their times, if some are times."""
+    columns = [_describe(column_of(name), table.texts) for name in table.names]
     columns = _add_units(table, columns)
     axes = known.directions
     for index, axis in enumerate(axes, len(columns) - len(axes)):
@@ -263,7 +263,7 @@ def _columns(
         if column.role in (SIGNAL, TIME) and column.unit is None:
             values = table.columns[:, index]
             if values[0] == np.floor(values[0]) and (np.diff(values) == 1.0).all():
-                columns[index] = Column(column.name, OTHER)  # 0, 1, 2, … is no time in seconds
+                columns[index] = Column(column.name, OTHER)  # 0, 1, 2, … are not times in seconds
     if clock:
         columns[:clock] = [Column(name, TIME) for name in table.names[:clock]]
         return tuple(columns), sampling_of(clock_time(table.columns, clock))
@@ -283,7 +283,7 @@ def _columns(
 
 
 def _add_units(table: FileColumns, columns: list[Column]) -> list[Column]:
-    """The columns with the units that lines give, each its own; one may be that of no signal."""
+    """The columns with the units of lines, one for each; a unit can show that it is no signal."""
     units = facts.units_said(table.remarks, table.texts)
     signals = [index for index, column in enumerate(columns) if column.role == SIGNAL]
     if len(units) == 1:
@@ -298,7 +298,7 @@ def _add_units(table: FileColumns, columns: list[Column]) -> list[Column]:
 def _read_times(
     table: FileColumns, columns: list[Column], stamped: Sequence[int]
 ) -> tuple[tuple[Column, ...], Sampling | None]:
-    """The columns, and what those say that count rows or are times: by name, or as they rise."""
+    """The columns, and the sampling by those that are times by their names or because they rise."""
     samplings: dict[int, Sampling] = {}
     for index, column in enumerate(columns):
         timed, values = column.role == TIME, table.columns[:, index]
@@ -310,7 +310,7 @@ def _read_times(
         elif table.sample_rate is None and (
             (dated := since_1970(values)) or (sampling := sampling_of(values)).stated
         ):
-            # what rises evenly all along is no vibration
+            # a column that rises evenly all along is no vibration
             columns[index] = Column(column.name, OTHER)
             if (dated or not sampling.trouble) and not names_a_frequency(column.name):
                 columns[index] = Column(column.name, TIME)
@@ -341,8 +341,8 @@ def _most_certain(samplings: Mapping[int, Sampling], names: Sequence[str]) -> Sa
 _DESCRIBES = ("name", "label", "channel", "position", "location", "place", "sensor", "direction")
 
 
-def _described(column: Column, texts: Mapping[str, str]) -> Column:
-    """A column with the place and direction that words next to it in its struct give."""
+def _describe(column: Column, texts: Mapping[str, str]) -> Column:
+    """Add to a column the place and direction from words beside it in its struct."""
     of = column.name.rpartition(".")[0].lower()
     for name, text in texts.items():
         parent, _, end = name.lower().rpartition(".")
@@ -365,7 +365,7 @@ def _described(column: Column, texts: Mapping[str, str]) -> Column:
 
 
 def _frequencies(table: FileColumns, columns: Sequence[Column], *, timed: bool) -> int | None:
-    """The column of the frequencies of a spectrum; beside times it need not be called so."""
+    """Column of the frequencies of a spectrum; beside times its name need not say so."""
     for index, column in enumerate(columns):
         if index in table.given or column.role not in (OTHER, SPEED):
             continue
@@ -418,7 +418,7 @@ def _unit(
 
 
 def _unit_by_level(signals: Array, all_signals: Array) -> Finding[str]:
-    """The unit in which signals are more like those of bearings; gravity may be on any of all."""
+    """Guess the unit in which signals look most like bearings; any signal may show gravity."""
     finite = np.where(np.isfinite(signals), signals, 0.0)
     with np.errstate(over="ignore", invalid="ignore"):  # numbers of damaged files
         level = float(np.sqrt(np.mean((finite - finite.mean(axis=0)) ** 2)))
@@ -479,7 +479,7 @@ def _speed_of_pulses(
 
 
 def _constants(table: FileColumns) -> list[Named]:
-    """Columns that hold one number: in every row, or in one alone."""
+    """Numbers from columns that hold the same one in every row, or a single one."""
     made = []
     for name, column in zip(table.names, table.columns.T, strict=True):
         values = column[np.isfinite(column)]

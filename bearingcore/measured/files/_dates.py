@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from datetime import datetime
 
 from bearingcore.measured.files._facts import Finding
@@ -130,20 +130,12 @@ def recorded_in(lines: Iterable[str], file_name: str) -> Finding[datetime] | Non
     return None if date is None else Finding(date, "the file's name", stated=False, strong=True)
 
 
-def machine_in(lines: Iterable[str], file_name: str) -> Finding[str] | None:
-    """Return the name of the machine that remarks give; else a tag such as P-101 in the name."""
-    return _labelled(lines, _MACHINES, _TAG, file_name)
+def named_in(thing: str, lines: Iterable[str], file_name: str) -> Finding[str] | None:
+    """Name of a "machine" or measuring "point" by remarks, else a tag in the file's name.
 
-
-def point_in(lines: Iterable[str], file_name: str) -> Finding[str] | None:
-    """Return the measuring point that remarks give; else one such as MDE-H in the name."""
-    return _labelled(lines, _POINTS, _POINT_TAG, file_name)
-
-
-def _labelled(
-    lines: Iterable[str], labels: Collection[str], tag: re.Pattern[str], file_name: str
-) -> Finding[str] | None:
-    """The text under one of some labels in lines, else a tag in the file's name."""
+    Tags are such as P-101 for a machine, MDE-H for a point.
+    """
+    labels, tag = (_MACHINES, _TAG) if thing == "machine" else (_POINTS, _POINT_TAG)
     for line in lines:
         for part in re.split(r"[;|](?=[^;|]*[:=])", line):
             match = _LABELLED.match(part)

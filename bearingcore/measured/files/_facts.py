@@ -128,11 +128,11 @@ _LOADS = {"load", "radialload", "last", "radiallast", "force", "radialforce", "l
 _FACTS = _RATES | _INTERVALS | _FREQUENCIES | _SPEEDS | _LOADS | {"rpm"}
 
 LEAST_STATED, GREATEST_STATED = 90.0, 5e6
-"""[Hz] of recordings of vibration, from the 100 Hz of phones, which are not exact, on; another
+"""Rates [Hz] of recordings of vibration, from the inexact 100 Hz of phones on; another
 "sample rate" is asked about."""
 
 LEAST_RATE = 500.0
-"""[Hz] below which a "rate" is the shaft's, not that of the samples."""
+"""Rate [Hz] below which a "rate" is the shaft's, not that of the samples."""
 
 FASTEST_IN_HZ = 150.0
 """A "speed" without a unit is in Hz up to here, in rpm above."""
@@ -208,7 +208,7 @@ def _key(name: str) -> str:
 
 
 def _rate_key(name: str) -> str:
-    """The same without the unit at its end, "fs_hz", and what it is of, "NI_CM_Dt"."""
+    """The key of a rate without its unit ("fs_hz") and its owner ("NI_CM_Dt")."""
     key = re.sub(r"(?<=\w\w)(in)?[km]?hz$", "", _key(name))
     bare = _OWNERS.sub("", key)
     return bare if bare in _RATES | _INTERVALS else key
@@ -226,7 +226,7 @@ _OTHER_RATE = re.compile(
 
 
 def sample_rate_in(named: Sequence[Named], file_name: str) -> Finding[float] | None:
-    """[Hz]"""
+    """Sample rate [Hz] that facts or the file's name say."""
     rates: list[Finding[float]] = []
     in_hz = False
     for item in named:
@@ -253,7 +253,7 @@ def sample_rate_in(named: Sequence[Named], file_name: str) -> Finding[float] | N
 
 
 def _likely_rate(named: Sequence[Named], file_name: str) -> Finding[float] | None:
-    """[Hz] of a number in Hz that may be that of the samples, or of the file's name."""
+    """Rate [Hz] from a number in Hz that may be that of the samples, or from the file's name."""
     for item in named:
         value = item.value * (1e3 if item.unit == "kHz" else 1.0)
         likely = _key(item.name).endswith("rate") or item.unit in ("Hz", "kHz")
@@ -272,7 +272,7 @@ _OTHER_SPEED = re.compile(r"(?i)max|min|limit|rated|nominal|nenn|range|critical|
 
 
 def shaft_speed_in(named: Sequence[Named], file_name: str) -> Finding[float] | None:
-    """[rad/s]"""
+    """Shaft speed [rad/s] that facts or the file's name say."""
     rated = bool({_key(item.name) for item in named} & (_RATES | _INTERVALS))
     speeds = [speed for item in named if (speed := _speed_of(item, rated)) is not None]
     match = re.search(
@@ -291,7 +291,7 @@ def shaft_speed_in(named: Sequence[Named], file_name: str) -> Finding[float] | N
 
 
 def _speed_of(named: Named, rated: bool) -> Finding[float] | None:
-    """[rad/s] of one number; `rated`: whether another one is the rate of the samples."""
+    """Speed [rad/s] of one number; `rated` is true where another one is the rate of the samples."""
     key, value, unit = _key(named.name), named.value, named.unit
     words = f"“{named.name}” in the file"
     if not (math.isfinite(value) and value > 0.0):
@@ -318,7 +318,7 @@ def _doubted(first: Finding[float]) -> Finding[float]:
 
 
 def load_in(named: Sequence[Named]) -> Finding[float] | None:
-    """[N], where its unit is said."""
+    """Load [N], where its unit is said."""
     for item in named:
         key = _key(item.name)
         unit = item.unit or {"loadn": "N", "loadlb": "lb"}.get(key)
@@ -328,7 +328,7 @@ def load_in(named: Sequence[Named]) -> Finding[float] | None:
 
 
 def bearing_frequencies_in(named: Sequence[Named]) -> dict[str, float]:
-    """[Hz] by the names of BEARING_FREQUENCIES, those that are there."""
+    """Frequencies [Hz] that are said, by the names of BEARING_FREQUENCIES."""
     return {
         key: item.value
         for item in named
@@ -339,11 +339,11 @@ def bearing_frequencies_in(named: Sequence[Named]) -> dict[str, float]:
 
 
 _SENSITIVITY = re.compile(rf"(?i)({_NUMBER})\s*(mV|V)\s?(?:/|per)\s?(g\b|\(?m/?s\S{{0,3}}[2²])")
-"""In whatever words: the unit is that of nothing else."""
+"""Sensitivity in whatever words: nothing else has this unit."""
 
 
 def sensitivity_in(lines: Iterable[str]) -> Finding[float] | None:
-    """[V/(m/s²)] where all lines that say one say the same."""
+    """Sensitivity [V/(m/s²)], where all lines that say one say the same."""
     values: dict[float, str] = {}
     for match in filter(None, map(_SENSITIVITY.search, lines)):
         per = STANDARD_GRAVITY if match[3].lower() == "g" else 1.0

@@ -77,11 +77,11 @@ def read(name: str, content: bytes, most_numbers: int, most_columns: int) -> Ans
 
 
 Walk = Callable[[bytes, "Variables"], None]
-"""Puts the variables of a content into the second argument."""
+"""Function that adds the matrices, numbers and words of a file's bytes to a `Variables`."""
 
 
 def _format_of(name: str, content: bytes) -> tuple[str, Walk] | None:
-    """Name and reader of a format, by the first bytes; None of text with numbers.
+    """Name and reader of a format, by the first bytes; None for text with numbers.
 
     Raises
     ------
@@ -128,7 +128,7 @@ def _gunzipped(name: str, content: bytes) -> bytes:
 
 
 def _json(content: bytes) -> Any:
-    """The value of a JSON text, or of one record a line; None where it is neither."""
+    """The value of a JSON text, or of a record in each line; None for other text."""
     try:
         text = content.decode("utf-8-sig")
         try:
@@ -140,7 +140,7 @@ def _json(content: bytes) -> Any:
 
 
 def _walk_json(value: Any, path: str, variables: Variables, depth: int) -> None:
-    """Lists of numbers, and lists of records by the records' names."""
+    """Add lists of numbers, and lists of records by the records' names."""
     check_depth(depth)
     if isinstance(value, dict) and list(value) == [str(i) for i in range(len(value))]:
         value = list(value.values())  # rows by their numbers, as pandas writes them
@@ -162,12 +162,12 @@ def _walk_json(value: Any, path: str, variables: Variables, depth: int) -> None:
 
 
 def _wav(name: str, content: bytes, most_numbers: int, most_columns: int) -> Answer:
-    """Whole numbers come out as parts of full scale, −1 to 1."""
+    """Read a WAV file; whole numbers become parts of full scale, −1 to 1."""
     from scipy.io import wavfile
 
     try:
         with warnings.catch_warnings(record=True) as warned:
-            warnings.simplefilter("always")  # of chunks with remarks that it does not know, too
+            warnings.simplefilter("always")  # also those on chunks that SciPy does not know
             rate, data = wavfile.read(io.BytesIO(content))
     except MemoryError:
         raise
@@ -202,7 +202,7 @@ def _walk_matlab(content: bytes, variables: Variables) -> None:
 
 
 def _matlab(value: Any, path: str, variables: Variables, depth: int) -> None:
-    """A matrix, and what is in a struct or cell."""
+    """Add a matrix, and the contents of a struct or cell."""
     from scipy.io.matlab import MatlabFunction, MatlabOpaque
 
     check_depth(depth)
@@ -212,12 +212,12 @@ def _matlab(value: Any, path: str, variables: Variables, depth: int) -> None:
         return
     if value.dtype.names:
         for index, element in enumerate(value.ravel(order="F")):
-            of = f"{path}({index + 1})" if value.size > 1 else path
+            parent = f"{path}({index + 1})" if value.size > 1 else path
             if label := _label(element, value.dtype.names):
                 _matlab(element["Data"], f"{path}.{label}", variables, depth + 1)
                 continue
             for name in value.dtype.names:
-                _matlab(element[name], f"{of}.{name}", variables, depth + 1)
+                _matlab(element[name], f"{parent}.{name}", variables, depth + 1)
     elif value.dtype == object:
         for index, inside in enumerate(value.ravel(order="F")):
             _matlab(inside, f"{path}{{{index + 1}}}", variables, depth + 1)
@@ -226,7 +226,7 @@ def _matlab(value: Any, path: str, variables: Variables, depth: int) -> None:
 
 
 def _label(element: Any, fields: Sequence[str]) -> str:
-    """The name of a channel whose struct has it in a field of its own, next to its data."""
+    """Name of a channel whose struct has a field for it, next to the data."""
     if not {"Name", "Data"} <= set(fields) or element["Name"].dtype.kind not in "SU":
         return ""
     return str(element["Name"].ravel()[0]).strip() if element["Name"].size else ""
@@ -243,10 +243,10 @@ def _walk_hdf5(content: bytes, variables: Variables) -> None:
 
 
 def _hdf5(item: Any, path: str, variables: Variables, depth: int) -> None:
-    """A group, which is how a struct is kept, or a data set, with the words and numbers at it.
+    """Add a group (a struct) or a data set, with its words and numbers.
 
-    Only data of the file itself: links to other files, data kept elsewhere and views of other
-    data sets would name files of this machine.
+    Only data of the file itself are added: links to other files, data kept elsewhere and views of
+    other data sets could name files of this machine.
     """
     import h5py
 
@@ -271,11 +271,6 @@ def _hdf5(item: Any, path: str, variables: Variables, depth: int) -> None:
         return
     elif item.shape is not None and "MATLAB_empty" not in item.attrs:
         variables.add(path, _matlab_values(item))
-    _attributes(item, path, variables)
-
-
-def _attributes(item: Any, path: str, variables: Variables) -> None:
-    """Words and single numbers that stand at a group or a data set."""
     for name, value in item.attrs.items():
         word = np.size(value) == 1 or np.asarray(value).dtype.kind in "OSU"
         if word and not name.startswith(_OF_THE_FORMAT):
@@ -287,7 +282,7 @@ _OF_THE_FORMAT = ("MATLAB_", "H5PATH", "CLASS", "DIMENSION")
 
 
 def _matlab_values(data: Any) -> NDArray[Any]:
-    """The values of a data set; MATLAB keeps words as numbers of letters, and truth as numbers."""
+    """The values of a data set; MATLAB keeps letters and truth values as numbers."""
     kind = data.attrs.get("MATLAB_class", b"")
     values = np.asarray(data[()])
     if kind == b"char" and values.dtype.kind in "iu":
@@ -304,4 +299,4 @@ _FORMATS: tuple[tuple[bytes, str, Walk, str], ...] = (
     (rb"TDSm", "TDMS file", libraries.tdms, "npTDMS"),
     (rb"\s{0,200}-1 *\r?\n +\d{1,4}[ b]*\d*", "UFF file (data set 58)", libraries.uff, "pyuff"),
 )
-"""Formats by their first bytes, what reads each, and the package that it needs."""
+"""Formats: first bytes (a regular expression), name, reader, and the package that it needs."""

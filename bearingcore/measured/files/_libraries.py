@@ -1,6 +1,6 @@
 """Formats that other libraries read: UFF, TDMS, Parquet, Excel, NumPy's own; a zip of one file.
 
-Runs in the process of `child` alone. The libraries come with the extra `files`.
+It runs only in the process of `_child`. The libraries come with the extra `files`.
 """
 
 from __future__ import annotations
@@ -22,10 +22,10 @@ from bearingcore.measured.files._other_kinds import BRING
 from bearingcore.measured.files._variables import Variables
 
 MOST_UNPACKED = 2**28
-"""[bytes] of a file in a zip."""
+"""Size [bytes] of the largest file in a zip."""
 
 MOST_TOGETHER = 2**30
-"""[bytes] of all files in a zip that are to be read."""
+"""Size [bytes] of all files in a zip that are to be read."""
 
 MOST_INSIDE = 1000
 """Files in a zip that are named."""
@@ -37,23 +37,23 @@ DOCUMENT = re.compile(
 """Documents and pictures that come with signals in a zip or a folder."""
 
 MOST_FACTS = 100
-"""Rows of a sheet, or of a data frame with signals in its cells, that say something of a signal."""
+"""Most rows of a sheet, or of a data frame with signals in its cells, that describe signals."""
 
 _NO_FILE = re.compile(r"^$|/$|(^|/)(\.|__MACOSX/)")
-"""A folder, or what a system hides."""
+"""Names of folders and hidden files."""
 
 _TIME_RESPONSE = (0, 1)
 """Function types of data set 58 that are signals over time: general ones, and time responses."""
 
 _FREQUENCY = 18
-"""Type of the abscissa of its spectra."""
+"""Type of the abscissa of spectra in data set 58."""
 
 
 def unzipped(name: str, content: bytes) -> tuple[list[str], bytes]:
     """The names of the files in a zip, and the content of the one that is to be read.
 
-    That is the only one, or the one that the end of `name` says; of several none of which is named
-    the content is empty.
+    That file is the only one, or the one at the end of `name`. For several files without such a
+    name the content is empty.
 
     Raises
     ------
@@ -76,10 +76,9 @@ def unzipped(name: str, content: bytes) -> tuple[list[str], bytes]:
 
 
 def _readable_files(name: str, packed: list[zipfile.ZipInfo]) -> list[zipfile.ZipInfo]:
-    """The file in a zip that its name names, else all that may hold a table.
+    """The file in a zip that `name` ends with, else all that may hold a table.
 
-    FieldError where there is none, or where they are more than is unpacked: a small zip may hold
-    terabytes.
+    FieldError where there is none, or where they are too large: a small zip may hold terabytes.
     """
     files = [file for file in packed if not _NO_FILE.search(file.filename)]
     if any(file.filename == "[Content_Types].xml" for file in files):
@@ -103,7 +102,7 @@ def is_npz(content: bytes) -> bool:
 
 
 def names_in(content: bytes) -> list[str]:
-    """Return the names of the files in a zip; none of a damaged one."""
+    """Return the names of the files in a zip; none for a damaged zip."""
     try:
         with zipfile.ZipFile(io.BytesIO(content)) as packed:
             return packed.namelist()

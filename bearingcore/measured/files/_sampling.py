@@ -24,7 +24,7 @@ UNEVEN = 0.5
 wander."""
 
 SHORTEST_PART = 0.1
-"""Of the longest part without a jump, from which on a part is a recording of its own."""
+"""Share of the longest part without a jump from which on a part is a recording by itself."""
 
 JUMP = 1.5
 """Steps longer than this many usual ones leave samples out."""
@@ -42,7 +42,7 @@ _CUSTOMARY = (
     *(11_025.0 * factor for factor in (1, 2, 4, 8)),
     12e3, 24e3, 48e3, 96e3, 192e3, 384e3, 97_656.25, 48_828.125, 50e3, 65_536.0,
 )  # fmt: skip
-"""[Hz] rates that recorders have."""
+"""Rates [Hz] that recorders have."""
 
 
 @dataclass(frozen=True)
@@ -75,10 +75,10 @@ class Sampling:
 
 
 _SINCE_1970 = 1e9, 2.6e9
-"""[s] from 2001 to 2052, counted as computers do."""
+"""Seconds as computers count them, from 2001 to 2052."""
 
 _SINCE_1900 = 3e4
-"""[d] to 1982, as sheets count days."""
+"""Days as sheets count them, to 1982."""
 
 
 def times_of(time: Array, unit: str | None = None, *, sure: bool = False) -> Sampling:
@@ -138,7 +138,7 @@ def longest_run(good: NDArray[np.bool_]) -> tuple[int, int]:
 
 
 MOST_SINGLE = 0.01
-"""Of all rows that may be bridged."""
+"""Share of all rows that may be bridged."""
 
 
 def single_gaps(whole: NDArray[np.bool_]) -> NDArray[np.intp]:
@@ -190,7 +190,7 @@ def _even(time: Array) -> tuple[float, float] | None:
 
 
 EXACT = 1e-6
-"""Of a rate: less than any recorder's clock is off."""
+"""Relative error that counts as none: no recorder's clock is this exact."""
 
 
 def _customary(rate: float, error: float, unit: float, n: int) -> float:
@@ -281,7 +281,7 @@ def _sample_jumps(time: Array, steps: Array, unit: float) -> Sampling:
 
 
 def long_parts(parts: Iterable[Sequence[int]]) -> tuple[tuple[int, int], ...]:
-    """Those of parts (first row, last excluded) that are recordings; none where it is one alone."""
+    """Parts (first row, last excluded) that are recordings; none for a single recording."""
     all_parts = [(first, last) for first, last in parts]
     longest = max((last - first for first, last in all_parts), default=0)
     least = max(FEWEST_SAMPLES, SHORTEST_PART * longest)

@@ -12,13 +12,13 @@ from bearingcore.measured.files._channels import OTHER, PULSES, SPEED, Column, w
 from bearingcore.measured.files._units import SPEEDS
 
 FEWEST_PULSES = 8
-"""Of a tachometer that are a speed."""
+"""Least number of a tachometer's pulses that give a speed."""
 
 LEAST_SHARE = 0.9
-"""Of the rows that speeds must reach over; shorter columns have another sample rate."""
+"""Share of the rows that speeds must cover; shorter columns have another sample rate."""
 
 STEP = 0.2
-"""By how much of its length a turn differs at most from the one before; a missed pulse doubles it.
+"""Share of its length by which a turn may differ from the one before; a missed pulse doubles it.
 Noise on a tachometer's signal breaks it too."""
 
 LOW, HIGH = 0.35, 0.65
@@ -41,7 +41,7 @@ def shaft_angle(values: Array, unit: str | None, sample_rate: float) -> Array | 
     Parameters
     ----------
     unit
-        of speeds; any other is that of a tachometer, of which each pulse counts as a turn.
+        unit of speeds; any other unit is that of a tachometer whose pulses count as turns.
     """
     if unit is None or unit not in SPEEDS:
         begins = pulse_begins(values)

@@ -36,7 +36,7 @@ from bearingcore.measured.signals._dropouts import cut_off
 from bearingcore.recordings import FEWEST_SAMPLES, Recording
 
 MOST_BYTES = 64 * 2**20
-"""Of a file."""
+"""Size of the largest file."""
 
 SHOWN_ROWS = 8
 
@@ -44,7 +44,7 @@ MOST_NAMED = 4
 """Columns that are not used which are named."""
 
 RATE_DOUBT = 0.005
-"""By how much a typed rate may differ from the one that the times say, unsaid."""
+"""Fraction by which a typed rate may differ from that of the times before this is said."""
 
 
 _UNITS_OF: Mapping[str, Mapping[str, float]] = {
@@ -355,14 +355,12 @@ def files_inside(name: str, content: bytes, give_up: Callable[[], bool] | None =
     if content[:4] != b"PK\x03\x04" or ".zip/" in name:
         return [name]
     about, _ = read_file(name, content, give_up=give_up)
-    inside = sorted(about.get("inside", ()), key=_order_key)
+    inside = sorted(
+        about.get("inside", ()),  # run2 before run10
+        key=lambda file: [(int(n or 0), word) for word, n in re.findall(r"(\D*)(\d{0,18})", file)],
+    )
     packed = re.sub(r"(?i)\.zip$", "", name) + ".zip"
     return [f"{packed}/{name}" for name in inside] or [name]
-
-
-def _order_key(name: str) -> list[tuple[int, str]]:
-    """A key by which run2 is before run10."""
-    return [(int(part or 0), word) for word, part in re.findall(r"(\D*)(\d{0,18})", name)]
 
 
 def path_in(name: str) -> str:

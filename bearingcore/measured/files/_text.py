@@ -29,10 +29,10 @@ from bearingcore.measured.files._units import UNITS, unit_in, unit_named
 from bearingcore.recordings import FEWEST_SAMPLES
 
 LONGEST_REMARK = 200
-"""[characters] of a line above the numbers that are kept."""
+"""Longest line above the numbers [characters] that is kept."""
 
 LONGEST_LINE = 2**15
-"""[characters] of such a line in which the names of columns are looked for."""
+"""Longest such line [characters] in which the names of columns are looked for."""
 
 SAMPLE = 30
 """Lines of numbers by which the way of writing is judged."""
@@ -536,7 +536,7 @@ _VALUE = r"[-+]?\d[\d.,]*([eE][-+]?\d+)?(\s*[^\W\d]\S{0,9})?$"
 """A number with or without a unit."""
 
 LONGEST_HEADING = 4
-"""[words] of the name of the only column; more are a remark."""
+"""Most words in the name of the only column; more are a remark."""
 
 _WORDS_OF_A_ROW = {
     "comment", "comments", "kommentar", "bemerkung", "remark", "remarks", "note", "notes",

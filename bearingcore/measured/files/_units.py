@@ -117,12 +117,12 @@ _DETECTOR = re.compile(r"[-_(]*(?:pk-?pk|p-p|0-?pk?|rms|peak|pk|eff)\)?$")
 """A way to take the size of a signal, at the end of its unit: "g-pk", "mm/s RMS"."""
 
 LEAST_LEVEL, GREATEST_LEVEL = 3e-3, 2e3
-"""[m/s²] root mean squares that housings of running bearings have: from a shaft that turns a few
+"""Root mean squares [m/s²] that housings of running bearings have: from a shaft that turns a few
 times a second (0.3 mg) to a machine that comes apart (200 g)."""
 
 
 def unit_named(text: str) -> str | None:
-    """The unit that a text is, in this module's way of writing; None where it is none.
+    """The unit that a text names, as this module writes it; None if it names none.
 
     >>> unit_named("m/s^2"), unit_named("in/sec²"), unit_named("furlongs")
     ('m/s²', 'in/s²', None)

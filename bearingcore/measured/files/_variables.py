@@ -19,7 +19,7 @@ MOST_SCALARS = 200
 """Single numbers and words of a file that are kept."""
 
 LONGEST_TEXT = 1000
-"""[characters] of words that are kept."""
+"""Longest text [characters] that is kept."""
 
 Answer = tuple[dict[str, Any], Array]
 
@@ -37,7 +37,7 @@ class Variables:
     instead: str = ""
 
     def add(self, path: str, value: NDArray[Any]) -> None:
-        """Keep real numbers as a matrix, or a word; anything else is passed over."""
+        """Keep real numbers as a matrix, or a word; ignore anything else."""
         for part in value.dtype.names or ():
             self.add(f"{path}.{part}" if path else part, value[part].ravel())
         if value.dtype.kind == "M" and value.size:
@@ -57,7 +57,7 @@ class Variables:
                 self.texts[of] = text[:LONGEST_TEXT].strip()
 
     def table(self, name: str, kind: str, most_numbers: int, most_columns: int) -> Answer:
-        """Vectors and matrices about as long as the longest as columns, and the rest."""
+        """Make columns of vectors and matrices about as long as the longest; the rest are facts."""
         scalars: dict[str, float] = {}
         parts: dict[str, NDArray[Any]] = {}
         for variable, matrix in self.numbers.items():
@@ -92,11 +92,11 @@ class Variables:
         self, parts: dict[str, NDArray[Any]], scalars: dict[str, float], rows: int
     ) -> tuple[dict[str, NDArray[Any]], dict[str, float]]:
         """The parts that are about as long as the longest, and single numbers with the others."""
-        # what is much shorter was measured otherwise, or is no signal
+        # a much shorter part was measured otherwise, or is not a signal
         least = max(FEWEST_SAMPLES, rows // 2) if rows >= FEWEST_SAMPLES else rows
         for variable in [variable for variable, part in parts.items() if len(part) < least]:
             part = parts.pop(variable)
-            # what is said of it, such as its rate, is not of the signals
+            # facts on it, such as its rate, do not hold for the signals
             of = f"{variable}."
             scalars = {name: value for name, value in scalars.items() if not name.startswith(of)}
             if is_steady(part) and len(scalars) < MOST_SCALARS:

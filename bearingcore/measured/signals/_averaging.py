@@ -23,7 +23,7 @@ from bearingcore.measured.signals._order_tracking import followed, smooth_lag
 from bearingcore.measured.signals._resampling import oversampled
 
 FEWEST_PASSES = 6
-"""Below this an average says nothing about its own scatter."""
+"""Number of passes below which an average says nothing about its own scatter."""
 
 CUT = 0.3
 """Share of the lowest frequency below which a signal is filtered out."""
@@ -44,7 +44,7 @@ class BallPasses:
     frequency
         f [Hz], ball passes a second.
     n_passes
-        how many were averaged.
+        number of averaged passes.
     harmonics : (N, d)
         mean coefficient of each harmonic and direction; twice its size is the amplitude.
     power : (N, d)
@@ -123,12 +123,12 @@ def average_passes(
         [Hz]: the frequency is searched by its harmonics from `lowest` to `highest`; harmonics up
         to `widest` are kept; all well below `lowest` is filtered out.
     slip
-        how far off nominal the frequency may be, as a fraction of it.
+        fraction by which the frequency may be off the nominal one.
     follow
         whether a cage that wanders is followed, see `order_tracking`.
     turns
-        of the damage through the load zone in a ball pass, but for slip; 0 where it stays in its
-        place. Passes of damage that turns are weighted by how loud its angle makes them.
+        turns of the damage through the load zone in a ball pass, without slip; 0 where it does not
+        move. Passes of damage that turns are weighted by how loud its angle makes them.
 
     Raises
     ------
@@ -191,7 +191,7 @@ def load_zone_weights(passes: NDArray[np.complex128], turns: float, slip: float)
     passes : (n, N, d)
         coefficients of each.
     turns, slip
-        of the damage in a ball pass, and by how much it may differ, as a fraction.
+        turns of the damage in a ball pass, and the fraction by which they may differ.
     """
     mean = passes.mean(axis=0)
     scatter = (np.abs(passes - mean) ** 2).mean(axis=0) + 1e-300

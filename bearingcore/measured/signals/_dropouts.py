@@ -15,7 +15,7 @@ LEAST_RUN = 16
 numbers."""
 
 LEAST_RUN_AT_RAIL = 256
-"""The same at the greatest or least value, where a clipped swing stays for a while too."""
+"""Equal samples in a row at the greatest or least value, where a clipped swing stays too."""
 
 BY_CHANCE = 1e-5
 """Share of the samples at which numbers as coarse as a signal's may look held, on a straight line
@@ -29,14 +29,14 @@ LOST_REACH = 8
 """Samples over which the edge of a gap rings in the widest band, see `squared_envelopes`."""
 
 STRAIGHT = 1e-12
-"""Of the greatest swing, by which a straight line may bend: what computing it leaves."""
+"""Share of the greatest swing by which a straight line may bend: rounding bends it as much."""
 
 LONGEST_WORD = 64
 """Samples that are looked at for repeats at most: the numbers of a signal that needs more are so
 few that its repeats are its own."""
 
 RAIL = 1e-6
-"""Of the greatest swing: samples this close to an extreme are at it."""
+"""Share of the greatest swing: samples this close to an extreme are at it."""
 
 FEWEST_CUT, CUT_PILE = 10, 5
 """Samples at one limit, and times as many as at the next value, from which on peaks are cut off.

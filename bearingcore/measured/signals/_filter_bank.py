@@ -21,7 +21,7 @@ BAND_COUNTS = (1, 2, 3, 4, 6, 8, 12, 16)
 """Into how many equal bands the range is split."""
 
 LOWEST = 20.0
-"""[Hz] below which nothing is listened to: sensors drift there."""
+"""Frequency [Hz] below which nothing is listened to: sensors drift there."""
 
 LOUDEST_ENVELOPE = 12.0
 """Times its mean that a squared envelope may reach: noise does so once in 160,000, and one great
@@ -32,7 +32,7 @@ TAPER = 0.01
 
 
 class Band(NamedTuple):
-    """From, to [Hz]."""
+    """Lower and upper end of a band [Hz]."""
 
     low: float
     high: float

@@ -23,20 +23,20 @@ from bearingcore.common import (
 from bearingcore.recordings import Recording
 
 SEVERITY_BAND = (10.0, 1000.0)
-"""[Hz] of the velocity whose root mean square ISO 20816-3 judges."""
+"""Band [Hz] of the velocity whose root mean square ISO 20816-3 judges."""
 
 SLOW_SHAFT, SLOW_BAND = 10.0, 2.0
-"""[Hz] At and below 600 turns a minute the band begins at 2 Hz (ISO 10816-3, 4.2)."""
+"""Speed [Hz], 600 turns a minute, up to which the band begins lower: at 2 Hz (ISO 10816-3, 4.2)."""
 
 KEPT_OUTSIDE = 3.0
-"""Times 1/duration: what is kept whole beyond either end of the band, and fades out over as much
-again. A tone of an end that does not fit the signal a whole number of times spreads so far."""
+"""Width, times 1/duration, that is kept whole beyond either end of the band, and fades out over as
+much again: a tone at an end that does not fit the signal a whole number of times spreads so far."""
 
 SHAFT_SPEEDS = (2.0, 500.0)
-"""[Hz] of the machines that ISO 20816-3 is about: 120 to 30 000 turns a minute."""
+"""Shaft speeds [Hz] of the machines that ISO 20816-3 is about: 120 to 30 000 turns a minute."""
 
 FEWEST_PERIODS = 5.0
-"""Of the lower end of the band that a signal has to hold."""
+"""Number of periods of the band's lower end that a signal has to hold."""
 
 OVERSAMPLING = 2.56
 """Sample rate over the upper end of the band, at least: recorders filter above."""
@@ -71,7 +71,7 @@ DISPLACEMENT_ZONES: Mapping[str, tuple[float, float, float]] = MappingProxyType(
         "large, flexible": (45e-6, 90e-6, 140e-6),
     }
 )
-"""The same of displacements [m], of the same tables: stricter below some 10 Hz."""
+"""Zones of displacements [m] from the same tables: stricter below some 10 Hz."""
 
 
 @shown_as_table

@@ -17,10 +17,10 @@ from bearingcore.common import Array, ResultTable, _checks as checks, shown_as_t
 from bearingcore.measured.signals._filter_bank import BAND_COUNTS, Band, split, squared_envelopes
 
 MOST_JUDGED = 2**18
-"""Of a signal that are looked at: the first ones."""
+"""Number of samples that are looked at: the first ones of a signal."""
 
 PIECES = 8
-"""In which the signal is judged, so that a single mishap does not decide."""
+"""Number of pieces that are judged, so that a single mishap does not decide."""
 
 FEWEST = 24.0
 """Independent values of the envelope that a piece has at least, or the band is too narrow."""

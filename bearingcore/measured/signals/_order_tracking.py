@@ -27,10 +27,10 @@ TOGETHER = 1.5
 """Passes that are laid over the mean together (standard deviation)."""
 
 ROUNDS = 4
-"""In which passes are laid over their mean, before they are cut anew and again after it."""
+"""Number of rounds: passes are laid over their mean, then they are cut anew."""
 
 WIDEST = 0.5
-"""[rad] by which a pass is moved in a round."""
+"""Largest angle [rad] by which a pass is moved in a round."""
 
 GRID = 201
 
@@ -38,7 +38,7 @@ MOST_CUTS = 8
 """Times that passes are cut anew after they were laid over their mean."""
 
 LEAST_GAIN = 0.01
-"""By which the share of power that repeats must rise: noise alone does not do that."""
+"""Least rise of the share of power that repeats: noise alone stays below it."""
 
 
 def followed(
@@ -51,7 +51,7 @@ def followed(
     cut
         gives the coefficients (passes, N, d) of passes that are late by some lags (passes,).
     slip
-        by how much the ball-pass frequency may be off, as a fraction.
+        fraction by which the ball-pass frequency may be off.
     """
     steady = cut(np.zeros(n_passes))
     # a cage that hardly wanders is nearest to a steady one, another to its neighbours' delays

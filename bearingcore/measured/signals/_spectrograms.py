@@ -12,10 +12,10 @@ from bearingcore.common import Array, _checks as checks
 from bearingcore.measured.signals._resampling import resample_over_turns
 
 OVERLAP = 0.75
-"""Of neighbouring segments."""
+"""Overlap of neighbouring segments."""
 
 FEWEST_SEGMENTS = 4
-"""That fit into a signal one after the other, at least."""
+"""Least number of segments that must fit into a signal one after the other."""
 
 MOST_IN_ANGLE = 20_000_000
 """Samples equally far apart in angle that are made at most: some gigabytes."""

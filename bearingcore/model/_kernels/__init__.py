@@ -1,8 +1,8 @@
-"""Compiled code: small structs of numbers and arrays in, arrays out; one module a subject.
+"""Compiled code: it takes small structs of numbers and arrays, and returns arrays.
 
-Nothing here knows of the rest of bearingcore, and no compiled function takes more than eight
+Nothing here imports the rest of bearingcore, and no compiled function takes more than eight
 arguments. `compiling` says how functions are compiled and kept on disk. Numba is imported when the
-first compiled function is asked for, so that scenes can be made and files be judged without it.
+first compiled function is asked for: making a scene or diagnosing a file does not need it.
 """
 
 from typing import Any

@@ -21,7 +21,7 @@ PUBLISHED, CHORD, EXACT, INNER_EXACT, TABLE = 0, 1, 2, 3, 4
 """Values of the column `edge`."""
 
 EVERY_ROW = -1
-"""In the column `row`: a defect that the balls of all rows meet."""
+"""Entry of the column `row` for a defect that the balls of all rows meet."""
 
 CONVERGED, NOTHING_TOUCHES, FREE_DIRECTION, NOT_CARRIED, NOT_CONVERGED = 0, 1, 2, 3, 4
 """Statuses of a cage angle; their sentences are in `equilibrium`."""

@@ -15,7 +15,7 @@ FIRST_WORK = 20_000_000
 motions, 140 ms of five directions with the tangent."""
 
 PART_SECONDS = 0.1
-"""[s] that a part should take."""
+"""Time [s] that a part should take."""
 
 Watch = Callable[[float], object]
 """Called with the part done, 0 to 1, after each part; it ends the work by raising."""

@@ -190,7 +190,7 @@ class MapWork(NamedTuple):
     state, guess : (5,) [m]
         the displacement that moves, and one to begin with.
     place, slope [m/rad]
-        where the balls are, and how their drops change with the cage's turning.
+        places of the balls, and slopes of their drops over the cage angle.
     circle_c, circle_s : (contacts,)
         cosine and sine of the angle from the first ball.
     """
@@ -276,9 +276,9 @@ class Rotor(NamedTuple):
     tension
         whether the damper may draw a ball back, as published.
     turning_force [N]
-        that turns with the shaft, along x at cage angle 0.
+        force that turns with the shaft, along x at cage angle 0.
     shaft_ratio
-        how fast the shaft turns, over the cage.
+        speed of the shaft over that of the cage.
     samples : (m, 5) [N]
         of a force on the inner ring, moments over r_d, the last one 0; none, or two and more.
     samples_a_radian [1/rad]

@@ -24,10 +24,10 @@ from bearingcore.model.scene import MASSLESS, WITH_MASS, Scene
 from bearingcore.recordings import spectrum
 
 BUDGET = 0.1
-"""[dB]"""
+"""Difference [dB] up to which massless balls will do."""
 
 LOWEST_COMPARED = 300.0
-"""[Hz] of the lowest third octave that is compared, the lower end of the paper's band."""
+"""Lowest third octave [Hz] that is compared, the lower end of the paper's band."""
 
 QUIETEST_COMPARED = 1e-4
 """Power over the greatest of all bands and directions below which a band does not count."""
@@ -41,7 +41,7 @@ class BallComparison:
     Attributes
     ----------
     scene, budget [dB]
-        what was compared, and how much may be off.
+        compared scene, and the difference that is allowed.
     edges : (m + 1,) [Hz]
         of the third octaves that are compared.
     added : (m, d) [dB]
@@ -60,7 +60,7 @@ class BallComparison:
 
     @property
     def sentence(self) -> str:
-        """In a line: up to where massless balls will do."""
+        """Sentence that says up to which frequency massless balls will do."""
         if math.isnan(self.massless_up_to):
             lowest = with_prefix(LOWEST_COMPARED, "Hz")
             return f"massless: more than {number(self.budget)} dB off from {lowest} on"
@@ -80,7 +80,7 @@ class BallComparison:
 
     @property
     def directions(self) -> tuple[str, ...]:
-        """Those of x and y in which the housing moves."""
+        """Directions, x or y, in which the housing moves."""
         return compared_directions(self.scene.active_dofs)
 
 

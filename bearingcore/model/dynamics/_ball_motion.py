@@ -21,22 +21,22 @@ from bearingcore.model.statics._positions import equilibrium_over_all
 from bearingcore.model.statics._status import StaticStatus
 
 STEPS_A_CONTACT_CYCLE, LEAST_STEPS_A_CYCLE = 5.0, 2.2
-"""Steps in a period of the contact resonance, by default, and those that Runge-Kutta steps of order
-4 need at least."""
+"""Steps in a period of the contact resonance: the default, and the least for Runge-Kutta of order
+4."""
 
 STABLE_DECAY, GREATEST_DECAY = 2.6, 2.785
-"""Decay of a ball's motion in its contacts, times the step: that is taken, and the limit of such
+"""Decay of a ball's motion in its contacts, times the step: the value in use, and the limit of such
 steps."""
 
 RACES_OF_LOADS = ("inner", "outer")
-"""In the order of the loads."""
+"""Races, in the order of the loads."""
 
 LIGHTLY = 0.1
-"""Part of the heaviest load from which on a ball counts for the band of contact resonances."""
+"""Share of the heaviest load from which a ball counts for the band of contact resonances."""
 
 
 def place_parts(scene: Scene, dofs: tuple[str, ...]) -> int:
-    """1 where balls move in their plane alone (radially), else 2 (radially and axially)."""
+    """Number of a ball's coordinates: 1 where it moves only radially, 2 where also axially."""
     flat = scene.bearing.is_flat and set(dofs) <= set(DOF_NAMES[:2])
     return 1 if flat else 2
 
@@ -134,7 +134,7 @@ def contact_resonance_band(scene: Scene) -> tuple[float, float]:
 def ball_step_rate(packed: PackedMotion, sample_rate: float) -> float:
     """Steps a second [Hz] for balls with mass, a multiple of the sample rate.
 
-    As many as the contact resonance of the heaviest loaded ball and its decay need.
+    The number follows from the contact resonance of the most loaded ball, and from its decay.
     """
     needed = _steps_needed(packed, STEPS_A_CONTACT_CYCLE, STABLE_DECAY)
     return sample_rate * max(math.ceil(needed / sample_rate - 1e-9), 1)
@@ -150,7 +150,7 @@ def least_step_rate(packed: PackedMotion) -> float:
 
 
 def _steps_needed(packed: PackedMotion, a_cycle: float, decay: float) -> float:
-    """Steps a second [Hz]: `a_cycle` of the resonance, and `decay` of the fastest decay each."""
+    """Steps a second [Hz]: `a_cycle` in a period of the resonance, with at most `decay` in each."""
     races = _balls(packed).races
     fastest = float((races.damping.sum(axis=0) / races.mass).max())  # [1/s]
     resonance = max(resonances(packed.scene, heaviest_load(packed) + peak_force(packed)))
@@ -160,9 +160,9 @@ def _steps_needed(packed: PackedMotion, a_cycle: float, decay: float) -> float:
 def loads_of_races(
     packed: PackedScene, history: Array, place: Array, turning: tuple[float, float]
 ) -> Array:
-    """Elastic loads (2, n, N_b) [N] at inner and outer race of a motion's rows; NaN as they are.
+    """Elastic loads (2, n, N_b) [N] at inner and outer race of a motion's rows; NaN if those are.
 
-    turning: cage angle [rad] of the first row, and from row to row.
+    `turning`: cage angle [rad] of the first row, and its step from row to row.
     """
     contacts, races, *paths = _balls(packed)
     start, turn = turning
@@ -208,7 +208,7 @@ class Strike:
     """A ball that comes down onto a race it did not touch.
 
     `time` [s] is that of the first touch, `load` [N] the first peak of the contact's load, reached
-    at `peak` [s]: what comes later is no longer the strike.
+    at `peak` [s]; later loads do not belong to the strike.
     """
 
     ball: int
@@ -221,7 +221,7 @@ class Strike:
 def flights(time: Array, loads: Array) -> tuple[Flight, ...]:
     """Free flights of balls with loads (2, n, N_b) [N] at inner and outer race, times (n,) [s].
 
-    As `Motion.race_loads` gives them. A flight that is under way at an end is cut there.
+    The loads are those of `Motion.race_loads`. A flight that is under way at an end is cut there.
     """
     free = np.asarray((loads <= 0.0).all(axis=0))
     return tuple(
@@ -234,7 +234,7 @@ def flights(time: Array, loads: Array) -> tuple[Flight, ...]:
 def ball_strikes(time: Array, loads: Array) -> tuple[Strike, ...]:
     """All strikes of balls with such loads, in the order of time.
 
-    A contact that is closed at the first time has not been seen to strike.
+    A contact that is closed from the first time on counts as no strike.
     """
     strikes = []
     for index, race in enumerate(RACES_OF_LOADS):

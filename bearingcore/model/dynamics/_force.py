@@ -12,7 +12,7 @@ from bearingcore.model.scene._packing import direction_numbers, length_units
 from bearingcore.model.scene._scene import check_dofs
 
 MOST = 1e12
-"""[N, N·m] Of what is greater, squares are no numbers any more."""
+"""Greatest force [N] or moment [N·m]: squares of greater ones are no numbers any more."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -22,7 +22,7 @@ from bearingcore.common import Array
 from bearingcore.model import _kernels as kernels
 
 PASSED = 0.4
-"""Of the sample rate, and of the step rate: up to here spectra of sampled accelerations are right
+"""Share of the sample rate, and of the step rate, up to which spectra of accelerations are right
 within 0.1 dB at the program's own steps (fan-rig, liew-lim, 6205, nu208, 7208-25deg; the 6203's
 loudest direction within 0.14 dB). Fewer steps, set by hand, err by up to 0.25 dB near the end.
 Above half the sample rate the filter leaves a thousandth of an amplitude."""
@@ -80,7 +80,7 @@ def bandwidth(sample_rate: float, step_rate: float) -> float:
 
 
 PASSED_OF_ORBITS = 0.15
-"""Of the step rate of a periodic motion: balls touch at the same place of a step in each period,
+"""Share of the step rate for periodic motions: balls touch at the same place of a step each period,
 and what is too sharp there and too smooth elsewhere does not average out as in a motion."""
 
 

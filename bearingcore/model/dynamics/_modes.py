@@ -126,7 +126,7 @@ def frequency_bands(scene: Scene, *, coarse: bool = False) -> dict[str, tuple[fl
     Parameters
     ----------
     scene
-        as of `modes`.
+        scene, as in `modes`.
     coarse
         True for a third of the cage angles and half the refinements.
 
@@ -305,7 +305,7 @@ def highest_frequency_of(packed: PackedScene) -> float:
 
 
 def two_body_matrix(bearing: Array, support: Array) -> Array:
-    """[B, −B; −B, B + diag(support)] (Eq. 25) of bearing matrices (..., nd, nd)."""
+    """Assemble [B, −B; −B, B + diag(support)] (Eq. 25) of bearing matrices (..., nd, nd)."""
     return np.block([[bearing, -bearing], [-bearing, bearing + np.diag(support)]])
 
 

@@ -49,7 +49,7 @@ from bearingcore.model.statics._status import StaticStatus
 from bearingcore.recordings import Spectrum, spectrum
 
 SETTLING = 0.12
-"""[s] of motion before what counts as steady: several times the slowest mode's decay."""
+"""Motion [s] before the part that counts as steady: several times the slowest mode's decay."""
 
 MOST_STEPS = 1_000_000
 """Steps that a motion, or the periods of one orbit, take at most by default: up to
@@ -59,7 +59,7 @@ MOST_SAMPLES = 10_000_000
 """Samples of a motion."""
 
 SAME_BANDS = 1.0
-"""[dB] up to which two motions have the same spectrum in bands of a third of an octave."""
+"""Difference [dB] up to which two motions have the same spectrum in third octaves."""
 
 MOST_DOUBLINGS, SAME_LEVEL, QUIET = 4, 0.1, 1e-7
 """Doublings of the steps a second where contacts let go, at most; the part of a level up to which
@@ -167,7 +167,7 @@ class Motion:
 
     @property
     def bandwidth(self) -> float:
-        """[Hz] frequency up to which sampled accelerations are complete."""
+        """Frequency [Hz] up to which sampled accelerations are complete."""
         return bandwidth(self.sample_rate, self.step_rate)
 
     def spectrum(self, resolution: float = 32.0, since: float = 0.0) -> Spectrum:
@@ -431,7 +431,7 @@ def _marched(
 def _refusal(
     shown: int, most_steps: int, step_rate: float, least: float
 ) -> tuple[MotionStatus, str] | None:
-    """Reason not to begin a motion of so many steps, at a rate of at least `least` [Hz]; or None.
+    """Reason not to begin a motion with too many steps at a rate from `least` [Hz] on, or None.
 
     Explicit steps that are too long for the stiffest mode of a ball grow without end.
     """

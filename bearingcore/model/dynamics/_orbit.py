@@ -57,7 +57,7 @@ CLOSED = 1e-7
 """An orbit is closed when it misses its beginning by this part of its own size."""
 
 STILL = 1e-12
-"""[m] Below this, a hundredth of an atom, rings stand still: all balls of a row that is pressed
+"""Motion [m], a hundredth of an atom, below which rings stand still: all balls of a row pressed
 together carry, and their passing moves the rings by no more than digits."""
 
 

@@ -31,7 +31,7 @@ class MotionProblem:
         sizes that count: one ball's compression under the load, and that times the highest natural
         angular frequency. Tolerances are relative to them: the whole signal is micrometres.
     system
-        as kernels take them, to march velocities.
+        numbers as the kernels take them to march velocities.
     """
 
     scene: Scene

@@ -22,7 +22,7 @@ from bearingcore.recordings import Recording
 from bearingcore.recordings._recording import DIRECTIONS
 
 SLOWEST_WANDER = 0.3
-"""[Hz] The cage's speed wanders no slower than this, and no faster than the cage turns."""
+"""Frequency [Hz] of the cage's slowest wandering; the fastest is that of the cage."""
 
 WANDERS = 6
 """Sines of which a wandering speed consists."""

@@ -83,6 +83,6 @@ def _greatest_decay(packed: PackedMotion) -> float:
 
 
 def fine_step_rate(scene: Scene, sample_rate: float) -> float:
-    """The same, and at least the sample rate: the motion is then known up to 0.4 of that."""
+    """Step rate [Hz] that is at least the sample rate: the motion is then known up to 0.4 of it."""
     packed = packed_motion(scene)
     return max(step_rate_of(packed, sample_rate), sample_rate)

@@ -64,7 +64,7 @@ class Machine:
 
     @property
     def sentence(self) -> str:
-        """For the foot of a chart."""
+        """Sentence for the foot of a chart."""
         versions = ", ".join(f"{name} {version}" for name, version in self.versions.items())
         loop = ""
         if math.isfinite(self.c_loop):

@@ -19,7 +19,7 @@ from bearingcore.model.experiments._points import (
     Point,
     Watch,
     least_time,
-    measured_in_turn,
+    measure_in_turn,
 )
 from bearingcore.model.experiments._references import (
     MOTION_ERRORS,
@@ -30,7 +30,7 @@ from bearingcore.model.scene import Scene
 from bearingcore.recordings._spectrum_difference import BAND
 
 SAMPLE_RATE = 65536.0
-"""[Hz] of the instants at which motions are compared."""
+"""Rate [Hz] of the instants at which motions are compared."""
 
 SHARE_OF_REFERENCE = 0.3
 """Part of the work that the reference usually is."""
@@ -93,7 +93,7 @@ def motion_experiment(
     Parameters
     ----------
     scene
-        what moves; the active directions are the scene's.
+        scene that moves, along its own directions.
     duration
         [s] of motion.
     methods
@@ -131,7 +131,7 @@ def motion_experiment(
         if HAS_CVODE
         else f"{MOTIONS_LEFT_OUT}; CVODE, as scikit-sundae is not installed",
     )
-    return measured_in_turn(
+    return measure_in_turn(
         experiment,
         tasks,
         lambda task: f"{task[0].name}, {scientific(task[1])}",

@@ -20,7 +20,7 @@ class OrbitAtSpeed:
     shaft_speed
         [rad/s]
     status
-        outcome of the search, as `dynamics.orbit` has it; "refused: " and why where it is none.
+        outcome of the search, as of `dynamics.orbit`; "refused: " and the reason if there is none.
     loss
         name of its loss of stability, one of LOSSES; empty for a stable orbit or none.
     multipliers

@@ -43,7 +43,7 @@ class Point:
     status
         "right", or "failed: " and why.
     against
-        which reference the errors are taken from, where an experiment has several.
+        name of the reference of the errors, where an experiment has several.
     in_use
         True for what the program does with the scene unless it is set otherwise.
     """
@@ -82,12 +82,12 @@ class Reference:
     families
         the different families of methods that computed it.
     agreement
-        how far the first two are apart, by the names in `Experiment.errors`.
+        difference of the first two, by the names in `Experiment.errors`.
     trusted
         True where they agree well enough to judge the points. Errors below the agreement say
         nothing.
     note
-        what else is to be known.
+        further remark.
     """
 
     families: tuple[str, ...]
@@ -103,9 +103,9 @@ class Experiment:
     Attributes
     ----------
     name
-        what is compared: "motion" or "statics".
+        kind of the comparison: "motion" or "statics".
     errors
-        what each error is, with its unit, by name; the first is the one to draw.
+        meaning of each error with its unit, by name; the first is the one to draw.
     evaluations
         measure of cost other than time.
     references
@@ -113,7 +113,7 @@ class Experiment:
     points
         in the order measured.
     left_out
-        which methods are not among them, and why.
+        methods that are left out, and why.
     completed
         False where it was cancelled.
     """
@@ -222,7 +222,7 @@ NOT_WATCHED = Watch()
 """Neither reports nor ends early."""
 
 
-def measured_in_turn(
+def measure_in_turn(
     experiment: Experiment,
     tasks: Sequence[T],
     name: Callable[[T], str],

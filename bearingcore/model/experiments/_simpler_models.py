@@ -30,7 +30,7 @@ SPECTRUM, CURVES, DISPLACEMENT = "spectrum", "stiffness", "displacement"
 the inner ring's displacement as it moves (both over their swing)."""
 
 DURATION = 0.25
-"""[s] of motion that is compared; the second half counts, as on the page."""
+"""Length [s] of the motion that is compared; the second half counts, as on the page."""
 
 MOST_CALLS = 300_000
 """Right-hand sides of one motion, and of the search for an orbit: what would take more is left
@@ -41,7 +41,7 @@ REPEATS, LONG = 3, 0.1
 one that takes longer [s] is not repeated."""
 
 N_ANGLES = 361
-"""Cage angles over a period of the curves as they are drawn."""
+"""Cage angles over a period of the drawn curves."""
 
 
 _TERMS = np.triu_indices(5)
@@ -57,7 +57,7 @@ class Alternative:
     Attributes
     ----------
     name
-        what is different, such as "directions x y".
+        difference from the scene, such as "directions x y".
     quantity
         SPECTRUM, CURVES or DISPLACEMENT: what the error is of.
     error
@@ -67,7 +67,7 @@ class Alternative:
     seconds, own_seconds
         [s] of computing it, and the same of the scene's own model.
     note
-        what else there is to know, or why there is no error.
+        further remark, or the reason why there is no error.
     """
 
     name: str
@@ -79,7 +79,7 @@ class Alternative:
 
     @property
     def saved(self) -> float:
-        """[s] that it saves; negative where it costs more."""
+        """Time [s] that it saves; negative where it costs more."""
         return self.own_seconds - self.seconds
 
 
@@ -224,7 +224,7 @@ class _Measure:
         return self._spectrum(name, math.nan, math.nan, f"not computed: {why}")
 
     def _difference(self, other: Motion) -> float:
-        """Of settled spectra [dB], in the directions that both have."""
+        """Difference [dB] of settled spectra, in the directions that both have."""
         late = [
             motion.outer_acceleration[
                 len(motion.time) // 2 :,

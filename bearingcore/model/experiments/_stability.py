@@ -1,4 +1,4 @@
-"""Where steps are too long for Runge-Kutta.
+"""Limits of stability: steps that are too long for Runge-Kutta.
 
 The linear limit is the longest step at which a linear oscillation does not grow, for the stiffest
 static state of the scene: the eigenvalues λ of the linearised motion (Eq. 28, signs mended) go
@@ -65,7 +65,7 @@ class StabilityChart:
     highest_frequency
         [Hz] of the stiffest static state.
     trials
-        what was found.
+        trials at each speed.
     completed
         False where it was cancelled.
     """
@@ -156,7 +156,7 @@ def stability_chart(
     Parameters
     ----------
     scene
-        what moves.
+        scene that moves.
     duration
         [s] of motion.
     watch

@@ -1,7 +1,7 @@
 """Work and precision of solvers of the static equilibrium.
 
-The contacts are here a second time, in NumPy and over all cage angles at once: readable, in any
-precision, and what the compiled ones are compared with.
+The contacts stand here a second time, in NumPy and over all cage angles at once: readable, in any
+precision. The compiled contacts are compared with them.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from bearingcore.model.experiments._points import (
     Reference,
     Watch,
     least_time,
-    measured_in_turn,
+    measure_in_turn,
 )
 from bearingcore.model.scene import Scene, _packing as packing
 from bearingcore.model.statics import default_cage_angles, drops_at, equilibrium, path_kinks
@@ -39,13 +39,13 @@ STATIC_ERRORS = {
 
 STATICS_LEFT_OUT = (
     "gradient descent on the energy, which takes hundreds of evaluations an angle; plain "
-    "Newton steps, which find no way where no ball is touched; the compiled Newton at looser "
-    "tolerances, as its last step squares the error and nothing is saved"
+    "Newton steps, which fail where no ball is touched; the compiled Newton at looser "
+    "tolerances, which save nothing because its last step squares the error"
 )
 
 WRONG_STIFFNESS, STRICT = 0.1, 1e-6
-"""Where a solver with the second tolerance or less calls an answer solved whose
-stiffness errs by more than the first, it has failed."""
+"""Error and tolerance of a failure: a solver with the second tolerance or less has failed
+where it calls an answer solved whose stiffness errs by more than the first."""
 
 
 @dataclass(frozen=True)
@@ -114,10 +114,10 @@ def contacts(problem: StaticProblem, q: Any, rows: Any = slice(None)) -> Contact
     across = axial * ca - radial * sa
     guarded = np.maximum(along, 0.0)
     A = np.sqrt(guarded**2 + across**2)  # Equation (7)
-    # A - A0 without the difference: lines of centres are a thousand compressions long
+    # A - A0 without subtracting: lines of centres are a thousand compressions long
     whole = np.maximum(A + A0, 1e-300)
-    apart = np.where(along > 0.0, (longer * (A0 + along) + across**2) / whole, A - A0)
-    delta = np.maximum(np.where(packed.fixed, longer, apart), 0.0)
+    stretch = np.where(along > 0.0, (longer * (A0 + along) + across**2) / whole, A - A0)
+    delta = np.maximum(np.where(packed.fixed, longer, stretch), 0.0)
     length = np.maximum(A, 1e-300)
     eu = np.where(packed.fixed, 1.0, guarded / length)
     ew = np.where(packed.fixed, 0.0, across / length)
@@ -134,19 +134,19 @@ def contacts(problem: StaticProblem, q: Any, rows: Any = slice(None)) -> Contact
 
 
 class Solved(NamedTuple):
-    """Displacements (m, 5), which of them the solver calls solved, and evaluations in all."""
+    """Displacements (m, 5), a mask of those that the solver calls solved, and all evaluations."""
 
     q: Any
     solved: NDArray[np.bool_]
     evaluations: int
 
 
-def refined(problem: StaticProblem, q: Array) -> Solved:
-    """Displacements q (m, 5) [m] after four Newton steps whose forces are 80-bit numbers.
+def refine(problem: StaticProblem, q: Array) -> Solved:
+    """Refine displacements q (m, 5) [m] by four Newton steps whose forces are 80-bit numbers.
 
-    The stiffness stays in double precision, which only makes the steps slightly wrong. Solved are
-    angles whose unbalanced load is below 1e-15 of the load: the energy is convex, so that this
-    bounds the error by as much over the least stiffness.
+    The stiffness stays in double precision, which only makes the steps slightly wrong. An angle is
+    solved where the unbalanced load is below 1e-15 of the load. The energy is convex, so the error
+    is then at most this unbalanced load over the least stiffness.
     """
     active = problem.active
     precise = np.where(np.isfinite(q), q, 0.0).astype(np.longdouble)
@@ -155,14 +155,14 @@ def refined(problem: StaticProblem, q: Array) -> Solved:
         state = contacts(problem, precise)
         unbalanced = (state.force - force)[:, active].astype(float)
         stiffness = state.stiffness[:, active][:, :, active].astype(float)
-        back = np.linalg.pinv(stiffness, rcond=1e-12, hermitian=True)
-        precise[:, active] -= np.einsum("mij,mj->mi", back, unbalanced)
+        inverse = np.linalg.pinv(stiffness, rcond=1e-12, hermitian=True)
+        precise[:, active] -= np.einsum("mij,mj->mi", inverse, unbalanced)
     exact = np.isfinite(q).all(axis=1) & (residuals(problem, precise) <= 1e-15)
     return Solved(precise, exact, 4 * len(q))
 
 
 def residuals(problem: StaticProblem, q: Any) -> Array:
-    """Unbalanced load (m,) at displacements (m, 5) [m] of any precision, over the load."""
+    """Unbalanced load over the load (m,) at displacements (m, 5) [m] of any precision."""
     unbalanced = (contacts(problem, q).force - problem.force)[:, problem.active].astype(float)
     sizes: Array = np.linalg.norm(unbalanced, axis=1)
     return sizes / (problem.load or 1.0)
@@ -175,10 +175,11 @@ def _scipy(
     warm: bool = False,
     starts: Array | None = None,
 ) -> Solved:
-    """`scipy.optimize.root` or `least_squares`, angle by angle, forces and Jacobian in NumPy.
+    """Solve angle by angle by `scipy.optimize.root`, `least_squares` or `minimize`.
 
-    "trust-exact" is `minimize` on the energy. They start from the guess, `warm` from the angle
-    before, or from `starts` (m, 5) [m]. Displacements are in units of the guess's length.
+    `minimize` works on the energy ("trust-exact"), the others on the forces. Each angle starts from
+    the guess, if `warm` from the angle before, or from `starts` (m, 5) [m]. Displacements are in
+    units of the length of the guess.
     """
     from scipy.optimize import least_squares, minimize, root  # imported late: slow to import
 
@@ -187,7 +188,7 @@ def _scipy(
     q, solved = np.zeros((len(problem.angles), 5)), np.zeros(len(problem.angles), dtype=bool)
     evaluations = 0
 
-    def at(u: Array, k: int) -> Contacts:
+    def contacts_at(u: Array, k: int) -> Contacts:
         nonlocal evaluations
         evaluations += 1
         full = np.zeros((1, 5))
@@ -195,14 +196,14 @@ def _scipy(
         return contacts(problem, full, slice(k, k + 1))
 
     def unbalanced(u: Array, k: int) -> Array:
-        return np.asarray((at(u, k).force[0] - problem.force)[active] / load)
+        return np.asarray((contacts_at(u, k).force[0] - problem.force)[active] / load)
 
     def jacobian(u: Array, k: int) -> Array:
-        return np.asarray(at(u, k).stiffness[0][np.ix_(active, active)] * (length / load))
+        return np.asarray(contacts_at(u, k).stiffness[0][np.ix_(active, active)] * (length / load))
 
     def energy(u: Array, k: int) -> tuple[float, Array]:
-        """With the load's, over load times length, and its slopes."""
-        state = at(u, k)
+        """Return the energy with that of the load, over load times length, and its slopes."""
+        state = contacts_at(u, k)
         work = float(u @ problem.force[active]) * length
         slopes = (state.force[0] - problem.force)[active] / load
         return (float(state.energy[0]) - work) / (load * length), slopes
@@ -233,9 +234,10 @@ def _scipy(
 
 
 def _compiled(problem: StaticProblem, tolerance: float, warm: bool = True) -> Solved:
-    """The program's own, whose tolerance is fixed: each angle starts from the one before.
+    """Solve by the program's own solver, whose tolerance is fixed.
 
-    Without `warm` from the guess; that takes a call an angle, whose cost is in the time.
+    Each angle starts from the one before, or without `warm` from the guess. The latter takes one
+    call for each angle, and the time includes these calls.
     """
     load = kernels.StaticLoad(problem.force, problem.active)
     path = packing.path(problem.scene)
@@ -260,14 +262,14 @@ SOLVERS: dict[str, tuple[Callable[[StaticProblem, float], Solved], tuple[float, 
     "scipy trust-exact on the energy": (partial(_scipy, method="trust-exact"), _TOLERANCES),
     "scipy least squares": (partial(_scipy, method="least_squares"), _TOLERANCES),
 }
-"""Ways to solve, by name, with the tolerances at which each is measured."""
+"""Solvers by name, with the tolerances at which each is measured."""
 
 
 @dataclass(frozen=True)
 class StaticReference:
-    """Stiffness (m, 5, 5) and ball loads (m, N_b) on which two families agree.
+    """Stiffness (m, 5, 5) and ball loads (m, N_b) on which two families of solvers agree.
 
-    `known` (m,): angles at which there is one equilibrium and it was proven.
+    `known` (m,) marks the angles with a single equilibrium that was proven.
     """
 
     stiffness: Array
@@ -276,25 +278,24 @@ class StaticReference:
     reference: Reference
 
 
-NEARBY = 1.01
 GRAZING = 1e-14
-"""Of the greatest load of a ball: less is rounding."""
+"""Share of the greatest load of a ball: less is rounding."""
 
 
 def static_reference(problem: StaticProblem) -> StaticReference:
     """Minima of the energy, refined in extended precision, and roots of the forces in double.
 
-    Angles where the least stiffness is zero have no unique answer. Where a contact carries what
-    rounding gives it, its stiffness is that of rounding: no precision settles it, least of all for
-    rollers, whose stiffness grows as the ninth root of their compression.
+    Angles where the least stiffness is zero have no unique answer. Where rounding alone loads a
+    contact, its stiffness is rounding too. No precision settles it, least of all for rollers, whose
+    stiffness grows as the ninth root of their compression.
     """
-    exact = refined(problem, _compiled(problem, 0.0).q)
+    exact = refine(problem, _compiled(problem, 0.0).q)
     other = _scipy(problem, 1e-12, "hybr")
-    # it calls answers solved that are none
+    # MINPACK also reports success where forces do not balance
     other = other._replace(solved=other.solved & (residuals(problem, other.q) <= STRICT))
-    alone = int((exact.solved & ~other.solved).sum())
-    if alone:
-        near = _scipy(problem, 1e-12, "hybr", False, NEARBY * exact.q.astype(float))
+    missed = int((exact.solved & ~other.solved).sum())
+    if missed:
+        near = _scipy(problem, 1e-12, "hybr", False, 1.01 * exact.q.astype(float))  # 1 % beside
         q = np.where(other.solved[:, None], other.q, near.q)
         other = Solved(q, other.solved | near.solved, 0)
     at = contacts(problem, exact.q)
@@ -315,8 +316,8 @@ def static_reference(problem: StaticProblem) -> StaticReference:
     note = f"{int(unique.sum())} of {len(known)} cage angles have one equilibrium"
     if grazing := int((unique & grazed).sum()):
         note += f"; {grazing} of them left out, where a ball or roller touches by rounding alone"
-    if alone:
-        note += f"; at {alone} MINPACK finds one only if it starts within 1 % of it"
+    if missed:
+        note += f"; at {missed} MINPACK finds one only if it starts within 1 % of it"
     reference = Reference(
         ("energy Newton, refined in 80-bit numbers", "MINPACK hybr on the forces"),
         agreement,
@@ -353,7 +354,7 @@ def statics_experiment(
     Parameters
     ----------
     scene
-        what to solve.
+        scene to solve.
     n_angles
         equally spaced cage angles in a ball spacing.
     watch
@@ -378,7 +379,7 @@ def statics_experiment(
         raise checks.refuse("scene", equilibrium(scene, [0.0]).reason(0), "one with a static state")
     for name in SOLVERS:
         if SOLVERS[name][1] == (kernels.RESIDUAL_AIM,):
-            SOLVERS[name][0](problems[""], 0.0)  # so that nothing is compiled while time is taken
+            SOLVERS[name][0](problems[""], 0.0)  # compiles now, not while time is taken
     tasks = [("", name, tolerance) for name in SOLVERS for tolerance in SOLVERS[name][1]]
     tasks += [
         (case, name, SOLVERS[name][1][-1 if len(SOLVERS[name][1]) == 1 else -2])
@@ -394,12 +395,12 @@ def statics_experiment(
         (),
         STATICS_LEFT_OUT,
     )
-    return measured_in_turn(
+    return measure_in_turn(
         experiment,
         tasks,
         lambda task: f"{task[1]}, {scientific(task[2])}",
         lambda task: replace(
-            _measured(problems[task[0]], truths[task[0]], *task[1:]), against=task[0]
+            _measure(problems[task[0]], truths[task[0]], *task[1:]), against=task[0]
         ),
         watch,
         begin=0.1,
@@ -411,7 +412,7 @@ HARD_CASES = ("all balls just touching", "a ball at an edge", "clearance closed"
 
 
 def hard_cases(scene: Scene) -> dict[str, StaticProblem]:
-    """Problems about `scene` at which solvers fail, by their names."""
+    """Return problems close to `scene` at which solvers fail, by name."""
     angles = default_cage_angles(scene, 13)
     loads = {name: 1e-3 * getattr(scene.load, name) for name in ("fx", "fy", "fz", "mx", "my")}
     edges = path_kinks(scene, float(angles[0]), float(angles[-1]))[:12]
@@ -423,8 +424,8 @@ def hard_cases(scene: Scene) -> dict[str, StaticProblem]:
     return {name: static_problem(*case) for name, case in cases.items()}
 
 
-def _measured(problem: StaticProblem, truth: StaticReference, name: str, tolerance: float) -> Point:
-    """One solver at one tolerance; times and evaluations are for one equilibrium."""
+def _measure(problem: StaticProblem, truth: StaticReference, name: str, tolerance: float) -> Point:
+    """Measure one solver at one tolerance; times and evaluations are for one equilibrium."""
     with np.errstate(all="ignore"):
         answer, seconds = least_time(lambda: SOLVERS[name][0](problem, tolerance))
     known = truth.known
@@ -438,7 +439,7 @@ def _measured(problem: StaticProblem, truth: StaticReference, name: str, toleran
             problem, answer.q[known].astype(float), truth.stiffness[known], truth.load[known], known
         )
         if tolerance <= STRICT and not errors["stiffness"] <= WRONG_STIFFNESS:
-            status = "failed: a wrong answer that it calls solved"
+            status = "failed: it calls a wrong answer solved"
     n = len(problem.angles)
     return Point(
         name, f"tolerance {scientific(tolerance)}", tolerance, errors, seconds / n,

@@ -263,7 +263,7 @@ def path_tables(defects: tuple[Defect, ...], bearing: Bearing) -> kernels.Path:
 
 
 def _paths_of_rows(defects: tuple[Defect, ...], bearing: Bearing) -> kernels.Path:
-    """The same, row by row: each row's balls run on raceways of their own radius."""
+    """Paths of several rows: the balls of each row run on raceways of their own radius."""
     rows, tables, size = [], [], 0
     for row in range(len(bearing.all_rows)):
         there = tuple(

@@ -22,7 +22,7 @@ from bearingcore.model.scene._scene import DOF_NAMES, Scene
 from bearingcore.units import STANDARD_GRAVITY
 
 SMALL_TILT = 0.2
-"""[rad] up to which a rotation of a ring counts as small: its sine is 0.7 % less, and what is left
+"""Rotation [rad] of a ring up to which it counts as small: its sine is 0.7 % less, and what is left
 out of the place of its groove's centres, r_d θ²/2, is 2 % of their radius."""
 
 HEALTHY_PATH = kernels.Path(np.zeros((0, len(kernels.PATH_COLUMNS))), np.zeros(0))
@@ -36,7 +36,7 @@ class PackedScene:
     Attributes
     ----------
     scene, dofs
-        what was packed, and the free directions.
+        scene that was packed, and the free directions.
     contacts, path, load
         all contacts, the way of the balls over all defects, load and free directions.
     inner_path
@@ -158,7 +158,7 @@ def races(scene: Scene, contact_damping: float, *, weight: bool) -> kernels.Race
         return np.repeat(np.array(list(values), dtype=float), [row.n_balls for row in rows])
 
     def both(values: Iterable[tuple[float, float]]) -> Array:
-        """The same of pairs of values, for the inner and the outer race."""
+        """Pairs of values of the rows, for the inner and the outer race, once for each ball."""
         inner, outer = zip(*values, strict=True)
         return np.stack([each(inner), each(outer)])
 

@@ -41,7 +41,7 @@ FAN_RIG_SUPPORT = Support(
 )
 
 WIDTH_7208 = 18e-3
-"""[m] of a 7208 by ISO 15: two of them side by side have their rows as far apart."""
+"""Width [m] of a 7208 by ISO 15: the rows of two of them side by side are as far apart."""
 
 ASSUMED = (
     "groove radii of 0.52 (inner) and 0.53 (outer) ball diameters, steel with 210 GPa and 0.3, "
@@ -91,7 +91,7 @@ def _row(
     angle_deg: float | None = None,
     groove_center_radius: float | None = None,
 ) -> Bearing:
-    """A row of balls in grooves as they are usual; without an angle 10 µm of diametral clearance.
+    """A row of balls in usual grooves; without an angle 10 µm of diametral clearance.
 
     Such grooves are the widest that ISO 281 rates in full.
     """
@@ -391,7 +391,7 @@ class _Scenes(Mapping[str, Scene]):
     def __getitem__(self, name: str) -> Scene:
         if name not in _PRESETS:
             known = ", ".join(_PRESETS)
-            raise UnknownPresetError(f"there is no preset {name!r}; there are {known}")
+            raise UnknownPresetError(f"there is no preset {name!r}; possible: {known}")
         if name not in self._made:
             self._made[name] = _PRESETS[name].make()
         return self._made[name]

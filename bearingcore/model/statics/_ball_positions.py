@@ -64,7 +64,7 @@ class BallPositions:
     status, residual : (n,)
         as of `Equilibrium`; a load that no contact can carry is not solved again.
     leads, cost
-        as of `Equilibrium`.
+        the same as in `Equilibrium`.
     """
 
     scene: Scene
@@ -138,7 +138,7 @@ def ball_positions(
     Parameters
     ----------
     scene, cage_angles, dofs, shaft_angles
-        as of `equilibrium`.
+        the same as in `equilibrium`.
     centrifugal_load
         F_c [N] of each ball; None: at the scene's speed.
 
@@ -223,7 +223,7 @@ class EquilibriumWithMass(Equilibrium):
     Attributes
     ----------
     positions
-        what it was made of: places of the balls, loads and contact angles of both races.
+        positions of the balls, with loads and contact angles at both races.
     """
 
     positions: BallPositions = field(kw_only=True)

@@ -379,7 +379,7 @@ def equilibrium_of(
 
 
 def too_many_contacts(contacts: int) -> str:
-    """Cost of solving so many contacts in words, where it is too much; else empty."""
+    """Cost of solving many contacts in words, where it is too high; else empty."""
     if contacts <= MOST_CONTACTS:
         return ""
     most = thousands(MOST_CONTACTS)

@@ -51,7 +51,7 @@ from bearingcore.model.statics._limit import Limit, unknown, upper_limit
 GYROSCOPIC_MOMENT = "gyroscopic moment"
 
 LIMIT = 0.02
-"""Of the load: friction between ball and race holds so much (Harris), and the outer contact turns
+"""Share of the load: friction between ball and race holds so much (Harris), and the contact turns
 by a degree at the most."""
 
 GREATEST_ESTIMATE = math.radians(3.6)

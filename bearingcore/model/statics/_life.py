@@ -71,8 +71,8 @@ from bearingcore.model.statics._race_loads import (
 )
 
 POSITIONS = ("load line", "all")
-"""Over which places of the balls loads are averaged: one of them on the line of the radial load, as
-the standard's examples do, or everywhere, as it is."""
+"""Positions of the balls over which loads are averaged: a ball on the line of the radial load, as
+in the examples of the standard, or all positions, as in the machine."""
 
 
 class ContactLife(NamedTuple):

@@ -8,7 +8,7 @@ from bearingcore.common import number, percent, thousands
 from bearingcore.model.scene import Scene
 
 HEAVIEST_SHARE = 0.5
-"""Of the rating, up to which ISO 281 vouches for its life (P ≤ 0.5 C_r)."""
+"""Share of the rating up to which ISO 281 vouches for its life (P ≤ 0.5 C_r)."""
 
 LEFT_OUT = (
     "This counts the changed load distribution only. The standard rates smooth races: pressure on "
@@ -18,11 +18,11 @@ LEFT_OUT = (
 
 
 A_CENTURY = 876_600.0
-"""[h] of a life beyond which its number means nothing."""
+"""Life [h] beyond which its number means nothing."""
 
 
 def long_number(value: float) -> str:
-    """To three digits, in groups of three where it is long: of lives no more is known."""
+    """Write a life to three digits, which is all that is known; long ones in groups of three."""
     return number(value, 3) if value < 1e4 else thousands(float(f"{value:.3g}"))
 
 

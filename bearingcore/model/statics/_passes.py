@@ -18,7 +18,7 @@ from bearingcore.model.scene._packing import contacts, path
 TWO_PI = 2.0 * math.pi
 
 SAME_ANGLE = 1e-12
-"""[rad] Kinks nearer than this to each other or to an end differ by rounding alone."""
+"""Angle [rad]: kinks that are closer to each other or to an end differ by rounding alone."""
 
 STEPS_A_PASSAGE = 24.0
 """Least number of time steps while a ball passes a defect that keep its edges in a motion."""

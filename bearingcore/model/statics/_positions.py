@@ -50,8 +50,8 @@ from bearingcore.model.statics._equilibrium import (
 TWO_PI = 2.0 * math.pi
 
 ALL_AROUND = {"balls": 4, "rollers": 1}
-"""So many times fewer cage angles to a ball spacing where they go all around, at least 8. The
-stiffness of a roller jumps as it comes to carry."""
+"""Factors by which cage angles to a ball spacing are fewer all around, at least 8. The
+stiffness of a roller jumps as it comes to carry, so that its angles are not fewer."""
 
 SINKING = (0.0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1.0, 1.25, 1.5, 2.0, 3.0)
 """Drops at which nodes are put on an edge, over the greatest compression of a ball in the bearing
@@ -68,8 +68,8 @@ ROW_PLACES, FARTHEST = 16, 4096
 """Places of a row against the other, and of how many ball spacings they are picked."""
 
 STARTS, ROUNDS, PARTS = 3, 4, 3
-"""Of the search for an extreme: around how many of the lowest samples it looks, how often closer,
-and into how many parts it divides the distance to each neighbour."""
+"""Numbers of the search for an extreme: lowest samples it looks around, rounds of looking closer,
+and parts into which it divides the distance to each neighbour."""
 
 
 @dataclass(frozen=True)
@@ -318,7 +318,7 @@ def extremes(
         gives the quantities (q, k) at cage and shaft angles (k,): around each extreme of the grid
         they are looked at ever closer.
     rounds
-        how often closer: by PARTS times each.
+        number of rounds; each looks PARTS times closer.
     """
     r, n, q = places.rows.size, places.columns.size, len(values)
     whole = values.reshape(q, places.weights.size // n, n)[:, places.alike].reshape(q, r * n)

@@ -64,7 +64,7 @@ PANELS, PANELS_ON_AN_EDGE = 16, 6
 there it lets go, within a small part of that angle."""
 
 PANELS_ON_A_FLOOR = 96
-"""The same where a floor is not flat: its path bends everywhere."""
+"""Panels in a ball spacing where a floor is not flat: its path bends everywhere."""
 
 POINTS = 4
 """Gauss points in a panel."""
@@ -279,7 +279,7 @@ def _average_turning_defects(scene: Scene, load_exponent: float, scatter: float)
         return size * along ** (1.0 / chain)
 
     def outer_race(load: Array, theta: Array) -> float:
-        """The same; a place φ of it meets every θ at ψ = φ − θ: the series in ψ interpolates."""
+        """Equivalent load of the outer race: its place φ meets θ at ψ = φ − θ, by a series in ψ."""
         size = float(load.max()) or 1.0
         series = np.fft.rfft((load / size) ** load_exponent, axis=0) / n
         shifted = series * np.exp(-1j * order * (theta + offset[:, None]))

@@ -26,10 +26,10 @@ class StaticRanges:
     Attributes
     ----------
     state
-        at n pairs of cage and shaft angle, with their share of the time.
+        states at n pairs of cage and shaft angle, with their share of the time.
     least, greatest
-        of stiffness terms and of `BALL_LOAD`, by name; between the pairs too. Pairs without an
-        answer do not count; NaN where none has one.
+        extremes of stiffness terms and of `BALL_LOAD`, by name; between the pairs too. Pairs
+        without an answer do not count; NaN where no pair has one.
     """
 
     state: Equilibrium
@@ -37,7 +37,7 @@ class StaticRanges:
     greatest: Mapping[str, float]
 
     def mean(self, values: Array) -> float:
-        """Mean over time of numbers (n,); those that are not known do not count."""
+        """Mean over time of numbers (n,); unknown ones (NaN) do not count."""
         known = np.isfinite(values)
         share = self.state.shares[known].sum()
         return float(values[known] @ self.state.shares[known] / share) if share > 0.0 else math.nan
@@ -50,16 +50,16 @@ def static_ranges(
     *,
     rounds: int = ROUNDS,
 ) -> StaticRanges:
-    """Solve a scene at all its positions, and find the ends of what is named; see `static_state`.
+    """Solve a scene at all its positions, and return the extremes of the named numbers.
 
     Parameters
     ----------
     scene
-        what to solve.
+        scene to solve.
     names
-        of `STIFFNESS_TERMS`, or `BALL_LOAD`.
+        names from `STIFFNESS_TERMS`, or `BALL_LOAD`.
     n, rounds
-        as of `positions` and `extremes`.
+        fineness, as in `positions` and `extremes`.
     """
     grid = positions(scene, n)
     state = over_all_positions(scene, n, static_state)
@@ -74,7 +74,7 @@ def static_ranges(
 
 
 def ranges_of(state: Equilibrium) -> StaticRanges:
-    """The ends of a state at equally spaced angles over a period, its ends included."""
+    """Ranges of states at equally spaced angles over a period, both ends included."""
     names = [*STIFFNESS_TERMS, BALL_LOAD]
     ends = least_and_greatest(_numbers(state, names), 1)
     least, greatest = (dict(zip(names, end.tolist(), strict=True)) for end in ends)

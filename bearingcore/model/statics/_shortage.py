@@ -38,7 +38,7 @@ def explanation(
     status
         a `StaticStatus`.
     scene, cage_angle, dofs
-        what was solved, at which angle [rad], along which directions.
+        solved scene, its cage angle [rad], and the free directions.
     state : (5,) [m]
         as of `Equilibrium.state`; None where it was not kept.
     """

@@ -36,7 +36,7 @@ _NOTICED = 1e-6
 
 
 def thrust_limits(scene: Scene, state: Equilibrium) -> Iterator[Limit]:
-    """Limits on thrust; none of a bearing whose rows all carry it both ways, or not at all."""
+    """Limits on thrust; none for a bearing whose rows all carry it both ways, or not at all."""
     if any(_one_way(scene.bearing)):
         yield _wrong_way(scene, state)
         if (induced := induced_thrust(scene)) > 0.0:
@@ -66,7 +66,7 @@ def induced_thrust(scene: Scene) -> float:
 
 
 def _one_way(bearing: Bearing) -> list[int]:
-    """Of each row the sign of the thrust that it carries one way only; 0 of any other row."""
+    """Return, for each row, the sign of the thrust if it carries one way only, or 0."""
     return [
         row.facing if bearing.kind.carries_thrust_one_way(bearing.of_row(k)) else 0
         for k, row in enumerate(bearing.all_rows)

@@ -43,7 +43,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.bearings import Bearing, center_distance
-from bearingcore.bearings._hertz import in_series
+from bearingcore.bearings._hertz import series_factor
 from bearingcore.bearings._inside import accuracy
 from bearingcore.common import (
     Array,
@@ -206,7 +206,7 @@ def _film_limit(scene: Scene, film: Film | None) -> Limit:
 
 
 def _estimate(scene: Scene) -> Limit | None:
-    """The note on an estimated inside, from which everything is computed; None of a given one."""
+    """The note on an estimated inside, from which everything is computed; None for a given one."""
     bearing = scene.bearing
     if not bearing.estimated:
         return None
@@ -419,7 +419,7 @@ def _stiffness(scene: Scene) -> Limit | None:
     bearing = scene.bearing
     if not bearing.is_drawn:
         return None
-    drawn = in_series(
+    drawn = series_factor(
         *(bearing.race_contact(race).load_deflection_factor for race in ("inner", "outer"))
     )
     off = abs(bearing.load_deflection_factor / drawn - 1.0)

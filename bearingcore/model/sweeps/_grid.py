@@ -49,10 +49,10 @@ MOST_VALUES = 1_000_000
 MOST_SCENES = 10_000_000_000
 
 TASK_SECONDS = 4.0
-"""[s] that a task should take about: long compared with handing it out and writing it, short
+"""Time [s] that a task should take: long compared with handing it out and writing it, short
 enough to lose when a worker is killed."""
 TASKS_AT_LEAST = 16
-"""So many tasks even where scenes are few, so that all workers have something to do."""
+"""Least number of tasks, so that all workers have something to do where scenes are few."""
 TRIED = 64
 """Scenes that are looked at before a sweep is begun."""
 LONGEST_ROW = 128
@@ -338,11 +338,6 @@ class Grid:
             raise checks.refuse("shaft_speed", 0.0, "above 0 for a motion or an orbit", "rad/s")
 
     # ---------------------------------------------------------------------------- in words
-
-    @cached_property
-    def scene_text(self) -> str:
-        """The scene as TOML."""
-        return self.scene.to_toml()
 
     @cached_property
     def request(self) -> str:

@@ -60,7 +60,7 @@ a task. Five directions cost about ten times as much, but for statics, modes and
 defect of the inner race statics and modes take thirty times as long, life fifteen times."""
 
 SECONDS_IN_A_ROW = {STATICS: 1e-4, MODES: 4e-4}
-"""[s] where the extent varies: a row of extents is solved together."""
+"""Time [s] of a scene where the extent varies: a row of extents is solved together."""
 
 _STATIC_CODES = np.array([OF_STATICS[code].code for code in sorted(OF_STATICS)], np.int8)
 """Code of a sweep for each status of a static state."""
@@ -84,12 +84,12 @@ class Output:
     Attributes
     ----------
     unit, meaning
-        for people; the unit is "1" where there is none.
+        unit and meaning for people; the unit is "1" where there is none.
     group, label
         for lists and axes: the heading that it stands under, and a few words. With a number for
         each mode, "{}" stands for the mode in the label.
     needs
-        which computation: "statics", "pressure", "life", "modes", "motion", "orbit", "mass" or
+        computation it needs: "statics", "pressure", "life", "modes", "motion", "orbit", "mass" or
         "record".
     dof
         the direction that must be free for it; empty where none.

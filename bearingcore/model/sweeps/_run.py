@@ -29,14 +29,14 @@ if TYPE_CHECKING:
     from distributed import Client, LocalCluster
 
 MOST_BYTES = 2_000_000_000
-"""Of results that are kept in memory; larger ones need a store."""
+"""Size of results that are kept in memory; larger ones need a store."""
 
 AHEAD = 4
 """Tasks that are handed out for each thread of the cluster: enough that none waits, few enough for
 the scheduler to carry, however many there are in all."""
 
 LOOK_AGAIN = 5.0
-"""[s] after which the size of the cluster is asked for again."""
+"""Time [s] after which the size of the cluster is asked for again."""
 
 _NOT_WRITABLE = {
     *(errno.EACCES, errno.EPERM, errno.EROFS, errno.ENOENT, errno.ENOTDIR, errno.EEXIST),
@@ -362,7 +362,7 @@ def _finished(
 
 
 def _on_worker(version: str, work: Callable[[Any, Progress], Any], task: Any) -> Any:
-    """On a worker: do the work, if both ends are the same program, while it is wanted."""
+    """Do the work on a worker, if both ends are the same program, while it is wanted."""
     from distributed import get_worker
 
     here = program_version()

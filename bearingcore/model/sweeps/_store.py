@@ -39,7 +39,7 @@ def attributes(grid: Grid) -> dict[str, Any]:
         "title": "Sweep over " + ", ".join(grid.dims),
         "program": PROGRAM,
         "program_version": program_version(),
-        "scene": grid.scene_text,
+        "scene": grid.scene.to_toml(),
         "request": grid.request,
         "period": f"{grid.settings.cage_angles} cage angles in a period",
     }
@@ -235,7 +235,7 @@ def is_finished(region: Region) -> bool:
 
 
 def _checksum(status: NDArray[np.int8], numbers: Numbers) -> int:
-    """Above 0, of all bytes of a region's results."""
+    """Checksum, above 0, of all bytes of a region's results."""
     sum_ = zlib.crc32(np.ascontiguousarray(status).tobytes())
     for name in sorted(numbers):
         sum_ = zlib.crc32(np.ascontiguousarray(numbers[name]).tobytes(), sum_)

@@ -27,7 +27,7 @@ from bearing_explorer.diagnosis.upload import (
 )
 from bearing_explorer.diagnosis.views.measured_spectrum import MeasuredSpectrum
 from bearing_explorer.diagnosis.views.measured_view import recording_lines
-from bearing_explorer.diagnosis.views.part_words import assumed
+from bearing_explorer.diagnosis.views.part_words import assumptions
 from bearing_explorer.diagnosis.widgets.machine_form import MachineForm, kept_html
 from bearing_explorer.diagnosis.widgets.measurement_form import columns_as_said
 from bearing_explorer.kit.compute.jobs import READING
@@ -361,7 +361,7 @@ def test_bearing_and_speed_are_kept_for_the_next_file_unless_that_says_otherwise
         assert made.measured.machine.source_of("speed") == "assumed, kept from the file before"
         assert made.source_of("designation") == "Assumed, kept from the file before, first.csv"
         assert "1500 rpm? · g · 6205?" in made.state.line
-        assert "as for the file before: the bearing (6205) and" in assumed(made.question())
+        assert "as for the file before: the bearing (6205) and" in assumptions(made.question())
         content = b"# rpm = 1797\n" + csv_of(NOISE[:, :1], "time [s],a [g]")
         await bring(made, "third.csv", content)
         assert made.measured.machine.kept == {"bearing"}
@@ -378,7 +378,7 @@ def test_bearing_and_speed_are_kept_for_the_next_file_unless_that_says_otherwise
         await settled(made)
         await bring(made, "fifth.csv", csv_of(two, "time [s],a [g],tacho [V]"))
         assert made.measured.machine.kept == {"bearing", "speed"}
-        assert "another, from the tachometer: about 6000 rpm" in kept_html(made.state)
+        assert "another speed, from the tachometer: about 6000 rpm" in kept_html(made.state)
         made.forget_machine()
         await settled(made)
         assert (made.measured.bearing, made.state.kept_from) == (None, "")

@@ -126,7 +126,7 @@ class PartDiagnosis(MeasuredView):
         if measured is None:
             return
         if "speed" in choices:  # as lines of Python said it once
-            machine = measured.machine.knowing(choices["speed"])
+            machine = measured.machine.replace_speed(choices["speed"])
             measurement.measured = dataclasses.replace(measured, machine=machine)
         question = measurement.question()
         if question is not None:
@@ -214,7 +214,7 @@ NO_BEARING = {"n_balls": 0, "pitch": 1.0, "ball": 0.24, "outer": 0.62, "inner": 
 
 def question_state(measured: Measured) -> dict[str, Any]:
     """The content of the panel while the bearing is not known."""
-    plain = f"{ASKING} {part_words.speed_alone(measured.machine)}"
+    plain = f"{ASKING} {part_words.speed_sentence(measured.machine)}"
     return {
         "mood": "question", "headline": "Which bearing is it?", "plain": plain,
         "bearing": NO_BEARING,
@@ -245,7 +245,7 @@ def panel_state(question: Question, answer: Diagnosis | str | None) -> dict[str,
         "color": style.css_color(COLORS[answer.fault]) if named else "",
         "headline": part_words.headline(answer),
         "probability": likely if answer.conclusive else "",
-        "plain": part_words.plain(answer, question) + part_words.assumed(question),
+        "plain": part_words.explanation(answer, question) + part_words.assumptions(question),
         "facts": part_words.facts(answer, question),
         "bearing": drawn,
     }

@@ -27,7 +27,7 @@ HEIGHT = 236
 BANDS = 3
 """Mean passes that are drawn: of the best bands."""
 BEFORE = 0.14
-"""Of a ball pass that is drawn before the entry."""
+"""Share of a ball pass that is drawn before the entry."""
 
 FIELDS: list[FieldSpec] = [
     {
@@ -49,7 +49,7 @@ return narrow || row.shift < 0 ? short : long
 
 
 def layers() -> list[Layer]:
-    """From the lowest to the highest: edges, and mean passes of which the best is strong."""
+    """Return the layers from the lowest up: edges, and mean passes, of which the best is strong."""
     names = names_over(
         "extent_edges", EDGE_WORDS, "angle", "row", style.INK, ("exit",), x_offset="shift"
     )
@@ -67,12 +67,12 @@ class SpallExtent(LookView, MeasuredView):
     name = "extent"
     title = "3  How long"
     about = (
-        "Length of a spall, from entry to exit. Drawn is the mean envelope of a ball pass. A "
-        "ball that enters a spall and one that leaves it each give a peak; their distance and the "
-        "angle over which a ball carries nothing yet, or no longer, are the extent. Strong: the "
-        "frequency band that shows both best. Faint: other bands. A ball that enters is released "
-        "gradually, which shows at low frequency; one that leaves strikes the edge, which shows "
-        "at high frequency. The card below simulates the lengths that remain."
+        "Length of a spall, from entry to exit. Drawn is the mean envelope of a ball pass. A ball "
+        "that enters a spall and one that leaves it each give a peak. The distance of the peaks "
+        "and the angle at the edges over which the ball carries nothing make the extent. Strong: "
+        "the frequency band that shows both best. Faint: other bands. A ball that enters is "
+        "released gradually, which shows at low frequency; one that leaves strikes the edge, which "
+        "shows at high frequency. The card below simulates the lengths that remain."
     )
     finds_speed = True
     computes = True
@@ -203,18 +203,14 @@ class SpallExtent(LookView, MeasuredView):
         known = "" if truth is None else (
             f" The signal is simulated: the true extent is {math.degrees(truth):.1f}°."
         )  # fmt: skip
-        if (size := self._simulated_size()) and not answer.measured:
+        sizing = None if answer.measured else self.measurement.sizing()
+        if sizing is not None and (size := size_in_words(sizing)):
             spacing = f"{math.degrees(answer.ball_spacing):.1f}°"
             return (
                 f"Entry and exit alone allow {answer.size}, or whole ball spacings of {spacing} "
                 f"more. The natural frequencies decide, see below: {size}.{known}{grounds(answer)}"
             )
         return answer.sentence + known + grounds(answer)
-
-    def _simulated_size(self) -> str:
-        """The length by simulation, in words; empty without one."""
-        sizing = self.measurement.sizing()
-        return "" if sizing is None else size_in_words(sizing)
 
     def table(self, model: Model) -> dict[str, np.ndarray]:
         answer = self.answer()

@@ -18,14 +18,14 @@ from bearing_explorer.kit.plots.layers import Layer, names_over, uprights
 from bearingcore import Scene
 
 NAME_WIDTH = 0.13
-"""Of a family's first name, with its frequency, as a share of the frame's width."""
+"""Width of a family's first name with its frequency, as a share of the frame's width."""
 ORDER_WIDTH = 0.042
-"""Of the names of its harmonics."""
+"""Width of the name of a harmonic, as a share of the frame's width."""
 ROW_PIXELS = 17.0
 MOST_LINES = 3000
 """Largest number of lines of a spectrum that are drawn."""
 NAME_COLUMNS = ("frequency", "order", "first", "row", "of", "spread")
-"""Of the sources of names; `spread` [Hz] is how far off an estimate may be."""
+"""Columns of the sources of names; an estimated frequency may be off by `spread` [Hz]."""
 
 
 @dataclass(frozen=True)
@@ -48,7 +48,7 @@ FAMILIES = (
     ),
     Family("ftf", "FTF", "the cage turns", "#56B4E9", "#1F6F9F", 3),
 )
-"""In the order of their rows."""
+"""Families of lines, in the order of their rows."""
 
 _WORDS = """
 if (row.order == 1) {
@@ -134,11 +134,6 @@ def layers(prefix: str) -> list[Layer]:
                        x_offset=3),
         ]  # fmt: skip
     return drawn
-
-
-def head_room(shown: Sequence[str], sets: int, height: float) -> float:
-    """Share of the frame's height [px] that the names take, with so many sets of lines."""
-    return ROW_PIXELS / height * (sets * len(shown) + 0.6)
 
 
 def columns(

@@ -36,7 +36,6 @@ from bearingcore import Spectrum
 
 FRAME = 236.0  # [px] height of the frame of a figure
 HEIGHT = 300
-SCALES = ("dB", "linear")
 AMPLITUDE = style.AxisQuantity("Amplitude", "A", "")
 ORDER = style.AxisQuantity("Order, turns of the shaft", "", "")
 DEPTH_OF_VIEW = 80.0  # [dB] below the highest line
@@ -221,7 +220,8 @@ class FrequencyView(LookView, MeasuredView):
         turning, speed = self.turning, self.shaft_speed
         lines = [] if turning is None else row_frequencies(turning)
         top, resolution = shown.top, shown.resolution
-        room = frequency_lines.head_room(look["lines"], len(lines), FRAME)
+        rows = len(lines) * len(look["lines"])
+        room = frequency_lines.ROW_PIXELS / FRAME * (rows + 0.6)  # share that the names take
         drawn = shown_curve(shown.measured, top, 1.0 / shown_unit(measured)[1], look["scale"])
         sources: Sources = {f"{p}_measured": drawn}
         # a slow drift at the lowest lines must not set the scale

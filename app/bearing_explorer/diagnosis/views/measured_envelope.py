@@ -63,7 +63,7 @@ class MeasuredEnvelope(FrequencyView):
         LINES,
     ]
 
-    #: the name of the recording for which a band was given: it is that of no other one
+    #: name of the recording for which a band was given; another recording does not keep it
     _band_of = ""
 
     def take_look(self, choices: Mapping[str, Any]) -> None:
@@ -117,7 +117,7 @@ class MeasuredEnvelope(FrequencyView):
         chosen = super().choices()
         if measured is None or self.diagnosed() is None:
             return chosen
-        # elsewhere there is no diagnosis
+        # exported lines make no diagnosis that would give the band
         low, high = self.band(measured, chosen["direction"]).band
         return chosen | {"low": f"{low!r}", "high": f"{high!r}"}
 
@@ -150,9 +150,9 @@ _PLACES = {
     "the shaft's turn": ("shaft", (1, 2, 3)),
 }
 _TITLES = {part: family.title for part, family in zip(PARTS, FAMILIES, strict=False)}
-_NEAR = 0.02  # slip, and what the shaft speed is off
+_NEAR = 0.02  # slip, and the error of the shaft speed
 _CLEAR = 4.0
-"""Times the median from which on a line stands out: of 1600 of noise the highest has 3.3 times."""
+"""Ratio to the median from which a line stands out; the highest of 1600 lines of noise has 3.3."""
 
 
 def _lines_near(
@@ -160,14 +160,15 @@ def _lines_near(
 ) -> list[tuple[float, float, float, str]]:
     """Lines of the bearing about a frequency [Hz], the nearest first.
 
-    Of each how far off it is, its frequency, how far the geometry may be off, and its name.
+    A line has its distance, its frequency, the error of the geometry (as fractions), and its name.
     """
     lines = sorted(
         (
             abs(at / (multiple * first[name]) - 1.0),
             multiple * first[name],
             first.get(f"{name}_spread", 0.0) / first[name],
-            _times(multiple) + (title if len(sets) == 1 else f"{title} of row {row + 1}"),
+            ("" if multiple == 1 else f"{multiple}×")
+            + (title if len(sets) == 1 else f"{title} of row {row + 1}"),
         )
         for row, first in enumerate(sets)
         for title, (name, multiples) in _PLACES.items()
@@ -186,10 +187,10 @@ def highest_line(
     size: float,
     fault: str = "",
 ) -> str:
-    """The highest line of the envelope, and the frequency that is there.
+    """Describe the highest line of the envelope, and its source.
 
-    `sets` are the frequencies [Hz] of each row and the shaft. If several of them are as near as
-    slip allows, that of the part which the diagnosis names is taken.
+    `sets` are the frequencies [Hz] of each row and the shaft. If slip allows several of them, the
+    one of the part that the diagnosis names is taken.
     """
     frequency, density = shown.measured
     slowest = min((first["ftf"] for first in sets), default=0.0)
@@ -209,8 +210,8 @@ def highest_line(
     near = [line for line in near if fault and _TITLES[fault] in line[3]] or near
     if not near:
         return (
-            f"{words} is at none of the bearing's frequencies: another part of the machine, or "
-            "bearing or shaft speed are others."
+            f"{words} is at none of the bearing's frequencies: it comes from another part of the "
+            "machine, or the bearing or the shaft speed is not the given one."
         )
     same = [line[3] for line in near if abs(line[1] - near[0][1]) < shown.resolution]
     if len(same) > 1:
@@ -221,9 +222,5 @@ def highest_line(
     if abs(at - line) > 1.5 * shown.resolution:
         off = 100.0 * (at / line - 1.0)
         side = "above" if off > 0.0 else "below"
-        words += f", {style.number(abs(off), 2)} % {side} what the geometry says"
+        words += f", {style.number(abs(off), 2)} % {side} the frequency by the geometry"
     return f"{words}."
-
-
-def _times(multiple: int) -> str:
-    return "" if multiple == 1 else f"{multiple}×"

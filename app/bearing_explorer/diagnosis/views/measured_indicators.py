@@ -33,7 +33,7 @@ MACHINE: FieldSpec = {
     ],
 }
 HIGHEST = max(ends[-1] for ends in ZONES.values())
-"""[m/s] above which a vibration is in zone D, whatever the machine."""
+"""Velocity [m/s] above which a vibration is in zone D, whatever the machine."""
 
 MEANING = {
     "A": "as of new machines",

@@ -22,10 +22,10 @@ from bearingcore.measured.signals import spectrogram
 Array = NDArray[np.float64]
 
 MOST_COLUMNS, MOST_ROWS = 220, 320
-"""Of the picture."""
+"""Largest size of the picture in points."""
 DEPTH_OF_VIEW = 50.0  # [dB]
 SEGMENTS = 60.0
-"""Of a spectrogram, one after the other."""
+"""Number of segments of a spectrogram, counted without their overlap."""
 SEGMENT_LENGTHS = (64, 8192)
 _SIDES = (Side("", "Time", "t", "s"), Side("", "Frequency", "f", "Hz"))
 _SAY = "return `${rounded(cell, 3)} dB`"
@@ -37,9 +37,8 @@ class MeasuredSpectrogram(MeasuredView):
     name = "measured-spectrogram"
     title = "Spectrogram"
     about = (
-        "Spectra over time. Lines that stay level are of a steady speed, as the diagnosis takes "
-        "it; lines that slope together follow a speed that changes, and `order_map` in Python "
-        "counts in turns of the shaft instead."
+        "Spectra over time. Level lines belong to a steady speed. Lines that slope together follow "
+        "a changing speed; `order_map` in Python draws them over turns of the shaft instead."
     )
 
     def build(self, packed: PackedSource) -> Any:

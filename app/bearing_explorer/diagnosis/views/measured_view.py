@@ -22,7 +22,7 @@ from bearingcore.measured.diagnosis import EnvelopeLines
 from bearingcore.measured.files import ACCELERATIONS, path_in
 
 HIGHEST_SHARE = 0.49
-"""Of the sample rate up to which a band reaches: a filter's edge lies below half of it."""
+"""Share of the sample rate that a band may reach: the filter's edge lies below half of it."""
 
 MEASURED = style.INK
 """Colour of measured curves in figures with simulated ones."""
@@ -82,7 +82,7 @@ class MeasuredView(View[Model]):
         self.measure(self.parts.measurement)
 
     def measure(self, measurement: Measurement) -> None:
-        """From now on draw what is measured there."""
+        """Draw this measurement from now on."""
         self.measurement = measurement
 
     @property
@@ -116,7 +116,7 @@ class MeasuredView(View[Model]):
 
     @property
     def shaft_speed(self) -> float | None:
-        """[rad/s] that is given, or that the diagnosis shows."""
+        """Shaft speed [rad/s] that is given, or that the diagnosis shows."""
         return self.measurement.shaft_speed
 
     @property
@@ -202,7 +202,7 @@ class MeasuredView(View[Model]):
 
     @property
     def is_empty(self) -> bool:
-        """Without a signal there are no numbers either."""
+        """True without a signal: there are no numbers then."""
         return not self.drawn
 
     @property
@@ -212,7 +212,7 @@ class MeasuredView(View[Model]):
 
 
 def column_name(direction: str, in_si: bool) -> str:
-    """Of the signal along a direction; without a unit where that is not known."""
+    """Column name of the signal along a direction; it has no unit where that is not known."""
     return f"acceleration_{direction}_m_per_s2" if in_si else f"signal_{direction}"
 
 

@@ -32,7 +32,7 @@ DRAWN_PARTS = 700
 PASSES = 4.0
 """Ball passes of the close view."""
 CLOSE = 0.05
-"""[s] of the close view, where ball passes are not known."""
+"""Length [s] of the close view where ball passes are not known."""
 
 BALL_PASSES = f"{PASSES:.0f} ball passes"
 
@@ -43,8 +43,8 @@ class MeasuredSignal(MeasuredView):
     name = "measurement"
     title = "1  Your measurement"
     about = (
-        "The vibration a sensor on the housing measures. Nothing of the scene counts for it unless "
-        "you say so: which bearing it was, and how fast the shaft turned, is asked with the answer."
+        "The vibration a sensor on the housing measures. The bearing and the speed of the scene "
+        "count only if you choose them; the questions stand with the answer."
     )
     waits = False
 

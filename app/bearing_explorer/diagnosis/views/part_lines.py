@@ -60,7 +60,7 @@ def fundamental(diagnosis: Diagnosis, part: PartEvidence) -> float:
 
 
 def layers() -> list[Layer]:
-    """From the lowest to the highest: lines of the parts, the spectrum, marks on harmonics."""
+    """Return the layers from the lowest up: lines of the parts, spectrum, marks on harmonics."""
     beneath: list[Layer] = []
     marks: list[Layer] = []
     for part, family in zip(PARTS, FAMILIES, strict=False):

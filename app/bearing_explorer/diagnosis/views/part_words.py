@@ -20,10 +20,10 @@ COUNTED = (
     " The number of {} is an estimate: with another one, damage of a race shows at another "
     "frequency and is missed. Count them, or take the frequencies from the maker's sheet."
 )
-"""Follows "no damage seen" where the number of balls or rollers follows from a designation."""
+"""Warning after "no damage seen" if the number of balls or rollers is an estimate."""
 
 CHANGES = 1.05
-"""Highest speed over the lowest one from which both are said: measured ones scatter by less."""
+"""Ratio of highest to lowest speed above which both are said: noise scatters by less."""
 
 LENGTH_HIDDEN = "the length of the spall does not show"
 
@@ -55,8 +55,8 @@ def headline(answer: Diagnosis) -> str:
     return "No damage seen" if answer.fault == NONE_SEEN else "No clear result"
 
 
-def plain(answer: Diagnosis, question: Question) -> str:
-    """The finding in a sentence or three."""
+def explanation(answer: Diagnosis, question: Question) -> str:
+    """The answer explained in up to three sentences."""
     if answer.names_a_part:
         part = answer.of(answer.fault)
         modulated = f", modulated once per {part.sideband_source} turn" if part.modulated else ""
@@ -70,13 +70,13 @@ def plain(answer: Diagnosis, question: Question) -> str:
             "No impacts repeat as those of a damaged outer race, inner race or ball would. Impacts "
             f"that make its power swing by {swing(answer.detectable_depth)} of the mean, at each "
             "harmonic, would have shown in nine of ten such records."
-            f"{counted(question)}"
+            f"{estimate_warning(question)}"
         )
     return answer.detail
 
 
-def counted(question: Question) -> str:
-    """Sentence on an estimated number of balls or rollers; empty of a given one."""
+def estimate_warning(question: Question) -> str:
+    """Sentence on an estimated number of balls or rollers; empty for a given one."""
     bearing = question.bearing
     return COUNTED.format(bearing.kind.elements) if "n_balls" in bearing.estimated else ""
 
@@ -112,15 +112,15 @@ def speed_range(answer: Diagnosis, measured: Measured) -> str:
     return f"{span(least, most, 'turns a minute', 3)} (measured)"
 
 
-def speed_alone(machine: Machine) -> str:
-    """The shaft speed, in a sentence, while the bearing is not known."""
+def speed_sentence(machine: Machine) -> str:
+    """Sentence on the shaft speed while the bearing is not known."""
     if machine.shaft_speed is None:
         return "The shaft speed is not known; it is looked for with the bearing."
     speed = f"{_rpm(machine.shaft_speed)}{machine.ratio_words}"
     return f"Shaft speed: {speed}, {machine.source_of('speed')}."
 
 
-def assumed(question: Question) -> str:
+def assumptions(question: Question) -> str:
     """Assumptions of the answer that no person made for this file, in sentences after it."""
     machine = question.measured.machine
     names = {
@@ -132,10 +132,10 @@ def assumed(question: Question) -> str:
         ("Assumed from the look of the file", machine.guessed),
         ("Assumed to be as for the file before", machine.kept),
     ):
-        if listed := [one for name, one in names.items() if name in assumed]:
+        if listed := [text for name, text in names.items() if name in assumed]:
             words += f" {why}: {style.list_words(listed)}."
     if machine.unread:
-        words += f" “{machine.unread}” in the designation is not known here, and is passed over."
+        words += f" “{machine.unread}” in the designation is not known here and was ignored."
     return words
 
 
@@ -146,24 +146,24 @@ def _rpm(speed: float) -> str:
 
 def speed_source(answer: Diagnosis, machine: Machine) -> str:
     """Source of the shaft speed of an answer, in words."""
-    said = machine.source_of("speed")
+    source = machine.source_of("speed")
     for given in ("given by the recording", "given"):
         if answer.speed_source.startswith(given):
-            return said + answer.speed_source.removeprefix(given)
-    return f"{said}; {answer.speed_source}" if said else f"not given; {answer.speed_source}"
+            return source + answer.speed_source.removeprefix(given)
+    return f"{source or 'not given'}; {answer.speed_source}"
 
 
 def sentence(answer: Diagnosis, question: Question) -> str:
-    """The answer in sentences, with the shaft speed and where that is from."""
+    """The answer in sentences, with the shaft speed and its source."""
     source = speed_source(answer, question.measured.machine)
     ratio = question.measured.machine.ratio
-    said = dataclasses.replace(answer, speed_source=source, shaft_ratio=ratio)
-    return said.sentence + assumed(question) + truth(question)
+    answer = dataclasses.replace(answer, speed_source=source, shaft_ratio=ratio)
+    return answer.sentence + assumptions(question) + truth(question)
 
 
 def finding(answer: Diagnosis, question: Question) -> str:
-    """The finding for a technician, with what it assumes."""
-    speed, doubt = speed_range(answer, question.measured), assumed(question)
+    """The finding for a technician, with its assumptions."""
+    speed, doubt = speed_range(answer, question.measured), assumptions(question)
     at = f" at {speed}" if speed else ""
     name = question.measured.machine.bearing_name
     head = f"bearing{f' {name}' if name else ''}{at}: "
@@ -177,7 +177,7 @@ def finding(answer: Diagnosis, question: Question) -> str:
         return (
             f"{head}no damage seen on outer race, inner race or balls (probability "
             f"{probability(answer.probability)}). This says nothing about lubrication, balance or "
-            f"other bearings.{counted(question)}{doubt}"
+            f"other bearings.{estimate_warning(question)}{doubt}"
         )
     return f"{head}no clear result from this signal.{doubt}"
 
@@ -206,7 +206,7 @@ def facts(answer: Diagnosis, question: Question) -> list[list[str]]:
         rows.append(
             [
                 "Demodulation band",
-                f"{band(low, high)}{question.measured.along(answer.spectrum.direction)}, found",
+                f"{band(low, high)}{question.measured.along(answer.spectrum.direction)}, chosen",
             ]
         )
     return rows

@@ -50,7 +50,7 @@ def figure_of(
         further parameters of `Figure`.
     """
     del cage_angle, focus
-    machine = scene_machine(scene, GIVEN).knowing(speed)
+    machine = scene_machine(scene, GIVEN).replace_speed(speed)
     if choice("bearing", bearing, BEARINGS) == "unknown":
         machine = dataclasses.replace(machine, bearing=None)
     machine = dataclasses.replace(machine, by_frequencies=bearing == BY_FREQUENCIES)

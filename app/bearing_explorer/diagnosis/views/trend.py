@@ -48,7 +48,7 @@ NUMBER = style.AxisQuantity("File", "", "number")
 HOURS = style.AxisQuantity("Time since the first", "t", "h")
 DAYS = style.AxisQuantity("Time since the first", "t", "d")
 MOST_HOURS = 72.0
-"""From which on the time is in days."""
+"""Length of a trend above which its time is in days."""
 RMS = style.AxisQuantity("RMS", "", "")
 AMPLITUDE = style.AxisQuantity("Envelope", "", "")
 AXES = {
@@ -90,8 +90,8 @@ class TrendOfFiles(JobView[Model, FoundTrend, Editor], MeasuredView):
         "Several files of one machine, or a folder of them. They are chosen in step 1, in their "
         "order. Dashed: the first file. Bars: intervals of 95 %, without a dot an upper bound. The "
         "last file is the one that the rest of this tab shows. Lines of the parts are drawn where "
-        "they are more than noise, all in the band of the last file; one there need not be the "
-        "bearing's. An extent is there where a damaged race is named."
+        "they are more than noise, all in the band of the last file; such a line need not come "
+        "from the bearing. There is an extent where a damaged race is named."
     )
     finds_speed = True
     start = "Compute the trend"
@@ -139,7 +139,7 @@ class TrendOfFiles(JobView[Model, FoundTrend, Editor], MeasuredView):
 
             try:
                 done = trend(
-                    gathered.recordings, machine.bearing, machine.range, direction=direction,
+                    gathered.recordings, machine.bearing, machine.speed_range, direction=direction,
                     band=band, goes_on=goes_on,
                 )  # fmt: skip
             except FieldError as error:
@@ -357,7 +357,7 @@ def python_lines(newest: FoundTrend, model: Model) -> str:
     scene, shown = newest.measured.scene(model.scene), newest.trend
     machine, lines = newest.measured.machine, []
     bearing = "None" if machine.bearing is None else "scene.bearing"
-    speed = "None" if machine.range is None else code_of(machine.range)
+    speed = "None" if machine.speed_range is None else code_of(machine.speed_range)
     read = newest.recordings
     for recording, origin in zip(read.recordings, read.origins, strict=True):
         turning = "None" if recording.shaft_speed is None else short(recording.shaft_speed)

@@ -47,9 +47,9 @@ from bearingcore.sizing import Candidate
 HEIGHT = 300
 ACCELERATION = style.AxisQuantity("Amplitude", "A", "m/s²")
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#AA3377")
-"""Of the candidates, the best first: there are four at most."""
+"""Colours of the candidates, the best first: there are four at most."""
 BAND_ROW = 0.075
-"""Of the frame's height, that a candidate's bands take at its top."""
+"""Share of the frame's height that a candidate's bands take at its top."""
 KNOWN = "scene"
 """The answer that the support of the machine is that of the scene."""
 
@@ -68,17 +68,17 @@ class WhichLength(JobView[Model, SizedDefect, Editor], MeasuredView):
     name = "which-length"
     title = "Which of these lengths?"
     about = (
-        "Spectra of simulated lengths over the measured one. Shaded: natural frequencies of "
-        "the best length as balls pass. Upright lines are the harmonics of the mean ball pass as "
+        "Spectra of simulated lengths over the measured one. Shaded: natural frequencies of the "
+        "best length as balls pass. Upright lines are the harmonics of the mean ball pass as "
         "measured, curves those of the lengths that come nearest, scaled to the same size; the "
         "bars above are the natural frequencies of each. Entry and exit give the length up to "
         "whole ball spacings; a longer spall leaves fewer balls to carry the load, so that the "
         "machine rings at other frequencies (Petersen, Howard and Prime 2014, Section 4). For that "
         "the machine has to be known, with load, clearance, mass and stiffness of rotor and "
         "support, and with place, depth and edges of the defect. A simulated signal has all of "
-        "these. For a file say that the support is known only where the scene's rotor and support "
-        "have been measured on this machine, as with another support a wrong length may fit. The "
-        "misfit is 0 where measured and simulated ball pass are alike and 1 where they are not."
+        "these. For a file say that the support is known only if the scene's rotor and support "
+        "were measured on this machine: with another support a wrong length may fit. The misfit is "
+        "0 where measured and simulated ball pass are alike and 1 where they are not."
     )
     start = "Compare the lengths"
     bounds = "Takes some seconds."

@@ -40,7 +40,7 @@ NO_OPTIONS = {"bearing": [["", "choose", WAYS]], "speed": [["", ""]]}
 HINTS = {"designation": "6205-2RS", "shaft_speed": "1797 rpm", "ratio": "1, or 23/47"}
 
 KEPT_WORDS = (
-    "<p>Bearing or speed are kept from the file before, {}, and assumed for this one: is it the "
+    "<p>Bearing or speed is kept from the file before, {}, and assumed for this one: is it the "
     "same machine?</p>"
 )
 
@@ -50,7 +50,7 @@ def kept_html(state: MeasurementState) -> str:
     if not state.kept_from:
         return ""
     of_file = dict(state.speeds).get(FILE, "")
-    doubt = f"<p>Its file says another, {html.escape(of_file)}: choose it if it is right.</p>"
+    doubt = f"<p>Its file has another speed, {html.escape(of_file)}: choose it if it is right.</p>"
     kept_speed = of_file and state.values["speed"] in KNOWN
     return KEPT_WORDS.format(html.escape(state.kept_from)) + (doubt if kept_speed else "")
 
@@ -93,7 +93,7 @@ class MachineForm(pn.Column):
         )  # fmt: skip
 
     def show(self, state: MeasurementState) -> None:
-        """Show the answers on the machine as they are."""
+        """Show the current answers on the machine."""
         fields = self._fields
         values = {name: state.values.get(name, "") for name in FIELDS}
         if self._shown != (state.bearings, state.speeds):

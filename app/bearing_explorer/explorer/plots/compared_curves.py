@@ -50,7 +50,7 @@ def sources(
     compared: Iterable[Other],
     compute: Callable[[Other], Mapping[str, np.ndarray]],
 ) -> dict[str, dict[str, np.ndarray]]:
-    """Their sources, with `columns` by `compute`; empty where a scene has no such curve."""
+    """Sources of the layers, `columns` by `compute`; empty where a scene has no such curve."""
     nothing = dict.fromkeys(columns, np.zeros(0))
     curves: list[dict[str, np.ndarray]] = []
     for other in compared:

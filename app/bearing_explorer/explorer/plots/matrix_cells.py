@@ -31,7 +31,7 @@ from bearingcore.model.statics import TERM_SYMBOLS, crossings
 UNITS = ("N/m", "N/rad", "N·m/rad")
 """Units of stiffness with no, one and two rotations."""
 NEGLIGIBLE = 1e-6
-"""Of the geometric mean of the two diagonal terms: rounding, not coupling."""
+"""Share of the geometric mean of the two diagonal terms: less is rounding, not coupling."""
 ZEROS = ("", "0 by symmetry", "0: not resisted")
 """Why a cell is empty; see `zero_kinds`."""
 
@@ -167,7 +167,7 @@ def crossing_lines(results: Results, cells: Sequence[Cell]) -> dict[str, NDArray
 
 
 def term_sizes(term: Callable[[str], NDArray[np.float64]]) -> list[float]:
-    """For each term the size that counts as one: geometric mean of its two diagonal terms.
+    """Return the size that counts as one for each term: the mean of its two diagonal terms.
 
     `term` gives the numbers that are shown of a term, by its name.
     """

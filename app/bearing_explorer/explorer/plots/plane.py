@@ -33,9 +33,9 @@ if TYPE_CHECKING:
 
 hv.Store.set_current_backend("bokeh")  # hv.extension would ask other computers
 SECOND_CLICK = 0.32
-"""For which a click on a map that is zoomed waits for another one [s]."""
+"""Time [s] that a click on a zoomed map waits for a second click."""
 WAYS = ("up", "across")
-"""Of the sections of a map."""
+"""Names of the two sections of a map."""
 _NO_PREFIX = ("", "°", "kg", "kg·m²")
 _PALETTES = {True: hex_colors(DIVERGING), False: hex_colors(SEQUENTIAL)}
 
@@ -52,7 +52,7 @@ class Field:
     x, y
         the quantities of the sides, and evenly spaced values in their units, (nx,) and (ny,).
     words, unit
-        of the numbers.
+        words for the numbers, and their unit.
     values : (ny, nx)
         NaN where there is no answer.
     reasons : (ny, nx)
@@ -101,7 +101,7 @@ class Field:
 
     @property
     def bounds(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Where the cells around its points begin and end, to the right and upwards."""
+        """Ends of the cells around the points, to the right and upwards."""
         return ends(self.x[1]), ends(self.y[1])
 
     @property

@@ -17,7 +17,7 @@ from bearing_explorer.kit.views.base import Ranges, Sources
 
 TICKS = [m * 10.0**e for e in range(1, 6) for m in (1, 3)]  # [Hz] of logarithmic axes
 FREQUENCY_WITH_UNITS = style.AxisQuantity("Frequency", "f", "")
-"""Of such an axis, whose numbers have their units."""
+"""Quantity of such an axis: its numbers have their units."""
 HEIGHT = 286  # [px]: the label of the axis is whole in large type too
 ROOM = 6.0  # [dB] above the loudest line
 
@@ -28,7 +28,7 @@ class SpectrumFigures:
     Parameters
     ----------
     name
-        of the sources and ranges; "lines" are the spectra of the scene, "grey" the grey ones.
+        prefix of sources and ranges: "lines" for the spectra of the scene, "grey" for the others.
     layers
         of the figure along a direction.
     frequencies
@@ -59,7 +59,7 @@ class SpectrumFigures:
         for dof in levels.SHOWN:
             plot = style.make_figure(
                 FREQUENCY_WITH_UNITS if logarithmic else levels.FREQUENCY,
-                levels.density_axis(f"S{dof}"),
+                style.AxisQuantity("Density", f"S{dof}", "dB re 1 (m/s²)²/Hz"),
                 frequency,
                 level,
                 height=HEIGHT,
@@ -76,7 +76,7 @@ class SpectrumFigures:
         """
         name, lowest = self._name, self._lowest
         both = results.late_spectra, results.reference.late_spectra
-        drawn, grey = (levels.drawn_levels(one, top, lowest) for one in both)
+        drawn, grey = (levels.drawn_levels(spectra, top, lowest) for spectra in both)
         compared = levels_of_compared(name, results, top, lowest)
         seen = [drawn, *compared.values(), *([grey] if lowest else [])]
         return {**compared, f"{name}_lines": drawn, f"{name}_grey": grey}, {

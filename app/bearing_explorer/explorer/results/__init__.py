@@ -1,1 +1,1 @@
-"""From a scene to results: what is computed, when, in which thread, and what is kept."""
+"""Results of a scene: one computation each, in threads, cached."""

@@ -35,13 +35,13 @@ from bearingcore.model.statics import path_kinks
 Array = NDArray[np.float64]
 
 LOWEST_OCTAVE = 250.0
-"""[Hz] at which the lowest octave begins: eight lines of the spectra to it."""
+"""Frequency [Hz] at which the lowest octave begins, eight lines of the spectra above zero."""
 
 BEFORE, AFTER = 0.4, 1.1
 """Parts of the time that a ball takes through the defect that are shown before it enters and after
 it leaves."""
 SHORTEST_LOOK = 1e-3
-"""[s] that is shown at least."""
+"""Shortest time [s] that is shown."""
 
 PARTS = 4
 """Into which the settled motion is cut to see how much the powers of octaves scatter."""
@@ -65,7 +65,7 @@ class BallMass:
     Attributes
     ----------
     scene, sample_rate [Hz]
-        what moves.
+        scene that moves; sample rate of its motions.
     broke_off
         why one of the motions ended early; empty if none did.
     time : (n,) [s]
@@ -206,7 +206,7 @@ def _powers(signal: Array, rate: float, bandwidth: float, octaves: Array, known:
 
 
 def _comparison(massless: Motion, heavy: Motion) -> BallComparison | None:
-    """Up to which frequency massless balls will do; None where motions are too short."""
+    """Compare both motions; None where they are too short."""
     enough = len(heavy.time) > 2.0 * SETTLING * heavy.sample_rate
     if not (enough and massless.completed and heavy.completed):
         return None
@@ -214,7 +214,7 @@ def _comparison(massless: Motion, heavy: Motion) -> BallComparison | None:
 
 
 def _look(events: tuple[Event, ...], time: Array) -> tuple[float, float]:
-    """From when to when [s] the way of the ball is shown that enters at 0."""
+    """Begin and end [s] of the shown way of the ball that enters at 0."""
     last = exit_of(events)
     if last is None:
         return float(time[0]), float(time[-1])

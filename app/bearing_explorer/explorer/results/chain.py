@@ -14,11 +14,11 @@ from bearingcore.common import ResultTable, table_of
 from bearingcore.model.statics import BALL_LOAD, TERM_UNITS, StaticRanges
 
 LOWEST_PEAK = 100.0
-"""[Hz] from which on the loudest line of a spectrum is looked for, as far as it is known."""
+"""Frequency [Hz] from which on the loudest line of a spectrum is looked for."""
 ALIKE = 1.05
 """Ratio of two natural frequencies up to which it makes no difference which is which."""
 LEVEL_FLOOR = 1e-20
-"""[(m/s²)²/Hz] below which a housing does not move at all."""
+"""Density [(m/s²)²/Hz] below which a housing does not move at all."""
 
 
 @dataclass(frozen=True)

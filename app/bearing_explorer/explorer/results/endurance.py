@@ -27,13 +27,13 @@ from bearingcore.model.scene import WITH_MASS
 from bearingcore.model.statics import GIVEN, NO_DRAWING, OF_A_CATALOGUE, state_of_limits, unknown
 
 ASSUMED_GROOVES = (
-    f"Assumed, as the groove radii are not known: {USUAL_GROOVES['inner']} (inner) and "
+    f"The groove radii are not known. Assumed: {USUAL_GROOVES['inner']} (inner) and "
     f"{USUAL_GROOVES['outer']} (outer) ball diameters, as usual; no limit is judged by them. "
     "Enter yours on the Machine tab, under Bearing."
 )
 ESTIMATED = "Estimated: the inside of the bearing follows from its designation."
 ASSUMED_VISCOSITY = 0.02
-"""[Pa·s] assumed where no viscosity is given: a usual oil, warm."""
+"""Viscosity [Pa·s] that is assumed where none is given: a usual oil, warm."""
 
 
 @dataclass(frozen=True)
@@ -159,7 +159,7 @@ def assume_usual_grooves(scene: Scene) -> Scene | None:
 
 
 def _state_of_contacts(scene: Scene) -> Equilibrium | None:
-    """None of balls with mass: they press as they do at speed, which limits leave out."""
+    """State of the contacts; None for balls with mass, whose forces at speed limits leave out."""
     return None if scene.balls == WITH_MASS else state_of_limits(scene)
 
 

@@ -171,7 +171,7 @@ def _stretch(
 
 
 def _most_telling(scene: Scene, entries: list[Crossing]) -> Crossing:
-    """Of the entries at which the ball would carry most without the defect, that of the first ball.
+    """Choose the entry where the ball would carry most without the defect: that of the first ball.
 
     A defect of the inner race meets balls all around, most of them without load. The first ball
     rather than the last entry: which one is last depends on how long the motion is, and a drawing

@@ -49,7 +49,7 @@ Array = NDArray[np.float64]
 FINEST = (65, 49)
 """Points to the right and upwards of the finest map."""
 STRIDES = (16, 8, 4, 2, 1)
-"""Of the levels: every so many-th of the finest points."""
+"""Strides of the levels: a level takes every sixteenth, eighth, ... of the finest points."""
 SIZES = {stride: tuple((n - 1) // stride + 1 for n in FINEST) for stride in STRIDES}
 """Points of each level, where nothing is rounded to whole numbers: 5 × 4, 9 × 7, ... 65 × 49."""
 
@@ -154,7 +154,7 @@ class Question:
 
     @property
     def first_stride(self) -> int:
-        """Of the level to begin with: 9 × 7 points where they come at once, or else 5 × 4."""
+        """Stride of the first level: 9 × 7 points where they come at once, or else 5 × 4."""
         return 8 if self.at_once else 16
 
     def level(self, stride: int) -> tuple[NDArray[np.intp], ...]:

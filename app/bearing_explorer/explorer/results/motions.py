@@ -25,9 +25,9 @@ MOST_STEPS = 400_000
 """Steps of a motion on the page: where a defect is passed so fast that it takes more, the motion is
 shorter, or one person's drag would fill the memory of the server."""
 MOST_STEPS_WITH_MASS = 1_600_000
-"""The same of balls with mass, of which samples are kept and not steps: about a second."""
+"""Most steps with mass of the balls, about a second: samples are kept instead of steps."""
 SHORTEST = 0.1
-"""[s] Shorter motions show nothing at the resolution of the spectra."""
+"""Shortest motion [s]: a shorter one shows nothing at the resolution of the spectra."""
 
 COARSE_STEPS = 0.55
 """Part of the usual steps that is taken while a slider moves, where all of them take too long.
@@ -35,10 +35,10 @@ Against short steps over the same stretch of time, spectra of fan-rig, liew-lim,
 then off by 0.28, 0.12, 0.00 and 0.20 dB; with 0.45 that of the 6206 was by 0.8 dB."""
 
 PREVIEW_DURATION, PREVIEW_PASSES, PREVIEW_TRANSIENT_SHARE = 0.05, 2.36, 0.3
-"""[s] The shortest motion of balls with mass while a slider moves, and in ball passes, and the part
-of it that counts as its start and is not shown. What is shown is as long as one stretch of a
-spectrum takes, 31 ms, and a ball's way through the defect can begin anywhere in its first pass and
-ends within six tenths of the next."""
+"""Shortest motion of balls with mass while a slider moves, in seconds and in ball passes, and the
+share of it that counts as its start and is not shown. The shown part is as long as one stretch of a
+spectrum, 31 ms. A ball's way through the defect can begin anywhere in the first pass of that part,
+and ends within six tenths of the next."""
 
 GENERAL_COST = 4.0
 """Cost of a contact that is not that of a flat bearing, over the cost of one that is."""
@@ -48,9 +48,9 @@ MOST_IN_FULL = 2.0e5
 """Contacts, a step each, of a flat bearing that are marched in full while a slider moves: about
 3 ms. A frame of a drag has 30 ms, in which the browser has its work too."""
 MOST_TOUCHED = 2.0e6
-"""The same of what is shortened until it can follow a slider: about 40 ms."""
+"""Contacts, a step each, of a motion that is shortened to follow a slider: about 40 ms."""
 MOST_COMPARED = 6.0e7
-"""The same of balls with mass at rest, to be compared with massless ones: a second."""
+"""Contacts, a step each, of balls with mass once a slider rests, for comparison: a second."""
 
 
 class SettledMotion(NamedTuple):
@@ -193,7 +193,7 @@ def dynamic_load(scene: Scene, how: Marching) -> float:
 
 
 def limit_to_known(light: Scene, how: Marching) -> Marching:
-    """The same for massless balls, with which their motion is known as far as one with mass is."""
+    """Limit the march of massless balls to what is known of the march with mass."""
     if how.coarse:
         return how
     return dataclasses.replace(how, step_rate=fine_step_rate(light, how.sample_rate))

@@ -1,4 +1,4 @@
-"""Why results are as they are: a sentence each, from the results alone.
+"""Reasons for results: a sentence each, from the results alone.
 
 Where the results do not show a reason the sentence is empty, or says that there is none here.
 """
@@ -27,21 +27,21 @@ if TYPE_CHECKING:
     from bearingcore import Bearing, Equilibrium, Scene, Spectrum
 
 LEAST = 0.01
-"""Of a stiffness: less is no change."""
+"""Share of a stiffness: less is no change."""
 ALIKE = 0.01
-"""Of the greatest load: balls that carry as much within this carry the most together."""
+"""Share of the greatest load within which balls carry the most together."""
 NEAR = 0.65
 """Mean cos²φ of loaded balls from which they lie near an axis; all of one side have 0.5 to 0.6."""
 SEPARATE = 4.0
 """Lines of a spectrum between two peaks that stand apart; a Hann window widens each to four."""
 STANDS_OUT = 3.0
-"""[dB] over its surroundings, halfway to its neighbours, from which a peak is one."""
+"""Height [dB] of a peak over its surroundings, which lie halfway to its neighbours."""
 LOADED = 0.01
-"""Of the greatest load at rest from which a ball counts as loaded."""
+"""Share of the greatest load at rest from which a ball counts as loaded."""
 AT_AN_EDGE = 0.07
-"""Of an excerpt, a tenth of a ball pass: farther from an entry or exit a jolt is not its effect."""
+"""Share of an excerpt, a tenth of a ball pass: a jolt farther from an edge is not its effect."""
 KEPT = 0.25
-"""Of its greatest load: a ball that carries more throughout does not lose it."""
+"""Share of its greatest load: a ball that carries more throughout does not lose it."""
 LARGE_SWING = 1.25
 """Greatest load in motion over that at rest from which a swing is not small."""
 _ACROSS = {"x": "the horizontal", "y": "the vertical"}
@@ -126,7 +126,7 @@ def _neighbours(bearing: Bearing, which: NDArray[np.int64]) -> NDArray[np.int64]
 
 
 def greatest_load(results: Results) -> str:
-    """The same at the cage angle where a ball carries the most of all, which it names."""
+    """Say why a ball carries the most at the worst cage angle, and name that angle."""
     states = results.ranges.state
     load = np.where(states.converged[:, None], states.ball_load, -1.0).max(axis=1)
     state = [int(np.argmax(load))]
@@ -424,8 +424,8 @@ def passes(
     if not rate > 0.0:
         return ""
     why = (
-        " No defect: a healthy bearing also shakes as its balls pass, because as they change "
-        "places the stiffness under the load changes."
+        " No defect: a healthy bearing also shakes as its balls pass, because the stiffness under "
+        "the load changes with their places."
         if healthy
         else ""
     )
@@ -446,7 +446,7 @@ def passes(
         text = f"No peak stands out at the ball-pass frequency, {hertz}: "
         if not rate < lowest_mode:
             return f"{text}there the level is {below}."
-        return f"{text}so slow a force moves the housing little, {below}."
+        return f"{text}such a slow force moves the housing little, {below}."
     most = float(frequency[int(np.argmax(level))])
     if abs(most - max(round(most / rate), 1) * rate) <= 0.51 * spacing:
         return f"Peaks stand {hertz} apart, the ball-pass frequency.{why}"

@@ -78,13 +78,13 @@ class Results(SceneContent):
     cage_angle
         [rad] shown.
     settings
-        how finely it is computed.
+        fineness of the computation.
     focus
         number of the defect that is looked at.
     moving
-        whether a slider moves: be quick.
+        whether a slider moves, so that a quick answer is wanted.
     held
-        whether a hand still holds what it moves: scales that it measures by stay.
+        whether a hand still holds a slider or handle: the scales that it measures by stay.
     compared
         scenes that are drawn too, each under a name.
     before
@@ -223,7 +223,7 @@ class Results(SceneContent):
 
     @cached_property
     def inner_load_curves(self) -> list[Curve]:
-        """The same at the inner race, where balls with mass carry less; none of massless ones."""
+        """Load curves at the inner race, where balls with mass carry less; else none."""
         state = self.ranges.state
         if not isinstance(state, EquilibriumWithMass) or state.positions.centrifugal_load == 0.0:
             return []
@@ -242,7 +242,7 @@ class Results(SceneContent):
 
     @cached_property
     def bands(self) -> dict[str, tuple[float, float]]:
-        """Between which frequencies [Hz] each mode moves, over all positions of the bearing.
+        """Least and greatest frequency [Hz] of each mode over all positions of the bearing.
 
         Looked for between the angles too, and in all turns of the shaft: the same however finely
         curves are drawn. Coarser while a slider moves.
@@ -410,7 +410,7 @@ class Results(SceneContent):
 
     @cached_property
     def ball_mass(self) -> BallMass:
-        """The motions without and with the balls' mass, marched alike; whatever the scene has."""
+        """The motions without and with the balls' mass, marched alike, for any scene."""
         if kind := self.scene.bearing.kind.mass_unknown:
             raise ValueError(f"the model has no mass of {kind}")
         how = self._marching_of(self.scene.replace(balls=WITH_MASS))
@@ -480,7 +480,7 @@ class Results(SceneContent):
         return 1.05 * max(ends, default=0.0)
 
     def chain_of(self, reference: Reference) -> Chain:
-        """The same of a reference, looked up while a drag is compared with where it began."""
+        """The chain of a reference; while a drag is compared with its beginning it is looked up."""
         if reference.scene == self.scene:
             return self.chain
         return _chain_of(reference.scene, self.cage_angle, self.settings, self.moving)

@@ -39,7 +39,7 @@ def statics_words(state: Equilibrium) -> str:
 
 
 def chain_words(chain: Chain) -> str:
-    """The same wherever the change is followed: the shaft may turn too."""
+    """Share of all positions without an equilibrium, in words; or empty."""
     if chain.answered == 1.0:
         return ""
     share = number(100.0 * (1.0 - chain.answered), 2)

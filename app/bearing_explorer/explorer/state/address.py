@@ -439,7 +439,7 @@ def _defect(pairs: dict[str, str], usual: Defect) -> Defect:
 
 
 def _number(field: Field, text: str) -> float | None:
-    """A number in SI; ValueError with a sentence where it is none."""
+    """A number in SI; ValueError with a sentence where it is no number."""
     if text == "none" and (field.optional or field.name in _MAY_BE_NONE):
         return None
     value, is_si = _parsed(text, field.key)

@@ -1,4 +1,4 @@
-"""From one kind of bearing to another, and the controls that a kind of bearing has."""
+"""Change of the kind of a bearing, and the controls that a kind has."""
 
 from __future__ import annotations
 

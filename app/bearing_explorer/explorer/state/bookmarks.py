@@ -122,7 +122,7 @@ class Bookmarks:
         )
 
     def _usual_name(self, scene: Scene, bearing: str) -> str:
-        """A name by what differs from the scene of now and those that are compared."""
+        """A name by the differences from the current scene and those that are compared."""
         others = [self._editor.scene, *(reference.scene for reference in self._compared)]
         return distinct_name(scene, others, self._editor.selected, bearing)
 
@@ -200,11 +200,11 @@ class Bookmarks:
         self.say(f"Dashed {_COLORS[len(self._compared) - 1]}: {said}, for comparison.")
 
     def kept(self, name: str) -> dict[str, str]:
-        """The scene of now for the browser to keep."""
+        """The current scene for the browser to keep."""
         return {"name": name_of(name), "text": write(place_of(self._editor))}
 
     def toml(self) -> dict[str, str]:
-        """The scene of now as a file."""
+        """The current scene as a file."""
         name = f"bearing-{self._editor.preset}.toml"
         return {"name": name, "type": "application/toml", "text": self._editor.scene.to_toml()}
 

@@ -51,7 +51,7 @@ class Choice:
         "scene" or "defect" where it is the value of a field of that, "scene" also where it is one
         of the bearing, the load or the support; else the editor of the scene knows what it does.
     field
-        that field.
+        the field that it is about.
     all_alike
         all defects have it alike.
     in_lessons
@@ -281,7 +281,7 @@ MATERIAL = Choice(
             "silicon nitride",
             "Silicon nitride (hybrid bearing)",
             "Ceramic balls in steel rings: stiffer contacts, and balls of less than half the mass. "
-            "The load rating of steel balls is not theirs.",
+            "The load rating of steel balls does not apply to them.",
         ),
     ),
     first=True,

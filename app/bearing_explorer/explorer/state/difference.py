@@ -19,9 +19,9 @@ from bearingcore.common import number, with_prefix
 from bearingcore.fields import Field
 
 MOST_NUMBERS = 3
-"""Numbers that are named one by one; more are said to be another bearing, or several at once."""
+"""Most numbers that are named one by one; more count as another bearing, or several changes."""
 WHOLE = 0.02
-"""Of a ball spacing: nearer to a whole number of them a change counts as one."""
+"""Share of a ball spacing: a change this close to whole spacings counts as whole."""
 
 
 def difference(now: Scene, before: Scene, focus: int = 0) -> str:
@@ -48,10 +48,10 @@ def difference(now: Scene, before: Scene, focus: int = 0) -> str:
 
 
 def distinct_name(scene: Scene, others: Iterable[Scene], focus: int = 0, bearing: str = "") -> str:
-    """A name by what differs from other scenes: "100 N", "6208, 7 Hz", "12.9°, 50 µm".
+    """Name a scene by its differences from others: "100 N", "6208, 7 Hz", "12.9°, 50 µm".
 
-    By at most MOST_NUMBERS of these, by the size of the defect `focus` where nothing does. Another
-    bearing comes first, by its name `bearing` where that is known.
+    The name has at most MOST_NUMBERS of them. Another bearing comes first, by its name `bearing` if
+    that is known. Without a difference the name is the size of the defect `focus`.
     """
     changed: dict[Field, float] = {}
     options: dict[str, None] = {}
@@ -90,7 +90,7 @@ def _defect_at(scene: Scene, focus: int) -> int:
 
 
 def _changed_fields(scene: Scene, other: Scene, focus: int) -> dict[Field, tuple[float, float]]:
-    """Numbers of fields that differ, of a scene and of the other one."""
+    """Fields that differ, each with its number in a scene and in the other one."""
     numbers, theirs = (values_of(each, _defect_at(each, focus)) for each in (scene, other))
     return {
         field: (numbers[field.key], theirs[field.key])

@@ -20,7 +20,7 @@ SHOWN_FIELDS = tuple(field for field in FIELDS if field.group)
 """Fields that can be set on the page, in its order."""
 
 FIELD_BY_KEY: Mapping[str, Field] = {field.key: field for field in SHOWN_FIELDS}
-"""The same by their keys."""
+"""These fields by their keys."""
 
 CAGE_ANGLE = "cage_angle_deg"
 

@@ -91,7 +91,7 @@ class LastState:
         self.before: Scene | None = None
 
     def follow(self, scene: Scene, moving: bool) -> None:
-        """Note the scene of now, and whether a drag is still `moving` it."""
+        """Note the current scene, and whether a drag is still `moving` it."""
         if scene != self._settled and not self._moving:
             self.before = self._settled
             self._moving = True

@@ -30,14 +30,14 @@ A prediction can be a number instead: ``unit``, ``right`` and ``within`` in plac
 
 Parts begin with ``##``. Formulas are between dollar signs, ``$Q = K\\delta^{3/2}$``; a link to
 ``set:extent_deg=64&edge=chord`` is a button that changes the scene, one to ``show:maps`` a button
-that opens a tab, and one to ``simulate:noise=20&race=inner`` a button that changes the scene, if it
-says how, simulates a measurement of it, and opens Diagnosis. Files are read in the order of their
-names; without its leading number the name of a file is the lesson's own, by which the page's
-address calls it.
+that opens a tab. A link to ``simulate:noise=20&race=inner`` is a button that changes the scene, if
+the link has changes, simulates a measurement of it, and opens Diagnosis. Files are read in the
+order of their names. The name of a lesson, which stands in the page's address, is the name of its
+file without the leading number.
 
-Whoever can write a lesson need not be trusted: HTML is shown as the text it is, pictures are not
-loaded, and formulas become MathML of known elements. What is wrong with a file is said with its
-name and line.
+Lessons may come from people who are not trusted: HTML is shown as text, pictures are not loaded,
+and formulas become MathML of known elements. The sentence on a fault has the name and the line of
+the file.
 """
 
 from __future__ import annotations
@@ -88,7 +88,7 @@ CHOICES: Mapping[str, Sequence[str]] = {
 """Choices that a lesson may make, and their options."""
 
 CELLS = {"": "", **TERM_SYMBOLS, "loaded_balls": "Loaded balls"}
-"""Names of the cells of a drawing of many that a lesson may show alone, by its `term`."""
+"""Names of the cells that a lesson may show alone, by the `term` in its head."""
 
 DRAGGED = (
     *(field.key for field in SHOWN_FIELDS if field.group in SCENE_GROUPS),
@@ -129,12 +129,12 @@ Number = Annotated[float, Meta(ge=-1e12, le=1e12)]
 
 
 class Prediction(msgspec.Struct, frozen=True):
-    """A question before the answer is shown, as the head of a lesson has it.
+    """A question that the head of a lesson asks before the answer is shown.
 
-    Either one to `choose`, of which number `right` is right, counted from 1; or, without choices, a
-    number of `unit`, right from `right` − `within` to `right` + `within`. A first wrong
-    prediction is answered by the `hint`, if there is one, and may be made again. Figures on `veil`
-    have the answer and are veiled until then; None: all that the lesson marks.
+    With choices, the one whose number is `right`, counted from 1, is right. Without choices, the
+    answer is a number of `unit`, right from `right` − `within` to `right` + `within`. A first wrong
+    prediction gets the `hint`, if there is one, and may be made again. The figures in `veil` show
+    the answer, and are veiled until then; None: all that the lesson marks.
     """
 
     ask: Text
@@ -147,7 +147,7 @@ class Prediction(msgspec.Struct, frozen=True):
 
 
 class _Head(msgspec.Struct):
-    """The head of a lesson, as it is in the file."""
+    """The head of a lesson in its file."""
 
     title: Annotated[str, Meta(min_length=1, max_length=90)]
     tab: str
@@ -163,7 +163,7 @@ class _Head(msgspec.Struct):
 class Lesson:
     """One lesson. `values` and `choices` change the scene of `preset`, by names of the page.
 
-    `name` is what the page's address calls it.
+    `name` stands for it in the page's address.
     """
 
     title: str
@@ -179,7 +179,7 @@ class Lesson:
     name: str = ""
 
     def begin(self, editor: SceneEditor) -> None:
-        """Set the scene that it begins with."""
+        """Set the scene at its beginning."""
         editor.take_preset(self.preset)
         editor.choose(self.choices)
         editor.set(self.values)
@@ -200,13 +200,13 @@ class Lesson:
 
 @dataclass(frozen=True)
 class Fault:
-    """A file that is no lesson, and why: a sentence with its name and line."""
+    """A file that is no lesson, and the reason in a sentence with its name and line."""
 
     title: str
     sentence: str
 
 
-def own_folder() -> Path:
+def shipped_folder() -> Path:
     """The folder of the lessons that come with the program."""
     return asset_path("lessons")
 
@@ -234,9 +234,9 @@ def lessons_in(folder: Path, tabs: Tabs) -> list[Lesson | Fault]:
     return lessons
 
 
-def own_lessons(tabs: Tabs) -> list[Lesson | Fault]:
-    """The lessons that come with the program, without those on a tab that is not there."""
-    return [lesson for lesson in lessons_in(own_folder(), tabs) if isinstance(lesson, Lesson)]
+def shipped_lessons(tabs: Tabs) -> list[Lesson | Fault]:
+    """The lessons that come with the program, without those on a tab that this page lacks."""
+    return [lesson for lesson in lessons_in(shipped_folder(), tabs) if isinstance(lesson, Lesson)]
 
 
 def _fault(name: str, why: str) -> Fault:
@@ -273,7 +273,7 @@ def _text(path: Path, size: int) -> str:
 
 
 def read_lesson(text: str, tabs: Tabs) -> Lesson:
-    """The lesson that `text` is; LessonError where it is none."""
+    """Read a lesson; LessonError where `text` is none."""
     lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
     if lines[0].strip() != _FENCE:
         raise LessonError(1, f"a lesson begins with a line {_FENCE}")
@@ -293,14 +293,14 @@ def read_lesson(text: str, tabs: Tabs) -> Lesson:
 
 
 class _Checks:
-    """The head of a lesson, and what its words are checked against.
+    """The head of a lesson, checked against the controls and figures of the page.
 
     Parameters
     ----------
     lines
-        of the head.
+        lines of the head.
     tabs
-        of the page.
+        tabs of the page.
     """
 
     def __init__(self, lines: list[str], tabs: Tabs) -> None:
@@ -326,7 +326,7 @@ class _Checks:
         return self._entries(table, _Head)
 
     def _entries(self, table: dict[str, Any], kind: type[_Entries]) -> _Entries:
-        """A table of the head as `kind`; LessonError naming the entry that is wrong."""
+        """Convert a table of the head to `kind`; LessonError names the entry that is wrong."""
         known = {field.name: field for field in fields(kind)}
         for name, field in known.items():
             if field.required and name not in table:
@@ -335,7 +335,7 @@ class _Checks:
         for name, value in table.items():
             if name not in known:
                 raise self.error(
-                    name, f"“{name[:40]}” is no entry here; {_hint(name, list(known))}"
+                    name, f"“{name[:40]}” is not an entry here; {_hint(name, list(known))}"
                 )
             try:
                 values[name] = msgspec.convert(value, known[name].type)
@@ -344,7 +344,7 @@ class _Checks:
         return kind(**values)
 
     def error(self, name: str, words: str) -> LessonError:
-        """A fault of the entry `name`, with its line."""
+        """Make the error on the entry `name`, with its line."""
         begins = re.compile(rf"\s*[\[\"']*\s*{re.escape(name)}\b")
         at = next((i for i, line in enumerate(self._lines, 2) if begins.match(line)), 1)
         return LessonError(at if name else 1, words)
@@ -355,7 +355,7 @@ class _Checks:
                 raise self.error(entry, f"“{name[:40]}” is not {what}; {_hint(name, known)}")
 
     def scene(self) -> tuple[dict[str, float], dict[str, str]]:
-        """The numbers and the choices that the scene is changed by."""
+        """The numbers and choices that change the scene of the preset."""
         changes = {name: str(value) for name, value in self.head.scene.items()}
         return _changes(SceneEditor(self.head.preset), changes, self.error)
 
@@ -363,11 +363,13 @@ class _Checks:
         """The prediction; LessonError where none of its choices is right."""
         if self.head.predict is None:
             return None
-        made = self._entries(self.head.predict, Prediction)
-        if made.choose and made.right not in range(1, len(made.choose) + 1):
+        prediction = self._entries(self.head.predict, Prediction)
+        choices = prediction.choose
+        if choices and prediction.right not in range(1, len(choices) + 1):
             raise self.error("right", "right counts the choices from 1")
-        self._require("veil", made.veil or (), self.tabs[self.head.tab], "a figure of this tab")
-        return made
+        veiled = prediction.veil or ()
+        self._require("veil", veiled, self.tabs[self.head.tab], "a figure of this tab")
+        return prediction
 
     @cached_property
     def _begun(self) -> SceneEditor:
@@ -385,9 +387,9 @@ class _Checks:
 def _hint(name: str, known: Sequence[str]) -> str:
     """The nearest known name, or all of them where there are few."""
     if len(known) <= _MOST_LISTED:
-        return f"there are {', '.join(known)}"
+        return f"possible: {', '.join(known)}"
     close = difflib.get_close_matches(name, known, 1, 0.3)
-    return f"was {close[0]} meant?" if close else f"there are {len(known)}, as {known[0]}"
+    return f"was {close[0]} meant?" if close else f"{len(known)} are possible, such as {known[0]}"
 
 
 def _changes(
@@ -395,7 +397,7 @@ def _changes(
 ) -> tuple[dict[str, float], dict[str, str]]:
     """Changes of a scene as numbers and choices, tried on `editor`.
 
-    Where one fails, what `error` makes of its name and a sentence is raised.
+    For a change that fails, raise what `error` makes of its name and a sentence.
     """
     choices = {name: value for name, value in changes.items() if name in (*CHOICES, "preset")}
     for name, value in choices.items():
@@ -406,7 +408,7 @@ def _changes(
     for name in numbers:
         if name not in FIELD_BY_KEY:
             known = _hint(name, [*FIELD_BY_KEY, *CHOICES])
-            raise error(name, f"“{name[:40]}” is no number or choice of the page; {known}")
+            raise error(name, f"“{name[:40]}” is not a number or choice of the page; {known}")
     refused = editor.choose(choices) or editor.set(numbers)[0]
     for name, sentence in refused.items():
         raise error(name, sentence.rstrip("."))
@@ -507,11 +509,11 @@ def _show(rest: str, line: int, checks: _Checks) -> dict[str, Any]:
 
 
 _BUTTONS = {"set": _set, "simulate": _simulate, "show": _show}
-"""The message of a button for what is behind the colon of a link, by what is before it."""
+"""Makers of the message of a button, by the word before the colon of its link."""
 
 
 def _formula(latex: str, display: bool, line: int) -> str:
-    """A formula in LaTeX as MathML, which browsers set themselves, of known elements only."""
+    """Convert a formula in LaTeX to MathML of known elements, which browsers set themselves."""
     latex = latex.strip()
     if len(latex) > LONGEST_FORMULA:
         raise LessonError(line, f"a formula is longer than {LONGEST_FORMULA} characters")
@@ -524,9 +526,9 @@ def _formula(latex: str, display: bool, line: int) -> str:
     except (Exception, RecursionError):
         raise LessonError(line, wrong) from None
     for element in root.iter():
-        odd = [key for key in element.attrib if key not in _MATHML_ATTRIBUTES.split()]
-        if element.tag not in _MATHML_ELEMENTS.split() or odd:
-            raise LessonError(line, f"“{latex[:60]}” holds what a formula may not: {element.tag}")
+        unknown = [key for key in element.attrib if key not in _MATHML_ATTRIBUTES.split()]
+        if element.tag not in _MATHML_ELEMENTS.split() or unknown:
+            raise LessonError(line, f"“{latex[:60]}” has an element not allowed: {element.tag}")
         if element.text:  # the converter writes letters as references, the tree holds letters
             element.text = re.sub(
                 r"&#x([0-9A-Fa-f]{1,6});", lambda code: chr(int(code[1], 16)), element.text

@@ -1,4 +1,4 @@
-"""Scenes that are drawn too, each under a name: the references of the scene on screen."""
+"""References: named scenes that are drawn beside the scene on screen."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ from bearingcore.model.scene import MASSLESS, WITH_MASS
 
 @dataclass(frozen=True)
 class Reference:
-    """A scene that is drawn too, under a name.
+    """A scene that is drawn beside the one on screen, under a name.
 
     Parameters
     ----------
     scene
-        that is drawn.
+        scene that is drawn.
     name
-        of its curves on the page.
+        name of its curves on the page.
     label
-        before its numbers in sentences: "without the defect".
+        words before its numbers in sentences: "without the defect".
     bearing
         name of its bearing, where that is known.
     """
@@ -45,13 +45,13 @@ HEALTHY, OTHER_BALLS = "healthy", "other-balls"
 
 
 def healthy_reference(scene: Scene) -> Reference:
-    """The bearing without its defect; no label where the scene is the same."""
+    """The bearing without its defect; without a label if the scene has no defect."""
     label = "without the defect" if scene.defects else ""
     return Reference(scene.healthy(), WITHOUT_DEFECT, label)
 
 
 def other_balls_reference(scene: Scene) -> Reference:
-    """The same scene with the mass of its balls; of a scene with that, with massless balls.
+    """The same scene with the mass of its balls; if it has that, with massless balls.
 
     Raises
     ------
@@ -61,24 +61,24 @@ def other_balls_reference(scene: Scene) -> Reference:
     if kind := scene.bearing.kind.mass_unknown:
         raise ValueError(f"the model has no mass of {kind}")
     if scene.balls == WITH_MASS:
-        return massless(scene)
+        return massless_reference(scene)
     return Reference(
         scene.replace(balls=WITH_MASS), "the same with the mass of its balls", "with mass"
     )
 
 
-def massless(scene: Scene) -> Reference:
-    """The same with massless balls, as maps have it."""
+def massless_reference(scene: Scene) -> Reference:
+    """The same scene with massless balls, as on maps."""
     return Reference(scene.replace(balls=MASSLESS), "the same with massless balls", "massless")
 
 
 def grey_reference(scene: Scene, kind: str) -> Reference:
-    """The scene that is drawn in grey, of one of the kinds."""
+    """The scene that is drawn in grey; `kind` is HEALTHY or OTHER_BALLS."""
     return other_balls_reference(scene) if kind == OTHER_BALLS else healthy_reference(scene)
 
 
 def scene_line(bearing: str, scene: Scene) -> str:
-    """The scene in a line: "Fan rig: defect 12.9°, 50 µm; load 100 N at 270°; shaft 7 Hz"."""
+    """A scene in a line: "Fan rig: defect 12.9°, 50 µm; load 100 N at 270°; shaft 7 Hz"."""
     defects = [f"defect {usual_name(scene, focus)}" for focus in range(len(scene.defects))]
     load = scene.load
     radial = with_prefix(math.hypot(load.fx, load.fy), "N")

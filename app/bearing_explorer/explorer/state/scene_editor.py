@@ -77,7 +77,7 @@ ESTIMATED = "inside estimated"
 _USUAL = {"defect": "defect", "load": "load", "shaft_speed": "speed", "support": "support"}
 """Parts of a scene that come with a bearing out of a list, and their names in a sentence."""
 _SOUND = Defect(0.0, 50e-6, math.radians(270.0), edge="exact")
-"""No defect yet: a longer one lies in the middle of the load zone."""
+"""Defect of no length; once it has a length, it lies in the middle of the load zone."""
 _FIRST_DEFECT = (math.radians(10.0), 50e-6)
 _OF_FLOOR = [field.key for field in SHOWN_FIELDS if field.part == "floor"]
 

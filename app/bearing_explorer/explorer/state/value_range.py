@@ -97,7 +97,7 @@ def focused(scene: Scene, selected: int) -> Scene:
 
 
 def value_of(scene: Scene, field: Field) -> float:
-    """The number of a field as it is read, of the first defect where it is one's."""
+    """The number of a field as it is read; for a field of defects, that of the first."""
     return field.read_sign * shown_number(field, number_of(scene, field))
 
 

@@ -52,11 +52,11 @@ class Accuracy(SceneJobView[accuracy.Found]):
     about = (
         "Error against cost, so low is exact and left is cheap. Each point is a method at one "
         "setting, steps a second or a tolerance, compared with two independent solvers at 10⁻¹³. "
-        "Ring: in use. The error that is left on the page is “twice as many steps” under “Simpler "
-        "models of this scene”. The grey line joins points that no other beats in both. Crosses on "
-        "the upper edge failed; point at one for the reason. RK4 is compiled as a whole; SciPy and "
-        "CVODE call compiled right-hand sides from Python, so their evaluations say more about the "
-        "method than time does."
+        "Ring: in use. “Twice as many steps” under “Simpler models of this scene” is the error "
+        "that remains on the page. The grey line joins the points that no other beats in both "
+        "error and cost. Crosses on the upper edge failed; point at one for the reason. RK4 is "
+        "compiled as a whole; SciPy and CVODE call compiled right-hand sides from Python, so their "
+        "evaluations say more about the method than time does."
     )
     start = "Measure on this machine"
     bounds = "Measures what is shown, without SciPy's DOP853, Radau and BDF, which are slow."

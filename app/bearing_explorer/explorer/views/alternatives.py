@@ -24,7 +24,7 @@ from bearingcore.common import decibels, percent
 from bearingcore.model.experiments import SPECTRUM, Alternative, Alternatives, alternatives
 
 LEAST_HEIGHT = 60
-"""[px] of the chart without a model."""
+"""Height [px] of the chart without a model."""
 _DOTS = ("error", "row", "slot", "marker", "words", "side", "right")
 GOOD_ENOUGH = {True: work_precision.ALLOWED["dB"], False: work_precision.ALLOWED["1"]}
 """Errors up to which a model will do: of spectra [dB], and of curves over their swing."""
@@ -73,7 +73,7 @@ class OtherModels(SceneJobView[Alternatives]):
 
     def _fill(self, rows: Sequence[Alternative]) -> None:
         """Draw the models; one without an error is a cross on the right edge."""
-        shares = [one.error / GOOD_ENOUGH[one.quantity == SPECTRUM] for one in rows]
+        shares = [row.error / GOOD_ENOUGH[row.quantity == SPECTRUM] for row in rows]
         known = [share for share in shares if math.isfinite(share)]
         left, right = max(min([*known, 0.1]), 1e-4) / 2.0, 4.0 * max([*known, 10.0])
         dots = []

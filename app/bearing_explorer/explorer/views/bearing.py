@@ -107,7 +107,7 @@ _UNDER_A_ROW = {**_LINE, **_MIDDLE, "text_baseline": "top", "y_offset": 20}
 def drawing_layers(
     prefix: str, colors: LinearColorMapper, inks: LinearColorMapper
 ) -> list[layers.Layer]:
-    """From the lowest to the highest; `colors` of loads, and of the numbers on these colours."""
+    """Return the layers from the lowest up; `colors` map loads, `inks` the numbers on them."""
     load, number = ({"field": "load", "transform": mapper} for mapper in (colors, inks))
     end = layers.Glyph(
         Circle,
@@ -245,7 +245,7 @@ class BearingDrawing(ComparingView):
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         scene, now = results.scene, results.now
-        compared = [load for one in results.compared_results for _, load in one.load_curves]
+        compared = [load for other in results.compared_results for _, load in other.load_curves]
         load_range = self._load_range.fit(
             results.equilibrium.ball_load, results.reference.equilibrium.ball_load, *compared
         )
@@ -270,7 +270,7 @@ class BearingDrawing(ComparingView):
             several.append(moved(shapes, (2 * row + 1) * half - wide))
         sources = {
             f"{self.prefix}_{name}": one_after_other(
-                [one[name] for one in several], gaps=name in POLYGONS
+                [outlines[name] for outlines in several], gaps=name in POLYGONS
             )
             for name in several[0]
         }
@@ -330,7 +330,7 @@ class BearingDrawing(ComparingView):
 
 
 def _inside_words(bearing: Bearing, balls: NDArray[np.int64]) -> str:
-    """Which balls, counted from 0, are in a defect, row by row."""
+    """Say which balls, counted from 0, are in a defect, row by row."""
     if balls.size == 0:
         return ""
     words = []
@@ -369,7 +369,7 @@ def roller_ends(scene: Scene, balls: dict[str, np.ndarray]) -> dict[str, np.ndar
 
 
 def row_words(scene: Scene, wide: float) -> dict[str, np.ndarray]:
-    """Which row is which and where on the shaft, below each; nothing of a single row."""
+    """Name and place on the shaft of each row, below it; empty for a single row."""
     rows = scene.bearing.rows
     number = np.arange(float(len(rows)))
     return {
@@ -544,7 +544,7 @@ class Shapes:
     def balls(
         self, drop: dict[str, NDArray[np.float64]], load: NDArray[np.float64]
     ) -> dict[str, np.ndarray]:
-        """Balls where they are, sunk into a defect by their `drop` [m] as much as it is drawn."""
+        """Balls at their places, sunk by their `drop` [m] on the scale of a defect's depth."""
         angle, radius = self.ball_angles(), self.ball_radii(drop)
         return {
             **points(radius, angle),
@@ -601,7 +601,7 @@ class Shapes:
         return angle, self.rim + BAR_START + BAR_LENGTH * load / top
 
     def handles(self) -> dict[str, np.ndarray]:
-        """Where the defects and the arrow can be grabbed."""
+        """Points where the defects and the arrow can be grabbed."""
         race = {"outer": self.outer_race, "inner": self.inner_race}
         tip = min(self.arrow, ARROW_END)
         return handles(self.scene, self.spans, self.row, race, tip, self.bore, self.newtons)

@@ -71,11 +71,11 @@ class BearingEditor(ControlView):
 
     def sentence(self, results: Results) -> str:
         bearing = results.scene.bearing
-        own = [one for one, _ in bearing.unlike_rows]
-        angles = dict.fromkeys(one.contact_angle for one in own)
-        angle = "° and ".join(style.number(math.degrees(one), 4) for one in angles)
+        unlike = [row for row, _ in bearing.unlike_rows]
+        angles = dict.fromkeys(row.contact_angle for row in unlike)
+        angle = "° and ".join(style.number(math.degrees(angle), 4) for angle in angles)
         rows = "two rows of " if bearing.rows else ""
-        kinds = dict.fromkeys(_balls_of(one) for one in own)
+        kinds = dict.fromkeys(_balls_of(row) for row in unlike)
         words = f"{rows}{' and of '.join(kinds)}, "
         if bearing.roller_length is not None:
             words += f"{style.number(1e3 * bearing.roller_length, 4)} mm long"

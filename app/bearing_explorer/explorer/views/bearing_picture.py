@@ -106,7 +106,7 @@ def _box(cls: str, x: float, y: float, width: float, height: float, rx: float = 
 
 
 class _RowAt(NamedTuple):
-    """A row as it is drawn: place, radius of its ball, heights of its centre and raceways.
+    """A drawn row: place, radius of its ball, heights of its centre and raceways.
 
     `lean` is the slope of its races along the shaft.
     """

@@ -19,7 +19,7 @@ from bearing_explorer.kit.views.base import Ranges, Sources
 
 DEPTH = style.AxisQuantity("Depth", "d", "m", prefixed=True)
 BRIDGED = 10e-6
-"""[m] along the race: a contact is some tenths of a millimetre long."""
+"""Length [m] along the race that is bridged: a contact is some tenths of a millimetre long."""
 EDGE_WORDS = {
     "published": "an edge as in the paper",
     "chord": "a chord over the whole arc",
@@ -32,7 +32,7 @@ LAYERS = (
     curve("depth_profile_path", "angle", "drop", style.DEFECTIVE, dash=(6, 4)),
     ball_dots("depth_profile_balls", "angle", "drop"),
 )
-"""Over the race."""
+"""Layers of the profile over the race."""
 
 
 class DepthProfile(ComparingView):

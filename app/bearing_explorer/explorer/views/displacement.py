@@ -18,7 +18,7 @@ from bearingcore.common import ResultTable
 from bearingcore.model.scene import DOF_SYMBOLS
 
 _UNITS = tuple(("mrad", 1e3) if dof.startswith("r") else ("µm", 1e6) for dof in DOF_NAMES)
-"""Unit of the displacement along each direction, and what one of SI is in it."""
+"""Unit of the displacement along each direction, and the factor from SI to it."""
 _FACTORS = np.array([factor for _, factor in _UNITS])
 _WAYS = (("to the left", "to the right"), ("down", "up"), ("back along z", "along z"))
 _WHEN = ("at this cage angle", "least", "mean", "greatest")
@@ -131,7 +131,7 @@ def _stiffness_html(when: str, table: ResultTable) -> str:
 
 
 def _drop_noise(values: np.ndarray, least: float = 1e-9) -> np.ndarray:
-    """Numbers below `least` of the largest one, noise or beyond its digits, as zero."""
+    """Replace numbers below `least` times the largest one by zero: they are noise."""
     largest = np.nanmax(np.abs(values), initial=0.0)
     return np.where(np.abs(values) < least * largest, 0.0, values)
 

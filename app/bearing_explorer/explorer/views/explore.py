@@ -65,7 +65,7 @@ class ExplorePlane(SceneJobView[explore.Plane]):
     name = "explore"
     title = "Map of an output over two quantities"
     about = (
-        "Any output over any two quantities. The sliders set all else. Hatched: no answer. "
+        "Any output over any two quantities. The sliders set everything else. Hatched: no answer. "
         "Ring: this scene. Point at the map to move the curves, click to go there."
     )
     start = "Compute the map"
@@ -90,7 +90,7 @@ class ExplorePlane(SceneJobView[explore.Plane]):
 
     @property
     def is_empty(self) -> bool:
-        """Before the first map, or where no point of it has an answer."""
+        """True before the first map, and where no point of it has an answer."""
         return self.job_result is None or self.job_result.missing == self.job_result.values.size
 
     # The form
@@ -232,7 +232,7 @@ class ExplorePlane(SceneJobView[explore.Plane]):
         }
 
     def _newest(self, results: Results) -> tuple[explore.Plane | None, str]:
-        """The map as far as it is computed, or the reason why there can be none."""
+        """The map as far as it is computed, or the reason why there is none."""
         if self._request is None:
             return None, ""
         question = self._request.of(results)

@@ -48,8 +48,8 @@ FIELDS = (
         1e3,
         1e-3,
         1e5,
-        "Of the whole bearing, with all its rows. Left empty it is that of a bearing chosen by its "
-        "number, else computed by ISO 281.",
+        "Rating of the whole bearing with all its rows. If empty, it is that of the catalogue for "
+        "a bearing chosen by its number, else computed by ISO 281.",
         "automatic",
     ),
     Field(
@@ -59,8 +59,8 @@ FIELDS = (
         1e-3,
         0.1,
         1e4,
-        "Of the oil, or a grease's base oil, at the temperature of the contact. Left empty, "
-        f"{endurance.ASSUMED_VISCOSITY * 1e3:g} mPa·s are assumed here, and no limit is judged by "
+        "Viscosity of the oil, or of a grease's base oil, at the temperature of the contact. If "
+        f"empty, {endurance.ASSUMED_VISCOSITY * 1e3:g} mPa·s is assumed, and no limit is judged by "
         "it.",
         "not given",
     ),
@@ -227,7 +227,7 @@ def _life(results: Results, answer: endurance.Endurance) -> FactGroup:
             Fact(
                 f"of rows 1 to {len(lasts.rows)} on their own",
                 each,
-                "Of each row under what it carries: the bearing fails with the first.",
+                "Life of each row under its own load: the bearing fails with the first row.",
             )
         )
     words = _damaged_words(answer.life) if results.scene.defects else ""
@@ -248,9 +248,9 @@ def _iso_281_words(lasts: Life, rating: float) -> str:
     turns = (rating / radial) ** (10.0 / 3.0 if bearing.kind.line_contact else 3.0)
     uneven = ", unevenly along the rollers" if bearing.kind.line_contact else ""
     return (
-        f"ISO 281 with P = Fr, the radial load, would give {turns_in_words(turns)}: it takes half "
-        f"of a row as loaded{uneven}; here life and P follow from the computed loads, with "
-        "clearance (ISO 16281)."
+        f"ISO 281 with P = Fr, the radial load, would give {turns_in_words(turns)}: it assumes "
+        f"that half of a row is loaded{uneven}; here life and P follow from the computed "
+        "loads, with clearance (ISO 16281)."
     )
 
 
@@ -296,7 +296,7 @@ def _pressures(results: Results, answer: endurance.Endurance) -> FactGroup:
                 "half-axes of the contact ellipse",
                 f"{style.with_prefix(contact.semi_axis_across, 'm')} {across}, "
                 f"{style.with_prefix(contact.semi_axis_along, 'm')} along the rolling",
-                "Of a roller half its length and half the width of the contact.",
+                "For a roller: half its length, and half the width of the contact.",
             )
         )
     allowed = style.with_prefix(bearing.kind.static_pressure, "Pa")
@@ -328,7 +328,7 @@ def _film(results: Results, answer: endurance.Endurance) -> FactGroup:
             Fact(
                 f"{film.race.capitalize()} race, thickness",
                 style.with_prefix(film.thickness, "m") if film.lubrication else "not known",
-                "Where it is least.",
+                "Thickness where it is least.",
             )
         )
         facts.append(
@@ -343,5 +343,5 @@ def _film(results: Results, answer: endurance.Endurance) -> FactGroup:
     if results.life_inputs.viscosity is None:
         viscosity = style.with_prefix(endurance.ASSUMED_VISCOSITY, "Pa·s")
         words = words[0].lower() + words[1:]
-        words = f"With an assumed viscosity of {viscosity}, as none is given: {words}"
+        words = f"With an assumed viscosity of {viscosity}, because none is given: {words}"
     return FactGroup(title + _assuming(answer), words, facts)

@@ -49,11 +49,11 @@ LAYERS: tuple[layers.Layer, ...] = (
         look={"y_offset": -5, "text_align": "center", "text_baseline": "bottom"},
     ),
 )
-"""From the lowest to the highest."""
+"""Layers from the lowest to the highest."""
 
 
 class LoadDistribution(ComparingView):
-    """Load of a ball over its angle, the balls of this cage angle on the curve."""
+    """Load of a ball over its angle, with the balls of this cage angle on the curve."""
 
     name = "load-distribution"
     title = "Load distribution"
@@ -106,7 +106,7 @@ class LoadDistribution(ComparingView):
             "load_distribution_other_healthy": _one_line(healthy_others),
             "load_distribution_inner": _one_line(results.inner_load_curves),
             "load_distribution_rows": _names(results.load_curves),
-            "load_distribution_defect": shaded(results.scene, results.cage_angle),
+            "load_distribution_defect": defect_strips(results.scene, results.cage_angle),
             "load_distribution_curve": {"angle": np.degrees(angle), "load": load},
             "load_distribution_healthy": {"angle": np.degrees(healthy_angle), "load": healthy_load},
             "load_distribution_balls": {
@@ -116,7 +116,8 @@ class LoadDistribution(ComparingView):
             },
         }
         room = 1.0 if len(results.load_curves) == 1 else 1.08  # for the names of the rows
-        loads = [room * one for _, one in (*results.load_curves, *results.reference.load_curves)]
+        curves = (*results.load_curves, *results.reference.load_curves)
+        loads = [room * load for _, load in curves]
         loads.append(compared_curves.numbers(compared, "load"))
         return sources, {"load_distribution_load": self._range.fit(*loads)}
 
@@ -163,7 +164,7 @@ def _both_races(now: EquilibriumWithMass) -> str:
     angles = [now.inner_contact_angle[0, most], now.contact_angle[0, most]]
     words = (
         f"Centrifugal load is {style.with_prefix(now.positions.centrifugal_load, 'N')} for each: "
-        f"the heaviest loaded one carries {style.with_prefix(inner, 'N', 4)} at the inner race and "
+        f"the most loaded one carries {style.with_prefix(inner, 'N', 4)} at the inner race and "
         f"{style.with_prefix(outer, 'N', 4)} at the outer"
     )
     if np.abs(angles).max() > 1e-3:
@@ -175,7 +176,7 @@ def _both_races(now: EquilibriumWithMass) -> str:
 def _both_races_table(state: Equilibrium, row: int) -> ResultTable:
     """Loads and contact angles of a row's balls with mass, along its curve."""
     assert isinstance(state, EquilibriumWithMass)
-    own = row_name(row)
+    prefix = row_name(row)
     columns = (
         ("inner_race_load", "N", state.inner_load),
         ("inner_contact_angle", "rad", state.inner_contact_angle),
@@ -183,7 +184,7 @@ def _both_races_table(state: Equilibrium, row: int) -> ResultTable:
     )
     return table_of(
         *(
-            (f"{own}{name}", unit, load_curve(state, row, values)[1][1:-1])
+            (f"{prefix}{name}", unit, load_curve(state, row, values)[1][1:-1])
             for name, unit, values in columns
         )
     )
@@ -195,11 +196,11 @@ def _one_line(curves: list[Curve]) -> dict[str, np.ndarray]:
 
 
 NAMES_APART = 40.0
-"""[degrees] between the names of two rows that carry their most at about one place."""
+"""Least gap [degrees] between the names of rows that carry their most at about one place."""
 
 
 def _names(curves: list[Curve]) -> dict[str, np.ndarray]:
-    """Places of the names of rows, at the tops of their curves; none of a single row."""
+    """Places of the names of rows, at the tops of their curves; none for a single row."""
     rows = [
         (float(np.degrees(angle[np.nanargmax(load)])), float(np.nanmax(load)), row + 1.0)
         for row, (angle, load) in enumerate(curves)
@@ -209,7 +210,7 @@ def _names(curves: list[Curve]) -> dict[str, np.ndarray]:
     return {"angle": spread(angle % 360.0, NAMES_APART, 0.0, 360.0), "load": load, "row": row}
 
 
-def shaded(scene: Scene, cage_angle: float) -> dict[str, np.ndarray]:
+def defect_strips(scene: Scene, cage_angle: float) -> dict[str, np.ndarray]:
     """The defects as intervals of ball angle [deg]: two where one lies across 0°."""
     all_pieces = [piece for span in spans(scene, cage_angle) for piece in pieces(span)]
     start, end = np.degrees(np.array(all_pieces).reshape(-1, 2)).T

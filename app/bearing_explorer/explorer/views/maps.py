@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from bearing_explorer.explorer.plots import matrix_cells
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.state.field_values import CAGE_ANGLE
-from bearing_explorer.explorer.state.references import massless
+from bearing_explorer.explorer.state.references import massless_reference
 from bearing_explorer.kit.assets import asset_text
 from bearing_explorer.kit.plots import color_scales, style
 from bearing_explorer.kit.plots.element_words import elements
@@ -42,12 +42,12 @@ _TOOLTIP = (
 NO_ANSWER = 65535
 """The whole number of a point without an answer."""
 GREATEST = 65534
-"""That of the upper end of a map's scale; the lower end is 0."""
+"""The whole number of the upper end of a map's scale; the lower end is 0."""
 MOST_LEVELS_NAMED = 14
 """Steps of the scale of loaded balls up to which each gets its number."""
 HEIGHT = 460
 NARROWEST = 700
-"""[px] width below which the maps have no room for their values at the cross."""
+"""Width [px] below which the maps have no room for their values at the cross."""
 
 _TO_TWO_SIGNS, _TO_ONE_SIGN = 0.03, 0.01
 """The smaller sign's part of the greater one above which a map has two signs, below which one."""
@@ -145,7 +145,7 @@ class StiffnessMaps(View):
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         """Points as whole numbers, their scales, and where the sliders stand."""
-        maps, now = results.maps, results.against(massless(results.scene)).now
+        maps, now = results.maps, results.against(massless_reference(results.scene)).now
         sizes = matrix_cells.term_sizes(maps.term)
         cells: list[tuple[float, ...]] = []
         points = [np.empty(0, np.uint16)]
@@ -218,7 +218,7 @@ class StiffnessMaps(View):
             words = f"Fewest {names} carry load {where}: {least:.1f} of {n_balls} on average"
             if at and np.isfinite(mean[0]):
                 words += f", against {mean[0]:.1f} without the defect"
-        now = results.against(massless(results.scene)).now
+        now = results.against(massless_reference(results.scene)).now
         if now.converged[0]:
             place = f"{in_degrees(results.extent)}, {in_degrees(results.cage_angle)}"
             stiff = with_prefix(float(now.term("k_yy")[0]), "N/m")
@@ -345,7 +345,7 @@ def _tick_rows(grid: dict[str, float], least: int, most: int) -> dict[str, np.nd
 
 
 def _round_numbers(first: float, last: float, parts: int) -> list[float]:
-    """From zero to about `parts` equal round steps further, within the ends [deg]."""
+    """Return about `parts` equal round steps from zero on, within the ends [deg]."""
     span = last - max(first, 0.0)
     steps = [s for s in (1, 2, 5, 10, 15, 20, 30, 45, 60, 90, 120, 180) if s * parts >= 0.85 * span]
     step = steps[0] if steps else span / parts

@@ -21,7 +21,7 @@ from bearing_explorer.kit.views.base import Ranges, Sources
 from bearingcore.model.dynamics import RACES_OF_LOADS
 
 WORDS = ("enters", "leaves", "strikes inner race", "strikes outer race", "at the far edge")
-"""Of events, by the numbers that the packed source carries."""
+"""Words for events, by the numbers that the packed source carries."""
 
 _EVENT_WORDS = f"""
 const does = {json.dumps(WORDS)}[row.kind]

@@ -1,4 +1,4 @@
-"""Which of two mechanisms shakes the housing: varying stiffness, or the mass of the balls."""
+"""Two mechanisms that shake the housing: varying stiffness, and the mass of the balls."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from bearingcore.model.dynamics import LOWEST_COMPARED
 
 SHARE = style.AxisQuantity("Share that mass adds", "", "%")
 ROOM = 1.06
-"""Between bars, as a ratio of frequencies."""
+"""Gap between bars, as a ratio of frequencies."""
 LEAST = -1.0
 """Share below which a bar is cut: next to nothing is left of the power with massless balls."""
 HALF = 0.5
@@ -120,7 +120,7 @@ class WhichMechanism(FoldedView[Results]):
 
 
 def mechanism_words(mass: BallMass) -> str:
-    """In words: in which octaves which mechanism gives most of the power."""
+    """Say in which octaves which mechanism gives most of the power."""
     loud = np.isfinite(mass.share) & ~mass.quiet
     low, high, share = mass.octaves[:-1][loud], mass.octaves[1:][loud], mass.share[loud]
     struck = np.flatnonzero(share > HALF)

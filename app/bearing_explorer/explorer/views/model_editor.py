@@ -38,10 +38,11 @@ class ModelEditor(ControlView):
     name = "model-editor"
     title = "Rotor, housing and support"
     about = (
-        "Two bodies, and the support of the housing. The rotor sits in the inner ring, the "
-        "housing around the outer one, on springs and dampers. They decide natural frequencies "
-        "and vibration, never the static loads. What is left empty is not known. A shaft on two "
-        "bearings does not tilt; on this one alone it may, and the bearing carries less."
+        "Two bodies, and the support of the housing. The rotor sits in the inner ring, the housing "
+        "around the outer one, on springs and dampers. They decide natural frequencies and "
+        "vibration, never the static loads. An empty field means that the number is not known. A "
+        "shaft on two bearings does not tilt; on this one alone it may, and the bearing carries "
+        "less."
     )
     needs = frozenset({"contact_damping"})
 

@@ -26,9 +26,9 @@ FREQUENCY = style.AxisQuantity("Natural frequency", "f", "Hz")
 HEIGHT = 330
 LABEL_PIXELS = 16.0  # height that a label needs
 NAMES_WIDTH = 148
-"""[px] right of the frame, for the names of bands."""
+"""Width [px] right of the frame for the names of bands."""
 NARROW = 520
-"""[px] width of the figure below which the names stand alone, without their frequencies."""
+"""Width [px] of the figure below which the names stand alone, without their frequencies."""
 _ROOM = f"""{style.LARGER}
 const room = cb_obj.outer_width < larger*below ? 34 : larger*usual
 if (cb_obj.min_border_right != room) cb_obj.setv({{min_border_right: room}}, {{sync: false}})
@@ -38,7 +38,7 @@ _NAME_WORDS = f"{BAND_NAME}\nif (plot.min_border_right < larger*100) return name
 
 
 def mode_layers(colors: Any) -> Sequence[layers.Layer]:
-    """From the lowest to the highest; `colors` of bands and their names, by direction."""
+    """Return the layers from the lowest up; `colors` of bands and their names, by direction."""
     return (
         layers.strips("modes_bands", colors, 0.10, level=True),
         *compared_curves.bands("modes_band", level=True),
@@ -105,7 +105,7 @@ class NaturalFrequencies(ComparingView):
         compared = compared_curves.sources(
             "modes",
             ("angle", "frequency"),
-            (results.against(one) for one in results.compared),
+            (results.against(reference) for reference in results.compared),
             lambda other: lines(results.along(other.modes.cage_angles), other.modes.frequency),
         )
         shown = self._range.fit(

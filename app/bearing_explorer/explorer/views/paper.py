@@ -33,7 +33,7 @@ TAB_TITLES = {
 SIZED = presets["fan-rig"].replace(extent=math.radians(38.6))
 """The scene of Section 4, "Defect size estimation": entry and exit alone suggest 12.9°."""
 NOISE = "20"
-"""Of its simulated signal, by its name in `NOISES`."""
+"""Noise of its simulated signal, a name in `NOISES`."""
 
 
 class PaperFigures(View[Results]):
@@ -42,16 +42,17 @@ class PaperFigures(View[Results]):
     name = "paper"
     title = "Figures of the paper"
     about = (
-        "Figures 3 to 10 of the paper, computed anew. Petersen, Howard and Prime (2014). The "
-        "scene stays as it is until a figure or Section 4 is opened, which simulates the signal "
-        "of a spall and finds its length on the Diagnosis tab."
+        "Figures 3 to 10 of the paper, computed anew. Petersen, Howard and Prime (2014). The scene "
+        "stays as it is until you open a figure or Section 4. Section 4 simulates the signal of a "
+        "spall and finds its length on the Diagnosis tab."
     )
     computes = True
 
     def build(self, packed: PackedSource) -> Any:
         self._figure = FIGURES[0]
         self._buttons = {
-            one.number: button(f"Figure {one.number}", partial(self._show, one)) for one in FIGURES
+            figure.number: button(f"Figure {figure.number}", partial(self._show, figure))
+            for figure in FIGURES
         }
         self._live = button("Open it", self._open_live, css_classes=["main"])
         self._numbers = facts_pane(sizing_mode="stretch_width")

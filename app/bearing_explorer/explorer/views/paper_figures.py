@@ -61,7 +61,7 @@ class PaperFigure:
     @cached_property
     def rows(self) -> list[tuple[str, str, str]]:
         """Name, printed and computed value of each number, for all sessions."""
-        return [(one.name, one.paper, one.ours(self.scenes)) for one in self.printed]
+        return [(entry.name, entry.paper, entry.ours(self.scenes)) for entry in self.printed]
 
     @property
     def slip(self) -> str:

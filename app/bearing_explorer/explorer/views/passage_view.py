@@ -138,7 +138,7 @@ def event_lines(prefix: str) -> layers.Layer:
 
 
 def event_names(prefix: str, code: str, reads: tuple[str, ...]) -> layers.Layer:
-    """Their names by some code, which knows the width of the frame."""
+    """Names of the events by some code, which knows the width of the frame."""
     return layers.Words(
         f"{prefix}_events",
         "label_from",

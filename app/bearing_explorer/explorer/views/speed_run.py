@@ -291,19 +291,19 @@ def compute(job: Work, scene: Scene, speeds: value_range.Sweep) -> str:
     """
     n = speeds.values.size
     runs = [speeds] if n <= FIRST_COUNT else [speeds.every((n - 1) // (FIRST_COUNT - 1)), speeds]
-    whole = sum(one.values.size for one in runs)
+    whole = sum(grid.values.size for grid in runs)
     started = time.perf_counter()
     done, shown = 0, "Nothing is shown yet."
 
     def progress(begun: float, share: float, part: float, _: str) -> None:
         job.progress(begun + share * part)
 
-    for one in runs:
-        size = one.values.size
+    for grid in runs:
+        size = grid.values.size
         try:
             run = speed_run(
                 scene,
-                one.in_si[1],
+                grid.in_si[1],
                 resolution=RESOLUTION,
                 progress=partial(progress, done / whole, size / whole),
                 cancelled=job.cancelled,
@@ -313,7 +313,7 @@ def compute(job: Work, scene: Scene, speeds: value_range.Sweep) -> str:
                 raise
             return f"{shown} Finer was not begun: speeds must be {error.allowed}."
         if run.completed or not done:
-            job.show(FoundRun(run, one))
+            job.show(FoundRun(run, grid))
             shown = f"{size} speeds after {time.perf_counter() - started:.1f} s."
             if size == FIRST_COUNT:
                 shown = f"A coarse picture: {shown} “Compute all speeds” makes it finer."

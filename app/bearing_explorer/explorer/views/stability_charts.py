@@ -1,4 +1,4 @@
-"""Where methods fail: growth of a disturbance over the shaft speed, amplitude over the steps."""
+"""Failures of methods: growth of a disturbance over shaft speed, amplitude over step length."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from bearingcore.model.experiments import DIVERGED, OrbitAtSpeed, StabilityChart
 HEIGHT = 340
 UNSTABLE = "#D55E00"
 LEAST = 1e-6
-"""What is less is drawn there, as the axis has no zero."""
+"""Least value that is drawn: smaller ones stand there too, as the axis has no zero."""
 STABLE_PAPER, STABLE_INK = "#E6F3EE", "#00704F"
 
 
@@ -193,7 +193,7 @@ def _steps_in_period(chart: StabilityChart, step_rate: float) -> str:
 
 def orbits_sentence(orbits: tuple[OrbitAtSpeed, ...]) -> str:
     """Say where the periodic motion loses its stability, and how."""
-    known = [one for one in orbits if one.multipliers]
+    known = [orbit for orbit in orbits if orbit.multipliers]
     if not known:
         why = orbits[0].status if orbits else "not measured yet"
         return f"No periodic motion over the shaft speed: {why}."
@@ -202,9 +202,9 @@ def orbits_sentence(orbits: tuple[OrbitAtSpeed, ...]) -> str:
         return f"{style.number(orbit.shaft_speed / (2.0 * math.pi), 3)} Hz"
 
     changed = [b for a, b in pairwise(known) if a.loss != b.loss]
-    changes = [f"{one.loss or 'stable again'} from {speed_words(one)}" for one in changed]
+    changes = [f"{orbit.loss or 'stable again'} from {speed_words(orbit)}" for orbit in changed]
     first = f"{'Unstable' if known[0].loss else 'Stable'} at {speed_words(known[0])}"
-    words = ", ".join([first, *(changes or [f"and so to {speed_words(known[-1])}"])])
+    words = ", ".join([first, *(changes or [f"and up to {speed_words(known[-1])}"])])
     missing = len(orbits) - len(known)
     rest = f" No orbit was found at {missing} of {len(orbits)} speeds." if missing else ""
     return f"{words}.{rest}"

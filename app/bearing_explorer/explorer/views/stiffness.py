@@ -24,14 +24,14 @@ from bearing_explorer.kit.plots.ranges import ROOM, StickyRange
 from bearing_explorer.kit.plots.style import with_prefix
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
-from bearingcore import STIFFNESS_TERMS, Scene
+from bearingcore import STIFFNESS_TERMS
 from bearingcore.common import prefixed_span
 from bearingcore.model.statics import TERM_UNITS
 
 NARROWEST = 920
-"""[px] width from which a cell has room for its symbol and its value."""
+"""Width [px] from which a cell has room for its symbol and its value."""
 NARROWEST_WITH_UNITS = 800
-"""[px] width from which it has room for the unit alone, as on paper."""
+"""Width [px] from which a cell has room for the unit alone, as on paper."""
 LEFT = 0.31
 """Room for the numbers left of a cell."""
 
@@ -100,7 +100,7 @@ class Stiffness(ComparingView):
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         """All traces, scaled into their cells."""
         states, now = results.equilibrium, results.now
-        alike = [results.reference, *(results.against(one) for one in results.compared)]
+        alike = [results.reference, *(results.against(other) for other in results.compared)]
         answers = [states, *(other.equilibrium for other in alike)]
         first, last, _ = results.stretch
         shares = [(e.cage_angles - first) / (last - first) for e in answers]
@@ -174,7 +174,7 @@ class Stiffness(ComparingView):
         return self._lesson_limits
 
     def sentence(self, results: Results) -> str:
-        """Why the radial stiffness is as it is, its range, and the number of loaded balls."""
+        """Say why the radial stiffness has its size, its range, and the number of loaded balls."""
         ranges, healthy = results.ranges, results.reference.ranges
         states = ranges.state
         if not states.converged.any():
@@ -202,7 +202,8 @@ class Stiffness(ComparingView):
 
     def show(self, results: Results) -> None:
         """Say in the legend whether there is a defect."""
-        words = _legend_words(results.scene)
+        defect = "with the defect" if results.scene.defects else "without a defect"
+        words = [defect, "healthy bearing", _NOW_WORDS]  # blue, grey, and the upright line
         if words != self._legend.data["text"]:
             self._legend.data = {**self._legend.data, "text": words}
 
@@ -257,12 +258,6 @@ def _static_parts(plot: figure) -> ColumnDataSource:
     look = {"text_font_size": style.TEXT_SIZE, "text_color": style.INK}
     write(plot, legend, "return row.text", text_baseline="middle", **look)
     return legend
-
-
-def _legend_words(scene: Scene) -> list[str]:
-    """Words of the legend: blue, grey, and the upright line."""
-    own = "with the defect" if scene.defects else "without a defect"
-    return [own, "healthy bearing", _NOW_WORDS]
 
 
 _UNIT = f"const unit = {[*UNITS, '']}[row.unit]\n"

@@ -43,11 +43,11 @@ AXIS: FieldSpec = {
 """The switches above the figures."""
 
 NAMED_IN_FULL = 580.0
-"""[px] width of a frame from which the names of bands have room for their frequencies."""
+"""Width [px] of a frame from which the names of bands have room for their frequencies."""
 LOWEST = 100.0
-"""[Hz] on the logarithmic axis."""
+"""Lowest frequency [Hz] of the logarithmic axis."""
 WIDE_DEPTH = 90.0
-"""[dB] below the loudest line that are seen there."""
+"""Range [dB] below the loudest line that this axis shows."""
 _RESONANCE_WORDS = (
     "return `contact resonance ${si(row.low, 'Hz')}${row.above ? ', above this range' : ''}`"
 )
@@ -82,7 +82,7 @@ def spectra(dof: str) -> list[layers.Layer]:
 
 
 def wide_spectra(dof: str) -> list[layers.Layer]:
-    """The same as far as the motion is known, over the band of the contact resonances."""
+    """Layers of a spectrum as far as the motion is known, with the contact resonances."""
     return [
         layers.strips("spectrum_wide_resonance", style.DEFECT, 0.22, reads=("above",)),
         layers.curve("spectrum_wide_grey", "frequency", dof, style.HEALTHY, 1.5),
@@ -142,7 +142,7 @@ class VibrationSpectra(ComparingView, LookView[Results]):
             WIDE_DEPTH,
         )
         sources = layers.sources_of(packed, PASSES)
-        passes = [one for plot in linear.plots for one in layers.add_all(plot, sources, PASSES)]
+        passes = [line for plot in linear.plots for line in layers.add_all(plot, sources, PASSES)]
         box = layers.toggle("Mark the ball-pass frequency and its harmonics", passes, shown=False)
         self._narrow = [*linear.plots, box]
         self._broad = stack(*self._wide.plots, visible=False, stylesheets=[AS_HIGH_AS_SHOWN])
@@ -193,7 +193,7 @@ class VibrationSpectra(ComparingView, LookView[Results]):
     def _resonance(self, results: Results, top: float) -> dict[str, np.ndarray]:
         """The band of the contact resonances, where balls have mass; `top` [Hz] is the axis's."""
         scenes = results.scene, results.grey.scene
-        bands = [contact_resonance_band(one) for one in scenes if one.balls == WITH_MASS]
+        bands = [contact_resonance_band(scene) for scene in scenes if scene.balls == WITH_MASS]
         low, high = np.array(bands[-1:]).reshape(-1, 2).T
         above = (low >= top).astype(float)
         return {"low": low, "high": high, "above": above, "label_at": 0.97 * np.minimum(low, top)}

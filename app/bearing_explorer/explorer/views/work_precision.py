@@ -26,12 +26,12 @@ from bearingcore.common import decibels, percent, scientific
 from bearingcore.model.experiments import METHODS, Experiment, Point
 
 HEIGHT, TALL = 280, 360
-"""[px] of a chart, and of one that has a row for itself."""
+"""Height [px] of a chart, and of one that has a row for itself."""
 COLORS = (
     "#0072B2", "#D55E00", "#009E73", "#AA3377", "#665511", "#5544FF", style.INK, "#FF4466",
     "#661100",
 )  # fmt: skip
-"""One for each method, which colour-blind people can distinguish on a light and a dark page."""
+"""Colours of the methods, distinct for colour-blind people on a light and a dark page."""
 MARKERS = ("circle", "square", "triangle", "diamond", "inverted_triangle", "plus", "star")
 ALLOWED = {"dB": 0.1, "1": 0.01}
 """The error that is allowed, by its unit: drawn as a line."""

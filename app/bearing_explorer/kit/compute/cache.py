@@ -20,8 +20,8 @@ from cachetools import LRUCache
 Result = TypeVar("Result")
 
 MOST_BYTES = 64_000_000
-"""Of all results that are kept. A count would be no bound: one is a kilobyte or twenty megabytes,
-and with caches that counted a process held more than a gigabyte after some thousand scenes."""
+"""Size of all results that are kept. A count bounds nothing: a result has a kilobyte or 20 MB,
+and a process whose caches counted held more than a gigabyte after some thousand scenes."""
 
 _OVERHEAD = 4096  # bytes of objects around the arrays
 _LONG = 256  # items from which a list counts as one of numbers, and is not looked through

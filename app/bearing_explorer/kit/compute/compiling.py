@@ -24,7 +24,7 @@ __all__ = ["BALLS_WITH_MASS", "MOTION", "ORBITS", "STATICS", "StillCompiling"]
 log = logging.getLogger(__name__)
 
 FIRST_PICTURE = 5.0
-"""For which compiling waits for a first picture [s]."""
+"""Time [s] that compiling waits for a first picture."""
 
 _WORDS = {
     STATICS: "loads and stiffness",
@@ -84,7 +84,7 @@ class Compilation:
         self._drawn.set()
 
     def wait(self, seconds: float) -> bool:
-        """True if it has ended, after so many seconds at most."""
+        """Wait at most this many seconds; return True if compiling has ended."""
         return self._over.wait(seconds)
 
     def left(self) -> tuple[str, ...]:

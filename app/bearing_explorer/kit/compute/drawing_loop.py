@@ -1,4 +1,4 @@
-"""One loop a session: draws the newest inputs, and draws them finely once a slider rests."""
+"""The drawing loop of a session: the newest inputs, and a fine picture once a slider rests."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ from bearing_explorer.kit.compute.executors import FINE, run_in_thread
 log = logging.getLogger(__name__)
 
 RESTS_AFTER = 0.3
-"""[s] without newer inputs after the last picture after which a slider counts as at rest."""
+"""Time [s] after the last picture after which a slider without newer inputs counts as at rest."""
 
 Inputs = TypeVar("Inputs")
 Fine = TypeVar("Fine")
 
 
 class DrawingLoop(Generic[Inputs, Fine]):
-    """Always draws the newest inputs and drops what they overtook.
+    """Draws the newest inputs, and drops older ones that still wait.
 
-    Slider events come faster than scenes can be drawn. A queue would grow into a tail that moves on
-    after the slider has stopped; here at most one set of inputs waits.
+    Slider events come faster than scenes can be drawn. In a queue they would grow into a tail that
+    moves on after the slider has stopped; here at most one set of inputs waits.
 
     Parameters
     ----------
@@ -34,7 +34,7 @@ class DrawingLoop(Generic[Inputs, Fine]):
     draw_fine
         draws such a picture, on the event loop.
     failed
-        is called where one of them raises an exception.
+        function that is called where one of them raises an exception.
     """
 
     def __init__(
@@ -64,13 +64,13 @@ class DrawingLoop(Generic[Inputs, Fine]):
 
     @property
     def idle(self) -> bool:
-        """True if the newest inputs are drawn as finely as can be."""
+        """True if the newest inputs are drawn finely."""
         return not self._newest and (self._task is None or self._task.done())
 
     def newest(self, inputs: Inputs) -> Inputs:
-        """The newest inputs there are in place of `inputs`. For any thread.
+        """Return newer inputs if there are any, else `inputs`. For any thread.
 
-        Where many sessions wait for a thread, a slider has moved on meanwhile.
+        While many sessions wait for a thread, a slider moves on.
         """
         try:
             return self._newest.pop()
@@ -120,7 +120,7 @@ class DrawingLoop(Generic[Inputs, Fine]):
         return False
 
     async def _draw_finely(self, inputs: Inputs) -> None:
-        """Unless newer inputs come first: they do not wait for it."""
+        """Draw finely, unless newer inputs come first: those do not wait for it."""
         fine = asyncio.ensure_future(run_in_thread(self._refine, inputs, pool=FINE))
         newer = asyncio.ensure_future(self._submitted.wait())
         try:

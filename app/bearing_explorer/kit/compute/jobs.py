@@ -326,7 +326,7 @@ class _Job:
         self.work = Work(self.kind.longest)
 
     def step(self) -> bool | None:
-        """In a thread: compute until the next step, None, or to the end, True."""
+        """Compute, in a thread, up to the next step (None) or to the end (True)."""
         now = time.monotonic()
         if self._steps is None:
             self.work.started = now

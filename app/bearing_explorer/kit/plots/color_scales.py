@@ -19,7 +19,7 @@ STEPS = 256
 LOADS = list(magma(256))[40:246][::-1]
 """Loads of balls on a light page."""
 DARK_LOADS = list(magma(256))[62:]
-"""The same on a dark page."""
+"""Loads of balls on a dark page."""
 INKS = [style.INK, style.PAPER]
 """Text on a light colour, and on a dark one."""
 

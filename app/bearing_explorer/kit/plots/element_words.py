@@ -12,7 +12,7 @@ _BALL = re.compile(r"\b([Bb])all(?=s?\b)(?![- ]pass)")
 
 
 def elements(bearing: Bearing, count: int = 2) -> str:
-    """The word for so many of them."""
+    """The word for a number of elements."""
     return bearing.kind.element if count == 1 else bearing.kind.elements
 
 
@@ -24,7 +24,7 @@ def element_name(bearing: Bearing, index: int) -> str:
 
 
 def row_words(bearing: Bearing, row: int | None) -> str:
-    """The row of a defect, of a bearing of several rows: ", row 1"; nothing of one row."""
+    """The row of a defect, of a bearing of several rows: ", row 1"; empty for one row."""
     if len(bearing.all_rows) == 1:
         return ""
     return ", all rows" if row is None else f", row {row + 1}"

@@ -120,7 +120,7 @@ def let_point(
         the source that says so, and the values at the ends (``x_first``, ``x_last``, ``y_first``,
         ``y_last``) where these are not the ends of the picture.
     count
-        how many pictures of the source are maps.
+        number of pictures of the source that are maps.
     digits
         places are those of the middles of cells, or with this the very ones, rounded to as many
         digits behind the point.

@@ -144,7 +144,7 @@ def uprights(
     alpha: float = 0.75,
     **look: Any,
 ) -> Glyph:
-    """Upright lines through the whole frame; as it is at the current cage angle."""
+    """Vertical lines through the whole frame, by default in the look of the current cage angle."""
     line = {"line_color": color, "line_width": width, "line_alpha": alpha}
     return Glyph(models.VSpan, source, (x,), {**line, **look})
 
@@ -212,7 +212,7 @@ class Words:
         "x" or "y": words that the frame would cut off along that side once it is zoomed are left
         out, and the code knows whether the frame is `narrow`, as below `style.NARROW`.
     share
-        of each text that is right of its place: what goes too far over the right edge is left out.
+        share of a text right of its place: a text that crosses the right edge is left out.
     """
 
     source: str
@@ -346,7 +346,7 @@ def with_gaps(
 def least_and_greatest(
     values: NDArray[np.float64], parts: int
 ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-    """At most 2·`parts` numbers that draw the same line as the rows of `values` (n, k).
+    """Choose at most 2·`parts` numbers that draw the same line as the rows of `values` (n, k).
 
     Of each of `parts` stretches the least and the greatest number are kept, in the order in which
     they came, so that no peak is lost that a pixel would show. Returns the row numbers at which

@@ -18,11 +18,6 @@ DEPTH_OF_VIEW = 60.0  # [dB] below the loudest line
 LEVEL_FLOOR = -200.0  # [dB] the level of a housing that does not move at all
 
 
-def density_axis(symbol: str) -> style.AxisQuantity:
-    """Axis of a power spectral density."""
-    return style.AxisQuantity("Density", symbol, "dB re 1 (m/s²)²/Hz")
-
-
 def decibels(density: Any) -> Any:
     """Level of a density [(m/s²)²/Hz] in dB re 1 (m/s²)²/Hz; silence is `LEVEL_FLOOR`."""
     return 10.0 * np.log10(np.maximum(density, 10.0 ** (LEVEL_FLOOR / 10.0)))

@@ -22,11 +22,11 @@ from bearing_explorer.kit.plots.without_browser import Scripts
 
 SUFFIXES = (".svg", ".pdf", ".png")
 COLUMN, TWO_COLUMNS = 88.0, 180.0
-"""[mm] width of a column of most journals, and of two."""
+"""Width [mm] of a column of most journals, and of two."""
 WIDE = "wide"
 """Tag of figures that need two columns."""
 POINT = 0.6
-"""[pt] a pixel of the page is: its text is of 6.6 and 7.2 pt then."""
+"""Size [pt] of a pixel of the page: its text then has 6.6 and 7.2 pt."""
 _MARKS = {"circle": "o", "square": "s", "diamond": "D", "triangle": "^", "inverted_triangle": "v"}
 _MARKS |= {"cross": "+", "x": "x", "dash": "_", "star": "*", "hex": "h"}
 _LEVELS = {"image": 0, "underlay": 1, "glyph": 2, "guide": 3, "annotation": 4, "overlay": 5}

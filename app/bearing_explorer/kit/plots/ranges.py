@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 ROOM = 0.03
-"""Of the numbers' span: that a line of some pixels does not lie on the frame."""
+"""Share of the numbers' span left free, so that a thick line does not lie on the frame."""
 
 Anchor = Literal["free", "zero", "symmetric"]
 

@@ -34,14 +34,14 @@ DEFECTIVE = "#0072B2"
 HEALTHY = "#8E93A3"
 """The same bearing without its defect."""
 DEFECT = "#E69F00"
-"""Where the defect is."""
+"""Colour of the defect."""
 INK = "#20262D"
 """Text, and the mark of the current cage angle."""
 FAINT_INK = "#5B6470"
 PAPER = "#FFFFFF"
 """Background of figures; white is paper."""
 LIGHT, SHADE = "#FEFEFE", "#1B2127"
-"""On top of pictures, which are the same on a light and on a dark page."""
+"""Colours on top of pictures, which are the same on a light and on a dark page."""
 STEEL = "#E7EAEE"
 STEEL_EDGE = "#A9B1BB"
 GRID = "#EDEFF2"
@@ -106,7 +106,7 @@ const si = (value, unit, digits = 3) => {
 
 
 NARROW = 420
-"""[px] width of a frame below which there is room for short words only."""
+"""Width [px] of a frame below which there is room for short words only."""
 LARGER = """
 const larger = document.documentElement.hasAttribute("data-projector") ? 1.64 : 1  // see look.js
 """
@@ -117,7 +117,7 @@ let narrow = false
 if (plot) try { narrow = plot.inner_width > 0 && plot.inner_width < larger*below } catch {}
 """
 )
-"""JavaScript: whether the frame of a `plot` is `narrow`, `below` so many pixels."""
+"""JavaScript that sets `narrow`: true if the frame of a `plot` is `below` this width [px]."""
 
 
 def text_offset(column: str) -> dict[str, Any]:

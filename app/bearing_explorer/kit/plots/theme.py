@@ -42,7 +42,7 @@ DARK_COLORS = {
     "#5544FF": "#AA55EE",
     "#FF4466": "#EE4488",
 }
-"""By the light colour, as upper-case hex."""
+"""Dark colours by the light ones, as upper-case hex."""
 
 DARK_PALETTES = [
     (color_scales.LOADS, color_scales.DARK_LOADS),
@@ -52,7 +52,7 @@ DARK_PALETTES = [
 
 
 def dark_properties() -> str:
-    """The same for styles in HTML, see `style.css_color`."""
+    """Dark colours for styles in HTML, see `style.css_color`."""
     words = (f"--in-dark-{light[1:].upper()}: {dark};" for light, dark in DARK_COLORS.items())
     return f':root[data-theme="dark"] {{ {" ".join(words)} }}'
 

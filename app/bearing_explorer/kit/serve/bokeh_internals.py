@@ -1,6 +1,6 @@
-"""Private names of Bokeh, and what is quicker by them; no other file uses any.
+"""Private names of Bokeh, which make the page quicker; no other file uses any.
 
-For each: what it is for, as measured on two busy cores, and what happens without it.
+The list says what each name serves, measured on two busy cores, and what happens without it.
 
 * Those in `_OF_THE_WALK`, `_property_values`, `_unstable_default_values`: opening three tabs holds
   the event loop for 253 ms (`find_models_quickly`). Without: 1,231 ms.
@@ -9,16 +9,16 @@ For each: what it is for, as measured on two busy cores, and what happens withou
 * `_event_callbacks`: an event goes to its model (`dispatch_event`). Without: every model is asked.
 * `_needs_document_lock`, `_needs_document_lock_on_loop`, `_current_patch_connection`: changes are
   made on the event loop (`locked`, `apply_patch`). Without: from Bokeh 3.10 on in a thread each.
-* `_http`, `_tornado`: the server's connections are bounded (`parts_of`). Without: a proxy has to.
+* `_http`, `_tornado`: the server limits its connections (`parts_of`). Without: a proxy has to.
 
-They may go with any release. `missing` says at the start which of the first kind are gone, and the
-log has it; the others are looked for as they are used.
+Any release may remove them. At the start, `missing` logs which names of the first item are gone;
+the others are checked whenever they are used.
 
 With the environment variable ``BEARING_EXPLORER_PLAIN=1`` none of them is used, nor what
 `panel_internals`, `tornado_internals`, `assets/scripts/fast_figures.js` and
-`bearingcore/model/_kernels/compiling.py` use: all goes the public ways, slower and as right.
-Figures get their data by Bokeh's own messages then, in 82 ms of a drag instead of 52
-(`PackedSource`).
+`bearingcore/model/_kernels/compiling.py` use: only public ways are left, which are slower and give
+the same results. Figures then get their data by Bokeh's own messages, and a step of a drag takes
+82 ms instead of 52 (`PackedSource`).
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ from bokeh.settings import settings
 from panel.models.esm import DataEvent
 
 PLAIN = os.environ.get("BEARING_EXPLORER_PLAIN", "0") not in ("", "0")
-"""True where all goes the public ways."""
+"""True where only public ways are used."""
 
 log = logging.getLogger(__name__)
 
@@ -74,9 +74,9 @@ def missing() -> list[str]:
 
 
 def _locked(act: Callable[..., Awaitable[None]]) -> Callable[..., Awaitable[None]]:
-    """Bokeh's decorator that locks a document.
+    """Lock a document by Bokeh's own decorator.
 
-    Its `with_document_locked` takes, from 3.10 on, a way through a thread each time.
+    The public `with_document_locked` goes through a thread each time from Bokeh 3.10 on.
     """
     known = () if PLAIN else ("_needs_document_lock_on_loop", "_needs_document_lock")
     lock = next((getattr(bokeh_session, n) for n in known if hasattr(bokeh_session, n)), None)
@@ -92,12 +92,12 @@ def _locked(act: Callable[..., Awaitable[None]]) -> Callable[..., Awaitable[None
 
 @_locked
 def locked(session: Any, act: Callable[[Document], Awaitable[None]]) -> Awaitable[None]:
-    """Let `act` change the document of a session, while nothing else does."""
+    """Let `act` change the document of a session while nothing else can."""
     return act(session.document)
 
 
 async def apply_patch(message: Any, connection: Any) -> None:
-    """Apply a patch of a browser on the event loop: from 3.10 on Bokeh does it in a thread."""
+    """Apply a patch of a browser on the event loop; Bokeh from 3.10 on uses a thread."""
     session = connection.session
     if PLAIN or not hasattr(session, "_current_patch_connection"):
         await ServerSession.patch(message, connection)
@@ -114,7 +114,7 @@ async def apply_patch(message: Any, connection: Any) -> None:
 
 
 def parts_of(server: Any) -> tuple[Any, Any] | None:
-    """The Tornado application and the server under it; None where they cannot be had."""
+    """The Tornado application and the server under it; None where they are hidden."""
     parts = getattr(server, "_tornado", None), getattr(server, "_http", None)
     return None if PLAIN or None in parts else parts
 
@@ -134,7 +134,7 @@ def dispatch_event(model: Model, event: DataEvent) -> None:
 
 
 def sockets_of(session: Any) -> list[Any]:
-    """The websockets of a session; none where they cannot be had."""
+    """The websockets of a session; none where they are hidden."""
     connections = () if PLAIN else tuple(getattr(session, "_subscribed_connections", ()))
     sockets = (getattr(connection, "_socket", None) for connection in connections)
     return [socket for socket in sockets if socket is not None]
@@ -143,7 +143,7 @@ def sockets_of(session: Any) -> list[Any]:
 async def send_changes(session: Any, document: Document, change: Callable[[], None]) -> None:
     """Run `change` and send all that it changed as one message, written when this returns.
 
-    The public way, Bokeh sends it in as many messages as it likes.
+    By public ways, Bokeh chooses the number of messages.
     """
     callbacks: Any = document.callbacks
     document.hold("combine")
@@ -164,10 +164,10 @@ async def send_changes(session: Any, document: Document, change: Callable[[], No
 
 
 def _patch_of(document: Document, events: list[DocumentPatchedEvent]) -> Message[Any]:
-    """A message of `events`.
+    """Make a message of `events`.
 
-    Bokeh lists all models of the document first, so as to know new ones from those that the
-    browser has. Where there are none new, those that the events are about will do.
+    Bokeh lists all models of the document first, to distinguish new models from those that the
+    browser has. If no model is new, the models of the events are enough.
     """
     if not getattr(document.models, "_new_models", True):
         known = {model for event in events if (model := getattr(event, "model", None)) is not None}
@@ -180,26 +180,26 @@ def _patch_of(document: Document, events: list[DocumentPatchedEvent]) -> Message
     return patch_doc.create(events)
 
 
-# Models, looked for where models can be
+# A quicker search for the models of a document
 
 
 def find_models_quickly() -> None:
-    """Have Bokeh look for models only where models can be.
+    """Make Bokeh look for models only where models can be.
 
-    It walks all models whenever one is added, and asks each for the value of every property that
-    might hold another, making up defaults; so it does when a model is made, and when it is written.
-    That is most of what a session costs. Here a default is made when it is asked for: the others,
-    a third of all models, the browser makes by itself, with the same properties. Only values that
-    are written are asked for; what Bokeh works out about a class for each of its models is worked
-    out once, and values are walked without an import for each of them.
+    Whenever a model is added, made or written, Bokeh walks all models, asks each for every property
+    that might hold another model, and makes defaults for them. That is most of the cost of a
+    session. With this function a default is made only when somebody asks for it. The browser makes
+    the others, a third of all models, with the same properties. Only values that are written are
+    asked for, facts of a class are computed once instead of for each of its models, and values are
+    walked without an import for each.
     """
     if PLAIN or getattr(model_util, "visit_immediate_value_references", None) is _visit:
         return
     if gone := missing():
-        log.warning("models are looked for everywhere: %s", "; ".join(gone))
+        log.warning("the quick search for models is off: %s", "; ".join(gone))
         return
     model_util.visit_immediate_value_references = _visit
-    # each model looks for these in the environment; what is set once is seen at once
+    # each model would look for these in the environment
     settings.simple_ids = settings.simple_ids()
     settings.serialize_include_defaults = settings.serialize_include_defaults()
     changed = HasProps.__dict__["_overridden_defaults"].__func__
@@ -220,7 +220,7 @@ def _is_made(descriptor: PropertyDescriptor, kind: type[HasProps]) -> bool:
 
 
 def _has_unstable_default(self: PropertyDescriptor, obj: HasProps) -> bool:
-    """Not while a model is made: the browser makes by itself what is not asked for."""
+    """Return False while a model is made: the browser makes the defaults that nobody asks for."""
     return obj._initialized is not False and _is_made(self, type(obj))
 
 
@@ -234,21 +234,21 @@ def _values_to_write(
     include_defaults: bool = True,
     include_undefined: bool = False,
 ) -> dict[str, Any]:
-    """Values by name of the properties that `query` takes; without defaults those that are set.
+    """Values of the properties that `query` takes, by name; without defaults only set ones.
 
-    Bokeh asks for the value of each property first, and then whether it is set.
+    Bokeh gets the value of each property before it checks whether the property is set.
     """
     themed = self.themed_values()
     if include_defaults or themed is not None:
         return _query(
             self, query, include_defaults=include_defaults, include_undefined=include_undefined
         )
-    given, made = self._property_values, self._unstable_default_values
+    set_values, defaults = self._property_values, self._unstable_default_values
     values = {}
     for name in type(self).properties(_with_props=True):
-        if (name in given or name in made) and query(descriptor := self.lookup(name)):
+        if (name in set_values or name in defaults) and query(descriptor := self.lookup(name)):
             value = descriptor.get_value(self)
-            if name not in made or not isinstance(value, PropertyValueContainer):
+            if name not in defaults or not isinstance(value, PropertyValueContainer):
                 values[name] = value
     return values
 
@@ -289,9 +289,9 @@ def _visit(value: Any, visitor: Callable[[Any], None]) -> None:
     names = _references.get(kind)
     if names is None:
         names = _references[kind] = tuple(kind.properties_with_refs())
-    given, made = value._property_values, value._unstable_default_values
+    set_values, defaults = value._property_values, value._unstable_default_values
     for name in names:
-        if name in given:
-            _walk(given[name], visitor)
-        elif name in made:
-            _walk(made[name], visitor)
+        if name in set_values:
+            _walk(set_values[name], visitor)
+        elif name in defaults:
+            _walk(defaults[name], visitor)

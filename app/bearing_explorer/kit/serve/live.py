@@ -20,7 +20,7 @@ from bearing_explorer.kit.serve.bokeh_internals import (
 )
 
 _SHORT = 0.01
-"""[s] of work on the event loop after which others only have what they have ready."""
+"""Work [s] on the event loop after which others only have what they have ready."""
 
 
 def run_on_loop(doc: Document | None, act: Callable[[], None]) -> None:

@@ -37,8 +37,8 @@ class PageHandler(panel_server.DocHandler):  # type: ignore[misc]
     hosts: ClassVar[AllowedHosts]
     most_sessions: ClassVar[int] = 100
     one_at_a_time: ClassVar[asyncio.Lock] = asyncio.Lock()
-    """With a pause after each page, in which those who have one are drawn: of 20 who come at once
-    all waited for the last page otherwise."""
+    """Lock for making pages. A pause follows each page, in which the pages made before it draw:
+    without it, all of 20 people who came at once waited for the last page."""
 
     async def get(self, *arguments: Any, **named: Any) -> None:
         """A session, and the page that connects to it."""
@@ -83,7 +83,7 @@ class PageHandler(panel_server.DocHandler):  # type: ignore[misc]
         write_html(self, 503, "The server is full", words)
 
     def head(self, *arguments: Any, **named: Any) -> None:
-        """For monitors: no session is made."""
+        """Answer monitors without a session."""
 
     def write_error(self, status_code: int, **named: Any) -> None:
         """A page with a sentence; what went wrong stands in the log."""
@@ -104,7 +104,7 @@ class Missing(RequestHandler):
     """Every other path."""
 
     def prepare(self) -> None:
-        """A sentence, whatever the method."""
+        """Answer any method with a sentence."""
         write_html(self, 404, "There is no such page", "The explorer is one page up.")
         self.finish()
 

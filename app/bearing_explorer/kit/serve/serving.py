@@ -27,11 +27,11 @@ from bearing_explorer.kit.serve.tornado_internals import HTTP_OPTIONS, bound
 from bearing_explorer.kit.serve.websocket import LiveSocket, close_idle
 
 SESSION_GRACE_SECONDS = 15.0
-"""For which a session is kept that has no browser: it may come, or come back [s]."""
+"""Time [s] that a session without a browser is kept: the browser may still come, or come back."""
 
 _SWITCH_INTERVAL = 0.0005
-"""For which a thread may keep the interpreter from the event loop, which needs it for a moment at a
-time [s]. With Python's own 5 ms a class of thirty waits a sixth longer."""
+"""Longest time [s] that a thread keeps the interpreter while the event loop waits for it.
+With Python's own 5 ms, a class of thirty waits a sixth longer."""
 
 
 @dataclass(frozen=True)
@@ -124,12 +124,12 @@ def freeze_startup_objects() -> None:
 
 
 _ENDED_SESSIONS = 20
-"""After which there is a collection: 4 to 5 MB each."""
+"""Number of ended sessions, of 4 to 5 MB each, after which garbage is collected."""
 _ended = itertools.count(1)
 
 
 def collect_now_and_then() -> None:
-    """Free the memory of ended sessions, once for every so many; to be called as one ends."""
+    """Free the memory of ended sessions, a number of them at once; call it as a session ends."""
     if next(_ended) % _ENDED_SESSIONS == 0:
         gc.collect()
         with suppress(AttributeError, OSError):  # another C library than glibc

@@ -1,15 +1,15 @@
-"""Private habits of Tornado, by which requests are bounded; no other file knows any.
+"""Limits on requests by private parts of Tornado; no other file uses any.
 
-Tornado reads a whole request before it asks the page: of bodies, which no page here takes, up to a
-hundred megabytes, and headers for as long as they come. `HTTP_OPTIONS` bounds each request by
-public options. Beyond that:
+Tornado reads a whole request before it asks the page: a body of up to a hundred megabytes, which no
+page here takes, and headers for as long as they come. `HTTP_OPTIONS` limits each request by public
+options. The rest needs private parts:
 
 * `close` of a stream, which is replaced, and the `stream` of a request: connections whose headers
-  are under way are counted (`BoundedServer`). Without: a proxy has to count them.
-* `rules` of the first router: a path with control characters is a page that is missing. Without:
-  an answer of 500, and a traceback in the log.
+  are under way are counted (`BoundedServer`). Without them a proxy has to count.
+* `rules` of the first router: a path with control characters becomes a missing page. Without
+  them the answer is 500, with a traceback in the log.
 
-`bound` looks for them at the start and says in the log what is gone. With
+At the start, `bound` logs which of them are gone. With
 ``BEARING_EXPLORER_PLAIN=1`` it is not called (`bokeh_internals`).
 """
 
@@ -28,11 +28,11 @@ from bearing_explorer.kit.serve.log import log
 from bearing_explorer.kit.serve.pages import HasControls, Missing
 
 LARGEST_HEADERS = 64_000
-"""Of a request [bytes], its address among them."""
+"""Size [bytes] of the largest headers of a request, with its address."""
 LARGEST_BODY = 64_000
-"""Of a request [bytes]; only GET and HEAD are answered."""
+"""Size [bytes] of the largest body of a request; only GET and HEAD are answered."""
 SLOWEST_HEADERS = 8.0
-"""For which headers may be under way, and a connection may wait for its next request [s]."""
+"""Time [s] that headers may take, and that a connection may wait for its next request."""
 MOST_UNFINISHED = 60
 """Connections at once whose headers are under way; the oldest makes room for another."""
 HTTP_OPTIONS = {
@@ -45,7 +45,7 @@ HTTP_OPTIONS = {
 
 
 class _Started(HTTPMessageDelegate):
-    """Passes a request on, and notes when its headers have come."""
+    """Passes a request on, and reports the arrival of its headers."""
 
     def __init__(self, inner: HTTPMessageDelegate, come: Callable[[], None]) -> None:
         self._inner, self._come = inner, come
@@ -72,7 +72,7 @@ class BoundedServer(HTTPServer):
     _unfinished: dict[int, IOStream]
 
     def handle_stream(self, stream: IOStream, address: tuple) -> None:
-        """A connection has come."""
+        """Count a new connection, and close the oldest where there are too many."""
         while len(self._unfinished) >= MOST_UNFINISHED:
             self._unfinished.pop(next(iter(self._unfinished))).close()
         self._unfinished[id(stream)] = stream
@@ -86,7 +86,7 @@ class BoundedServer(HTTPServer):
         super().handle_stream(stream, address)
 
     def start_request(self, server_conn: object, request_conn: Any) -> HTTPMessageDelegate:
-        """A connection is about to send headers."""
+        """Watch the headers that a connection is about to send."""
         stream = request_conn.stream
 
         def come() -> None:

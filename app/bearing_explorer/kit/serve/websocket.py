@@ -22,7 +22,7 @@ from bearing_explorer.kit.serve.log import log_warning
 from bearing_explorer.kit.serve.pages import SERVER_IS_FULL, PageHandler
 
 MOST_SOCKETS = 4
-"""Of one session: its page has one, and for a moment a second when it connects again."""
+"""Most sockets of one session: a page has one, and for a moment two as it connects again."""
 
 
 class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
@@ -31,9 +31,9 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
     connected: ClassVar[set[LiveSocket]] = set()
     hosts: ClassVar[AllowedHosts]
     largest: ClassVar[int] = 4 * 2**20
-    """Of a message with all of its frames [bytes]; `websocket_max_message_size` bounds a frame."""
+    """Largest message [bytes] with all its frames; `websocket_max_message_size` bounds a frame."""
     last_message_at = 0.0
-    """When the browser sent something last [s of `time.monotonic`]."""
+    """Time [s of `time.monotonic`] of the browser's last message."""
     session_name = _named_token = ""
     _size = 0
     connection: Any
@@ -140,7 +140,7 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
 
 
 def close_idle(seconds: float) -> None:
-    """Disconnect browsers that have sent nothing for so long; their pages show the reason."""
+    """Disconnect browsers that sent nothing for these `seconds`; their pages show the reason."""
     now = time.monotonic()
-    for socket in [one for one in LiveSocket.connected if now - one.last_message_at > seconds]:
+    for socket in [peer for peer in LiveSocket.connected if now - peer.last_message_at > seconds]:
         socket.close(1001, f"The page was not used for {seconds / 60.0:.0f} min.")

@@ -61,7 +61,7 @@ class Caption(LiveComponent):
     rest = param.String()
     #: files are called bearing- and this
     name_of_files = param.String()
-    #: of what its numbers are, for names of files and beneath pictures; empty of the scene
+    #: subject of its numbers, for names of files and beneath pictures; empty for the scene
     subject = param.String()
     #: whether the view draws an SVG of the class "picture" by itself
     picture = param.Boolean(default=False)
@@ -236,7 +236,7 @@ class View(Generic[C]):
         return {**self._empty, **sources}, ranges
 
     def sentence(self, results: C) -> str:
-        """One sentence on the figure as it is now, numbers with units."""
+        """One sentence on the current figure, numbers with units."""
         raise NotImplementedError
 
     def table(self, results: C) -> dict[str, np.ndarray]:
@@ -317,7 +317,7 @@ class View(Generic[C]):
         return cls.about
 
     def put_away(self) -> None:
-        """It is off screen: let go of the results, of which a motion alone is megabytes."""
+        """Drop the results of a view that is off screen: a motion alone has megabytes."""
         self._results = None
 
     def end(self) -> None:

@@ -39,7 +39,7 @@ class Content:
 
     @property
     def picture_key(self) -> object:
-        """While nothing can be drawn, the last picture stays, if it was of the same key."""
+        """Key of a picture: while nothing can be drawn, the last one of the same key stays."""
         return None
 
     def log_name(self) -> str:
@@ -51,7 +51,7 @@ class Content:
         return text
 
     def at_rest(self, rested: bool = True) -> Self:
-        """The same, as it is once the slider rests."""
+        """The content once the slider rests."""
         return replace(self, moving=not rested)  # type: ignore[type-var]
 
     @property

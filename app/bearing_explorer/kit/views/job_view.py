@@ -66,9 +66,9 @@ class JobForm(pn.Column):
     cancel
         called to end the job.
     words
-        of the button that starts it.
+        words of the button that starts it.
     fields
-        of the form.
+        fields of the form.
     at_once
         whether a changed field starts the job, without the button.
     """
@@ -185,7 +185,7 @@ class JobView(View[C], Generic[C, Result, E]):
 
     @property
     def is_empty(self) -> bool:
-        """Before a job has shown anything."""
+        """True before a job has shown anything."""
         return self.job_result is None
 
     def fields(self) -> list[FieldSpec]:

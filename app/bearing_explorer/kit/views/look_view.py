@@ -50,7 +50,7 @@ class LookView(View[C]):
         self.take_look(choices)
 
     def show_look(self) -> None:
-        """Show the choices as they are."""
+        """Show the current choices."""
         self.panel_of_look.show(self.look)
 
     def say(self, results: C | None, sentence: str) -> None:

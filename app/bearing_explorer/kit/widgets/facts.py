@@ -104,7 +104,7 @@ def html_table(heads: Iterable[str], rows: Iterable[Sequence[str]], named: bool 
 MOST_ROWS = 300
 """Rows of a table to read; the CSV file has all."""
 NOISE = 1e-12
-"""Of the largest number of a unit: what is smaller is rounding noise."""
+"""Share of a unit's largest number: less is rounding noise."""
 _PLACES = ("angle", "frequency", "time")
 """Words in the names of columns that say where a row is."""
 _UNITS = {unit.suffix: name for name, unit in UNITS.items() if unit.suffix}

@@ -22,7 +22,7 @@ _OWN_LINE = """@media (max-width: 820px) {
   :host { flex: 1 0 100%; }
   * { align-self: start !important; }
 }"""
-"""On a phone: what belongs to a list, from where and to where, is together in the next line."""
+"""Style for a phone: the fields that belong to a list stand together in the line after it."""
 
 
 class FieldSpec(TypedDict, total=False):

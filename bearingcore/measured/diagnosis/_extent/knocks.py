@@ -29,7 +29,7 @@ from bearingcore.measured.signals._filter_bank import Band, split, squared_envel
 from bearingcore.recordings import Recording
 
 HARMONICS = 100
-"""Of the ball-pass frequency that a mean pass keeps: a hundredth of a ball pass is resolved."""
+"""Harmonics of the ball-pass frequency in a mean pass, which resolve a hundredth of a pass."""
 
 NARROWEST = 20.0
 """Ball-pass frequencies that a band is wide at least: narrower ones ring for longer."""
@@ -38,10 +38,10 @@ LOWEST = 3.0
 """Ball-pass frequencies from which bands are looked at: below lie shaft, cage and rigid bodies."""
 
 PARTS = (1, 2, 3, 4, 6)
-"""Into how many equal bands the range is split: more would hold no knock any more compactly."""
+"""Numbers of equal bands into which the range is split: in narrower ones knocks are not compact."""
 
 LOW_PARTS = (12, 24)
-"""The same of which only the lowest two bands are taken: a release is soft, and fades upwards."""
+"""Numbers of bands of which only the lowest two are taken: a release is soft, and fades upwards."""
 
 PREDICTED_FROM = 50
 """Samples before each from which it is predicted. What rings can be predicted, knocks cannot: what
@@ -52,7 +52,7 @@ MOST_PASSES_HEARD = 440.0
 """Ball passes of a recording that are looked at: `averaging` leaves out later ones."""
 
 PLACES = 2048
-"""In a mean ball pass."""
+"""Number of places in a mean ball pass."""
 
 LEAST_CONTRAST = 8.0
 """Height of a peak, in standard errors of the mean pass, below which nothing is seen."""
@@ -77,7 +77,7 @@ SMOOTHING = (0.015, 0.007, 0.001)
 """Shares of a ball pass over which a mean pass is smoothed before its peaks are looked for."""
 
 AGREE = (0.06, 0.002)
-"""By how much bands may differ in the separation: a share of it, and of a ball pass. A release is
+"""Greatest difference of separations between bands: a share of it, and of a ball pass. A release is
 gradual: its peak moves a little with frequency, and peaks are no sharper than the mean pass."""
 
 AGREEING, SHOWING = 0.6, 0.4
@@ -104,9 +104,9 @@ FADES = 0.75
 entry and exit: blows whose echo or rebound is duller are not rare."""
 
 STEADY, LEAST_LEFT, MOST_CUTS = 0.05, 0.3, 4
-"""Of a ball pass, by which one pass may be longer than the mean: a cage has inertia. Where passes
-seem to jump by more, some were laid over the wrong knock, and two knocks may be one twice: the
-longer part on either side is averaged alone, so many times and if it is so much of all."""
+"""Share of a ball pass by which one may be longer than the mean: a cage has inertia. Where passes
+seem to jump by more, some were laid over the wrong knock, and one knock looks like two. Then the
+longer part beside the jump is averaged alone, if it is this share of all; at most so often."""
 
 
 @dataclass(frozen=True)
@@ -157,12 +157,12 @@ class Pair:
 
     @property
     def apart(self) -> float:
-        """From the first to the second, as a share of a ball pass."""
+        """Separation of the first knock and the second, as a share of a ball pass."""
         return (self.second - self.first) % 1.0
 
     @property
     def height(self) -> float:
-        """Of the lower one over the higher."""
+        """Height of the lower peak over the higher one."""
         return min(self.ratio, 1.0 / self.ratio)
 
 
@@ -203,9 +203,9 @@ class Knocks:
     frequency
         ball passes a second [Hz].
     n_passes
-        how many were averaged.
+        number of averaged passes.
     status
-        what the bands show together.
+        verdict of all bands together.
     separation, deviation
         from entry to exit as a share of a ball pass, the shorter way round, and its standard
         deviation; NaN where there are no two knocks.
@@ -349,7 +349,7 @@ def judged(passes: Sequence[MeanPass], frequency: float, n_passes: int) -> Knock
     frequency
         ball passes a second [Hz].
     n_passes
-        how many were averaged.
+        number of averaged passes.
     """
     passes = tuple(sorted(passes, key=lambda mean_pass: -mean_pass.contrast))
     if not passes or passes[0].contrast < LEAST_CONTRAST:
@@ -487,7 +487,7 @@ def _two_peaks(envelope: Array, error: float, lobes: float) -> Pair | None:
 
 
 def _away(pair: Pair, other: Pair) -> float:
-    """By how much either peak is elsewhere, as a share of a ball pass."""
+    """Greatest distance of a peak from its place in the other pair, as a share of a ball pass."""
     return max(
         abs((here - there + 0.5) % 1.0 - 0.5)
         for here, there in ((pair.first, other.first), (pair.second, other.second))

@@ -16,10 +16,10 @@ from bearingcore.measured.signals._line_levels import LineLevels
 
 HARMONICS = 6
 COUNTED = 5
-"""Of the harmonics: all but the loudest."""
+"""Number of harmonics that count: all but the loudest."""
 
 FAINTEST, LOUDEST = -3.0, 40.0
-"""[dB] to which a line's level is cut."""
+"""Least and greatest level [dB] of a line: others are cut to them."""
 
 _DRAWS = 40_000
 _TAIL = 0.005
@@ -65,7 +65,7 @@ def comb_level(lines: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def noise_level(chance: float, averages: float, lines: int = HARMONICS) -> float:
-    """The level [dB] that noise reaches with a small chance in a comb of so many lines."""
+    """The level [dB] that noise reaches with a small chance in a comb of some lines."""
     sorted_levels, edge, scale = _noise(max(1, round(4.0 * averages)), lines)
     if chance <= _TAIL:
         return float(edge + scale * np.log(_TAIL / chance))

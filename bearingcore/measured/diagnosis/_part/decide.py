@@ -42,7 +42,7 @@ SILENT = 0.25
 motor 5 showed nothing at a sensor away from them, and of bearings measured most are suspected."""
 
 SMOOTH = 2.4
-"""Kurtosis of a band (2 for noise) above which something knocks, whatever it is: no bearing is
+"""Kurtosis of a band (2 for noise) above which something knocks, of any kind: no bearing is
 called healthy then. Noise whose power swings by more than six tenths of its mean has as much."""
 
 MUCH_DROPPED, MUCH_CLIPPED = 0.1, 0.02

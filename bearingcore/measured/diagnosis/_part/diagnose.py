@@ -1,4 +1,4 @@
-"""Which part of a bearing is damaged, from a signal, its geometry and its speed.
+"""Diagnosis of the damaged part of a bearing from a signal, the geometry and the speed.
 
 Knocks of a damaged part repeat at a frequency that the geometry gives. The signal is whitened, so
 that tones of shaft, mesh and mains lose their weight (Sawalhi & Randall's pre-whitening, smoothed);
@@ -33,10 +33,10 @@ from bearingcore.measured.diagnosis._part.unknown_speed import NARROW, diagnose_
 from bearingcore.recordings import Recording
 
 SLIP = 0.02
-"""By how much balls may pass faster or slower than the shaft speed says."""
+"""Fraction by which balls may pass faster or slower than the shaft speed says."""
 
 SPEEDS = (2.0 * math.pi * 5.0, 2.0 * math.pi * 100.0)
-"""[rad/s] between which an unknown shaft is looked for."""
+"""Least and greatest speed [rad/s] at which an unknown shaft is looked for."""
 
 TONES_COUNT = 0.6
 """Share of a swing that counts where tones are not whitened away."""
@@ -264,7 +264,7 @@ def _second_opinion(
     stated: float,
     slip: float,
 ) -> Diagnosis:
-    """Diagnosis of the signal as it is, where the whitened one names no race.
+    """Diagnosis of the signal without whitening, where the whitened one names no race.
 
     A cage that keeps its speed makes lines as sharp as tones, and whitening cuts those. Tones that
     are none of the bearing's show too, so that lines count by a part of their swing; where they do

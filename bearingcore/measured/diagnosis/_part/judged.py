@@ -52,16 +52,16 @@ from bearingcore.measured.diagnosis._part.search import (
 from bearingcore.measured.diagnosis._part.spin import AHEAD, LAG, may_be, spin
 
 NOISE_MARGIN = 2.0
-"""[dB] above the level that noise reaches in one of a thousand signals, for lines to be clear."""
+"""Distance [dB] of clear lines from the level that noise reaches in one of a thousand signals."""
 
 SIDEBAND_MARGIN = 2.0
-"""[dB] by which sidebands may miss what is asked of them before the lead becomes negative."""
+"""Amount [dB] by which sidebands may miss what is asked before the lead becomes negative."""
 
 SIDEBAND_LEAD = 6.0
-"""[dB] by which sidebands that the part does not make may be stronger than those it does."""
+"""Amount [dB] by which sidebands that the part does not make may exceed those it makes."""
 
 SIDEBAND_REACH = 10.0
-"""[dB] below the lines themselves down to which the sidebands of a load zone are: the squared
+"""Depth [dB] below the lines down to which the sidebands of a load zone lie: the squared
 envelope of impacts that swing by a third of their mean has them there."""
 
 SIDEBAND_CHANCE = 0.01
@@ -69,27 +69,27 @@ SIDEBAND_CHANCE = 0.01
 one in a hundred, as the band is chosen by the lines and not by these."""
 
 SIDEBAND_SCALE = 0.77
-"""[dB] in which that probability falls by e in a single spectrum: at a line of noise it is 1 % at
-6.6 dB and 0.1 % at 8.4 dB. The scatter of noise falls with the root of the averages."""
+"""Scale [dB] on which that probability falls by e in a single spectrum: at a line of noise it is
+1 % at 6.6 dB and 0.1 % at 8.4 dB. The scatter of noise falls with the root of the averages."""
 
 SIDEBAND_EXCESS = 2.5
-"""[dB] by which a comb at a sideband may be above the lines that it follows from."""
+"""Amount [dB] by which a comb at a sideband may be above the lines that it follows from."""
 
 BALL_MARGIN = 3.0
-"""[dB] by which a ball's comb is above those of the races, if it is to count as one of its own."""
+"""Lead [dB] of a ball's comb over those of the races that lets it count as the ball's."""
 
 WEAK_SIDEBANDS = 14.0
-"""[dB] below the lines: cage sidebands of a race's line are fainter, those of a ball's are not."""
+"""Depth [dB] below the lines: cage sidebands of a race's line are fainter, a ball's are not."""
 
 SLOWER, FAINTER = (2, 3), 0.7
 """Parts of a comb's frequency at which it may be seen too, and how much fainter the lines between
 its own are then."""
 
 GAPS = 0.25
-"""Of the lines of a multiple's comb, that those in between reach where they are of one comb."""
+"""Share of a comb's height that the lines in between reach where they belong to that comb."""
 
 ALIKE = 7.0
-"""[dB] by which the lines of a second race may be below those of a first that is damaged. Of 51
+"""Amount [dB] by which lines of a second damaged race may be below those of the first. Of 51
 measured records whose race was named rightly the other race comes to at most 15 %."""
 
 FOREIGN = (0.2, 0.95)
@@ -98,8 +98,8 @@ race that are an inner race's or a ball's of a slower shaft have theirs there. A
 races have sidebands of the load zone that mix shaft and cage."""
 
 FOREIGN_LEAD = 2.0
-"""[dB] above sidebands of another shaft at which lines are an outer race's as probably as not. All
-29 measured outer races are 7.8 dB or more above the strongest; lines of inner races of a slower
+"""Lead [dB] over sidebands of another shaft at which half of such lines are an outer race's. All 29
+measured outer races are 7.8 dB or more above the strongest; lines of inner races of a slower
 shaft are about as strong as their sidebands."""
 
 SELDOM, SLIPS = 0.26, 0.25
@@ -107,7 +107,7 @@ SELDOM, SLIPS = 0.26, 0.25
 slip by which e times fewer races are off: beyond the slip are 2 %. See `_race_or_ball`."""
 
 CARRIED_REACH = 15.0
-"""[dB] below a ball's lines down to which the sidebands of the cage are expected: a load zone of
+"""Depth [dB] below a ball's lines down to which the cage's sidebands are expected: a load zone of
 half a turn makes the first three of each side 5 to 8 dB fainter than the line, on average."""
 
 MOST_BANDS = 12
@@ -131,7 +131,7 @@ class Judged:
     detectable
         the least swing of the envelope, as a share of its mean, that would have been seen.
     resolutions
-        what it rests on.
+        resolutions that the evidence rests on.
     """
 
     shaft: float
@@ -148,12 +148,12 @@ class Judged:
         return max(self.evidence, key=leading_by)
 
     def counting(self, share: float) -> Judged:
-        """The same where a share of each swing counts."""
+        """Judge anew with a share of each swing."""
         counted = [replace(part, swing=share * part.swing) for part in self.evidence]
         return replace(self, evidence=_weighed(counted))
 
     def discounted(self, speeds: float) -> Judged:
-        """The same where so many speeds were open: another source fits one of them as often more.
+        """Judge anew where several `speeds` were open: another source fits one more often.
 
         The odds that lines are those of the bearing fall by that number.
         """
@@ -350,7 +350,7 @@ class _Comparison:
         return max(directions, key=log_probability)
 
     def explained(self, frequency: float, lines: PartLines) -> NDArray[np.float64]:
-        """By how much [dB] combs (n,) may be higher as they follow from a part's lines.
+        """Return how much higher [dB] combs (n,) may be because they follow from a part's lines.
 
         Infinity for multiples of its frequency [Hz] and for what another part may have.
         """
@@ -488,7 +488,7 @@ class _Comparison:
         return float(levels[place] - level[best]) - FOREIGN_LEAD + LEAD, float(spacing[best])
 
     def carried(self, around: float) -> float:
-        """By how much [dB] lines around a frequency [Hz] have the sidebands that a ball's have.
+        """Return by how much [dB] lines around a frequency [Hz] have a ball's kind of sidebands.
 
         The cage carries a ball through the load zone: its sidebands are above those of the shaft,
         which the inner race of another bearing has, and not far below the lines themselves.
@@ -517,7 +517,7 @@ class _Comparison:
         return min(cage - shaft, cage - level + CARRIED_REACH, cage - noise)
 
     def lead_over_source(self, frequency: float) -> float:
-        """By how much [dB] lines of a race are too loud for sidebands of others.
+        """Return by how much [dB] lines of a race are too loud to be sidebands of others.
 
         In whatever band shows them best, lines that are whole turns of the shaft away are at most a
         little louder; where they are more, they are the race of another bearing, with its sidebands
@@ -534,7 +534,7 @@ class _Comparison:
         return level - float(combs.level[:, sources].max()) + SIDEBAND_EXCESS
 
     def clearness(self, around: float) -> float:
-        """By how much [dB] the loudest comb around a frequency [Hz] is above noise."""
+        """Level [dB] of the loudest comb around a frequency [Hz] above noise."""
         return float(self.combs.level[self._loudest(around)]) - self.combs.noise
 
     def _loudest(self, around: float) -> tuple[int, int]:
@@ -647,7 +647,7 @@ def _race_or_ball(away: float, slip: float) -> float:
 
 
 def _lead_over_gaps(depth: NDArray[np.float64]) -> float:
-    """By how much [dB] lines (HARMONICS,) are above gaps between those of a multiple's comb.
+    """Level [dB] of lines (HARMONICS,) above the gaps between those of a multiple's comb.
 
     Blows show in their first line; beats of tones, as of an inverter, at twice or three times it
     are lines that leave others out.

@@ -23,7 +23,7 @@ MOST_DROPPED = 0.5
 """Share of a recording without signal from which nothing is said."""
 
 NOISE_FLOOR = 1e-4
-"""Of a signal's deviation that is added as noise (-80 dB)."""
+"""Share of a signal's deviation that is added as noise (-80 dB)."""
 
 ABOVE_ROUNDING = 4.0
 """Times the power of rounding that a tenth of all frequencies hold where a bearing runs."""
@@ -32,7 +32,7 @@ NARROWEST = 16.0
 """Turns of the shaft a second that a band is wide at least."""
 
 NEAR = 0.01
-"""Of a speed that was found in a wide range, within which it is looked for again, finely."""
+"""Fraction of a speed, taken from a wide range, within which a finer search follows."""
 
 WHITENING = 3.0
 """Turns of the shaft a second over which a signal is whitened."""

@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 from bearingcore.measured.signals._line_levels import LineLevels
 
 MAINS = (50.0, 60.0)
-"""[Hz]"""
+"""Frequencies [Hz] of the mains."""
 
 MAINS_DEVIATION = 0.002
-"""By how much the mains' frequency may be off while a signal lasts, as a fraction. Large grids stay
+"""Fraction by which the mains' frequency may be off while a signal lasts. Large grids stay
 within half of that but for minutes (standard range 50 mHz of 50 Hz, EU 2017/1485); a recorder's
 clock adds to it."""
 
@@ -43,11 +43,11 @@ def mains_lines(levels: LineLevels, mains: float, resolution: float) -> NDArray[
 
 
 WITHIN = 0.01
-"""By how much twice the mains' frequency may be off: EN 50160 allows a network 1 % in all but half
+"""Fraction by which twice the mains' frequency may be off: EN 50160 allows 1 % in all but half
 a per cent of a year."""
 
 SCALE = WITHIN / math.log(1.0 / 0.005)
-"""Of exponential odds by which a deviation is rarer the greater it is, half a per cent beyond."""
+"""Scale of odds that fall exponentially with the deviation: half a per cent lie beyond."""
 
 
 def twice_mains(frequency: float) -> float | None:

@@ -1,7 +1,7 @@
-"""A signal made steady where the angle of its shaft was measured beside it.
+"""Signals of a changing speed, made steady by the shaft angle that was measured beside them.
 
-Taken at equal steps of that angle instead of time, the passages of balls are equally far apart
-whatever the shaft does. What is made so is the record of a shaft that turns at the mean speed.
+A signal is resampled at equal steps of that angle instead of time. The passages of balls are then
+equally far apart, as in a record of a shaft that turns steadily at the mean speed.
 """
 
 from __future__ import annotations
@@ -19,21 +19,21 @@ from bearingcore.measured.signals._resampling import resample_over_turns
 from bearingcore.recordings import FEWEST_SAMPLES, Recording
 
 STEADY = 0.05
-"""Turns by which the shaft may be off the angle of a steady one: lines stay sharp so, and the noise
-of a column of speeds adds up to as much."""
+"""Turns by which the shaft may be off the angle of a steady one: up to here lines stay sharp, and
+the noise of a column of speeds adds up to as much."""
 
 SLOWEST = 0.5
 """Share of the highest speed below which the signal is left out: each turn gets as many samples as
 the slowest one has, and they may be no more than twice those that were measured."""
 
 KEPT_OF = 64
-"""Samples of the finely sampled turns, of which as many are kept as the measured rate has."""
+"""Denominator of the ratio by which the finely sampled turns return to about the measured rate."""
 
 USUAL = 5.0, 100.0
-"""[Hz] of a shaft whose tachometer is taken to give one pulse a turn where no speed is given."""
+"""Speeds [Hz] of a shaft between which a tachometer counts as giving one pulse a turn."""
 
 LEAST_CHANGE = 0.05
-"""Of an unmeasured speed that is said: resonances and the resolution of short spectra move the
+"""Least change of an unmeasured speed that is said: resonances and short spectra move the
 lines of a steady shaft by up to 0.03."""
 
 WINDOW, NEAR = 8.0, (0.7, 1.4)
@@ -41,34 +41,34 @@ WINDOW, NEAR = 8.0, (0.7, 1.4)
 they are looked for."""
 
 JUMP, FOLLOWED = 0.03, 0.9
-"""By how much a speed may be off the mean of its neighbours, and the share of the spectra in which
-it is not: lines of a shaft reach 0.95, those of noise 0.4, of single tones 0.8."""
+"""Fraction by which a speed may be off the mean of its neighbours, and share of the spectra where
+it must not be off: lines of a shaft reach 0.95, those of noise 0.4, of single tones 0.8."""
 
 FEWEST_PIECES, TOGETHER, LEAST_SHARED_CHANGE = 12, 0.75, 0.02
 """Pieces of a signal in which the shaft's lines are followed by their phase; the rank correlation
 of the speeds by three lines, which noise and single blows bring to 0.6; and a change so shown."""
 
 BESIDE = 0.02
-"""By how much a given speed may be outside those that were measured, as a fraction."""
+"""Fraction by which a given speed may lie outside those that were measured."""
 
 
 def resample_to_steady_speed(
     recording: Recording, low: float, high: float, source: str
 ) -> tuple[Recording, float, float, str]:
-    """The record at the mean speed, with the speed from, to [Hz], and where that is from.
+    """Resample a record to its mean speed; also return the speed (low, high) [Hz] and its source.
 
-    Where the shaft is steady, or its angle was not measured, nothing changes.
+    A record stays as it is where the shaft is steady, or its angle was not measured.
 
     Parameters
     ----------
     recording
-        whose `shaft_angle` may count several pulses a turn.
+        recording whose `shaft_angle` may count several pulses a turn.
     low, high
-        [Hz] the speed that is given. If the shaft had one of them during the record, in whole
-        pulses a turn, its mean speed is that of the angle; else a given speed is the mean one, as
-        of a shaft behind a gear.
+        given speed [Hz]. If the shaft had such a speed during the record, with whole pulses a turn,
+        the angle gives its mean speed. Otherwise the given speed is the mean one, as for a shaft
+        behind a gear.
     source
-        where the given speed is from.
+        source of the given speed.
     """
     if recording.shaft_angle is None:
         return recording, low, high, source
@@ -92,7 +92,7 @@ def resample_to_steady_speed(
     ]
     # above half of the measured rate, at the mean speed, only the slow part holds anything
     kept = math.floor(KEPT_OF * rate / (per_turn * mean))
-    made = replace(
+    steady = replace(
         recording,
         acceleration=resample_poly(np.stack(columns, axis=1), kept, KEPT_OF, padtype="line"),
         sample_rate=per_turn * mean * kept / KEPT_OF,
@@ -105,7 +105,7 @@ def resample_to_steady_speed(
         low = high = mean
     change = number(100.0 * float(np.ptp(speed[part])) / mean, 2)
     words = f"it changes by {change} % as measured, so the signal is taken over the shaft's angle"
-    return made, low, high, f"{source}; {words}"
+    return steady, low, high, f"{source}; {words}"
 
 
 def speed_over_time(recording: Recording, shaft_speed: float | None = None) -> Array | None:
@@ -122,14 +122,14 @@ def speed_over_time(recording: Recording, shaft_speed: float | None = None) -> A
 
 
 def _mean_speed(turns: Array, rate: float) -> float:
-    """Turns a second [Hz] in the mean."""
+    """Mean number of turns per second [Hz]."""
     return float(turns[-1] - turns[0]) / (len(turns) - 1) * rate
 
 
 def _smooth_speed(turns: Array, rate: float) -> Array:
-    """Turns a second (n,) [Hz] in the mean of two turns around each sample.
+    """Turns per second (n,) [Hz], as the mean of two turns around each sample.
 
-    In the first and last turn the speed goes on as it does beside them.
+    In the first and the last turn the speed continues the trend beside them.
     """
     last = len(turns) - 1
     reach = min(max(1, math.ceil(rate / _mean_speed(turns, rate))), last // 4)
@@ -141,18 +141,18 @@ def _smooth_speed(turns: Array, rate: float) -> Array:
 
 
 def followed_change(columns: Sequence[Array], rate: float, shaft: float) -> float:
-    """Change of a speed that was not measured, as a fraction of it; 0 where none is sure.
+    """Change of a speed that was not measured, as a fraction of it; 0 where no change is sure.
 
-    In each short spectrum the three first lines of the shaft together show its speed. Those of
-    noise leap from one spectrum to the next, and those of a shaft do not. A small change hides in
-    the width of such lines, but not in their phase.
+    In each short spectrum the first three lines of the shaft together show its speed. Lines of
+    noise leap from one spectrum to the next, those of a shaft do not. A small change hides in the
+    width of such lines, but not in their phase.
 
     Parameters
     ----------
     columns
-        signals (n,), one a direction, of which one is enough.
+        signals (n,), one for each direction; a change in one of them is enough.
     shaft
-        [Hz] as it is given.
+        given speed [Hz].
     """
     speeds = np.linspace(NEAR[0] * shaft, NEAR[1] * shaft, 141)
     slow = [thinned(column, rate, 6.0 * shaft) for column in columns]
@@ -161,7 +161,7 @@ def followed_change(columns: Sequence[Array], rate: float, shaft: float) -> floa
 
 
 def _small_change(values: Array, rate: float, shaft: float) -> float:
-    """The same of a speed that is nearly steady: the shaft's first three lines speed up together.
+    """Change of a nearly steady speed, where the shaft's first three lines speed up together.
 
     The phase of each line over its order is the shaft's angle; lines of noise do not agree on it.
     """
@@ -181,7 +181,7 @@ def _small_change(values: Array, rate: float, shaft: float) -> float:
 
 
 def _change(values: Array, rate: float, shaft: float, speeds: Array) -> float:
-    """The same by one signal, whose lines are held against all speeds (k,) [Hz]."""
+    """Change by one signal, whose lines are compared with all speeds (k,) [Hz]."""
     length = round(WINDOW / shaft * rate)
     if len(values) < 4 * length:
         return 0.0

@@ -21,13 +21,13 @@ SURE = 0.99
 """The greatest probability: a cause outside the model is always possible."""
 
 LEAD, LEAD_SCALE = 1.2, 1.0
-"""[dB] at which lines are there as probably as not, and in which the odds grow by e. Chance reaches
-the level that a lead counts from once in a thousand signals."""
+"""Lead [dB] at which lines are as probably there as not; scale [dB] on which the odds grow by e.
+A lead counts from the level that chance reaches once in a thousand signals."""
 
 
 DEVIATIONS, DEVIATIONS_SCALE = 2.8, 0.6
-"""The same of a ball's broad lines, in deviations: the greatest of the dozen places where they may
-be is above 2.8 by chance in one signal of thirty, and fewer damaged balls than races are met."""
+"""Lead and scale of a ball's broad lines, in deviations: by chance the greatest of their dozen
+places is above 2.8 in one signal of thirty, and damaged balls are rarer than damaged races."""
 
 
 class Calibration(NamedTuple):

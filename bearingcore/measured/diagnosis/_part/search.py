@@ -32,13 +32,13 @@ LOWEST_ORDER = 1.05
 """Combs below a line each turn are the shaft's or the cage's own."""
 
 INDEPENDENT_BANDS = 0.5
-"""Bands overlap: of so many, this share counts as independent."""
+"""Share of the bands that counts as independent, because bands overlap."""
 
 SURROUNDINGS = 2.0
 """Turns of the shaft a second over which a line's background is taken."""
 
 WANDER = 0.003
-"""By how much a cage's speed may wander while it is measured, as a fraction."""
+"""Fraction by which a cage's speed may wander while it is measured."""
 
 RARE = 1e-3
 """Probability with which noise reaches the level of noise anywhere."""

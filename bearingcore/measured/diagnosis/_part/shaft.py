@@ -20,27 +20,27 @@ from bearingcore.measured.signals._filter_bank import LOWEST, Band, squared_enve
 from bearingcore.measured.signals._line_levels import LineLevels, line_levels
 
 SEGMENT_TURNS = 240.0
-"""Of the shaft in a spectrum's segment."""
+"""Number of turns of the shaft in a segment of the spectrum."""
 
 SHAFT_WHITENING = 3.0
 """Turns of the shaft a second over which a signal is whitened before its envelope is taken: tones
 of the mains would beat with those of the shaft, at lines beside the shaft's."""
 
 GREATEST_SHAFT_LEVEL = 80.0
-"""[dB] to which a line's level is cut."""
+"""Greatest level [dB] of a line: higher ones are cut to it."""
 
 SUBMULTIPLES = (5, 4, 3, 2)
 """Parts of a frequency that may be the shaft's instead."""
 
 CLEAR = 3.0
-"""[dB] above what noise reaches from which the shaft's lines count."""
+"""Lead [dB] over what noise reaches from which the shaft's lines count."""
 
 FEWEST = 3
 """Lines that must be left where others may be of another source: the loudest of them counts for
 nothing, and no single one decides."""
 
 ERROR = 1e-3
-"""Of a speed that is taken from the shaft's lines, as a fraction: two standard errors at most."""
+"""Error of a speed taken from the shaft's lines, as a fraction: two standard errors at most."""
 
 DISAGREE = 9.0
 """Mean square, in squared standard errors, by which lines may be off one comb: beyond three
@@ -136,7 +136,7 @@ def _excess(
     frequency: NDArray[np.float64],
     chance: float,
 ) -> NDArray[np.float64]:
-    """By how much [dB] combs (n,) are above noise, without what each other source may make."""
+    """Level [dB] of combs (n,) above noise, without what each other source may make."""
     lines = _lines(levels, frequency, HARMONICS)
     order = np.arange(1, HARMONICS + 1)[:, None]
     left = [np.broadcast_to(order % part != 0, lines.shape) for part in (2, 3)]

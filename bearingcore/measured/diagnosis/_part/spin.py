@@ -21,13 +21,13 @@ from bearingcore.measured.diagnosis._part.parts import BALL, INNER, OUTER, PartL
 from bearingcore.measured.diagnosis._part.search import Combs
 
 SPIN_HARMONICS = 3
-"""Of twice the spin frequency: the lines of higher ones are too broad."""
+"""Harmonics of twice the spin frequency: the lines of higher ones are too broad."""
 
 LAG, AHEAD = 0.06, 0.02
 """Shares by which a ball may spin slower and faster than it would by rolling alone."""
 
 RACE_SLIP = 0.025
-"""The same of a race's line."""
+"""Share by which the line of a race may be off."""
 
 WITH_ONE_LINE = 1.5
 """Times the deviations of a ball's comb without its loudest line that the whole one counts at most.
@@ -70,7 +70,7 @@ class Spin:
 
     @property
     def deviations(self) -> float:
-        """By how much a ball's lines stand out more than what else explains them.
+        """Return how far a ball's lines stand out above everything else that explains them.
 
         Sidebands of a race may be in a ball's window, but are no stronger than the race's own
         lines. Shaft sidebands where the cage's should be are those of another bearing's inner race.

@@ -27,7 +27,7 @@ NARROW = 1.3
 """A range of speeds whose ends differ by this factor at most is believed without shaft lines."""
 
 SHAFT_MARGIN = 6.0
-"""[dB] by which the shaft's lines at one speed must be above those at another."""
+"""Lead [dB] that the shaft's lines at one speed must have over those at another."""
 
 
 def diagnose_in_range(
@@ -147,7 +147,7 @@ def _undecided_speed(
 
 @dataclass(frozen=True)
 class _Hypothesis:
-    """That the shaft turns at a speed, and what the signal says then."""
+    """A possible speed of the shaft, and the evidence of the signal at it."""
 
     shaft: ShaftLines
     judged: Judged

@@ -135,7 +135,7 @@ def test_a_measured_speed_that_changes_is_said_from_least_to_most(rises):
     share = np.linspace(0.0, 1.0, len(measured.recording.acceleration))
     turns = measured.recording.duration * 25.0 * share * (0.8 + 0.2 * share if rises else 1.0)
     recording = dataclasses.replace(measured.recording, shaft_angle=2.0 * math.pi * turns)
-    machine = measured.machine.knowing(2.0 * math.pi * 25.0)
+    machine = measured.machine.replace_speed(2.0 * math.pi * 25.0)
     question = Question.about(dataclasses.replace(measured, recording=recording, machine=machine))
     answer = dataclasses.replace(diagnosis, shaft_speed=2.0 * math.pi * 25.0)
     speed = "1200 to 1800 turns a minute (measured)" if rises else "1500 turns a minute"
@@ -148,7 +148,7 @@ def test_a_part_that_is_hardly_told_is_only_probably_damaged():
     assert part_words.headline(diagnosis) == "The inner race is probably damaged"
     ball = dataclasses.replace(diagnosed("inner race"), fault="ball")
     assert part_words.headline(ball) == "A ball is damaged"
-    assert "ball-spin frequency" in part_words.plain(ball, asked("inner race"))
+    assert "ball-spin frequency" in part_words.explanation(ball, asked("inner race"))
     assert panel_state(asked("inner race"), ball)["part"] == "ball"
 
 

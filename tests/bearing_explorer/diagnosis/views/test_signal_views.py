@@ -128,7 +128,7 @@ AT_29_5_HZ = {"bpfo": 105.4, "bpfi": 160.1, "bsf": 68.5, "ftf": 11.7, "shaft": 2
 @pytest.mark.parametrize(
     ("peak", "step", "fault", "said"),
     [
-        (139.0, 0.6, "ball", r"is 2×BSF, 1\.6 % above what the geometry says"),
+        (139.0, 0.6, "ball", r"is 2×BSF, 1\.6 % above the frequency by the geometry"),
         (318.0, 0.6, "", r"is 3×BPFO, 0\.57 % above"),
         (318.0, 0.6, "inner race", r"is 2×BPFI, 0\.69 % below"),
         (29.5, 0.6, "", r"is the shaft's turn\."),

@@ -11,13 +11,13 @@ from bearing_explorer.explorer.plots.frequency_bands import spread
 from bearing_explorer.explorer.plots.matrix_cells import PLACES
 from bearing_explorer.explorer.results.load_curve import load_curve
 from bearing_explorer.explorer.results.results import Results
-from bearing_explorer.explorer.state.references import massless as massless_balls
+from bearing_explorer.explorer.state.references import massless_reference
 from bearing_explorer.explorer.views.bearing import BAR_LENGTH, BearingDrawing, Shapes
 from bearing_explorer.explorer.views.bearing_editor import facts_of
 from bearing_explorer.explorer.views.bearing_picture import bearing_picture
 from bearing_explorer.explorer.views.depth_profile import DepthProfile
 from bearing_explorer.explorer.views.displacement import Displacement, OperatingPoint
-from bearing_explorer.explorer.views.load_distribution import LoadDistribution, shaded
+from bearing_explorer.explorer.views.load_distribution import LoadDistribution, defect_strips
 from bearing_explorer.explorer.views.maps import (
     FLAT,
     GREATEST,
@@ -256,7 +256,7 @@ def test_a_defect_across_0_is_shaded_as_two_pieces(
     center_deg: float, extent_deg: float, expected: list[tuple[float, float]]
 ) -> None:
     scene = FAN_RIG.replace(center=math.radians(center_deg), extent=math.radians(extent_deg))
-    pieces = shaded(scene, 0.3)
+    pieces = defect_strips(scene, 0.3)
     assert pieces["start"] == pytest.approx([start for start, _ in expected], abs=1e-9)
     assert pieces["end"] == pytest.approx([end for _, end in expected], abs=1e-9)
 
@@ -264,7 +264,7 @@ def test_a_defect_across_0_is_shaded_as_two_pieces(
 def test_an_inner_race_defect_is_shaded_where_the_shaft_has_turned_it() -> None:
     scene = FAN_RIG.replace(race="inner", center=math.radians(90.0), extent=math.radians(20.0))
     quarter = math.radians(90.0) * scene.bearing.cage_ratio
-    assert shaded(scene, quarter)["start"] == pytest.approx([170.0])
+    assert defect_strips(scene, quarter)["start"] == pytest.approx([170.0])
 
 
 def test_balls_with_mass_show_both_races() -> None:
@@ -290,7 +290,7 @@ def test_balls_with_mass_show_both_races() -> None:
     assert not view.data(massless)[0]["load_distribution_inner"]["angle"].size
     assert "inner race" not in view.sentence(massless)
     assert np.array_equal(
-        massless.now.ball_load, results.against(massless_balls(results.scene)).now.ball_load
+        massless.now.ball_load, results.against(massless_reference(results.scene)).now.ball_load
     )
 
 

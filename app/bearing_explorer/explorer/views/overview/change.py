@@ -103,7 +103,7 @@ def _masses_words(now: Scene, before: Scene, words: str) -> str:
 
 
 def why_not(now: Scene, before: Scene) -> str:
-    """Reason why a change may leave all loads as they are; empty where it is not known."""
+    """Reason why a change may leave all loads unchanged; empty where it is not known."""
     if len(now.defects) != 1 or len(before.defects) != 1:
         return ""
     if now.defects[0].floor is None and now == before.replace(depth=now.defects[0].depth):

@@ -20,15 +20,15 @@ from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
 
 LEFT = 68
-"""[px] left of the frame: the widest numbers fit, so that no drag moves it."""
+"""Room [px] left of the frame: the widest numbers fit, so that no drag moves it."""
 TOP_ROOM = 16.0
-"""[dB] above the loudest line, for the names of the bands."""
+"""Room [dB] above the loudest line for the names of the bands."""
 NAME_ROOM = 0.06
-"""Of the height of the frame: what the name of a curve needs."""
+"""Share of the frame's height that the name of a curve needs."""
 BAND_NAME_WIDTH = 0.05
-"""Of the width of the frame: what the short name of a band needs."""
+"""Share of the frame's width that the short name of a band needs."""
 END = 0.8
-"""Of the frequencies: beyond, a curve makes room for its name."""
+"""Share of the frequencies beyond which a curve makes room for its name."""
 
 _BAND_WORDS = f"""
 const name = (() => {{ {frequency_bands.BAND_NAME} return name }})()
@@ -43,7 +43,7 @@ _OF_CURVES = (*style.DIRECTION_COLORS[:2], style.FAINT_INK)
 
 
 def layers() -> list[Layer]:
-    """From the lowest to the highest: bands, grey, curves, names."""
+    """Return the layers from the lowest up: bands, grey, curves, names."""
     blue, orange = style.DIRECTION_COLORS[:2]
     of_band = by_number("direction", style.DIRECTION_COLORS)
     of_curve = by_number("which", _OF_CURVES)
@@ -86,7 +86,7 @@ class OverviewSpectrum(ComparingView):
     title = "Vibration"
     about = (
         "Spectrum of the housing's acceleration, blue x, orange y. Power spectral density in dB "
-        "re 1 (m/s²)²/Hz once the start is forgotten. Grey: {grey}. Shaded: the bands "
+        "re 1 (m/s²)²/Hz once the start has died away. Grey: {grey}. Shaded: the bands "
         "of the natural frequencies."
     )
     needs = vibration_spectrum.VibrationSpectra.needs | {"bands"}

@@ -24,14 +24,14 @@ from bearingcore import STIFFNESS_TERMS, Equilibrium
 from bearingcore.model.statics import TERM_UNITS
 
 LIVELY = 0.02
-"""Of the size of a term: it matters where it swings or is off the healthy one by more."""
+"""Share of a term's size: the term matters if it swings or differs from the healthy by more."""
 MOST_POINTS = 61
-"""Of a trace: a cell is little more than a hundred pixels wide."""
+"""Most points of a trace: a cell is little more than a hundred pixels wide."""
 
 WIDE, HIGH = 5.0, 3.0
 """Sides of the drawing, in its own units."""
 HEAD = 0.55
-"""Of those: room for the symbol and the value above a frame."""
+"""Height above a frame for the symbol and the value, in the same units."""
 
 _UNIT = np.array([matrix_cells.UNITS.index(unit) for unit in TERM_UNITS.values()])
 _SUBSCRIPTS = [symbol[2:] for symbol in matrix_cells.SYMBOLS]
@@ -69,7 +69,7 @@ LAYERS: tuple[layers.Layer, ...] = (
 
 
 def cells_for(count: int) -> list[matrix_cells.Cell]:
-    """So many cells, as large as they can be: beside one another, or in rows of three or five."""
+    """Return the cells, as large as they can be: side by side, or in rows of three or five."""
     columns = count if count <= 3 else 3 if count <= 6 else 5
     rows = math.ceil(count / max(columns, 1))
     return [
@@ -108,7 +108,8 @@ class OverviewStiffness(ComparingView):
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         states, healthy, now = results.equilibrium, results.reference.equilibrium, results.now
-        answers = [states, healthy, *(results.against(one).equilibrium for one in results.compared)]
+        others = [results.against(other).equilibrium for other in results.compared]
+        answers = [states, healthy, *others]
         first, last, _ = results.stretch
         sizes = [answer.cage_angles.size for answer in answers]
         pick = [np.linspace(0, n - 1, min(n, MOST_POINTS)).round().astype(int) for n in sizes]

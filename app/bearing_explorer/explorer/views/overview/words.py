@@ -14,15 +14,15 @@ from bearingcore.model.statics import TERM_SYMBOLS
 from bearingcore.model.sweeps import mode_symbol
 
 LEAST = 0.01
-"""Of a number: less is no change."""
+"""Share of a number: less is no change."""
 LEAST_TURN = math.radians(1.0)
-"""[rad] that the loads have to move on average to have moved."""
+"""Angle [rad] by which the loads have to move on average to count as moved."""
 LEAST_LOAD = 0.05
-"""Of the greatest load of a ball."""
+"""Share of the greatest load of a ball: less is no change."""
 LEAST_LEVEL = 2.0
-"""[dB] of the loudest line."""
+"""Change of the loudest line [dB]: less is no change."""
 ALMOST_NONE = 30.0
-"""[dB] below another level: next to it there is nothing."""
+"""Distance [dB] below another level at which next to nothing is left."""
 _SAME = 1e-7  # of a number: rounding
 _OF_STIFFNESS, _SHIFT = 0.75, 0.15  # of a logarithm: its root has 0.5, and masses may change too
 _SECOND = 1.5  # times the change of a stiffness that another one has to have to be named too
@@ -70,7 +70,8 @@ def story(by: Cause, now: Chain, before: Chain) -> str:
         whose = by.words or "With the defect"
         return f"{whose}: now there is an equilibrium."
     along = direction(now, before)
-    stiff = stiffness_words(now, before, along)
+    terms = named_terms(now, before, along)
+    stiff = [f"k_{TERM_SYMBOLS[term][2:]} {_growth(_change(now, before, term))}" for term in terms]
     text = _load_and_stiffness(by, now, before, along, stiff)
     text = _add_band_and_peak(text, by, now, before, along, stiff)
     if before.silent and not now.silent:
@@ -144,7 +145,7 @@ def direction(now: Chain, before: Chain) -> str:
 
 
 def unchanged(now: Chain, before: Chain, why_not: str = "") -> str:
-    """That nothing changes, or nothing by as much as is named."""
+    """Sentence for a change without effects, or with effects too small to name."""
     numbers = [np.concatenate(list(of.table().in_units().named().values())) for of in (now, before)]
     alike = numbers[0].size == numbers[1].size and np.allclose(
         numbers[0], numbers[1], rtol=_SAME, atol=_SAME, equal_nan=True
@@ -201,14 +202,8 @@ def load_of_one(now: Chain, before: Chain) -> str:
     return f"the greatest load of a ball {_growth(grown)}" if abs(grown) >= LEAST_LOAD else ""
 
 
-def stiffness_words(now: Chain, before: Chain, along: str) -> list[str]:
-    """Change of the mean stiffness along a direction, and in another where it is larger."""
-    terms = named_terms(now, before, along)
-    return [f"k_{TERM_SYMBOLS[term][2:]} {_growth(_change(now, before, term))}" for term in terms]
-
-
 def named_terms(now: Chain, before: Chain, along: str) -> list[str]:
-    """The terms whose change is named."""
+    """The terms whose change is named: along a direction, and another where it is larger."""
     main = f"k_{along}{along}"
     own = abs(_change(now, before, main))
     others = [term for term in now.stiffness if term != main]

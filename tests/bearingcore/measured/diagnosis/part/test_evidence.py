@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from bearing_explorer.diagnosis.views.part_words import plain
+from bearing_explorer.diagnosis.views.part_words import explanation
 
 from bearingcore import Recording, diagnose, presets
 from bearingcore.common import number
@@ -126,7 +126,7 @@ def test_the_same_impacts_name_the_part_where_its_turning_modulates_them(part):
         assert diagnosis.fault == part
         assert diagnosis.probability > 0.9
         assert diagnosis.of(part).modulated
-        assert f"modulated once per {CARRIES[part][0]} turn" in plain(diagnosis, None)
+        assert f"modulated once per {CARRIES[part][0]} turn" in explanation(diagnosis, None)
 
 
 STEADY_MOTOR = Machine(9, 7.94 / 39.04, 29.53, 12_000.0, 10.0)

@@ -36,8 +36,20 @@ from bearingcore.measured.files._sampling import (
     since_1970,
     times_of,
 )
-from bearingcore.measured.files._shaft_angle import FEWEST_PULSES, angle_columns, pulse_begins
-from bearingcore.measured.files._units import ACCELERATIONS, SPEEDS, TIMES, UNITS
+from bearingcore.measured.files._shaft_angle import (
+    FEWEST_PULSES,
+    angle_columns,
+    measured_speeds,
+    pulse_begins,
+)
+from bearingcore.measured.files._units import (
+    ACCELERATIONS,
+    SPEEDS,
+    TIMES,
+    UNITS,
+    unit_in,
+    unit_named,
+)
 from bearingcore.recordings import FEWEST_SAMPLES
 from bearingcore.units import STANDARD_GRAVITY
 
@@ -174,7 +186,10 @@ def contents_of(table: FileColumns) -> FileContents:
     texts = [f"{name}: {text}" for name, text in table.texts.items()]
     lines = [*table.remarks, *texts]
     named = [
-        *(Named(name, value) for name, value in table.scalars.items()),
+        *(
+            Named(name, value, unit_in(name) or _unit_at(name, table.texts))
+            for name, value in table.scalars.items()
+        ),
         *facts.named_in(map(dates.remove_dates, table.remarks)),
         *facts.named_in(dates.remove_dates(text) for text in texts),
     ]
@@ -213,6 +228,11 @@ def contents_of(table: FileColumns) -> FileContents:
     )
 
 
+def _unit_at(name: str, texts: Mapping[str, str]) -> str | None:
+    """The unit that is kept beside a single number."""
+    return unit_named(texts.get(f"{name.removesuffix('.value')}.unit", ""))
+
+
 def _chosen(
     table: FileColumns,
     columns: Sequence[Column],
@@ -224,6 +244,12 @@ def _chosen(
     headed = not all(re.fullmatch(r"column \d+|channel \d+", name) for name in table.names)
     why = known.why or ("as the headings say" if headed else "")
     moving = [_moves(values) for values in table.columns.T]
+    columns = [
+        dataclasses.replace(column, role=SPEED)
+        if column.role == OTHER and column.unit == "rpm" and sampling and not _is_an_axis(values)
+        else column
+        for column, values in zip(columns, table.columns.T, strict=True)
+    ]
     if by_hand := {index for index, column in table.given.items() if column.role == SIGNAL}:
         moving = [moves and index in by_hand for index, moves in enumerate(moving)]
         choice = choose(columns, moving, "as given", table.name, known.place)
@@ -375,6 +401,12 @@ def _frequencies(table: FileColumns, columns: Sequence[Column], *, timed: bool) 
     return None
 
 
+def _is_an_axis(values: Array) -> bool:
+    """Return True if numbers rise from near zero all along, as the frequencies of a spectrum do."""
+    finite = values[np.isfinite(values)]
+    return bool((np.diff(finite) > 0.0).all() and np.all(finite[:1] <= 0.05 * finite[-1:]))
+
+
 def _moves(signal: Array) -> bool:
     finite = signal[np.isfinite(signal)]
     return finite.size >= FEWEST_SAMPLES and bool(np.ptp(finite) > 0.0)
@@ -441,19 +473,17 @@ def _unit_by_level(signals: Array, all_signals: Array) -> Finding[str]:
 def _speed(
     table: FileColumns, columns: Sequence[Column], named: Sequence[Named]
 ) -> Finding[float] | None:
-    for index, column in enumerate(columns):
-        speeds = table.columns[:, index]
+    for index in angle_columns(columns):
+        unit, words = columns[index].unit or "", f"the column “{columns[index].name}”"
+        speeds = measured_speeds(table.columns[:, index]) if unit in SPEEDS else np.zeros(0)
         speeds = speeds[np.isfinite(speeds)]
-        unit = column.unit or ""
-        if column.role != SPEED or unit not in SPEEDS or not speeds.size:
-            continue
-        mean, words = float(speeds.mean()), f"the column “{column.name}”"
-        least, most = float(speeds.min()), float(speeds.max())
-        if mean > 0.0 and least > -mean:  # a gyroscope swings about zero
+        mean = float(speeds.mean()) if speeds.size else 0.0
+        if mean > 0.0 and speeds.min() > -mean:  # a gyroscope swings about zero
             if not (steady := is_steady(speeds)):
-                words += f", which goes from {number(least, 4)} to {number(most, 4)}"
+                words += f", which goes from {number(speeds.min(), 4)} to {number(speeds.max(), 4)}"
             # a run-up or coast-down is followed, see `Recording.shaft_angle`
-            return Finding(mean * SPEEDS[unit], words, steady or least >= 0.0, file_unit=unit)
+            stated = steady or bool(speeds.min() >= 0.0)
+            return Finding(mean * SPEEDS[unit], words, stated, file_unit=unit)
     return facts.shaft_speed_in([*named, *_constants(table)], table.name)
 
 

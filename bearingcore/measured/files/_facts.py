@@ -97,7 +97,8 @@ _SEVERAL = re.compile(
     r"([^\W\d_][\w/^²]{0,9}(?![\w ]*[:=])|1/min)?"
 )
 _WITH_UNIT = re.compile(
-    rf"([^\W\d]\D{{0,40}}?)?\s*({_NUMBER})\s*([^\W\d_][\w/]{{0,9}}|1/min)?\W*", re.IGNORECASE
+    rf"([^\W\d]\D{{0,40}}?)?\s*(?<![^\W_])({_NUMBER})\s*([^\W\d_][\w/]{{0,9}}|1/min)?\W*",
+    re.IGNORECASE,
 )
 _OF_A_RATE = re.compile(r"k?hz|[km]?s(?:a|amples)?/s(?:ec)?|k?sps|rpm|1/min", re.IGNORECASE)
 """A number with a unit, with no mark before it or no name; the units of a rate or a speed."""
@@ -111,7 +112,8 @@ _RATES = {
 _INTERVALS = {
     "dt", "deltat", "deltax", "sampleinterval", "samplinginterval", "timestep", "sampleperiod",
     "samplingperiod", "timeincrement", "abtastintervall", "ts", "wfincrement", "xincrement",
-    "increment", "xincr", "sampleintervall", "samplespacing", "abscissainc", "horizontalinterval",
+    "increment", "xincr", "xaxisdelta", "interval", "intervall", "sampleintervall",
+    "samplespacing", "abscissainc", "horizontalinterval",
     "tinterval", "δt", "timeresolution", "sampletime", "samplestep", "xstep", "deltatime",
 }  # fmt: skip
 _FREQUENCIES = {
@@ -203,15 +205,16 @@ def _number(text: str) -> float | None:
 
 def _key(name: str) -> str:
     """The last part of a name, letters and digits only: "bearing.sr" and "Sample rate" as keys."""
-    bare = re.sub(r"[\[(].*?[\])]", "", name).rstrip(" _").rsplit(".", 1)[-1]
+    bare = re.sub(r"[\[(].*?[\])]|\.value$", "", name).rstrip(" _").rsplit(".", 1)[-1]
     return re.sub(r"[\W_]+", "", re.sub(r"_\d{1,2}$", "", bare)).lower()  # "Unit_1" of a channel
 
 
 def _rate_key(name: str) -> str:
     """The same without the unit at its end, "fs_hz", and what it is of, "NI_CM_Dt"."""
     key = re.sub(r"(?<=\w\w)(in)?[km]?hz$", "", _key(name))
-    bare = _OWNERS.sub("", key)
-    return bare if bare in _RATES | _INTERVALS else key
+    words = name.replace("_", " ").split()
+    bare = (_OWNERS.sub("", key), _key(words[-1]) if words else "")
+    return next((part for part in bare if part in _RATES | _INTERVALS), key)
 
 
 _OWNERS = re.compile(
@@ -268,7 +271,14 @@ def _likely_rate(named: Sequence[Named], file_name: str) -> Finding[float] | Non
     return None
 
 
-_OTHER_SPEED = re.compile(r"(?i)max|min|limit|rated|nominal|nenn|range|critical|full")
+_OTHER_SPEED = re.compile(
+    r"max|(?<![\dur])min|limit|rated|nominal|nenn|range|critical|full|set|soll|ref|target|command|cmd"
+)
+
+
+def names_a_limit(name: str) -> bool:
+    """Return True if a speed with this name is one that is set or allowed, not measured."""
+    return _OTHER_SPEED.search(_key(name)) is not None
 
 
 def shaft_speed_in(named: Sequence[Named], file_name: str) -> Finding[float] | None:
@@ -296,8 +306,9 @@ def _speed_of(named: Named, rated: bool) -> Finding[float] | None:
     words = f"“{named.name}” in the file"
     if not (math.isfinite(value) and value > 0.0):
         return None
-    if "rpm" in key or (unit == "rpm" and not _OTHER_SPEED.search(named.name)):
-        return Finding(value * SPEEDS["rpm"], words, strong=True, file_unit="rpm")
+    if "rpm" in key or unit == "rpm":
+        turning = Finding(value * SPEEDS["rpm"], words, strong=True, file_unit="rpm")
+        return None if names_a_limit(named.name) else turning
     if key in _FREQUENCIES | _SPEEDS and unit is not None and unit in SPEEDS:
         return Finding(value * SPEEDS[unit], words, file_unit=unit)
     if key in _FREQUENCIES:
@@ -397,5 +408,5 @@ def units_said(lines: Iterable[str], texts: Mapping[str, str]) -> list[str | Non
         units = [unit for cell, unit in said if unit or not re.search(r"\w", cell)]
         if any(units):
             return units if len(set(units)) > 1 else units[:1]
-    of_all = {unit_of(name, text) for name, text in texts.items()} - {None}
+    of_all = {unit_of(name, text) for name, text in texts.items()} - {None, *TIMES, *SPEEDS}
     return list(of_all) if len(of_all) == 1 else []

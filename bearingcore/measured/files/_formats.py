@@ -156,7 +156,8 @@ def _walk_json(value: Any, path: str, variables: Variables, depth: int) -> None:
             _walk_json(inside, f"{path}.{name}" if path else str(name), variables, depth + 1)
         return
     try:
-        variables.add(path or "array", np.array(value, dtype=float))
+        kind = None if isinstance(value, str) else float
+        variables.add(path or "array", np.array(value, dtype=kind))
     except (TypeError, ValueError):
         variables.add(path or "array", np.asarray(value, dtype=object))
 

@@ -312,8 +312,11 @@ def _row(line: str, delimiter: str | None, words: Sequence[int] = ()) -> list[fl
 
     Cells of columns of `words` are NaN.
     """
-    cells = _cells(line, delimiter)
-    numbers = [math.nan if i in words else _number(cell) for i, cell in enumerate(cells)]
+    of_words = set(words)
+    numbers = [
+        math.nan if i in of_words else _number(cell)
+        for i, cell in enumerate(_cells(line, delimiter))
+    ]
     present = [number for number in numbers if number is not None]
     if len(present) < len(numbers) or all(math.isnan(number) for number in present):
         return None

@@ -113,7 +113,7 @@ _LOOSE = {
 }  # fmt: skip
 """Short words that are units at the end of a name, as in "sensor_g"."""
 
-_DETECTOR = re.compile(r"[-_(]*(?:pk-?pk|p-p|0-?pk?|rms|peak|pk|eff)\)?$")
+_DETECTOR = re.compile(r"[-_(]*(?:pk-?pk|p-?p|0-?pk?|rms|peak|pk|eff)\)?$")
 """A way to take the size of a signal, at the end of its unit: "g-pk", "mm/s RMS"."""
 
 LEAST_LEVEL, GREATEST_LEVEL = 3e-3, 2e3

@@ -48,6 +48,7 @@ QUANTITIES = {
     "a displacement": ("µm mm mil", "displacement displ disp proximity prox weg verschiebung"),
     "a sound": ("Pa", "microphone mic sound"),
     "a pressure": ("bar", "pressure druck"),
+    "a force or a strain": ("N kN", "force kraft strain dehnung"),
     "a torque": ("Nm", "torque drehmoment"),
     "a temperature": ("°C", "temperature temperatur temp"),
     "a rotation": ("deg/s deg rad/s", "gyro gyroscope gyr"),

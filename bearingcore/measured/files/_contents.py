@@ -285,7 +285,7 @@ def _columns(
     axes = known.directions
     for index, axis in enumerate(axes, len(columns) - len(axes)):
         columns[index] = dataclasses.replace(columns[index], direction=axis)
-    for index, column in enumerate(columns if len(columns) > 1 else ()):
+    for index, column in enumerate(columns):
         if column.role in (SIGNAL, TIME) and column.unit is None:
             values = table.columns[:, index]
             if values[0] == np.floor(values[0]) and (np.diff(values) == 1.0).all():
@@ -328,7 +328,7 @@ def _read_times(
     samplings: dict[int, Sampling] = {}
     for index, column in enumerate(columns):
         timed, values = column.role == TIME, table.columns[:, index]
-        rises = len(columns) > 1 and column.role == SIGNAL and column.unit is None
+        rises = column.role == SIGNAL and column.unit is None
         if index in table.given or not (timed or rises):
             continue
         if timed:

@@ -152,7 +152,7 @@ def _read_below(names: str, values: str) -> Iterator[Named]:
     above, below = ([c.strip(' "') for c in re.split(r"[\t;,]", line)] for line in (names, values))
     for name, text in zip(above, below, strict=False) if min(len(above), len(below)) > 1 else ():
         value = _number(text) if re.fullmatch(_NUMBER, text) else None
-        if value is not None and _rate_key(name) in _RATES | _INTERVALS:
+        if value is not None and _rate_key(name) in _FACTS:
             yield Named(name, value, unit_in(name))
 
 
@@ -226,6 +226,14 @@ _OWNERS = re.compile(
 _OTHER_RATE = re.compile(
     r"(?i)filter|cut.?off|pass|band|resonan|natural|alias|corner|start|stop|bw|span|bpf|bsf|ftf|f_?max|lines|baud|bit"
 )
+
+
+_COUNT = re.compile(r"(?i)^\W*(number|no|nr|n|count|anzahl)?\W*(of|der)?\W*(points|samples)\b")
+
+
+def names_a_count(name: str) -> bool:
+    """Return True if a number with this name is how many samples there are."""
+    return _COUNT.search(name) is not None
 
 
 def sample_rate_in(named: Sequence[Named], file_name: str) -> Finding[float] | None:
@@ -309,7 +317,11 @@ def _speed_of(named: Named, rated: bool) -> Finding[float] | None:
     if "rpm" in key or unit == "rpm":
         turning = Finding(value * SPEEDS["rpm"], words, strong=True, file_unit="rpm")
         return None if names_a_limit(named.name) else turning
-    if key in _FREQUENCIES | _SPEEDS and unit is not None and unit in SPEEDS:
+    if (
+        key in {"shaft", "rotor", "welle"} | _FREQUENCIES | _SPEEDS
+        and unit is not None
+        and unit in SPEEDS
+    ):
         return Finding(value * SPEEDS[unit], words, file_unit=unit)
     if key in _FREQUENCIES:
         return Finding(value * SPEEDS["Hz"], words, file_unit="Hz")

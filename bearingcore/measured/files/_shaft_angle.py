@@ -22,6 +22,9 @@ STEP = 0.2
 """By how much of its length a turn differs at most from the one before; a missed pulse doubles it.
 Noise on a tachometer's signal breaks it too."""
 
+MOST_MEDIANS = 8.0
+"""Medians from which on a speed is a counter that overflowed, or a mark for what is missing."""
+
 LOW, HIGH = 0.35, 0.65
 """Shares of its range that a tachometer's signal passes from pulse to pulse."""
 
@@ -73,9 +76,11 @@ def measured_speeds(values: Array) -> Array:
     if finite.size and finite.max() <= 0.0:
         values, finite = -values, -finite
     turning = finite[finite > 0.0]
-    if turning.size and finite.min() == 0.0 and turning.min() > 0.5 * turning.max():
-        return np.where(values == 0.0, np.nan, values)
-    return values
+    if not turning.size:
+        return values
+    values = np.where(values > MOST_MEDIANS * np.median(turning), np.nan, values)
+    lost = finite.min() == 0.0 and turning.min() > 0.5 * np.nanmax(values)
+    return np.where(values == 0.0, np.nan, values) if lost else values
 
 
 def pulse_begins(values: Array) -> Array:

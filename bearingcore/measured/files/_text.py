@@ -24,7 +24,13 @@ from numpy.typing import NDArray
 
 from bearingcore.common import Array, _checks as checks, thousands
 from bearingcore.measured.files._channels import TIME, column_of
-from bearingcore.measured.files._facts import MOST_REMARKS, named_in, names_a_fact, units_said
+from bearingcore.measured.files._facts import (
+    MOST_REMARKS,
+    named_in,
+    names_a_count,
+    names_a_fact,
+    units_said,
+)
 from bearingcore.measured.files._units import UNITS, unit_in, unit_named
 from bearingcore.recordings import FEWEST_SAMPLES
 
@@ -93,11 +99,12 @@ def read_text(
                 f"at most {most_columns}: leave out some, or write each signal in a row",
             )
     read, said, notes = _read_numbers(name, content, begin, style, remarks, most_numbers)
+    read = _one_after_another(read, remarks)
     headings = _headings(remarks, style, read)  # of the remarks above, the line that names columns
     if headings and any(column_of(name).role == TIME for name in headings):
         read = read[~np.isnan(read).all(axis=1)]  # what is missing there shows in the times
     # columns of words were read as gaps; a date is one that the style knows, and stays
-    kept = [i for i in range(style.width) if i in style.stamps or not np.isnan(read[:, i]).all()]
+    kept = [i for i in range(read.shape[1]) if i in style.stamps or not np.isnan(read[:, i]).all()]
     if kept:
         read, headings = read[:, kept], headings and [headings[i] for i in kept]
     stamps = [kept.index(i) for i in style.stamps]
@@ -105,6 +112,18 @@ def read_text(
         if _SENSOR.fullmatch(heading.strip()):
             refuse_mixed_rows(name, read[:, index])
     return _text_fields(read, headings, remarks + said, stamps=stamps, notes=notes)
+
+
+def _one_after_another(columns: Array, remarks: Sequence[str]) -> Array:
+    """The samples of one signal that is written in several columns, row by row.
+
+    It is so where the number of samples that is said is that of all numbers in the table.
+    """
+    width, samples = columns.shape[1], columns.ravel()
+    counts = [item.value for item in named_in(remarks) if names_a_count(item.name)]
+    written = int(np.isfinite(samples).sum())
+    said = any(written <= count < written + width for count in counts)  # a short row may be lost
+    return samples[:written, None] if width > 1 and said else columns
 
 
 def _read_numbers(
@@ -154,6 +173,45 @@ def refuse_mixed_rows(name: str, labels: NDArray[Any], columns: Iterable[Array] 
         )
 
 
+_CELL = re.compile(
+    r"\s*(?:([^\W\d]\w*)\s*[:=]\s*)?[-+]?[\d.]+(?:,\d+)?(?:[eE][-+]?\d+)?\s*([^\W\d_][^\s,;|]*)?\s*"
+)
+"""A number with a label before it and a unit behind it, if there are such."""
+
+
+def _bare_cells(content: bytes) -> bytes:
+    """A content of lines such as "x: 1.5 g" with numbers alone, under their labels and units."""
+    last = [_labels_and_units(_decoded(line)) for line in content[-8192:].splitlines()[1:-1]]
+    labels, units = last[-1] if last else ((), ())
+    if set(last) != {(labels, units)} or not any(labels + units) or len(last) < SAMPLE:
+        return content
+    lines = _decoded(content).splitlines()
+    first = next(i for i, line in enumerate(lines) if _labels_and_units(line) == last[-1])
+    body, mark = "\n".join(lines[first:]), _mark_in(lines[first])
+    for text in filter(None, labels):
+        body = re.sub(rf"(?<!\w){text}\s*[:=]\s*", "", body)
+    for text in filter(None, units):
+        body = re.sub(rf"(?<=[\d.])\s*{re.escape(text)}(?=\s*(?:[,;\t|\n]|$))", "", body)
+    above = [mark.join(words) for words in (labels, units) if any(words)]
+    return "\n".join([*lines[:first], *above, body]).encode()
+
+
+def _mark_in(line: str) -> str:
+    return next((mark for mark in ";\t,|" if mark in line), " ")
+
+
+def _labels_and_units(line: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """The labels and the units of all cells of a line; none if there are other words."""
+    cells = [_CELL.fullmatch(cell) for cell in re.sub(r"[:=]\s+", "=", line).split(_mark_in(line))]
+    whole = [cell.groups("") for cell in cells if cell and (not cell[2] or unit_named(cell[2]))]
+    labels, units = zip(*whole, strict=True) if len(whole) == len(cells) else ((), ())
+    return labels, units
+
+
+_BASIC_DATE = re.compile(rb"\b(\d{4})([01]\d)([0-3]\d)[T_]([0-2]\d)([0-5]\d)([0-5]\d)(?!\d)")
+"""A date and time without marks between their parts: 20250102T030405.6Z."""
+
+
 def _decode_to_utf8(name: str, content: bytes) -> bytes:
     """A text without marks and with ends of lines, in UTF-8 if it had two bytes a character."""
     if content[:2] in (b"\xff\xfe", b"\xfe\xff"):
@@ -161,6 +219,9 @@ def _decode_to_utf8(name: str, content: bytes) -> bytes:
     if b"\x00" in content[:4096]:
         raise checks.refuse("file", name, READABLE)
     content = content.removeprefix(b"\xef\xbb\xbf").rstrip(b"\x00")
+    content = _bare_cells(content)
+    if _BASIC_DATE.search(content[:4096]):
+        content = _BASIC_DATE.sub(rb"\1-\2-\3T\4:\5:\6", content)
     if re.match(rb"\s*\[", content) and b"\n" not in content.strip():
         content = content.translate(None, b"[]")  # one array as NumPy and MATLAB show it
     return content if b"\n" in content else content.replace(b"\r", b"\n")
@@ -486,8 +547,8 @@ def _headings(remarks: Sequence[str], style: _Style, columns: Array) -> list[str
     names = _names(lines[-1], style, columns) if lines else None
     if names is None:
         return None
-    above = _names(lines[-2], style, columns) if len(lines) > 1 else None
-    names = _join_units(names, above)
+    for line in lines[-2::-1] or [""]:
+        names = _join_units(names, _names(line, style, columns))
     headings = [name for name in names if name]
     if any(re.fullmatch(r"-?\d*[.,]\d+", name) for name in headings):
         return None  # numbers beside the settings of an instrument

@@ -91,7 +91,7 @@ _WRITTEN = {
     "lb": "lbs lbf",
     "kg": "kgf",
     "rpm": "1/min u/min r/min tr/min rev/min min-1 min^-1 cpm",
-    "Hz": "1/s hertz sps s/s sa/s samples/s",
+    "Hz": "1/s rev/s rps hertz sps s/s sa/s samples/s",
     "kHz": "ksps ks/s ksa/s",
     "rad/s": "rad_per_s",
     "µm": "um micron microns",

@@ -129,7 +129,8 @@ def column_of(name: str) -> Column:
     if unit in TIMES or (unit is None and _names_a_time(first, more)):
         return Column(name, TIME, unit)
     if unit in SPEEDS:
-        return Column(name, OTHER if names_a_frequency(name) else SPEED, unit)
+        is_an_axis = names_a_frequency(name) and "rpm" not in name.lower()
+        return Column(name, OTHER if is_an_axis else SPEED, unit)
     other = words & _NOT_SIGNALS or {first, *more} & _COUNTS or first == "mag"
     if unit not in (None, *UNITS) or (other and unit in (None, *VOLTAGES)):  # of a sensor for it
         return Column(name, OTHER, unit)

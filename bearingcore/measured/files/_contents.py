@@ -12,7 +12,7 @@ from types import MappingProxyType
 import numpy as np
 
 from bearingcore.common import Array, _checks as checks, number
-from bearingcore.measured.files import _dates as dates, _facts as facts
+from bearingcore.measured.files import _dates as dates, _facts as facts, _shaft_angle as shafts
 from bearingcore.measured.files._channels import (
     OTHER,
     SIGNAL,
@@ -36,20 +36,7 @@ from bearingcore.measured.files._sampling import (
     since_1970,
     times_of,
 )
-from bearingcore.measured.files._shaft_angle import (
-    FEWEST_PULSES,
-    angle_columns,
-    measured_speeds,
-    pulse_begins,
-)
-from bearingcore.measured.files._units import (
-    ACCELERATIONS,
-    SPEEDS,
-    TIMES,
-    UNITS,
-    unit_in,
-    unit_named,
-)
+from bearingcore.measured.files._units import ACCELERATIONS, SPEEDS, TIMES, UNITS
 from bearingcore.recordings import FEWEST_SAMPLES
 from bearingcore.units import STANDARD_GRAVITY
 
@@ -186,10 +173,7 @@ def contents_of(table: FileColumns) -> FileContents:
     texts = [f"{name}: {text}" for name, text in table.texts.items()]
     lines = [*table.remarks, *texts]
     named = [
-        *(
-            Named(name, value, unit_in(name) or _unit_at(name, table.texts))
-            for name, value in table.scalars.items()
-        ),
+        *facts.named_at(table.scalars, table.texts),
         *facts.named_in(map(dates.remove_dates, table.remarks)),
         *facts.named_in(dates.remove_dates(text) for text in texts),
     ]
@@ -228,11 +212,6 @@ def contents_of(table: FileColumns) -> FileContents:
     )
 
 
-def _unit_at(name: str, texts: Mapping[str, str]) -> str | None:
-    """The unit that is kept beside a single number."""
-    return unit_named(texts.get(f"{name.removesuffix('.value')}.unit", ""))
-
-
 def _chosen(
     table: FileColumns,
     columns: Sequence[Column],
@@ -244,12 +223,6 @@ def _chosen(
     headed = not all(re.fullmatch(r"column \d+|channel \d+", name) for name in table.names)
     why = known.why or ("as the headings say" if headed else "")
     moving = [_moves(values) for values in table.columns.T]
-    columns = [
-        dataclasses.replace(column, role=SPEED)
-        if column.role == OTHER and column.unit == "rpm" and sampling and not _is_an_axis(values)
-        else column
-        for column, values in zip(columns, table.columns.T, strict=True)
-    ]
     if by_hand := {index for index, column in table.given.items() if column.role == SIGNAL}:
         moving = [moves and index in by_hand for index, moves in enumerate(moving)]
         choice = choose(columns, moving, "as given", table.name, known.place)
@@ -401,12 +374,6 @@ def _frequencies(table: FileColumns, columns: Sequence[Column], *, timed: bool) 
     return None
 
 
-def _is_an_axis(values: Array) -> bool:
-    """Return True if numbers rise from near zero all along, as the frequencies of a spectrum do."""
-    finite = values[np.isfinite(values)]
-    return bool((np.diff(finite) > 0.0).all() and np.all(finite[:1] <= 0.05 * finite[-1:]))
-
-
 def _moves(signal: Array) -> bool:
     finite = signal[np.isfinite(signal)]
     return finite.size >= FEWEST_SAMPLES and bool(np.ptp(finite) > 0.0)
@@ -473,9 +440,9 @@ def _unit_by_level(signals: Array, all_signals: Array) -> Finding[str]:
 def _speed(
     table: FileColumns, columns: Sequence[Column], named: Sequence[Named]
 ) -> Finding[float] | None:
-    for index in angle_columns(columns):
+    for index in shafts.angle_columns(columns):
         unit, words = columns[index].unit or "", f"the column “{columns[index].name}”"
-        speeds = measured_speeds(table.columns[:, index]) if unit in SPEEDS else np.zeros(0)
+        speeds = shafts.measured_speeds(table.columns[:, index]) if unit in SPEEDS else np.zeros(0)
         speeds = speeds[np.isfinite(speeds)]
         mean = float(speeds.mean()) if speeds.size else 0.0
         if mean > 0.0 and speeds.min() > -mean:  # a gyroscope swings about zero
@@ -494,13 +461,13 @@ def _speed_of_pulses(
     sampling: Sampling | None,
 ) -> Finding[float] | None:
     """A guess at the shaft speed from a tachometer's pulses, as if each were a turn."""
-    for index in angle_columns(columns):
+    for index in shafts.angle_columns(columns):
         column = columns[index]
         if rate is None or column.unit in SPEEDS:
             continue
         first, last = (None, None) if sampling is None else (sampling.first, sampling.last)
-        begins = pulse_begins(table.columns[first:last, index])
-        if len(begins) < FEWEST_PULSES:
+        begins = shafts.pulse_begins(table.columns[first:last, index])
+        if len(begins) < shafts.FEWEST_PULSES:
             continue
         pulses = rate.value * (len(begins) - 1) / float(begins[-1] - begins[0])
         words = f"{number(pulses, 4)} pulses a second in “{column.name}”, if one is a turn"

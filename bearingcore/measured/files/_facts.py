@@ -122,7 +122,7 @@ _FREQUENCIES = {
 }  # fmt: skip
 _SPEEDS = {
     "speed", "shaftspeed", "rotationspeed", "rotationalspeed", "rotatingspeed", "runningspeed",
-    "motorspeed", "drehzahl",
+    "motorspeed", "drehzahl", "shaft", "rotor", "welle",
 }  # fmt: skip
 BEARING_FREQUENCIES = ("bpfo", "bpfi", "ftf", "bsf")
 """Outer and inner race, cage, and one turn of a ball."""
@@ -185,6 +185,12 @@ def _read_unmarked(line: str) -> Iterator[tuple[str, str, str | None]]:
             yield match[1], match[2], match[3]
 
 
+def named_at(scalars: Mapping[str, float], texts: Mapping[str, str]) -> list[Named]:
+    """Single numbers with their units, in their names or in words that are kept beside them."""
+    beside = {name: texts.get(f"{name.removesuffix('.value')}.unit", "") for name in scalars}
+    return [Named(n, value, unit_in(n) or unit_named(beside[n])) for n, value in scalars.items()]
+
+
 def names_a_fact(line: str) -> bool:
     """Return True if a line says a rate, a speed or a load."""
     keys = {_rate_key(item.name) for item in named_in([line])}
@@ -226,14 +232,6 @@ _OWNERS = re.compile(
 _OTHER_RATE = re.compile(
     r"(?i)filter|cut.?off|pass|band|resonan|natural|alias|corner|start|stop|bw|span|bpf|bsf|ftf|f_?max|lines|baud|bit"
 )
-
-
-_COUNT = re.compile(r"(?i)^\W*(number|no|nr|n|count|anzahl)?\W*(of|der)?\W*(points|samples)\b")
-
-
-def names_a_count(name: str) -> bool:
-    """Return True if a number with this name is how many samples there are."""
-    return _COUNT.search(name) is not None
 
 
 def sample_rate_in(named: Sequence[Named], file_name: str) -> Finding[float] | None:
@@ -317,15 +315,11 @@ def _speed_of(named: Named, rated: bool) -> Finding[float] | None:
     if "rpm" in key or unit == "rpm":
         turning = Finding(value * SPEEDS["rpm"], words, strong=True, file_unit="rpm")
         return None if names_a_limit(named.name) else turning
-    if (
-        key in {"shaft", "rotor", "welle"} | _FREQUENCIES | _SPEEDS
-        and unit is not None
-        and unit in SPEEDS
-    ):
+    if key in _FREQUENCIES | _SPEEDS and unit is not None and unit in SPEEDS:
         return Finding(value * SPEEDS[unit], words, file_unit=unit)
     if key in _FREQUENCIES:
         return Finding(value * SPEEDS["Hz"], words, file_unit="Hz")
-    if key in _SPEEDS:
+    if key in _SPEEDS and unit is None:
         unit = "Hz" if value <= FASTEST_IN_HZ else "rpm"
         taken = f"{words}, taken as {unit}"
         return Finding(value * SPEEDS[unit], taken, stated=False, file_unit=unit)

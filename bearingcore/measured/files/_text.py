@@ -23,14 +23,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import Array, _checks as checks, thousands
+from bearingcore.measured.files import _facts as facts
 from bearingcore.measured.files._channels import TIME, column_of
-from bearingcore.measured.files._facts import (
-    MOST_REMARKS,
-    named_in,
-    names_a_count,
-    names_a_fact,
-    units_said,
-)
 from bearingcore.measured.files._units import UNITS, unit_in, unit_named
 from bearingcore.recordings import FEWEST_SAMPLES
 
@@ -99,9 +93,10 @@ def read_text(
                 f"at most {most_columns}: leave out some, or write each signal in a row",
             )
     read, said, notes = _read_numbers(name, content, begin, style, remarks, most_numbers)
-    read = _one_after_another(read, remarks)
     headings = _headings(remarks, style, read)  # of the remarks above, the line that names columns
-    if headings and any(column_of(name).role == TIME for name in headings):
+    if not headings:
+        read = _one_after_another(read, remarks)
+    elif any(column_of(name).role == TIME for name in headings):
         read = read[~np.isnan(read).all(axis=1)]  # what is missing there shows in the times
     # columns of words were read as gaps; a date is one that the style knows, and stays
     kept = [i for i in range(read.shape[1]) if i in style.stamps or not np.isnan(read[:, i]).all()]
@@ -114,13 +109,13 @@ def read_text(
     return _text_fields(read, headings, remarks + said, stamps=stamps, notes=notes)
 
 
-def _one_after_another(columns: Array, remarks: Sequence[str]) -> Array:
-    """The samples of one signal that is written in several columns, row by row.
+_COUNT = re.compile(r"(?i)\W*(number|no|nr|n|count|anzahl)?\W*(of|der)?\W*(points|samples)\b")
 
-    It is so where the number of samples that is said is that of all numbers in the table.
-    """
+
+def _one_after_another(columns: Array, remarks: Sequence[str]) -> Array:
+    """The samples of a signal in several columns, row by row, if their number says that it is."""
     width, samples = columns.shape[1], columns.ravel()
-    counts = [item.value for item in named_in(remarks) if names_a_count(item.name)]
+    counts = [item.value for item in facts.named_in(remarks) if _COUNT.match(item.name)]
     written = int(np.isfinite(samples).sum())
     said = any(written <= count < written + width for count in counts)  # a short row may be lost
     return samples[:written, None] if width > 1 and said else columns
@@ -489,7 +484,7 @@ def _beginning(name: str, content: bytes) -> tuple[_Style, int, list[str]]:
     for line in io.BytesIO(content):
         bare = _decoded(line).strip()
         if bare[:1] in ("#", "%"):
-            if len(remarks) < MOST_REMARKS:
+            if len(remarks) < facts.MOST_REMARKS:
                 remarks.append(bare.lstrip("#% ")[:LONGEST_LINE])
         elif bare:
             begin = begin or bare
@@ -505,7 +500,7 @@ def _beginning(name: str, content: bytes) -> tuple[_Style, int, list[str]]:
                 return style, place, remarks
             words += 1
             remarks.append(_decoded(line) if numbered else bare[:LONGEST_LINE])
-            if words > MOST_REMARKS:
+            if words > facts.MOST_REMARKS:
                 break
         place += len(line)
     if not begin:
@@ -578,7 +573,7 @@ def _join_units(names: list[str], above: list[str] | None) -> list[str]:
 
 def _is_remark(line: str, style: _Style, width: int) -> bool:
     """Return True if a line says something else than the names of columns."""
-    said, unit_said = ":" in line or "=" in line, bool(units_said([line], {}))
+    said, unit_said = ":" in line or "=" in line, bool(facts.units_said([line], {}))
     if width == 1:
         return not (unit_in(line) in UNITS and re.search(r"[\[(]", line)) and (
             unit_said
@@ -586,14 +581,14 @@ def _is_remark(line: str, style: _Style, width: int) -> bool:
             # a name and what it is
             or re.search(r"[;\t]\s*[^;\t\s]|(^|\s)-?\d[\d.,]*\d", line) is not None
             or len(line.split()) > LONGEST_HEADING
-            or bool(named_in([line]))
+            or bool(facts.named_in([line]))
         )
     cells = [cell for cell in _cells(line, style.delimiter) if cell]
     if said and len(cells) == width and all(re.search(r"[:=]", cell) for cell in cells):
         return False  # "Ch 1: acc [g], Ch 2: acc [g]"
     if unit_said or (len(cells) > 1 and _is_a_value(cells)):
         return True
-    return (said or any(re.match(_VALUE, cell) for cell in cells)) and names_a_fact(line)
+    return (said or any(re.match(_VALUE, cell) for cell in cells)) and facts.names_a_fact(line)
 
 
 _VALUE = r"[-+]?\d[\d.,]*([eE][-+]?\d+)?(\s*[^\W\d]\S{0,9})?$"

@@ -197,7 +197,7 @@ def contents_of(table: FileColumns) -> FileContents:
         choice,
         _unit(table, columns, picked, known),
         rate,
-        speed or _speed_of_pulses(table, columns, rate, sampling),
+        speed or _speed_of_pulses(table, columns, rate, sampling, facts.pulses_a_turn_in(named)),
         facts.load_in(named),
         sampling,
         said,
@@ -459,8 +459,9 @@ def _speed_of_pulses(
     columns: Sequence[Column],
     rate: Finding[float] | None,
     sampling: Sampling | None,
+    a_turn: float | None,
 ) -> Finding[float] | None:
-    """A guess at the shaft speed from a tachometer's pulses, as if each were a turn."""
+    """The shaft speed by a tachometer's pulses `a_turn`; a guess as if each were a turn."""
     for index in shafts.angle_columns(columns):
         column = columns[index]
         if rate is None or column.unit in SPEEDS:
@@ -470,8 +471,10 @@ def _speed_of_pulses(
         if len(begins) < shafts.FEWEST_PULSES:
             continue
         pulses = rate.value * (len(begins) - 1) / float(begins[-1] - begins[0])
-        words = f"{number(pulses, 4)} pulses a second in “{column.name}”, if one is a turn"
-        return Finding(pulses * SPEEDS["Hz"], words, False, False, file_unit="Hz")
+        words = f"{number(pulses, 4)} pulses a second in “{column.name}”, "
+        words += f"{number(a_turn)} a turn" if a_turn else "if one is a turn"
+        known, speed = bool(a_turn), pulses / (a_turn or 1.0) * SPEEDS["Hz"]
+        return Finding(speed, words, known, known, file_unit="Hz")
     return None
 
 

@@ -277,6 +277,9 @@ def _likely_rate(named: Sequence[Named], file_name: str) -> Finding[float] | Non
     return None
 
 
+SLOWEST_RPM = 10.0
+"""Below it a point before three digits of a speed may well stand between thousands."""
+
 _OTHER_SPEED = re.compile(
     r"max|(?<![\dur])min|limit|rated|nominal|nenn|range|critical|full|set|soll|ref|target|command|cmd"
 )
@@ -312,9 +315,12 @@ def _speed_of(named: Named, rated: bool) -> Finding[float] | None:
     words = f"“{named.name}” in the file"
     if not (math.isfinite(value) and value > 0.0):
         return None
+    if ("rpm" in key or unit == "rpm") and names_a_limit(named.name):
+        return None
     if "rpm" in key or unit == "rpm":
-        turning = Finding(value * SPEEDS["rpm"], words, strong=True, file_unit="rpm")
-        return None if names_a_limit(named.name) else turning
+        grouped = named.thousands and value < SLOWEST_RPM  # 1.480
+        turning = value * SPEEDS["rpm"] * (1e3 if grouped else 1.0)
+        return Finding(turning, words, not grouped, strong=not grouped, file_unit="rpm")
     if key in _FREQUENCIES | _SPEEDS and unit is not None and unit in SPEEDS:
         return Finding(value * SPEEDS[unit], words, file_unit=unit)
     if key in _FREQUENCIES:
@@ -331,7 +337,15 @@ def _speed_of(named: Named, rated: bool) -> Finding[float] | None:
 
 def _doubted(first: Finding[float]) -> Finding[float]:
     reason = f"{first.reason}, which names another one too"
-    return dataclasses.replace(first, reason=reason, stated=False)
+    return dataclasses.replace(first, reason=reason, stated=False, strong=False)
+
+
+def pulses_a_turn_in(named: Sequence[Named]) -> float | None:
+    """Pulses of a tachometer in a turn, where the file says them."""
+    return next((item.value for item in named if _PULSES.search(_key(item.name))), None)
+
+
+_PULSES = re.compile(r"^ppr$|(puls\w*|teeth|marks|impulse)(per|pro|a)(rev|turn|umdrehung|u$)")
 
 
 def load_in(named: Sequence[Named]) -> Finding[float] | None:

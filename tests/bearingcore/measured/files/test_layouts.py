@@ -870,6 +870,7 @@ FILES: list[tuple[bytes | str, dict[str, Any]]] = [
     (rows(TIME, SIGNAL[:, 0], SPEED + 20.0, SPEED, heading="t,a,n_set [rpm],n_act [rpm]"),
      {"rpm": 1480.0}),
     *((note(line), {"rpm": 1470.0}) for line in ("shaft: 24.5 Hz", "Unit,RPM\ng,1470")),
+    (note("Drehzahl: 1.480 1/min"), {"rpm": None, "guessed": 1480.0}),
     (two("time,Tacho1,acc"), {"columns": {"y": 2}}),
     (rows(TIME, SIGNAL[:, 0], heading="t,strain [µm/m]"), {"question": "is a force or a strain"}),
     (timed("Units,mil pp").replace(b"a [g]", b"value"), {"question": "is a displacement"}),

@@ -168,39 +168,24 @@ def refuse_mixed_rows(name: str, labels: NDArray[Any], columns: Iterable[Array] 
         )
 
 
-_CELL = re.compile(
-    r"\s*(?:([^\W\d]\w*)\s*[:=]\s*)?[-+]?[\d.]+(?:,\d+)?(?:[eE][-+]?\d+)?\s*([^\W\d_][^\s,;|]*)?\s*"
-)
-"""A number with a label before it and a unit behind it, if there are such."""
+_IN_A_CELL = re.compile(r"(?<![\w.^])[-+]?\d*[.,]?\d+(?:[eE][-+]?\d+)?")
+_LABEL, _UNIT = re.compile(r"([^\W\d]\w*)\s*[:=]\s*$"), re.compile(r"\s*([^\W\d_][^\s,;|]*)")
 
 
 def _bare_cells(content: bytes) -> bytes:
     """A content of lines such as "x: 1.5 g" with numbers alone, under their labels and units."""
-    last = [_labels_and_units(_decoded(line)) for line in content[-8192:].splitlines()[1:-1]]
-    labels, units = last[-1] if last else ((), ())
-    if set(last) != {(labels, units)} or not any(labels + units) or len(last) < SAMPLE:
+    tail = {tuple(_IN_A_CELL.split(_decoded(line))) for line in content[-8192:].splitlines()[1:-1]}
+    words = tail.pop() if len(tail) == 1 else ()
+    words = () if ":" in words else words  # of a time of day
+    labels = [match[1] if (match := _LABEL.search(before)) else "" for before in words[:-1]]
+    units = [match[1] if (match := _UNIT.match(after)) else "" for after in words[1:]]
+    if not any(labels) and not (any(units) and all(map(unit_named, filter(None, units)))):
         return content
     lines = _decoded(content).splitlines()
-    first = next(i for i, line in enumerate(lines) if _labels_and_units(line) == last[-1])
-    body, mark = "\n".join(lines[first:]), _mark_in(lines[first])
-    for text in filter(None, labels):
-        body = re.sub(rf"(?<!\w){text}\s*[:=]\s*", "", body)
-    for text in filter(None, units):
-        body = re.sub(rf"(?<=[\d.])\s*{re.escape(text)}(?=\s*(?:[,;\t|\n]|$))", "", body)
-    above = [mark.join(words) for words in (labels, units) if any(words)]
-    return "\n".join([*lines[:first], *above, body]).encode()
-
-
-def _mark_in(line: str) -> str:
-    return next((mark for mark in ";\t,|" if mark in line), " ")
-
-
-def _labels_and_units(line: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """The labels and the units of all cells of a line; none if there are other words."""
-    cells = [_CELL.fullmatch(cell) for cell in re.sub(r"[:=]\s+", "=", line).split(_mark_in(line))]
-    whole = [cell.groups("") for cell in cells if cell and (not cell[2] or unit_named(cell[2]))]
-    labels, units = zip(*whole, strict=True) if len(whole) == len(cells) else ((), ())
-    return labels, units
+    first = next(i for i, line in enumerate(lines) if tuple(_IN_A_CELL.split(line)) == words)
+    above = [";".join(names) for names in (labels, units) if any(names)]
+    bare = [";".join(_IN_A_CELL.findall(line)) for line in lines[first:]]
+    return "\n".join([*lines[:first], *above, *bare]).encode()
 
 
 _BASIC_DATE = re.compile(rb"\b(\d{4})([01]\d)([0-3]\d)[T_]([0-2]\d)([0-5]\d)([0-5]\d)(?!\d)")

@@ -148,7 +148,7 @@ def _walk_json(value: Any, path: str, variables: Variables, depth: int) -> None:
         records = [item for item in value if isinstance(item, dict)]
         if any(isinstance(item, list) for item in records[0].values()):  # of a channel each
             named = {str(item.get("name", i + 1)): item for i, item in enumerate(records)}
-            return _walk_json(named, path, variables, depth)
+            return _walk_json(named if records[1:] else records[0], path, variables, depth)
         value = {name: [record.get(name) for record in records] for name in records[0]}
         columns = [np.array(c) for c in value.values() if not isinstance(c[0], list | dict)]
         numbers = [column for column in columns if column.dtype.kind in "if"]

@@ -865,8 +865,8 @@ FILES: list[tuple[bytes | str, dict[str, Any]]] = [
     # speeds as they are measured: backwards, with lost marks, overflown, beside the set ones
     *((rows(TIME, SIGNAL[:, 0], speed, heading=f"time,acc_ms2,{name}"), {"rpm": 1480.0})
       for name, speed in (
-          ("rpm", -SPEED), ("rpm", np.where(np.arange(N) % 3, SPEED, 0.0)), ("v [rev/s]", SPEED / 60.0),
-          ("Frequency (rpm)", SPEED), ("rpm", np.where(np.arange(N) % 9, SPEED, 65_535.0)))),
+          ("rpm", -SPEED), ("v [rev/s]", SPEED / 60.0), ("Frequency (rpm)", SPEED),
+          *(("rpm", np.where(np.arange(N) % 9, SPEED, lost)) for lost in (0.0, 65_535.0)))),
     (rows(TIME, SIGNAL[:, 0], SPEED + 20.0, SPEED, heading="t,a,n_set [rpm],n_act [rpm]"),
      {"rpm": 1480.0}),
     *((note(line), {"rpm": 1470.0}) for line in ("shaft: 24.5 Hz", "Unit,RPM\ng,1470")),
@@ -887,6 +887,11 @@ FILES: list[tuple[bytes | str, dict[str, Any]]] = [
     *((rows(*[SIGNAL] * (count // 2), *[SIGNAL[:, 0]] * (count % 2)),
        {"columns": {}, "options": tuple(range(count)), "question": f"holds {count} signals"})
       for count in (2, 3)),
+    (json.dumps({"a": [{"name": n, "unit": "g", "data": v.tolist()}
+                       for n, v in zip(("DE", "NDE"), SIGNAL.T, strict=True)],
+                 "speed": {"value": 1480, "unit": "rpm"}, "bearing": "6205"}),
+     {"file": "a.json", "units": ["g", "g"], "rpm": 1480.0, "bearing": "6205",
+      "question": "several places"}),
     # HDF5, beside each data set
     (hdf5(rig__DE=(SIGNAL[:, 0], STEP | {"unit_string": "g"}),
           rig__NDE=(SIGNAL[:, 1], STEP | {"unit_string": "V"})),

@@ -10,11 +10,11 @@ import pytest
 from bearing_explorer.diagnosis.diagnoses import ExtentQuestion, Question, answered, extent_of
 from bearing_explorer.diagnosis.measurement_state import AboutMeasurement
 from bearing_explorer.diagnosis.model import Model
-from bearing_explorer.diagnosis.next_steps import ONE_RECORD, PRACTICE, next_steps
 from bearing_explorer.diagnosis.report import NOT_FORESEEN, NOT_JUDGED, measured_report
 from bearing_explorer.diagnosis.simulated import simulated
 from bearing_explorer.diagnosis.views import part_words
 from bearing_explorer.diagnosis.views.measured_indicators import severity, zone_of
+from bearing_explorer.diagnosis.views.next_steps import ONE_RECORD, PRACTICE, next_steps
 from bearing_explorer.diagnosis.views.trend import growth
 from bearing_explorer.kit.report_page import About, document, heading, mark_of
 

@@ -75,6 +75,15 @@ def test_a_tachometer_is_followed(a_turn: int, given: float | None, ratio: float
     assert answer.shaft_speed == pytest.approx(TURN / 60.0 * RPM, rel=0.01)
 
 
+@pytest.mark.parametrize(("a_turn", "said"), [(1, b""), (12, b"# pulses per revolution: 12\n")])
+def test_a_steady_tachometer_gives_the_speed(a_turn: int, said: bytes) -> None:
+    time, signal, turns = machine("6309", "inner race", "steady", 2)
+    content = said + file_of(time, signal, pulses(turns, a_turn), "tacho [V]")
+    answer = diagnose(read_recording("a.csv", content), "6309")
+    assert (answer.fault, answer.probability >= 0.9) == ("inner race", True)
+    assert answer.shaft_speed == pytest.approx(TURN / 60.0 * RPM, rel=0.01)
+
+
 @pytest.mark.parametrize(("change", "says"), [("10 %", True), ("steady", False)])
 def test_a_speed_that_changes_unmeasured_is_said(change: str, says: bool) -> None:
     _, signal, _ = machine("6205", "inner race", change, 3)

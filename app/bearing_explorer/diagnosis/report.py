@@ -18,7 +18,6 @@ from bearing_explorer.diagnosis.diagnoses import Question
 from bearing_explorer.diagnosis.machine import BEARING_SOURCES, SCENE, SIMULATED
 from bearing_explorer.diagnosis.measurement_state import name_of
 from bearing_explorer.diagnosis.model import Model
-from bearing_explorer.diagnosis.next_steps import steps_now
 from bearing_explorer.diagnosis.session import Measurement
 from bearing_explorer.diagnosis.views import part_words
 from bearing_explorer.diagnosis.views.diagnosis import RACES_NAMED, PartDiagnosis, panel_state
@@ -27,6 +26,7 @@ from bearing_explorer.diagnosis.views.measured_indicators import no_velocity, se
 from bearing_explorer.diagnosis.views.measured_kurtogram import MeasuredKurtogram
 from bearing_explorer.diagnosis.views.measured_spectrum import MeasuredSpectrum
 from bearing_explorer.diagnosis.views.measurement import MeasuredSignal
+from bearing_explorer.diagnosis.views.next_steps import steps_now
 from bearing_explorer.diagnosis.views.trend import TrendOfFiles, words_on
 from bearing_explorer.diagnosis.views.which_length import WhichLength
 from bearing_explorer.diagnosis.widgets.part_panel import part_html

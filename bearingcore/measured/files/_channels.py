@@ -37,8 +37,8 @@ _PHRASES = (
     ("fanend", "fan end"),
 )
 PULSES = {
-    "tacho", "tachometer", "tach", "keyphasor", "keyphaser", "trigger", "encoder", "pulse",
-    "pulses",
+    "tacho", "tachometer", "tach", "keyphasor", "keyphaser", "keyphase", "trigger", "encoder",
+    "pulse", "pulses",
 }  # fmt: skip
 """Words for a tachometer's signal."""
 
@@ -48,6 +48,7 @@ QUANTITIES = {
     "a displacement": ("µm mm mil", "displacement displ disp proximity prox weg verschiebung"),
     "a sound": ("Pa", "microphone mic sound"),
     "a pressure": ("bar", "pressure druck"),
+    "a force or a strain": ("N kN", "force kraft strain dehnung"),
     "a torque": ("Nm", "torque drehmoment"),
     "a temperature": ("°C", "temperature temperatur temp"),
     "a rotation": ("deg/s deg rad/s", "gyro gyroscope gyr"),
@@ -128,8 +129,9 @@ def column_of(name: str) -> Column:
     if unit in TIMES or (unit is None and _names_a_time(first, more)):
         return Column(name, TIME, unit)
     if unit in SPEEDS:
-        return Column(name, OTHER if names_a_frequency(name) else SPEED, unit)
-    other = words & _NOT_SIGNALS or words_of(leaf) & _COUNTS or first == "mag"
+        is_an_axis = names_a_frequency(name) and "rpm" not in name.lower()
+        return Column(name, OTHER if is_an_axis else SPEED, unit)
+    other = words & _NOT_SIGNALS or {first, *more} & _COUNTS or first == "mag"
     if unit not in (None, *UNITS) or (other and unit in (None, *VOLTAGES)):  # of a sensor for it
         return Column(name, OTHER, unit)
     if place_in(name) and re.search(r"[\s_.]V$", name):
@@ -155,7 +157,9 @@ _OF_A_FREQUENCY = {
     "f", "freq", "frequency", "frequencies", "frequenz", "fréquence", "hz", "khz", "cpm", "order",
     "orders", "ordnung", "ordnungen", "ordre",
 }  # fmt: skip
-_OF_A_SHAFT = {"shaft", "rotation", "rotational", "rotor", "running", "speed", "turning", "welle"}
+_OF_A_SHAFT = {
+    "shaft", "rot", "rotation", "rotational", "rotor", "running", "speed", "turning", "welle",
+}  # fmt: skip
 
 
 def place_in(name: str) -> str:
@@ -189,8 +193,8 @@ def places_in(name: str) -> list[str]:
 
 
 def words_of(heading: str) -> set[str]:
-    """The words of a heading, without units in brackets."""
-    bare = re.sub(r"[\[(].*?[\])]", " ", heading.lower())
+    """The words of a heading, without units in brackets and the numbers of "temp1" or "tacho2"."""
+    bare = re.sub(r"[\[(].*?[\])]|(?<=[a-z]{4})\d{1,2}(?![a-z0-9])", " ", heading.lower())
     return {word for word in re.split(r"[^a-z0-9]+", bare) if word}
 
 

@@ -12,7 +12,7 @@ from types import MappingProxyType
 import numpy as np
 
 from bearingcore.common import Array, _checks as checks, number
-from bearingcore.measured.files import _dates as dates, _facts as facts
+from bearingcore.measured.files import _dates as dates, _facts as facts, _shaft_angle as shafts
 from bearingcore.measured.files._channels import (
     OTHER,
     SIGNAL,
@@ -36,7 +36,6 @@ from bearingcore.measured.files._sampling import (
     since_1970,
     times_of,
 )
-from bearingcore.measured.files._shaft_angle import FEWEST_PULSES, angle_columns, pulse_begins
 from bearingcore.measured.files._units import ACCELERATIONS, SPEEDS, TIMES, UNITS
 from bearingcore.recordings import FEWEST_SAMPLES
 from bearingcore.units import STANDARD_GRAVITY
@@ -174,7 +173,7 @@ def contents_of(table: FileColumns) -> FileContents:
     texts = [f"{name}: {text}" for name, text in table.texts.items()]
     lines = [*table.remarks, *texts]
     named = [
-        *(Named(name, value) for name, value in table.scalars.items()),
+        *facts.named_at(table.scalars, table.texts),
         *facts.named_in(map(dates.remove_dates, table.remarks)),
         *facts.named_in(dates.remove_dates(text) for text in texts),
     ]
@@ -198,7 +197,7 @@ def contents_of(table: FileColumns) -> FileContents:
         choice,
         _unit(table, columns, picked, known),
         rate,
-        speed or _speed_of_pulses(table, columns, rate, sampling),
+        speed or _speed_of_pulses(table, columns, rate, sampling, facts.pulses_a_turn_in(named)),
         facts.load_in(named),
         sampling,
         said,
@@ -259,7 +258,7 @@ def _columns(
     axes = known.directions
     for index, axis in enumerate(axes, len(columns) - len(axes)):
         columns[index] = dataclasses.replace(columns[index], direction=axis)
-    for index, column in enumerate(columns if len(columns) > 1 else ()):
+    for index, column in enumerate(columns):
         if column.role in (SIGNAL, TIME) and column.unit is None:
             values = table.columns[:, index]
             if values[0] == np.floor(values[0]) and (np.diff(values) == 1.0).all():
@@ -302,7 +301,7 @@ def _read_times(
     samplings: dict[int, Sampling] = {}
     for index, column in enumerate(columns):
         timed, values = column.role == TIME, table.columns[:, index]
-        rises = len(columns) > 1 and column.role == SIGNAL and column.unit is None
+        rises = column.role == SIGNAL and column.unit is None
         if index in table.given or not (timed or rises):
             continue
         if timed:
@@ -441,19 +440,17 @@ def _unit_by_level(signals: Array, all_signals: Array) -> Finding[str]:
 def _speed(
     table: FileColumns, columns: Sequence[Column], named: Sequence[Named]
 ) -> Finding[float] | None:
-    for index, column in enumerate(columns):
-        speeds = table.columns[:, index]
+    for index in shafts.angle_columns(columns):
+        unit, words = columns[index].unit or "", f"the column “{columns[index].name}”"
+        speeds = shafts.measured_speeds(table.columns[:, index]) if unit in SPEEDS else np.zeros(0)
         speeds = speeds[np.isfinite(speeds)]
-        unit = column.unit or ""
-        if column.role != SPEED or unit not in SPEEDS or not speeds.size:
-            continue
-        mean, words = float(speeds.mean()), f"the column “{column.name}”"
-        least, most = float(speeds.min()), float(speeds.max())
-        if mean > 0.0 and least > -mean:  # a gyroscope swings about zero
+        mean = float(speeds.mean()) if speeds.size else 0.0
+        if mean > 0.0 and speeds.min() > -mean:  # a gyroscope swings about zero
             if not (steady := is_steady(speeds)):
-                words += f", which goes from {number(least, 4)} to {number(most, 4)}"
+                words += f", which goes from {number(speeds.min(), 4)} to {number(speeds.max(), 4)}"
             # a run-up or coast-down is followed, see `Recording.shaft_angle`
-            return Finding(mean * SPEEDS[unit], words, steady or least >= 0.0, file_unit=unit)
+            stated = steady or bool(speeds.min() >= 0.0)
+            return Finding(mean * SPEEDS[unit], words, stated, file_unit=unit)
     return facts.shaft_speed_in([*named, *_constants(table)], table.name)
 
 
@@ -462,19 +459,22 @@ def _speed_of_pulses(
     columns: Sequence[Column],
     rate: Finding[float] | None,
     sampling: Sampling | None,
+    a_turn: float | None,
 ) -> Finding[float] | None:
-    """A guess at the shaft speed from a tachometer's pulses, as if each were a turn."""
-    for index in angle_columns(columns):
+    """The shaft speed by a tachometer's pulses `a_turn`; a guess as if each were a turn."""
+    for index in shafts.angle_columns(columns):
         column = columns[index]
         if rate is None or column.unit in SPEEDS:
             continue
         first, last = (None, None) if sampling is None else (sampling.first, sampling.last)
-        begins = pulse_begins(table.columns[first:last, index])
-        if len(begins) < FEWEST_PULSES:
+        begins = shafts.pulse_begins(table.columns[first:last, index])
+        if len(begins) < shafts.FEWEST_PULSES:
             continue
         pulses = rate.value * (len(begins) - 1) / float(begins[-1] - begins[0])
-        words = f"{number(pulses, 4)} pulses a second in “{column.name}”, if one is a turn"
-        return Finding(pulses * SPEEDS["Hz"], words, False, False, file_unit="Hz")
+        words = f"{number(pulses, 4)} pulses a second in “{column.name}”, "
+        words += f"{number(a_turn)} a turn" if a_turn else "if one is a turn"
+        known, speed = bool(a_turn), pulses / (a_turn or 1.0) * SPEEDS["Hz"]
+        return Finding(speed, words, known, known, file_unit="Hz")
     return None
 
 

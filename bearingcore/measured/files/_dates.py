@@ -15,8 +15,8 @@ _DATE = re.compile(
     r"|(?P<one>\d\d?)(?P<between>[-./ ])(?P<two>\d\d?|[A-Za-z]{3,9})(?P=between)"
     r"(?P<last_year>(?:19|20)?\d\d)"
     r")(?:[-_. T,;\t]+(?P<hour>[012]?\d)[-_.:h ]?(?P<minute>[0-5]\d)"
-    r"(?:[-_.: ]?(?P<second>[0-5]\d))?(?:[.,]\d+)?"
-    r"(?:\s?(?P<half>[AaPp])[Mm])?(?!\d|[A-Za-z]{2}))?(?!\d)"
+    r"(?:[-_.: ]?(?P<second>[0-5]\d))?(?:[.,]\d+)?(?:\s?(?P<half>[AaPp])[Mm])?"
+    r"(?!\d|[A-Za-z]{2}|[-/]\d))?(?!\d)"
 )
 """A date with its time of day, if there is one: "12-Mar-24  09:14", "2004.02.12.10.32.39"."""
 
@@ -30,7 +30,8 @@ _MONTHS = {
 }
 
 _LABELLED = re.compile(
-    r"(?:^|[;|,\t])[\s\"]*([^\W\d][\w ./()-]{0,30}?)[\s\"]*[:=;,\t][\s\"]*([^;|\t\"]*[^;|\t\"\s,])"
+    r"(?:^|[;|,\t])[\s\"]*([^\W\d][\w ./()-]{0,30}?)[\s\"]*[:=;,\t][\s\",;]*"
+    r"([^;|\t\"]*[^;|\t\"\s,])"
 )
 _OTHER_DATE = re.compile(r"(?i)export|calib|kalib|print|creat|modif|report|\bend|stop|due|version")
 _MACHINES = {

@@ -97,7 +97,8 @@ _SEVERAL = re.compile(
     r"([^\W\d_][\w/^²]{0,9}(?![\w ]*[:=])|1/min)?"
 )
 _WITH_UNIT = re.compile(
-    rf"([^\W\d]\D{{0,40}}?)?\s*({_NUMBER})\s*([^\W\d_][\w/]{{0,9}}|1/min)?\W*", re.IGNORECASE
+    rf"([^\W\d]\D{{0,40}}?)?\s*(?<![^\W_])({_NUMBER})\s*([^\W\d_][\w/]{{0,9}}|1/min)?\W*",
+    re.IGNORECASE,
 )
 _OF_A_RATE = re.compile(r"k?hz|[km]?s(?:a|amples)?/s(?:ec)?|k?sps|rpm|1/min", re.IGNORECASE)
 """A number with a unit, with no mark before it or no name; the units of a rate or a speed."""
@@ -111,7 +112,8 @@ _RATES = {
 _INTERVALS = {
     "dt", "deltat", "deltax", "sampleinterval", "samplinginterval", "timestep", "sampleperiod",
     "samplingperiod", "timeincrement", "abtastintervall", "ts", "wfincrement", "xincrement",
-    "increment", "xincr", "sampleintervall", "samplespacing", "abscissainc", "horizontalinterval",
+    "increment", "xincr", "xaxisdelta", "interval", "intervall", "sampleintervall",
+    "samplespacing", "abscissainc", "horizontalinterval",
     "tinterval", "δt", "timeresolution", "sampletime", "samplestep", "xstep", "deltatime",
 }  # fmt: skip
 _FREQUENCIES = {
@@ -120,7 +122,7 @@ _FREQUENCIES = {
 }  # fmt: skip
 _SPEEDS = {
     "speed", "shaftspeed", "rotationspeed", "rotationalspeed", "rotatingspeed", "runningspeed",
-    "motorspeed", "drehzahl",
+    "motorspeed", "drehzahl", "shaft", "rotor", "welle",
 }  # fmt: skip
 BEARING_FREQUENCIES = ("bpfo", "bpfi", "ftf", "bsf")
 """Outer and inner race, cage, and one turn of a ball."""
@@ -150,7 +152,7 @@ def _read_below(names: str, values: str) -> Iterator[Named]:
     above, below = ([c.strip(' "') for c in re.split(r"[\t;,]", line)] for line in (names, values))
     for name, text in zip(above, below, strict=False) if min(len(above), len(below)) > 1 else ():
         value = _number(text) if re.fullmatch(_NUMBER, text) else None
-        if value is not None and _rate_key(name) in _RATES | _INTERVALS:
+        if value is not None and _rate_key(name) in _FACTS:
             yield Named(name, value, unit_in(name))
 
 
@@ -183,6 +185,12 @@ def _read_unmarked(line: str) -> Iterator[tuple[str, str, str | None]]:
             yield match[1], match[2], match[3]
 
 
+def named_at(scalars: Mapping[str, float], texts: Mapping[str, str]) -> list[Named]:
+    """Single numbers with their units, in their names or in words that are kept beside them."""
+    beside = {name: texts.get(f"{name.removesuffix('.value')}.unit", "") for name in scalars}
+    return [Named(n, value, unit_in(n) or unit_named(beside[n])) for n, value in scalars.items()]
+
+
 def names_a_fact(line: str) -> bool:
     """Return True if a line says a rate, a speed or a load."""
     keys = {_rate_key(item.name) for item in named_in([line])}
@@ -203,15 +211,16 @@ def _number(text: str) -> float | None:
 
 def _key(name: str) -> str:
     """The last part of a name, letters and digits only: "bearing.sr" and "Sample rate" as keys."""
-    bare = re.sub(r"[\[(].*?[\])]", "", name).rstrip(" _").rsplit(".", 1)[-1]
+    bare = re.sub(r"[\[(].*?[\])]|\.value$", "", name).rstrip(" _").rsplit(".", 1)[-1]
     return re.sub(r"[\W_]+", "", re.sub(r"_\d{1,2}$", "", bare)).lower()  # "Unit_1" of a channel
 
 
 def _rate_key(name: str) -> str:
     """The key of a rate without its unit ("fs_hz") and its owner ("NI_CM_Dt")."""
     key = re.sub(r"(?<=\w\w)(in)?[km]?hz$", "", _key(name))
-    bare = _OWNERS.sub("", key)
-    return bare if bare in _RATES | _INTERVALS else key
+    words = name.replace("_", " ").split()
+    bare = (_OWNERS.sub("", key), _key(words[-1]) if words else "")
+    return next((part for part in bare if part in _RATES | _INTERVALS), key)
 
 
 _OWNERS = re.compile(
@@ -268,7 +277,17 @@ def _likely_rate(named: Sequence[Named], file_name: str) -> Finding[float] | Non
     return None
 
 
-_OTHER_SPEED = re.compile(r"(?i)max|min|limit|rated|nominal|nenn|range|critical|full")
+SLOWEST_RPM = 10.0
+"""Below it a point before three digits of a speed may well stand between thousands."""
+
+_OTHER_SPEED = re.compile(
+    r"max|(?<![\dur])min|limit|rated|nominal|nenn|range|critical|full|set|soll|ref|target|command|cmd"
+)
+
+
+def names_a_limit(name: str) -> bool:
+    """Return True if a speed with this name is one that is set or allowed, not measured."""
+    return _OTHER_SPEED.search(_key(name)) is not None
 
 
 def shaft_speed_in(named: Sequence[Named], file_name: str) -> Finding[float] | None:
@@ -296,13 +315,17 @@ def _speed_of(named: Named, rated: bool) -> Finding[float] | None:
     words = f"“{named.name}” in the file"
     if not (math.isfinite(value) and value > 0.0):
         return None
-    if "rpm" in key or (unit == "rpm" and not _OTHER_SPEED.search(named.name)):
-        return Finding(value * SPEEDS["rpm"], words, strong=True, file_unit="rpm")
+    if ("rpm" in key or unit == "rpm") and names_a_limit(named.name):
+        return None
+    if "rpm" in key or unit == "rpm":
+        grouped = named.thousands and value < SLOWEST_RPM  # 1.480
+        turning = value * SPEEDS["rpm"] * (1e3 if grouped else 1.0)
+        return Finding(turning, words, not grouped, strong=not grouped, file_unit="rpm")
     if key in _FREQUENCIES | _SPEEDS and unit is not None and unit in SPEEDS:
         return Finding(value * SPEEDS[unit], words, file_unit=unit)
     if key in _FREQUENCIES:
         return Finding(value * SPEEDS["Hz"], words, file_unit="Hz")
-    if key in _SPEEDS:
+    if key in _SPEEDS and unit is None:
         unit = "Hz" if value <= FASTEST_IN_HZ else "rpm"
         taken = f"{words}, taken as {unit}"
         return Finding(value * SPEEDS[unit], taken, stated=False, file_unit=unit)
@@ -314,7 +337,15 @@ def _speed_of(named: Named, rated: bool) -> Finding[float] | None:
 
 def _doubted(first: Finding[float]) -> Finding[float]:
     reason = f"{first.reason}, which names another one too"
-    return dataclasses.replace(first, reason=reason, stated=False)
+    return dataclasses.replace(first, reason=reason, stated=False, strong=False)
+
+
+def pulses_a_turn_in(named: Sequence[Named]) -> float | None:
+    """Pulses of a tachometer in a turn, where the file says them."""
+    return next((item.value for item in named if _PULSES.search(_key(item.name))), None)
+
+
+_PULSES = re.compile(r"^ppr$|(puls\w*|teeth|marks|impulse)(per|pro|a)(rev|turn|umdrehung|u$)")
 
 
 def load_in(named: Sequence[Named]) -> Finding[float] | None:
@@ -397,5 +428,5 @@ def units_said(lines: Iterable[str], texts: Mapping[str, str]) -> list[str | Non
         units = [unit for cell, unit in said if unit or not re.search(r"\w", cell)]
         if any(units):
             return units if len(set(units)) > 1 else units[:1]
-    of_all = {unit_of(name, text) for name, text in texts.items()} - {None}
+    of_all = {unit_of(name, text) for name, text in texts.items()} - {None, *TIMES, *SPEEDS}
     return list(of_all) if len(of_all) == 1 else []

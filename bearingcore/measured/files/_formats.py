@@ -146,6 +146,9 @@ def _walk_json(value: Any, path: str, variables: Variables, depth: int) -> None:
         value = list(value.values())  # rows by their numbers, as pandas writes them
     if isinstance(value, list) and value and isinstance(value[0], dict):
         records = [item for item in value if isinstance(item, dict)]
+        if any(isinstance(item, list) for item in records[0].values()):  # of a channel each
+            named = {str(item.get("name", i + 1)): item for i, item in enumerate(records)}
+            return _walk_json(named if records[1:] else records[0], path, variables, depth)
         value = {name: [record.get(name) for record in records] for name in records[0]}
         columns = [np.array(c) for c in value.values() if not isinstance(c[0], list | dict)]
         numbers = [column for column in columns if column.dtype.kind in "if"]
@@ -156,7 +159,8 @@ def _walk_json(value: Any, path: str, variables: Variables, depth: int) -> None:
             _walk_json(inside, f"{path}.{name}" if path else str(name), variables, depth + 1)
         return
     try:
-        variables.add(path or "array", np.array(value, dtype=float))
+        kind = None if isinstance(value, str) else float
+        variables.add(path or "array", np.array(value, dtype=kind))
     except (TypeError, ValueError):
         variables.add(path or "array", np.asarray(value, dtype=object))
 

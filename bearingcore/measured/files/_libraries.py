@@ -19,6 +19,7 @@ import numpy as np
 from bearingcore.common import _checks as checks
 from bearingcore.errors import FieldError
 from bearingcore.measured.files._other_kinds import BRING
+from bearingcore.measured.files._text import refuse_mixed_rows
 from bearingcore.measured.files._variables import Variables
 
 MOST_UNPACKED = 2**28
@@ -173,6 +174,9 @@ def data_frame(content: bytes, variables: Variables) -> None:
                 variables.add(of, np.asarray(cell, dtype=float))
         elif isinstance(first, str) and len(values) <= MOST_FACTS:
             variables.add(str(name), np.unique(values.to_numpy(dtype=str)))
+        elif isinstance(first, str):
+            numbers = frame.select_dtypes("number").to_numpy(dtype=float)
+            refuse_mixed_rows(str(name), values.to_numpy(dtype=str), numbers.T)
         dated = values.dtype.kind in "Mm"
         if dated or values.dtype.kind in "iuf":
             column = values.to_numpy().astype(

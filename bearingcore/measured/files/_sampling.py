@@ -74,6 +74,9 @@ class Sampling:
     parts: tuple[tuple[int, int], ...] = ()
 
 
+SLOWEST = 2.0
+"""[Hz] below which rows are those of a trend."""
+
 _SINCE_1970 = 1e9, 2.6e9
 """Seconds as computers count them, from 2001 to 2052."""
 
@@ -98,15 +101,15 @@ def times_of(time: Array, unit: str | None = None, *, sure: bool = False) -> Sam
     rate = sampling.sample_rate
     if rate is None or LEAST_STATED <= rate <= GREATEST_STATED:
         return sampling
-    if sure:
-        trouble = (
-            f"A row each {with_prefix(1.0 / rate, 's', 2)} is no signal of vibration: a trend?"
-        )
-        return dataclasses.replace(sampling, sample_rate=None, stated=False, trouble=trouble)
     per_second = rate * TIMES[in_unit]
     parts = () if unit or dated else _PARTS if first > _SINCE_1900 else _PARTS[:-1]
     rates = {name: per_second / TIMES[name] for name in parts}
     likely = next((n for n, r in rates.items() if LEAST_STATED <= r <= GREATEST_STATED), None)
+    if sure or (likely is None and rate < SLOWEST):
+        trouble = (
+            f"A row each {with_prefix(1.0 / rate, 's', 2)} is no signal of vibration: a trend?"
+        )
+        return dataclasses.replace(sampling, sample_rate=None, stated=False, trouble=trouble)
     said = f"{in_unit} it would be {number(rate, 6)} Hz"
     if likely is None:
         reason = f"{sampling.reason}; no recording of vibration is so: in {said}"

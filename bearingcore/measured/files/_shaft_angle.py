@@ -9,6 +9,7 @@ import numpy as np
 
 from bearingcore.common import Array
 from bearingcore.measured.files._channels import OTHER, PULSES, SPEED, Column, words_of
+from bearingcore.measured.files._facts import names_a_limit
 from bearingcore.measured.files._units import SPEEDS
 
 FEWEST_PULSES = 8
@@ -21,6 +22,9 @@ STEP = 0.2
 """Share of its length by which a turn may differ from the one before; a missed pulse doubles it.
 Noise on a tachometer's signal breaks it too."""
 
+MOST_MEDIANS = 8.0
+"""Medians from which on a speed is a counter that overflowed, or a mark for what is missing."""
+
 LOW, HIGH = 0.35, 0.65
 """Shares of its range that a tachometer's signal passes from pulse to pulse."""
 
@@ -29,6 +33,7 @@ def angle_columns(columns: Sequence[Column]) -> list[int]:
     """Columns that may hold the shaft's angle: those of speeds, then those of a tachometer."""
     numbered = list(enumerate(columns))
     speeds = [i for i, column in numbered if column.role == SPEED and column.unit is not None]
+    speeds.sort(key=lambda i: names_a_limit(columns[i].name))  # what is set comes last
     others = [i for i, column in numbered if column.role == OTHER]
     return speeds + [i for i in others if words_of(columns[i].name) & PULSES]
 
@@ -52,6 +57,7 @@ def shaft_angle(values: Array, unit: str | None, sample_rate: float) -> Array | 
         turns += np.minimum(rows - begins[0], 0.0) / (begins[1] - begins[0])
         turns += np.maximum(rows - begins[-1], 0.0) / (begins[-1] - begins[-2])
         return np.asarray(2.0 * math.pi * (turns - turns[0]))
+    values = measured_speeds(values)
     known = np.flatnonzero(np.isfinite(values))
     if not known.size or known[-1] - known[0] < LEAST_SHARE * len(values):
         return None
@@ -59,6 +65,22 @@ def shaft_angle(values: Array, unit: str | None, sample_rate: float) -> Array | 
     if speeds.min() < 0.0 or speeds.max() <= 0.0:  # a gyroscope swings about zero
         return None
     return np.concatenate(([0.0], np.cumsum(0.5 * (speeds[1:] + speeds[:-1])))) / sample_rate
+
+
+def measured_speeds(values: Array) -> Array:
+    """Speeds (n,) of a shaft, positive in the way that it turns; NaN where they were not measured.
+
+    A sensor that loses its mark gives zeros. A shaft that stops passes all speeds on its way.
+    """
+    finite = values[np.isfinite(values)]
+    if finite.size and finite.max() <= 0.0:
+        values, finite = -values, -finite
+    turning = finite[finite > 0.0]
+    if not turning.size:
+        return values
+    values = np.where(values > MOST_MEDIANS * np.median(turning), np.nan, values)
+    lost = finite.min() == 0.0 and turning.min() > 0.5 * np.nanmax(values)
+    return np.where(values == 0.0, np.nan, values) if lost else values
 
 
 def pulse_begins(values: Array) -> Array:

@@ -23,8 +23,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import Array, _checks as checks, thousands
+from bearingcore.measured.files import _facts as facts
 from bearingcore.measured.files._channels import TIME, column_of
-from bearingcore.measured.files._facts import MOST_REMARKS, named_in, names_a_fact, units_said
 from bearingcore.measured.files._units import UNITS, unit_in, unit_named
 from bearingcore.recordings import FEWEST_SAMPLES
 
@@ -94,10 +94,12 @@ def read_text(
             )
     read, said, notes = _read_numbers(name, content, begin, style, remarks, most_numbers)
     headings = _headings(remarks, style, read)  # of the remarks above, the line that names columns
-    if headings and any(column_of(name).role == TIME for name in headings):
+    if not headings:
+        read = _one_after_another(read, remarks)
+    elif any(column_of(name).role == TIME for name in headings):
         read = read[~np.isnan(read).all(axis=1)]  # what is missing there shows in the times
     # columns of words were read as gaps; a date is one that the style knows, and stays
-    kept = [i for i in range(style.width) if i in style.stamps or not np.isnan(read[:, i]).all()]
+    kept = [i for i in range(read.shape[1]) if i in style.stamps or not np.isnan(read[:, i]).all()]
     if kept:
         read, headings = read[:, kept], headings and [headings[i] for i in kept]
     stamps = [kept.index(i) for i in style.stamps]
@@ -105,6 +107,18 @@ def read_text(
         if _SENSOR.fullmatch(heading.strip()):
             refuse_mixed_rows(name, read[:, index])
     return _text_fields(read, headings, remarks + said, stamps=stamps, notes=notes)
+
+
+_COUNT = re.compile(r"(?i)\W*(number|no|nr|n|count|anzahl)?\W*(of|der)?\W*(points|samples)\b")
+
+
+def _one_after_another(columns: Array, remarks: Sequence[str]) -> Array:
+    """The samples of a signal in several columns, row by row, if their number says that it is."""
+    width, samples = columns.shape[1], columns.ravel()
+    counts = [item.value for item in facts.named_in(remarks) if _COUNT.match(item.name)]
+    written = int(np.isfinite(samples).sum())
+    said = any(written <= count < written + width for count in counts)  # a short row may be lost
+    return samples[:written, None] if width > 1 and said else columns
 
 
 def _read_numbers(
@@ -154,6 +168,30 @@ def refuse_mixed_rows(name: str, labels: NDArray[Any], columns: Iterable[Array] 
         )
 
 
+_IN_A_CELL = re.compile(r"(?<![\w.^])[-+]?\d*[.,]?\d+(?:[eE][-+]?\d+)?")
+_LABEL, _UNIT = re.compile(r"([^\W\d]\w*)\s*[:=]\s*$"), re.compile(r"\s*([^\W\d_][^\s,;|]*)")
+
+
+def _bare_cells(content: bytes) -> bytes:
+    """A content of lines such as "x: 1.5 g" with numbers alone, under their labels and units."""
+    tail = {tuple(_IN_A_CELL.split(_decoded(line))) for line in content[-8192:].splitlines()[1:-1]}
+    words = tail.pop() if len(tail) == 1 else ()
+    words = () if ":" in words else words  # of a time of day
+    labels = [match[1] if (match := _LABEL.search(before)) else "" for before in words[:-1]]
+    units = [match[1] if (match := _UNIT.match(after)) else "" for after in words[1:]]
+    if not any(labels) and not (any(units) and all(map(unit_named, filter(None, units)))):
+        return content
+    lines = _decoded(content).splitlines()
+    first = next(i for i, line in enumerate(lines) if tuple(_IN_A_CELL.split(line)) == words)
+    above = [";".join(names) for names in (labels, units) if any(names)]
+    bare = [";".join(_IN_A_CELL.findall(line)) for line in lines[first:]]
+    return "\n".join([*lines[:first], *above, *bare]).encode()
+
+
+_BASIC_DATE = re.compile(rb"\b(\d{4})([01]\d)([0-3]\d)[T_]([0-2]\d)([0-5]\d)([0-5]\d)(?!\d)")
+"""A date and time without marks between their parts: 20250102T030405.6Z."""
+
+
 def _decode_to_utf8(name: str, content: bytes) -> bytes:
     """A text without marks and with ends of lines, in UTF-8 if it had two bytes a character."""
     if content[:2] in (b"\xff\xfe", b"\xfe\xff"):
@@ -161,6 +199,9 @@ def _decode_to_utf8(name: str, content: bytes) -> bytes:
     if b"\x00" in content[:4096]:
         raise checks.refuse("file", name, READABLE)
     content = content.removeprefix(b"\xef\xbb\xbf").rstrip(b"\x00")
+    content = _bare_cells(content)
+    if _BASIC_DATE.search(content[:4096]):
+        content = _BASIC_DATE.sub(rb"\1-\2-\3T\4:\5:\6", content)
     if re.match(rb"\s*\[", content) and b"\n" not in content.strip():
         content = content.translate(None, b"[]")  # one array as NumPy and MATLAB show it
     return content if b"\n" in content else content.replace(b"\r", b"\n")
@@ -312,8 +353,11 @@ def _row(line: str, delimiter: str | None, words: Sequence[int] = ()) -> list[fl
 
     Cells of columns of `words` are NaN.
     """
-    cells = _cells(line, delimiter)
-    numbers = [math.nan if i in words else _number(cell) for i, cell in enumerate(cells)]
+    of_words = set(words)
+    numbers = [
+        math.nan if i in of_words else _number(cell)
+        for i, cell in enumerate(_cells(line, delimiter))
+    ]
     present = [number for number in numbers if number is not None]
     if len(present) < len(numbers) or all(math.isnan(number) for number in present):
         return None
@@ -425,7 +469,7 @@ def _beginning(name: str, content: bytes) -> tuple[_Style, int, list[str]]:
     for line in io.BytesIO(content):
         bare = _decoded(line).strip()
         if bare[:1] in ("#", "%"):
-            if len(remarks) < MOST_REMARKS:
+            if len(remarks) < facts.MOST_REMARKS:
                 remarks.append(bare.lstrip("#% ")[:LONGEST_LINE])
         elif bare:
             begin = begin or bare
@@ -441,7 +485,7 @@ def _beginning(name: str, content: bytes) -> tuple[_Style, int, list[str]]:
                 return style, place, remarks
             words += 1
             remarks.append(_decoded(line) if numbered else bare[:LONGEST_LINE])
-            if words > MOST_REMARKS:
+            if words > facts.MOST_REMARKS:
                 break
         place += len(line)
     if not begin:
@@ -483,8 +527,8 @@ def _headings(remarks: Sequence[str], style: _Style, columns: Array) -> list[str
     names = _names(lines[-1], style, columns) if lines else None
     if names is None:
         return None
-    above = _names(lines[-2], style, columns) if len(lines) > 1 else None
-    names = _join_units(names, above)
+    for line in lines[-2::-1] or [""]:
+        names = _join_units(names, _names(line, style, columns))
     headings = [name for name in names if name]
     if any(re.fullmatch(r"-?\d*[.,]\d+", name) for name in headings):
         return None  # numbers beside the settings of an instrument
@@ -514,7 +558,7 @@ def _join_units(names: list[str], above: list[str] | None) -> list[str]:
 
 def _is_remark(line: str, style: _Style, width: int) -> bool:
     """Return True if a line says something else than the names of columns."""
-    said, unit_said = ":" in line or "=" in line, bool(units_said([line], {}))
+    said, unit_said = ":" in line or "=" in line, bool(facts.units_said([line], {}))
     if width == 1:
         return not (unit_in(line) in UNITS and re.search(r"[\[(]", line)) and (
             unit_said
@@ -522,14 +566,14 @@ def _is_remark(line: str, style: _Style, width: int) -> bool:
             # a name and what it is
             or re.search(r"[;\t]\s*[^;\t\s]|(^|\s)-?\d[\d.,]*\d", line) is not None
             or len(line.split()) > LONGEST_HEADING
-            or bool(named_in([line]))
+            or bool(facts.named_in([line]))
         )
     cells = [cell for cell in _cells(line, style.delimiter) if cell]
     if said and len(cells) == width and all(re.search(r"[:=]", cell) for cell in cells):
         return False  # "Ch 1: acc [g], Ch 2: acc [g]"
     if unit_said or (len(cells) > 1 and _is_a_value(cells)):
         return True
-    return (said or any(re.match(_VALUE, cell) for cell in cells)) and names_a_fact(line)
+    return (said or any(re.match(_VALUE, cell) for cell in cells)) and facts.names_a_fact(line)
 
 
 _VALUE = r"[-+]?\d[\d.,]*([eE][-+]?\d+)?(\s*[^\W\d]\S{0,9})?$"

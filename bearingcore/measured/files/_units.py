@@ -91,7 +91,7 @@ _WRITTEN = {
     "lb": "lbs lbf",
     "kg": "kgf",
     "rpm": "1/min u/min r/min tr/min rev/min min-1 min^-1 cpm",
-    "Hz": "1/s hertz sps s/s sa/s samples/s",
+    "Hz": "1/s rev/s rps hertz sps s/s sa/s samples/s",
     "kHz": "ksps ks/s ksa/s",
     "rad/s": "rad_per_s",
     "µm": "um micron microns",
@@ -113,7 +113,7 @@ _LOOSE = {
 }  # fmt: skip
 """Short words that are units at the end of a name, as in "sensor_g"."""
 
-_DETECTOR = re.compile(r"[-_(]*(?:pk-?pk|p-p|0-?pk?|rms|peak|pk|eff)\)?$")
+_DETECTOR = re.compile(r"[-_(]*(?:pk-?pk|p-?p|0-?pk?|rms|peak|pk|eff)\)?$")
 """A way to take the size of a signal, at the end of its unit: "g-pk", "mm/s RMS"."""
 
 LEAST_LEVEL, GREATEST_LEVEL = 3e-3, 2e3

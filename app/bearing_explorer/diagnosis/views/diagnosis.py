@@ -13,11 +13,11 @@ import panel as pn
 from bearing_explorer.diagnosis.diagnoses import BUSY, Question, answered
 from bearing_explorer.diagnosis.measurement_state import AboutMeasurement, MeasurementState
 from bearing_explorer.diagnosis.model import Model
-from bearing_explorer.diagnosis.next_steps import work_order
 from bearing_explorer.diagnosis.session import Measurement
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.views import part_words
 from bearing_explorer.diagnosis.views.measured_view import MeasuredView
+from bearing_explorer.diagnosis.views.next_steps import work_order
 from bearing_explorer.diagnosis.views.part_lines import COLORS, PartLines
 from bearing_explorer.diagnosis.widgets.machine_form import MachineForm
 from bearing_explorer.diagnosis.widgets.part_panel import PartPanel

@@ -78,6 +78,8 @@ def resample_to_steady_speed(
     turns = recording.shaft_angle / (2.0 * math.pi)
     mean = _mean_speed(turns, rate)
     turns /= 1.0 if looked_for else max(1.0, round(mean / math.sqrt(low * high)))
+    if looked_for and USUAL[0] <= mean <= USUAL[1]:
+        low, high, source, looked_for = mean, mean, "assumed: a pulse is a turn", False
     speed = _smooth_speed(turns, rate)
     begins, ends = runs(speed >= SLOWEST * speed.max())
     longest = int((ends - begins).argmax())
@@ -98,8 +100,6 @@ def resample_to_steady_speed(
         sample_rate=per_turn * mean * kept / KEPT_OF,
         shaft_angle=None,
     )
-    if looked_for and USUAL[0] <= mean <= USUAL[1]:
-        low, high, source = mean, mean, "assumed: a pulse is a turn"
     near = low <= (1.0 + BESIDE) * speed.max() and high >= (1.0 - BESIDE) * speed.min()
     if near and not looked_for:
         low = high = mean

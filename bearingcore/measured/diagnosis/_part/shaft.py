@@ -183,8 +183,9 @@ def _fine(
     for k in order[hidden == 0.0].tolist():
         reach = max(1, round(resolution / levels.step))
         middle = round(k * frequency / levels.step)
-        near = levels.level[middle - reach : middle + reach + 1]
-        if middle + reach + 2 > len(levels.level) or near.max() < noise + CLEAR:
+        near = levels.level[max(middle - reach, 0) : middle + reach + 1]
+        inside = reach < middle < len(levels.level) - reach - 1
+        if not inside or near.max() < noise + CLEAR:
             continue
         peak = middle - reach + int(near.argmax())
         below, at, above = levels.level[peak - 1 : peak + 2].tolist()

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 from bearing_explorer.diagnosis.diagnoses import Question, answered
 from bearing_explorer.diagnosis.model import Model
-from bearing_explorer.diagnosis.next_steps import work_order
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.simulated import simulated
 from bearing_explorer.diagnosis.views import part_words
 from bearing_explorer.diagnosis.views.diagnosis import PartDiagnosis, panel_state
+from bearing_explorer.diagnosis.views.next_steps import work_order
 from bearing_explorer.diagnosis.views.part_lines import FAINT, STRONG
 from bearing_explorer.kit.serve.packed_source import PackedSource
 

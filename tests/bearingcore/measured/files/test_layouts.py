@@ -719,7 +719,7 @@ BESIDE = ["Sample Interval,1.25e-04,", "Source,CH1,", "Vertical Units,V,", *[",,
 DAYS = [f"{45292 + t / 86_400:.12f},{a}" for t, a in zip(TIME, SIGNAL[:, 0], strict=True)]
 QUARTERS = [f"{d:%Y-%m-%d %H:%M:%S},{a}" for d, a in zip(
     pd.date_range("2024-01-01", periods=N, freq="6h"), SIGNAL[:, 0], strict=True)]  # fmt: skip
-LINES, FIFTY = np.arange(N) * 4.0, np.full(N, 50.0)
+LINES, FIFTY, SPEED = np.arange(N) * 4.0, np.full(N, 50.0), np.full(N, 1480.0)
 STEP = {"wf_increment": 1.0 / RATE}
 ENVELOPE = np.abs(SIGNAL[:, 1]) + 0.01
 SPECTRUM = ["" if i > 800 else f"{i},{v:.4f}" for i, v in enumerate(ENVELOPE)]
@@ -849,6 +849,31 @@ FILES: list[tuple[bytes | str, dict[str, Any]]] = [
     *((note(f"{words}\nQuantity: Acceleration, g"), {"rate": RATE, "unit": "g"})
       for words in ("SampleTime[ms];0.125", "NI_CM_Dt,1.25e-4", "accel_odr_hz: 8000")),
     (rows(TIME, SIGNAL[:, 0], heading="t [s],Accel (G-s)"), {"unit": "g"}),
+    *((note(line), {"rate": RATE, "columns": {"y": 0}}) for line in (
+        "LIS2DH12 ODR=8000Hz FS=±4g", "Interval: 125 us", "X-axis delta:\t1.25E-4")),
+    # cells with labels or units, dates in one piece, rows that go on, three lines of headings
+    (written(lambda t, a: f"t: {t:.6f} a: {a}", ""), {"names": ("t", "a"), "rate": RATE}),
+    (written(lambda t, a: f"{t:.6f} s,{a} g,1480 rpm", "time,acc,speed"),
+     {"rate": RATE, "unit": "g", "rpm": 1480.0}),
+    (f"Number of points: {N}\nfs = 8000\n" + "\n".join(
+        " ".join(map(str, row)) for row in SIGNAL[:, 0].reshape(-1, 5)),
+     {"names": ("column 1",), "rate": RATE}),
+    ("date,a\n" + "\n".join(
+        f"{d:%Y%m%dT%H%M%S.%f}Z,{a}" for d, a in zip(DATES, SIGNAL[:, 0], strict=True)),
+     {"rate": RATE}),
+    (two("place,DE,NDE\nsensor,acc,acc\ntime,,"), {"question": "(drive end, non-drive end)"}),
+    # speeds as they are measured: backwards, with lost marks, overflown, beside the set ones
+    *((rows(TIME, SIGNAL[:, 0], speed, heading=f"time,acc_ms2,{name}"), {"rpm": 1480.0})
+      for name, speed in (
+          ("rpm", -SPEED), ("v [rev/s]", SPEED / 60.0), ("Frequency (rpm)", SPEED),
+          *(("rpm", np.where(np.arange(N) % 9, SPEED, lost)) for lost in (0.0, 65_535.0)))),
+    (rows(TIME, SIGNAL[:, 0], SPEED + 20.0, SPEED, heading="t,a,n_set [rpm],n_act [rpm]"),
+     {"rpm": 1480.0}),
+    *((note(line), {"rpm": 1470.0}) for line in ("shaft: 24.5 Hz", "Unit,RPM\ng,1470")),
+    (note("Drehzahl: 1.480 1/min"), {"rpm": None, "guessed": 1480.0}),
+    (two("time,Tacho1,acc"), {"columns": {"y": 2}}),
+    (rows(TIME, SIGNAL[:, 0], heading="t,strain [µm/m]"), {"question": "is a force or a strain"}),
+    (timed("Units,mil pp").replace(b"a [g]", b"value"), {"question": "is a displacement"}),
     # a displacement or a temperature is no signal
     (rows(TIME, TIME, SIGNAL[:, 0], heading="gap [µm],temp [°C],acc [g]"),
      {"roles": ["other", "other", "signal"], "columns": {"y": 2}}),
@@ -862,6 +887,11 @@ FILES: list[tuple[bytes | str, dict[str, Any]]] = [
     *((rows(*[SIGNAL] * (count // 2), *[SIGNAL[:, 0]] * (count % 2)),
        {"columns": {}, "options": tuple(range(count)), "question": f"holds {count} signals"})
       for count in (2, 3)),
+    (json.dumps({"a": [{"name": n, "unit": "g", "data": v.tolist()}
+                       for n, v in zip(("DE", "NDE"), SIGNAL.T, strict=True)],
+                 "speed": {"value": 1480, "unit": "rpm"}, "bearing": "6205"}),
+     {"file": "a.json", "units": ["g", "g"], "rpm": 1480.0, "bearing": "6205",
+      "question": "several places"}),
     # HDF5, beside each data set
     (hdf5(rig__DE=(SIGNAL[:, 0], STEP | {"unit_string": "g"}),
           rig__NDE=(SIGNAL[:, 1], STEP | {"unit_string": "V"})),

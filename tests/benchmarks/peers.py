@@ -4,7 +4,7 @@
 
 FOLDER is a checkout of github.com/minzhun/ISO16281. ROSS (`ross-rotordynamics`) and EXUDYN
 (`exudyn`) come from PyPI, best into an environment of their own; none of them is needed by anything
-else. EXUDYN and SciPy integrate the motion with the compiled equations of `tests/outside/march.py`;
+else. EXUDYN integrates the motion with the compiled equations of `tests/outside/march.py`;
 the truth is DOP853 at 1e-12 on these. Times are those of the processor, as others may use it too.
 """
 
@@ -23,8 +23,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.integrate import solve_ivp
-from scipy.optimize import root
 
 from bearingcore import Load, Scene, equilibrium, life, presets, simulate, warm
 from bearingcore.common import number, scientific, with_prefix
@@ -146,7 +144,7 @@ def swings(housing: NDArray[np.float64], true: NDArray[np.float64]) -> float:
     return math.sqrt(np.sum((housing - true) ** 2) / np.sum(swing**2))
 
 
-def compare_integrators() -> Iterator[Row]:
+def compare_multibody() -> Iterator[Row]:
     """0.1 s of the fan rig from rest."""
     import exudyn
     from exudyn.itemInterface import NodeGenericODE2, ObjectGenericODE2, SensorNode
@@ -155,21 +153,9 @@ def compare_integrators() -> Iterator[Row]:
     motion, own_seconds = processor_time(lambda: simulate(rig, DURATION, RATE).outer_displacement)
     start, packed = one.start(), one.packed()
     true = one.solved(start, INSTANTS, 1e-12)[:, 2:4]
-
-    def solved(method: str) -> NDArray[np.float64]:
-        made = solve_ivp(
-            rates, (0.0, INSTANTS[-1]), start, method, INSTANTS, args=packed,
-            rtol=1e-9, atol=1e-9, max_step=1e-4,
-        )  # fmt: skip
-        return made.y[2:4].T
-
     own = swings(1e6 * motion, true)
     work = "0.1 s of the fan rig's motion"
     yield Row(work, "here", own_seconds, own_seconds, own, "housing's displacement")
-    for method in ("DOP853", "LSODA"):
-        trace, seconds = processor_time(lambda method=method: solved(method))
-        program = f"SciPy {version('scipy')}, {method} to 1e-9"
-        yield Row("", program, seconds, own_seconds, swings(trace, true), "the same")
 
     def push(
         mbs: Any, t: float, item: int, q: NDArray[np.float64], v: NDArray[np.float64]
@@ -215,41 +201,6 @@ def compare_integrators() -> Iterator[Row]:
         yield Row("", f"{program}, {name}", seconds, own_seconds, difference, "the same")
 
 
-def compare_root_finder() -> Iterator[Row]:
-    """31 cage angles of the fan rig with its defect, forces of numpy, each from the last."""
-    cage = np.linspace(0.0, 2.0 * math.pi / 14, 31)
-    hurt, spacing = math.radians(12.9), 2.0 * math.pi / 14 * np.arange(14)
-
-    def gaps(turned: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        phi = turned + spacing
-        away = (phi - 1.5 * math.pi + math.pi) % (2.0 * math.pi) - math.pi
-        inside = np.maximum(0.5 * hurt - np.abs(away), 0.0)
-        half = np.minimum(0.5 * 26.5e-3 * inside, 4e-3)
-        drop = np.minimum(4e-3 - np.sqrt(16e-6 - half**2), 50e-6)
-        return np.stack([np.cos(phi), np.sin(phi)]), 3e-6 + drop
-
-    def missing(
-        q: NDArray[np.float64], e: NDArray[np.float64], gap: NDArray[np.float64]
-    ) -> NDArray[np.float64]:
-        pressed = np.maximum(1e-6 * (q @ e) - gap, 0.0)
-        return e @ (5453e6 * pressed**1.5) + [0.0, 100.0]
-
-    def solved() -> NDArray[np.float64]:
-        q, states = np.array([0.0, -10.0]), []
-        for turned in cage:
-            q = root(missing, q, gaps(turned), "hybr", tol=1e-10).x
-            states.append(1e-6 * q)
-        return np.array(states)
-
-    theirs, seconds = processor_time(solved)
-    scene = presets["fan-rig"]
-    rest, own_seconds = processor_time(lambda: equilibrium(scene, cage))
-    difference = np.abs(theirs - rest.displacement[:, :2]).max() / np.abs(theirs).max()
-    work = "31 cage angles of the fan rig with its defect: equilibrium"
-    program = f"SciPy {version('scipy')}, hybr"
-    yield Row(work, program, seconds, own_seconds, difference, "displacement")
-
-
 def table(rows: list[Row]) -> str:
     """Rows as Markdown."""
     head = ["work", "program", "its processor time", "here", "times ours", "difference"]
@@ -269,7 +220,7 @@ def main() -> None:
     folder = asked.parse_args().iso16281
     warm()  # compiling is no part of the work
     rows = [*compare_iso_16281(folder), *compare_ross()]
-    rows += [*compare_root_finder(), *compare_integrators()]
+    rows += compare_multibody()
     made = table(rows)
     print(made)
     DOCUMENT.write_text(put(DOCUMENT.read_text(encoding="utf-8"), MARK, made), encoding="utf-8")

@@ -411,7 +411,7 @@ def _names(plot: figure, grid: ColumnDataSource) -> None:
     at = {"x": 0.5 * (_BALLS.left + _BALLS.right), "y": _BALLS.bottom, "y_offset": 36}
     matrix_cells.write(plot, grid, words, text_font_size=style.TEXT_SIZE, **at, **centered)
     lines = range(len(_LEGEND))
-    legend = {"x": [0.06 for _ in lines], "y": [-2.3 - 0.13 * i for i in lines], "text": _LEGEND}
+    legend = {"x": [_BALLS.left for _ in lines], "y": [-2.3 - 0.13 * i for i in lines], "text": _LEGEND}
     matrix_cells.write(plot, ColumnDataSource(legend), "return row.text")
 
 

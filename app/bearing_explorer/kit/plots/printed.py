@@ -27,6 +27,8 @@ WIDE = "wide"
 """Tag of figures that need two columns."""
 POINT = 0.6
 """[pt] a pixel of the page is: its text is of 6.6 and 7.2 pt then."""
+SHORTEST, LINE = 200.0, 15.0
+"""[px] least height of a figure, and height of a line of its key or of the note."""
 _MARKS = {"circle": "o", "square": "s", "diamond": "D", "triangle": "^", "inverted_triangle": "v"}
 _MARKS |= {"cross": "+", "x": "x", "dash": "_", "star": "*", "hex": "h"}
 _LEVELS = {"image": 0, "underlay": 1, "glyph": 2, "guide": 3, "annotation": 4, "overlay": 5}
@@ -61,30 +63,25 @@ def print_figures(document: Document, note: str, path: Path, width: float | None
     if width is None:
         width = TWO_COLUMNS if any(WIDE in plot.tags for plot in plots) else COLUMN
     pixels = width / 25.4 * 72.0 / POINT
-    heights = [float(plot.min_height or plot.height) for plot in plots]
-    for k, plot in enumerate(plots):
-        if WIDE in plot.tags:
-            heights[k] = 0.6 * pixels
-        elif _has_circles(plot):
-            heights[k] = min(heights[k], 0.9 * pixels)
+    heights = [_height(plot, pixels) for plot in plots]
     size = {
         plot.id: (pixels - (plot.min_border_left or 0) - (plot.min_border_right or 0), height - 40)
         for plot, height in zip(plots, heights, strict=True)
     }
+    heights = [height + LINE * _key_rows(plot) for plot, height in zip(plots, heights, strict=True)]
+    lines = wrap(note, int(pixels / (0.52 * 10)))
     scripts = Scripts(document.models, size)
     scripts.follow()
     fonts = [name for name in _FONTS if name in get_font_names()]  # a sign is of the first with it
     look = {"font.family": fonts, "svg.fonttype": "none", "pdf.fonttype": 42}
     look |= {"font.size": 11 * POINT, "axes.linewidth": 0.6}
     with matplotlib.rc_context(look):
-        paper = Figure(
-            figsize=(width / 25.4, sum(heights) * POINT / 72.0), layout="constrained", dpi=300
-        )
+        height = (sum(heights) + LINE * len(lines)) * POINT / 72.0
+        paper = Figure(figsize=(width / 25.4, height), layout="constrained", dpi=300)
         all_axes = paper.subplots(len(plots), 1, squeeze=False, height_ratios=heights)[:, 0]
         for plot, axes in zip(plots, all_axes, strict=True):
             _Printed(plot, axes, scripts)
-        letters = int(width / 25.4 * 72.0 / (0.52 * 10 * POINT))
-        paper.supxlabel("\n".join(wrap(note, letters)), fontsize=10 * POINT, color="#5B6470")
+        paper.supxlabel("\n".join(lines), fontsize=10 * POINT, color="#5B6470")
         paper.savefig(path, metadata={"Date": None} if path.suffix == ".svg" else None)
 
 
@@ -101,6 +98,24 @@ def _plots_in(parts: Sequence[Any]) -> list[Plot]:
 def _has_circles(plot: Plot) -> bool:
     """True for a drawing of what has a shape: a radius is one along both axes."""
     return any(isinstance(getattr(r, "glyph", None), models.Circle) for r in plot.renderers)
+
+
+def _height(plot: Plot, pixels: float) -> float:
+    """Height [px] on paper of a figure without its key."""
+    height = max(float(plot.min_height or plot.height), SHORTEST)
+    if WIDE in plot.tags:
+        return 0.6 * pixels
+    return min(height, 0.9 * pixels) if _has_circles(plot) else height
+
+
+def _key_rows(plot: Plot) -> int:
+    """Number of rows of the key above a figure."""
+    names = sum(item.visible for key in plot.select(models.Legend) for item in key.items)
+    return math.ceil(names / _key_columns(plot))
+
+
+def _key_columns(plot: Plot) -> int:
+    return 2 if WIDE in plot.tags else 1
 
 
 class _Printed:
@@ -364,7 +379,11 @@ class _Printed:
                 named = [(drawn, item) for drawn, item in named if drawn is not None]
                 words = [self._value(item, "label", {}) for _, item in named]
                 if named:
-                    axes.legend([drawn for drawn, _ in named], words, frameon=False)
+                    axes.legend(
+                        [drawn for drawn, _ in named], words, frameon=False,
+                        ncols=_key_columns(plot), loc="lower left", bbox_to_anchor=(0.0, 1.0),
+                        borderaxespad=0.3, borderpad=0.0,
+                    )  # fmt: skip
             elif isinstance(part, models.ColorBar):
                 mapper = part.color_mapper
                 scale = ScalarMappable(Normalize(mapper.low, mapper.high),

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 from bokeh.model import Model
-from bokeh.models import ColorBar, ColorMapper, ColumnDataSource, Plot, Range1d
+from bokeh.models import ColorBar, ColorMapper, ColumnDataSource, Label, Plot, Range1d
 
 _EVENTS = [f"change:{name}" for name in ("start", "end", "inner_width", "inner_height", "data")]
 _KEPT: dict[type[Model], tuple[str, ...]] = {
@@ -20,6 +20,7 @@ _KEPT: dict[type[Model], tuple[str, ...]] = {
     Plot: ("min_border_right", "x_range", "y_range"),
     ColorMapper: ("low", "high", "palette"),
     ColorBar: ("title",),
+    Label: ("y",),
     Model: ("axis_label", "ticks", "visible"),
 }
 _WORLD = """

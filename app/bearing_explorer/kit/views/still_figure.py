@@ -104,7 +104,8 @@ class Figure(Generic[C]):
             plot.frame_align = False  # else each takes the margins of the widest
         plots = [] if self.view.is_empty else list(self.view.still_figures())
         self.layout = Column(children=plots, sizing_mode="stretch_width")
-        self.layout.tags = follow.args["sources"]  # keeps those that only pictures are made from
+        # keeps those of which only pictures and colours are made
+        self.layout.tags = [*follow.args["sources"], *follow.args["ranges"]]
         self.document = Document()
         self.document.add_root(self.layout)
         self.document.js_on_event(DocumentReady, follow)

@@ -116,7 +116,7 @@ class Grid:
         """
         checks.instance("scene", scene, Scene)
         if not isinstance(over, Mapping) or not 1 <= len(over) <= MOST_AXES:
-            raise checks.refuse("over", _short(over), f"1 to {MOST_AXES} fields with their values")
+            raise checks.refuse("over", over, f"1 to {MOST_AXES} fields with their values")
         axes = tuple(_axis(name, values) for name, values in over.items())
         grid = cls(
             scene, axes, chosen_outputs(outputs), settings or Settings(), _all_dofs(scene, axes)
@@ -378,7 +378,7 @@ def program_version() -> str:
 def _axis(name: object, given: Any) -> Axis:
     """A field's values, of the right kind, all different."""
     if name not in UNITS:
-        raise checks.refuse("field in over", _short(name), ", ".join(UNITS))
+        raise checks.refuse("field in over", name, ", ".join(UNITS))
     assert isinstance(name, str)
     kind = "words" if name in WORDS else "numbers"
     allowed = f"1 to {MOST_VALUES:,} different {kind}"
@@ -387,11 +387,11 @@ def _axis(name: object, given: Any) -> Axis:
         raise checks.refuse(f"number of values of {name}", len(values), allowed)
     if name in WORDS:
         if not all(isinstance(value, str) for value in values):
-            raise checks.refuse(f"values of {name}", _short(given), allowed)
+            raise checks.refuse(f"values of {name}", given, allowed)
         array = np.array([str(value) for value in values])
     else:
         if any(isinstance(value, bool | np.bool_ | str | bytes) for value in values):
-            raise checks.refuse(f"values of {name}", _short(given), allowed)
+            raise checks.refuse(f"values of {name}", given, allowed)
         array = np.array([checks.real_number(f"value of {name}", value) for value in values])
         if FIELD_OF[name].whole:
             most = 2**31 - 1 if name == "seed" else 500
@@ -400,7 +400,7 @@ def _axis(name: object, given: Any) -> Axis:
                 [checks.whole_number(name, value, at_least=least, at_most=most) for value in values]
             )
     if len(np.unique(array)) != len(array):
-        raise checks.refuse(f"values of {name}", _short(given), allowed)
+        raise checks.refuse(f"values of {name}", given, allowed)
     return Axis(name, array)
 
 
@@ -422,8 +422,3 @@ def _even(n: int, most: int) -> int:
     """The least part size that cuts n into as few parts as parts of size `most` do."""
     parts = -(-n // min(most, n))
     return -(-n // parts)
-
-
-def _short(value: object) -> str:
-    text = repr(value)
-    return text if len(text) <= 60 else text[:57] + "..."

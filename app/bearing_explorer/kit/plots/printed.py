@@ -142,6 +142,8 @@ class _Printed:
             self._put(renderer)
         if _has_circles(plot):
             axes.set_aspect("equal", adjustable="datalim")
+        if plot.title is not None and plot.title.visible:
+            axes.set_title(plot.title.text, loc="left", fontsize=11 * POINT)
         self._put_annotations()
 
     def _put_axis(self, side: str) -> None:
@@ -393,11 +395,13 @@ class _Printed:
                 bar.outline.set_visible(False)
             elif isinstance(part, models.Span) and part.location is not None:
                 draw = axes.axvline if part.dimension == "height" else axes.axhline
-                draw(part.location, color=part.line_color, linewidth=part.line_width * POINT)
+                dashes = _dashes(part.line_dash, np.array(thick := part.line_width * POINT))
+                draw(part.location, color=part.line_color, linewidth=thick, linestyle=dashes)
             elif isinstance(part, models.Label):
                 axes.annotate(
-                    part.text, (part.x, part.y), (part.x_offset * POINT, -part.y_offset * POINT),
+                    part.text, (part.x, part.y), (part.x_offset * POINT, part.y_offset * POINT),
                     textcoords="offset points", color=part.text_color, ha=part.text_align,
+                    va="bottom", annotation_clip=False,
                 )  # fmt: skip
 
 

@@ -33,7 +33,8 @@ class Grid {  // Bokeh's arrays of two dimensions
 const bits = (numbers) => new Float32Array(Uint32Array.from(numbers).buffer)
 const M = {}
 const add = (id, properties) => {
-  M[id] = {id, setv(news) { Object.assign(this, news) }, change: {emit() {}}, ...properties}
+  M[id] = {id, setv(news) { Object.assign(this, news) }, ...properties}
+  M[id].change = {emit() { M[id].was = null }}
 }
 globalThis.window = globalThis
 globalThis.addEventListener = () => {}
@@ -59,8 +60,10 @@ class Scripts:
         self._models = {model.id: model for model in models}
         self._v8 = MiniRacer()
         self._v8.eval(_WORLD)
+        for name in self._models:  # all, as properties refer to each other
+            self._v8.eval(f"add({name!r}, {{}})")
         for model in self._models.values():
-            self._v8.eval(f"add({model.id!r}, {{{self._properties(model, size)}}})")
+            self._v8.eval(f"M[{model.id!r}].setv({{{self._properties(model, size)}}})")
             if isinstance(model, ColumnDataSource):
                 columns = self._columns(model)
                 self._v8.eval(f"M[{model.id!r}].was = M[{model.id!r}].data = {columns}")

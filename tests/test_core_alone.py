@@ -27,6 +27,10 @@ try:
     diagnose("signal.csv", "6205", 180.0)
 except FieldError as error:
     print(error)
+
+from bearing_explorer.__main__ import main
+
+assert main([]) == 1  # not a traceback
 """
 
 

@@ -14,7 +14,7 @@ from bokeh import models
 from bokeh.plotting import figure
 from matplotlib.colors import to_rgba
 
-from bearingcore import presets
+from bearingcore import Recording, presets
 from bearingcore.errors import FieldError
 
 RIG = presets["fan-rig"]
@@ -27,11 +27,14 @@ WORDS_OF = {
     "vibration_spectrum": ["Frequency f (Hz)", "y₂"],
     "vibration_time": ["Time t (ms)", "ball 1 enters"],
     "depth_profile": ["Depth d (µm)"],
-    "accuracy": ["Error of spectrum (dB)", "10⁻³"],
+    "accuracy": ["Error of spectrum (dB)", "10⁻³", "scipy BDF", "in use: 32.8k"],
     "alternatives": ["Error over what is allowed", "quasi-static"],
-    "explore": ["Load, downwards −Fy (N)"],
+    "explore": ["Load, downwards −Fy (N)", "k_yy, mean at load, downwards"],
 }
 """Of each figure, some words that the page shows too."""
+
+
+CLICKS = Recording(np.where(np.arange(8192) % 400, 0.01, 9.0)[:, None], 4096.0, ("y",))
 
 
 def texts(svg: str) -> str:
@@ -69,6 +72,8 @@ def test_what_cannot_be_printed_is_refused(tmp_path: Path) -> None:
         drawn.save(tmp_path / "figure.pdf", width=5.0)
     with pytest.raises(FieldError, match="life has no figure"):
         figures.life(presets["6206"]).save(tmp_path / "life.pdf")
+    with pytest.raises(FieldError, match="which-length has no figure"):
+        figures.which_length(RIG, recording=CLICKS).save(tmp_path / "lengths.pdf")
     assert not list(tmp_path.iterdir())
 
 
@@ -78,6 +83,22 @@ def test_the_extra_is_named_where_it_is_missing(
     monkeypatch.setitem(__import__("sys").modules, "py_mini_racer", None)
     with pytest.raises(ImportError, match=r"bearing-explorer\[figures\]"):
         figures.load_distribution(RIG).save(tmp_path / "figure.svg")
+
+
+def test_colours_have_the_scale_of_the_numbers(tmp_path: Path) -> None:
+    drawn = figures.measured_kurtogram(RIG, recording=CLICKS)
+    drawn.save(tmp_path / "figure.svg")
+    ticks = re.findall(r"^\d+$", texts((tmp_path / "figure.svg").read_text()), re.MULTILINE)
+    assert drawn.table()["kurtosis"].max() < 2.0 * max(map(int, ticks))
+
+
+def test_a_key_stands_above_its_figure() -> None:
+    drawn = figures.stiffness(RIG, compared={"heavier": RIG.replace(fy=-300.0)})
+    (plot,) = drawn.view.figures
+    axes = plt.figure().subplots()
+    printed._Printed(plot, axes, Scripts(drawn.document.models, {plot.id: (300.0, 200.0)}))
+    assert axes.get_legend().get_window_extent().y0 >= axes.get_window_extent().y1
+    plt.close("all")
 
 
 def test_layers_have_their_numbers_and_colours() -> None:

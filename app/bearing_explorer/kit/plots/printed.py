@@ -27,10 +27,10 @@ WIDE = "wide"
 """Tag of figures that need two columns."""
 POINT = 0.6
 """[pt] a pixel of the page is: its text is of 6.6 and 7.2 pt then."""
-SHORTEST, LINE = 200.0, 15.0
-"""[px] least height of a figure, and height of a line of its key or of the note."""
+LINE = 15.0
+"""[px] height of a line of the key or of the note."""
 _MARKS = {"circle": "o", "square": "s", "diamond": "D", "triangle": "^", "inverted_triangle": "v"}
-_MARKS |= {"cross": "+", "x": "x", "dash": "_", "star": "*", "hex": "h"}
+_MARKS |= {"plus": "P", "cross": "+", "x": "x", "dash": "_", "star": "*", "hex": "h"}
 _LEVELS = {"image": 0, "underlay": 1, "glyph": 2, "guide": 3, "annotation": 4, "overlay": 5}
 _FONTS = ["Helvetica", "Arial", "Liberation Sans", "DejaVu Sans"]
 
@@ -59,16 +59,18 @@ def print_figures(document: Document, note: str, path: Path, width: float | None
     from matplotlib.font_manager import get_font_names
 
     document = Document.from_json(document.to_json())  # its models are changed
-    plots = [plot for plot in _plots_in(document.roots) if plot.visible]
+    plots = [plot for plot in document.roots[0].children if plot.visible]
     if width is None:
         width = TWO_COLUMNS if any(WIDE in plot.tags for plot in plots) else COLUMN
     pixels = width / 25.4 * 72.0 / POINT
-    heights = [_height(plot, pixels) for plot in plots]
+    most = [0.9 * pixels if _has_circles(plot) else math.inf for plot in plots]
+    heights = [min(plot.min_height, high) for plot, high in zip(plots, most, strict=True)]
     size = {
         plot.id: (pixels - (plot.min_border_left or 0) - (plot.min_border_right or 0), height - 40)
         for plot, height in zip(plots, heights, strict=True)
     }
-    heights = [height + LINE * _key_rows(plot) for plot, height in zip(plots, heights, strict=True)]
+    for k, plot in enumerate(plots):
+        heights[k] += LINE * sum(item.visible for item in plot.select(models.LegendItem))
     lines = wrap(note, int(pixels / (0.52 * 10)))
     scripts = Scripts(document.models, size)
     scripts.follow()
@@ -85,37 +87,9 @@ def print_figures(document: Document, note: str, path: Path, width: float | None
         paper.savefig(path, metadata={"Date": None} if path.suffix == ".svg" else None)
 
 
-def _plots_in(parts: Sequence[Any]) -> list[Plot]:
-    """The figures of a layout, in its order."""
-    plots: list[Plot] = []
-    for part in parts:
-        items = getattr(part, "children", [])
-        inner = [item[0] if isinstance(item, tuple) else item for item in items]
-        plots += [part] if isinstance(part, Plot) else _plots_in(inner)
-    return plots
-
-
 def _has_circles(plot: Plot) -> bool:
     """True for a drawing of what has a shape: a radius is one along both axes."""
     return any(isinstance(getattr(r, "glyph", None), models.Circle) for r in plot.renderers)
-
-
-def _height(plot: Plot, pixels: float) -> float:
-    """Height [px] on paper of a figure without its key."""
-    height = max(float(plot.min_height or plot.height), SHORTEST)
-    if WIDE in plot.tags:
-        return 0.6 * pixels
-    return min(height, 0.9 * pixels) if _has_circles(plot) else height
-
-
-def _key_rows(plot: Plot) -> int:
-    """Number of rows of the key above a figure."""
-    names = sum(item.visible for key in plot.select(models.Legend) for item in key.items)
-    return math.ceil(names / _key_columns(plot))
-
-
-def _key_columns(plot: Plot) -> int:
-    return 2 if WIDE in plot.tags else 1
 
 
 class _Printed:
@@ -281,8 +255,8 @@ class _Printed:
         self, at: Any, color: Any, place: Any, line: Any, count: int, up: bool = False
     ) -> Any:
         low, high = self._rows(at, ("y0", "y1") if up else ("x0", "x1"), count).T
-        none, full = np.zeros(count), np.ones(count)
-        across, along = np.stack([low, high, high, low]), np.stack([none, none, full, full])
+        across = np.stack([low, high, high, low])
+        along = np.broadcast_to([[0.0], [0.0], [1.0], [1.0]], across.shape)
         corners = np.stack([along, across] if up else [across, along], axis=-1).transpose(1, 0, 2)
         return self._polygons(corners, color, self._across(place, up), line)
 
@@ -316,13 +290,8 @@ class _Printed:
     def _circle(self, at: Any, color: Any, place: Any, line: Any, count: int) -> Any:
         x, y, radius = self._rows(at, ("x", "y", "radius"), count).T
         turn = np.linspace(0.0, 2.0 * math.pi, 73)
-        corners = np.stack(
-            [
-                x[:, None] + radius[:, None] * np.cos(turn),
-                y[:, None] + radius[:, None] * np.sin(turn),
-            ],
-            axis=-1,
-        )
+        around = radius[:, None, None] * np.column_stack([np.cos(turn), np.sin(turn)])
+        corners = np.column_stack([x, y])[:, None] + around
         return self._polygons(corners, color, place, line)
 
     def _image(self, at: Any, color: Any, place: Any, line: Any, count: int) -> Any:
@@ -351,17 +320,16 @@ class _Printed:
         base = str(at("text_baseline"))
         base = {"middle": "center", "alphabetic": "baseline"}.get(base, base)
         paper = at("background_fill_color")
-        box = None if paper is None else {"facecolor": paper, "edgecolor": "none", "pad": 0.5}
-        if box is not None:
-            box["alpha"] = at("background_fill_alpha")
+        box = {"facecolor": paper, "edgecolor": "none", "pad": 0.5}
+        box["alpha"] = at("background_fill_alpha")
         for k, text in enumerate(texts):
             if text and np.isfinite([x[k], y[k]]).all():
                 self.axes.annotate(
                     text, (x[k], y[k]), (right[k] * POINT, -up[k] * POINT),
                     xycoords=place["transform"], textcoords="offset points", fontsize=size,
                     color=colors[k] if np.ndim(colors) == 2 else colors, ha=aligns[k], va=base,
-                    rotation=math.degrees(angle[k]), zorder=place["zorder"] + 0.5, bbox=box,
-                    annotation_clip=False,
+                    rotation=math.degrees(angle[k]), zorder=place["zorder"] + 0.5,
+                    bbox=None if paper is None else box, annotation_clip=False,
                 )  # fmt: skip
         return None
 
@@ -375,17 +343,13 @@ class _Printed:
             if not part.visible:
                 continue
             if isinstance(part, models.Legend):
-                named = [
-                    (self.drawn.get(r.id), item) for item in part.items for r in item.renderers[:1]
-                ]
-                named = [(drawn, item) for drawn, item in named if drawn is not None]
-                words = [self._value(item, "label", {}) for _, item in named]
-                if named:
-                    axes.legend(
-                        [drawn for drawn, _ in named], words, frameon=False,
-                        ncols=_key_columns(plot), loc="lower left", bbox_to_anchor=(0.0, 1.0),
-                        borderaxespad=0.3, borderpad=0.0,
-                    )  # fmt: skip
+                shown = [item for item in part.items if item.renderers[0].id in self.drawn]
+                axes.legend(
+                    [self.drawn[item.renderers[0].id] for item in shown],
+                    [item.label.value for item in shown],
+                    loc="lower left", bbox_to_anchor=(0.0, 1.0), borderaxespad=0.3, borderpad=0.0,
+                    frameon=False,
+                )  # fmt: skip
             elif isinstance(part, models.ColorBar):
                 mapper = part.color_mapper
                 scale = ScalarMappable(Normalize(mapper.low, mapper.high),

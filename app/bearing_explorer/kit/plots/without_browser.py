@@ -84,9 +84,6 @@ class Scripts:
     def _code(self, value: Any) -> str:
         """JavaScript of a value; a model is looked up."""
         if isinstance(value, Model):
-            if value.id not in self._models:
-                self._models[value.id] = value
-                self._v8.eval(f"add({value.id!r}, {{}})")
             return f"M[{value.id!r}]"
         if isinstance(value, np.ndarray) and value.ndim == 2:
             return f"new Grid({self._code(value.ravel())}, {json.dumps(value.shape)})"

@@ -283,13 +283,6 @@ def test_numbers_that_a_scene_has_not_are_refused_by_name() -> None:
             presets["6205"].replace(**{name: value})
         with pytest.raises(ValueError, match="two rows"):
             Grid.of(presets["6205"], {name: [value]}, ["k_yy_mean"])
-    for preset, name, value, allowed in (
-        ("7208-tandem", "preload_force", 100, "left out, .* and of rows in tandem"),
-        ("7208-back-to-back", "row_distance", -1, "a finite number at least 0"),
-        ("nu208", "groove_center_distance", 1, "None of rollers"),
-    ):
-        with pytest.raises(ValueError, match=f"{name} is {value}; allowed: {allowed}"):
-            presets[preset].replace(**{name: value})
     flat = presets["6205"].replace(extent=0.1, depth=20e-6)
     with pytest.raises(ValueError, match="rms_height is 1e-06; allowed: left out, unless"):
         flat.replace(rms_height=1e-6)

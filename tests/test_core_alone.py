@@ -12,6 +12,7 @@ ROOT = Path(__file__).parents[1]
 SCRIPT = """
 import numpy as np
 from scipy.io import savemat
+from bearing_explorer.__main__ import main
 from bearingcore import FieldError, Scene, diagnose, equilibrium, life, presets, scene_of
 
 scene = presets["fan-rig"].replace(extent=0.2)
@@ -27,6 +28,7 @@ try:
     diagnose("signal.csv", "6205", 180.0)
 except FieldError as error:
     print(error)
+assert main([]) == 1  # not a traceback
 """
 
 

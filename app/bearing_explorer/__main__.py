@@ -149,10 +149,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     _say("Bearing explorer starts.")
     _say("Loading the page ...")
     gc.disable()  # nothing of what is loaded is garbage, and looking takes an eighth of the time
-    from bearing_explorer.kit.compute import compiling
-    from bearing_explorer.kit.serve.serving import Limits, freeze_startup_objects, make_server
-    from bearing_explorer.page import lessons_of, page, scene
-
+    try:
+        from bearing_explorer.kit.compute import compiling
+        from bearing_explorer.kit.serve.serving import Limits, freeze_startup_objects, make_server
+        from bearing_explorer.page import lessons_of, page, scene
+    except ModuleNotFoundError as error:
+        _say(f"The page needs {error.name}, which is not installed: pip install .")
+        return 1
     for lesson in lessons_of(chosen.lessons):  # kept: the first page need not read them
         if isinstance(lesson, scene.Fault):
             _say(f"Lessons: {lesson.sentence}")

@@ -90,9 +90,10 @@ def checked(values: Mapping[str, Any]) -> dict[str, float]:
     for name in ("youngs_modulus", "poisson", *BALL_MATERIAL):
         if values[name] is None and name in BALL_MATERIAL:
             continue
-        modulus = name.endswith("modulus")
-        limits: dict[str, Any] = {"above": 0.0, "unit": "Pa"} if modulus else {"below": 0.5}
-        numbers[name] = checks.real_number(name, values[name], at_least=0.0, **limits)
+        limits: dict[str, Any] = {"at_least": 0.0, "below": 0.5}
+        if name.endswith("modulus"):
+            limits = {"above": 0.0, "unit": "Pa"}
+        numbers[name] = checks.real_number(name, values[name], **limits)
     return numbers
 
 

@@ -54,8 +54,9 @@ def change_rows(bearing: InRows, changes: Mapping[str, Any]) -> tuple[Row, ...]:
     distance = of_pair.get("row_distance", high.place - low.place)
     preload = of_pair.get("preload", (high.offset - low.offset) * high.facing)
     if "preload_force" in of_pair:
-        if "preload" in of_pair:
-            raise checks.refuse("preload_force", of_pair["preload_force"], "left out, or preload")
+        if "preload" in of_pair or arrangement == "tandem":
+            wanted = "left out, as it is with preload, and of rows in tandem"
+            raise checks.refuse("preload_force", of_pair["preload_force"], wanted)
         preload = _displacement(bearing, of_pair["preload_force"])
     made = pair(distance, arrangement, preload)
     if preload != 0.0 and bearing.contact_angle == 0.0:

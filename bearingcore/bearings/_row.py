@@ -113,7 +113,7 @@ def pair(distance: float, arrangement: str, preload: float = 0.0) -> tuple[Row, 
         for an unknown arrangement, or a preload of rows in tandem, which do not press each other.
     """
     checks.choice("arrangement", arrangement, ARRANGEMENTS)
-    half = 0.5 * checks.real_number("distance", distance, at_least=0.0, at_most=10.0, unit="m")
+    half = 0.5 * checks.real_number("row_distance", distance, at_least=0.0, at_most=10.0, unit="m")
     push = 0.5 * checks.real_number("preload", preload, at_least=-1e-3, at_most=1e-3, unit="m")
     if arrangement == "tandem":
         if push != 0.0:

@@ -118,7 +118,7 @@ class SelfAligning(Kind):
     carries = "the ring of a self-aligning bearing tilts freely and carries no moment"
     left_out = "the ring of a self-aligning bearing tilts freely"
     shoulders = ("inner",)
-    rating_unknown = "to be computed for a self-aligning bearing"
+    rating_unknown = "computed for a self-aligning bearing"
     static_pressure = ISO_76_SELF_ALIGNING
     has_drawing = False
 

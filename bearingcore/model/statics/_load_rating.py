@@ -31,7 +31,7 @@ ROWS_OF_RADIAL_CONTACT = 0.90 / 0.95
 """Rating of rows of deep groove balls, which share a load less evenly, over that of other rows."""
 
 MAKERS_RATING = (
-    "a number [N], the rating that the maker's catalogue has for this very bearing. It is not {}"
+    "a number [N], the rating that the maker's catalogue has for this very bearing. It cannot be {}"
 )
 
 
@@ -69,7 +69,7 @@ def dynamic_load_rating(bearing: BearingLike) -> float:
     """
     bearing = bearing_of(bearing)
     if words := _rating_unknown(bearing):
-        raise checks.refuse("dynamic_load_rating", words, "that of the catalogue")
+        raise checks.refuse("dynamic_load_rating", None, MAKERS_RATING.format(words), "N")
     if bearing.roller_length is not None:
         return float(
             roller_dynamic_rating(
@@ -106,7 +106,7 @@ def dynamic_load_rating(bearing: BearingLike) -> float:
 
 def _rating_unknown(bearing: Bearing) -> str:
     """Reason why ISO 281 gives no rating from the dimensions; empty where it gives one."""
-    hybrid = "to be computed for balls of another material than the rings (ISO 20056)"
+    hybrid = "computed for balls of another material than the rings (ISO 20056 rates them)"
     return bearing.kind.rating_unknown or (hybrid if bearing.is_hybrid else "")
 
 

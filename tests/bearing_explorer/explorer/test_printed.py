@@ -7,6 +7,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from bearing_explorer import figures
+from bearing_explorer.explorer.plots.compared_curves import CurveKey
 from bearing_explorer.kit.plots import printed, style
 from bearing_explorer.kit.plots.layers import Words, by_number, curve, filled, strips, uprights
 from bearing_explorer.kit.plots.without_browser import Scripts
@@ -14,7 +15,7 @@ from bokeh import models
 from bokeh.plotting import figure
 from matplotlib.colors import to_rgba
 
-from bearingcore import presets
+from bearingcore import Recording, presets
 from bearingcore.errors import FieldError
 
 RIG = presets["fan-rig"]
@@ -27,11 +28,14 @@ WORDS_OF = {
     "vibration_spectrum": ["Frequency f (Hz)", "y₂"],
     "vibration_time": ["Time t (ms)", "ball 1 enters"],
     "depth_profile": ["Depth d (µm)"],
-    "accuracy": ["Error of spectrum (dB)", "10⁻³"],
+    "accuracy": ["Error of spectrum (dB)", "10⁻³", "scipy BDF", "in use: 32.8k"],
     "alternatives": ["Error over what is allowed", "quasi-static"],
-    "explore": ["Load, downwards −Fy (N)"],
+    "explore": ["Load, downwards −Fy (N)", "k_yy, mean at load, downwards"],
 }
 """Of each figure, some words that the page shows too."""
+
+
+CLICKS = Recording(np.where(np.arange(8192) % 400, 0.01, 9.0)[:, None], 4096.0, ("y",))
 
 
 def texts(svg: str) -> str:
@@ -69,6 +73,8 @@ def test_what_cannot_be_printed_is_refused(tmp_path: Path) -> None:
         drawn.save(tmp_path / "figure.pdf", width=5.0)
     with pytest.raises(FieldError, match="life has no figure"):
         figures.life(presets["6206"]).save(tmp_path / "life.pdf")
+    with pytest.raises(FieldError, match="which-length has no figure"):
+        figures.which_length(RIG, recording=CLICKS).save(tmp_path / "lengths.pdf")
     assert not list(tmp_path.iterdir())
 
 
@@ -78,6 +84,13 @@ def test_the_extra_is_named_where_it_is_missing(
     monkeypatch.setitem(__import__("sys").modules, "py_mini_racer", None)
     with pytest.raises(ImportError, match=r"bearing-explorer\[figures\]"):
         figures.load_distribution(RIG).save(tmp_path / "figure.svg")
+
+
+def test_colours_have_the_scale_of_the_numbers(tmp_path: Path) -> None:
+    drawn = figures.measured_kurtogram(RIG, recording=CLICKS)
+    drawn.save(file := tmp_path / "figure.svg")
+    ticks = re.findall(r"^\d+$", texts(file.read_text(encoding="utf-8")), re.MULTILINE)
+    assert drawn.table()["kurtosis"].max() < 2.0 * max(map(int, ticks))
 
 
 def test_layers_have_their_numbers_and_colours() -> None:
@@ -92,7 +105,8 @@ def test_layers_have_their_numbers_and_colours() -> None:
         Words("", "x", 0.5, "return si(row.x*1000, 'N')", y_share=True),
     ):
         layer.add(plot, source)
-    plot.title = None
+    plot.title, source.name = None, "_compared_0"
+    CurveKey(plot).show(["heavier"])
     scripts = Scripts(plot.references(), {plot.id: (300.0, 200.0)})
     axes = plt.figure().subplots()
     printed._Printed(plot, axes, scripts)
@@ -107,4 +121,5 @@ def test_layers_have_their_numbers_and_colours() -> None:
     assert [text.get_text() for text in axes.texts] == ["1\u00a0kN", "2\u00a0kN", "3\u00a0kN"]
     assert to_rgba(axes.texts[0].get_color()) == to_rgba(style.INK)
     assert axes.get_xlim() == (0.0, 4.0)
+    assert axes.get_legend().get_window_extent().y0 >= axes.get_window_extent().y1  # above it
     plt.close("all")

@@ -100,6 +100,8 @@ class WhichLength(JobView[Model, SizedDefect, Editor], MeasuredView):
         )  # fmt: skip
         return self.hidden
 
+    is_empty = MeasuredView.is_empty  # without candidates a job has shown nothing
+
     # The job
 
     @property

@@ -410,8 +410,8 @@ def _names(plot: figure, grid: ColumnDataSource) -> None:
     words = "return row.of_shaft ? 'Shaft angle φs (°)' : 'Cage angle φc (°)'"
     at = {"x": 0.5 * (_BALLS.left + _BALLS.right), "y": _BALLS.bottom, "y_offset": 36}
     matrix_cells.write(plot, grid, words, text_font_size=style.TEXT_SIZE, **at, **centered)
-    lines = range(len(_LEGEND))
-    legend = {"x": [0.06 for _ in lines], "y": [-2.3 - 0.13 * i for i in lines], "text": _LEGEND}
+    y = [-2.3 - 0.13 * line for line in range(len(_LEGEND))]
+    legend = {"x": [_BALLS.left] * len(y), "y": y, "text": _LEGEND}
     matrix_cells.write(plot, ColumnDataSource(legend), "return row.text")
 
 

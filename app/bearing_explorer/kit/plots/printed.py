@@ -27,8 +27,10 @@ WIDE = "wide"
 """Tag of figures that need two columns."""
 POINT = 0.6
 """Size [pt] of a pixel of the page: its text then has 6.6 and 7.2 pt."""
+LINE = 15.0
+"""Height [px] of a line of the key or of the note."""
 _MARKS = {"circle": "o", "square": "s", "diamond": "D", "triangle": "^", "inverted_triangle": "v"}
-_MARKS |= {"cross": "+", "x": "x", "dash": "_", "star": "*", "hex": "h"}
+_MARKS |= {"plus": "P", "cross": "+", "x": "x", "dash": "_", "star": "*", "hex": "h"}
 _LEVELS = {"image": 0, "underlay": 1, "glyph": 2, "guide": 3, "annotation": 4, "overlay": 5}
 _FONTS = ["Helvetica", "Arial", "Liberation Sans", "DejaVu Sans"]
 
@@ -57,45 +59,32 @@ def print_figures(document: Document, note: str, path: Path, width: float | None
     from matplotlib.font_manager import get_font_names
 
     document = Document.from_json(document.to_json())  # its models are changed
-    plots = [plot for plot in _plots_in(document.roots) if plot.visible]
+    plots = [plot for plot in document.roots[0].children if plot.visible]
     if width is None:
         width = TWO_COLUMNS if any(WIDE in plot.tags for plot in plots) else COLUMN
     pixels = width / 25.4 * 72.0 / POINT
-    heights = [float(plot.min_height or plot.height) for plot in plots]
-    for k, plot in enumerate(plots):
-        if WIDE in plot.tags:
-            heights[k] = 0.6 * pixels
-        elif _has_circles(plot):
-            heights[k] = min(heights[k], 0.9 * pixels)
+    most = [0.9 * pixels if _has_circles(plot) else math.inf for plot in plots]
+    heights = [min(plot.min_height, high) for plot, high in zip(plots, most, strict=True)]
     size = {
         plot.id: (pixels - (plot.min_border_left or 0) - (plot.min_border_right or 0), height - 40)
         for plot, height in zip(plots, heights, strict=True)
     }
+    for k, plot in enumerate(plots):
+        heights[k] += LINE * sum(item.visible for item in plot.select(models.LegendItem))
+    lines = wrap(note, int(pixels / (0.52 * 10)))
     scripts = Scripts(document.models, size)
     scripts.follow()
     fonts = [name for name in _FONTS if name in get_font_names()]  # a sign is of the first with it
     look = {"font.family": fonts, "svg.fonttype": "none", "pdf.fonttype": 42}
     look |= {"font.size": 11 * POINT, "axes.linewidth": 0.6}
     with matplotlib.rc_context(look):
-        paper = Figure(
-            figsize=(width / 25.4, sum(heights) * POINT / 72.0), layout="constrained", dpi=300
-        )
+        height = (sum(heights) + LINE * len(lines)) * POINT / 72.0
+        paper = Figure(figsize=(width / 25.4, height), layout="constrained", dpi=300)
         all_axes = paper.subplots(len(plots), 1, squeeze=False, height_ratios=heights)[:, 0]
         for plot, axes in zip(plots, all_axes, strict=True):
             _Printed(plot, axes, scripts)
-        letters = int(width / 25.4 * 72.0 / (0.52 * 10 * POINT))
-        paper.supxlabel("\n".join(wrap(note, letters)), fontsize=10 * POINT, color="#5B6470")
+        paper.supxlabel("\n".join(lines), fontsize=10 * POINT, color="#5B6470")
         paper.savefig(path, metadata={"Date": None} if path.suffix == ".svg" else None)
-
-
-def _plots_in(parts: Sequence[Any]) -> list[Plot]:
-    """The figures of a layout, in its order."""
-    plots: list[Plot] = []
-    for part in parts:
-        items = getattr(part, "children", [])
-        inner = [item[0] if isinstance(item, tuple) else item for item in items]
-        plots += [part] if isinstance(part, Plot) else _plots_in(inner)
-    return plots
 
 
 def _has_circles(plot: Plot) -> bool:
@@ -127,6 +116,8 @@ class _Printed:
             self._put(renderer)
         if _has_circles(plot):
             axes.set_aspect("equal", adjustable="datalim")
+        if plot.title is not None and plot.title.visible:
+            axes.set_title(plot.title.text, loc="left", fontsize=11 * POINT)
         self._put_annotations()
 
     def _put_axis(self, side: str) -> None:
@@ -264,8 +255,8 @@ class _Printed:
         self, at: Any, color: Any, place: Any, line: Any, count: int, up: bool = False
     ) -> Any:
         low, high = self._rows(at, ("y0", "y1") if up else ("x0", "x1"), count).T
-        none, full = np.zeros(count), np.ones(count)
-        across, along = np.stack([low, high, high, low]), np.stack([none, none, full, full])
+        across = np.stack([low, high, high, low])
+        along = np.broadcast_to([[0.0], [0.0], [1.0], [1.0]], across.shape)
         corners = np.stack([along, across] if up else [across, along], axis=-1).transpose(1, 0, 2)
         return self._polygons(corners, color, self._across(place, up), line)
 
@@ -299,13 +290,8 @@ class _Printed:
     def _circle(self, at: Any, color: Any, place: Any, line: Any, count: int) -> Any:
         x, y, radius = self._rows(at, ("x", "y", "radius"), count).T
         turn = np.linspace(0.0, 2.0 * math.pi, 73)
-        corners = np.stack(
-            [
-                x[:, None] + radius[:, None] * np.cos(turn),
-                y[:, None] + radius[:, None] * np.sin(turn),
-            ],
-            axis=-1,
-        )
+        around = radius[:, None, None] * np.column_stack([np.cos(turn), np.sin(turn)])
+        corners = np.column_stack([x, y])[:, None] + around
         return self._polygons(corners, color, place, line)
 
     def _image(self, at: Any, color: Any, place: Any, line: Any, count: int) -> Any:
@@ -334,17 +320,16 @@ class _Printed:
         base = str(at("text_baseline"))
         base = {"middle": "center", "alphabetic": "baseline"}.get(base, base)
         paper = at("background_fill_color")
-        box = None if paper is None else {"facecolor": paper, "edgecolor": "none", "pad": 0.5}
-        if box is not None:
-            box["alpha"] = at("background_fill_alpha")
+        box = {"facecolor": paper, "edgecolor": "none", "pad": 0.5}
+        box["alpha"] = at("background_fill_alpha")
         for k, text in enumerate(texts):
             if text and np.isfinite([x[k], y[k]]).all():
                 self.axes.annotate(
                     text, (x[k], y[k]), (right[k] * POINT, -up[k] * POINT),
                     xycoords=place["transform"], textcoords="offset points", fontsize=size,
                     color=colors[k] if np.ndim(colors) == 2 else colors, ha=aligns[k], va=base,
-                    rotation=math.degrees(angle[k]), zorder=place["zorder"] + 0.5, bbox=box,
-                    annotation_clip=False,
+                    rotation=math.degrees(angle[k]), zorder=place["zorder"] + 0.5,
+                    bbox=None if paper is None else box, annotation_clip=False,
                 )  # fmt: skip
         return None
 
@@ -358,13 +343,13 @@ class _Printed:
             if not part.visible:
                 continue
             if isinstance(part, models.Legend):
-                named = [
-                    (self.drawn.get(r.id), item) for item in part.items for r in item.renderers[:1]
-                ]
-                named = [(drawn, item) for drawn, item in named if drawn is not None]
-                words = [self._value(item, "label", {}) for _, item in named]
-                if named:
-                    axes.legend([drawn for drawn, _ in named], words, frameon=False)
+                shown = [item for item in part.items if item.renderers[0].id in self.drawn]
+                axes.legend(
+                    [self.drawn[item.renderers[0].id] for item in shown],
+                    [item.label.value for item in shown],
+                    loc="lower left", bbox_to_anchor=(0.0, 1.0), borderaxespad=0.3, borderpad=0.0,
+                    frameon=False,
+                )  # fmt: skip
             elif isinstance(part, models.ColorBar):
                 mapper = part.color_mapper
                 scale = ScalarMappable(Normalize(mapper.low, mapper.high),
@@ -374,11 +359,13 @@ class _Printed:
                 bar.outline.set_visible(False)
             elif isinstance(part, models.Span) and part.location is not None:
                 draw = axes.axvline if part.dimension == "height" else axes.axhline
-                draw(part.location, color=part.line_color, linewidth=part.line_width * POINT)
+                dashes = _dashes(part.line_dash, np.array(thick := part.line_width * POINT))
+                draw(part.location, color=part.line_color, linewidth=thick, linestyle=dashes)
             elif isinstance(part, models.Label):
                 axes.annotate(
-                    part.text, (part.x, part.y), (part.x_offset * POINT, -part.y_offset * POINT),
+                    part.text, (part.x, part.y), (part.x_offset * POINT, part.y_offset * POINT),
                     textcoords="offset points", color=part.text_color, ha=part.text_align,
+                    va="bottom", annotation_clip=False,
                 )  # fmt: skip
 
 

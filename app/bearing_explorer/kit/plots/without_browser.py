@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 from bokeh.model import Model
-from bokeh.models import ColorBar, ColorMapper, ColumnDataSource, Plot, Range1d
+from bokeh.models import ColorBar, ColorMapper, ColumnDataSource, Label, Plot, Range1d
 
 _EVENTS = [f"change:{name}" for name in ("start", "end", "inner_width", "inner_height", "data")]
 _KEPT: dict[type[Model], tuple[str, ...]] = {
@@ -20,6 +20,7 @@ _KEPT: dict[type[Model], tuple[str, ...]] = {
     Plot: ("min_border_right", "x_range", "y_range"),
     ColorMapper: ("low", "high", "palette"),
     ColorBar: ("title",),
+    Label: ("y",),
     Model: ("axis_label", "ticks", "visible"),
 }
 _WORLD = """
@@ -32,7 +33,8 @@ class Grid {  // Bokeh's arrays of two dimensions
 const bits = (numbers) => new Float32Array(Uint32Array.from(numbers).buffer)
 const M = {}
 const add = (id, properties) => {
-  M[id] = {id, setv(news) { Object.assign(this, news) }, change: {emit() {}}, ...properties}
+  M[id] = {id, setv(news) { Object.assign(this, news) }, ...properties}
+  M[id].change = {emit() { M[id].was = null }}
 }
 globalThis.window = globalThis
 globalThis.addEventListener = () => {}
@@ -58,8 +60,10 @@ class Scripts:
         self._models = {model.id: model for model in models}
         self._v8 = MiniRacer()
         self._v8.eval(_WORLD)
+        for name in self._models:  # all, as properties refer to each other
+            self._v8.eval(f"add({name!r}, {{}})")
         for model in self._models.values():
-            self._v8.eval(f"add({model.id!r}, {{{self._properties(model, size)}}})")
+            self._v8.eval(f"M[{model.id!r}].setv({{{self._properties(model, size)}}})")
             if isinstance(model, ColumnDataSource):
                 columns = self._columns(model)
                 self._v8.eval(f"M[{model.id!r}].was = M[{model.id!r}].data = {columns}")
@@ -80,9 +84,6 @@ class Scripts:
     def _code(self, value: Any) -> str:
         """JavaScript of a value; a model is looked up."""
         if isinstance(value, Model):
-            if value.id not in self._models:
-                self._models[value.id] = value
-                self._v8.eval(f"add({value.id!r}, {{}})")
             return f"M[{value.id!r}]"
         if isinstance(value, np.ndarray) and value.ndim == 2:
             return f"new Grid({self._code(value.ravel())}, {json.dumps(value.shape)})"

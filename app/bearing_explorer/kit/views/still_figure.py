@@ -28,6 +28,10 @@ for (const source of sources) source.properties.data.change.emit()
 """
 
 
+LEAST_HEIGHT = (200, 500)
+"""[px] of a figure, and of one for two columns: on the page cards are as high as there is room."""
+
+
 class FilledSources(PackedSource):
     """Sources and ranges that hold their numbers; those of the page are sent theirs.
 
@@ -102,9 +106,12 @@ class Figure(Generic[C]):
         follow = sources.fill(data, ranges)
         for plot in self.view.figures:
             plot.frame_align = False  # else each takes the margins of the widest
+            least = LEAST_HEIGHT[printed.WIDE in plot.tags]
+            plot.min_height = max(plot.min_height or plot.height, least)
         plots = [] if self.view.is_empty else list(self.view.still_figures())
         self.layout = Column(children=plots, sizing_mode="stretch_width")
-        self.layout.tags = follow.args["sources"]  # keeps those that only pictures are made from
+        # keeps those of which only pictures and colours are made
+        self.layout.tags = [*follow.args["sources"], *follow.args["ranges"]]
         self.document = Document()
         self.document.add_root(self.layout)
         self.document.js_on_event(DocumentReady, follow)

@@ -123,7 +123,7 @@ def test_wider_grooves_carry_less_and_closer_ones_count_as_usual() -> None:
 
 
 def test_a_self_aligning_bearing_has_no_rating_but_a_life() -> None:
-    with pytest.raises(ValueError, match="that of the catalogue"):
+    with pytest.raises(ValueError, match="maker's catalogue"):
         dynamic_load_rating(presets["1208"].bearing)
     assert life(presets["1208"], 20e3).known
 

@@ -64,7 +64,7 @@ def print_figures(document: Document, note: str, path: Path, width: float | None
     heights = [float(plot.min_height or plot.height) for plot in plots]
     for k, plot in enumerate(plots):
         if WIDE in plot.tags:
-            heights[k] = 0.6 * pixels
+            heights[k] = max(heights[k], 0.6 * pixels)
         elif _has_circles(plot):
             heights[k] = min(heights[k], 0.9 * pixels)
     size = {
@@ -364,7 +364,10 @@ class _Printed:
                 named = [(drawn, item) for drawn, item in named if drawn is not None]
                 words = [self._value(item, "label", {}) for _, item in named]
                 if named:
-                    axes.legend([drawn for drawn, _ in named], words, frameon=False)
+                    axes.legend(
+                        [drawn for drawn, _ in named], words, frameon=False, ncols=2,
+                        loc="lower left", bbox_to_anchor=(0.0, 1.0),
+                    )  # fmt: skip
             elif isinstance(part, models.ColorBar):
                 mapper = part.color_mapper
                 scale = ScalarMappable(Normalize(mapper.low, mapper.high),

@@ -261,7 +261,9 @@
   if (brought) {
     on_event("other-file", root, ({ file, is }) => offer(file, is))
     on_event("upload-ready", root, () => { if (kept_file) hand_over() })
-    brought.querySelector(".close").addEventListener("click", () => { brought.hidden = true; room() })
+    const leave = () => { brought.hidden = true; room() }
+    brought.querySelector(".close").addEventListener("click", leave)
+    on_event("done", root, leave)
     for (const kind of ["dragover", "drop"]) window.addEventListener(kind, (event) => {
       const dropped = event.dataTransfer?.types.includes("Files") && !event.defaultPrevented
       if (!dropped) return

@@ -192,7 +192,8 @@
       const box = view.getBoundingClientRect()
       const plots = drawn_in(view)
       const rows = new Set(plots.map(([, { top }]) => Math.round(top))).size
-      const end = Math.max(...plots.map(([, { bottom }]) => bottom))
+      const sentence = view.shadowRoot.querySelector(".sentence").getBoundingClientRect()
+      const end = Math.max(sentence.bottom, ...plots.map(([, { bottom }]) => bottom))
       const more = Math.floor((box.top + room - parseFloat(getComputedStyle(view).paddingBottom) - 2 - end) / rows)
       for (const [model, { height }] of more ? plots : []) {
         const high = Math.max(60, Math.round(height) + more)

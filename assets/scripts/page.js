@@ -31,9 +31,11 @@
   const welcome = part("welcome"), help = part("help"), help_button = part("help-button")
   let greet = true
   try { greet = localStorage.getItem(WELCOMED) === null } catch { /* each time, then */ }
+  const PAPER = 700  // px: the width of a sheet, of which figures on screen may have more
   const room = () => {
     const height = main.clientHeight - 32 - (welcome.hidden ? 0 : welcome.getBoundingClientRect().height + 10)
     root.style.setProperty("--room", `${height}px`)
+    if (matchMedia("screen").matches) root.style.setProperty("--on-paper", Math.min(1, PAPER / main.clientWidth))
   }
   const show_welcome = () => {
     welcome.hidden = !greet || root.dataset.tab !== "overview"

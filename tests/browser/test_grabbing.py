@@ -5,8 +5,7 @@ import re
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
-from tests.browser.explorer_page import can_be_used, rest, settle, value
-from tests.browser.helpers import Server, Watch
+from tests.browser.explorer_page import rest, settle, value
 from tests.browser.visitor import Visitor
 
 START, END, MIDDLE, LOAD = range(4)
@@ -23,6 +22,7 @@ PLACES = """kind => {
 }"""
 
 
+PROOF = pytest.mark.proof
 SCROLLED = "document.querySelector('main').scrollTop"
 
 
@@ -50,11 +50,10 @@ def use_mouse(page: Page, kind: int, right: float, down: float) -> None:
     settle(page)
 
 
-def use_finger(page: Page, kind: int, right: float, down: float, beside: float = 0.0) -> None:
-    """Drag a handle, or the drawing so many pixels right of it."""
+def use_finger(page: Page, kind: int, right: float, down: float) -> None:
     touches = page.context.new_cdp_session(page)
+    touches.send("Emulation.setTouchEmulationEnabled", {"enabled": True})
     x, y = place(page, kind)
-    x += beside
 
     def touch(what: str, share: float) -> None:
         points = [] if what == "touchEnd" else [{"x": x + right * share, "y": y + down * share}]
@@ -65,10 +64,16 @@ def use_finger(page: Page, kind: int, right: float, down: float, beside: float =
         touch("touchMove", step / 8)
     touch("touchEnd", 1.0)
     settle(page)
+    touches.detach()
 
 
-@pytest.mark.parametrize("drag", [use_mouse, pytest.param(use_finger, marks=pytest.mark.proof)])
-def test_the_end_of_a_defect_and_the_arrow_follow_the_hand(page: Page, drag) -> None:
+@pytest.mark.parametrize(
+    ("drag", "width"),
+    [(use_mouse, 1366), *(pytest.param(use_finger, w, marks=PROOF) for w in (1366, 390))],
+)
+def test_the_end_of_a_defect_and_the_arrow_follow_the_hand(page: Page, drag, width: int) -> None:
+    page.set_viewport_size({"width": width, "height": 844 if width < 400 else 650})
+    rest(page)
     scrolled = page.evaluate(SCROLLED)
     extent, center = value(page, "extent_deg"), value(page, "center_deg")
     drag(page, END, 60.0, -20.0)  # counter-clockwise at the bottom
@@ -84,6 +89,9 @@ def test_the_end_of_a_defect_and_the_arrow_follow_the_hand(page: Page, drag) -> 
     drag(page, MIDDLE, -40.0, 0.0)
     assert value(page, "extent_deg") == shorter[0]
     assert value(page, "center_deg") < shorter[1] - 5.0
+    extent = value(page, "extent_deg")
+    drag(page, END, 0.0, -60.0)  # the way in which a finger scrolls
+    assert value(page, "extent_deg") > extent + 5.0
     assert (value(page, "fx_n"), value(page, "fy_n")) == (0.0, 100.0)
     drag(page, LOAD, 40.0, 0.0)
     assert value(page, "fx_n") > 30.0
@@ -92,26 +100,6 @@ def test_the_end_of_a_defect_and_the_arrow_follow_the_hand(page: Page, drag) -> 
     page.get_by_role("button", name="Undo", exact=True).click()
     settle(page)
     assert (value(page, "fx_n"), value(page, "fy_n")) == (0.0, 100.0), "a drag is one step"
-
-
-@pytest.mark.proof
-@pytest.mark.parametrize(("width", "height"), [(390, 844), (1366, 650)])
-def test_a_finger_drags_a_handle_and_beside_it_scrolls(
-    watch: tuple[Page, Watch], explorer: Server, width: int, height: int
-) -> None:
-    page, _ = watch
-    page.set_viewport_size({"width": width, "height": height})
-    emulation = page.context.new_cdp_session(page)
-    emulation.send("Emulation.setTouchEmulationEnabled", {"enabled": True})
-    page.goto(f"{explorer.url}?v=1&preset=fan-rig&tab=load")
-    can_be_used(page)
-    use_finger(page, END, 40.0, -40.0)
-    assert value(page, "extent_deg") > 30.0
-    use_finger(page, LOAD, 10.0, -60.0)
-    assert value(page, "fy_n") < 0.0, "it points up"
-    assert page.evaluate(SCROLLED) == 0.0
-    use_finger(page, LOAD, 0.0, -120.0, beside=80.0)
-    page.wait_for_function(f"{SCROLLED} > 50")
 
 
 @pytest.mark.proof

@@ -72,8 +72,7 @@ function while_there(type, part, act) {
   addEventListener(type, heard)
 }
 
-// Events between the scripts of the page: "explorer-" and their name, on the window. "done" tells that
-// the scene, the tab or the signal is another one: what was said of a file before goes then.
+// Events between the scripts of the page: "explorer-" and their name, on the window.
 function announce(name, detail) {
   window.dispatchEvent(new CustomEvent(`explorer-${name}`, { detail }))
 }

@@ -31,11 +31,11 @@
   const welcome = part("welcome"), help = part("help"), help_button = part("help-button")
   let greet = true
   try { greet = localStorage.getItem(WELCOMED) === null } catch { /* each time, then */ }
-  const PAPER = 700  // px: the width of a sheet, of which figures on screen may have more
   const room = () => {
     const height = main.clientHeight - 32 - (welcome.hidden ? 0 : welcome.getBoundingClientRect().height + 10)
     root.style.setProperty("--room", `${height}px`)
-    if (matchMedia("screen").matches) root.style.setProperty("--on-paper", Math.min(1, PAPER / main.clientWidth))
+    // a sheet is 700 px wide, and figures are as wide as on screen
+    if (matchMedia("screen").matches) root.style.setProperty("--on-paper", Math.min(1, 700 / main.clientWidth))
   }
   const show_welcome = () => {
     welcome.hidden = !greet || root.dataset.tab !== "overview"
@@ -165,8 +165,8 @@
   const resize = (model, height, room_for_labels = 1) => {
     const { sizing_mode, height: own, min_height, min_border_left } = model
     if (!own_size.has(model)) own_size.set(model, { sizing_mode, height: own, min_height, min_border_left })
-    const left = room_for_labels * own_size.get(model).min_border_left
-    model.setv({ sizing_mode: "stretch_width", height, min_height: null, min_border_left: left }, { sync: false })
+    const wider = { min_border_left: room_for_labels * own_size.get(model).min_border_left }
+    model.setv({ sizing_mode: "stretch_width", height, min_height: null, ...wider }, { sync: false })
   }
   // Without a lesson, or beside one on a low screen: the head of a view and its first figure at once.
   const LEAST = 170, LOW = 460  // px
@@ -265,9 +265,8 @@
   if (brought) {
     on_event("other-file", root, ({ file, is }) => offer(file, is))
     on_event("upload-ready", root, () => { if (kept_file) hand_over() })
-    const leave = () => { brought.hidden = true; room() }
-    brought.querySelector(".close").addEventListener("click", leave)
-    on_event("done", root, leave)
+    brought.querySelector(".close").addEventListener("click", () => { brought.hidden = true; room() })
+    on_event("done", root, () => brought.querySelector(".close").click())
     for (const kind of ["dragover", "drop"]) window.addEventListener(kind, (event) => {
       const dropped = event.dataTransfer?.types.includes("Files") && !event.defaultPrevented
       if (!dropped) return

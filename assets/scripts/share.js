@@ -132,7 +132,7 @@ export function render({ model }) {
     }
     shown = address
     if (said !== sentence.number) say(sentence.words)
-    else announce("done")
+    else announce("done")  // scene or tab is another one: what was said of a file goes
     said = sentence.number
   })
   window.addEventListener("popstate", ({ state: place }) => {

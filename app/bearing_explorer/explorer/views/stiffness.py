@@ -304,7 +304,9 @@ return rounded(row.now/10**e, 4) + '\\u00a0' + names[e] + unit
 _FLAT = f"""
 return row.flat && narrow ? '0' : {list(matrix_cells.ZEROS)}[row.flat]
 """
-_FOOT = f"{_UNIT}return row.foot && !(narrow && unit) ? rounded(%s, 4) + '°' : ''"
+_FOOT = f"""{_UNIT}
+return row.foot && !(narrow && unit) ? rounded(%s, narrow ? 3 : 4) + '°' : ''
+"""
 
 
 def _moving_parts(plot: figure, cells: ColumnDataSource, axis: ColumnDataSource) -> None:

@@ -105,6 +105,7 @@ export function render({ model }) {
 
   // What is dragged in a drawing of the bearing (see grab.js) moves the sliders.
   let selected = 0, hold = null
+  let pointed = -Math.PI / 2  // direction of the last load, in which one of nothing grows
   const inside = (name, value) => {
     const { least, most } = panel.limits[name]
     return Math.min(most, Math.max(least, Number(value.toPrecision(4))))
@@ -116,17 +117,18 @@ export function render({ model }) {
   const follow_hand = ({ kind, defect, began, released, turn, force, more, to }) => {
     if (began) {
       const own = kind === "load" || defect === selected
-      hold = own ? { ...values, turn: 0 } : null
+      hold = own ? { ...values, turn: 0, pointed } : null
       if (!own) send({ choose: { defect: String(defect) } })
       return
     }
     if (released) return hold && panel.release()
     if (kind !== "load" && defect !== selected) return  // not before the sliders are its own
-    hold ??= { ...values, turn }
+    hold ??= { ...values, turn, pointed }
     const by = turn - hold.turn
     if (kind === "load") {
       const held = Math.hypot(hold.fx_n, hold.fy_n)
-      const angle = (held ? Math.atan2(hold.fy_n, hold.fx_n) : -Math.PI / 2) + by * Math.PI / 180
+      const angle = (held ? Math.atan2(hold.fy_n, hold.fx_n) : hold.pointed) + by * Math.PI / 180
+      pointed = force ? Math.atan2(force[1], force[0]) : angle
       const most = Math.min(panel.limits.fx_n.most / Math.abs(Math.cos(angle)), panel.limits.fy_n.most / Math.abs(Math.sin(angle)))
       const size = to ? { least: 0, most }[to] : force ? Math.hypot(...force) : Math.max(0, held + more)
       const [fx_n, fy_n] = (force ?? [size * Math.cos(angle), size * Math.sin(angle)]).map((one) => Math.abs(one) < 0.01 * size ? 0 : one)  // by hand nothing is upright

@@ -57,6 +57,7 @@ export function render({ model }) {
     const all = [...list ?? []].filter(({ name }, _, every) =>
       !name.startsWith(".") && (every.length < 2 || !no_record.test(name)))
     if (all.length === 1 && is_scene_name(all[0].name)) return announce("other-file", { file: all[0], is: "scene" })
+    announce("done")
     all.sort((one, other) => compare(place(one), place(other)))
     chosen = all.length
     count = Math.min(chosen, model.most)

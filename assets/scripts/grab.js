@@ -100,7 +100,7 @@ if (view?.frame?.bbox?.width > 0) {
       attribute(one, "aria-label", NAMES[one.kind])
       attribute(one, "aria-valuenow", load ? number : place)
       attribute(one, "aria-valuemax", load ? 1e6 : 360)
-      attribute(one, "aria-valuetext", load ? `${number} N at ${place}\u00b0` : middle ? `at ${place}\u00b0`
+      attribute(one, "aria-valuetext", load ? number ? `${number} N at ${place}\u00b0` : "0 N" : middle ? `at ${place}\u00b0`
         : `at ${place}\u00b0; defect ${number}\u00b0 long`)
       if (!load) return
       const large = document.documentElement.hasAttribute("data-projector")

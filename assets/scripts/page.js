@@ -34,6 +34,8 @@
   const room = () => {
     const height = main.clientHeight - 32 - (welcome.hidden ? 0 : welcome.getBoundingClientRect().height + 10)
     root.style.setProperty("--room", `${height}px`)
+    // a sheet is 700 px wide, and figures are as wide as on screen
+    if (matchMedia("screen").matches) root.style.setProperty("--on-paper", Math.min(1, 700 / main.clientWidth))
   }
   const show_welcome = () => {
     welcome.hidden = !greet || root.dataset.tab !== "overview"
@@ -160,10 +162,11 @@
     return spaces.length ? `${words.slice(0, spaces[0])}\n${words.slice(spaces[0] + 1)}` : words
   }
   const own_size = new Map()  // of figures that are fitted
-  const resize = (model, height) => {
-    const { sizing_mode, height: own, min_height } = model
-    if (!own_size.has(model)) own_size.set(model, { sizing_mode, height: own, min_height })
-    model.setv({ sizing_mode: "stretch_width", height, min_height: null }, { sync: false })
+  const resize = (model, height, room_for_labels = 1) => {
+    const { sizing_mode, height: own, min_height, min_border_left } = model
+    if (!own_size.has(model)) own_size.set(model, { sizing_mode, height: own, min_height, min_border_left })
+    const wider = { min_border_left: room_for_labels * own_size.get(model).min_border_left }
+    model.setv({ sizing_mode: "stretch_width", height, min_height: null, ...wider }, { sync: false })
   }
   // Without a lesson, or beside one on a low screen: the head of a view and its first figure at once.
   const LEAST = 170, LOW = 460  // px
@@ -191,12 +194,13 @@
       if (!fits) continue
       const box = view.getBoundingClientRect()
       const plots = drawn_in(view)
-      const rows = new Set(plots.map(([, { top }]) => Math.round(top))).size
-      const end = Math.max(...plots.map(([, { bottom }]) => bottom))
-      const more = Math.floor((box.top + room - parseFloat(getComputedStyle(view).paddingBottom) - 2 - end) / rows)
-      for (const [model, { height }] of more ? plots : []) {
-        const high = Math.max(60, Math.round(height) + more)
-        resize(model, high)
+      const rows = new Map(plots.map(([, { top, height }]) => [Math.round(top), height]))
+      const sentence = view.shadowRoot.querySelector(".sentence").getBoundingClientRect()
+      const end = Math.max(sentence.bottom, ...plots.map(([, { bottom }]) => bottom))
+      const more = box.top + room - parseFloat(getComputedStyle(view).paddingBottom) - 2 - end
+      const high = Math.max(60, Math.floor([...rows.values()].reduce((sum, height) => sum + height, more) / rows.size))
+      for (const [model, { height }] of plots) if (Math.abs(high - height) >= 1) {
+        resize(model, high, 1.15)
         for (const axis of model.left)  // in two lines, where large type is longer than the figure is high
           if (axis.axis_label?.length * WIDTH_OF_SIGN > high && !axis.axis_label.includes("\n")) axis.setv({ axis_label: in_two_lines(axis.axis_label) }, { sync: false })
       }
@@ -262,6 +266,7 @@
     on_event("other-file", root, ({ file, is }) => offer(file, is))
     on_event("upload-ready", root, () => { if (kept_file) hand_over() })
     brought.querySelector(".close").addEventListener("click", () => { brought.hidden = true; room() })
+    on_event("done", root, () => brought.querySelector(".close").click())
     for (const kind of ["dragover", "drop"]) window.addEventListener(kind, (event) => {
       const dropped = event.dataTransfer?.types.includes("Files") && !event.defaultPrevented
       if (!dropped) return

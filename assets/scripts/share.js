@@ -132,6 +132,7 @@ export function render({ model }) {
     }
     shown = address
     if (said !== sentence.number) say(sentence.words)
+    else announce("done")  // scene or tab is another one: what was said of a file goes
     said = sentence.number
   })
   window.addEventListener("popstate", ({ state: place }) => {
@@ -145,6 +146,7 @@ export function render({ model }) {
     if (returning) ask(model, { open: { name: "The earlier scene", text: place.address } })
   })
   on_event("said", root, say)
+  on_event("done", root, () => say(""))
   on_event("measured-report", root, asks_report)
   on_event("asked", root, (tab) => { if (tab.name !== going) going = null })
   const failed = (error) => {

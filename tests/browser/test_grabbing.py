@@ -22,6 +22,10 @@ PLACES = """kind => {
 }"""
 
 
+PROOF = pytest.mark.proof
+SCROLLED = "document.querySelector('main').scrollTop"
+
+
 @pytest.fixture
 def page(desk: Visitor) -> Page:
     """With the scene as it came."""
@@ -40,30 +44,31 @@ def use_mouse(page: Page, kind: int, right: float, down: float) -> None:
     x, y = place(page, kind)
     page.mouse.move(x, y)
     page.mouse.down()
-    for step in range(1, 9):
-        page.mouse.move(x + right * step / 8, y + down * step / 8)
+    page.mouse.move(x + right, y + down, steps=8)
     page.mouse.up()
     settle(page)
 
 
 def use_finger(page: Page, kind: int, right: float, down: float) -> None:
     touches = page.context.new_cdp_session(page)
+    touches.send("Emulation.setTouchEmulationEnabled", {"enabled": True})
     x, y = place(page, kind)
-
-    def touch(what: str, share: float) -> None:
+    moves = [("touchMove", step / 8) for step in range(1, 9)]
+    for what, share in [("touchStart", 0.0), *moves, ("touchEnd", 1.0)]:
         points = [] if what == "touchEnd" else [{"x": x + right * share, "y": y + down * share}]
         touches.send("Input.dispatchTouchEvent", {"type": what, "touchPoints": points})
-
-    touch("touchStart", 0.0)
-    for step in range(1, 9):
-        touch("touchMove", step / 8)
-    touch("touchEnd", 1.0)
     settle(page)
+    touches.detach()
 
 
-@pytest.mark.parametrize("drag", [use_mouse, pytest.param(use_finger, marks=pytest.mark.proof)])
-def test_the_end_of_a_defect_and_the_arrow_follow_the_hand(page: Page, drag) -> None:
-    scrolled = page.evaluate("scrollY")
+@pytest.mark.parametrize(
+    ("drag", "width"),
+    [(use_mouse, 1366), *(pytest.param(use_finger, w, marks=PROOF) for w in (1366, 390))],
+)
+def test_the_end_of_a_defect_and_the_arrow_follow_the_hand(page: Page, drag, width: int) -> None:
+    page.set_viewport_size({"width": width, "height": 844 if width < 400 else 650})
+    rest(page)
+    scrolled = page.evaluate(SCROLLED)
     extent, center = value(page, "extent_deg"), value(page, "center_deg")
     drag(page, END, 60.0, -20.0)  # counter-clockwise at the bottom
     longer = value(page, "extent_deg")
@@ -78,11 +83,13 @@ def test_the_end_of_a_defect_and_the_arrow_follow_the_hand(page: Page, drag) -> 
     drag(page, MIDDLE, -40.0, 0.0)
     assert value(page, "extent_deg") == shorter[0]
     assert value(page, "center_deg") < shorter[1] - 5.0
+    drag(page, END, 0.0, -60.0)  # the way in which a finger scrolls
+    assert value(page, "extent_deg") > shorter[0] + 5.0
     assert (value(page, "fx_n"), value(page, "fy_n")) == (0.0, 100.0)
     drag(page, LOAD, 40.0, 0.0)
     assert value(page, "fx_n") > 30.0
     assert value(page, "fy_n") == pytest.approx(100.0, rel=0.05), "the tip went to the side"
-    assert page.evaluate("scrollY") == scrolled
+    assert page.evaluate(SCROLLED) == scrolled
     page.get_by_role("button", name="Undo", exact=True).click()
     settle(page)
     assert (value(page, "fx_n"), value(page, "fy_n")) == (0.0, 100.0), "a drag is one step"
@@ -118,7 +125,9 @@ def test_handles_are_sliders_for_keys_and_screen_readers(page: Page) -> None:
     page.keyboard.press("End")
     expect(handle("Load")).to_have_attribute("aria-valuetext", re.compile(r"^500 N at 271°"))
     page.keyboard.press("Home")
-    expect(handle("Load")).to_have_attribute("aria-valuetext", re.compile(r"^0 N"))
+    expect(handle("Load")).to_have_attribute("aria-valuetext", "0 N")
+    page.keyboard.press("ArrowUp")  # it grows to where it pointed
+    expect(handle("Load")).to_have_attribute("aria-valuetext", re.compile(r" N at 271°$"))
     end.press("End")
     settle(page)
     assert value(page, "extent_deg") == 120.0

@@ -468,6 +468,11 @@ def test_a_file_brought_to_the_other_half_is_offered_there(visitor: Visitor) -> 
     scene_file = visitor.page.locator("#scene-file")
     signal = {"name": "fan.wav", "mimeType": "audio/wav", "buffer": _recording(38.6, channels=1)}
     scene_file.set_input_files(signal)  # type: ignore[arg-type]
+    offer = visitor.page.get_by_text("“fan.wav” may be a measured signal")
+    expect(offer).to_be_visible()
+    visitor.type("Shaft speed", "8")
+    expect(offer).to_be_hidden()  # another thing is done
+    scene_file.set_input_files(signal)  # type: ignore[arg-type]
     visitor.press("Diagnose it")
     visitor.is_at("Diagnosis")
     visitor.reads(re.compile("fan.wav · 3 s"))

@@ -52,6 +52,10 @@ def test_a_figure_says_on_paper_what_the_page_says(name: str, tmp_path: Path) ->
     assert not re.search("no value|Click", texts(svg))
     width = float(re.search(r'width="([\d.]+)pt"', svg)[1])
     assert width / 72.0 * 25.4 == pytest.approx(180.0 if name in ("stiffness", "maps") else 88.0)
+    if name == "stiffness":  # at the width of a column
+        drawn.save(tmp_path / "figure.svg", width=printed.COLUMN)
+        narrow = texts((tmp_path / "figure.svg").read_text(encoding="utf-8"))
+        assert narrow.count("MN/m") == narrow.count("In MN/m, kN/rad, N·m/rad") == 1
 
 
 @pytest.mark.parametrize(("suffix", "begins"), [(".pdf", b"%PDF"), (".png", b"\x89PNG")])

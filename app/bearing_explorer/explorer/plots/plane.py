@@ -262,7 +262,9 @@ class PlaneFigures:
             "image": [values.astype(np.float32)],
             "x": [left], "y": [bottom], "dw": [right - left], "dh": [top - bottom],
         }  # fmt: skip
-        self._image["glyph"].global_alpha = alpha
+        self._image["glyph"].global_alpha = self._missing["glyph"].fill_alpha = alpha
+        for plot in self.plots[1:]:
+            plot.handles["glyph"].line_alpha = alpha
         low, high = color_limits(values)
         self._image["color_mapper"].update(low=low, high=high, palette=_PALETTES[low == -high])
         self._missing["source"].data = field.missing

@@ -404,38 +404,37 @@ def frequencies(results: Results) -> str:
 
 # --- vibration ------------------------------------------------------------------------------------
 
+HEALTHY_SHAKES = (
+    "No defect: a healthy bearing also shakes as its balls pass, because as they change places the "
+    "stiffness under the load changes."
+)
+"""Reason for peaks at the ball-pass frequency that might seem to be the sign of a defect."""
+
 
 def passes(
     spectrum: Spectrum,
     rate: float,
     lowest_mode: float,
     *,
-    healthy: bool = False,
     briefly: bool = False,
 ) -> str:
     """Say whether a peak stands at the ball-pass frequency [Hz], why not, and where to see it.
 
-    `lowest_mode` [Hz]: the least natural frequency. `healthy`: there is no defect, whose sign such
-    a peak might seem to be. `briefly`: nothing where the spectrum cannot show it.
+    `lowest_mode` [Hz]: the least natural frequency. `briefly`: nothing where the spectrum cannot
+    show it.
     """
     frequency, density = spectrum
     spacing = float(frequency[1] - frequency[0])
     hertz = style.with_prefix(rate, "Hz")
     if not rate > 0.0:
         return ""
-    why = (
-        " No defect: a healthy bearing also shakes as its balls pass, because the stiffness under "
-        "the load changes with their places."
-        if healthy
-        else ""
-    )
     if rate < SEPARATE * spacing:
         if briefly:
             return ""
         return (
             f"No peak at the ball-pass frequency, {hertz}: this spectrum resolves only "
             f"{spacing:.0f} Hz. Each pass is seen in time (Vibration, every "
-            f"{style.with_prefix(1.0 / rate, 's')}) and in the envelope (Diagnosis).{why}"
+            f"{style.with_prefix(1.0 / rate, 's')}) and in the envelope (Diagnosis)."
         )
     level = 10.0 * np.log10(np.maximum(density, 1e-20))
     at = round(rate / spacing)
@@ -449,8 +448,8 @@ def passes(
         return f"{text}such a slow force moves the housing little, {below}."
     most = float(frequency[int(np.argmax(level))])
     if abs(most - max(round(most / rate), 1) * rate) <= 0.51 * spacing:
-        return f"Peaks stand {hertz} apart, the ball-pass frequency.{why}"
-    return f"A peak stands at the ball-pass frequency, {hertz}, {below}.{why}"
+        return f"Peaks stand {hertz} apart, the ball-pass frequency."
+    return f"A peak stands at the ball-pass frequency, {hertz}, {below}."
 
 
 def peak(results: Results, rates: Sequence[float], *, briefly: bool = False) -> str:

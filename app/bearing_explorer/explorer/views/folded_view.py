@@ -50,7 +50,7 @@ class FoldedView(View[C]):
         self._show_fold()
 
     def put_head(self, content: C) -> None:
-        self._named = content.in_words(self.title)
+        self._named = content.in_words(self.title_of(content))
         super().put_head(content)
 
     def words(self, results: C) -> str:

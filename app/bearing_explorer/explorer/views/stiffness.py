@@ -25,13 +25,13 @@ from bearing_explorer.kit.plots.style import with_prefix
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
 from bearingcore import STIFFNESS_TERMS
-from bearingcore.common import prefixed_span
+from bearingcore.common import prefix_power, prefixed_span
 from bearingcore.model.statics import TERM_UNITS
 
 NARROWEST = 920
 """Width [px] from which a cell has room for its symbol and its value."""
-NARROWEST_WITH_UNITS = 800
-"""Width [px] from which a cell has room for the unit alone, as on paper."""
+NARROWEST_WITH_UNITS = 740
+"""Width [px] from which it has room for the unit alone, and its limits for room beside it."""
 LEFT = 0.31
 """Room for the numbers left of a cell."""
 
@@ -48,7 +48,7 @@ _PLACE_COLUMNS = {
     **matrix_cells.sides_of(_FRAMES),
     "unit": np.array([UNITS.index(unit) for unit in TERM_UNITS.values()] + [len(UNITS)]),
 }
-_CELL_COLUMNS = (*_PLACE_COLUMNS, "foot", "low", "high", "now", "zero", "flat")
+_CELL_COLUMNS = (*_PLACE_COLUMNS, "foot", "low", "high", "now", "zero", "flat", "power")
 
 
 class Stiffness(ComparingView):
@@ -71,12 +71,12 @@ class Stiffness(ComparingView):
         self._ball_limits = StickyRange(0.0, 1.0, shrink_below=0.0)
         self._lesson_term, self._lesson_limits = "", StickyRange(0.0, 1.0)
         plot = matrix_cells.matrix_figure(
-            (-0.05, 5.03), (-5.08, 0.0), height=350, name="stiffness_drawing"
+            (-0.05, 5.03), (-5.17, 0.11), height=360, name="stiffness_drawing"
         )
         self._legend = _static_parts(plot)
         cells = packed.source("stiffness_cells", *_CELL_COLUMNS)
         now = packed.source("stiffness_now", "x", "y", "low", "high")
-        axis = packed.source("stiffness_axis", "shaft")
+        axis = packed.source("stiffness_axis", "shaft", *UNITS)
         _moving_parts(plot, cells, axis)
         plot.segment("x", "low", "x", "high", source=now, line_color=style.INK, line_alpha=0.45)
         looks = {"healthy": (style.HEALTHY, 1.6), "defective": (style.DEFECTIVE, 1.8)}
@@ -149,6 +149,7 @@ class Stiffness(ComparingView):
         marks.append((float(_BALLS.x(np.array(now_share))), at, _BALLS.bottom, _BALLS.top))
         heads.append((*limits, balls, _BALLS.bottom))
 
+        powers = _shared_powers(np.array(heads[:-1])[:, :2], np.array(flat))
         drawn, reference, *others = (layers.with_gaps(line, "x", "y") for line in lines)
         mark, head = np.array(marks).T, np.array(heads).T
         return {
@@ -161,9 +162,13 @@ class Stiffness(ComparingView):
                 "foot": _IS_FOOT * float(results.along(last)),
                 **dict(zip(("low", "high", "now", "zero"), head, strict=True)),
                 "flat": np.array([*matrix_cells.zero_kinds(flat), 0]),
+                "power": np.array([*(powers[unit] for unit in TERM_UNITS.values()), 0]),
             },
             "stiffness_crossings": matrix_cells.crossing_lines(results, _FRAMES),
-            "stiffness_axis": {"shaft": np.array([float(results.over_shaft)])},
+            "stiffness_axis": {
+                "shaft": np.array([float(results.over_shaft)]),
+                **{unit: np.array([power]) for unit, power in powers.items()},
+            },
         }, {}
 
     def _limits_of_lesson(self, term: str) -> StickyRange:
@@ -241,13 +246,21 @@ def _stepped(share: np.ndarray) -> np.ndarray:
     return np.concatenate([share[:1], np.repeat(middles, 2), share[-1:]])
 
 
+def _shared_powers(limits: np.ndarray, flat: np.ndarray) -> dict[str, float]:
+    """Power of ten of the prefix that all terms of a unit can share; `limits` (terms, 2) in SI."""
+    units = np.array([*TERM_UNITS.values()])
+    tops = {unit: np.abs(limits[(units == unit) & ~flat]) for unit in UNITS}
+    known = {unit: top[np.isfinite(top)].max(initial=0.0) for unit, top in tops.items()}
+    return {unit: float(prefix_power(float(top))) for unit, top in known.items()}
+
+
 def _static_parts(plot: figure) -> ColumnDataSource:
     """Frames, names and legend: painted from the page's own numbers; returns the legend's."""
     frames = ColumnDataSource(matrix_cells.sides_of(_FRAMES))
     sides = {side: side for side in matrix_cells.SIDES}
     plot.quad(**sides, source=frames, fill_color="#FAFBFC", line_color=style.GRID)
     matrix_cells.write_names(plot, _FRAMES)
-    y = [-2.36, -2.6, -2.84]
+    y = [-2.16, -2.42, -2.68]
     colors = [style.DEFECTIVE, style.HEALTHY]
     ends = {"x0": [LEFT] * 2, "x1": [LEFT + 0.15] * 2, "y0": y[:2], "y1": y[:2]}
     plot.segment(**ends, line_color=colors, line_width=[2.4, 2.0])
@@ -262,9 +275,14 @@ def _static_parts(plot: figure) -> ColumnDataSource:
 
 _UNIT = f"const unit = {[*UNITS, '']}[row.unit]\n"
 _LIMIT = f"""{_UNIT}
-if (isNaN(row.low) || row.flat) return ''
-const e = unit ? power(Math.max(Math.abs(row.low), Math.abs(row.high))) : 0
-return minus(String(Number((row.%s/10**e).toPrecision(4))))
+const at_corners = narrow && !row.foot
+if (isNaN(row.low) || row.flat || at_corners !== %s) return ''
+const own = unit ? power(Math.max(Math.abs(row.low), Math.abs(row.high))) : 0
+return minus(String(Number((row.%s/10**(narrow ? row.power : own)).toPrecision(4))))
+"""
+_SHARED_UNITS = f"""
+if (!narrow) return ''
+return 'In ' + {[*UNITS]}.map((unit) => names[row[unit]] + unit).join(', ')
 """
 _NOW = f"""{_UNIT}
 if (row.flat) return ''
@@ -281,21 +299,27 @@ return rounded(row.now/10**e, 4) + '\\u00a0' + names[e] + unit
 _FLAT = f"""
 return row.flat && narrow ? '0' : {list(matrix_cells.ZEROS)}[row.flat]
 """
-_FOOT = "return row.foot ? rounded(%s, narrow ? 3 : 4) + '°' : ''"
+_FOOT = f"""{_UNIT}
+return row.foot && !(narrow && unit) ? rounded(%s, narrow ? 3 : 4) + '°' : ''
+"""
 
 
 def _moving_parts(plot: figure, cells: ColumnDataSource, axis: ColumnDataSource) -> None:
     """Zero lines, limits and values of the cells, and the ends of their cage angles."""
     plot.segment("left", "zero", "right", "zero", source=cells, line_color=style.STEEL_EDGE)
-    left = {"x": "left", "x_offset": -3, "text_align": "right"}
-    write(plot, cells, _LIMIT % "low", y="bottom", text_baseline="bottom", **left)
-    write(plot, cells, _LIMIT % "high", y="top", text_baseline="top", **left)
+    fitting = NARROWEST_WITH_UNITS
+    left = {"x": "left", "x_offset": -3, "text_align": "right", "fitting": fitting}
+    # beside a cell; on a narrow figure, where another one is too near, below and above its corners
+    for at_corners, low, high in (("false", "bottom", "top"), ("true", "top", "bottom")):
+        write(plot, cells, _LIMIT % (at_corners, "low"), y="bottom", text_baseline=low, **left)
+        write(plot, cells, _LIMIT % (at_corners, "high"), y="top", text_baseline=high, **left)
+    write(plot, axis, _SHARED_UNITS, x=LEFT, y=-3.1, fitting=fitting)
     above = {"x": "right", "y": "top", "y_offset": -6, "text_align": "right"}
     write(plot, cells, _NOW, fitting=NARROWEST, **above)
     # below the zero line, which runs through the middle
     inside = {"x": "left", "y": "bottom", "x_offset": 3, "y_offset": -1}
     write(plot, cells, _FLAT, fitting=NARROWEST, **inside)
-    below = {"y": "bottom", "y_offset": 4, "text_baseline": "top", "fitting": NARROWEST}
+    below = {"y": "bottom", "y_offset": 4, "text_baseline": "top", "fitting": fitting}
     write(plot, cells, _FOOT % "0*row.foot", x="left", **below)
     write(plot, cells, _FOOT % "row.foot", x="right", text_align="right", **below)
     middle = {"x": 0.5 * (_BALLS.left + _BALLS.right), "text_align": "center"}

@@ -20,7 +20,7 @@ from bearing_explorer.explorer.state.references import HEALTHY, OTHER_BALLS
 from bearing_explorer.explorer.views.comparing_view import ComparingView
 from bearing_explorer.kit.plots import layers, style
 from bearing_explorer.kit.plots.element_words import with_elements_of
-from bearing_explorer.kit.plots.levels import HIGHEST, SHOWN
+from bearing_explorer.kit.plots.levels import HIGHEST, LEVEL_FLOOR, SHOWN
 from bearing_explorer.kit.plots.ranges import StickyRange
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, SessionParts, Sources
@@ -248,11 +248,12 @@ def loudest_words(results: Results) -> str:
     if not results.late_spectra:
         return f"There is no spectrum, as {why_ended(results.motion)}."
     for dof, peak in results.peaks.items():
-        words.append(f"{style.number(peak.level, 2)} dB at {peak.frequency:.0f} Hz along {dof}")
+        if peak.level > LEVEL_FLOOR:
+            words.append(f"{style.number(peak.level, 2)} dB at {peak.frequency:.0f} Hz along {dof}")
     text = (
         f"The highest levels above 100 Hz are {style.list_words(words)} (re 1 (m/s²)²/Hz)"
         if words
-        else "The housing cannot move along x or y in this scene"
+        else "The housing does not move along x or y in this scene"
     )
     passing = style.list_words(
         [
@@ -266,16 +267,20 @@ def loudest_words(results: Results) -> str:
 
 
 def why_words(results: Results, *, briefly: bool = False) -> str:
-    """Explain the largest peak, and say whether one stands at the ball-pass frequency."""
-    peaks = results.peaks
+    """Explain the largest peak, and say whether one stands at the ball-pass frequency.
+
+    Without a defect the first sentence says why there is a peak at all.
+    """
+    peaks = {dof: peak for dof, peak in results.peaks.items() if peak.level > LEVEL_FLOOR}
     if not peaks:
         return ""
     most = results.late_spectra[max(peaks, key=lambda dof: peaks[dof].level)]
     rates = [rate for _, _, rate in passed(results.scene)]
     words = [reasons.peak(results, rates, briefly=briefly)]
     lowest = min((low for low, _ in results.bands.values() if low == low), default=0.0)
-    healthy = not results.scene.defects
-    words.append(reasons.passes(most, min(rates), lowest, healthy=healthy, briefly=briefly))
+    words.append(reasons.passes(most, min(rates), lowest, briefly=briefly))
+    if not results.scene.defects:
+        words.insert(len(words) if briefly else 0, reasons.HEALTHY_SHAKES)
     return with_elements_of(results.scene.bearing, " ".join(filter(None, words)))
 
 

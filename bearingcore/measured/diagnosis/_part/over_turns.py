@@ -12,7 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from bearingcore.common import Array, number, runs
+from bearingcore.common import Array, number, runs, span
 from bearingcore.measured.diagnosis._part.unknown_speed import NARROW
 from bearingcore.measured.signals._filter_bank import thinned
 from bearingcore.measured.signals._resampling import resample_over_turns
@@ -103,8 +103,11 @@ def resample_to_steady_speed(
     near = low <= (1.0 + BESIDE) * speed.max() and high >= (1.0 - BESIDE) * speed.min()
     if near and not looked_for:
         low = high = mean
-    change = number(100.0 * float(np.ptp(speed[part])) / mean, 2)
-    words = f"it changes by {change} % as measured, so the signal is taken over the shaft's angle"
+    least, most = (100.0 * float(end) / mean for end in (speed[part].min(), speed[part].max()))
+    words = (
+        f"it changes by {number(most - least, 2)} % as measured, "
+        f"{span(least, most, '% of its mean')}, so the signal is taken over the shaft's angle"
+    )
     return steady, low, high, f"{source}; {words}"
 
 

@@ -66,8 +66,8 @@ def other_unit(speed: float, other: float) -> str:
 def speed_changes(change: float) -> str:
     """Sentence for a speed that changes by a fraction and so blurs all lines."""
     return (
-        f"The speed changes by {percent(change, 2)} or more, which blurs the lines of all parts. "
-        "Take a steadier part of the record, or record the speed along with the signal."
+        f"The speed changes by {percent(change, 2)} of its mean or more, which blurs the lines of "
+        "all parts. Take a steadier part of the record, or record the speed along with the signal."
     )
 
 

@@ -387,6 +387,7 @@ FIELD = Field(
 def test_a_map_has_its_numbers_its_reasons_and_the_scene() -> None:
     plane = PlaneFigures("plane", lambda x, y: None)
     plane.show(FIELD, (12.0, -110.0), 0.35)
+    assert {plot.renderers[0].glyph.line_alpha for plot in (plane.up, plane.across)} == {0.35}
     image, missing, *rings = plane.map.renderers
     np.testing.assert_array_equal(image.data_source.data["image"][0], FIELD.values / 1e6)
     assert image.glyph.global_alpha == 0.35

@@ -16,6 +16,7 @@ from bearing_explorer.explorer.state.field_values import limits_of
 from bearing_explorer.explorer.state.references import OTHER_BALLS
 from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.explorer.state.value_range import SWEEPABLE, Sweep, sweep
+from bearing_explorer.explorer.views.folded_view import FoldedView
 from bearing_explorer.explorer.views.mass_time import MassInTime
 from bearing_explorer.explorer.views.mechanism import WhichMechanism, mechanism_words
 from bearing_explorer.explorer.views.passage_view import EVENT_ROWS, LABEL_WIDTH, PassageView
@@ -121,7 +122,9 @@ def test_the_largest_peak_is_that_of_the_whole_spectrum_and_is_in_the_picture(sp
 @pytest.mark.parametrize("kind", [VibrationInTime, SlowPassage, MassInTime])
 def test_a_healthy_bearing_has_no_defect_in_its_words(kind: type[PassageView]) -> None:
     healthy, view = Results(FAN_RIG.healthy()), kind(PackedSource())
-    assert "defect" not in view.title_of(healthy) + view.caption(healthy)
+    view.put_head(healthy)
+    opener = view._named if isinstance(view, FoldedView) else ""
+    assert "defect" not in view._caption.title + view.caption(healthy) + opener
 
 
 def test_a_picture_that_is_of_an_earlier_scene_is_faded(results: Results) -> None:

@@ -272,6 +272,7 @@
   const relayout = method(figure, "_invalidate_layout_if_needed")
   part("figures out of sight", [build_layout, paint, save, relayout], () => {
     const NEAR = 0.7, REST = 700  // of the window, above and below it; ms
+    const AT_ONCE = 3  // figures of a tab that opens; the watch has the others painted in a frame of their own
     const views = new WeakMap(), near = new WeakMap(), unpainted = new Set()
     const missed = new WeakSet()  // to be painted while their tab was closed
     const paint_now = (view) => {
@@ -330,7 +331,11 @@
         act()
       } finally {
         together = null
-        for (const one of figures) if (one.is_displayed) is_near(one)
+        let painted = 0
+        for (const one of figures) {
+          const is_new = !views.has(one.el)
+          if (one.is_displayed && is_near(one) && is_new && ++painted > AT_ONCE) near.set(one, false)
+        }
         written_once(() => { for (const one of figures) one.paint() })
       }
     }

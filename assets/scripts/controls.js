@@ -183,8 +183,8 @@ export function render({ model }) {
   rows[spec.extent].root.append(cue)
   rows[spec.extent].slider.classList.add("spaced")
   // Opacity is animated beside the page, and by one animation: else all of it is painted at each frame.
-  const flash = cue.animate({ opacity: [0.7, 0] }, { duration: still ? 0 : 1200, pseudoElement: "::after" })
-  let inside_before = null
+  const lasting = { duration: still ? 0 : 1200, pseudoElement: "::after" }
+  let inside_before = null, flash
   const show_spacings = () => {
     const { least, most } = panel.limits[spec.extent], count = Math.floor(values[spec.extent] / spacing + 1e-9)
     rows[spec.extent].slider.style.setProperty("--spacing", spacing / (most - least))
@@ -192,8 +192,8 @@ export function render({ model }) {
     if (count === inside_before) return
     cue.hidden = !count
     cue.textContent = `Now always at least ${count === 1 ? "one rolling element" : `${count} rolling elements`} inside`
-    flash.cancel()
-    if (inside_before !== null) flash.play()
+    flash?.cancel()
+    if (inside_before !== null) flash = cue.animate({ opacity: [0.7, 0] }, lasting)
     inside_before = count
   }
 

@@ -182,9 +182,7 @@ export function render({ model }) {
   const cue = element("p", { class: "note cue", role: "status" })
   rows[spec.extent].root.append(cue)
   rows[spec.extent].slider.classList.add("spaced")
-  // Opacity is animated beside the page, and by one animation: else all of it is painted at each frame.
-  const lasting = { duration: still ? 0 : 1200, pseudoElement: "::after" }
-  let inside_before = null, flash
+  let inside_before = null, flash  // of its opacity, one at a time: else all of the page is painted at each frame
   const show_spacings = () => {
     const { least, most } = panel.limits[spec.extent], count = Math.floor(values[spec.extent] / spacing + 1e-9)
     rows[spec.extent].slider.style.setProperty("--spacing", spacing / (most - least))
@@ -193,7 +191,7 @@ export function render({ model }) {
     cue.hidden = !count
     cue.textContent = `Now always at least ${count === 1 ? "one rolling element" : `${count} rolling elements`} inside`
     flash?.cancel()
-    if (inside_before !== null) flash = cue.animate({ opacity: [0.7, 0] }, lasting)
+    if (inside_before !== null) flash = cue.animate({ opacity: [0.7, 0] }, { duration: still ? 0 : 1200, pseudoElement: "::after" })
     inside_before = count
   }
 

@@ -331,11 +331,8 @@
         act()
       } finally {
         together = null
-        let painted = 0
-        for (const one of figures) {
-          const is_new = !views.has(one.el)
-          if (one.is_displayed && is_near(one) && is_new && ++painted > AT_ONCE) near.set(one, false)
-        }
+        const fresh = [...figures].filter((one) => one.is_displayed && !views.has(one.el) && is_near(one))
+        for (const one of fresh.slice(AT_ONCE)) near.set(one, false)
         written_once(() => { for (const one of figures) one.paint() })
       }
     }

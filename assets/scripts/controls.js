@@ -181,18 +181,19 @@ export function render({ model }) {
   const form = panel.form({ "aria-label": "Scene" }, search.root, main, tools, rest, all)
 
   // Ball spacings on the slider of the length, and a cue as a hand crosses one.
-  const cue = element("p", { class: "note", role: "status" })
+  const cue = element("p", { class: "note cue", role: "status" })
   rows[spec.extent].root.append(cue)
   rows[spec.extent].slider.classList.add("spaced")
-  let inside_before = null
+  let inside_before = null, flash  // of its opacity, one at a time: else all of the page is painted at each frame
   const show_spacings = () => {
     const { least, most } = panel.limits[spec.extent], count = Math.floor(values[spec.extent] / spacing + 1e-9)
     rows[spec.extent].slider.style.setProperty("--spacing", spacing / (most - least))
     rows[spec.extent].slider.title = `Ticks: rolling elements are ${spacing.toFixed(1)}\u00b0 apart`
+    if (count === inside_before) return
     cue.hidden = !count
     cue.textContent = `Now always at least ${count === 1 ? "one rolling element" : `${count} rolling elements`} inside`
-    if (inside_before !== null && count !== inside_before)
-      cue.animate([{ color: "var(--card)", background: "var(--accent)" }, {}], still ? 0 : 1200)
+    flash?.cancel()
+    if (inside_before !== null) flash = cue.animate({ opacity: [0.7, 0] }, { duration: still ? 0 : 1200, pseudoElement: "::after" })
     inside_before = count
   }
 
@@ -202,7 +203,8 @@ export function render({ model }) {
     const folded = all_of.filter((one) => !is_main(one) && one.name !== spec.turning)
     const changed = many - 1 + folded.filter(({ name }) => differs(name, values[name])).length
       + Object.entries(panel.selects).filter(([name, { select }]) => differs(name, select.value)).length
-    more.textContent = changed ? `All settings (${changed} changed)` : "All settings"
+    const words = changed ? `All settings (${changed} changed)` : "All settings"
+    if (more.textContent !== words) more.textContent = words
   }
 
   // With a lesson only the controls that it names, and all others on request.

@@ -101,7 +101,7 @@
   // axes are numbers of a source that their tag names, are scaled anew.
   const paint_glyph = method(renderer, "_paint")
   part("curves of before", [paint_glyph], () => {
-    const FAINT = 0.3
+    const FAINT = 0.5
     const before = new Map()  // of each line: its numbers, the source of its cells and their numbers
     addEventListener("explorer-hand", ({ detail: held }) => {
       for (const view of before.keys()) view.request_paint()
@@ -123,25 +123,25 @@
         cells_of_points.set(y, Int16Array.from(y, (_, i) =>
           is_inside(i, k) ? k : k = was.left.findIndex((_, k) => is_inside(i, k))))
       }
-      const cells = cells_of_points.get(y)
-      return y.map((before, i) => {
-        const k = cells[i]
-        const value = was.low[k] + (before - was.bottom[k]) / (was.top[k] - was.bottom[k]) * (was.high[k] - was.low[k])
-        const share = (value - now.low[k]) / (now.high[k] - now.low[k])
-        return share >= 0 && share <= 1 ? now.bottom[k] + share * (now.top[k] - now.bottom[k]) : NaN
-      })
+      const cells = cells_of_points.get(y), { bottom, top, low, high } = now
+      const by = low.map((least, k) => (was.high[k] - was.low[k]) / (high[k] - least))
+      const up = low.map((least, k) => bottom[k] + (was.low[k] - least) / (high[k] - least) * (top[k] - bottom[k]))
+      const heights = new Float32Array(y.length)
+      for (let i = 0; i < y.length; i++) {
+        const k = cells[i], height = up[k] + by[k] * (y[i] - bottom[k])
+        heights[i] = height >= bottom[k] && height <= top[k] ? height : NaN
+      }
+      return heights
     }
-    // A browser takes as long for each point of a curve, seen or not: those of a pixel are one.
+    // As thin as a pixel, which a browser paints ten times as fast as a line of two.
     const stroke = (ctx, xs, ys) => {
-      let left = NaN, top = NaN
+      let drawn = false
+      ctx.lineWidth = 1
       ctx.beginPath()
       for (let i = 0; i < xs.length; i++) {
-        const x = xs[i], y = ys[i], apart = Math.abs(x - left) + Math.abs(y - top)
-        if (apart < 1) continue
-        if (isFinite(apart)) ctx.lineTo(x, y)
-        else if (isFinite(x + y)) ctx.moveTo(x, y)
-        left = x
-        top = y
+        const is_seen = isFinite(xs[i] + ys[i])
+        if (is_seen) drawn ? ctx.lineTo(xs[i], ys[i]) : ctx.moveTo(xs[i], ys[i])
+        drawn = is_seen
       }
       ctx.stroke()
     }
@@ -272,6 +272,7 @@
   const relayout = method(figure, "_invalidate_layout_if_needed")
   part("figures out of sight", [build_layout, paint, save, relayout], () => {
     const NEAR = 0.7, REST = 700  // of the window, above and below it; ms
+    const AT_ONCE = 3  // figures of a tab that opens; the watch has the others painted in a frame of their own
     const views = new WeakMap(), near = new WeakMap(), unpainted = new Set()
     const missed = new WeakSet()  // to be painted while their tab was closed
     const paint_now = (view) => {
@@ -330,7 +331,8 @@
         act()
       } finally {
         together = null
-        for (const one of figures) if (one.is_displayed) is_near(one)
+        const fresh = [...figures].filter((one) => one.is_displayed && !views.has(one.el) && is_near(one))
+        for (const one of fresh.slice(AT_ONCE)) near.set(one, false)
         written_once(() => { for (const one of figures) one.paint() })
       }
     }

@@ -11,7 +11,7 @@ from tests.browser.helpers import Server
 COUNTS = """() => {
   const counts = { words: [], drawn: [], sizes: {}, controls: [] }
   const size = (px, of) => { (counts.sizes[px] ??= []).push(of.slice(0, 30)) }
-  const words_of = (text) => text.match(/[\\p{L}\\p{N}.,−–]*\\p{L}[\\p{L}\\p{N}.,−–]*/gu) ?? []
+  const words_of = (text) => text?.match(/[\\p{L}\\p{N}.,−–]*\\p{L}[\\p{L}\\p{N}.,−–]*/gu) ?? []
   const add = (text, element) => {
     counts.words.push(...words_of(text))
     const { fontSize } = getComputedStyle(element)

@@ -238,13 +238,9 @@ class SpeedRunSpectra(SceneJobView[FoundRun]):
         if results is None or results.moving or self._begun or self._jobs is None:
             return
         if self.job_result is None and not self._jobs.busy(COMPUTATION):
-            self._begin_coarse()
-
-    def _begin_coarse(self) -> None:
-        """Compute a first picture at once."""
-        self._begun = True
-        with contextlib.suppress(ValueError):  # the button says why
-            self.begin({**self.job.values, "count": str(FIRST_COUNT)})
+            self._begun = True
+            with contextlib.suppress(ValueError):  # the button says why
+                self.begin({**self.job.values, "count": str(FIRST_COUNT)})
 
     def columns(self, answer: FoundRun) -> dict[str, np.ndarray]:
         run = answer.run

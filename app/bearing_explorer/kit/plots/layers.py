@@ -170,7 +170,7 @@ for (let i = 0; i < count; i++) {
   const row = {}
   for (const column of columns) row[column] = data[column][i]
   const text = String(write(row))
-  texts.push(keep(row, text) ? text : "")
+  texts.push(text && keep(row, text) ? text : null)  // an empty text is measured and painted too
 }
 return texts
 """

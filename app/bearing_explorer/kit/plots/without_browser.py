@@ -65,8 +65,9 @@ class Scripts:
         for model in self._models.values():
             self._v8.eval(f"M[{model.id!r}].setv({{{self._properties(model, size)}}})")
             if isinstance(model, ColumnDataSource):
-                columns = self._columns(model)
-                self._v8.eval(f"M[{model.id!r}].was = M[{model.id!r}].data = {columns}")
+                columns = (f"{json.dumps(k)}: {self._code(v)}" for k, v in model.data.items())
+                data = f"{{{', '.join(columns)}}}"
+                self._v8.eval(f"M[{model.id!r}].was = M[{model.id!r}].data = {data}")
 
     def _properties(self, model: Model, size: Mapping[str, tuple[float, float]]) -> str:
         kind = next(kind for kind in _KEPT if isinstance(model, kind))
@@ -75,11 +76,6 @@ class Scripts:
             width, height = size.get(model.id, (0.0, 0.0))
             known |= {"inner_width": width, "inner_height": height, "outer_width": width}
         return ", ".join(f"{name}: {self._code(value)}" for name, value in known.items())
-
-    def _columns(self, source: ColumnDataSource) -> str:
-        return "{" + ", ".join(
-            f"{json.dumps(name)}: {self._code(values)}" for name, values in source.data.items()
-        ) + "}"  # fmt: skip
 
     def _code(self, value: Any) -> str:
         """JavaScript of a value; a model is looked up."""

@@ -218,9 +218,10 @@ def _key(name: str) -> str:
 def _rate_key(name: str) -> str:
     """The key of a rate without its unit ("fs_hz") and its owner ("NI_CM_Dt")."""
     key = re.sub(r"(?<=\w\w)(in)?[km]?hz$", "", _key(name))
-    words = name.replace("_", " ").split()
-    bare = (_OWNERS.sub("", key), _key(words[-1]) if words else "")
-    return next((part for part in bare if part in _RATES | _INTERVALS), key)
+    bare, last = _OWNERS.sub("", key), re.sub(r".*[\s_]", "", name).lower()
+    if last in ("odr", "fs", "dt") and not _OTHER_RATE.search(name):  # "LIS2DH12 ODR"
+        return last
+    return bare if bare in _RATES | _INTERVALS else key
 
 
 _OWNERS = re.compile(
@@ -230,7 +231,7 @@ _OWNERS = re.compile(
 
 
 _OTHER_RATE = re.compile(
-    r"(?i)filter|cut.?off|pass|band|resonan|natural|alias|corner|start|stop|bw|span|bpf|bsf|ftf|f_?max|lines|baud|bit"
+    r"(?i)filter|cut.?off|pass|band|resonan|natural|alias|corner|start|stop|bw|span|bpf|bsf|ftf|max|lines|baud|bit"
 )
 
 
@@ -246,8 +247,10 @@ def sample_rate_in(named: Sequence[Named], file_name: str) -> Finding[float] | N
             rate = value * (1e3 if item.unit == "kHz" else 1.0)
             in_hz |= item.unit == "Hz" and not item.thousands
             rates.append(Finding(rate, f"“{item.name}” in the file"))
-        if key in _INTERVALS and value * TIMES.get(item.unit or "s", 1.0) < 1.0:
-            step = value * TIMES.get(item.unit or "s", 1.0)
+        step = value * TIMES.get(item.unit or "s", 1.0)
+        # one without "sample" may be that of recordings
+        longest = 1.0 / LEAST_STATED if key.startswith("interval") else 1.0
+        if key in _INTERVALS and step < longest:
             rates.append(Finding(1.0 / step, f"“{item.name}” in the file"))
     if rates:
         first = rates[0]

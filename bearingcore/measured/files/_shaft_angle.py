@@ -23,7 +23,7 @@ STEP = 0.2
 Noise on a tachometer's signal breaks it too."""
 
 MOST_MEDIANS = 8.0
-"""Medians from which on a speed is a counter that overflowed, or a mark for what is missing."""
+"""Times the speeds around it from which on one is a counter's overflow or a mark of what lacks."""
 
 LOW, HIGH = 0.35, 0.65
 """Shares of its range that a tachometer's signal passes from pulse to pulse."""
@@ -72,14 +72,18 @@ def measured_speeds(values: Array) -> Array:
 
     A sensor that loses its mark gives zeros. A shaft that stops passes all speeds on its way.
     """
+    from scipy.ndimage import median_filter  # imported late: see `spectrum`
+
     finite = values[np.isfinite(values)]
     if finite.size and finite.max() <= 0.0:
         values, finite = -values, -finite
-    turning = finite[finite > 0.0]
+    turning = np.flatnonzero(values > 0.0)
     if not turning.size:
         return values
-    values = np.where(values > MOST_MEDIANS * np.median(turning), np.nan, values)
-    lost = finite.min() == 0.0 and turning.min() > 0.5 * np.nanmax(values)
+    values = values.copy()
+    nearby = median_filter(values[turning], 9)
+    values[turning[values[turning] > MOST_MEDIANS * nearby]] = np.nan
+    lost = finite.min() == 0.0 and np.nanmin(values[turning]) > 0.5 * np.nanmax(values)
     return np.where(values == 0.0, np.nan, values) if lost else values
 
 

@@ -88,6 +88,8 @@ def shaft_lines(
     segment, top = SEGMENT_TURNS / low, (2 * HARMONICS + 1) * high
     best = ShaftLines(0.5 * (low + high), -np.inf, np.inf)
     for values, rate in _series(columns, sample_rate, low, top, envelopes):
+        if len(values) < rate / low:  # less than a turn
+            continue
         levels = line_levels(values, rate, segment, top, 2.0 * low)
         resolution = 1.0 / min(segment, len(values) / rate)
         count = 1 + int(np.ceil((high - low) * 4.0 * HARMONICS / resolution))

@@ -231,6 +231,7 @@ def test_a_short_record_without_a_speed_asks_for_the_speed_and_not_for_a_longer_
     assert diagnose(half, MOTOR.bearing, MOTOR.shaft_speed).fault == "outer race"
     hopeless = Recording(damaged["outer race"][:300], MOTOR.rate, ("y",))  # 9 at 6000 rpm, too
     assert diagnose(hopeless, MOTOR.bearing, None).status == DiagnosisStatus.TOO_SHORT
+    assert diagnose(half, MOTOR.bearing, 0.2).status == DiagnosisStatus.TOO_SHORT  # 2 rpm
 
 
 def test_open_speeds_count_as_so_many_chances_for_another_source_to_fit(damaged):

@@ -71,7 +71,7 @@ class Stiffness(ComparingView):
         self._ball_limits = StickyRange(0.0, 1.0, shrink_below=0.0)
         self._lesson_term, self._lesson_limits = "", StickyRange(0.0, 1.0)
         plot = matrix_cells.matrix_figure(
-            (-0.05, 5.03), (-5.17, 0.11), height=360, name="stiffness_drawing"
+            (-0.05, 5.03), (-5.17, 0.11), height=350, name="stiffness_drawing"
         )
         self._legend = _static_parts(plot)
         cells = packed.source("stiffness_cells", *_CELL_COLUMNS)

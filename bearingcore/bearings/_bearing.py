@@ -98,10 +98,10 @@ class Bearing(InRows):
         super().__post_init__()
         checks.keep(self, kind=kind_of(self))
         self.kind.check(self)
-        if not self.kind.line_contact:
+        if self.kind.line_contact:  # scenes and links of earlier days have one
+            checks.keep(self, groove_center_distance=None)
+        else:
             drawing.center_distance(self.groove_center_distance)
-        elif (distance := self.groove_center_distance) is not None:
-            raise checks.refuse("groove_center_distance", distance, "None of rollers")
         for k in range(len(self.rows)):
             self.of_row(k)  # refuses dimensions that do not fit each other
 

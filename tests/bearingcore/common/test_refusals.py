@@ -106,7 +106,6 @@ REFUSED: dict[str, list[tuple[Callable[[], object], str]]] = {
         (lambda: PAIR.replace(rows=(Row(), Row(inner_groove_radius=5e-3))), "row 2: inner_groove"),
         (lambda: PAIR.replace(row_distance=-1.0), "row_distance is -1; allowed: a finite"),
         (lambda: core.presets["7208-tandem"].replace(preload_force=1.0), "preload_force is 1; a"),
-        (lambda: core.presets["nu208"].replace(groove_center_distance=1.0), "None of rollers"),
     ],
     "kinds": [
         (lambda: dataclasses.replace(MOTOR, kind="thrust"), "kind is 'thrust'"),

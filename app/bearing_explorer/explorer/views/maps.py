@@ -411,7 +411,7 @@ def _names(plot: figure, grid: ColumnDataSource) -> None:
     at = {"x": 0.5 * (_BALLS.left + _BALLS.right), "y": _BALLS.bottom, "y_offset": 36}
     matrix_cells.write(plot, grid, words, text_font_size=style.TEXT_SIZE, **at, **centered)
     y = [-2.3 - 0.13 * line for line in range(len(_LEGEND))]
-    legend = {"x": [_BALLS.left] * len(y), "y": y, "text": _LEGEND}
+    legend = {"x": [0.12] * len(y), "y": y, "text": _LEGEND}
     matrix_cells.write(plot, ColumnDataSource(legend), "return row.text")
 
 

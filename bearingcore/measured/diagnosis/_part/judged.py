@@ -206,20 +206,20 @@ def compare(
     shaft = resolutions[0].shaft
     compared = [_Comparison(combs, parts, slip, stated or shaft) for combs in resolutions]
     first = compared[0]
-    turning = spin(first.combs, parts, lambda at: first.explained(at, first.ball))
+    spinning, deviations = spin(first.combs, parts, lambda at: first.explained(at, first.ball))
     evidence = []
     for lines in parts:
-        if lines.part != BALL:
+        if lines.part == BALL:
+            best = _clearest(compared, lines, spinning)
+            carried = _carried(compared, best.frequency)
+            best = replace(
+                best, lead=min(best.lead, carried), modulation=min(best.modulation, carried)
+            )
+            if _carried(compared, spinning) < 0.0:
+                deviations[BALL] = min(deviations[BALL], 0.0)
+        else:
             best = _race(compared, lines)
-            evidence.append(replace(best, deviations=turning.of(lines.part)))
-            continue
-        best = _clearest(compared, lines, turning.frequency)
-        deviations = turning.of(BALL)
-        carried = _carried(compared, best.frequency)
-        best = replace(best, lead=min(best.lead, carried), modulation=min(best.modulation, carried))
-        if _carried(compared, turning.frequency) < 0.0:
-            deviations = min(deviations, 0.0)
-        evidence.append(replace(best, deviations=deviations))
+        evidence.append(replace(best, deviations=deviations[lines.part]))
     other, above, swing = max(
         (comparison.others(evidence) for comparison in compared), key=lambda rival: rival[1]
     )
@@ -552,16 +552,20 @@ class _Comparison:
     ) -> PartEvidence:
         combs = self.combs
         spacing = self.cage if lines.part == BALL else combs.shaft
-        levels = _lines(envelope, envelope.cleared, frequency)
+        gaps = math.inf
         if lines.part == BALL:
             levels = _or_sidebands(envelope, np.array([frequency]), spacing)[:, 0]
+        else:
+            levels = _lines(envelope, envelope.cleared, frequency)
+            gaps = _lead_over_gaps(_lines(envelope, envelope.levels.depth, frequency))
         depth = np.where(envelope.hidden, 0.0, envelope.levels.depth)
         sides = -spacing, spacing
         swings = [_lines(envelope, depth, frequency, away) for away in (0.0, *sides)]
         sidebands = [_lines(envelope, envelope.cleared, frequency, away) for away in sides]
         nominal = lines.order * combs.shaft
         level = float(comb_level(levels[:, None])[0])
-        evidence = PartEvidence(
+        lead = min(level - max(others, combs.noise), gaps)
+        return PartEvidence(
             part=lines.part,
             nominal_frequency=nominal,
             nominal_order=lines.order,
@@ -571,15 +575,12 @@ class _Comparison:
             harmonics=levels,
             level=level,
             noise=combs.noise,
-            lead=level - max(others, combs.noise),
-            line_lead=0.0,
-            modulation=math.inf,
+            lead=lead,
+            line_lead=lead,
             depth=_trimmed_mean(swings[0]),
             swing=_trimmed_mean(np.sqrt(np.square(swings).sum(axis=0))),
-            deviations=0.0,
             # the highest line of a comb resolves the most
             magnetic=magnetic_share(frequency, tolerance(combs, 0.0).item() / HARMONICS, self.slip),
-            probability=0.0,
             sidebands=np.stack(sidebands, axis=1),
             sideband_spacing=spacing,
             sideband_source="cage" if lines.part == BALL else "shaft",
@@ -587,11 +588,6 @@ class _Comparison:
             direction=envelope.direction,
             kurtosis=envelope.kurtosis,
         )
-        if lines.part == BALL:
-            return replace(evidence, line_lead=evidence.lead)
-        gaps = _lines(envelope, envelope.levels.depth, frequency)
-        lead = min(evidence.lead, _lead_over_gaps(gaps))
-        return replace(evidence, lead=lead, line_lead=lead)
 
     def others(self, evidence: Sequence[PartEvidence]) -> tuple[OtherLines, float, float]:
         """The strongest comb of no part, how far above noise it is [dB], and its swing."""

@@ -205,8 +205,8 @@ def compare(
     """The evidence of the parts in combs at all resolutions."""
     shaft = resolutions[0].shaft
     compared = [_Comparison(combs, parts, slip, stated or shaft) for combs in resolutions]
-    first = compared[0]
-    spinning, deviations = spin(first.combs, parts, lambda at: first.explained(at, first.ball))
+    first, ball = compared[0], compared[0].lines_of(BALL)
+    spinning, deviations = spin(first.combs, parts, lambda at: first.explained(at, ball))
     evidence = []
     for lines in parts:
         if lines.part == BALL:
@@ -305,14 +305,9 @@ class _Comparison:
     @property
     def cage(self) -> float:
         """Turns of the cage a second [Hz]."""
-        return self.combs.shaft * self.ball.sidebands
+        return self.combs.shaft * self.lines_of(BALL).sidebands
 
-    @property
-    def ball(self) -> PartLines:
-        """The lines of a ball."""
-        return self._lines_of(BALL)
-
-    def _lines_of(self, part: str) -> PartLines:
+    def lines_of(self, part: str) -> PartLines:
         """The lines of a part, by its name."""
         return next(lines for lines in self.parts if lines.part == part)
 
@@ -325,7 +320,7 @@ class _Comparison:
         are no rivals.
         """
         combs = self.combs
-        near_it = mark_window(combs, lines, self.slip, self.stated, combs.frequency)
+        near_it = mark_window(combs, lines, self.slip, self.stated)
         if around is not None:  # a race's own lines are none of a ball's
             near_it |= np.abs(combs.frequency - around) <= combs.shaft / TURNS[0]
             near_it &= ~self._windows_of(OUTER, INNER)
@@ -342,7 +337,7 @@ class _Comparison:
             if frequency not in explained:
                 explained[frequency] = self.explained(frequency, lines)
                 if beside is not None:
-                    also = self.explained(beside.frequency, self._lines_of(beside.part))
+                    also = self.explained(beside.frequency, self.lines_of(beside.part))
                     explained[frequency] = np.maximum(explained[frequency], also)
             others = float((combs.level[place] - explained[frequency]).max())
             evidence = self._evidence(lines, combs.envelopes[place], frequency, others)
@@ -371,11 +366,7 @@ class _Comparison:
     def _windows_of(self, *names: str) -> NDArray[np.bool_]:
         """Mark the combs (n,) that some parts may have."""
         combs, slip = self.combs, self.slip + 0.005
-        windows = [
-            mark_window(combs, lines, slip, self.stated, combs.frequency)
-            for lines in self.parts
-            if lines.part in names
-        ]
+        windows = [mark_window(combs, self.lines_of(name), slip, self.stated) for name in names]
         return np.asarray(np.any(windows, axis=0))
 
     def _slower(self, frequency: float) -> NDArray[np.bool_]:
@@ -446,7 +437,7 @@ class _Comparison:
             above = turning - other + SIDEBAND_LEAD + SIDEBAND_MARGIN
         place = int(np.abs(combs.frequency - part.frequency).argmin())
         race = max(level - WEAK_SIDEBANDS, shaft - SIDEBAND_LEAD) - cage
-        if part.part != BALL and may_be(part.frequency, self.ball.order * combs.shaft):
+        if part.part != BALL and may_be(part.frequency, self.lines_of(BALL).order * combs.shaft):
             above = min(above, race, LEAD + LEAD_SCALE * _race_or_ball(part.slip, self.slip))
         if part.part == BALL and self._windows_of(OUTER, INNER)[place]:
             above = min(above, -race)

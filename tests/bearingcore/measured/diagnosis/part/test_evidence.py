@@ -176,10 +176,8 @@ def test_the_other_source_alone_names_no_part():
 @pytest.mark.parametrize("strengths", [(1.0,), (1.0, 0.6), (1.0, 0.8, 0.5)])
 def test_a_computed_signal_without_noise_is_named(strengths):
     """Be its knocks alike or such as repeat every second or third time only."""
-    assert (
-        steady_answer(steady(STEADY_MOTOR.lines["outer race"], 3000.0, strengths)).fault
-        == "outer race"
-    )
+    signal = steady(STEADY_MOTOR.lines["outer race"], 3000.0, strengths)
+    assert steady_answer(signal).fault == "outer race"
 
 
 def test_a_source_of_half_the_rate_is_none_of_the_bearing_s():

@@ -207,6 +207,8 @@ def compare(
     compared = [_Comparison(combs, parts, slip, stated or shaft) for combs in resolutions]
     first, ball = compared[0], compared[0].lines_of(BALL)
     spinning, deviations = spin(first.combs, parts, lambda at: first.explained(at, ball))
+    if _carried(compared, spinning) < 0.0:
+        deviations[BALL] = min(deviations[BALL], 0.0)
     evidence = []
     for lines in parts:
         if lines.part == BALL:
@@ -215,8 +217,6 @@ def compare(
             best = replace(
                 best, lead=min(best.lead, carried), modulation=min(best.modulation, carried)
             )
-            if _carried(compared, spinning) < 0.0:
-                deviations[BALL] = min(deviations[BALL], 0.0)
         else:
             best = _race(compared, lines)
         evidence.append(replace(best, deviations=deviations[lines.part]))

@@ -130,8 +130,9 @@ def from_toml(text: str) -> dict[str, Any]:
         if (count := text.count(sign)) > most:
             what = {"\n": "lines"}.get(sign, f"signs {sign}")
             raise checks.refuse(f"number of {what} in the text", count, f"at most {most}")
+    digits = checks.refuse("a number in the text", "one of many digits", f"{MOST_DIGITS} at most")
     if _LONG_NUMBER.search(text):
-        raise checks.refuse("a number in the text", "one of many digits", f"{MOST_DIGITS} at most")
+        raise digits
     if _LONG_NAME.search(text):
         raise checks.refuse("a name in the text", "one with many dots", f"{MOST_PARTS} at most")
     try:
@@ -139,9 +140,7 @@ def from_toml(text: str) -> dict[str, Any]:
     except (tomllib.TOMLDecodeError, RecursionError) as error:
         raise checks.refuse("text", " ".join(text.split()), f"TOML ({error})") from None
     except ValueError:  # the interpreter's own limit, inside a list
-        raise checks.refuse(
-            "a number in the text", "one of many digits", f"{MOST_DIGITS} at most"
-        ) from None
+        raise digits from None
 
 
 def table(name: str, data: object, allowed: str = "a table") -> dict[str, Any]:

@@ -157,18 +157,19 @@ class Experiment:
             for point in self.of(method)
             if not point.failed
             and 5.0 * self.references[point.against].agreement.get(error, 0.0)
-            < point.errors.get(error, nan)
+            < point.errors.get(error, math.nan)
             < math.inf
         ]
         if len(known) < 3:
-            return nan
+            return math.nan
         evaluations, errors = np.log(np.array(known)).T
         return -float(np.polyfit(evaluations, errors, 1)[0])
 
     def frontier(self, error: str | None = None, cost: str = "seconds") -> tuple[Point, ...]:
         """The points that no other point beats in both error and cost, from cheap to exact."""
         name = error or next(iter(self.errors))
-        known = [p for p in self.points if not p.failed and math.isfinite(p.errors.get(name, nan))]
+        right = (point for point in self.points if not point.failed)
+        known = [point for point in right if math.isfinite(point.errors.get(name, math.nan))]
         best: list[Point] = []
         for point in sorted(known, key=lambda p: (getattr(p, cost), p.errors[name])):
             if not best or point.errors[name] < best[-1].errors[name]:
@@ -178,9 +179,6 @@ class Experiment:
     def unit(self, error: str) -> str:
         """Unit of an error: "dB", or "1" for a ratio."""
         return "dB" if "[dB]" in self.errors[error] else "1"
-
-
-nan = math.nan
 
 
 @dataclass(frozen=True)

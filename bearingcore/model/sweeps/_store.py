@@ -10,6 +10,7 @@ from __future__ import annotations
 import os
 import shutil
 import uuid
+import warnings
 import zlib
 from collections.abc import Sequence
 from functools import lru_cache
@@ -134,7 +135,11 @@ def _create(path: Path, grid: Grid, region_shape: Sequence[int]) -> None:
             dtype="uint64",
             fill_value=0,
         )
-        _consolidate(aside)
+        with warnings.catch_warnings():
+            # one file describes all arrays, so that xarray opens the results in one step: Zarr says
+            # that the format's text does not know this yet; xarray does, and others look past
+            warnings.simplefilter("ignore")
+            zarr.consolidate_metadata(aside)
         try:
             aside.rename(path)
         except OSError:
@@ -251,15 +256,3 @@ def _arrays(
 
     root = zarr.open_group(path, mode="r+", zarr_format=3)
     return {name: root[name] for name in (*outputs, STATUS, MARKS)}
-
-
-def _consolidate(path: Path) -> None:
-    """One file that describes all arrays: xarray opens the results in one step."""
-    import warnings
-
-    import zarr
-
-    with warnings.catch_warnings():
-        # it says that the format's text does not know this yet; xarray does, and others look past
-        warnings.simplefilter("ignore")
-        zarr.consolidate_metadata(path)

@@ -16,18 +16,7 @@ import numpy as np
 import pytest
 
 import bearingcore as core
-from bearingcore import (
-    DOF_NAMES,
-    Bearing,
-    Defect,
-    Load,
-    Scene,
-    Support,
-    contact_damping,
-    equilibrium,
-    modes,
-    simulate,
-)
+from bearingcore import DOF_NAMES, Defect, Scene, contact_damping, equilibrium, modes, simulate
 from bearingcore.bearings import Row, bearing_of, bearing_of_frequencies
 from bearingcore.bearings._hertz import race_contact
 from bearingcore.common import LARGEST_TEXT, _checks as checks
@@ -150,16 +139,10 @@ REFUSED: dict[str, list[tuple[Callable[[], object], str]]] = {
                                      core.Defect(0.2, 5e-5, 0.1, edge="exact"))),
          "run into one another"),
     ],
-    "parts by themselves": [
-        (lambda: Defect(-1.0, 0.0, 0.0), "^extent is -1; "),
-        (lambda: Defect(1.0, 1e-5, 0.0, edge="soft"), "^edge is 'soft'; "),
+    "depths of defects": [
         (lambda: Defect(1.0, 5e-3, 0.0).path(0.0, LIEW_LIM.bearing), "^depth is 0.005; "),
         (lambda: LIEW_LIM.replace(defect=(LIEW_LIM.defect, Defect(0.1, 4e-3, 0.0))),
          "^depth is 0.004; "),
-        (lambda: Load(fx=NAN), "^fx is nan; "),
-        (lambda: Support(1.0, 1.0, 1e8, 1e8, -1.0, 0.0), "^damping_x is -1; "),
-        (lambda: Bearing(9, 8e-3, 39e-3, 0.0, 19e-3, 5e-5, -5e-3, 1e10, 23e-3, 15e-3),
-         "^radial_clearance is -0.005; "),
     ],
     "maps": [
         (lambda: ball_drop(RIG, 0.0, race="middle"), "race is 'middle'; allowed: outer, inner"),
@@ -180,13 +163,11 @@ REFUSED: dict[str, list[tuple[Callable[[], object], str]]] = {
         (lambda: core.contact_pressures(DRAWN, OTHER_STATE), "state"),
         (lambda: core.life(LIEW_LIM, 36e3), "inner_groove_radius"),
         (lambda: lasts(0.0), "dynamic_load_rating"),
-        (lambda: lasts(INF), "dynamic_load_rating"),
         (lambda: lasts(14e3, positions="load line"), "positions"),
         (lambda: lasts(14e3, positions="some"), "positions"),
     ],
     "limits": [
         (lambda: core.limits(HEALTHY, step_rate=0.0), "step_rate is 0; "),
-        (lambda: core.limits(HEALTHY, step_rate=NAN), "step_rate is nan; "),
     ],
     "motions": [
         (lambda: core.orbit(RIG.replace(balls="with mass")), "massless"),
@@ -194,17 +175,14 @@ REFUSED: dict[str, list[tuple[Callable[[], object], str]]] = {
         (lambda: core.orbit(STILL), "shaft_speed"),
         (lambda: core.orbit(RIG).spectrum(duration=1e9), "^duration is"),
         (lambda: core.orbit(RIG).spectrum(resolution=1e-6), "^resolution is"),
-        (lambda: core.orbit(RIG).spectrum(resolution=NAN), "^resolution is"),
         (lambda: speed_run(RIG, [0.0, 10.0]), "shaft_speeds"),
         (lambda: speed_run(RIG, [260.0], duration=1e9), "^duration is"),
         (lambda: speed_run(RIG, [260.0], resolution=1e-6), "^resolution is"),
-        (lambda: speed_run(RIG, [260.0], resolution=NAN), "^resolution is"),
         (lambda: core.simulated_record(DRAWN.replace(shaft_speed=0.0)), "shaft_speed is 0"),
     ],
     "samples and steps of motions": [
         (lambda: simulate(STILL, 0.01), "^shaft_speed is 0; .*above 0"),
         (lambda: moved(0.0), "^duration is 0; .*above 0"),
-        (lambda: moved(NAN), "^duration is nan; .*above 0"),
         (lambda: moved(INF), "^duration is inf; .*finite"),
         (lambda: moved(1e6, 65536.0), r"^duration is 1e\+06; .*sample_rate"),
         (lambda: moved(0.01, 0.0), "^sample_rate is 0; .*above 0"),
@@ -303,7 +281,6 @@ REFUSED: dict[str, list[tuple[Callable[[], object], str]]] = {
         (lambda: core.spectrum(np.full(4096, NAN), 65536.0), "^signal is .*; allowed: "),
         (lambda: core.spectrum(np.zeros(4096), NAN), "^sample_rate is .*; allowed: "),
         (lambda: core.spectrum(np.zeros(4096), 65536.0, 40e3), "^resolution is .*; allowed: "),
-        (lambda: core.spectrum(np.zeros(4096), 65536.0, NAN), "^resolution is .*; allowed: "),
         (lambda: envelope((3000.0, 2000.0)), "upper end of the band is 2000"),
         (lambda: envelope((0.0, 2000.0)), "lower end of the band is 0"),
         (lambda: envelope((100.0, 10_000.0)), "below 10000"),
@@ -338,7 +315,6 @@ REFUSED: dict[str, list[tuple[Callable[[], object], str]]] = {
     ],
     "diagnoses": [
         (lambda: diagnosis(0.0), "shaft_speed is 0"),
-        (lambda: diagnosis(NAN), "shaft_speed is nan"),
         (lambda: diagnosis((3.0, 2.0)), "upper shaft_speed is 2"),
         (lambda: diagnosis((0.0, 2.0)), "lower shaft_speed is 0"),
         (lambda: diagnosis((1.0, 2.0, 3.0)), "shaft_speed"),
@@ -354,7 +330,6 @@ REFUSED: dict[str, list[tuple[Callable[[], object], str]]] = {
          "stiffness"),
         (lambda: extent(race="cage"), "race"),
         (lambda: extent(load=0.0), "load"),
-        (lambda: extent(load=NAN), "load"),
         (lambda: extent(clearance=-1e-6), "clearance"),
         (lambda: extent(edge="sharp"), "edge"),
     ],
@@ -490,7 +465,6 @@ def refused(field: str, shown: str, act: Callable[[], object]) -> str:
         ("edge", "round", "'round'", "published, chord, exact"),
         # the load
         ("fx", NAN, "nan", "finite"),
-        ("fy", "heavy", "'heavy'", "finite number"),
         ("mx", None, "None", "finite number"),
         # the support
         ("inner_mass", 0.0, "0", "above 0"),

@@ -1,6 +1,5 @@
 """Lengths of spalls by simulating each, offsets of entry and exit, and trends of recordings."""
 
-import dataclasses
 import math
 from dataclasses import replace
 from datetime import datetime
@@ -19,6 +18,7 @@ from tests.helpers.recordings import RATE, RIG, noisy, signal_of
 EXTENT = math.radians(47.3)
 SIGNAL = noisy(signal_of(RIG.replace(extent=EXTENT)), 20.0)
 RECORDING = Recording(SIGNAL, RATE)
+TWO_DEFECTS = RIG.replace(defect=(RIG.defect, replace(RIG.defect, center=1.0)))
 
 
 @pytest.fixture(scope="module")
@@ -74,13 +74,7 @@ def test_a_changing_speed_that_was_measured_is_followed() -> None:
     ("recording", "scene", "status"),
     [
         (RECORDING, RIG.replace(race="inner"), SizingStatus.INNER_RACE),
-        (
-            RECORDING,
-            dataclasses.replace(
-                RIG, defect=(RIG.defect, dataclasses.replace(RIG.defect, center=1.0))
-            ),
-            SizingStatus.SEVERAL_DEFECTS,
-        ),
+        (RECORDING, TWO_DEFECTS, SizingStatus.SEVERAL_DEFECTS),
         (Recording(SIGNAL[:2000], RATE), RIG, SizingStatus.TOO_SHORT),
         (Recording(SIGNAL, 5000.0), RIG, SizingStatus.TOO_COARSE),
         (RECORDING, RIG.replace(shaft_speed=1000.0), SizingStatus.TOO_FAST),
@@ -130,7 +124,7 @@ def exact_drop(s: float) -> float:
 def compression_beside(load: float) -> float:
     """[m] of the ball under the load, on a whole race."""
     spall = Defect(0.0, 0.0, UNDER, "outer")
-    bearing = dataclasses.replace(BEARING, radial_clearance=0.0)
+    bearing = replace(BEARING, radial_clearance=0.0)
     scene = Scene(bearing, spall, Load(fy=-load), 0.0, presets["6205"].support, dofs=("x", "y"))
     carried = float(equilibrium(scene, np.array([UNDER])).ball_load[0, 0])
     return (carried / bearing.load_deflection_factor) ** (2.0 / 3.0)

@@ -15,8 +15,7 @@ from numpy.typing import NDArray
 from bearingcore.measured.signals._line_levels import LineLevels
 
 HARMONICS = 6
-COUNTED = 5
-"""Number of harmonics that count: all but the loudest."""
+"""Lines of a comb."""
 
 FAINTEST, LOUDEST = -3.0, 40.0
 """Least and greatest level [dB] of a line: others are cut to them."""

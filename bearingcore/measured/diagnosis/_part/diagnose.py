@@ -133,7 +133,7 @@ def _diagnose_between(
         source = f"{speed_source} as a range"
         return _diagnose_at(signal, bearing, low, high, slip, source, 0.5 * (high / low - 1.0))
     answer = diagnose_in_range(signal, bearing, low, high, slip, source)
-    if answer.shaft_speed is None or answer.fault in (OUTER, INNER):
+    if answer.shaft_speed is None:
         return answer
     shaft = answer.shaft_speed / (2.0 * math.pi)
     return _second_opinion(signal, part_lines(bearing), answer, shaft, shaft, slip)
@@ -229,8 +229,6 @@ def _diagnose_at(
         slip += reach
         source += ", its middle" if reach else ""
     answer = decide(signal, judge(signal, parts, shaft, slip, stated), shaft, source)
-    if answer.fault in (OUTER, INNER):
-        return answer
     return _second_opinion(signal, parts, answer, shaft, stated, slip)
 
 
@@ -270,7 +268,7 @@ def _second_opinion(
     are none of the bearing's show too, so that lines count by a part of their swing; where they do
     not name a part, they keep a bearing from being called healthy.
     """
-    if answer.status == DiagnosisStatus.OTHER_SHAFT:
+    if answer.fault in (OUTER, INNER) or answer.status == DiagnosisStatus.OTHER_SHAFT:
         return answer
     judged = judge(signal.unwhitened(), parts, shaft, slip, stated).counting(TONES_COUNT)
     again = decide(signal, judged, shaft, answer.speed_source)
@@ -279,7 +277,6 @@ def _second_opinion(
         return again if alone else answer
     if again.fault in (OUTER, INNER):
         return again
+    faint = answer.fault == NONE_SEEN and judged.leading.swing < ENOUGH_SWING
     seen = again.status in _INSTEAD_OF.get(answer.status, ())
-    if answer.fault == NONE_SEEN and judged.leading.swing < ENOUGH_SWING:
-        return answer
-    return again if seen else answer
+    return again if seen and not faint else answer

@@ -93,18 +93,18 @@ class PartEvidence:
     noise: float
     lead: float
     line_lead: float
-    modulation: float
     depth: float
     swing: float
-    deviations: float
     magnetic: float
-    probability: float
     sidebands: NDArray[np.float64]
     sideband_spacing: float
     sideband_source: str
     band: Band
     direction: str
     kurtosis: float
+    modulation: float = math.inf
+    deviations: float = 0.0
+    probability: float = 0.0
     foreign_spacing: float = math.nan
 
     @property

@@ -205,21 +205,21 @@ def compare(
     """The evidence of the parts in combs at all resolutions."""
     shaft = resolutions[0].shaft
     compared = [_Comparison(combs, parts, slip, stated or shaft) for combs in resolutions]
-    first = compared[0]
-    turning = spin(first.combs, parts, lambda at: first.explained(at, first.ball))
+    first, ball = compared[0], compared[0].lines_of(BALL)
+    spinning, deviations = spin(first.combs, parts, lambda at: first.explained(at, ball))
+    if _carried(compared, spinning) < 0.0:
+        deviations[BALL] = min(deviations[BALL], 0.0)
     evidence = []
     for lines in parts:
-        if lines.part != BALL:
+        if lines.part == BALL:
+            best = _clearest(compared, lines, spinning)
+            carried = _carried(compared, best.frequency)
+            best = replace(
+                best, lead=min(best.lead, carried), modulation=min(best.modulation, carried)
+            )
+        else:
             best = _race(compared, lines)
-            evidence.append(replace(best, deviations=turning.of(lines.part)))
-            continue
-        best = _clearest(compared, lines, turning.frequency)
-        deviations = turning.of(BALL)
-        carried = _carried(compared, best.frequency)
-        best = replace(best, lead=min(best.lead, carried), modulation=min(best.modulation, carried))
-        if _carried(compared, turning.frequency) < 0.0:
-            deviations = min(deviations, 0.0)
-        evidence.append(replace(best, deviations=deviations))
+        evidence.append(replace(best, deviations=deviations[lines.part]))
     other, above, swing = max(
         (comparison.others(evidence) for comparison in compared), key=lambda rival: rival[1]
     )
@@ -305,14 +305,9 @@ class _Comparison:
     @property
     def cage(self) -> float:
         """Turns of the cage a second [Hz]."""
-        return self.combs.shaft * self.ball.sidebands
+        return self.combs.shaft * self.lines_of(BALL).sidebands
 
-    @property
-    def ball(self) -> PartLines:
-        """The lines of a ball."""
-        return self._lines_of(BALL)
-
-    def _lines_of(self, part: str) -> PartLines:
+    def lines_of(self, part: str) -> PartLines:
         """The lines of a part, by its name."""
         return next(lines for lines in self.parts if lines.part == part)
 
@@ -325,7 +320,7 @@ class _Comparison:
         are no rivals.
         """
         combs = self.combs
-        near_it = mark_window(combs, lines, self.slip, self.stated, combs.frequency)
+        near_it = mark_window(combs, lines, self.slip, self.stated)
         if around is not None:  # a race's own lines are none of a ball's
             near_it |= np.abs(combs.frequency - around) <= combs.shaft / TURNS[0]
             near_it &= ~self._windows_of(OUTER, INNER)
@@ -342,7 +337,7 @@ class _Comparison:
             if frequency not in explained:
                 explained[frequency] = self.explained(frequency, lines)
                 if beside is not None:
-                    also = self.explained(beside.frequency, self._lines_of(beside.part))
+                    also = self.explained(beside.frequency, self.lines_of(beside.part))
                     explained[frequency] = np.maximum(explained[frequency], also)
             others = float((combs.level[place] - explained[frequency]).max())
             evidence = self._evidence(lines, combs.envelopes[place], frequency, others)
@@ -371,11 +366,7 @@ class _Comparison:
     def _windows_of(self, *names: str) -> NDArray[np.bool_]:
         """Mark the combs (n,) that some parts may have."""
         combs, slip = self.combs, self.slip + 0.005
-        windows = [
-            mark_window(combs, lines, slip, self.stated, combs.frequency)
-            for lines in self.parts
-            if lines.part in names
-        ]
+        windows = [mark_window(combs, self.lines_of(name), slip, self.stated) for name in names]
         return np.asarray(np.any(windows, axis=0))
 
     def _slower(self, frequency: float) -> NDArray[np.bool_]:
@@ -446,7 +437,7 @@ class _Comparison:
             above = turning - other + SIDEBAND_LEAD + SIDEBAND_MARGIN
         place = int(np.abs(combs.frequency - part.frequency).argmin())
         race = max(level - WEAK_SIDEBANDS, shaft - SIDEBAND_LEAD) - cage
-        if part.part != BALL and may_be(part.frequency, self.ball.order * combs.shaft):
+        if part.part != BALL and may_be(part.frequency, self.lines_of(BALL).order * combs.shaft):
             above = min(above, race, LEAD + LEAD_SCALE * _race_or_ball(part.slip, self.slip))
         if part.part == BALL and self._windows_of(OUTER, INNER)[place]:
             above = min(above, -race)
@@ -552,16 +543,20 @@ class _Comparison:
     ) -> PartEvidence:
         combs = self.combs
         spacing = self.cage if lines.part == BALL else combs.shaft
-        levels = _lines(envelope, envelope.cleared, frequency)
+        gaps = math.inf
         if lines.part == BALL:
             levels = _or_sidebands(envelope, np.array([frequency]), spacing)[:, 0]
+        else:
+            levels = _lines(envelope, envelope.cleared, frequency)
+            gaps = _lead_over_gaps(_lines(envelope, envelope.levels.depth, frequency))
         depth = np.where(envelope.hidden, 0.0, envelope.levels.depth)
         sides = -spacing, spacing
         swings = [_lines(envelope, depth, frequency, away) for away in (0.0, *sides)]
         sidebands = [_lines(envelope, envelope.cleared, frequency, away) for away in sides]
         nominal = lines.order * combs.shaft
         level = float(comb_level(levels[:, None])[0])
-        evidence = PartEvidence(
+        lead = min(level - max(others, combs.noise), gaps)
+        return PartEvidence(
             part=lines.part,
             nominal_frequency=nominal,
             nominal_order=lines.order,
@@ -571,15 +566,12 @@ class _Comparison:
             harmonics=levels,
             level=level,
             noise=combs.noise,
-            lead=level - max(others, combs.noise),
-            line_lead=0.0,
-            modulation=math.inf,
+            lead=lead,
+            line_lead=lead,
             depth=_trimmed_mean(swings[0]),
             swing=_trimmed_mean(np.sqrt(np.square(swings).sum(axis=0))),
-            deviations=0.0,
             # the highest line of a comb resolves the most
             magnetic=magnetic_share(frequency, tolerance(combs, 0.0).item() / HARMONICS, self.slip),
-            probability=0.0,
             sidebands=np.stack(sidebands, axis=1),
             sideband_spacing=spacing,
             sideband_source="cage" if lines.part == BALL else "shaft",
@@ -587,11 +579,6 @@ class _Comparison:
             direction=envelope.direction,
             kurtosis=envelope.kurtosis,
         )
-        if lines.part == BALL:
-            return replace(evidence, line_lead=evidence.lead)
-        gaps = _lines(envelope, envelope.levels.depth, frequency)
-        lead = min(evidence.lead, _lead_over_gaps(gaps))
-        return replace(evidence, lead=lead, line_lead=lead)
 
     def others(self, evidence: Sequence[PartEvidence]) -> tuple[OtherLines, float, float]:
         """The strongest comb of no part, how far above noise it is [dB], and its swing."""

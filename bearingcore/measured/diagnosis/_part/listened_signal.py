@@ -75,8 +75,19 @@ class ListenedSignal:
 
     @property
     def only_rounding(self) -> bool:
-        """Return True if it holds nothing between its tones, along any direction."""
-        return all(_only_rounding(samples, self.rate) for samples in self._measured)
+        """True if between its tones no direction holds more than steps of numbers and our noise.
+
+        Rounding to steps Δ has the power Δ²/12, alike at all frequencies.
+        """
+        from scipy.signal import welch  # imported late: see `spectrum`
+
+        for samples in self._measured:
+            step = float(np.median(np.diff(np.unique(samples)))) if np.ptp(samples) else 0.0
+            rounding = step**2 / 12.0 + (NOISE_FLOOR * float(samples.std())) ** 2
+            density = welch(samples, self.rate, nperseg=min(4096, len(samples)))[1]
+            if np.quantile(density, 0.9) > ABOVE_ROUNDING * (rounding / (0.5 * self.rate)):
+                return False
+        return True
 
     def envelopes(self, shaft: float, highest: float) -> list[tuple[str, Envelope]]:
         """Envelopes in all bands, with their directions."""
@@ -115,19 +126,6 @@ def _add_noise(samples: np.ndarray) -> np.ndarray:
     """
     noise = np.random.default_rng(0).standard_normal(len(samples))
     return np.asarray(samples + NOISE_FLOOR * float(samples.std()) * noise)
-
-
-def _only_rounding(samples: np.ndarray, rate: float) -> bool:
-    """Return True if between tones there are only the steps of the numbers and our own noise.
-
-    Rounding to steps Δ has the power Δ²/12, alike at all frequencies.
-    """
-    from scipy.signal import welch  # imported late: see `spectrum`
-
-    step = float(np.median(np.diff(np.unique(samples)))) if np.ptp(samples) else 0.0
-    rounding = (step**2 / 12.0 + (NOISE_FLOOR * float(samples.std())) ** 2) / (0.5 * rate)
-    density = welch(samples, rate, nperseg=min(4096, len(samples)))[1]
-    return bool(np.quantile(density, 0.9) <= ABOVE_ROUNDING * rounding)
 
 
 def unfit(signal: ListenedSignal, parts: Sequence[PartLines], shaft: float) -> Reason | None:

@@ -87,19 +87,18 @@ class Combs:
     @property
     def noise(self) -> float:
         """The level [dB] that noise reaches in one of a thousand signals, in any part's window."""
-        cells = sum(self.cells(frequency) for frequency, _ in self.best.values())
+        # independent combs among those within 2 % of each place, in all bands
+        bands, segment = max(1.0, INDEPENDENT_BANDS * len(self.envelopes)), self.turns / self.shaft
+        cells = sum(
+            (1.0 + 2.0 * 0.02 * frequency * segment * 0.5 * HARMONICS) * bands * len(TURNS)
+            for frequency, _ in self.best.values()
+        )
         return noise_level(RARE / cells, self.envelopes[0].levels.averages)
 
     def envelope_of(self, part: PartEvidence) -> Listened:
         """Return the envelope in which the lines of a part were seen."""
         place = part.band, part.direction
         return next(e for e in self.envelopes if (e.band, e.direction) == place)
-
-    def cells(self, frequency: float) -> float:
-        """Independent combs among those within 2 % of a frequency [Hz], in all bands."""
-        segment = self.turns / self.shaft
-        places = 1.0 + 2.0 * 0.02 * frequency * segment * 0.5 * HARMONICS
-        return places * max(1.0, INDEPENDENT_BANDS * len(self.envelopes)) * len(TURNS)
 
 
 def listen(
@@ -147,17 +146,15 @@ def listen(
     level = np.stack([comb_level(lines_at(e.cleared, e.levels.step, frequency)) for e in listened])
     combs = Combs(turns, shaft, tuple(listened), frequency, level, {})
     for lines in parts:
-        inside = np.flatnonzero(mark_window(combs, lines, slip, stated or shaft, frequency))
+        inside = np.flatnonzero(mark_window(combs, lines, slip, stated or shaft))
         highest_of = level[:, inside].max(axis=0)
         column = int(highest_of.argmax())
         combs.best[lines] = float(frequency[inside[column]]), float(highest_of[column])
     return combs
 
 
-def mark_window(
-    combs: Combs, lines: PartLines, slip: float, stated: float, frequency: NDArray[np.float64]
-) -> NDArray[np.bool_]:
-    """Mark the frequencies [Hz] that may be a part's first line.
+def mark_window(combs: Combs, lines: PartLines, slip: float, stated: float) -> NDArray[np.bool_]:
+    """Mark the combs (n,) that may be a part's.
 
     Within the slip of the speed that the shaft's lines show and of the stated speed: otherwise a
     shaft mistaken for another would open the window to twice the slip.
@@ -165,7 +162,7 @@ def mark_window(
     middle = 0.5 * (combs.shaft + stated) * lines.order
     reach = slip * middle - 0.5 * abs(combs.shaft - stated) * lines.order
     reach = max(reach, 0.6 * (combs.frequency[1] - combs.frequency[0]))
-    return np.asarray(np.abs(frequency - middle) <= reach)
+    return np.asarray(np.abs(combs.frequency - middle) <= reach)
 
 
 def tolerance(combs: Combs, frequency: NDArray[np.float64] | float) -> NDArray[np.float64]:

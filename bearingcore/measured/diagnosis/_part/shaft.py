@@ -7,7 +7,7 @@ of these leaves must stand out by themselves. A speed is as good as `ERROR`, or 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -87,7 +87,12 @@ def shaft_lines(
     """
     segment, top = SEGMENT_TURNS / low, (2 * HARMONICS + 1) * high
     best = ShaftLines(0.5 * (low + high), -np.inf, np.inf)
-    for values, rate in _series(columns, sample_rate, low, top, envelopes):
+    series = [thinned(samples - samples.mean(), sample_rate, top) for samples in columns]
+    whole, width = [Band(LOWEST, 0.5 * sample_rate)], SHAFT_WHITENING * low
+    for samples in columns if envelopes else ():
+        whitened = squared_envelopes(samples, sample_rate, whole, top, None, width)
+        series += [(envelope.values, envelope.rate) for envelope in whitened]
+    for values, rate in series:
         if len(values) < rate / low:  # less than a turn
             continue
         levels = line_levels(values, rate, segment, top, 2.0 * low)
@@ -111,25 +116,6 @@ def shaft_lines(
             error = np.inf
         best = ShaftLines(inside, float(excess[index]), error / inside)
     return best
-
-
-def _series(
-    columns: Sequence[NDArray[np.float64]],
-    sample_rate: float,
-    low: float,
-    top: float,
-    envelopes: bool,
-) -> Iterator[tuple[NDArray[np.float64], float]]:
-    """Vibration and whitened envelope of each direction, and their rates [Hz]."""
-    full = [Band(LOWEST, 0.5 * sample_rate)]
-    for samples in columns:
-        yield thinned(samples - samples.mean(), sample_rate, top)
-        if not envelopes:
-            continue
-        for envelope in squared_envelopes(
-            samples, sample_rate, full, top, None, SHAFT_WHITENING * low
-        ):
-            yield envelope.values, envelope.rate
 
 
 def _excess(

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,53 +39,6 @@ DEVIATIONS_A_MEDIAN = 1.4826
 """Standard deviations of normal numbers in a median of their distances from their median."""
 
 
-@dataclass(frozen=True)
-class Spin:
-    """Prominence of the lines of each part in all bands together.
-
-    Attributes
-    ----------
-    frequency
-        twice the spin frequency at which a ball's lines stand out most [Hz].
-    outer, inner, ball
-        deviations of the combs at other frequencies by which each part's comb is above them.
-    but_one
-        the same of a ball's comb, all without their loudest line.
-    parent
-        the same of combs that a ball's lines do not explain, and of those next to them or at their
-        sidebands: where one is stronger, a ball's may be a part, the foot or a sideband of it.
-    shaft_sidebands, cage_sidebands
-        the same of the sidebands of the ball's lines.
-    """
-
-    frequency: float
-    outer: float
-    inner: float
-    ball: float
-    but_one: float
-    parent: float
-    shaft_sidebands: float
-    cage_sidebands: float
-
-    @property
-    def deviations(self) -> float:
-        """Return how far a ball's lines stand out above everything else that explains them.
-
-        Sidebands of a race may be in a ball's window, but are no stronger than the race's own
-        lines. Shaft sidebands where the cage's should be are those of another bearing's inner race.
-        """
-        foreign = self.shaft_sidebands - self.cage_sidebands
-        parent = self.parent if self.parent > self.ball else 0.0
-        above = self.ball - max(0.0, self.outer, self.inner, parent, foreign)
-        lines = self.frequency * np.arange(1, SPIN_HARMONICS + 1)
-        magnetic = any(twice_mains(line) for line in lines.tolist())
-        return min(above, (1.0 if magnetic else WITH_ONE_LINE) * self.but_one)
-
-    def of(self, part: str) -> float:
-        """Deviations by the name of the part."""
-        return {OUTER: self.outer, INNER: self.inner, BALL: self.deviations}[part]
-
-
 def may_be(frequency: NDArray[np.float64] | float, nominal: float) -> NDArray[np.bool_]:
     """Mark the frequencies [Hz] of a ball that would roll at the nominal one."""
     ratio = np.asarray(frequency) / nominal
@@ -97,10 +49,22 @@ def spin(
     combs: Combs,
     parts: Sequence[PartLines],
     explained: Callable[[float], NDArray[np.float64]],
-) -> Spin:
-    """The lines of the parts.
+) -> tuple[float, dict[str, float]]:
+    """The place of a ball's lines, and how far the lines of each part stand out in all bands.
 
-    `explained` says of each comb by how much [dB] lines of a ball at a frequency [Hz] explain it.
+    Sidebands of a race may be in a ball's window, but are no stronger than the race's own lines.
+    Shaft sidebands where the cage's should be are those of another bearing's inner race.
+
+    Parameters
+    ----------
+    explained
+        says of each comb by how much [dB] lines of a ball at a frequency [Hz] explain it.
+
+    Returns
+    -------
+    Twice the spin frequency [Hz] at which a ball's lines stand out most; and by part the deviations
+    of the combs at other frequencies by which its comb is above them, a ball's also above all that
+    explains its lines.
     """
     order = {lines.part: lines.order for lines in parts}
     cage = next(lines.sidebands for lines in parts if lines.part == BALL)
@@ -108,10 +72,14 @@ def spin(
     spread = _deviations(combs, (0.0,))
     window = may_be(at, order[BALL] * shaft) & np.isfinite(spread)
     column = int(np.where(window, spread, -np.inf).argmax())
-    places = at[column] + cage * shaft * np.arange(-2, 3)[:, None]
-    others = explained(float(at[column])) == 0.0
+    frequency, ball = float(at[column]), float(spread[column]) if window.any() else -math.inf
+    # combs that a ball's lines do not explain, next to them or at their sidebands: where one is
+    # stronger, a ball's may be a part, the foot or a sideband of it
+    places = frequency + cage * shaft * np.arange(-2, 3)[:, None]
+    others = explained(frequency) == 0.0
     others |= (np.abs(at - places) <= shaft / combs.turns).any(axis=0)
     others &= ~window & np.isfinite(spread)
+    parent = float(np.max(spread[others], initial=-np.inf))
 
     def race(part: str) -> float:
         inside = np.abs(at / (order[part] * shaft) - 1.0) <= RACE_SLIP
@@ -120,16 +88,12 @@ def spin(
     def sides(spacing: float) -> float:
         return float(np.nan_to_num(_deviations(combs, (-spacing, spacing))[column]))
 
-    return Spin(
-        frequency=float(at[column]),
-        outer=race(OUTER),
-        inner=race(INNER),
-        ball=float(spread[column]) if window.any() else -math.inf,
-        but_one=float(_deviations(combs, (0.0,), but_one=True)[column]),
-        parent=float(np.max(spread[others], initial=-np.inf)),
-        shaft_sidebands=sides(shaft),
-        cage_sidebands=sides(cage * shaft),
-    )
+    outer, inner, foreign = race(OUTER), race(INNER), sides(shaft) - sides(cage * shaft)
+    above = ball - max(0.0, outer, inner, parent if parent > ball else 0.0, foreign)
+    but_one = float(_deviations(combs, (0.0,), but_one=True)[column])
+    magnetic = any(twice_mains(k * frequency) for k in range(1, SPIN_HARMONICS + 1))
+    above = min(above, (1.0 if magnetic else WITH_ONE_LINE) * but_one)
+    return frequency, {OUTER: outer, INNER: inner, BALL: above}
 
 
 def _deviations(

@@ -63,8 +63,9 @@ def diagnose_in_range(
                 turning, speed = signal.shaft(*ends), min(max(speed, low), high)
                 speed = turning.frequency if turning.clear else speed
                 hypotheses.append(_Hypothesis(turning, judge(signal, parts, speed, slip)))
-    holding = sorted((guess for guess in hypotheses if guess.holds), key=lambda g: -g.shaft.excess)
+    holding = [guess for guess in hypotheses if guess.judged.leading.probability >= NAMED]
     if holding:
+        holding.sort(key=lambda guess: -guess.shaft.excess)
         return _choose(signal, holding, slip, low, high, source)
     if shaft.clear:
         return decide(signal, hypotheses[0].judged, shaft.frequency, _BY_SHAFT_LINES)
@@ -151,11 +152,6 @@ class _Hypothesis:
 
     shaft: ShaftLines
     judged: Judged
-
-    @property
-    def holds(self) -> bool:
-        """Return True if a part would be named at that speed."""
-        return self.judged.leading.probability >= NAMED
 
     def agrees(self, other: _Hypothesis, slip: float) -> bool:
         """Return True if another speed is the same, and the part."""

@@ -29,10 +29,8 @@ def outer_race_signal(seed: int = 1) -> np.ndarray:
 
 
 def write(path: Path, heading: str, *columns: np.ndarray) -> Path:
-    rows = "\n".join(
-        ",".join(f"{value:.6g}" for value in row) for row in zip(*columns, strict=True)
-    )
-    path.write_text(f"{heading}\n{rows}\n", encoding="utf-8")
+    table = np.stack(columns, axis=1)
+    np.savetxt(path, table, "%.6g", ",", header=heading, comments="", encoding="utf-8")
     return path
 
 

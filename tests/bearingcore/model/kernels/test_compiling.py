@@ -67,6 +67,7 @@ def start(
     cache: Path | None,
     prefix: tuple[str, ...] = (),
     environment: dict[str, str] | None = None,
+    code: str = RUN,
 ) -> subprocess.Popen[str]:
     """A process that calls the caller; with cache None code is kept beside the sources."""
     inherited = {**os.environ, "PYTHONPATH": str(package.parent), "PYTHONDONTWRITEBYTECODE": "1"}
@@ -74,7 +75,7 @@ def start(
     if cache is not None:
         inherited["NUMBA_CACHE_DIR"] = str(cache)
     return subprocess.Popen(
-        [*prefix, sys.executable, "-c", RUN],
+        [*prefix, sys.executable, "-c", code],
         env={**inherited, **(environment or {})},
         text=True,
         stdout=subprocess.PIPE,
@@ -158,20 +159,11 @@ def test_a_full_disk_keeps_nothing_and_says_so(package: Path, tmp_path: Path) ->
         "from pathlib import Path; write = Path.write_bytes\n"
         "Path.write_bytes = lambda self, data: write(Path('/dev/full'), data)\n"
     )
-    environment = {
-        **os.environ,
-        "PYTHONPATH": str(package.parent),
-        "NUMBA_CACHE_DIR": str(tmp_path),
-    }
-    ended = subprocess.run(
-        [sys.executable, "-c", full + RUN + "print(compiling.kept_on_disk())"],
-        env=environment,
-        capture_output=True,
-        text=True,
-    )
-    assert ended.stdout.split() == ["8.0", "0", "False", "False", "False"]
-    assert ended.stderr.count("\n") == 1
-    assert "No space left" in ended.stderr
+    process = start(package, tmp_path, code=full + RUN + "print(compiling.kept_on_disk())")
+    out, err = process.communicate(timeout=300.0)
+    assert out.split() == ["8.0", "0", "False", "False", "False"]
+    assert err.count("\n") == 1
+    assert "No space left" in err
     assert not list(tmp_path.rglob("*.kernel*")), "nothing is left half written"
 
 

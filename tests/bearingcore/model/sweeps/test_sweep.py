@@ -47,6 +47,7 @@ OVER = {"extent": np.linspace(0.0, 1.5, 20), "fy": LOADS}
 FEW = ("k_yy_*", "loaded_balls_mean")
 TASK = 20
 """Scenes in a task of OVER: 60 regions."""
+FEW_SCENES = {"extent": [0.1, 0.2, 0.3], "fy": LOADS[:4]}
 
 
 def code(name: str) -> int:
@@ -222,12 +223,12 @@ def reference() -> xarray.Dataset:
 @pytest.fixture(scope="module")
 def finished_store(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("sweep") / "finished.zarr"
-    sweep(RIG, {"extent": [0.1, 0.2, 0.3], "fy": LOADS[:4]}, FEW, store=path, scenes_per_task=3)
+    sweep(RIG, FEW_SCENES, FEW, store=path, scenes_per_task=3)
     return path
 
 
 def again(path: Path) -> xarray.Dataset:
-    return sweep(RIG, {"extent": [0.1, 0.2, 0.3], "fy": LOADS[:4]}, FEW, store=path)
+    return sweep(RIG, FEW_SCENES, FEW, store=path)
 
 
 @pytest.fixture
@@ -264,8 +265,7 @@ def test_nothing_finished_is_computed_again(copied: Path) -> None:
     before = files_of(copied)
     assert len(before) == 4 * 5  # regions times outputs and status
     told: list[str] = []
-    over = {"extent": [0.1, 0.2, 0.3], "fy": LOADS[:4]}
-    sweep(RIG, over, FEW, store=copied, progress=lambda _, words: told.append(words))
+    sweep(RIG, FEW_SCENES, FEW, store=copied, progress=lambda _, words: told.append(words))
     assert files_of(copied) == before
     assert told[-1] == "12 of 12 scenes, 12 of them from before"
 
@@ -333,13 +333,7 @@ def test_results_of_another_sweep_are_refused(
 ) -> None:
     before = files_of(finished_store)
     with pytest.raises(ValueError, match=words):
-        sweep(
-            scene,
-            {"extent": [0.1, 0.2, 0.3], "fy": LOADS[:4], **over},
-            outputs,
-            store=finished_store,
-            settings=settings,
-        )
+        sweep(scene, FEW_SCENES | over, outputs, store=finished_store, settings=settings)
     assert files_of(finished_store) == before
 
 

@@ -165,21 +165,17 @@ def test_a_part_that_fills_a_band_is_named_whatever_knocks_elsewhere():
 
 def test_the_other_source_alone_names_no_part():
     rng = np.random.default_rng(22)
-    elsewhere = steady(4.286 * STEADY_MOTOR.turns, 600.0)
-    signal = 4.0 * elsewhere / elsewhere.std() + rng.standard_normal(len(TIME))
-    assert steady_answer(signal).fault == "cannot tell"
-    swelling = steady(4.286 * STEADY_MOTOR.turns, 600.0) * turning_with(STEADY_MOTOR.turns)
-    signal = 4.0 * swelling / swelling.std() + rng.standard_normal(len(TIME))
-    assert steady_answer(signal).fault == "cannot tell"
+    for swelling in (1.0, turning_with(STEADY_MOTOR.turns)):
+        elsewhere = swelling * steady(4.286 * STEADY_MOTOR.turns, 600.0)
+        signal = 4.0 * elsewhere / elsewhere.std() + rng.standard_normal(len(TIME))
+        assert steady_answer(signal).fault == "cannot tell"
 
 
 @pytest.mark.parametrize("strengths", [(1.0,), (1.0, 0.6), (1.0, 0.8, 0.5)])
 def test_a_computed_signal_without_noise_is_named(strengths):
     """Be its knocks alike or such as repeat every second or third time only."""
-    assert (
-        steady_answer(steady(STEADY_MOTOR.lines["outer race"], 3000.0, strengths)).fault
-        == "outer race"
-    )
+    signal = steady(STEADY_MOTOR.lines["outer race"], 3000.0, strengths)
+    assert steady_answer(signal).fault == "outer race"
 
 
 def test_a_source_of_half_the_rate_is_none_of_the_bearing_s():

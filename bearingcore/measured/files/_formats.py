@@ -9,7 +9,6 @@ from __future__ import annotations
 import contextlib
 import importlib.util
 import io
-import json
 import re
 import warnings
 import zlib
@@ -22,7 +21,7 @@ from numpy.typing import NDArray
 from bearingcore.common import _checks as checks
 from bearingcore.errors import FieldError
 from bearingcore.measured.files import _libraries as libraries
-from bearingcore.measured.files._text import read_text, refuse_mixed_rows
+from bearingcore.measured.files._text import read_text
 from bearingcore.measured.files._variables import (
     LONGEST_TEXT,
     Answer,
@@ -94,8 +93,8 @@ def _format_of(name: str, content: bytes) -> tuple[str, Walk] | None:
             return kind, walk
     if content[:4] == b"\xd0\xcf\x11\xe0":
         raise checks.refuse("file", name, "no old office document (.xls): save it as .xlsx or CSV")
-    if re.match(rb'\s*(\{\s*"|\[[\s\[]*(-?\.?\d|\{))', content) and (values := _json(content)):
-        return "JSON file", lambda _, variables: _walk_json(values, "", variables, 0)
+    if re.match(rb'\s*(\{\s*"|\[\s*[\[{])', content) and content.rstrip()[-1:] in b"]}":
+        raise checks.refuse("file", name, "a table: save the columns of a JSON file as CSV")
     if re.search(rb"[\"\t;,] ?\[[-+\d.eE,;\s]{500}", content[:100_000]):
         raise checks.refuse("file", name, "a number in each cell, not a whole signal in one")
     if content[:6] == b"Octave" or content[:19] == b"# Created by Octave":
@@ -125,44 +124,6 @@ def _gunzipped(name: str, content: bytes) -> bytes:
             return unpacked
     most = libraries.MOST_UNPACKED >> 20
     raise checks.refuse("file", name, f"a whole file of gzip, at most {most} MB unpacked")
-
-
-def _json(content: bytes) -> Any:
-    """The value of a JSON text, or of a record in each line; None for other text."""
-    try:
-        text = content.decode("utf-8-sig")
-        try:
-            return json.loads(text)
-        except ValueError:
-            return [json.loads(line) for line in text.splitlines() if line.strip()]
-    except (ValueError, RecursionError):
-        return None
-
-
-def _walk_json(value: Any, path: str, variables: Variables, depth: int) -> None:
-    """Add lists of numbers, and lists of records by the records' names."""
-    check_depth(depth)
-    if isinstance(value, dict) and list(value) == [str(i) for i in range(len(value))]:
-        value = list(value.values())  # rows by their numbers, as pandas writes them
-    if isinstance(value, list) and value and isinstance(value[0], dict):
-        records = [item for item in value if isinstance(item, dict)]
-        if any(isinstance(item, list) for item in records[0].values()):  # of a channel each
-            named = {str(item.get("name", i + 1)): item for i, item in enumerate(records)}
-            return _walk_json(named if records[1:] else records[0], path, variables, depth)
-        value = {name: [record.get(name) for record in records] for name in records[0]}
-        columns = [np.array(c) for c in value.values() if not isinstance(c[0], list | dict)]
-        numbers = [column for column in columns if column.dtype.kind in "if"]
-        for labels in (column for column in columns if column.dtype.kind == "U"):
-            refuse_mixed_rows(path or "the records", labels, numbers)
-    if isinstance(value, dict):
-        for name, inside in value.items():
-            _walk_json(inside, f"{path}.{name}" if path else str(name), variables, depth + 1)
-        return
-    try:
-        kind = None if isinstance(value, str) else float
-        variables.add(path or "array", np.array(value, dtype=kind))
-    except (TypeError, ValueError):
-        variables.add(path or "array", np.asarray(value, dtype=object))
 
 
 def _wav(name: str, content: bytes, most_numbers: int, most_columns: int) -> Answer:

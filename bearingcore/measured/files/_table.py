@@ -372,9 +372,9 @@ def path_in(name: str) -> str:
 def read_table(name: str, content: bytes, give_up: Callable[[], bool] | None = None) -> Table:
     """Read the columns of numbers in a file: text (CSV), WAV, MATLAB, HDF5, and others.
 
-    JSON and NumPy's files are read too, and with the packages of the extra `files`
-    UFF, TDMS, Parquet and Excel's .xlsx; also a zip or gzip of one of them. The first bytes
-    decide the format. The file is read in its own process with limits of time and memory: see
+    NumPy's files are read too, and with the packages of the extra `files` UFF, TDMS, Parquet and
+    Excel's .xlsx; also a zip or gzip of one of them. The first bytes decide the format. The file
+    is read in its own process with limits of time and memory: see
     `bearingcore.measured.files._child`.
 
     Parameters

@@ -38,7 +38,7 @@ SAMPLE = 30
 """Lines of numbers by which the way of writing is judged."""
 
 READABLE = (
-    "text with numbers (CSV, TXT, LVM, JSON), WAV, MATLAB, HDF5, NumPy, UFF, TDMS, "
+    "text with numbers (CSV, TXT, LVM), WAV, MATLAB, HDF5, NumPy, UFF, TDMS, "
     "Parquet, Excel (.xlsx), or a zip of one of these; export it as CSV where it is none of them"
 )
 """Formats of files."""

@@ -3,7 +3,6 @@
 import csv
 import gzip
 import io
-import json
 import math
 from collections.abc import Callable
 from typing import Any
@@ -285,7 +284,10 @@ def matlab_table() -> bytes:
         (matlab_table(), r"T is a table or an object: save .* acc = T\.acc"),
         (b"\xd0\xcf\x11\xe0" + bytes(100), "save it as .xlsx or CSV"),
         (b"\x89PNG\r\n\x1a\n\x00", "UFF, TDMS, Parquet.*export it as CSV"),
-        (json.dumps({"a": "b"}).encode(), "a JSON file with a vector"),
+        *(
+            (FRAME.to_json(orient=way).encode(), "save the columns of a JSON file as CSV")
+            for way in ("columns", "records", "values")
+        ),
         (saved(np.save, cells({}, {})), "damaged or unknown part"),
     ],
 )
@@ -355,7 +357,6 @@ OF_SENSORS = {
     "no times": LONG.drop(columns="time").to_csv(index=False),
     "numbers": LONG.sort_values("time", kind="stable")
     .assign(place=[1, 2] * N).rename(columns={"place": "sensor_id"}).to_csv(index=False),
-    "records": LONG.to_json(orient="records", lines=True),
 }  # fmt: skip
 
 
@@ -566,7 +567,6 @@ def join_cells(values: Any, delimiter: str) -> str:
 
 
 ALONE = SIGNAL[:, 0]
-LIST = ALONE.tolist()
 #: files with one signal, each with its rate and, where it matters, its name
 ONE_SIGNAL: list[tuple[Any, ...]] = [
     # the index of a data frame is no signal; an uptime is no time since 1970
@@ -583,7 +583,6 @@ ONE_SIGNAL: list[tuple[Any, ...]] = [
     (FRAME.assign(time=TIME + 12_345.6).to_csv(), RATE),
     ("Unnamed: 0" + FRAME.to_csv(), RATE),
     (FRAME.to_csv(sep=";", decimal=",", quoting=csv.QUOTE_ALL), RATE),
-    *((FRAME.to_json(orient=way), RATE) for way in ("index", "columns")),
     (written(lambda t, a: f'"{round(t * RATE) + 1}" {t:.6f} {a}', '"time" "acc"'), RATE),
     # signs of other tables than UTF-8, and remarks above the headings
     ("\ufeff" + FRAME.to_csv(), RATE),
@@ -629,13 +628,8 @@ ONE_SIGNAL: list[tuple[Any, ...]] = [
     (written(lambda t, a: f"{t:.6f},{a:.4f}", "s,g"), RATE),
     (written(lambda t, a: f"{t:.6f},{a:.4f},{5 * (t % 0.03 < 0.01)}", "t,acc [g],Tacho [V]"), RATE),
     (gzip.compress(FRAME.to_csv().encode()), RATE),
-    # lists and records of JSON, arrays of NumPy
-    (json.dumps(LIST), None, "a.json"),
-    (f"[{' '.join(map(str, LIST))}]", None),
-    (json.dumps(FRAME.to_numpy().tolist()), RATE, "a.json"),
-    *((FRAME.to_json(orient="records", lines=lines, double_precision=9), RATE)
-      for lines in (False, True)),
-    (json.dumps({"fs": RATE, "acc": LIST}), RATE, "a.json"),
+    # arrays as NumPy and MATLAB show them, and as NumPy saves them
+    *((f"[{delimiter.join(map(str, ALONE.tolist()))}]", None) for delimiter in (" ", ", ")),
     (saved(np.save, ALONE), None, "a.npy"),
     (saved(np.save, np.column_stack([TIME, ALONE]).T), RATE, "a.npy"),
     (saved(np.savez, acc=ALONE, fs=RATE, about=cells({})), RATE, "a.npz"),
@@ -887,12 +881,11 @@ FILES: list[tuple[bytes | str, dict[str, Any]]] = [
     *((rows(*[SIGNAL] * (count // 2), *[SIGNAL[:, 0]] * (count % 2)),
        {"columns": {}, "options": tuple(range(count)), "question": f"holds {count} signals"})
       for count in (2, 3)),
-    (json.dumps({"a": [{"name": n, "unit": "g", "data": v.tolist()}
-                       for n, v in zip(("DE", "NDE"), SIGNAL.T, strict=True)],
-                 "speed": {"value": 1480, "unit": "rpm"}, "bearing": "6205"}),
-     {"file": "a.json", "units": ["g", "g"], "rpm": 1480.0, "bearing": "6205",
+    # structs of MATLAB and sets of HDF5, with facts beside each signal
+    (matlab(a={n: {"unit": "g", "data": v} for n, v in zip(("DE", "NDE"), SIGNAL.T, strict=True)},
+            speed={"value": 1480.0, "unit": "rpm"}, bearing="6205"),
+     {"file": "a.mat", "units": ["g", "g"], "rpm": 1480.0, "bearing": "6205",
       "question": "several places"}),
-    # HDF5, beside each data set
     (hdf5(rig__DE=(SIGNAL[:, 0], STEP | {"unit_string": "g"}),
           rig__NDE=(SIGNAL[:, 1], STEP | {"unit_string": "V"})),
      {"units": ["g", "V"], "rate": RATE, "options": (0, 1)}),

@@ -18,7 +18,7 @@ import numpy as np
 
 from bearingcore.common import Array, _checks as checks, cached_property, count, number, runs
 from bearingcore.measured.files._channels import OTHER, ROLES, SIGNAL, SPEED, TIME, Column
-from bearingcore.measured.files._child import MOST_NUMBERS, read_file
+from bearingcore.measured.files._child import read_file
 from bearingcore.measured.files._contents import FileColumns, FileContents, contents_of
 from bearingcore.measured.files._sampling import Sampling, long_parts, longest_run, single_gaps
 from bearingcore.measured.files._shaft_angle import angle_columns, shaft_angle
@@ -32,6 +32,7 @@ from bearingcore.measured.files._units import (
     differentiated,
     level_doubt,
 )
+from bearingcore.measured.files._variables import MOST_NUMBERS
 from bearingcore.measured.signals._dropouts import cut_off
 from bearingcore.recordings import FEWEST_SAMPLES, Recording
 

@@ -26,6 +26,12 @@ from bearingcore.common import Array, _checks as checks, thousands
 from bearingcore.measured.files import _facts as facts
 from bearingcore.measured.files._channels import TIME, column_of
 from bearingcore.measured.files._units import UNITS, unit_in, unit_named
+from bearingcore.measured.files._variables import (
+    MOST_COLUMNS,
+    MOST_NUMBERS,
+    Answer,
+    check_size,
+)
 from bearingcore.recordings import FEWEST_SAMPLES
 
 LONGEST_REMARK = 200
@@ -61,8 +67,8 @@ MOST_SIGNALS_MIXED = 32
 
 
 def read_text(
-    name: str, content: bytes, most_numbers: int, most_columns: int
-) -> tuple[dict[str, Any], Array]:
+    name: str, content: bytes, most_numbers: int = MOST_NUMBERS, most_columns: int = MOST_COLUMNS
+) -> Answer:
     """The table in a text of UTF-8, UTF-16 with its mark, or one byte a character.
 
     Returns
@@ -86,12 +92,7 @@ def read_text(
         turned = _signals_in_rows(name, content[begin:], style, remarks, most_numbers, most_columns)
         if turned is not None:
             return turned
-        if style.width > most_columns:
-            raise checks.refuse(
-                f"number of columns in {name}",
-                style.width,
-                f"at most {most_columns}: leave out some, or write each signal in a row",
-            )
+        check_size(name, 1, style.width, most_numbers, most_columns)
     read, said, notes = _read_numbers(name, content, begin, style, remarks, most_numbers)
     headings = _headings(remarks, style, read)  # of the remarks above, the line that names columns
     if not headings:
@@ -136,12 +137,7 @@ def _read_numbers(
         read = _numbers(name, body, style, most_rows)
     if read is None:
         raise checks.refuse("file", name, READABLE)
-    if read.size > most_numbers:
-        raise checks.refuse(
-            f"count of numbers in {name}",
-            f"over {most_numbers}",
-            f"at most {most_numbers}; split it by rows and join the parts",
-        )
+    check_size(name, *read.shape, most_numbers)
     return read, said, notes
 
 
@@ -209,7 +205,7 @@ def _decode_to_utf8(name: str, content: bytes) -> bytes:
 
 def _text_fields(
     columns: Array, headings: list[str] | None, remarks: list[str], **more: list[Any]
-) -> tuple[dict[str, Any], Array]:
+) -> Answer:
     names = headings or [f"column {i + 1}" for i in range(columns.shape[1])]
     kept = [line[:LONGEST_REMARK] for line in remarks]
     return {"names": names, "remarks": kept, "headed": headings is not None, **more}, columns
@@ -761,7 +757,7 @@ def _mended(
 
 def _signals_in_rows(
     name: str, body: bytes, style: _Style, remarks: list[str], most_numbers: int, most_columns: int
-) -> tuple[dict[str, Any], Array] | None:
+) -> Answer | None:
     """Read signals that are written in a row each; None for any other table."""
     width = style.width
     most_rows = min(most_columns if width > most_columns else LONG_ROW, width)

@@ -15,6 +15,11 @@ from bearingcore.recordings import FEWEST_SAMPLES
 DEEPEST = 8
 """Structs, cells and groups inside one another."""
 
+MOST_NUMBERS = 16_000_000
+"""Numbers in a file, all columns together."""
+
+MOST_COLUMNS = 1024
+
 MOST_SCALARS = 200
 """Single numbers and words of a file that are kept."""
 
@@ -56,7 +61,7 @@ class Variables:
                 of = f"{path}{{{index + 1}}}" if len(words) > 1 else path
                 self.texts[of] = text[:LONGEST_TEXT].strip()
 
-    def table(self, name: str, kind: str, most_numbers: int, most_columns: int) -> Answer:
+    def table(self, name: str, kind: str) -> Answer:
         """Make columns of vectors and matrices about as long as the longest; the rest are facts."""
         scalars: dict[str, float] = {}
         parts: dict[str, NDArray[Any]] = {}
@@ -77,7 +82,7 @@ class Variables:
         rows = max(len(part) for part in parts.values())
         parts, scalars = self._long(parts, scalars, rows)
         width = sum(part.shape[1] for part in parts.values())
-        check_size(name, (rows, width), most_numbers, most_columns)
+        check_size(name, rows, width)
         columns = np.full((rows, width), np.nan, order="F")
         names: list[str] = []
         with np.errstate(invalid="ignore"):
@@ -106,13 +111,20 @@ class Variables:
         return parts, scalars
 
 
-def check_size(name: str, shape: tuple[int, ...], most_numbers: int, most_columns: int) -> None:
-    rows, width = shape
+def check_size(
+    name: str,
+    rows: int,
+    width: int,
+    most_numbers: int = MOST_NUMBERS,
+    most_columns: int = MOST_COLUMNS,
+) -> None:
+    """Refuse a table of too many columns or numbers; of the latter those over the limit count."""
     if width > most_columns:
-        most = f"at most {most_columns}: save those of one bearing alone"
+        most = f"at most {most_columns}: save those of one bearing, or write each signal in a row"
         raise checks.refuse(f"number of columns in {name}", width, most)
     if rows * width > most_numbers:
-        raise checks.refuse(f"count of numbers in {name}", rows * width, f"at most {most_numbers}")
+        most = f"at most {most_numbers}; split it by rows and join the parts"
+        raise checks.refuse(f"count of numbers in {name}", f"over {most_numbers}", most)
 
 
 def check_depth(depth: int) -> None:

@@ -225,8 +225,7 @@ def _choose(
     moving = [_moves(values) for values in table.columns.T]
     if by_hand := {index for index, column in table.given.items() if column.role == SIGNAL}:
         moving = [moves and index in by_hand for index, moves in enumerate(moving)]
-        choice = choose(columns, moving, "as given", table.name, known.place)
-        return tuple(columns), choice
+        return tuple(columns), choose(columns, moving, "as given", table.name, known.place)
     axis = _frequencies(table, columns, timed=sampling is not None)
     if not known.why:
         columns = leave_out_spectra(columns, table.columns, axis)
@@ -234,8 +233,7 @@ def _choose(
         if words := kind_in_words(columns, table.columns, lines, table.name, name):
             return tuple(columns), Choice({}, "", words)
     choice = choose(columns, moving, why, table.name, known.place)
-    signs = table.columns < 0.0, table.columns > 0.0
-    swings = np.logical_and(*(np.logical_or.reduce(sign, axis=0) for sign in signs))
+    swings = (table.columns < 0.0).any(axis=0) & (table.columns > 0.0).any(axis=0)
     left = [
         index
         for index, column in enumerate(columns)

@@ -255,8 +255,7 @@ def _matlab_values(data: Any) -> NDArray[Any]:
 _FORMATS: tuple[tuple[bytes, str, Walk, str], ...] = (
     # MATLAB 7.3 puts text before HDF5
     (rb"(.{512})?\x89HDF\r\n\x1a\n", "HDF5 file", _walk_hdf5, ""),
-    (rb"\x93NUMPY", "NumPy file", libraries.npy, ""),
-    (rb"PK\x03\x04", "NumPy file", libraries.npz, ""),
+    (rb"\x93NUMPY|PK\x03\x04", "NumPy file", libraries.arrays, ""),
     (rb"PAR1", "Parquet file", libraries.data_frame, "pyarrow"),
     (rb"TDSm", "TDMS file", libraries.tdms, "npTDMS"),
     (rb"\s{0,200}-1 *\r?\n +\d{1,4}[ b]*\d*", "UFF file (data set 58)", libraries.uff, "pyuff"),

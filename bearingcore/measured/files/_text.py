@@ -349,11 +349,8 @@ def _row(line: str, delimiter: str | None, words: Sequence[int] = ()) -> list[fl
 
     Cells of columns of `words` are NaN.
     """
-    of_words = set(words)
-    numbers = [
-        math.nan if i in of_words else _number(cell)
-        for i, cell in enumerate(_cells(line, delimiter))
-    ]
+    cells = _cells(line, delimiter)
+    numbers = [math.nan if i in words else _number(cell) for i, cell in enumerate(cells)]
     present = [number for number in numbers if number is not None]
     if len(present) < len(numbers) or all(math.isnan(number) for number in present):
         return None
@@ -412,18 +409,15 @@ def _row_of_labview(lines: Sequence[str], delimiter: str | None) -> list[float] 
 def _columns_of_words(lines: Sequence[str], delimiter: str | None) -> tuple[int, ...]:
     """Columns in which every one of many lines, or of long ones, has a word beside numbers."""
     rows = [_cells(line, delimiter) for line in lines]
-    if (len(rows) < SAMPLE and len(rows[0]) <= FEWEST_SAMPLES) or len(
-        {len(row) for row in rows}
-    ) > 1:
+    if len(rows) < SAMPLE and len(rows[0]) <= FEWEST_SAMPLES:
         return ()
-    kinds = {tuple(_number(cell) is None for cell in row) for row in rows}
-    words = next(iter(kinds)) if len(kinds) == 1 else ()
-    if any(
-        word and " " in cell and not re.search(r"[^\W\d]", cell)
-        for word, cell in zip(words, rows[0], strict=False)
-    ):
-        return ()  # "000125 −0" between two commas of decimals
-    return tuple(i for i, word in enumerate(words) if word) if not all(words) else ()
+    placed = {tuple(i for i, cell in enumerate(row) if _number(cell) is None) for row in rows}
+    words = placed.pop()
+    if placed or len(words) == len(rows[0]) or len({len(row) for row in rows}) > 1:
+        return ()
+    # "000125 −0" between two commas of decimals is no word
+    numbers = any(" " in rows[0][i] and not re.search(r"[^\W\d]", rows[0][i]) for i in words)
+    return () if numbers else words
 
 
 _TWO_WHOLE = re.compile(r"\s*(-?\d+),(\d+)\s*")
@@ -471,7 +465,7 @@ def _beginning(name: str, content: bytes) -> tuple[_Style, int, list[str]]:
             begin = begin or bare
             rest = io.BytesIO(content)
             rest.seek(place)
-            sample = list(islice(_lines_of_numbers(rest), SAMPLE))
+            sample = [text for _, text in islice(_lines_of_numbers(rest), SAMPLE)]
             numbered = _is_numbered(sample)
             style = None if numbered else _style(sample, remarks[-1] if remarks else "")
             follows = _style(sample[1:], "") if style and style.width == 1 < len(sample) else None
@@ -498,12 +492,12 @@ def _is_numbered(lines: Sequence[str]) -> bool:
     return bool(named and counted)
 
 
-def _lines_of_numbers(lines: Iterable[bytes]) -> Iterator[str]:
-    """Lines that are neither empty nor remarks."""
-    for line in lines:
+def _lines_of_numbers(lines: Iterable[bytes]) -> Iterator[tuple[int, str]]:
+    """Lines that are neither empty nor remarks, with their numbers from 0."""
+    for index, line in enumerate(lines):
         text = _decoded(line)
         if text.strip() and text[0] not in "#%":
-            yield text
+            yield index, text
 
 
 def _headings(remarks: Sequence[str], style: _Style, columns: Array) -> list[str] | None:
@@ -694,10 +688,7 @@ def _wrong_lines(
 ) -> Iterator[tuple[int, str, list[str], str]]:
     """Lines that are not `width` numbers and gaps: number from 0, text, cells, what they lack."""
     width = style.width
-    for index, line in enumerate(lines):
-        text = _decoded(line)
-        if not text.strip() or text[0] in "#%":
-            continue
+    for index, text in _lines_of_numbers(lines):
         cells = _cells(style.plain(text).partition("#")[0], style.delimiter)
         if len(cells) == width + 1 and not cells[-1]:
             cells.pop()
@@ -761,9 +752,8 @@ def _signals_in_rows(
     """Read signals that are written in a row each; None for any other table."""
     width = style.width
     most_rows = min(most_columns if width > most_columns else LONG_ROW, width)
-    lines = list(islice(_lines_of_numbers(io.BytesIO(body)), most_rows + 1))
-    plain = [style.plain(line).rstrip(" ") for line in lines]
-    rows = [_row(line, style.delimiter, style.words) for line in plain]
+    lines = [line for _, line in islice(_lines_of_numbers(io.BytesIO(body)), most_rows + 1)]
+    rows = [_row(style.plain(line).rstrip(" "), style.delimiter, style.words) for line in lines]
     whole = [row[:width] for row in rows if row is not None and len(row) in (width, width + 1)]
     if width < FEWEST_SAMPLES or not len(whole) == len(rows) <= most_rows:
         return None
@@ -771,7 +761,6 @@ def _signals_in_rows(
         allowed = "a column for each signal: turn the table, without the facts before its samples"
         raise checks.refuse("file", name, allowed)
     columns = np.delete(np.array(whole).T, style.words, axis=0)
-    if columns.size > most_numbers:
-        return None
+    check_size(name, *columns.shape, most_numbers)
     named = [_cells(line, style.delimiter)[0] for line in lines] if style.words == (0,) else None
     return _text_fields(columns, named or _headings(remarks, style, columns), remarks)

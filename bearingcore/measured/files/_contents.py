@@ -353,11 +353,8 @@ def _describe(column: Column, texts: Mapping[str, str]) -> Column:
             column = dataclasses.replace(column, unit=unit, role=role)
         if end in _DESCRIBES:
             said = column_of(text)
-            column = dataclasses.replace(
-                column,
-                place=column.place or said.place,
-                direction=column.direction or said.direction,
-            )
+            place, direction = column.place or said.place, column.direction or said.direction
+            column = dataclasses.replace(column, place=place, direction=direction)
     return column
 
 

@@ -110,12 +110,10 @@ def times_of(time: Array, unit: str | None = None, *, sure: bool = False) -> Sam
             f"A row each {with_prefix(1.0 / rate, 's', 2)} is no signal of vibration: a trend?"
         )
         return dataclasses.replace(sampling, sample_rate=None, stated=False, trouble=trouble)
-    said = f"{in_unit} it would be {number(rate, 6)} Hz"
-    if likely is None:
-        reason = f"{sampling.reason}; no recording of vibration is so: in {said}"
-        return dataclasses.replace(sampling, stated=False, reason=reason)
-    reason = f"{sampling.reason}, if it is in {likely}; in {said}"
-    return dataclasses.replace(sampling, sample_rate=rates[likely], stated=False, reason=reason)
+    why = f", if it is in {likely};" if likely else "; no recording of vibration is so:"
+    reason = f"{sampling.reason}{why} in {in_unit} it would be {number(rate, 6)} Hz"
+    rate = rates[likely] if likely else rate
+    return dataclasses.replace(sampling, sample_rate=rate, stated=False, reason=reason)
 
 
 _PARTS = ("s", "ms", "µs", "ns", "d")

@@ -164,26 +164,6 @@ def refuse_mixed_rows(name: str, labels: NDArray[Any], columns: Iterable[Array] 
         )
 
 
-_IN_A_CELL = re.compile(r"(?<![\w.^])[-+]?\d*[.,]?\d+(?:[eE][-+]?\d+)?")
-_LABEL, _UNIT = re.compile(r"([^\W\d]\w*)\s*[:=]\s*$"), re.compile(r"\s*([^\W\d_][^\s,;|]*)")
-
-
-def _bare_cells(content: bytes) -> bytes:
-    """A content of lines such as "x: 1.5 g" with numbers alone, under their labels and units."""
-    tail = {tuple(_IN_A_CELL.split(_decoded(line))) for line in content[-8192:].splitlines()[1:-1]}
-    words = tail.pop() if len(tail) == 1 else ()
-    words = () if ":" in words else words  # of a time of day
-    labels = [match[1] if (match := _LABEL.search(before)) else "" for before in words[:-1]]
-    units = [match[1] if (match := _UNIT.match(after)) else "" for after in words[1:]]
-    if not any(labels) and not (any(units) and all(map(unit_named, filter(None, units)))):
-        return content
-    lines = _decoded(content).splitlines()
-    first = next(i for i, line in enumerate(lines) if tuple(_IN_A_CELL.split(line)) == words)
-    above = [";".join(names) for names in (labels, units) if any(names)]
-    bare = [";".join(_IN_A_CELL.findall(line)) for line in lines[first:]]
-    return "\n".join([*lines[:first], *above, *bare]).encode()
-
-
 _BASIC_DATE = re.compile(rb"\b(\d{4})([01]\d)([0-3]\d)[T_]([0-2]\d)([0-5]\d)([0-5]\d)(?!\d)")
 """A date and time without marks between their parts: 20250102T030405.6Z."""
 
@@ -195,7 +175,6 @@ def _decode_to_utf8(name: str, content: bytes) -> bytes:
     if b"\x00" in content[:4096]:
         raise checks.refuse("file", name, READABLE)
     content = content.removeprefix(b"\xef\xbb\xbf").rstrip(b"\x00")
-    content = _bare_cells(content)
     if _BASIC_DATE.search(content[:4096]):
         content = _BASIC_DATE.sub(rb"\1-\2-\3T\4:\5:\6", content)
     if re.match(rb"\s*\[", content) and b"\n" not in content.strip():
@@ -349,8 +328,8 @@ def _row(line: str, delimiter: str | None, words: Sequence[int] = ()) -> list[fl
 
     Cells of columns of `words` are NaN.
     """
-    cells = _cells(line, delimiter)
-    numbers = [math.nan if i in words else _number(cell) for i, cell in enumerate(cells)]
+    cells, of_words = _cells(line, delimiter), set(words)
+    numbers = [math.nan if i in of_words else _number(cell) for i, cell in enumerate(cells)]
     present = [number for number in numbers if number is not None]
     if len(present) < len(numbers) or all(math.isnan(number) for number in present):
         return None

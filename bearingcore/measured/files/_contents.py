@@ -233,7 +233,7 @@ def _choose(
         if words := kind_in_words(columns, table.columns, lines, table.name, name):
             return tuple(columns), Choice({}, "", words)
     choice = choose(columns, moving, why, table.name, known.place)
-    swings = (table.columns < 0.0).any(axis=0) & (table.columns > 0.0).any(axis=0)
+    swings = np.any(table.columns < 0.0, axis=0) & np.any(table.columns > 0.0, axis=0)
     left = [
         index
         for index, column in enumerate(columns)

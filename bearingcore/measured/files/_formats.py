@@ -137,7 +137,7 @@ def _wav(name: str, content: bytes) -> Answer:
         why = f" ({error})" if type(error) is ValueError else ""
         raise checks.refuse("file", name, f"a whole WAV file{why}") from None
     data = np.atleast_2d(np.asarray(data).T).T
-    check_size(name, *data.shape)
+    check_size(name, len(data), data.shape[1])
     if rate <= 0 or data.size == 0:
         raise checks.refuse("file", name, "a WAV file with samples and a sample rate")
     columns = data.astype(float)

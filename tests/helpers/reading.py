@@ -8,7 +8,6 @@ import pytest
 from numpy.typing import NDArray
 
 from bearingcore.measured.files import _formats as formats
-from bearingcore.measured.files._child import MOST_COLUMNS, MOST_NUMBERS
 
 
 def read_here(
@@ -17,7 +16,7 @@ def read_here(
     """Do the work of `read_file` without its child process, which takes a third of a second."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        return formats.read(name, content, MOST_NUMBERS, MOST_COLUMNS)
+        return formats.read(name, content)
 
 
 def read_in_this_process(monkeypatch: pytest.MonkeyPatch) -> None:

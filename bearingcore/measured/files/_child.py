@@ -22,6 +22,7 @@ from typing import IO, Any
 import numpy as np
 
 from bearingcore.common import Array, _checks as checks
+from bearingcore.measured.files._variables import MOST_NUMBERS
 
 PROCESSOR_SECONDS = 10
 """Processor time [s] that reading a file may take."""
@@ -34,11 +35,6 @@ MEMORY = 500 * 10**6
 
 LONGEST_ANSWER = 2**22
 """Longest line of words [bytes] that is read back."""
-
-MOST_NUMBERS = 16_000_000
-"""Numbers in a file, all columns together."""
-
-MOST_COLUMNS = 1024
 
 _TICK = 0.1
 """Time [s] between two looks at the process."""
@@ -89,8 +85,7 @@ def read_file(
         raise checks.refuse("file", name, "one; the system starts no process to read it") from None
     assert child.stdin is not None
     assert child.stdout is not None
-    limits = PROCESSOR_SECONDS, MEMORY, MOST_NUMBERS, MOST_COLUMNS
-    head = json.dumps([name, *limits]).encode() + b"\n"
+    head = json.dumps([name, PROCESSOR_SECONDS, MEMORY]).encode() + b"\n"
     sender = Thread(target=_send, args=(child.stdin, head, content), daemon=True)
     ended = Event()
     watch = Thread(target=_watch, args=(child, ended, give_up), daemon=True)

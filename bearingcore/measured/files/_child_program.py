@@ -41,7 +41,7 @@ def find_core() -> None:
 
 def main() -> None:
     """Read the file on the standard input and write what it holds to the standard output."""
-    name, seconds, memory, most_numbers, most_columns = json.loads(sys.stdin.buffer.readline())
+    name, seconds, memory = json.loads(sys.stdin.buffer.readline())
     limit(seconds, memory)
     find_core()
     from bearingcore.errors import FieldError
@@ -50,7 +50,7 @@ def main() -> None:
     parts: tuple[Any, ...] = ()
     try:
         content = sys.stdin.buffer.read()
-        about, columns = read(name, content, most_numbers, most_columns)
+        about, columns = read(name, content)
         about["shape"] = columns.shape
         parts = tuple(columns.T)
     except FieldError as error:

@@ -225,8 +225,7 @@ def _choose(
     moving = [_moves(values) for values in table.columns.T]
     if by_hand := {index for index, column in table.given.items() if column.role == SIGNAL}:
         moving = [moves and index in by_hand for index, moves in enumerate(moving)]
-        choice = choose(columns, moving, "as given", table.name, known.place)
-        return tuple(columns), choice
+        return tuple(columns), choose(columns, moving, "as given", table.name, known.place)
     axis = _frequencies(table, columns, timed=sampling is not None)
     if not known.why:
         columns = leave_out_spectra(columns, table.columns, axis)
@@ -234,8 +233,7 @@ def _choose(
         if words := kind_in_words(columns, table.columns, lines, table.name, name):
             return tuple(columns), Choice({}, "", words)
     choice = choose(columns, moving, why, table.name, known.place)
-    signs = table.columns < 0.0, table.columns > 0.0
-    swings = np.logical_and(*(np.logical_or.reduce(sign, axis=0) for sign in signs))
+    swings = np.any(table.columns < 0.0, axis=0) & np.any(table.columns > 0.0, axis=0)
     left = [
         index
         for index, column in enumerate(columns)
@@ -355,11 +353,8 @@ def _describe(column: Column, texts: Mapping[str, str]) -> Column:
             column = dataclasses.replace(column, unit=unit, role=role)
         if end in _DESCRIBES:
             said = column_of(text)
-            column = dataclasses.replace(
-                column,
-                place=column.place or said.place,
-                direction=column.direction or said.direction,
-            )
+            place, direction = column.place or said.place, column.direction or said.direction
+            column = dataclasses.replace(column, place=place, direction=direction)
     return column
 
 

@@ -253,10 +253,8 @@ def sample_rate_in(named: Sequence[Named], file_name: str) -> Finding[float] | N
         if key in _INTERVALS and step < longest:
             rates.append(Finding(1.0 / step, f"“{item.name}” in the file"))
     if rates:
-        first = rates[0]
-        if any(abs(other.value / first.value - 1.0) > 0.005 for other in rates):
-            return _doubted(first)
-        if LEAST_STATED <= first.value <= GREATEST_STATED:
+        first = _doubt_if_others(rates[0], rates)
+        if not first.stated or LEAST_STATED <= first.value <= GREATEST_STATED:
             return first
         if not in_hz and LEAST_RATE <= 1e3 * first.value <= GREATEST_STATED:
             return Finding(1e3 * first.value, f"{first.reason}, if it is in kHz", False)
@@ -307,9 +305,7 @@ def shaft_speed_in(named: Sequence[Named], file_name: str) -> Finding[float] | N
     if not speeds:
         return None
     first = next((other for other in speeds if other.stated), speeds[-1])
-    if any(other.taken and abs(other.value / first.value - 1.0) > 0.005 for other in speeds):
-        return _doubted(first)
-    return first
+    return _doubt_if_others(first, filter(lambda other: other.taken, speeds))
 
 
 def _speed_of(named: Named, rated: bool) -> Finding[float] | None:
@@ -338,7 +334,10 @@ def _speed_of(named: Named, rated: bool) -> Finding[float] | None:
     return None
 
 
-def _doubted(first: Finding[float]) -> Finding[float]:
+def _doubt_if_others(first: Finding[float], others: Iterable[Finding[float]]) -> Finding[float]:
+    """The first of several findings; where the file names another number too, it is not sure."""
+    if all(abs(other.value / first.value - 1.0) <= 0.005 for other in others):
+        return first
     reason = f"{first.reason}, which names another one too"
     return dataclasses.replace(first, reason=reason, stated=False, strong=False)
 
@@ -367,8 +366,7 @@ def bearing_frequencies_in(named: Sequence[Named]) -> dict[str, float]:
         key: item.value
         for item in named
         if (key := _key(item.name).removesuffix("hz")) in BEARING_FREQUENCIES
-        and math.isfinite(item.value)
-        and item.value > 0.0
+        and 0.0 < item.value < math.inf
     }
 
 
@@ -381,10 +379,9 @@ def sensitivity_in(lines: Iterable[str]) -> Finding[float] | None:
     values: dict[float, str] = {}
     for match in filter(None, map(_SENSITIVITY.search, lines)):
         per = STANDARD_GRAVITY if match[3].lower() == "g" else 1.0
+        scale = VOLTAGES["V" if match[2] in "Vv" else "mV"] / per
         if value := _number(match[1]):
-            values[value * VOLTAGES["V" if match[2] in "Vv" else "mV"] / per] = (
-                f"“{match[0]}” in the file"
-            )
+            values[value * scale] = f"“{match[0]}” in the file"
     return Finding(*values.popitem()) if len(values) == 1 else None
 
 

@@ -6,10 +6,9 @@ Fields of structs are named as in MATLAB: "bearing.gs", "runs(2).gs", "parts{3}"
 
 from __future__ import annotations
 
-import contextlib
+import gzip
 import importlib.util
 import io
-import json
 import re
 import warnings
 import zlib
@@ -22,7 +21,7 @@ from numpy.typing import NDArray
 from bearingcore.common import _checks as checks
 from bearingcore.errors import FieldError
 from bearingcore.measured.files import _libraries as libraries
-from bearingcore.measured.files._text import read_text, refuse_mixed_rows
+from bearingcore.measured.files._text import read_text
 from bearingcore.measured.files._variables import (
     LONGEST_TEXT,
     Answer,
@@ -32,7 +31,7 @@ from bearingcore.measured.files._variables import (
 )
 
 
-def read(name: str, content: bytes, most_numbers: int, most_columns: int) -> Answer:
+def read(name: str, content: bytes) -> Answer:
     """The contents of a file, by its first bytes; see `_child.read_file`.
 
     Raises
@@ -46,22 +45,22 @@ def read(name: str, content: bytes, most_numbers: int, most_columns: int) -> Ans
         if "xl/workbook.xml" in libraries.names_in(content):
             _need("openpyxl", name, "Excel file")
             sheet, notes = libraries.longest_sheet(name, content)
-            about, columns = read_text(name, sheet, most_numbers, most_columns)
+            about, columns = read_text(name, sheet)
             return about | {"notes": notes + about.get("notes", [])}, columns
         names, content = libraries.unzipped(name, content)
         if len(names) > 1:
             return {"inside": names}, np.empty((0, 0))
-        about, columns = read(names[0], content, most_numbers, most_columns)
+        about, columns = read(names[0], content)
         return {"name": f"{name.removesuffix('/' + names[0])}/{names[0]}", **about}, columns
     if content[:2] == b"\x1f\x8b":
         name = re.sub(r"(?i)\.gz$", "", name)
-        return read(name, _gunzipped(name, content), most_numbers, most_columns)
+        return read(name, _gunzipped(name, content))
     if content[:4] in (b"RIFF", b"RIFX", b"RF64"):
-        return _wav(name, content, most_numbers, most_columns)
+        return _wav(name, content)
     variables = Variables()
     known = _format_of(name, content)
     if known is None:
-        return read_text(name, content, most_numbers, most_columns)
+        return read_text(name, content)
     kind, walk = known
     try:
         with warnings.catch_warnings():
@@ -73,7 +72,7 @@ def read(name: str, content: bytes, most_numbers: int, most_columns: int) -> Ans
         raise checks.refuse(
             "file", name, f"a whole {kind}; this has a damaged or unknown part"
         ) from None
-    return variables.table(name, kind, most_numbers, most_columns)
+    return variables.table(name, kind)
 
 
 Walk = Callable[[bytes, "Variables"], None]
@@ -94,8 +93,8 @@ def _format_of(name: str, content: bytes) -> tuple[str, Walk] | None:
             return kind, walk
     if content[:4] == b"\xd0\xcf\x11\xe0":
         raise checks.refuse("file", name, "no old office document (.xls): save it as .xlsx or CSV")
-    if re.match(rb'\s*(\{\s*"|\[[\s\[]*(-?\.?\d|\{))', content) and (values := _json(content)):
-        return "JSON file", lambda _, variables: _walk_json(values, "", variables, 0)
+    if re.match(rb'\s*(\{\s*"|\[\s*[\[{])', content) and content.rstrip()[-1:] in b"]}":
+        raise checks.refuse("file", name, "a table: save the columns of a JSON file as CSV")
     if re.search(rb"[\"\t;,] ?\[[-+\d.eE,;\s]{500}", content[:100_000]):
         raise checks.refuse("file", name, "a number in each cell, not a whole signal in one")
     if content[:6] == b"Octave" or content[:19] == b"# Created by Octave":
@@ -118,54 +117,13 @@ def _need(package: str, name: str, kind: str) -> None:
 
 def _gunzipped(name: str, content: bytes) -> bytes:
     """Unpack what gzip packed."""
-    unpacking = zlib.decompressobj(wbits=31)
-    with contextlib.suppress(zlib.error):
-        unpacked = unpacking.decompress(content, libraries.MOST_UNPACKED)
-        if unpacking.eof:
-            return unpacked
-    most = libraries.MOST_UNPACKED >> 20
-    raise checks.refuse("file", name, f"a whole file of gzip, at most {most} MB unpacked")
-
-
-def _json(content: bytes) -> Any:
-    """The value of a JSON text, or of a record in each line; None for other text."""
     try:
-        text = content.decode("utf-8-sig")
-        try:
-            return json.loads(text)
-        except ValueError:
-            return [json.loads(line) for line in text.splitlines() if line.strip()]
-    except (ValueError, RecursionError):
-        return None
+        return gzip.decompress(content)
+    except (OSError, EOFError, zlib.error):
+        raise checks.refuse("file", name, "a whole file of gzip") from None
 
 
-def _walk_json(value: Any, path: str, variables: Variables, depth: int) -> None:
-    """Add lists of numbers, and lists of records by the records' names."""
-    check_depth(depth)
-    if isinstance(value, dict) and list(value) == [str(i) for i in range(len(value))]:
-        value = list(value.values())  # rows by their numbers, as pandas writes them
-    if isinstance(value, list) and value and isinstance(value[0], dict):
-        records = [item for item in value if isinstance(item, dict)]
-        if any(isinstance(item, list) for item in records[0].values()):  # of a channel each
-            named = {str(item.get("name", i + 1)): item for i, item in enumerate(records)}
-            return _walk_json(named if records[1:] else records[0], path, variables, depth)
-        value = {name: [record.get(name) for record in records] for name in records[0]}
-        columns = [np.array(c) for c in value.values() if not isinstance(c[0], list | dict)]
-        numbers = [column for column in columns if column.dtype.kind in "if"]
-        for labels in (column for column in columns if column.dtype.kind == "U"):
-            refuse_mixed_rows(path or "the records", labels, numbers)
-    if isinstance(value, dict):
-        for name, inside in value.items():
-            _walk_json(inside, f"{path}.{name}" if path else str(name), variables, depth + 1)
-        return
-    try:
-        kind = None if isinstance(value, str) else float
-        variables.add(path or "array", np.array(value, dtype=kind))
-    except (TypeError, ValueError):
-        variables.add(path or "array", np.asarray(value, dtype=object))
-
-
-def _wav(name: str, content: bytes, most_numbers: int, most_columns: int) -> Answer:
+def _wav(name: str, content: bytes) -> Answer:
     """Read a WAV file; whole numbers become parts of full scale, −1 to 1."""
     from scipy.io import wavfile
 
@@ -179,7 +137,7 @@ def _wav(name: str, content: bytes, most_numbers: int, most_columns: int) -> Ans
         why = f" ({error})" if type(error) is ValueError else ""
         raise checks.refuse("file", name, f"a whole WAV file{why}") from None
     data = np.atleast_2d(np.asarray(data).T).T
-    check_size(name, data.shape, most_numbers, most_columns)
+    check_size(name, len(data), data.shape[1])
     if rate <= 0 or data.size == 0:
         raise checks.refuse("file", name, "a WAV file with samples and a sample rate")
     columns = data.astype(float)
@@ -297,8 +255,7 @@ def _matlab_values(data: Any) -> NDArray[Any]:
 _FORMATS: tuple[tuple[bytes, str, Walk, str], ...] = (
     # MATLAB 7.3 puts text before HDF5
     (rb"(.{512})?\x89HDF\r\n\x1a\n", "HDF5 file", _walk_hdf5, ""),
-    (rb"\x93NUMPY", "NumPy file", libraries.npy, ""),
-    (rb"PK\x03\x04", "NumPy file", libraries.npz, ""),
+    (rb"\x93NUMPY|PK\x03\x04", "NumPy file", libraries.arrays, ""),
     (rb"PAR1", "Parquet file", libraries.data_frame, "pyarrow"),
     (rb"TDSm", "TDMS file", libraries.tdms, "npTDMS"),
     (rb"\s{0,200}-1 *\r?\n +\d{1,4}[ b]*\d*", "UFF file (data set 58)", libraries.uff, "pyuff"),

@@ -88,11 +88,9 @@ def _readable_files(name: str, packed: list[zipfile.ZipInfo]) -> list[zipfile.Zi
     files = named or [file for file in files if not DOCUMENT.search(file.filename)] or files
     if not files:
         raise checks.refuse("file", name, "a zip with a file in it")
-    many, size = len(files) > 1, sum(file.file_size for file in files)
-    if many and size > MOST_TOGETHER:
-        raise checks.refuse("file", name, f"a zip of at most {MOST_TOGETHER >> 20} MB unpacked")
-    if not many and size > MOST_UNPACKED:
-        raise checks.refuse("file", name, f"a zip of a file of at most {MOST_UNPACKED >> 20} MB")
+    most = MOST_TOGETHER if len(files) > 1 else MOST_UNPACKED
+    if sum(file.file_size for file in files) > most:
+        raise checks.refuse("file", name, f"a zip of at most {most >> 20} MB unpacked")
     return files
 
 
@@ -116,12 +114,8 @@ def longest_sheet(name: str, content: bytes) -> tuple[bytes, list[str]]:
     import pandas as pd
 
     try:
-        with zipfile.ZipFile(io.BytesIO(content)) as packed:
-            size = sum(entry.file_size for entry in packed.infolist())
-        if size > MOST_UNPACKED:
-            raise checks.refuse("file", name, f"at most {MOST_UNPACKED >> 20} MB unpacked")
         sheets = pd.read_excel(io.BytesIO(content), sheet_name=None, header=None, engine="openpyxl")
-    except (FieldError, MemoryError):
+    except MemoryError:
         raise
     except Exception:  # as above
         raise checks.refuse("file", name, "a whole Excel file; save its sheet as CSV") from None
@@ -144,18 +138,14 @@ def _facts_in(sheet: Any) -> list[str]:
     return [f"{row[0]}: {' '.join(row[1:])}" for row in rows if len(row) > 1]
 
 
-def npy(content: bytes, variables: Variables) -> None:
-    """The array of NumPy's `save`."""
-    array = np.load(io.BytesIO(content), allow_pickle=False)
-    variables.add("" if array.dtype.names else "array", array)
-
-
-def npz(content: bytes, variables: Variables) -> None:
-    """All arrays of NumPy's `savez`."""
-    with np.load(io.BytesIO(content), allow_pickle=False) as arrays:
-        for name in arrays.files:
-            with suppress(ValueError):  # of Python's own objects, which are not unpacked
-                variables.add(name, arrays[name])
+def arrays(content: bytes, variables: Variables) -> None:
+    """The array of NumPy's `save`, or all arrays of its `savez`."""
+    loaded = np.load(io.BytesIO(content), allow_pickle=False)
+    if isinstance(loaded, np.ndarray):
+        return variables.add("" if loaded.dtype.names else "array", loaded)
+    for name in loaded.files:
+        with suppress(ValueError):  # of Python's own objects, which are not unpacked
+            variables.add(name, loaded[name])
 
 
 def data_frame(content: bytes, variables: Variables) -> None:

@@ -110,12 +110,10 @@ def times_of(time: Array, unit: str | None = None, *, sure: bool = False) -> Sam
             f"A row each {with_prefix(1.0 / rate, 's', 2)} is no signal of vibration: a trend?"
         )
         return dataclasses.replace(sampling, sample_rate=None, stated=False, trouble=trouble)
-    said = f"{in_unit} it would be {number(rate, 6)} Hz"
-    if likely is None:
-        reason = f"{sampling.reason}; no recording of vibration is so: in {said}"
-        return dataclasses.replace(sampling, stated=False, reason=reason)
-    reason = f"{sampling.reason}, if it is in {likely}; in {said}"
-    return dataclasses.replace(sampling, sample_rate=rates[likely], stated=False, reason=reason)
+    why = f", if it is in {likely};" if likely else "; no recording of vibration is so:"
+    reason = f"{sampling.reason}{why} in {in_unit} it would be {number(rate, 6)} Hz"
+    rate = rates[likely] if likely else rate
+    return dataclasses.replace(sampling, sample_rate=rate, stated=False, reason=reason)
 
 
 _PARTS = ("s", "ms", "µs", "ns", "d")
@@ -171,25 +169,7 @@ def sampling_of(time: Array, unit: float = 1.0) -> Sampling:
         return Sampling(None, False, 0, n, "The time column is out of all bounds.")
     if n < 3 or not (steps > 0.0).any():
         return Sampling(None, False, 0, n, "The time column does not rise.")
-    even = _even(time)
-    if even is not None:
-        return Sampling(_customary(*even, unit, n), True, 0, n)
-    rounded = _rounded(time, steps)
-    if rounded is not None:
-        return _rounded_times(rounded, time, unit)
-    return _sample_jumps(time, steps, unit)
-
-
-def _even(time: Array) -> tuple[float, float] | None:
-    """Rate and its error, in the column's unit, of times in even steps, or None."""
-    n = len(time)
-    step = float(time[-1] - time[0]) / (n - 1)
-    if n < 3 or step <= 0.0:
-        return None
-    if (stray := _stray(time)) > UNEVEN * step:
-        return None
-    # the ends are rounded by no more than what strays in between
-    return 1.0 / step, 2.0 * stray / (step * step * (n - 1))
+    return _sample_even(time, unit) or _sample_jumps(time, steps, unit)
 
 
 EXACT = 1e-6
@@ -210,34 +190,32 @@ def _customary(rate: float, error: float, unit: float, n: int) -> float:
     return near if abs(near - rate) <= 1.2 * error else rate
 
 
-def _rounded(time: Array, steps: Array) -> float | None:
-    """Grain to which times were rounded where this is more than a step, else None."""
-    if steps.min() < 0.0 or not SHARED <= np.mean(steps == 0.0) < 1.0:
+def _sample_even(time: Array, unit: float) -> Sampling | None:
+    """Times in even steps, or rounded to a grain of more than a step; None for any others."""
+    n, span = len(time), float(time[-1] - time[0])
+    if span <= 0.0:
+        return None
+    step = span / (n - 1)
+    stray = float(np.abs(time - np.linspace(time[0], time[-1], n)).max())
+    if stray <= UNEVEN * step:
+        # the ends are rounded by no more than what strays in between
+        return Sampling(_customary(1.0 / step, 2.0 * stray / (step * span), unit, n), True, 0, n)
+    steps = np.diff(time)
+    if steps.min() < 0.0 or np.mean(steps == 0.0) < SHARED:
         return None
     grain = float(steps[steps > 0.0].min())
-    return grain if _stray(time) <= 1.01 * grain else None
-
-
-def _stray(time: Array) -> float:
-    """The most by which times are off even steps from the first to the last."""
-    return float(np.abs(time - np.linspace(time[0], time[-1], len(time))).max())
-
-
-def _rounded_times(grain: float, time: Array, unit: float) -> Sampling:
-    n = len(time)
-    rate = (n - 1) / float(time[-1] - time[0])
-    error = 2.0 * rate * grain / float(time[-1] - time[0])
-    near = min(_CUSTOMARY, key=lambda known: abs(known - rate / unit))
-    if abs(near - rate / unit) <= error / unit:
-        rate = near * unit
-    shared = round(grain * rate)
+    if stray > 1.01 * grain:
+        return None
+    error = 2.0 * grain / (step * span)
+    rate = _customary(1.0 / step, error, unit, n)
+    shared = round(grain / step)
     so = f"about {shared} rows share one" if shared > 1 else "some rows share one"
     trouble = (
         f"The times are rounded to {with_prefix(grain * unit, 's', 2)}, so that {so}: over all "
-        f"rows it is {number(rate / unit, 6)} Hz, give or take {number(error / unit, 2)} Hz, and "
-        "shorter gaps than that would not show."
+        f"rows it is {number(rate, 6)} Hz, give or take {number(error / unit, 2)} Hz, and shorter "
+        "gaps than that would not show."
     )
-    return Sampling(rate / unit, False, 0, n, trouble, "the rounded time column")
+    return Sampling(rate, False, 0, n, trouble, "the rounded time column")
 
 
 def _sample_jumps(time: Array, steps: Array, unit: float) -> Sampling:
@@ -250,7 +228,7 @@ def _sample_jumps(time: Array, steps: Array, unit: float) -> Sampling:
     longest = int(np.diff(edges).argmax())
     first, last = int(edges[longest]), int(edges[longest + 1])
     if jumps.size and last - first >= FEWEST_SAMPLES:
-        part, parts = time[first:last], long_parts(pairwise(edges.tolist()))
+        parts = long_parts(pairwise(edges.tolist()))
         said, used = _jumps(steps, jumps, usual, shared), f"rows {first + 1} to {last} of {n}"
         if parts:
             said = (
@@ -260,13 +238,9 @@ def _sample_jumps(time: Array, steps: Array, unit: float) -> Sampling:
             )
         else:
             said += f". Only the longest part without a jump is used: {used}."
-        if (even := _even(part)) is not None:
-            rate = _customary(*even, unit, last - first)
-            return Sampling(rate, True, first, last, said, parts=parts)
-        if (grain := _rounded(part, np.diff(part))) is not None:
-            rounded = _rounded_times(grain, part, unit)
-            said = f"{said} {rounded.trouble}"
-            return dataclasses.replace(rounded, first=first, last=last, trouble=said, parts=parts)
+        if (part := _sample_even(time[first:last], unit)) is not None:
+            said = f"{said} {part.trouble}".rstrip()
+            return dataclasses.replace(part, first=first, last=last, trouble=said, parts=parts)
     low, high = (float(np.quantile(steps, share)) for share in (0.01, 0.99))
     mean = (n - 1) / float(time[-1] - time[0]) if time[-1] > time[0] else 1.0 / usual
     ends = np.linspace(0, n - 1, PARTS + 1).astype(int)
@@ -310,22 +284,17 @@ def clock_columns(columns: Array) -> int:
     4 with microseconds, or milliseconds, in a column of their own, 3 with seconds in decimals,
     0 where the first columns are something else.
     """
-    if columns.shape[1] < 4 or not np.isfinite(columns[:, :3]).all():
+    if columns.shape[1] < 4:
         return 0
-    hour, minute, second = columns[:, :3].T
-    whole = np.array_equal(hour, np.floor(hour)) and np.array_equal(minute, np.floor(minute))
-    if (
-        not whole
-        or columns[:, :3].min() < 0.0
-        or (columns[:, :3].max(axis=0) >= (24, 60, 60)).any()
-    ):
+    count = 4 if np.array_equal(columns[:, 2], np.floor(columns[:, 2])) else 3
+    clock = columns[:, :count]
+    if columns.shape[1] == count or not np.isfinite(clock).all() or clock.min() < 0.0:
         return 0
-    if not np.array_equal(second, np.floor(second)):
-        return 3 if np.mean(np.diff(second) > 0.0) > 0.9 else 0
-    part = columns[:, 3]
-    if columns.shape[1] < 5 or not np.isfinite(part).all() or part.min() < 0.0:
+    whole, last = clock[:, :-1], clock[:, -1]
+    if (whole != np.floor(whole)).any() or (clock.max(axis=0) >= (24, 60, 60, 1e6)[:count]).any():
         return 0
-    return 4 if 60.0 < part.max() < 1e6 and np.mean(np.diff(part) > 0.0) > 0.9 else 0
+    rises = np.mean(np.diff(last) > 0.0) > 0.9
+    return count if rises and (count == 3 or last.max() > 60.0) else 0
 
 
 def clock_time(columns: Array, count: int) -> Array:

@@ -18,7 +18,7 @@ import numpy as np
 
 from bearingcore.common import Array, _checks as checks, cached_property, count, number, runs
 from bearingcore.measured.files._channels import OTHER, ROLES, SIGNAL, SPEED, TIME, Column
-from bearingcore.measured.files._child import MOST_NUMBERS, read_file
+from bearingcore.measured.files._child import read_file
 from bearingcore.measured.files._contents import FileColumns, FileContents, contents_of
 from bearingcore.measured.files._sampling import Sampling, long_parts, longest_run, single_gaps
 from bearingcore.measured.files._shaft_angle import angle_columns, shaft_angle
@@ -32,6 +32,7 @@ from bearingcore.measured.files._units import (
     differentiated,
     level_doubt,
 )
+from bearingcore.measured.files._variables import MOST_NUMBERS
 from bearingcore.measured.signals._dropouts import cut_off
 from bearingcore.recordings import FEWEST_SAMPLES, Recording
 
@@ -372,9 +373,9 @@ def path_in(name: str) -> str:
 def read_table(name: str, content: bytes, give_up: Callable[[], bool] | None = None) -> Table:
     """Read the columns of numbers in a file: text (CSV), WAV, MATLAB, HDF5, and others.
 
-    JSON and NumPy's files are read too, and with the packages of the extra `files`
-    UFF, TDMS, Parquet and Excel's .xlsx; also a zip or gzip of one of them. The first bytes
-    decide the format. The file is read in its own process with limits of time and memory: see
+    NumPy's files are read too, and with the packages of the extra `files` UFF, TDMS, Parquet and
+    Excel's .xlsx; also a zip or gzip of one of them. The first bytes decide the format. The file
+    is read in its own process with limits of time and memory: see
     `bearingcore.measured.files._child`.
 
     Parameters

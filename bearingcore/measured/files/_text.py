@@ -26,6 +26,12 @@ from bearingcore.common import Array, _checks as checks, thousands
 from bearingcore.measured.files import _facts as facts
 from bearingcore.measured.files._channels import TIME, column_of
 from bearingcore.measured.files._units import UNITS, unit_in, unit_named
+from bearingcore.measured.files._variables import (
+    MOST_COLUMNS,
+    MOST_NUMBERS,
+    Answer,
+    check_size,
+)
 from bearingcore.recordings import FEWEST_SAMPLES
 
 LONGEST_REMARK = 200
@@ -38,7 +44,7 @@ SAMPLE = 30
 """Lines of numbers by which the way of writing is judged."""
 
 READABLE = (
-    "text with numbers (CSV, TXT, LVM, JSON), WAV, MATLAB, HDF5, NumPy, UFF, TDMS, "
+    "text with numbers (CSV, TXT, LVM), WAV, MATLAB, HDF5, NumPy, UFF, TDMS, "
     "Parquet, Excel (.xlsx), or a zip of one of these; export it as CSV where it is none of them"
 )
 """Formats of files."""
@@ -61,8 +67,8 @@ MOST_SIGNALS_MIXED = 32
 
 
 def read_text(
-    name: str, content: bytes, most_numbers: int, most_columns: int
-) -> tuple[dict[str, Any], Array]:
+    name: str, content: bytes, most_numbers: int = MOST_NUMBERS, most_columns: int = MOST_COLUMNS
+) -> Answer:
     """The table in a text of UTF-8, UTF-16 with its mark, or one byte a character.
 
     Returns
@@ -86,12 +92,7 @@ def read_text(
         turned = _signals_in_rows(name, content[begin:], style, remarks, most_numbers, most_columns)
         if turned is not None:
             return turned
-        if style.width > most_columns:
-            raise checks.refuse(
-                f"number of columns in {name}",
-                style.width,
-                f"at most {most_columns}: leave out some, or write each signal in a row",
-            )
+        check_size(name, 1, style.width, most_numbers, most_columns)
     read, said, notes = _read_numbers(name, content, begin, style, remarks, most_numbers)
     headings = _headings(remarks, style, read)  # of the remarks above, the line that names columns
     if not headings:
@@ -136,12 +137,7 @@ def _read_numbers(
         read = _numbers(name, body, style, most_rows)
     if read is None:
         raise checks.refuse("file", name, READABLE)
-    if read.size > most_numbers:
-        raise checks.refuse(
-            f"count of numbers in {name}",
-            f"over {most_numbers}",
-            f"at most {most_numbers}; split it by rows and join the parts",
-        )
+    check_size(name, len(read), read.shape[1], most_numbers)
     return read, said, notes
 
 
@@ -168,26 +164,6 @@ def refuse_mixed_rows(name: str, labels: NDArray[Any], columns: Iterable[Array] 
         )
 
 
-_IN_A_CELL = re.compile(r"(?<![\w.^])[-+]?\d*[.,]?\d+(?:[eE][-+]?\d+)?")
-_LABEL, _UNIT = re.compile(r"([^\W\d]\w*)\s*[:=]\s*$"), re.compile(r"\s*([^\W\d_][^\s,;|]*)")
-
-
-def _bare_cells(content: bytes) -> bytes:
-    """A content of lines such as "x: 1.5 g" with numbers alone, under their labels and units."""
-    tail = {tuple(_IN_A_CELL.split(_decoded(line))) for line in content[-8192:].splitlines()[1:-1]}
-    words = tail.pop() if len(tail) == 1 else ()
-    words = () if ":" in words else words  # of a time of day
-    labels = [match[1] if (match := _LABEL.search(before)) else "" for before in words[:-1]]
-    units = [match[1] if (match := _UNIT.match(after)) else "" for after in words[1:]]
-    if not any(labels) and not (any(units) and all(map(unit_named, filter(None, units)))):
-        return content
-    lines = _decoded(content).splitlines()
-    first = next(i for i, line in enumerate(lines) if tuple(_IN_A_CELL.split(line)) == words)
-    above = [";".join(names) for names in (labels, units) if any(names)]
-    bare = [";".join(_IN_A_CELL.findall(line)) for line in lines[first:]]
-    return "\n".join([*lines[:first], *above, *bare]).encode()
-
-
 _BASIC_DATE = re.compile(rb"\b(\d{4})([01]\d)([0-3]\d)[T_]([0-2]\d)([0-5]\d)([0-5]\d)(?!\d)")
 """A date and time without marks between their parts: 20250102T030405.6Z."""
 
@@ -199,7 +175,6 @@ def _decode_to_utf8(name: str, content: bytes) -> bytes:
     if b"\x00" in content[:4096]:
         raise checks.refuse("file", name, READABLE)
     content = content.removeprefix(b"\xef\xbb\xbf").rstrip(b"\x00")
-    content = _bare_cells(content)
     if _BASIC_DATE.search(content[:4096]):
         content = _BASIC_DATE.sub(rb"\1-\2-\3T\4:\5:\6", content)
     if re.match(rb"\s*\[", content) and b"\n" not in content.strip():
@@ -209,7 +184,7 @@ def _decode_to_utf8(name: str, content: bytes) -> bytes:
 
 def _text_fields(
     columns: Array, headings: list[str] | None, remarks: list[str], **more: list[Any]
-) -> tuple[dict[str, Any], Array]:
+) -> Answer:
     names = headings or [f"column {i + 1}" for i in range(columns.shape[1])]
     kept = [line[:LONGEST_REMARK] for line in remarks]
     return {"names": names, "remarks": kept, "headed": headings is not None, **more}, columns
@@ -353,11 +328,8 @@ def _row(line: str, delimiter: str | None, words: Sequence[int] = ()) -> list[fl
 
     Cells of columns of `words` are NaN.
     """
-    of_words = set(words)
-    numbers = [
-        math.nan if i in of_words else _number(cell)
-        for i, cell in enumerate(_cells(line, delimiter))
-    ]
+    cells, of_words = _cells(line, delimiter), set(words)
+    numbers = [math.nan if i in of_words else _number(cell) for i, cell in enumerate(cells)]
     present = [number for number in numbers if number is not None]
     if len(present) < len(numbers) or all(math.isnan(number) for number in present):
         return None
@@ -416,18 +388,15 @@ def _row_of_labview(lines: Sequence[str], delimiter: str | None) -> list[float] 
 def _columns_of_words(lines: Sequence[str], delimiter: str | None) -> tuple[int, ...]:
     """Columns in which every one of many lines, or of long ones, has a word beside numbers."""
     rows = [_cells(line, delimiter) for line in lines]
-    if (len(rows) < SAMPLE and len(rows[0]) <= FEWEST_SAMPLES) or len(
-        {len(row) for row in rows}
-    ) > 1:
+    if len(rows) < SAMPLE and len(rows[0]) <= FEWEST_SAMPLES:
         return ()
-    kinds = {tuple(_number(cell) is None for cell in row) for row in rows}
-    words = next(iter(kinds)) if len(kinds) == 1 else ()
-    if any(
-        word and " " in cell and not re.search(r"[^\W\d]", cell)
-        for word, cell in zip(words, rows[0], strict=False)
-    ):
-        return ()  # "000125 −0" between two commas of decimals
-    return tuple(i for i, word in enumerate(words) if word) if not all(words) else ()
+    placed = {tuple(i for i, cell in enumerate(row) if _number(cell) is None) for row in rows}
+    words = placed.pop()
+    if placed or len(words) == len(rows[0]) or len({len(row) for row in rows}) > 1:
+        return ()
+    # "000125 −0" between two commas of decimals is no word
+    numbers = any(" " in rows[0][i] and not re.search(r"[^\W\d]", rows[0][i]) for i in words)
+    return () if numbers else words
 
 
 _TWO_WHOLE = re.compile(r"\s*(-?\d+),(\d+)\s*")
@@ -475,7 +444,7 @@ def _beginning(name: str, content: bytes) -> tuple[_Style, int, list[str]]:
             begin = begin or bare
             rest = io.BytesIO(content)
             rest.seek(place)
-            sample = list(islice(_lines_of_numbers(rest), SAMPLE))
+            sample = [text for _, text in islice(_lines_of_numbers(rest), SAMPLE)]
             numbered = _is_numbered(sample)
             style = None if numbered else _style(sample, remarks[-1] if remarks else "")
             follows = _style(sample[1:], "") if style and style.width == 1 < len(sample) else None
@@ -502,12 +471,12 @@ def _is_numbered(lines: Sequence[str]) -> bool:
     return bool(named and counted)
 
 
-def _lines_of_numbers(lines: Iterable[bytes]) -> Iterator[str]:
-    """Lines that are neither empty nor remarks."""
-    for line in lines:
+def _lines_of_numbers(lines: Iterable[bytes]) -> Iterator[tuple[int, str]]:
+    """Lines that are neither empty nor remarks, with their numbers from 0."""
+    for index, line in enumerate(lines):
         text = _decoded(line)
         if text.strip() and text[0] not in "#%":
-            yield text
+            yield index, text
 
 
 def _headings(remarks: Sequence[str], style: _Style, columns: Array) -> list[str] | None:
@@ -698,10 +667,7 @@ def _wrong_lines(
 ) -> Iterator[tuple[int, str, list[str], str]]:
     """Lines that are not `width` numbers and gaps: number from 0, text, cells, what they lack."""
     width = style.width
-    for index, line in enumerate(lines):
-        text = _decoded(line)
-        if not text.strip() or text[0] in "#%":
-            continue
+    for index, text in _lines_of_numbers(lines):
         cells = _cells(style.plain(text).partition("#")[0], style.delimiter)
         if len(cells) == width + 1 and not cells[-1]:
             cells.pop()
@@ -761,13 +727,12 @@ def _mended(
 
 def _signals_in_rows(
     name: str, body: bytes, style: _Style, remarks: list[str], most_numbers: int, most_columns: int
-) -> tuple[dict[str, Any], Array] | None:
+) -> Answer | None:
     """Read signals that are written in a row each; None for any other table."""
     width = style.width
     most_rows = min(most_columns if width > most_columns else LONG_ROW, width)
-    lines = list(islice(_lines_of_numbers(io.BytesIO(body)), most_rows + 1))
-    plain = [style.plain(line).rstrip(" ") for line in lines]
-    rows = [_row(line, style.delimiter, style.words) for line in plain]
+    lines = [line for _, line in islice(_lines_of_numbers(io.BytesIO(body)), most_rows + 1)]
+    rows = [_row(style.plain(line).rstrip(" "), style.delimiter, style.words) for line in lines]
     whole = [row[:width] for row in rows if row is not None and len(row) in (width, width + 1)]
     if width < FEWEST_SAMPLES or not len(whole) == len(rows) <= most_rows:
         return None
@@ -775,7 +740,6 @@ def _signals_in_rows(
         allowed = "a column for each signal: turn the table, without the facts before its samples"
         raise checks.refuse("file", name, allowed)
     columns = np.delete(np.array(whole).T, style.words, axis=0)
-    if columns.size > most_numbers:
-        return None
+    check_size(name, len(columns), columns.shape[1], most_numbers)
     named = [_cells(line, style.delimiter)[0] for line in lines] if style.words == (0,) else None
     return _text_fields(columns, named or _headings(remarks, style, columns), remarks)

@@ -15,6 +15,11 @@ from bearingcore.recordings import FEWEST_SAMPLES
 DEEPEST = 8
 """Structs, cells and groups inside one another."""
 
+MOST_NUMBERS = 16_000_000
+"""Numbers in a file, all columns together."""
+
+MOST_COLUMNS = 1024
+
 MOST_SCALARS = 200
 """Single numbers and words of a file that are kept."""
 
@@ -28,10 +33,13 @@ Answer = tuple[dict[str, Any], Array]
 class Variables:
     """Variables of a file: matrices in the kind of number they are stored in, and words.
 
+    `scalars` are those of the matrices that hold, or repeat, a single number.
+
     `instead` says what is wanted in place of a file that holds no signal.
     """
 
     numbers: dict[str, NDArray[Any]] = field(default_factory=dict)
+    scalars: dict[str, float] = field(default_factory=dict)
     texts: dict[str, str] = field(default_factory=dict)
     objects: list[str] = field(default_factory=list)
     instead: str = ""
@@ -56,16 +64,15 @@ class Variables:
                 of = f"{path}{{{index + 1}}}" if len(words) > 1 else path
                 self.texts[of] = text[:LONGEST_TEXT].strip()
 
-    def table(self, name: str, kind: str, most_numbers: int, most_columns: int) -> Answer:
+    def table(self, name: str, kind: str) -> Answer:
         """Make columns of vectors and matrices about as long as the longest; the rest are facts."""
-        scalars: dict[str, float] = {}
         parts: dict[str, NDArray[Any]] = {}
         for variable, matrix in self.numbers.items():
             if matrix.size > 1:
                 parts[variable] = matrix.T if matrix.shape[0] < matrix.shape[1] else matrix
-            elif matrix.size and len(scalars) < MOST_SCALARS:
+            elif matrix.size and len(self.scalars) < MOST_SCALARS:
                 with np.errstate(invalid="ignore"):  # signalling NaNs in damaged files
-                    scalars[variable] = float(matrix[0, 0])
+                    self.scalars[variable] = float(matrix[0, 0])
         if self.objects and max((len(part) for part in parts.values()), default=0) < FEWEST_SAMPLES:
             wanted = (
                 f"one whose signals are arrays; {self.objects[0]} is a table or an object: save "
@@ -75,9 +82,9 @@ class Variables:
             wanted = self.instead or f"a {kind} with a vector or matrix of real numbers"
             raise checks.refuse("file", name, wanted)
         rows = max(len(part) for part in parts.values())
-        parts, scalars = self._long(parts, scalars, rows)
+        self._take_out_short(parts, rows)
         width = sum(part.shape[1] for part in parts.values())
-        check_size(name, (rows, width), most_numbers, most_columns)
+        check_size(name, rows, width)
         columns = np.full((rows, width), np.nan, order="F")
         names: list[str] = []
         with np.errstate(invalid="ignore"):
@@ -86,33 +93,38 @@ class Variables:
                 several = part.shape[1] > 1
                 names += [f"{variable}(:,{i + 1})" if several else variable
                           for i in range(part.shape[1])]  # fmt: skip
-        return {"names": names, "scalars": scalars, "texts": self.texts}, columns
+        return {"names": names, "scalars": self.scalars, "texts": self.texts}, columns
 
-    def _long(
-        self, parts: dict[str, NDArray[Any]], scalars: dict[str, float], rows: int
-    ) -> tuple[dict[str, NDArray[Any]], dict[str, float]]:
-        """The parts that are about as long as the longest, and single numbers with the others."""
+    def _take_out_short(self, parts: dict[str, NDArray[Any]], rows: int) -> None:
+        """Take out the parts that are much shorter than the longest, of so many rows."""
         # a much shorter part was measured otherwise, or is not a signal
         least = max(FEWEST_SAMPLES, rows // 2) if rows >= FEWEST_SAMPLES else rows
         for variable in [variable for variable, part in parts.items() if len(part) < least]:
             part = parts.pop(variable)
             # facts on it, such as its rate, do not hold for the signals
             of = f"{variable}."
-            scalars = {name: value for name, value in scalars.items() if not name.startswith(of)}
-            if is_steady(part) and len(scalars) < MOST_SCALARS:
-                scalars[variable] = float(part.mean())
+            for name in [name for name in self.scalars if name.startswith(of)]:
+                del self.scalars[name]
+            if is_steady(part) and len(self.scalars) < MOST_SCALARS:
+                self.scalars[variable] = float(part.mean())
             elif len(self.texts) < MOST_SCALARS:
                 self.texts[variable] = f"not used: {len(part)} × {part.shape[1]} numbers"
-        return parts, scalars
 
 
-def check_size(name: str, shape: tuple[int, ...], most_numbers: int, most_columns: int) -> None:
-    rows, width = shape
+def check_size(
+    name: str,
+    rows: int,
+    width: int,
+    most_numbers: int = MOST_NUMBERS,
+    most_columns: int = MOST_COLUMNS,
+) -> None:
+    """Refuse a table of too many columns or numbers; of the latter those over the limit count."""
     if width > most_columns:
-        most = f"at most {most_columns}: save those of one bearing alone"
+        most = f"at most {most_columns}: save those of one bearing, or write each signal in a row"
         raise checks.refuse(f"number of columns in {name}", width, most)
     if rows * width > most_numbers:
-        raise checks.refuse(f"count of numbers in {name}", rows * width, f"at most {most_numbers}")
+        most = f"at most {most_numbers}; split it by rows and join the parts"
+        raise checks.refuse(f"count of numbers in {name}", f"over {most_numbers}", most)
 
 
 def check_depth(depth: int) -> None:

@@ -110,6 +110,7 @@ TIME = np.arange(3000) / RATE
 ALL = (0, 3000)
 WANDERS = np.cumsum(np.random.default_rng(0).exponential(1.0 / RATE, 3000))
 STUMBLES = np.delete(TIME, np.arange(5, 3000, 100))
+STOPS = np.concatenate([np.arange(10.0), np.full(990, 1e3)])
 WITHOUT = TIME.copy()
 WITHOUT[100:110] = np.nan
 
@@ -140,6 +141,7 @@ CLOCKS: list[tuple[np.ndarray, bool, float | None, tuple[int, int] | None, str]]
     # wandering and drifting ones say their mean
     (WANDERS, False, mean_rate(WANDERS), None, "do not rise evenly"),
     (STUMBLES, False, mean_rate(STUMBLES), None, "do not rise evenly"),
+    (STOPS, False, mean_rate(STOPS), None, "do not rise evenly"),
     (drifting(0.002), True, mean_rate(drifting(0.002)), ALL, "drifts: by 0.36 %"),
     (drifting(0.02), False, mean_rate(drifting(0.02)), None, ""),
     (TIME * 1.001, True, RATE / 1.001, ALL, ""),  # a clock that is off is believed
@@ -159,10 +161,6 @@ def test_what_times_say(
     assert rows is None or (sampling.first, sampling.last) == rows
     assert words in sampling.trouble
     assert bool(sampling.trouble) == bool(words) or rows is None
-
-
-def test_a_time_that_stands_still_after_a_jump_is_no_error() -> None:
-    assert not sampling_of(np.concatenate([np.arange(10.0), np.full(990, 1e3)])).stated
 
 
 def test_recordings_in_one_file_are_counted_and_any_is_read() -> None:

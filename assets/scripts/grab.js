@@ -152,6 +152,7 @@ if (view?.frame?.bbox?.width > 0) {
   for (const kind of ["pointerup", "pointercancel"]) el.addEventListener(kind, end, true)
   // a finger on a handle drags it and does not scroll the page
   el.addEventListener("touchstart", (event) => {
-    if (event.touches.length === 1 && nearest(event.touches[0], NEAR.touch)) event.preventDefault()
+    const alone = event.touches.length === 1 && event.cancelable
+    if (alone && nearest(event.touches[0], NEAR.touch)) event.preventDefault()
   }, { passive: false, capture: true })
 }

@@ -214,7 +214,7 @@ NO_BEARING = {"n_balls": 0, "pitch": 1.0, "ball": 0.24, "outer": 0.62, "inner": 
 
 def question_state(measured: Measured) -> dict[str, Any]:
     """The content of the panel while the bearing is not known."""
-    plain = f"{ASKING} {part_words.speed_sentence(measured.machine)}"
+    plain = f"{ASKING} {part_words.speed_sentence(measured)}"
     return {
         "mood": "question", "headline": "Which bearing is it?", "plain": plain,
         "bearing": NO_BEARING,

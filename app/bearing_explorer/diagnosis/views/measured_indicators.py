@@ -127,7 +127,9 @@ def no_zone(measured: Measured, machine: str) -> str:
     why = no_velocity(measured)
     speed = measured.shaft_speed
     if not why and speed is None:
-        why = "the shaft speed is not known, and the band of the velocity depends on it"
+        unknown = "it is not said how many pulses of the tachometer make a turn"
+        why = "the shaft speed is not known" if measured.speeds is None else unknown
+        why += ", and the band of the velocity depends on it"
     shaft = 0.0 if speed is None else speed / (2.0 * math.pi)
     if not why and not SHAFT_SPEEDS[0] <= shaft <= SHAFT_SPEEDS[1]:
         why = "the standard is for 120 to 30 000 rpm"

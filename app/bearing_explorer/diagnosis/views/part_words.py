@@ -112,8 +112,11 @@ def speed_range(answer: Diagnosis, measured: Measured) -> str:
     return f"{span(least, most, 'turns a minute', 3)} (measured)"
 
 
-def speed_sentence(machine: Machine) -> str:
+def speed_sentence(measured: Measured) -> str:
     """Sentence on the shaft speed while the bearing is not known."""
+    machine = measured.machine
+    if machine.shaft_speed is None and measured.speeds is not None:
+        return "A pulse of the tachometer counts as a turn until a shaft speed is given."
     if machine.shaft_speed is None:
         return "The shaft speed is not known; it is looked for with the bearing."
     speed = f"{_rpm(machine.shaft_speed)}{machine.ratio_words}"

@@ -17,6 +17,7 @@ from matplotlib.colors import to_rgba
 
 from bearingcore import Recording, presets
 from bearingcore.errors import FieldError
+from tests.helpers.measuring import signal
 
 RIG = presets["fan-rig"]
 WORDS_OF = {
@@ -95,6 +96,13 @@ def test_colours_have_the_scale_of_the_numbers(tmp_path: Path) -> None:
     drawn.save(file := tmp_path / "figure.svg")
     ticks = re.findall(r"^\d+$", texts(file.read_text(encoding="utf-8")), re.MULTILINE)
     assert drawn.table()["kurtosis"].max() < 2.0 * max(map(int, ticks))
+
+
+def test_an_upper_axis_is_a_second_one(tmp_path: Path) -> None:
+    figures.diagnosis(RIG, recording=signal().recording).save(file := tmp_path / "figure.svg")
+    said = texts(file.read_text(encoding="utf-8"))
+    assert "50\nOrder: times a turn" in said
+    assert "300\nImpact frequency f (Hz)" in said
 
 
 def test_layers_have_their_numbers_and_colours() -> None:

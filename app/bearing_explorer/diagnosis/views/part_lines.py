@@ -8,7 +8,7 @@ them. Below are frequencies, above the same in turns of the shaft (orders).
 from __future__ import annotations
 
 import numpy as np
-from bokeh.models import LinearAxis, Scatter, VSpan
+from bokeh.models import LinearAxis, Range1d, Scatter, VSpan
 from bokeh.plotting import figure
 
 from bearing_explorer.diagnosis.views.frequency_lines import (
@@ -20,6 +20,7 @@ from bearing_explorer.diagnosis.views.frequency_lines import (
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.layers import Glyph, Layer, curve, draw, names_over
 from bearing_explorer.kit.plots.ranges import StickyRange
+from bearing_explorer.kit.plots.zoom import MOVES
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
 from bearingcore import Diagnosis, PartEvidence
@@ -92,11 +93,12 @@ class PartLines:
         self._add_orders(self.plot, orders)
         draw(self.plot, packed, layers())
 
-    def _add_orders(self, plot: figure, orders: object) -> None:
+    def _add_orders(self, plot: figure, orders: Range1d) -> None:
         plot.extra_x_ranges["order"] = orders
+        orders.tags = [MOVES]
         axis = LinearAxis(x_range_name="order")
         style.style_axis(axis)
-        style.write_units(axis, ORDER, orders)  # type: ignore[arg-type]
+        style.write_units(axis, ORDER, orders)
         plot.add_layout(axis, "above")
         self._order_axis = axis
 

@@ -102,7 +102,8 @@ class _Printed:
             if isinstance(scale, models.LogScale):
                 getattr(axes, f"set_{side}scale")("log")
             getattr(axes, f"set_{side}lim")(shown.start, shown.end)
-            self._put_axis(side)
+            for axis in getattr(plot, f"{side}axis"):
+                self._put_axis(side, axis)
         axes.spines[["top", "right"]].set_visible(False)
         if not any(axis.visible for axis in plot.axis):
             axes.axis("off")
@@ -120,11 +121,18 @@ class _Printed:
             axes.set_title(plot.title.text, loc="left", fontsize=11 * POINT)
         self._put_annotations()
 
-    def _put_axis(self, side: str) -> None:
+    def _put_axis(self, side: str, axis: Any) -> None:
         from matplotlib.ticker import FixedLocator, LogLocator, MaxNLocator, NullLocator
 
-        axis, paper = getattr(self.plot, f"{side}axis")[0], getattr(self.axes, f"{side}axis")
-        self.axes.tick_params(length=2.5, width=0.6, labelsize=11 * POINT, colors="#20262D")
+        axes, name = self.axes, getattr(axis, f"{side}_range_name")
+        if name != "default":  # the same places in another quantity
+            if not axis.visible:
+                return
+            own, other = getattr(self.plot, f"{side}_range"), self.plot.extra_x_ranges[name]
+            ratio = other.end / own.end
+            axes = axes.secondary_xaxis("top", functions=(lambda x: x * ratio, lambda x: x / ratio))
+        paper = getattr(axes, f"{side}axis")
+        axes.tick_params(length=2.5, width=0.6, labelsize=11 * POINT, colors="#20262D")
         paper.set_label_text(axis.axis_label or "", fontsize=12 * POINT)
         if isinstance(axis.ticker, models.FixedTicker):
             paper.set_major_locator(FixedLocator(axis.ticker.ticks))

@@ -15,11 +15,13 @@ from bearing_explorer.kit.assets import asset_text
 _FINGERS = """
 if (matchMedia("(pointer: coarse)").matches) box.active = false
 """
+MOVES = "moves"
+"""Tag of a further range that zooms and follows the server as the figure's own ranges do."""
 _STAY = "if (cb_obj.start != start || cb_obj.end != end) cb_obj.setv({start, end})"
 
 
 def zoomable(plot: Plot) -> None:
-    """Give a figure the tools to zoom. Its ranges for places of words stay as they are.
+    """Give a figure the tools to zoom. Its ranges for places of words stay.
 
     With `active_drag` None, as of a drawing with handles, no drag zooms or pans it.
     """
@@ -40,6 +42,8 @@ def zoomable(plot: Plot) -> None:
         if shown.reset_start is None:  # or nothing would lead back before the first numbers
             shown.update(reset_start=shown.start, reset_end=shown.end)
     for words in (*plot.extra_x_ranges.values(), *plot.extra_y_ranges.values()):
+        if MOVES in words.tags:
+            continue
         stay = CustomJS(args={"start": words.start, "end": words.end}, code=_STAY)
         words.js_on_change("start", stay)
         words.js_on_change("end", stay)

@@ -15,12 +15,14 @@ over two fields as HoloViews.
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import partial
-from typing import TYPE_CHECKING
+from inspect import Signature, signature
+from typing import TYPE_CHECKING, Any
 
 from bearing_explorer.kit.views.base import View
 from bearing_explorer.kit.views.still_figure import Figure
-from bearing_explorer.page import SECTIONS, figure_of
+from bearing_explorer.page import SECTIONS, half_of
+from bearingcore import Scene
+from bearingcore.errors import FieldError
 
 if TYPE_CHECKING:
     import holoviews as hv
@@ -43,7 +45,7 @@ def of_sweep(swept: DataArray | Dataset) -> hv.Layout:
     Raises
     ------
     ValueError
-        for another number of fields, or of outputs.
+        for another number of fields or of outputs, and for values that are not evenly spaced.
     """
     from bearing_explorer.explorer.plots.plane import (  # HoloViews: not at the start
         Field,
@@ -60,7 +62,20 @@ def of_sweep(swept: DataArray | Dataset) -> hv.Layout:
 def __getattr__(name: str) -> Callable[..., Figure]:
     if name not in _VIEWS:
         raise AttributeError(f"there is no figure {name!r}; there are: {', '.join(names)}")
-    return partial(figure_of, _VIEWS[name])
+    view, figure_of = _VIEWS[name], half_of(_VIEWS[name]).figure_of
+
+    def draw(scene: Scene, **options: Any) -> Figure:
+        if not isinstance(scene, Scene):
+            kind = type(scene).__name__
+            raise FieldError("scene", kind, "a Scene; a signal is the keyword recording")
+        figure: Figure = figure_of(view, scene, **options)
+        return figure
+
+    draw.__name__ = draw.__qualname__ = name  # for help(figures.stiffness)
+    draw.__doc__ = f"{view.title}.\n\n{figure_of.__doc__}"
+    _, *parameters = signature(figure_of).parameters.values()
+    draw.__signature__ = Signature(parameters)  # type: ignore[attr-defined]
+    return draw
 
 
 def __dir__() -> list[str]:

@@ -20,7 +20,6 @@ from bearing_explorer.kit.serve.panel_internals import PageTemplate
 from bearing_explorer.kit.serve.serving import collect_now_and_then
 from bearing_explorer.kit.session import Section, Session
 from bearing_explorer.kit.views.base import View
-from bearing_explorer.kit.views.still_figure import Figure
 from bearing_explorer.kit.widgets.form import stack
 from bearingcore import presets
 
@@ -84,12 +83,10 @@ class Halves:
             self.diagnosis.measurement.can_simulate = True
 
 
-def figure_of(view: type[View], *arguments: Any, **options: Any) -> Figure:
-    """Make the figure of a view, in the half to which the view belongs."""
+def half_of(view: type[View]) -> Any:
+    """Return the half to which a view belongs."""
     of_signal = signal is not None and any(view in tab.views for tab in signal.SECTIONS)
-    half = signal if of_signal else scene
-    figure: Figure = half.figure_of(view, *arguments, **options)
-    return figure
+    return signal if of_signal else scene
 
 
 def address() -> str:

@@ -490,12 +490,11 @@ def test_a_signal_is_simulated_where_there_is_no_file(visitor: Visitor) -> None:
     visitor.press("Simulate a signal")
     visitor.reads(re.compile("The inner race is damaged"))
     visitor.steady()
-    frequency, order = visitor.page.evaluate("""() => {
-      for (const {extra_x_ranges: more, x_range} of Bokeh.documents[0]._all_models.values()) {
+    frequency, order = visitor.page.evaluate("""() =>
+      [...Bokeh.documents[0]._all_models.values()].flatMap(({extra_x_ranges: more, x_range}) => {
         const orders = more?.order ?? more?.get?.("order")
-        if (orders) return [x_range.end, orders.end]
-      }
-    }""")
+        return orders ? [x_range.end, orders.end] : []
+      })""")
     assert frequency / order == pytest.approx(presets["6205"].shaft_speed / (2 * math.pi), rel=1e-3)
     visitor.open("?v=1&preset=6205&extent_deg=0&tab=diagnosis")
     visitor.press("Simulate a signal")

@@ -100,9 +100,7 @@ def test_colours_have_the_scale_of_the_numbers(tmp_path: Path) -> None:
 
 def test_an_upper_axis_is_a_second_one(tmp_path: Path) -> None:
     figures.diagnosis(RIG, recording=signal().recording).save(file := tmp_path / "figure.svg")
-    said = texts(file.read_text(encoding="utf-8"))
-    assert "50\nOrder: times a turn" in said
-    assert "300\nImpact frequency f (Hz)" in said
+    assert "50\nOrder: times a turn" in texts(file.read_text(encoding="utf-8"))
 
 
 def test_layers_have_their_numbers_and_colours() -> None:

@@ -538,7 +538,7 @@ def jolt(shown: Excerpt, bearing: Bearing) -> str:
     text = f"The largest jolt comes {when} {element_name(bearing, nearest.ball)} {verb} the defect"
     if around.min() > KEPT * load.max():
         return f"{text}; it carries at least {style.with_prefix(around.min(), 'N', 2)} then."
-    return f"{text} and {what} its load ({style.with_prefix(load.max(), 'N', 2)} at most)."
+    return f"{text} and {what} its load ({style.with_prefix(around.max(), 'N', 2)} at most)."
 
 
 def _distance(peak: Peak, band: tuple[float, float]) -> float:

@@ -49,7 +49,7 @@ def pytest_sessionstart(session: pytest.Session) -> None:
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Two processes begin with what takes long, one with a browser; all end with what is short.
 
-    Each gets an equal part of the list, and takes from the end of another's once its own is done.
+    Each gets an equal part, and takes from the end of another's once its own is done.
     """
     kinds: dict[str, list[pytest.Item]] = {"browser": [], "proof": [], "": []}
     for item in items:
@@ -57,6 +57,7 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
             item
         )
     driving, long, short = kinds.values()
+    long.sort(key=lambda item: len(item.path.parts))  # those of the whole program take longest
     processes = getattr(config, "workerinput", {"workercount": 2})["workercount"]
     part = max(0, len(items) // processes - len(driving))
     items[:] = [*driving, *short[:part], *long, *short[part:]]

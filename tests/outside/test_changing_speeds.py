@@ -17,7 +17,6 @@ from tests.outside.changing_speeds import BALLS, CHANGES, TURN, machine
 from tests.outside.witness import witness
 
 RPM = 1500.0
-LONG = {"2 %": pytest.mark.proof, "10 %": pytest.mark.proof}  # ends of the range stay every day
 
 
 def file_of(time: np.ndarray, signal: np.ndarray, beside: np.ndarray, heading: str) -> bytes:
@@ -36,7 +35,7 @@ def pulses(turns: np.ndarray, a_turn: int = 1) -> np.ndarray:
     compared="part, and mean speed", within="the part right at 90 % or more, speed to 0.5 %",
 )  # fmt: skip
 @pytest.mark.parametrize(
-    "change", [pytest.param(change, marks=LONG.get(change, [])) for change in CHANGES]
+    "change", [pytest.param(c, marks=[pytest.mark.proof] * c.endswith("%")) for c in CHANGES]
 )
 @pytest.mark.parametrize("part", ["outer race", "inner race"])
 @pytest.mark.parametrize("bearing", BALLS)

@@ -116,7 +116,7 @@ def test_a_measured_signal_has_its_answer_pictures_and_assumptions_on_one_page()
         part_words.sentence(answer, question),
         "of the simulation",
         "Assumed: it looks so",
-        "typical ones, for the extent",
+        "typical loads, used for the extent",
         NOT_JUDGED,
         NOT_FORESEEN,
         ONE_RECORD,

@@ -40,7 +40,7 @@ from bearingcore.common import number, percent, with_prefix
 
 FILE = "bearing-report-{}.html"
 NOT_SAID = "not said"
-WIDTH, HEIGHT = 600, 260
+WIDTH, HEIGHT = 470, 200
 """Size [px] in which a figure is drawn; two stand side by side."""
 MOST_FIGURES = 4
 _ORIGINS = {
@@ -255,12 +255,12 @@ def assumptions(
          machine.source_of("bearing").capitalize() if typed
          else "Estimated" if machine.bearing and machine.bearing.estimated else "Computed"),
         ("Machine and support", kind or f"not said: {no_kind}", "Given" if kind else ""),
-        ("Load", "typical ones, for the extent" if load is None
+        ("Load", "typical loads, used for the extent" if load is None
          else with_prefix(load, "N"),
          "Assumed" if load is None else made if measured.true_load else "From the file"),
-        ("Radial clearance", f"{clearance}, for the extent",
+        ("Radial clearance", f"{clearance}, used for the extent",
          made if measured.true_edge else "Assumed: usual of the bearing"),
-        ("Demodulation band", given.get("Demodulation band", "none"), "Found"),
+        ("Demodulation band", given.get("Demodulation band", "none"), "Chosen"),
     ]  # fmt: skip
 
 

@@ -74,7 +74,8 @@ async def attack(url: str, number: int, messages: int, tally: Tally) -> None:
         try:
             if client is None or since_page >= SAME_PAGE:
                 client, since_page = await _new_page(client, url), 0
-            elif client.closed:
+            elif client.closed:  # a server may answer the ping first and cut then
+                tally.cut += 1
                 await client.close()
                 await client.open_socket()
         except (HTTPClientError, OSError, TimeoutError, *_GONE):
@@ -88,7 +89,6 @@ async def attack(url: str, number: int, messages: int, tally: Tally) -> None:
         if not await client.all_is_taken():
             tally.unanswered += 1
             since_page = math.inf
-        tally.cut += client.closed
         tally.errors += client.errors[:1]
         client.errors.clear()
     if client is not None:

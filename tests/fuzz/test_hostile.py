@@ -21,4 +21,4 @@ def test_hostile_messages_and_damaged_files_are_answered_and_leave_nothing_behin
     assert 0 < outcome.refused < FILES, "some files can still be read"
     assert outcome.tally.sent.total() >= MESSAGES
     assert set(outcome.tally.sent) == set(SHAPES), "each shape was among them"
-    assert outcome.tally.cut > 0, "a busy server may answer several bad frames by one cut"
+    assert outcome.tally.cut > 10

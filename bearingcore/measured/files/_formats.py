@@ -11,7 +11,6 @@ import importlib.util
 import io
 import re
 import warnings
-import zlib
 from collections.abc import Callable, Sequence
 from typing import Any, cast
 
@@ -19,11 +18,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bearingcore.common import _checks as checks
-from bearingcore.errors import FieldError
 from bearingcore.measured.files import _libraries as libraries
 from bearingcore.measured.files._text import read_text
 from bearingcore.measured.files._variables import (
     LONGEST_TEXT,
+    MOST_COLUMNS,
+    MOST_NUMBERS,
     Answer,
     Variables,
     check_depth,
@@ -62,16 +62,10 @@ def read(name: str, content: bytes) -> Answer:
     if known is None:
         return read_text(name, content)
     kind, walk = known
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            walk(content, variables)
-    except (FieldError, MemoryError, ImportError):
-        raise
-    except Exception:  # a damaged file raises almost anything in there
-        raise checks.refuse(
-            "file", name, f"a whole {kind}; this has a damaged or unknown part"
-        ) from None
+    wanted = f"a whole {kind}; this has a damaged or unknown part"
+    with libraries.damage_refused(name, wanted), warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        walk(content, variables)
     return variables.table(name, kind)
 
 
@@ -106,21 +100,20 @@ def _format_of(name: str, content: bytes) -> tuple[str, Walk] | None:
 def _need(package: str, name: str, kind: str) -> None:
     """Refuse a file whose package is not installed."""
     if package and importlib.util.find_spec(package.lower()) is None:
-        raise checks.refuse(
-            "file",
-            name,
-            f"{'an' if kind[0] in 'AEIOU' else 'a'} {kind} only where the package {package} is "
-            f"installed (pip install {package}); else export it as CSV from the program that "
-            "wrote it",
+        article = "an" if kind[0] in "AEIOU" else "a"
+        wanted = (
+            f"{article} {kind} only where the package {package} is installed (pip install "
+            f"{package}); else export it as CSV from the program that wrote it"
         )
+        raise checks.refuse("file", name, wanted)
 
 
 def _gunzipped(name: str, content: bytes) -> bytes:
-    """Unpack what gzip packed."""
-    try:
-        return gzip.decompress(content)
-    except (OSError, EOFError, zlib.error):
-        raise checks.refuse("file", name, "a whole file of gzip") from None
+    """Unpack what gzip packed, as far as it may be read."""
+    with libraries.damage_refused(name, "a whole file of gzip"):
+        unpacked = gzip.GzipFile(fileobj=io.BytesIO(content)).read(libraries.MOST_UNPACKED + 1)
+    libraries.check_unpacked(name, "a file", len(unpacked))
+    return unpacked
 
 
 def _wav(name: str, content: bytes) -> Answer:
@@ -137,7 +130,7 @@ def _wav(name: str, content: bytes) -> Answer:
         why = f" ({error})" if type(error) is ValueError else ""
         raise checks.refuse("file", name, f"a whole WAV file{why}") from None
     data = np.atleast_2d(np.asarray(data).T).T
-    check_size(name, len(data), data.shape[1])
+    check_size(name, len(data), data.shape[1], MOST_NUMBERS, MOST_COLUMNS)
     if rate <= 0 or data.size == 0:
         raise checks.refuse("file", name, "a WAV file with samples and a sample rate")
     columns = data.astype(float)

@@ -9,8 +9,8 @@ import io
 import os
 import re
 import zipfile
-from collections.abc import Mapping
-from contextlib import suppress
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager, suppress
 from typing import Any
 from unittest.mock import patch
 
@@ -50,6 +50,17 @@ _FREQUENCY = 18
 """Type of the abscissa of spectra in data set 58."""
 
 
+@contextmanager
+def damage_refused(name: str, wanted: str) -> Iterator[None]:
+    """Refuse a damaged file: it raises almost anything in the library that reads it."""
+    try:
+        yield
+    except (FieldError, MemoryError, ImportError):
+        raise
+    except Exception:
+        raise checks.refuse("file", name, wanted) from None
+
+
 def unzipped(name: str, content: bytes) -> tuple[list[str], bytes]:
     """The names of the files in a zip, and the content of the one that is to be read.
 
@@ -61,25 +72,23 @@ def unzipped(name: str, content: bytes) -> tuple[list[str], bytes]:
     FieldError
         for a damaged zip, or an empty one.
     """
-    try:
-        with zipfile.ZipFile(io.BytesIO(content)) as packed:
-            files = _readable_files(name, packed.infolist())
-            if len(files) > 1:
-                return [file.filename for file in files[:MOST_INSIDE]], b""
-            inside = packed.read(files[0])
-            if inside[:4] == b"PK\x03\x04" and not is_npz(inside):
-                raise checks.refuse("file", name, "no zip inside a zip: unpack it")
-            return [files[0].filename], inside
-    except (FieldError, MemoryError):
-        raise
-    except Exception:  # a damaged zip raises almost anything in there
-        raise checks.refuse("file", name, "a whole zip without a password") from None
+    with (
+        damage_refused(name, "a whole zip without a password"),
+        zipfile.ZipFile(io.BytesIO(content)) as packed,
+    ):
+        files = _readable_files(name, packed.infolist())
+        if len(files) > 1:
+            return [file.filename for file in files[:MOST_INSIDE]], b""
+        inside = packed.read(files[0])
+        if inside[:4] == b"PK\x03\x04" and not is_npz(inside):
+            raise checks.refuse("file", name, "no zip inside a zip: unpack it")
+        return [files[0].filename], inside
 
 
 def _readable_files(name: str, packed: list[zipfile.ZipInfo]) -> list[zipfile.ZipInfo]:
     """The file in a zip that `name` ends with, else all that may hold a table.
 
-    FieldError where there is none, or where they are too large: a small zip may hold terabytes.
+    FieldError where there is none, or where they are too large.
     """
     files = [file for file in packed if not _NO_FILE.search(file.filename)]
     if any(file.filename == "[Content_Types].xml" for file in files):
@@ -88,10 +97,15 @@ def _readable_files(name: str, packed: list[zipfile.ZipInfo]) -> list[zipfile.Zi
     files = named or [file for file in files if not DOCUMENT.search(file.filename)] or files
     if not files:
         raise checks.refuse("file", name, "a zip with a file in it")
-    most = MOST_TOGETHER if len(files) > 1 else MOST_UNPACKED
-    if sum(file.file_size for file in files) > most:
-        raise checks.refuse("file", name, f"a zip of at most {most >> 20} MB unpacked")
+    size = sum(file.file_size for file in files)
+    check_unpacked(name, "a zip", size, MOST_TOGETHER if len(files) > 1 else MOST_UNPACKED)
     return files
+
+
+def check_unpacked(name: str, kind: str, size: int, most: int = MOST_UNPACKED) -> None:
+    """Refuse what is too large [bytes] once it is unpacked: a small file may hold terabytes."""
+    if size > most:
+        raise checks.refuse("file", name, f"{kind} of at most {most >> 20} MB unpacked")
 
 
 def is_npz(content: bytes) -> bool:
@@ -113,12 +127,10 @@ def longest_sheet(name: str, content: bytes) -> tuple[bytes, list[str]]:
     """The sheet with the most cells as CSV under the facts of the others, and which one it is."""
     import pandas as pd
 
-    try:
+    with damage_refused(name, "a whole Excel file; save its sheet as CSV"):
+        with zipfile.ZipFile(io.BytesIO(content)) as packed:
+            check_unpacked(name, "a workbook", sum(entry.file_size for entry in packed.infolist()))
         sheets = pd.read_excel(io.BytesIO(content), sheet_name=None, header=None, engine="openpyxl")
-    except MemoryError:
-        raise
-    except Exception:  # as above
-        raise checks.refuse("file", name, "a whole Excel file; save its sheet as CSV") from None
     longest = max(sheets, key=lambda name: int(sheets[name].count().sum()))
     table = sheets[longest].dropna(how="all").dropna(how="all", axis=1)
     notes = [f"Read is its longest sheet, “{longest}”."] if len(sheets) > 1 else []

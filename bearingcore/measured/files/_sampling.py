@@ -177,17 +177,17 @@ EXACT = 1e-6
 
 
 def _customary(rate: float, error: float, unit: float, n: int) -> float:
-    """The customary rate [Hz] inside the error that rounding makes, else the rate itself.
+    """The customary rate [Hz] within the error that rounding makes, else the rate itself.
 
     Times that are printed exactly stay as they are, but for what their last digits may leave of a
     whole number: clocks may well be off.
     """
     rate, error = rate / unit, error / unit
-    if error * n <= 0.02 * rate:  # rounding moves no time by as much as a fiftieth of a step
+    if error * n <= 0.024 * rate:  # rounding moves no time by as much as a fiftieth of a step
         whole = float(round(rate))
-        return whole if abs(whole - rate) <= max(1.2 * error, EXACT * rate) else rate
+        return whole if abs(whole - rate) <= max(error, EXACT * rate) else rate
     near = min(_CUSTOMARY, key=lambda known: abs(known - rate))
-    return near if abs(near - rate) <= 1.2 * error else rate
+    return near if abs(near - rate) <= error else rate
 
 
 def _sample_even(time: Array, unit: float) -> Sampling | None:
@@ -198,8 +198,8 @@ def _sample_even(time: Array, unit: float) -> Sampling | None:
     step = span / (n - 1)
     stray = float(np.abs(time - np.linspace(time[0], time[-1], n)).max())
     if stray <= UNEVEN * step:
-        # the ends are rounded by no more than what strays in between
-        return Sampling(_customary(1.0 / step, 2.0 * stray / (step * span), unit, n), True, 0, n)
+        # the ends are rounded by hardly more than what strays in between
+        return Sampling(_customary(1.0 / step, 2.4 * stray / (step * span), unit, n), True, 0, n)
     steps = np.diff(time)
     if steps.min() < 0.0 or np.mean(steps == 0.0) < SHARED:
         return None

@@ -137,7 +137,7 @@ def _read_numbers(
         read = _numbers(name, body, style, most_rows)
     if read is None:
         raise checks.refuse("file", name, READABLE)
-    check_size(name, len(read), read.shape[1], most_numbers)
+    check_size(name, len(read), read.shape[1], most_numbers, MOST_COLUMNS)
     return read, said, notes
 
 
@@ -740,6 +740,6 @@ def _signals_in_rows(
         allowed = "a column for each signal: turn the table, without the facts before its samples"
         raise checks.refuse("file", name, allowed)
     columns = np.delete(np.array(whole).T, style.words, axis=0)
-    check_size(name, len(columns), columns.shape[1], most_numbers)
+    check_size(name, len(columns), columns.shape[1], most_numbers, MOST_COLUMNS)
     named = [_cells(line, style.delimiter)[0] for line in lines] if style.words == (0,) else None
     return _text_fields(columns, named or _headings(remarks, style, columns), remarks)

@@ -84,7 +84,7 @@ class Variables:
         rows = max(len(part) for part in parts.values())
         self._take_out_short(parts, rows)
         width = sum(part.shape[1] for part in parts.values())
-        check_size(name, rows, width)
+        check_size(name, rows, width, MOST_NUMBERS, MOST_COLUMNS)
         columns = np.full((rows, width), np.nan, order="F")
         names: list[str] = []
         with np.errstate(invalid="ignore"):
@@ -111,13 +111,7 @@ class Variables:
                 self.texts[variable] = f"not used: {len(part)} × {part.shape[1]} numbers"
 
 
-def check_size(
-    name: str,
-    rows: int,
-    width: int,
-    most_numbers: int = MOST_NUMBERS,
-    most_columns: int = MOST_COLUMNS,
-) -> None:
+def check_size(name: str, rows: int, width: int, most_numbers: int, most_columns: int) -> None:
     """Refuse a table of too many columns or numbers; of the latter those over the limit count."""
     if width > most_columns:
         most = f"at most {most_columns}: save those of one bearing, or write each signal in a row"

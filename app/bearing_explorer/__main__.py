@@ -218,8 +218,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     server.start()
     _say(f"Ready after {time.perf_counter() - started:.1f} s: {url} (Ctrl+C ends)")
     if scene is not None:
-        holoviews = "bearing_explorer.explorer.plots.plane"
-        loop.call_later(LOADS_HOLOVIEWS, loop.run_in_executor, None, import_module, holoviews)
+        # not in another thread: Panel, building a page, would meet HoloViews half loaded
+        loop.call_later(LOADS_HOLOVIEWS, import_module, "bearing_explorer.explorer.plots.plane")
     if not chosen.no_browser:
         loop.add_callback(lambda: server.show("/"))
     try:

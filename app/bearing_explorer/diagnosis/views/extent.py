@@ -203,18 +203,27 @@ class SpallExtent(LookView, MeasuredView):
         known = "" if truth is None else (
             f" The signal is simulated: the true extent is {math.degrees(truth):.1f}°."
         )  # fmt: skip
-        sizing = None if answer.measured else self.measurement.sizing()
+        sizing = self.measurement.sizing()
         if sizing is not None and (size := size_in_words(sizing)):
-            spacing = f"{math.degrees(answer.ball_spacing):.1f}°"
-            return (
-                f"Entry and exit alone allow {answer.size}, or whole ball spacings of {spacing} "
-                f"more. The natural frequencies decide, see below: {size}.{known}{grounds(answer)}"
-            )
+            decided = f" The natural frequencies decide, see below: {size}."
+            return _by_entry_and_exit(answer) + decided + known + grounds(answer)
         return answer.sentence + known + grounds(answer)
 
     def table(self, model: Model) -> dict[str, np.ndarray]:
         answer = self.answer()
         return answer.table().in_units().named() if isinstance(answer, MeasuredExtent) else {}
+
+
+def _by_entry_and_exit(extent: MeasuredExtent) -> str:
+    """Lengths that entry and exit leave open, in a sentence."""
+    if not extent.alternatives:
+        allowed = f"only say: {extent.size}" if extent.size else "do not give a length"
+        return f"Entry and exit alone {allowed}."
+    first, other = (math.degrees(length) for length, _, _ in extent.alternatives)
+    return (
+        f"Entry and exit alone allow about {first:.0f}° or {other:.0f}°, or whole ball spacings of "
+        f"{math.degrees(extent.ball_spacing):.1f}° more."
+    )
 
 
 def grounds(extent: MeasuredExtent) -> str:

@@ -1,4 +1,4 @@
-"""Places of the balls, and their drop into defects (Eqs. 4 and 6)."""
+"""Angles of the balls, and their drop into defects (Eqs. 4 and 6)."""
 
 from __future__ import annotations
 
@@ -259,7 +259,7 @@ def lay_out_drops(cage, lead, contacts, path, d, slope):
 
 
 def new_passage(instants, angle):
-    """An empty `Passage` for instants; its contacts are at angles (n,) [rad] from the first."""
+    """Return an empty `Passage`; its contacts are at angles (n,) [rad] from the first ball."""
     c, s, d, d_rate = np.zeros((4, instants, angle.size))
     return Passage(c, s, d, d_rate, np.zeros((instants, 5)), np.cos(angle), np.sin(angle))
 
@@ -287,7 +287,7 @@ def lay_out_forces(start, turn, count, rotor, passage):
 
 @called
 def lay_out_balls(start, turn, count, cage_speed, contacts, path, passage):
-    """Put the balls' places at `count` cage angles start + i·turn [rad] into a passage.
+    """Write the balls' places at `count` cage angles start + i·turn [rad] into a passage.
 
     Each cage is turned by recurrence, and each ball is at a fixed angle to its cage.
     """

@@ -762,15 +762,8 @@ def static_states(cage_angles, leads, contacts, path, load):
     count = np.array([path.defects.shape[0]])
     memory = new_memory(n, contacts)
     answers = new_answers(1, n)
-    static_maps(
-        cage_angles,
-        contacts,
-        MapPaths(path.defects[None], count, path.tables, leads[None]),
-        load,
-        (0, 1),
-        memory,
-        answers,
-    )
+    paths = MapPaths(path.defects[None], count, path.tables, leads[None])
+    static_maps(cage_angles, contacts, paths, load, (0, 1), memory, answers)
     return (
         memory.q,
         memory.loads,

@@ -60,7 +60,6 @@ STILL = 1e-12
 """Motion [m], a hundredth of an atom, below which rings stand still: when all balls of a pressed
 row carry load, their passing moves the rings by rounding only."""
 
-
 LOSSES = {"-1": "period doubling", "pair": "Neimark-Sacker", "+1": "fold"}
 """Losses of stability by the place at which the largest multiplier leaves the unit circle."""
 

@@ -120,9 +120,8 @@ class Defect:
 
     def raceway_radius(self, bearing: Bearing) -> float:
         """Return the radius [m] of the race that has the defect."""
-        return (
-            bearing.inner_raceway_radius if self.race == "inner" else bearing.outer_raceway_radius
-        )
+        inner, outer = bearing.inner_raceway_radius, bearing.outer_raceway_radius
+        return inner if self.race == "inner" else outer
 
     def check(self, bearing: Bearing) -> None:
         """Raise ValueError for a defect that `bearing` cannot have.

@@ -41,7 +41,6 @@ CONTACT_LAWS = ("published", "no tension")
 """`published`: viscous damping in every loaded contact (Eq. 18), which can pull a ball that leaves.
 `no tension`: the same, but the force of a contact never pulls."""
 
-
 MASSLESS, WITH_MASS = "massless", "with mass"
 BALLS = (MASSLESS, WITH_MASS)
 """Models of balls in a simulated motion. `massless`: a ball is a spring between the rings (Eq. 13).

@@ -13,8 +13,8 @@ from bearingcore.model.statics._status import StaticStatus
 class SweepStatus(Status):
     """Outcome of a scene of a sweep: `complete`, or the first reason for an unknown number.
 
-    A static reason holds at one cage angle or more. A free direction still has a stiffness. Unknown
-    numbers are NaN.
+    A static reason holds at one or more cage angles. With a free direction, stiffness is known.
+    Unknown numbers are NaN.
     """
 
     NOT_COMPUTED = "not_computed", "not computed"
@@ -46,13 +46,12 @@ class SweepStatus(Status):
 
     @property
     def code(self) -> int:
-        """Place in `STATUSES`, as in results; 0, not computed, is the value of empty files."""
+        """Index in `STATUSES`, as in results; 0, not computed, is the value of empty files."""
         return STATUSES.index(self)
 
 
 STATUSES = tuple(SweepStatus)
 """All statuses in the order of their codes."""
-
 
 OF_STATICS = {
     StaticStatus.CONVERGED: SweepStatus.COMPLETE,

@@ -28,9 +28,9 @@ def parts(first: int, last: int, size: int) -> Iterator[tuple[int, int]]:
     """
     while first < last:
         end = min(first + size, last)
-        begun = time.perf_counter()
+        start = time.perf_counter()
         yield first, end
-        if time.perf_counter() - begun < 0.5 * PART_SECONDS:
+        if time.perf_counter() - start < 0.5 * PART_SECONDS:
             size *= 2
         first = end
 

@@ -134,18 +134,18 @@ def diagonalise(A, V, cosine, sine):
     """Apply Jacobi's rotations to upper triangles A (m, m, .) and to rows V until A is diagonal."""
     m = len(A)
     for _ in range(MOST_SWEEPS):
-        left = False
+        rotated = False
         for p in range(m - 1):
             for q in range(p + 1, m):
-                turned = False
+                needed = False
                 for k in range(TOGETHER):
                     scale = max(abs(A[p, p, k]), abs(A[q, q, k]))
                     if abs(A[p, q, k]) > NEGLIGIBLE * scale:
-                        turned = True
-                if turned:
-                    left = True
+                        needed = True
+                if needed:
+                    rotated = True
                     turn(A, V, p, q, cosine, sine)
-        if not left:
+        if not rotated:
             break
 
 
@@ -154,10 +154,10 @@ def turn(A, V, p, q, cosine, sine):
     """Rotate A and V so that A[p, q] becomes zero, by the smaller of two angles (Rutishauser)."""
     m = len(A)
     for k in range(TOGETHER):
-        apart = A[q, q, k] - A[p, p, k]
+        difference = A[q, q, k] - A[p, p, k]
         twice = 2.0 * A[p, q, k]
-        size = abs(apart) + math.sqrt(apart * apart + twice * twice) + TINY
-        tangent = twice / math.copysign(size, apart)
+        size = abs(difference) + math.sqrt(difference * difference + twice * twice) + TINY
+        tangent = twice / math.copysign(size, difference)
         c = 1.0 / math.sqrt(1.0 + tangent * tangent)
         cosine[k] = c
         sine[k] = tangent * c

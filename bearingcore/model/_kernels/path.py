@@ -96,10 +96,10 @@ def path_drop(angle, cage_angle, lead, row, path):
         if defects[i, EDGE] == TABLE:
             start = int(defects[i, TABLE_START])
             cells = int(defects[i, TABLE_SIZE]) - 1
-            at = (x + half) / (2.0 * half) * cells
-            k = min(int(at), cells - 1)
+            position = (x + half) / (2.0 * half) * cells
+            k = min(int(position), cells - 1)
             rise = tables[start + k + 1] - tables[start + k]
-            drop = tables[start + k] + (at - k) * rise
+            drop = tables[start + k] + (position - k) * rise
             slope = rise * cells / (2.0 * half)
         else:
             drop, slope = drop_and_slope(

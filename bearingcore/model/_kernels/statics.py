@@ -358,17 +358,17 @@ def sizes_at(q, g, H, force, active, tight):
     directions; the greatest displacement, at least `tight`; and the greatest stiffness.
     """
     norm = 0.0
-    taken = 0.0
+    reactions = 0.0
     reach = tight
     stiffest = 0.0
     for i in range(5):
-        taken += (g[i] + force[i]) ** 2
+        reactions += (g[i] + force[i]) ** 2
         reach = max(reach, abs(q[i]))
     for i in active:
-        taken -= (g[i] + force[i]) ** 2
+        reactions -= (g[i] + force[i]) ** 2
         norm += g[i] * g[i]
         stiffest = max(stiffest, H[i, i])
-    return norm, taken, reach, stiffest
+    return norm, reactions, reach, stiffest
 
 
 @inlined
@@ -414,7 +414,7 @@ def descend(q, place, contacts, load, work, most):
     # Lengths that cancel in a compression even at q = 0: their rounding is in every residual.
     tight = abs(contacts.offset[hard]) + max(-contacts.clearance[hard], 0.0)
     size = load_size(load)
-    carried_load = size * size
+    squared_load = size * size
     nothing = 0.0  # load [N] that rounding leaves of a preload: below it nothing touches
     k_typical = 0.0
     shift_part = 1e-3
@@ -436,20 +436,20 @@ def descend(q, place, contacts, load, work, most):
             # Test for the minimum. The residual is what is out of balance, |g|, over the load and
             # the reactions along held directions, or, if only a preload presses the contacts, over
             # the sum of their loads.
-            norm, taken, reach, stiffest = sizes_at(q, g, H[now], F, active, tight)
-            whole = math.sqrt(carried_load + max(taken, 0.0))
+            norm, reactions, reach, stiffest = sizes_at(q, g, H[now], F, active, tight)
+            total_load = math.sqrt(squared_load + max(reactions, 0.0))
             if preloaded:
-                whole = pressed_load(q, place, contacts)
-            if whole <= nothing:
+                total_load = pressed_load(q, place, contacts)
+            if total_load <= nothing:
                 return now, NOTHING_TOUCHES, math.nan, iteration, evaluations
             before = residual
-            residual = math.sqrt(norm) / whole
-            limit = max(RESIDUAL_LIMIT, ROUNDING * reach * stiffest / whole)
+            residual = math.sqrt(norm) / total_load
+            limit = max(RESIDUAL_LIMIT, ROUNDING * reach * stiffest / total_load)
             least = newton_direction(H[now], g, active, 0.0, L, p)
             # Near the minimum a step squares the residual: one that hardly falls is rounding.
             settled = residual <= limit and residual >= 0.5 * before
             if residual <= RESIDUAL_AIM or settled or stuck:
-                noise = FAINT * max(residual, RESIDUAL_AIM) * whole
+                noise = FAINT * max(residual, RESIDUAL_AIM) * total_load
                 if faintest >= noise:
                     noise = 0.0
                 status, now = judge_minimum(q, noise, least, now, place, contacts, load, work)
@@ -553,8 +553,8 @@ def minimise_energy(q, place, contacts, load, work):
     soft_factor = work.soft
     for i in active:
         # without a load (a wedged ring) nothing says how far to begin
-        away = max(contacts.clearance[stiffest], 0.0) / contacts.line_r[stiffest] + soft
-        start[i] = away * F[i] / size if size > 0.0 else q[i]
+        distance = max(contacts.clearance[stiffest], 0.0) / contacts.line_r[stiffest] + soft
+        start[i] = distance * F[i] / size if size > 0.0 else q[i]
     # Each round multiplies the compression `soft` by `ratio`: bolder after a success, more careful
     # after a failure, until the balls are as hard as the real ones.
     ratio = 1.0
@@ -569,10 +569,10 @@ def minimise_energy(q, place, contacts, load, work):
         for j in range(soft_factor.size):
             soft_factor[j] = softer * contacts.factor[j]
         softened = replace_factors(contacts, soft_factor)
-        now, status, residual, more, calls = descend(
+        now, status, residual, steps, calls = descend(
             q, place, softened, load, work, MOST_PATIENT_ITERATIONS
         )
-        iterations += more
+        iterations += steps
         evaluations += calls
         if size == 0.0:
             break

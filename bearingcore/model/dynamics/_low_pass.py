@@ -96,8 +96,8 @@ def acceleration_lines(history: Array, body: int, step: float, count: int) -> Ar
     turn = 2j * math.pi * number / steps
     part, weight = _step_quadrature()
     waves = np.exp(-np.outer(turn, part)) * weight
-    kept = history[:-1, body : body + 3] - history[0, body : body + 3] * np.array([[1.0], [0], [0]])
-    sums = np.fft.fft(kept, axis=0)[number % steps] / steps
+    first = history[0, body : body + 3] * np.array([[1.0], [0], [0]])  # displacement alone
+    sums = np.fft.fft(history[:-1, body : body + 3] - first, axis=0)[number % steps] / steps
     lines = np.zeros((count, history.shape[2]), dtype=complex)
     for column, (polynomial, power) in enumerate(zip(_BETWEEN, _POWERS, strict=True)):
         moment = waves @ polynomial(part) * step ** (power - 2)
@@ -135,11 +135,11 @@ def _filter(sample_rate: float, step_rate: float) -> _Filter:
     step = np.arange(-before, before + 1)
     weights = np.zeros((a_step, len(step) + 1, 3))
     for phase in range(a_step):
-        kept = _kernel((step[:, None] + part) * samples - phase) * weight * samples
+        weighted = _kernel((step[:, None] + part) * samples - phase) * weight * samples
         for number, (polynomial, power) in enumerate(zip(_BETWEEN, _POWERS, strict=True)):
             rows = slice(number // 3, number // 3 + len(step))  # the begin of steps, or their end
             scale = step_rate ** (2 - power)
-            weights[phase, rows, number % 3] += kept @ (polynomial(part) * scale)
+            weights[phase, rows, number % 3] += weighted @ (polynomial(part) * scale)
     return _Filter(weights, before, stride)
 
 
@@ -153,8 +153,8 @@ def _kernel(time: Array) -> Array:
 def rows_needed(n: int, sample_rate: float, step_rate: float) -> int:
     """Return the number of rows that n filtered samples need, some of them after the last one."""
     a_step = max(round(sample_rate / step_rate), 1)
-    kept = _filter(sample_rate, step_rate)
-    return (n - 1) // a_step * kept.stride + kept.weights.shape[1] - kept.before
+    low_pass = _filter(sample_rate, step_rate)
+    return (n - 1) // a_step * low_pass.stride + low_pass.weights.shape[1] - low_pass.before
 
 
 def low_passed(history: Array, body: int, n: int, sample_rate: float, step_rate: float) -> Array:
@@ -165,17 +165,17 @@ def low_passed(history: Array, body: int, n: int, sample_rate: float, step_rate:
     for the inner and 3 for the outer ring. Samples within reach of a row that is not finite are
     NaN.
     """
-    kept = _filter(sample_rate, step_rate)
-    a_step, taps = kept.weights.shape[:2]
+    low_pass = _filter(sample_rate, step_rate)
+    a_step, taps = low_pass.weights.shape[:2]
     if not np.isfinite(history[0]).all():
         return np.full((n, history.shape[2]), math.nan)
     groups = -(-n // a_step)
-    nd, stride, columns = history.shape[2], kept.stride, -(-taps // kept.stride)
+    nd, stride, columns = history.shape[2], low_pass.stride, -(-taps // low_pass.stride)
     out = np.empty((groups, a_step, nd))
     rows = np.zeros((nd, 3 * stride, groups + columns))
-    kernels.lay_side_by_side(history, body, kept.before, rows)
+    kernels.lay_side_by_side(history, body, low_pass.before, rows)
     # weights by column and row of a column, in the order in which `lay_side_by_side` has the rows
-    padded = np.pad(kept.weights, ((0, 0), (0, columns * stride - taps), (0, 0)))
+    padded = np.pad(low_pass.weights, ((0, 0), (0, columns * stride - taps), (0, 0)))
     joined = padded.reshape(a_step, columns, stride, 3).transpose(0, 3, 2, 1)
     weights = joined.reshape(a_step, 3 * stride, columns)
     for direction in range(nd):

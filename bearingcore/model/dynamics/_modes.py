@@ -161,8 +161,8 @@ def frequency_bands(scene: Scene, *, coarse: bool = False) -> dict[str, tuple[fl
         return frequencies(equilibrium_of(packed, cage_angles, shaft_angles))
 
     ends = extremes(positions(scene, n), frequencies(state), closer, rounds=rounds)
-    there = equilibrium_of(packed, ends.cage_angles.ravel(), ends.shaft_angles.ravel())
-    least, greatest = map(np.diagonal, np.split(modes_at(there, search.template).frequency, 2))
+    end_states = equilibrium_of(packed, ends.cage_angles.ravel(), ends.shaft_angles.ravel())
+    least, greatest = map(np.diagonal, np.split(modes_at(end_states, search.template).frequency, 2))
     pairs = zip(least.tolist(), greatest.tolist(), strict=True)
     return dict(zip(search.labels, pairs, strict=True))
 
@@ -399,14 +399,14 @@ def _approximate_damping(K: Array, C: Array, mass: Array, shape: Array) -> tuple
     rest = squared
     for _ in range(3):
         rate = -0.5 * damping + 1j * np.sqrt(rest - 0.25 * damping**2 + 0j)
-        there = rate[:, :, None]
-        D = there**2 + damping[:, None] * there + squared[:, None]
+        rates = rate[:, :, None]
+        D = rates**2 + damping[:, None] * rates + squared[:, None]
         part = between / np.where(between == 0.0, 1.0, D)
         pull = (part * between).sum(axis=2) - rate * ((part @ between) * part).sum(axis=2)
         rest = squared - rate**2 * pull
     size = np.abs(rate)
     frequency, ratio = size / (2.0 * math.pi), -rate.real / np.maximum(size, 1e-300)
-    near = (np.abs(there * part) < MIXED).all(axis=(1, 2)) & (damping**2 < squared).all(axis=1)
+    near = (np.abs(rates * part) < MIXED).all(axis=(1, 2)) & (damping**2 < squared).all(axis=1)
     if not near.all():
         frequency[~near], ratio[~near] = _exact_damping(K[~near], C[~near], mass, shape[~near])
     return frequency, ratio

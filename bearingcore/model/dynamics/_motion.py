@@ -218,10 +218,10 @@ class Motion:
         return table_of(
             ("time", "s", self.time),
             *(
-                (f"{body}_{what}_{dof}", unit[dof.startswith("r")], values)
+                (f"{body}_{name}_{dof}", unit[dof.startswith("r")], values)
                 for body in ("inner", "outer")
-                for what, unit in units.items()
-                for dof, values in zip(self.dofs, getattr(self, f"{body}_{what}").T, strict=True)
+                for name, unit in units.items()
+                for dof, values in zip(self.dofs, getattr(self, f"{body}_{name}").T, strict=True)
             ),
         )
 
@@ -488,14 +488,14 @@ def _bands_apart(motion: Motion, finer: Motion) -> str:
     since = 0.5 * float(motion.time[-1])
     edges = motion.bandwidth * 2.0 ** np.arange(-8.0, 0.1, 1.0 / 3.0)
     power = []
-    for each in (motion, finer):
-        lines = each.spectrum(max(0.25 * edges[0], 4.0 / since), since)
+    for compared in (motion, finer):
+        lines = compared.spectrum(max(0.25 * edges[0], 4.0 / since), since)
         power.append(np.add.reduceat(lines.density, np.searchsorted(lines.frequency, edges)[:-1]))
     loud = (power[1] > 1e-4 * power[1].sum(axis=0)) & (power[0] > 0.0)
-    apart = np.abs(10.0 * np.log10(power[0][loud] / power[1][loud])).max(initial=0.0)
-    if apart <= SAME_BANDS:
+    error = np.abs(10.0 * np.log10(power[0][loud] / power[1][loud])).max(initial=0.0)
+    if error <= SAME_BANDS:
         return ""
-    return f"; its contacts let go, and bands of its spectrum are known to {decibels(apart)} only"
+    return f"; its contacts let go, and bands of its spectrum are known to {decibels(error)} only"
 
 
 def _level(motion: Motion) -> float:

@@ -182,9 +182,9 @@ class Orbit:
         for axis in range(lines.shape[1]):
             part = lines[np.where(known, k, 0), axis] * seen
             density[:, axis] = np.einsum("fk,fk->f", part, part.conj()).real
-            for apart in range(1, 2 * reach + 1):
-                cross = np.einsum("fk,fk->f", part[:, apart:], part[:, :-apart].conj())
-                density[:, axis] += 2.0 * (beats[apart] * cross).real
+            for offset in range(1, 2 * reach + 1):
+                cross = np.einsum("fk,fk->f", part[:, offset:], part[:, :-offset].conj())
+                density[:, axis] += 2.0 * (beats[offset] * cross).real
         scale = 2.0 * segment / (0.375 * sample_rate)  # Σ w² = 0.375 segment
         return Spectrum(frequency, np.maximum(scale * density, 0.0))
 
@@ -254,8 +254,8 @@ def orbit(
     rest = equilibrium_of(packed, [0.0])
     y = static_start(packed, rest) if start is None else _state_at_start(start, dofs)
     if y is None:
-        why = rest.reason(0)
-        return replace(nothing, status=OrbitStatus.NO_START, period=period, cost=why)
+        reason = rest.reason(0)
+        return replace(nothing, status=OrbitStatus.NO_START, period=period, cost=reason)
     y = shooting.smooth_state(y)
     if start is not None:
         answer = _newton(nothing, shooting, y, period)
@@ -286,10 +286,10 @@ def common_ball_passes(scene: Scene) -> int | None:
     if scene.turning_force > 0.0 or scene.defect_turns:
         rounds.add(1.0 / (bearing.cage_ratio * bearing.n_balls))
     passes = 1
-    for turned in rounds:
-        fraction = Fraction(turned).limit_denominator(MOST_BALL_PASSES)
+    for passed in rounds:
+        fraction = Fraction(passed).limit_denominator(MOST_BALL_PASSES)
         # the remainder after the longest period must be below any step: 1e-9 of a turn
-        if abs(float(fraction) - turned) * fraction.denominator > 1e-9:
+        if abs(float(fraction) - passed) * fraction.denominator > 1e-9:
             return None
         passes = math.lcm(passes, fraction.denominator)
     return passes if passes <= MOST_BALL_PASSES else None
@@ -338,10 +338,10 @@ class _Shooting:
 
     def march_with_tangent(self, y: Array) -> tuple[Array, Array]:
         """Return P(y) and its derivative."""
-        both = np.concatenate([y, np.eye(y.size).ravel()])
-        kernels.march(both, self._step, 0.0, self._system, self.history, self._watch)
+        state = np.concatenate([y, np.eye(y.size).ravel()])
+        kernels.march(state, self._step, 0.0, self._system, self.history, self._watch)
         self.calls += 4 * self.steps
-        return both[: y.size], both[y.size :].reshape(y.size, y.size)
+        return state[: y.size], state[y.size :].reshape(y.size, y.size)
 
     def _watch(self, part: float) -> None:
         """Report the steps so far and a part of a period."""

@@ -203,27 +203,27 @@ def _knocks(
 ) -> Array:
     """Return ringing (n, d) with a peak of about 1 each time that a ball reaches the far edge."""
     cage, ratio = scene.cage_speed, scene.bearing.cage_ratio
-    left = [
+    exits = [
         (crossing.cage_angle, scene.defects[crossing.defect])
         for crossing in crossings(scene, float(clock[0]) * cage, float(clock[-1]) * cage)
         if not crossing.enters
     ]
-    begins = np.interp([angle / cage for angle, _ in left], clock, time)
-    turns = [angle / ratio if defect.race == "inner" else 0.0 for angle, defect in left]
-    places = np.array([defect.center for _, defect in left]) + turns
-    inner = np.array([defect.race == "inner" for _, defect in left], dtype=bool)
+    begins = np.interp([angle / cage for angle, _ in exits], clock, time)
+    turns = [angle / ratio if defect.race == "inner" else 0.0 for angle, defect in exits]
+    places = np.array([defect.center for _, defect in exits]) + turns
+    inner = np.array([defect.race == "inner" for _, defect in exits], dtype=bool)
     strength = np.where(inner, _load_at(scene, places) if inner.any() else 1.0, 1.0)
     # a sensor across the radius of the defect measures a part of the blow too
     along = np.stack([np.cos(places) if name == "x" else np.sin(places) for name in directions], 1)
-    felt = np.where(np.abs(along) < 0.3, 0.3, along) * strength[:, None]
+    measured = np.where(np.abs(along) < 0.3, 0.3, along) * strength[:, None]
     omega = 2.0 * math.pi * effects.knock_frequency
     signal = np.zeros((len(time), len(directions)))
-    for begin, by in zip(begins.tolist(), felt, strict=True):
+    for begin, amplitude in zip(begins.tolist(), measured, strict=True):
         first = int(np.searchsorted(time, begin))
         last = min(len(time), first + int(12.0 / (effects.knock_damping * omega * time[1])))
         since = time[first:last] - begin
         ring = np.exp(-effects.knock_damping * omega * since) * np.sin(omega * since)
-        signal[first:last] += ring[:, None] * by
+        signal[first:last] += ring[:, None] * amplitude
     return signal
 
 

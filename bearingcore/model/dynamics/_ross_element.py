@@ -67,9 +67,9 @@ def to_ross(scene: Scene, speeds: ArrayLike, *, node: int = 0, **more: Any) -> A
         raise checks.refuse("speeds", speeds.tolist(), "at least 0 rad/s and increasing")
     means = [_mean_matrices(scene.replace(shaft_speed=float(speed))) for speed in speeds]
     coefficients = {
-        f"{letter}{name}": np.array([matrices[k][at] for matrices in means])
+        f"{letter}{name}": np.array([matrices[k][place] for matrices in means])
         for k, letter in enumerate("kc")
-        for name, at in ALONG.items()
+        for name, place in ALONG.items()
     }
     return ross.BearingElement(n=node, **{axis: speeds}, **coefficients, **more)
 

@@ -61,9 +61,9 @@ def _highest_loaded_frequency(packed: PackedMotion) -> float:
     scene, highest = packed.scene, highest_frequency_of(packed)
     if not (force := scene.turning_force + peak_force(packed)):
         return highest
-    still = np.array([scene.load.fx, scene.load.fy, scene.load.fz])
-    size = float(np.linalg.norm(still))
-    loaded = still * (1.0 + force / size) if size else np.array([force, 0.0, 0.0])
+    load = np.array([scene.load.fx, scene.load.fy, scene.load.fz])
+    size = float(np.linalg.norm(load))
+    loaded = load * (1.0 + force / size) if size else np.array([force, 0.0, 0.0])
     heavier = scene.replace(**dict(zip(("fx", "fy", "fz"), loaded.tolist(), strict=True)))
     return float(np.fmax(highest, highest_frequency_of(pack(heavier, packed.dofs))))
 
@@ -73,13 +73,14 @@ def _greatest_decay(packed: PackedMotion) -> float:
 
     If the decay is too fast for the steps, a motion diverges, or is wrong without tension.
     """
-    every, rotor = packed.contacts, packed.rotor
-    tilting = every.reach * every.line_z - every.arm * every.line_r
-    radial, axial, turned = (float(part @ part) for part in (every.line_r, every.line_z, tilting))
+    contacts, line_r, line_z = packed.contacts, packed.contacts.line_r, packed.contacts.line_z
+    tilting = contacts.reach * line_z - contacts.arm * line_r
+    radial, axial, turned = (float(part @ part) for part in (line_r, line_z, tilting))
     along = np.array([0.5 * radial, 0.5 * radial, axial, 0.5 * turned, 0.5 * turned])
-    both = rotor.inverse_inner + rotor.inverse_outer
-    contacts = rotor.contact_damping * float(along[rotor.active] @ both)
-    return contacts + float((rotor.damping * rotor.inverse_outer).max())
+    rotor = packed.rotor
+    inverse_mass = rotor.inverse_inner + rotor.inverse_outer
+    decay = rotor.contact_damping * float(along[rotor.active] @ inverse_mass)
+    return decay + float((rotor.damping * rotor.inverse_outer).max())
 
 
 def fine_step_rate(scene: Scene, sample_rate: float) -> float:

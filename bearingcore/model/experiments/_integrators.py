@@ -116,15 +116,15 @@ class Rates:
         Instants after the last state are NaN.
         """
         problem, n = self.problem, len(self.problem.dofs)
-        whole = np.full((len(time), 4 * n), math.nan)
-        whole[: len(states)] = states * problem.scale
-        rates = kernels.motion_rates(time, whole, 0.0, problem.system)
+        unscaled = np.full((len(time), 4 * n), math.nan)
+        unscaled[: len(states)] = states * problem.scale
+        rates = kernels.motion_rates(time, unscaled, 0.0, problem.system)
         history = np.empty((len(time), 6, n))
         for body in range(2):
             columns = slice(2 * body * n, (2 * body + 1) * n)
             following = slice((2 * body + 1) * n, (2 * body + 2) * n)
-            history[:, 3 * body] = whole[:, columns]
-            history[:, 3 * body + 1] = whole[:, following]
+            history[:, 3 * body] = unscaled[:, columns]
+            history[:, 3 * body + 1] = unscaled[:, following]
             history[:, 3 * body + 2] = rates[:, following]
         return history
 
@@ -146,8 +146,8 @@ def _runge_kutta(
     y = problem.start.copy()
     kernels.turn_smooth(y, 1.0, 0.0, system)
     done = kernels.march(y, 1.0 / step_rate, 0.0, system, history)
-    why = "" if done >= n_steps else f"diverged after {done / step_rate:.2g} s"
-    return March(history, step_rate, 4 * n_steps, why)
+    failure = "" if done >= n_steps else f"diverged after {done / step_rate:.2g} s"
+    return March(history, step_rate, 4 * n_steps, failure)
 
 
 MOST_RATES = 500_000
@@ -163,14 +163,14 @@ def _adaptive(
     """March by a general-purpose method with adaptive steps."""
     time = instants(sample_rate, duration)
     rates = Rates(problem, most=MOST_RATES)
-    history, why = np.empty((0, rates.start.size)), ""
+    history, failure = np.empty((0, rates.start.size)), ""
     try:
         history = states(rates, time, tolerance)
         if len(history) < len(time):
-            why = f"{MotionStatus.STEP_VANISHED} after {time[max(len(history) - 1, 0)]:.2g} s"
+            failure = f"{MotionStatus.STEP_VANISHED} after {time[max(len(history) - 1, 0)]:.2g} s"
     except (TooManyRatesError, ValueError, np.linalg.LinAlgError) as error:
-        why = str(error) or type(error).__name__
-    return March(rates.history(time, history), sample_rate, rates.calls, why)
+        failure = str(error) or type(error).__name__
+    return March(rates.history(time, history), sample_rate, rates.calls, failure)
 
 
 def _scipy(name: str, *tolerances: float, slow: bool = False) -> Method:

@@ -136,8 +136,8 @@ class Measurements:
             error = point.errors.get(name, math.nan)
             return error if math.isfinite(error) else math.nan
 
-        points = [(name, p) for name, made in self.experiments.items() for p in made.points]
-        units = {e: made.unit(e) for made in self.experiments.values() for e in made.errors}
+        points = [(name, p) for name, done in self.experiments.items() for p in done.points]
+        units = {e: done.unit(e) for done in self.experiments.values() for e in done.errors}
         return table_of(
             ("experiment", "", [name for name, _ in points]),
             ("reference", "", [p.against for _, p in points]),

@@ -77,14 +77,14 @@ def motion_errors(
     signal, tested = expected[:, 5], history[:, 5]
     size = math.sqrt(float(np.mean(signal**2)))
     with np.errstate(over="ignore"):
-        off = np.abs(history[:, (0, 3)] - places) / swing
+        displacement = np.abs(history[:, (0, 3)] - places) / swing
         series = math.sqrt(float(np.mean((tested - signal) ** 2))) / size
     return {
         "spectrum": spectrum_difference(tested, signal, sample_rate, band),
         "third octaves": spectrum_difference(tested, signal, sample_rate, band, third_octaves=True),
         "series L2": series,
-        "displacement": float(off.max()),
-        "final state": float(off[-1].max()),
+        "displacement": float(displacement.max()),
+        "final state": float(displacement[-1].max()),
     }
 
 
@@ -108,24 +108,26 @@ def motion_reference(
 
     histories = [history(k, states) for k, (_, states) in enumerate(families)]
     first = histories[0]
-    apart = [motion_errors(other, first, sample_rate, band) for other in histories[1:]]
-    agreement = apart[0]
+    differences = [motion_errors(other, first, sample_rate, band) for other in histories[1:]]
+    agreement = differences[0]
     finished = [bool(np.all(np.isfinite(history))) for history in histories]
     finished_of = dict(zip((name for name, _ in families), finished, strict=True))
-    unfinished = [name.partition(" ")[0] for name, whole in finished_of.items() if not whole]
+    unfinished = [name.partition(" ")[0] for name, complete in finished_of.items() if not complete]
     # two families make a reference, even if a third one stops at a kink
     trusted = all(finished[:2]) and all(
         difference[name] <= TRUSTED[name]
-        for difference, whole in zip(apart, finished[1:], strict=True)
-        if whole
+        for difference, complete in zip(differences, finished[1:], strict=True)
+        if complete
         for name in TRUSTED
     )
-    note = f"CVODE is {scientific(apart[1]['spectrum'], 2)} dB from the first" if apart[1:] else ""
+    note = ""
+    if differences[1:]:
+        note = f"CVODE is {scientific(differences[1]['spectrum'], 2)} dB from the first"
     if unfinished:
         note = f"{' and '.join(unfinished)} did not finish"
     elif not trusted:
         note = "The motion may be sensitive to its start: errors grow whatever the method"
-    names = tuple(name for name, whole in finished_of.items() if whole or not trusted)
+    names = tuple(name for name, complete in finished_of.items() if complete or not trusted)
     reference = Reference(names, agreement, trusted, note)
     return MotionReference(problem, duration, sample_rate, band, first, reference)
 

@@ -176,9 +176,9 @@ class _Measure:
         yield self._quasi_static()
 
     def _static(self, scene: Scene, n: int) -> tuple[Equilibrium, float]:
-        began = time.thread_time()
+        start = time.thread_time()
         state = static_state(scene, default_cage_angles(scene, n))
-        return state, time.thread_time() - began
+        return state, time.thread_time() - start
 
     def _curves(
         self, name: str, state: Equilibrium, expected: Equilibrium, seconds: float, note: str = ""
@@ -202,12 +202,12 @@ class _Measure:
     def _march(self, scene: Scene, step_rate: float | None = None) -> tuple[Motion, float]:
         seconds = math.inf
         for _ in range(REPEATS):
-            began = time.thread_time()
+            start = time.thread_time()
             motion = simulate(scene, DURATION, step_rate=step_rate, most_steps=MOST_CALLS // 4)
             if not motion.completed:
                 raise ValueError(motion.status)
             _ = motion.outer_acceleration
-            seconds = min(seconds, time.thread_time() - began)
+            seconds = min(seconds, time.thread_time() - start)
             if seconds > LONG:
                 break
         self.calls += motion.right_hand_side_calls
@@ -261,9 +261,9 @@ class _Measure:
 
     def _orbit(self) -> Alternative:
         name, motion = "periodic orbit", self.own
-        began = time.thread_time()
+        start = time.thread_time()
         answer = orbit(self.scene, step_rate=motion.step_rate, most_steps=MOST_CALLS // 4)
-        seconds = time.thread_time() - began
+        seconds = time.thread_time() - start
         self.calls += answer.right_hand_side_calls
         if not answer.stable:
             why = "unstable" if answer.multipliers.size else answer.status
@@ -279,7 +279,7 @@ class _Measure:
         motion = self.own
         half = len(motion.time) // 2
         angles = self.scene.cage_speed * motion.time[half:]
-        began = time.thread_time()
+        start = time.thread_time()
         state = self.state
         last = float(state.cage_angles[-1])
         along = [DOF_NAMES.index(dof) for dof in motion.dofs]
@@ -287,7 +287,7 @@ class _Measure:
             [np.interp(angles % last, state.cage_angles, state.displacement[:, i]) for i in along],
             axis=1,
         )
-        seconds = self.static_seconds + time.thread_time() - began
+        seconds = self.static_seconds + time.thread_time() - start
         moving = motion.inner_displacement[half:] - motion.outer_displacement[half:]
         swing = swings(moving)
         apart = np.abs((rest - rest.mean(axis=0)) - (moving - moving.mean(axis=0))) / swing

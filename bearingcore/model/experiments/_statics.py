@@ -215,19 +215,19 @@ def _scipy(
             result: Any = least_squares(
                 unbalanced, start, jac=jacobian, args=(k,), ftol=tight, xtol=tight, gtol=tight
             )
-            good = result.success and np.abs(result.fun).max() <= max(tolerance, 1e-8)
+            success = result.success and np.abs(result.fun).max() <= max(tolerance, 1e-8)
         elif method == "trust-exact":
             result = minimize(
                 energy, start, args=(k,), jac=True, hess=jacobian, method="trust-exact",
                 options={"gtol": tolerance},
             )  # fmt: skip
-            good = result.success
+            success = result.success
         else:
             result = root(  # type: ignore[call-overload]
                 unbalanced, start, args=(k,), jac=jacobian, method=method, tol=tolerance
             )
-            good = result.success
-        q[k, active], solved[k] = result.x * length, good
+            success = result.success
+        q[k, active], solved[k] = result.x * length, success
     return Solved(q, solved, evaluations)
 
 

@@ -264,10 +264,10 @@ def _paths_of_rows(defects: tuple[Defect, ...], bearing: Bearing) -> kernels.Pat
     """Return the paths of unlike rows, whose raceways have different radii."""
     rows, tables, size = [], [], 0
     for row in range(len(bearing.all_rows)):
-        there = tuple(
+        of_row = tuple(
             dataclasses.replace(defect, row=row) for defect in defects if defect.row in (None, row)
         )
-        path = path_tables(there, bearing.of_row(row).replace(rows=()))
+        path = path_tables(of_row, bearing.of_row(row).replace(rows=()))
         lines = path.defects.copy()
         lines[:, _TABLE_START] += size
         rows.append(lines)
@@ -385,8 +385,8 @@ def _floor_path(defect: Defect, bearing: Bearing) -> tuple[float, float, Array]:
     order of depth over raceway radius.
     """
     half = 0.5 * defect.extent
-    whole = defect.extent >= TWO_PI
-    if isinstance(defect.floor, MeasuredFloor) and not whole:
+    all_around = defect.extent >= TWO_PI
+    if isinstance(defect.floor, MeasuredFloor) and not all_around:
         # a ball touches a raised rim before its centre is above it
         height = -defect.depth * min(defect.floor.depths)
         if height > 0.0:
@@ -395,15 +395,15 @@ def _floor_path(defect: Defect, bearing: Bearing) -> tuple[float, float, Array]:
     step = angle[1] - angle[0]
     surface = defect.surface(defect.center + angle, bearing)
     # both ends belong to the healthy race; a defect of the whole race closes on itself
-    surface[0] = surface[-1] = min(surface[0], surface[-1]) if whole else 0.0
+    surface[0] = surface[-1] = min(surface[0], surface[-1]) if all_around else 0.0
     # The circle is no longer than the floor, as a tiny defect would need a huge number of steps.
     with np.errstate(over="ignore", divide="ignore"):
         steps = math.ceil(min(0.5 * math.pi / step, angle.size))
     reach = np.arange(steps) * step
     circle = edge_drop(reach, defect, bearing, float(np.ptp(surface)))
     circle = circle[np.isfinite(circle)]
-    if not whole:
+    if not all_around:
         return defect.center, half, kernels.roll_over(surface, circle)
-    past = circle.size - 1
-    around = np.concatenate([surface[-1 - past : -1], surface, surface[1 : 1 + past]])
-    return defect.center, half, kernels.roll_over(around, circle)[past : past + angle.size]
+    margin = circle.size - 1
+    around = np.concatenate([surface[-1 - margin : -1], surface, surface[1 : 1 + margin]])
+    return defect.center, half, kernels.roll_over(around, circle)[margin : margin + angle.size]

@@ -120,8 +120,8 @@ class Scene:
         checks.keep_number(self, "contact_damping", optional=True, at_least=0.0)
         checks.choice("contact_law", self.contact_law, CONTACT_LAWS)
         checks.choice("balls", self.balls, BALLS)
-        said = self.dofs if isinstance(self.dofs, str) else ""
-        if self.dofs is not None and said not in (TILT_HELD, TILT_FREE):
+        choice = self.dofs if isinstance(self.dofs, str) else ""
+        if self.dofs is not None and choice not in (TILT_HELD, TILT_FREE):
             checks.keep(self, dofs=check_dofs(self.dofs))
         if not isinstance(self.defect, Defect):
             several = (
@@ -133,7 +133,7 @@ class Scene:
         checks.keep(self, bearing=bearing_of(self.bearing))
         checks.instance("load", self.load, Load)
         checks.instance("support", self.support, Support)
-        if said == TILT_HELD:
+        if choice == TILT_HELD:
             checks.keep(self, dofs=self._held_dofs)
         self._check_directions()
         for defect in self.defects:
@@ -303,10 +303,10 @@ class Scene:
                     bearing["load_deflection_factor"], bearing.get("roller_length")
                 )
             table["bearing"] = bearing
-        said = table.get("dofs")
-        if said == TILT_HELD:
+        choice = table.get("dofs")
+        if choice == TILT_HELD:
             table["dofs"] = None
-        return scene_file.from_data(cls, "scene", table, top=True).with_tilts_as(said)
+        return scene_file.from_data(cls, "scene", table, top=True).with_tilts_as(choice)
 
     def to_toml(self) -> str:
         """Return the scene as TOML text for `from_toml`, in SI units and radians."""
@@ -352,16 +352,16 @@ class Scene:
         if "bearing" in fields:
             fields["bearing"] = bearing_of(fields["bearing"])
         for part, values in inside.items():
-            old = fields.get(part, getattr(self, part))
-            if part == "defect" and not isinstance(old, Defect):
-                first = _change_defect(old[0] if old else Defect.none(), values)
-                fields[part] = (first, *old[1:])
+            current = fields.get(part, getattr(self, part))
+            if part == "defect" and not isinstance(current, Defect):
+                first = _change_defect(current[0] if current else Defect.none(), values)
+                fields[part] = (first, *current[1:])
             elif part == "defect":
-                fields[part] = _change_defect(old, values)
-            elif isinstance(old, Bearing):
-                fields[part] = old.replace(**values)
+                fields[part] = _change_defect(current, values)
+            elif isinstance(current, Bearing):
+                fields[part] = current.replace(**values)
             else:
-                fields[part] = dataclasses.replace(old, **values)
+                fields[part] = dataclasses.replace(current, **values)
         return dataclasses.replace(self, **fields)
 
 

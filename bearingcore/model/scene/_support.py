@@ -64,10 +64,10 @@ class Support:
         missing = {
             dof: [n for n in names if getattr(self, n) is None] for dof, names in needed.items()
         }
-        every = dict.fromkeys(name for names in missing.values() for name in names)
+        needed_names = dict.fromkeys(name for names in missing.values() for name in names)
         known = tuple(dof for dof, names in missing.items() if not names)
         held = f", or scene.replace(dofs={known}) to hold the others" if known else ""
-        return f". Give {', '.join(every)} of the support{held}"
+        return f". Give {', '.join(needed_names)} of the support{held}"
 
     def stiffness(self, dofs: Iterable[str]) -> Array:
         """Return the stiffness to ground along `dofs` [N/m, N·m/rad]; ValueError if unknown."""

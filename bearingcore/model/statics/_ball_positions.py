@@ -335,8 +335,8 @@ def centrifugal_effect(
         / max(without.term(name).max(), 1.0)
         for name in ("k_xx", "k_yy", "k_zz")
     ]
-    apart = float(np.nanmax(parted)) if np.isfinite(parted).any() else 0.0
-    return CentrifugalEffect(float(load), apart, float(max(changes)), True)
+    separation = float(np.nanmax(parted)) if np.isfinite(parted).any() else 0.0
+    return CentrifugalEffect(float(load), separation, float(max(changes)), True)
 
 
 def _unbalanced(races: kernels.Races, load: Array, angle: Array) -> Array:

@@ -143,20 +143,20 @@ def _worst_of_row(bearing: Bearing, state: BallPositions, balls: slice) -> _Gyro
     inner, outer = (np.abs(state.contact_angle[i][state.converged, balls][carries]) for i in (0, 1))
     g, D = bearing.ball_diameter / bearing.pitch_diameter, bearing.ball_diameter
     tan = np.sin(outer) / (np.cos(outer) + g)
-    both = (np.cos(outer) + tan * np.sin(outer)) / (1.0 + g * np.cos(outer))
-    both += (np.cos(inner) + tan * np.sin(inner)) / (1.0 - g * np.cos(inner))
+    bracket = (np.cos(outer) + tan * np.sin(outer)) / (1.0 + g * np.cos(outer))
+    bracket += (np.cos(inner) + tan * np.sin(inner)) / (1.0 - g * np.cos(inner))
     # ω_r sin β = ω_s tan β/(γ' Σ), where Σ is the bracket in the head of the module
-    about = state.scene.shaft_speed * tan / (g * both)
+    spin = state.scene.shaft_speed * tan / (g * bracket)
     cage = state.scene.shaft_speed * (1.0 - g * np.cos(inner)) / (1.0 + np.cos(outer - inner))
-    moment = 0.1 * bearing.ball_mass * D**2 * about * cage
+    moment = 0.1 * bearing.ball_mass * D**2 * spin * cage
     share = 2.0 * moment / (D * load[carries])
     l_i, l_o = bearing.kind.race_distances(bearing)
-    risen = l_i * np.sin(inner) ** 3
-    back = np.divide(l_o * np.sin(outer) ** 3, risen, out=np.zeros_like(risen), where=risen > 0.0)
+    part_i, part_o = l_i * np.sin(inner) ** 3, l_o * np.sin(outer) ** 3
+    ratio = np.divide(part_o, part_i, out=np.zeros_like(part_i), where=part_i > 0.0)
     worst = int(np.argmax(share))
     return _Gyroscopic(
         float(share[worst]),
         float(moment[worst]),
         float(load[carries][worst]),
-        float((share / (1.0 + back)).max()),
+        float((share / (1.0 + ratio)).max()),
     )

@@ -125,8 +125,8 @@ def compressions(state: Equilibrium) -> Array:
     for _ in range(STEPS):
         load, slope, _ = law.at(pressed(place))
         rest = force - np.einsum("njd,nj->nd", gradient, load)
-        enough = ENOUGH * np.maximum(np.abs(force).max(), load.max(axis=1))
-        settled = np.abs(rest).max(axis=1) <= enough
+        allowed = ENOUGH * np.maximum(np.abs(force).max(), load.max(axis=1))
+        settled = np.abs(rest).max(axis=1) <= allowed
         if settled.all():
             break
         hessian = np.matmul((gradient * slope[:, :, None]).transpose(0, 2, 1), gradient)

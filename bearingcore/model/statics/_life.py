@@ -166,18 +166,13 @@ class Life:
 
     def table(self) -> ResultTable:
         """One row: life, loads, ratings, and the result in words."""
-        element = self.scene.bearing.kind.element
+        element, healthy = self.scene.bearing.kind.element, self.healthy_million_revolutions
         of_ball = f"load of a {element} under which the {{}} race lasts 10⁶ turns"
         as_tiring = f"equivalent load of a {element} on the {{}} race"
         return table_of(
             ("million_revolutions", "", self.million_revolutions, "L_10r, in 10⁶ turns"),
             ("life", "h", self.hours, "L_10h"),
-            (
-                "healthy_million_revolutions",
-                "",
-                self.healthy_million_revolutions,
-                "L_10r without the defects, in 10⁶ turns",
-            ),
+            ("healthy_million_revolutions", "", healthy, "L_10r without the defects, in 10⁶ turns"),
             ("share_of_healthy", "1", self.share_of_healthy, "life over the healthy bearing's"),
             ("dynamic_load_rating", "N", self.dynamic_load_rating, f"C_r, {self.rating_source}"),
             ("equivalent_load", "N", self.equivalent_load, "P, for which ISO 281 gives L_10r"),
@@ -304,8 +299,8 @@ def race_ratings(bearing: Bearing, dynamic_load_rating: float, row: int = 0) -> 
             name = f"{'inner' if inner is None else 'outer'}_groove_radius"
             raise checks.refuse(name, None, "a number, where life is computed")
         grooves = groove_ratio(inner / ball, outer / ball)
-    each = [1.0] if bearing.rows_are_alike else ratings_alone(bearing)
-    part = each[row % len(each)] * len(each) / sum(each)  # over the mean of all rows
+    ratings = [1.0] if bearing.rows_are_alike else ratings_alone(bearing)
+    part = ratings[row % len(ratings)] * len(ratings) / sum(ratings)  # over the mean of all rows
     gamma = ball * cosine / row_bearing.pitch_diameter
     power = contact.load_exponent * contact.scatter
     B = (

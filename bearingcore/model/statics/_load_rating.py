@@ -44,9 +44,9 @@ def rating_and_source(bearing: Bearing, dynamic_load_rating: float | None) -> tu
     if dynamic_load_rating is None:
         dynamic_load_rating, source = bearing.dynamic_load_rating, OF_A_CATALOGUE
         if dynamic_load_rating is None:
-            why = _rating_unknown(bearing)
-            wanted = MAKERS_RATING.format(why) if why else NO_RATING
-            raise checks.refuse("dynamic_load_rating", None, wanted, "N")
+            cause = _rating_unknown(bearing)
+            allowed = MAKERS_RATING.format(cause) if cause else NO_RATING
+            raise checks.refuse("dynamic_load_rating", None, allowed, "N")
     C = checks.real_number("dynamic_load_rating", dynamic_load_rating, above=0.0, unit="N")
     return C, source
 
@@ -85,8 +85,8 @@ def dynamic_load_rating(bearing: BearingLike) -> float:
     radial = all(bearing.of_row(k).contact_angle == 0.0 for k in range(rows))
     uneven = ROWS_OF_RADIAL_CONTACT if rows > 1 and radial else 1.0
     if not bearing.rows_are_alike:
-        each = ratings_alone(bearing)
-        return float(uneven * sum(each) * rows ** (ROW_POWER - 1.0))
+        ratings = ratings_alone(bearing)
+        return float(uneven * sum(ratings) * rows ** (ROW_POWER - 1.0))
     cosine = math.cos(bearing.contact_angle)
     gamma = bearing.ball_diameter * cosine / bearing.pitch_diameter
     full = capacity_factor(gamma, USUAL_GROOVES["inner"], USUAL_GROOVES["inner"])

@@ -177,9 +177,9 @@ def positions(scene: Scene, n: int) -> Positions:
     if bearing.has_one_cage_speed:
         rows = _nodes(packed, "inner")
         corners = _nodes(packed, "outer")
-        whole = period * np.arange(round(TWO_PI / period))
-        every = np.concatenate([even, (whole[:, None] - corners).ravel() % TWO_PI])
-        columns = np.unique(np.round(every, 12))
+        periods = period * np.arange(round(TWO_PI / period))
+        all_columns = np.concatenate([even, (periods[:, None] - corners).ravel() % TWO_PI])
+        columns = np.unique(np.round(all_columns, 12))
         steps = _steps(columns, TWO_PI)
         # Under a light load in a clearance, the ring is nearly free sideways only while a ball is
         # on the line of the load: k_xx goes with |x|^(1/3). The mean of this function up to the
@@ -195,8 +195,8 @@ def positions(scene: Scene, n: int) -> Positions:
         period = bearing.ball_spacing
         rows = np.linspace(0.0, period, ON_A_FLOOR, endpoint=False)
     share = _steps(rows, period).mean(axis=0)
-    still, turned = np.zeros(rows.size), ratio * rows
-    drops = np.round(kernels.drops_of(packed.contacts, packed.inner_path, still, turned), 14)
+    zeros, turned = np.zeros(rows.size), ratio * rows
+    drops = np.round(kernels.drops_of(packed.contacts, packed.inner_path, zeros, turned), 14)
     _, first, alike = np.unique(drops, axis=0, return_index=True, return_inverse=True)
     if not bearing.has_one_cage_speed:
         first = alike = np.arange(rows.size)
@@ -244,9 +244,9 @@ def _row_places(packed: PackedScene) -> Array:
     turned = speeds[others] / spacings[others] * spacing
     reached = np.arange(FARTHEST)[:, None] * turned % 1.0
     odd = 2 * np.arange(turned.size) + 1  # a lattice rule, if there are several
-    wanted = np.arange(ROW_PLACES)[:, None] * odd / ROW_PLACES % 1.0
-    away = np.abs((reached - wanted[:, None] + 0.5) % 1.0 - 0.5).max(axis=2)
-    return np.asarray(away.argmin(axis=1) * spacing)
+    targets = np.arange(ROW_PLACES)[:, None] * odd / ROW_PLACES % 1.0
+    distance = np.abs((reached - targets[:, None] + 0.5) % 1.0 - 0.5).max(axis=2)
+    return np.asarray(distance.argmin(axis=1) * spacing)
 
 
 def _nodes(packed: PackedScene, race: str) -> Array:
@@ -277,8 +277,8 @@ def _places_on_edges(defect: Defect, bearing: Bearing, compression: float) -> Ar
     sizes = (compression, followed) if followed > 2.0 * compression else (compression,)
     drops = {min(share * size, defect.depth) for share in SINKING for size in sizes}
     drops.add(defect.depth)
-    whole = defect.extent >= TWO_PI
-    inwards = [0.0 if whole else defect.edge_width(bearing, drop) for drop in drops]
+    all_around = defect.extent >= TWO_PI
+    inwards = [0.0 if all_around else defect.edge_width(bearing, drop) for drop in drops]
     away = half - np.minimum(inwards, half)
     return np.asarray(defect.center + np.concatenate([-away, away]))
 
@@ -296,8 +296,8 @@ def _lowest(values: Array) -> NDArray[np.int64]:
     """Return the places (STARTS, q) of the lowest local minima of values (q, r, n)."""
     q, r, n = values.shape
     low = np.ones(values.shape, dtype=bool)
-    for axis, by in product((1, 2), (1, -1)):
-        low &= values <= np.roll(values, by, axis=axis)
+    for axis, shift in product((1, 2), (1, -1)):
+        low &= values <= np.roll(values, shift, axis=axis)
     order = np.where(low, values, math.inf).reshape(q, r * n)
     lowest = np.argpartition(order, min(STARTS, r * n - 1), axis=1)[:, :STARTS].T
     lowest[0] = values.reshape(q, r * n).argmin(axis=1)
@@ -347,14 +347,14 @@ def extremes(
                                 return_inverse=True)[1:]  # fmt: skip
         cage = pairs[0][where].ravel()
         shaft = places.shaft_ratio * cage + pairs[1][where].ravel()
-        new = evaluate(cage, shaft).reshape(q, where.size, -1)
-        tried = np.where(quantity < q, 1.0, -1.0)[:, None] * new[quantity % q, back.ravel()]
+        answers = evaluate(cage, shaft).reshape(q, where.size, -1)
+        tried = np.where(quantity < q, 1.0, -1.0)[:, None] * answers[quantity % q, back.ravel()]
         tried = np.where(np.isnan(tried), math.inf, tried)
         i, k = np.divmod(tried.argmin(axis=1), parts.size)
         lower = tried.min(axis=1) <= best[changes]
-        each = np.arange(quantity.size)
-        c[changes] = np.where(lower, cs[each, k], c[changes])
-        u[changes] = np.where(lower, us[each, i], u[changes])
+        index = np.arange(quantity.size)
+        c[changes] = np.where(lower, cs[index, k], c[changes])
+        u[changes] = np.where(lower, us[index, i], u[changes])
         best[changes] = np.minimum(best[changes], tried.min(axis=1))
         turn, aside = turn / PARTS, aside / PARTS
     better = best.argmin(axis=0)

@@ -295,9 +295,9 @@ def _average_turning_defects(scene: Scene, load_exponent: float, scatter: float)
     inner, outer = (
         tuple(
             combined_load([race(strip, theta) for strip in strips(bearing, row, chain)], chain)
-            for theta, row in zip(thetas, np.split(there, len(thetas), axis=2), strict=True)
+            for theta, row in zip(thetas, np.split(race_load, len(thetas), axis=2), strict=True)
         )
-        for race, there in zip((inner_race, outer_race), loads, strict=True)
+        for race, race_load in zip((inner_race, outer_race), loads, strict=True)
     )
     return RaceLoads(inner, outer, heaviest)
 

@@ -128,17 +128,17 @@ def _bound_exceeded(scene: Scene, cage_angle: float, state: Array) -> str:
         most, tilted = (number(math.degrees(angle)) for angle in (packing.SMALL_TILT, tilt))
         return f"the ring would tilt by {tilted}°, and tilts are small here, up to {most}°"
     along, across = (part[0] for part in moved(scene, np.array([cage_angle]), state[None]))
-    apart = np.hypot(np.maximum(contacts.distance + along, 0.0), across)
-    pressed = np.where(contacts.fixed, along, apart - contacts.distance)
+    distance = np.hypot(np.maximum(contacts.distance + along, 0.0), across)
+    pressed = np.where(contacts.fixed, along, distance - contacts.distance)
     deepest = int(np.argmax(pressed - contacts.room))
     if pressed[deepest] > contacts.room[deepest]:
         size, most = (with_prefix(float(a[deepest]), "m") for a in (pressed, contacts.room))
         return f"a {element} would be compressed by {size}, and {most} is more than any can be"
-    left = np.where(contacts.fixed & (pressed > 0.0), np.abs(across), 0.0)
-    if (left > contacts.room).any():
+    outside = np.where(contacts.fixed & (pressed > 0.0), np.abs(across), 0.0)
+    if (outside > contacts.room).any():
         return (
-            f"the inner race would move {with_prefix(float(left.max()), 'm')} along the outer one, "
-            f"off a {element} that is {with_prefix(2.0 * float(contacts.room.max()), 'm')} long"
+            f"the inner race would move {with_prefix(float(outside.max()), 'm')} along the outer "
+            f"one, off a {element} of {with_prefix(2.0 * float(contacts.room.max()), 'm')} length"
         )
     return (
         "the inner ring would move out of the outer one, past the "

@@ -275,12 +275,12 @@ def _pressure(
 
 def _shoulder(scene: Scene, state: Equilibrium) -> Limit:
     """Return `_shoulder_of` the row whose contact is nearest to its shoulder."""
-    bearing, kept = scene.bearing, _known(state)
+    bearing, known = scene.bearing, _known(state)
     if words := bearing.kind.tilt_unknown:
         name = f"tilt of the {bearing.kind.elements}"
         return Limit(name, math.nan, math.nan, "rad", False, words)
-    loads = {"inner": state.inner_load[kept], "outer": state.ball_load[kept]}
-    angles = {"inner": state.inner_contact_angle[kept], "outer": state.contact_angle[kept]}
+    loads = {"inner": state.inner_load[known], "outer": state.ball_load[known]}
+    angles = {"inner": state.inner_contact_angle[known], "outer": state.contact_angle[known]}
     return _worst(
         _shoulder_of(row, race, loads[race][:, balls], angles[race][:, balls])
         for row, balls in bearing.unlike_rows
@@ -313,11 +313,11 @@ def _shoulder_of(bearing: Bearing, race: str, loads: Array, angles: Array) -> Li
         reach = angles + spread
     worst = int(np.argmax(reach))
     value = float(reach[worst])
-    at = math.degrees(angles[worst])
+    angle = math.degrees(angles[worst])
     load = with_prefix(float(loads[carries][worst]), "N")
-    made_of = f"with a contact angle of {at:.1f}°"
+    made_of = f"with a contact angle of {angle:.1f}°"
     if known:
-        made_of += f" and half a contact ellipse of {math.degrees(value) - at:.1f}°"
+        made_of += f" and half a contact ellipse of {math.degrees(value) - angle:.1f}°"
     else:
         made_of += " (half the contact ellipse comes on top, not known without groove radii)"
     fact = (
@@ -365,8 +365,8 @@ def _centrifugal_change(scene: Scene) -> Limit:
         return unknown(name, limit, "", f"there is no model with the mass of {words}")
     try:
         grid = positions(scene, _CHANGE_ANGLES)
-        some = slice(None, None, max(grid.weights.size // _MOST_CHANGES, 1))
-        effect = centrifugal_effect(scene, grid.cage_angles[some], grid.shaft_angles[some])
+        sample = slice(None, None, max(grid.weights.size // _MOST_CHANGES, 1))
+        effect = centrifugal_effect(scene, grid.cage_angles[sample], grid.shaft_angles[sample])
     except ValueError as error:
         return unknown(name, limit, "", str(error))
     if not effect.converged:
@@ -399,12 +399,12 @@ def _compression(name: str, loaded: Loaded, no_load: str) -> Limit:
 
 def _compressed(bearing: Bearing, name: str, load: float, subject: str) -> Limit:
     compression = contacts(bearing).compression(load)
-    apart = center_distance(bearing.groove_center_distance)
-    share = compression / apart
+    distance = center_distance(bearing.groove_center_distance)
+    share = compression / distance
     most = percent(GREATEST_COMPRESSION)
     fact = (
         f"{subject} is compressed by {with_prefix(compression, 'm')}, {percent(share)} of the "
-        f"{with_prefix(apart, 'm')} between the groove centres"
+        f"{with_prefix(distance, 'm')} between the groove centres"
     )
     beyond = (
         f": above {most} grooves so close around the ball touch it far up their sides, and "
@@ -422,14 +422,14 @@ def _stiffness(scene: Scene) -> Limit | None:
     drawn = series_factor(
         *(bearing.race_contact(race).load_deflection_factor for race in ("inner", "outer"))
     )
-    off = abs(bearing.load_deflection_factor / drawn - 1.0)
+    difference = abs(bearing.load_deflection_factor / drawn - 1.0)
     fact = (
         f"The load-deflection factor of {number(bearing.load_deflection_factor / 1e6)} MN/m^1.5 "
-        f"is {percent(off)} off the {number(drawn / 1e6)} MN/m^1.5 that the drawing gives"
+        f"is {percent(difference)} off the {number(drawn / 1e6)} MN/m^1.5 that the drawing gives"
     )
     beyond = ": pressures and contact ellipses belong to the drawing, displacements to the factor."
     name = "load-deflection factor against the drawing"
-    return upper_limit(name, off, STIFFNESS_MISMATCH, "", fact, beyond, ".")
+    return upper_limit(name, difference, STIFFNESS_MISMATCH, "", fact, beyond, ".")
 
 
 def _steps(scene: Scene, step_rate: float) -> Limit | None:

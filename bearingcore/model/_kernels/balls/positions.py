@@ -358,7 +358,7 @@ def settle_ring(q, load, balls, places, work):
     """
     F = load.force
     active = load.active
-    carried_load = load_size(load) ** 2
+    squared_load = load_size(load) ** 2
     now = 0
     V, scale, settled = ring_energy(q, F, balls, places, work.g[0], work.H[0])
     residual = math.inf
@@ -366,18 +366,18 @@ def settle_ring(q, load, balls, places, work):
     for iteration in range(MOST_RING_STEPS):
         g = work.g[now]
         H = work.H[now]
-        norm, taken, reach, stiffest = sizes_at(q, g, H, F, active, 0.0)
+        norm, reactions, reach, stiffest = sizes_at(q, g, H, F, active, 0.0)
         # The residual is what is out of balance, |g|, over the whole load. The reactions along held
         # directions are part of the load.
-        whole = math.sqrt(max(carried_load + taken, 0.0))
-        if norm == 0.0 and whole == 0.0:
+        total_load = math.sqrt(max(squared_load + reactions, 0.0))
+        if norm == 0.0 and total_load == 0.0:
             return now, NOTHING_TOUCHES, math.nan, iteration
         # In a preloaded bearing balls press the ring from both sides, harder than any load shows.
         for j in range(places.c.size):
-            whole = max(whole, places.load[INNER, j])
+            total_load = max(total_load, places.load[INNER, j])
         before = residual
-        residual = math.sqrt(norm) / whole
-        limit = max(RESIDUAL_LIMIT, ROUNDING * reach * stiffest / whole)
+        residual = math.sqrt(norm) / total_load
+        limit = max(RESIDUAL_LIMIT, ROUNDING * reach * stiffest / total_load)
         stays = residual <= limit and residual >= 0.5 * before
         if settled and (residual <= RESIDUAL_AIM or stays):
             least = least_pivot(H, active, work.L)

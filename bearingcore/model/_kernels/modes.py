@@ -76,6 +76,7 @@ def find_modes(terms, mixing, offset, squared, order, likeness, work):
                     B[i, j, k] = value
                     B[j, i, k] = value
                 term += 1
+        # B: symmetric K_b of each angle; A: the same with the support, in the template's modes
         transform_to_modes(B, mixing, offset, half, A)
         for i in range(m):
             for j in range(m):
@@ -94,6 +95,7 @@ def find_modes(terms, mixing, offset, squared, order, likeness, work):
                     most[k] = max(like, most[k])
             for k in range(live):
                 order[begin + k, i] = nearest[k]
+        # the diagonal of A now holds the squared frequencies
         for k in range(live):
             doubtful = False
             for i in range(m):
@@ -153,6 +155,7 @@ def diagonalise(A, V, cosine, sine):
 def turn(A, V, p, q, cosine, sine):
     """Rotate A and V so that A[p, q] becomes zero, by the smaller of two angles (Rutishauser)."""
     m = len(A)
+    # tangent of the angle: t² + t (A_qq − A_pp)/A_pq = 1, the smaller root without cancellation
     for k in range(TOGETHER):
         difference = A[q, q, k] - A[p, p, k]
         twice = 2.0 * A[p, q, k]
@@ -164,6 +167,7 @@ def turn(A, V, p, q, cosine, sine):
         A[p, p, k] -= 0.5 * tangent * twice
         A[q, q, k] += 0.5 * tangent * twice
         A[p, q, k] = 0.0
+    # rows and columns p and q, of which only the upper triangle is kept; then the modes
     for r in range(p):
         for k in range(TOGETHER):
             x, y = A[r, p, k], A[r, q, k]

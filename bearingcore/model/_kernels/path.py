@@ -87,6 +87,7 @@ def path_drop(angle, cage_angle, lead, row, path):
             continue
         turn = defects[i, TURN_RATIO]
         half = defects[i, HALF_EXTENT]
+        # angle from the defect's middle, from −π to π (Eq. 4)
         x = angle - defects[i, CENTER] - turn * cage_angle
         if turn != 0.0:
             x -= lead
@@ -112,7 +113,7 @@ def path_drop(angle, cage_angle, lead, row, path):
                 defects[i, BALL_RADIUS],
             )
         total += drop
-        total_slope += slope * (1.0 - turn)
+        total_slope += slope * (1.0 - turn)  # dx per cage angle, as the ball turns with its cage
     return total, total_slope
 
 

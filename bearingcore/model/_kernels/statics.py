@@ -171,7 +171,7 @@ def newton_direction(H, g, active, shift, L, p):
     if greatest <= 0.0:
         return 0.0
     least = 1.0
-    for i in range(n):
+    for i in range(n):  # H = L L', with inverse numbers on the diagonal of L
         for j in range(i + 1):
             x = H[active[i], active[j]]
             if i == j:
@@ -185,12 +185,12 @@ def newton_direction(H, g, active, shift, L, p):
                 L[i, i] = 1.0 / math.sqrt(x)
             else:
                 L[i, j] = x * L[j, j]
-    for i in range(n):
+    for i in range(n):  # L y = −g
         x = -g[active[i]]
         for k in range(i):
             x -= L[i, k] * p[active[k]]
         p[active[i]] = x * L[i, i]
-    for i in range(n - 1, -1, -1):
+    for i in range(n - 1, -1, -1):  # L' p = y
         x = p[active[i]]
         for k in range(i + 1, n):
             x -= L[k, i] * p[active[k]]

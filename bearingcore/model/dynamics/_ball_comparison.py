@@ -83,11 +83,7 @@ class BallComparison:
         return compared_directions(self.scene.active_dofs)
 
 
-def compare_motions(
-    massless: Motion,
-    with_mass: Motion,
-    budget: float = BUDGET,
-) -> BallComparison:
+def compare_motions(massless: Motion, with_mass: Motion, budget: float = BUDGET) -> BallComparison:
     """Compare two motions of one scene over the same time.
 
     Powers of third octaves are compared, which are means over lines and ball passes, because balls

@@ -65,11 +65,7 @@ def ball_start(packed: PackedMotion, massless: Equilibrium) -> Array | None:
         return None
     system = _balls(packed)
     q, _, _, place, _, status, _, _ = kernels.ball_positions(
-        massless.cage_angles,
-        massless.leads,
-        massless.state,
-        system,
-        packed.load,
+        massless.cage_angles, massless.leads, massless.state, system, packed.load
     )
     if status[0] not in (StaticStatus.CONVERGED, StaticStatus.FREE_DIRECTION):
         return None
@@ -77,12 +73,14 @@ def ball_start(packed: PackedMotion, massless: Equilibrium) -> Array | None:
     angle = system.contacts.angle
     c, s = np.cos(angle), np.sin(angle)
     radial = system.races.centrifugal - system.races.weight * s
+    # the balls' own load on the outer ring, with its moments over r_d
     arm = system.contacts.arm
     carried = np.array([radial @ c, radial @ s, 0.0, -(radial * arm) @ s, (radial * arm) @ c])
     outer = np.zeros(5)  # the housing sinks into its support, under the load of the balls too
     outer[number] = (rotor.force + carried[number]) / rotor.stiffness
     rings = np.zeros((4, len(dofs)))
     rings[0], rings[2] = outer[number] + q[0, number], outer[number]
+    # positions were relative to the outer ring: add its displacement (Eqs. 11 and 12)
     reach = system.contacts.reach
     balls = place[0]
     balls[0] += (outer[0] + arm * outer[4]) * c + (outer[1] - arm * outer[3]) * s

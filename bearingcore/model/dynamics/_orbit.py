@@ -28,11 +28,7 @@ from bearingcore.common import (
 )
 from bearingcore.model import _kernels as kernels
 from bearingcore.model.dynamics._damping import packed_motion
-from bearingcore.model.dynamics._low_pass import (
-    PASSED,
-    PASSED_OF_ORBITS,
-    acceleration_lines,
-)
+from bearingcore.model.dynamics._low_pass import PASSED, PASSED_OF_ORBITS, acceleration_lines
 from bearingcore.model.dynamics._modes import highest_frequency_of
 from bearingcore.model.dynamics._motion import MOST_SAMPLES, MOST_STEPS, moving_system, static_start
 from bearingcore.model.dynamics._status import OrbitStatus
@@ -386,6 +382,7 @@ def _newton(nothing: Orbit, shooting: _Shooting, y: Array, period: float) -> Orb
             step = np.linalg.solve(tangent - np.eye(y.size), y - end)
         except np.linalg.LinAlgError:
             break
+        # shorten the step until the orbit closes better
         part = 1.0
         while part > 0.02:
             trial = y + part * step
@@ -410,6 +407,7 @@ def _newton(nothing: Orbit, shooting: _Shooting, y: Array, period: float) -> Orb
     )
     if not miss <= CLOSED:
         return answer
+    # a closed orbit is stable if all multipliers are inside the unit circle
     multipliers = np.linalg.eigvals(tangent)
     multipliers = multipliers[np.argsort(-np.abs(multipliers))]
     largest = multipliers[0]

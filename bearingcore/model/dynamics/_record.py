@@ -78,7 +78,7 @@ class PathEffects:
         resonances of the path between housing and sensor.
     knock, knock_frequency, knock_damping
         peak of the ringing after a ball strikes the far edge, over the peak of the motion; its
-        frequency [Hz] and damping ratio. On an inner race it goes with the load at that place.
+        frequency [Hz] and damping ratio. On an inner race it is proportional to the load there.
     shaft_tones
         root mean square of the shaft's first harmonic, over that of the signal.
     noise
@@ -152,6 +152,7 @@ def simulated_record(
     count = round(duration * sample_rate)
     time = np.arange(count) / sample_rate
     clock = start + wandering_clock(time, effects.cage_wander, scene, rng)
+    # the motion at the times of the wandering clock, by a spline through finer samples
     fine = resample_poly(motion.outer_acceleration[:, columns], 4, 1, axis=0)
     spline = make_interp_spline(np.arange(len(fine)) / (4.0 * sample_rate), fine, k=3)
     signal = np.asarray(spline(clock))

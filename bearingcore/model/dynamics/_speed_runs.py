@@ -20,11 +20,7 @@ from bearingcore.common import (
 )
 from bearingcore.model.dynamics._low_pass import PASSED
 from bearingcore.model.dynamics._modes import frequency_bands
-from bearingcore.model.dynamics._motion import (
-    MOST_SAMPLES,
-    MOST_STEPS,
-    simulate,
-)
+from bearingcore.model.dynamics._motion import MOST_SAMPLES, MOST_STEPS, simulate
 from bearingcore.model.dynamics._orbit import Orbit, orbit
 from bearingcore.model.dynamics._status import MotionStatus
 from bearingcore.model.dynamics._step_rate import default_step_rate, fine_step_rate
@@ -157,6 +153,7 @@ def speed_run(
         most_words = f"allowed are most_steps_in_all = {thousands(most_steps_in_all)}"
         words = f"fewer: they take about {thousands(steps)} steps, {most_words}"
         raise checks.refuse("shaft_speeds", f"{speeds.size} speeds", words)
+    # each speed: the orbit, starting from that of the last stable speed, or else a march
     density = np.full((speeds.size, frequency.size, len(dofs)), math.nan)
     proven = np.zeros(speeds.size, dtype=bool)
     nearby: Orbit | None = None

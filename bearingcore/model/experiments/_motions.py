@@ -57,8 +57,8 @@ def measured(
     march, seconds = least_time(lambda: method.march(problem, setting, duration, rate))
     words = f"{setting:.0f} steps/s" if method.fixed_step else f"tolerance {scientific(setting)}"
     if march.failure:
-        why = f"failed: {march.failure}"
-        return Point(method.name, words, setting, {}, seconds, march.calls, why)
+        status = f"failed: {march.failure}"
+        return Point(method.name, words, setting, {}, seconds, march.calls, status)
     history = resample(march.history, march.step_rate, rate, len(reference.history))
     errors = reference.errors(history)
     used = method.name == "RK4" and setting == usual

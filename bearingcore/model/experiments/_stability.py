@@ -146,10 +146,7 @@ def _least_stable_rate(rates: NDArray[np.complex128]) -> float:
 
 
 def stability_chart(
-    scene: Scene,
-    *,
-    duration: float = 0.25,
-    watch: Watch = NOT_WATCHED,
+    scene: Scene, *, duration: float = 0.25, watch: Watch = NOT_WATCHED
 ) -> StabilityChart:
     """March `scene` by every fixed-step method at steps from far too long to good.
 

@@ -342,10 +342,7 @@ def static_errors(
 
 
 def statics_experiment(
-    scene: Scene,
-    *,
-    n_angles: int = 121,
-    watch: Watch = NOT_WATCHED,
+    scene: Scene, *, n_angles: int = 121, watch: Watch = NOT_WATCHED
 ) -> Experiment:
     """Measure error and cost of solvers of the static equilibrium over a period of cage angles.
 
@@ -369,6 +366,7 @@ def statics_experiment(
         "": static_problem(scene, default_cage_angles(scene, n_angles)),
         **hard_cases(scene),
     }
+    # a reference for each problem, then all solvers at all tolerances, and on the hard cases once
     truths = {}
     for k, (case, problem) in enumerate(problems.items()):
         report(k / len(problems))

@@ -98,6 +98,7 @@ def bearings_of_rows(bearing: Bearing) -> tuple[Bearing, ...]:
 def contacts(bearing: Bearing) -> kernels.Contacts:
     """Return all contacts of a bearing."""
     bearings = bearings_of_rows(bearing)
+    # a line of contact for each row, and all lengths over the common lever r_d
     counts = [row_bearing.n_balls for row_bearing in bearings]
     lines = [bearing.kind.contact(row_bearing) for row_bearing in bearings]
     rows = list(zip(bearing.all_rows, lines, strict=True))

@@ -248,15 +248,15 @@ class Scene:
         """True if tilts that the load would cause are held because `dofs` is None."""
         return self.dofs is None and self.active_dofs != self.needed_dofs
 
-    def with_tilts_as(self, said: object) -> Self:
-        """Return the scene of a file or link whose text of `dofs` is `said`.
+    def with_tilts_as(self, choice: object) -> Self:
+        """Return the scene of a file or link whose text of `dofs` is `choice`.
 
         A file without `dofs` has free tilts, as before held tilts became the default; newer files
         state that tilts are held.
         """
-        if said is None and self.holds_tilt_unasked:
+        if choice is None and self.holds_tilt_unasked:
             return dataclasses.replace(self, dofs=TILT_FREE)
-        if said == TILT_HELD and self.load.has_moment:
+        if choice == TILT_HELD and self.load.has_moment:
             return dataclasses.replace(self, dofs=TILT_HELD)
         return self
 

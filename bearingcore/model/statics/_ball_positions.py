@@ -173,15 +173,14 @@ def ball_positions(
             massless.displacement, loads, loads, np.swapaxes(loads, 0, 1), massless.stiffness,
             massless.status, massless.residual, massless.leads, massless.cost,
         )  # fmt: skip
+    # the state of massless balls is the first guess
     start = np.where(np.isfinite(massless.state), massless.state, 0.0)
     with _refuse_overflow(scene):
+        balls = packed.balls._replace(races=races)
         q, load, angle, place, stiffness, status, residual, _ = kernels.ball_positions(
-            massless.cage_angles,
-            massless.leads,
-            start,
-            packed.balls._replace(races=races),
-            packed.load,
+            massless.cage_angles, massless.leads, start, balls, packed.load
         )
+    # check the answers: geometry, loads that no contact carries, balance of each ball
     status[_exceeds_geometry(packed.balls, q, load, status)] = StaticStatus.BEYOND_GEOMETRY
     for missing in (StaticStatus.NOT_CARRIED, StaticStatus.BEYOND_GEOMETRY):
         status[massless.status == missing] = missing

@@ -348,6 +348,7 @@ def equilibrium_of(
         angles, leads, packed.contacts, packed.path, packed.load
     )
     displacement = q / units
+    # without an answer, numbers are NaN; where nothing touches, only the loads (0) are known
     failed = np.flatnonzero(status)
     if failed.size:
         _explain(packed, angles, status, stiffness, displacement, failed)
@@ -360,7 +361,7 @@ def equilibrium_of(
         nowhere = gone | loose
         displacement[nowhere] = math.nan
         stiffness[nowhere] = math.nan
-    stiffness *= units[:, None] * units
+    stiffness *= units[:, None] * units  # of scaled tilts and moments, into [N/rad, N·m/rad]
     return Equilibrium(
         scene=scene,
         dofs=packed.dofs,

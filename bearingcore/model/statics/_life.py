@@ -3,8 +3,8 @@
 Quantity                                      | Symbol | Name                 | Unit
 --------------------------------------------- | ------ | -------------------- | ---------------
 dynamic load rating                           | C_r    | dynamic_load_rating  | N
-load of a ball for a life of a race of 10⁶ turns | Q_ci, Q_ce | rating of a race | N
-constant load with the same life of a race    | Q_ei, Q_ee | load of a race   | N
+load of a ball under which a race lasts 10⁶ turns | Q_ci, Q_ce | rating of a race | N
+constant load of a ball with the same life of a race | Q_ei, Q_ee | load of a race | N
 life that 9 of 10 bearings reach              | L_10r  | million_revolutions  | 10⁶ turns
 this life at the scene's speed                | L_10h  | hours                | h
 load of the same life by ISO 281, P_ref       | P      | equivalent_load      | N
@@ -109,8 +109,8 @@ class Life:
     scene, dynamic_load_rating [N], positions
         arguments of `life`.
     inner_rating, outer_rating [N]
-        Q_ci, Q_ce: the ball load for a life of 10⁶ turns of each race of the first row; for rollers
-        a load that is spread evenly along them.
+        Q_ci, Q_ce: the ball load under which each race of the first row lasts 10⁶ turns; for
+        rollers a load that is spread evenly along them.
     inner_load, outer_load [N]
         Q_ei, Q_ee: equivalent load of each race, the constant load of a ball with the same life as
         all loads of all rows. Loads of other rows are scaled by the ratio of the ratings.
@@ -168,7 +168,7 @@ class Life:
         """One row: life, loads, ratings, and the result in words."""
         element, healthy = self.scene.bearing.kind.element, self.healthy_million_revolutions
         of_ball = f"load of a {element} under which the {{}} race lasts 10⁶ turns"
-        as_tiring = f"equivalent load of a {element} on the {{}} race"
+        equivalent = f"equivalent load of a {element} on the {{}} race"
         return table_of(
             ("million_revolutions", "", self.million_revolutions, "L_10r, in 10⁶ turns"),
             ("life", "h", self.hours, "L_10h"),
@@ -179,8 +179,8 @@ class Life:
             ("heaviest_load", "N", self.heaviest_load, f"greatest load of a {element}"),
             ("inner_rating", "N", self.inner_rating, of_ball.format("inner")),
             ("outer_rating", "N", self.outer_rating, of_ball.format("outer")),
-            ("inner_load", "N", self.inner_load, as_tiring.format("inner")),
-            ("outer_load", "N", self.outer_load, as_tiring.format("outer")),
+            ("inner_load", "N", self.inner_load, equivalent.format("inner")),
+            ("outer_load", "N", self.outer_load, equivalent.format("outer")),
             *(
                 (f"million_revolutions_of_row_{k + 1}", "", L, "L_10r of that row alone")
                 for k, L in enumerate(self.rows if len(self.rows) > 1 else ())
@@ -189,12 +189,7 @@ class Life:
         )
 
 
-def life(
-    scene: Scene,
-    dynamic_load_rating: float | None = None,
-    *,
-    positions: str = "all",
-) -> Life:
+def life(scene: Scene, dynamic_load_rating: float | None = None, *, positions: str = "all") -> Life:
     """Compute the reference rating life L_10r of a bearing under the loads that its defects leave.
 
     Parameters
@@ -285,7 +280,7 @@ def contact_life(bearing: Bearing) -> ContactLife:
 
 
 def race_ratings(bearing: Bearing, dynamic_load_rating: float, row: int = 0) -> tuple[float, float]:
-    """Return Q_ci, Q_ce [N], the loads of a ball for lives of both races of 10⁶ turns.
+    """Return Q_ci, Q_ce [N], the loads of a ball under which both races last 10⁶ turns.
 
     They belong to one row and follow from the rating of all rows (ISO 16281). Raises ValueError for
     a ball bearing without groove radii.
@@ -308,11 +303,11 @@ def race_ratings(bearing: Bearing, dynamic_load_rating: float, row: int = 0) -> 
         * ((1.0 - gamma) / (1.0 + gamma)) ** contact.gamma_power
         * grooves**contact.groove_power
     )
-    # C_r/(Z cos α), the size of the load on each of Z elements under a load C_r
+    # C_r/(Z cos α) i^(-0.7 or -7/9)/λν, of which Q_ci and Q_ce (ISO 16281) are multiples
     share = dynamic_load_rating * part / (row_bearing.n_balls * cosine)
-    of_a_row = share / len(bearing.all_rows) ** contact.row_power / contact.evenness
-    Q_ci = of_a_row / contact.inner_part * (1.0 + B**power) ** (1.0 / power)
-    Q_ce = of_a_row / contact.outer_part * (1.0 + B**-power) ** (1.0 / power)
+    row_share = share / len(bearing.all_rows) ** contact.row_power / contact.evenness
+    Q_ci = row_share / contact.inner_part * (1.0 + B**power) ** (1.0 / power)
+    Q_ce = row_share / contact.outer_part * (1.0 + B**-power) ** (1.0 / power)
     return Q_ci, Q_ce
 
 
@@ -334,5 +329,5 @@ def million_revolutions(contact: ContactLife, ratings: ArrayLike, loads: ArrayLi
     """
     p, e = contact.load_exponent, contact.scatter
     parts = np.ravel(np.asarray(loads) / np.asarray(ratings)).tolist()
-    failing = sum(part ** (p * e) for part in parts)
-    return math.inf if failing == 0.0 else float(failing ** (-1.0 / e))
+    damage = sum(part ** (p * e) for part in parts)
+    return math.inf if damage == 0.0 else float(damage ** (-1.0 / e))

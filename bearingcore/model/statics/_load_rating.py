@@ -87,6 +87,7 @@ def dynamic_load_rating(bearing: BearingLike) -> float:
     if not bearing.rows_are_alike:
         ratings = ratings_alone(bearing)
         return float(uneven * sum(ratings) * rows ** (ROW_POWER - 1.0))
+    # f_c of the usual grooves, reduced by the ratio of its values for wider and for usual grooves
     cosine = math.cos(bearing.contact_angle)
     gamma = bearing.ball_diameter * cosine / bearing.pitch_diameter
     full = capacity_factor(gamma, USUAL_GROOVES["inner"], USUAL_GROOVES["inner"])

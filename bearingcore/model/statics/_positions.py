@@ -194,6 +194,7 @@ def positions(scene: Scene, n: int) -> Positions:
         columns = np.add.outer(_row_places(packed), even).ravel()
         period = bearing.ball_spacing
         rows = np.linspace(0.0, period, ON_A_FLOOR, endpoint=False)
+    # rows with the same drops into the inner race are solved once, with their common share
     share = _steps(rows, period).mean(axis=0)
     zeros, turned = np.zeros(rows.size), ratio * rows
     drops = np.round(kernels.drops_of(packed.contacts, packed.inner_path, zeros, turned), 14)
@@ -324,10 +325,12 @@ def extremes(
     rounds
         number of rounds; each grid is PARTS times finer.
     """
+    # values (2 q, rows, columns) of the whole grid, with both signs
     r, n, q = places.rows.size, places.columns.size, len(values)
     whole = values.reshape(q, places.weights.size // n, n)[:, places.alike].reshape(q, r * n)
     signed = np.concatenate([whole, -whole])  # a greatest value is the least negative one
     signed = np.where(np.isnan(signed), math.inf, signed)
+    # the lowest samples, at cage angles c and shaft against cage u, from which the search starts
     starts = _lowest(signed.reshape(2 * q, r, n))
     best = np.take_along_axis(signed.T, starts, axis=0)
     changes = np.isfinite(best) & (signed.max(axis=1) > best)
@@ -338,6 +341,7 @@ def extremes(
     across = parts if r > 1 else np.zeros(1)
     side = np.sign(parts).astype(int).clip(0)
     quantity = np.broadcast_to(np.arange(2 * q), starts.shape)[changes]
+    # each round evaluates a finer grid around the best place so far, and moves to its lowest point
     for _ in range(rounds if quantity.size else 0):
         cs = c[changes][:, None] + turn[side][:, changes].T * parts
         us = u[changes][:, None] + aside[side[: across.size]][:, changes].T * across
@@ -357,6 +361,7 @@ def extremes(
         u[changes] = np.where(lower, us[index, i], u[changes])
         best[changes] = np.minimum(best[changes], tried.min(axis=1))
         turn, aside = turn / PARTS, aside / PARTS
+    # the lowest result of all starts
     better = best.argmin(axis=0)
     least, c, u = (np.take_along_axis(x, better[None], axis=0)[0] for x in (best, c, u))
     least = np.where(np.isinf(least), math.nan, least)

@@ -259,6 +259,7 @@ def _average_turning_defects(scene: Scene, load_exponent: float, scatter: float)
     offset = places / (ratio - 1.0)  # ψ at the first of the n steps
     loads = np.empty((2, n, places.size, bearing.total_balls))
     heaviest = 0.0
+    # loads (2, n, places, balls): for each start angle ψ_0, all places θ at one solve
     for k, psi_0 in enumerate(first):
         turned = dataclasses.replace(scene, defect=_turned(scene, float(psi_0)))
         state = static_state(turned, (places + psi_0) * ratio / (ratio - 1.0))

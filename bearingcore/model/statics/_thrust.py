@@ -93,8 +93,8 @@ def _wrong_way(scene: Scene, state: Equilibrium) -> Limit:
         return unknown(name, 0.0, "N", "no cage angle has a static equilibrium")
     value = max(float(known.max(initial=0.0)), against, 0.0)
     alone = f"A row of {bearing.kind.elements} at {math.degrees(bearing.contact_angle):.1f}°"
-    which = f"Each row of {bearing.kind.elements}" if bearing.rows else alone
-    fact = f"{which} carries thrust one way only"
+    subject = f"Each row of {bearing.kind.elements}" if bearing.rows else alone
+    fact = f"{subject} carries thrust one way only"
     if value > 0.0:
         fact += (
             f", and here {with_prefix(value, 'N')} press the other way, where its races have no "

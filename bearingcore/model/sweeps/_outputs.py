@@ -16,13 +16,7 @@ from numpy.typing import NDArray
 
 from bearingcore.common import Array, Progress, _checks as checks
 from bearingcore.common._arrays import least_and_greatest
-from bearingcore.model.dynamics import (
-    BandSearch,
-    PathEffects,
-    orbit,
-    simulate,
-    simulated_record,
-)
+from bearingcore.model.dynamics import BandSearch, PathEffects, orbit, simulate, simulated_record
 from bearingcore.model.dynamics._ball_comparison import mass_share
 from bearingcore.model.dynamics._low_pass import PASSED
 from bearingcore.model.dynamics._modes import stiffness_terms

@@ -327,6 +327,7 @@ def _finished(
                 if time.monotonic() - looked > LOOK_AGAIN:
                     threads = max(sum(client.nthreads().values()), 1)
                     looked = time.monotonic()
+                # keep AHEAD tasks per thread submitted
                 for task in islice(waiting, max(AHEAD * threads - len(running), 0)):
                     future = client.submit(_on_worker, version, work, task, pure=False)
                     running[future] = task
@@ -335,6 +336,7 @@ def _finished(
                 raise ConnectionError(LOST) from error
             if not running:
                 return
+            # wait for the next result, and report meanwhile
             for waited in count():
                 if done.has_ready():
                     break

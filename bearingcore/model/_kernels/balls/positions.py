@@ -329,7 +329,7 @@ def ring_energy(q, force, balls, places, g, H):
         size += abs(W)
         Q = places.load[INNER, j]
         if Q == 0.0:
-            continue
+            continue  # the ball does not press the inner race
         er = places.er[INNER, j]
         ez = places.ez[INNER, j]
         et = tilting(er, ez, j, contacts)

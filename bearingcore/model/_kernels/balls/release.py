@@ -17,7 +17,10 @@ from bearingcore.model._kernels.structs import PLANAR
 
 @called
 def change_variable(y, race, j, sign, passage, instant, system, work):
-    """Take the part c δ e of a contact out of all w in the state y (sign 1), or put it in (−1)."""
+    """Take c δ e/m of a contact out of w of ring and ball in the state y; with sign −1 put it in.
+
+    w is v with these parts of all contacts, see `motion`; v does not change.
+    """
     rotor = system.rotor
     contacts = system.contacts
     races = system.races

@@ -87,7 +87,7 @@ def find_touching(passage, instant, contacts, work):
         S2 += ez
         S3 += et * sj
         S4 -= et * cj
-    S = work.S
+    S = work.S  # written at the end, as sums in registers are faster
     S[0], S[1], S[2], S[3], S[4] = S0, S1, S2, S3, S4
     work.touched[0] = count
 

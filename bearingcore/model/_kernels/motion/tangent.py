@@ -94,6 +94,7 @@ def swivelling_slopes(passage, instant, rotor, contacts, work, slopes):
                 w * t_turn[b] - along * bend * t[b]
             )
             for a in range(5):
+                # d(δ e)/dx, dp/dx and dp/dv, by the derivatives above
                 Sx[a, b] += e[a] * e[b] + delta * bend * t[a] * t[b]
                 Px[a, b] += (
                     k1 * e[a] * e[b]

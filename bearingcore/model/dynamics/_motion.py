@@ -495,7 +495,7 @@ def _bands_apart(motion: Motion, finer: Motion) -> str:
     error = np.abs(10.0 * np.log10(power[0][loud] / power[1][loud])).max(initial=0.0)
     if error <= SAME_BANDS:
         return ""
-    return f"; its contacts let go, and bands of its spectrum are known to {decibels(error)} only"
+    return f"; its contacts open, and bands of its spectrum are known to {decibels(error)} only"
 
 
 def _level(motion: Motion) -> float:

@@ -226,7 +226,7 @@ def orbit(
     checks.instance("scene", scene, Scene)
     checks.real_number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")
     if scene.contact_law != CONTACT_LAWS[0]:
-        words = f"{CONTACT_LAWS[0]} for an orbit: where contacts let go the motion has no tangent"
+        words = f"{CONTACT_LAWS[0]} for an orbit: a motion without tension has no tangent"
         raise checks.refuse("contact_law", scene.contact_law, words)
     dofs = scene.active_dofs
     ball_passes = common_ball_passes(scene) or 0

@@ -45,7 +45,7 @@ WIDTH_7208 = 18e-3
 
 ASSUMED = (
     "groove radii of 0.52 (inner) and 0.53 (outer) ball diameters, steel with 210 GPa and 0.3, "
-    "speed unless said otherwise, and the rotor and support of the fan rig, with which no rig of "
+    "speed unless stated otherwise, and the rotor and support of the fan rig, with which no rig of "
     "this bearing has been measured."
 )
 """End of every note."""

@@ -163,7 +163,7 @@ ROLLER_LEFT_OUT = FILM_LEFT_OUT.replace(
 
 
 def rolling_speed(bearing: Bearing, shaft_speed: float) -> float:
-    """Return the mean speed u [m/s] of ball and race through a contact, at a shaft speed [rad/s].
+    """Return the mean speed u [m/s] of ball and race at a contact, for a shaft speed [rad/s].
 
     u = ω_s D_p (1 − γ²)/4 with γ = D_b cos α0/D_p holds for both races, as the ball rolls on both.
     """

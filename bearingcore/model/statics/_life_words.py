@@ -59,7 +59,7 @@ def life_sentence(
     if share > HEAVIEST_SHARE:
         words += (
             f" The equivalent load is {100.0 * share:.0f} % of the rating: above "
-            f"{100.0 * HEAVIEST_SHARE:.0f} % the standard does not vouch for its formula."
+            f"{100.0 * HEAVIEST_SHARE:.0f} % the standard's formula is not valid."
         )
     words = f"{words} {scene.tilt_words()}".rstrip()
     if scene.defects:

@@ -20,8 +20,8 @@ GIVEN, OF_A_CATALOGUE = "given", "of a catalogue, by the bearing's number"
 """Origins of a rating."""
 
 NO_RATING = (
-    "a number [N], as the catalogue has it: this bearing has none, as its number is not known or "
-    "its dimensions were changed. dynamic_load_rating(bearing) is that of ISO 281"
+    "a number [N] from the catalogue: this bearing has none, as its number is not known or its "
+    "dimensions were changed. dynamic_load_rating(bearing) computes it by ISO 281"
 )
 
 ROW_POWER = 0.7

@@ -13,8 +13,8 @@ those over both angles, and do not depend on the first position of the defect.
 
 Only c modulo the bearing's period and ψ modulo 2π count. Here u runs over the period and c over a
 whole turn. At constant u, balls and defects turn together relative to the load. Sharp bends, from
-the path of a ball over the edges, are therefore along u. Nodes in u are at the edges; neighbouring
-nodes with the same drops are solved once.
+the path of a ball over the edges, are therefore along u. Nodes in u are at the edges; nodes with
+the same drops are solved once.
 
 Cages of unlike rows turn at different speeds. The position of one row relative to another is then a
 further angle. It is sampled at ROW_PLACES places, after whole ball spacings of the first row.
@@ -186,11 +186,11 @@ def positions(scene: Scene, n: int) -> Positions:
         # next nodes is right if this node has half of its time, and its neighbours the other half.
         balls = line + bearing.ball_spacing * np.arange(bearing.n_balls)
         off_line = ~np.isin(columns, np.round(balls % TWO_PI, 12))
-        of_columns = 0.5 * steps.mean(axis=0)
-        of_columns[off_line] += 0.5 * _steps(columns[off_line], TWO_PI).mean(axis=0)
+        column_shares = 0.5 * steps.mean(axis=0)
+        column_shares[off_line] += 0.5 * _steps(columns[off_line], TWO_PI).mean(axis=0)
     else:
         steps = np.full((2, ROW_PLACES * around), TWO_PI / around)
-        of_columns = steps[0]
+        column_shares = steps[0]
         columns = np.add.outer(_row_places(packed), even).ravel()
         period = bearing.ball_spacing
         rows = np.linspace(0.0, period, ON_A_FLOOR, endpoint=False)
@@ -209,7 +209,7 @@ def positions(scene: Scene, n: int) -> Positions:
         alike.ravel(),
         cage,
         cage + np.repeat(rows[first], columns.size),
-        np.outer(shares / shares.sum(), of_columns / of_columns.sum()).ravel(),
+        np.outer(shares / shares.sum(), column_shares / column_shares.sum()).ravel(),
         steps,
         period,
         1.0,
@@ -333,13 +333,13 @@ def extremes(
     # the lowest samples, at cage angles c and shaft against cage u, from which the search starts
     starts = _lowest(signed.reshape(2 * q, r, n))
     best = np.take_along_axis(signed.T, starts, axis=0)
-    changes = np.isfinite(best) & (signed.max(axis=1) > best)
+    changes = np.isfinite(best) & (signed.max(axis=1) > best)  # constant quantities need no search
     row, column = np.divmod(starts, n)
     c, u = places.columns[column], places.rows[row]
     turn, aside = places.steps[:, column], _steps(places.rows, places.period)[:, row]
     parts = np.arange(-PARTS, PARTS + 1) / PARTS
     across = parts if r > 1 else np.zeros(1)
-    side = np.sign(parts).astype(int).clip(0)
+    side = np.sign(parts).astype(int).clip(0)  # 0 towards the neighbour before, 1 after
     quantity = np.broadcast_to(np.arange(2 * q), starts.shape)[changes]
     # each round evaluates a finer grid around the best place so far, and moves to its lowest point
     for _ in range(rounds if quantity.size else 0):

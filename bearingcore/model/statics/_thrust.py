@@ -98,7 +98,7 @@ def _wrong_way(scene: Scene, state: Equilibrium) -> Limit:
     if value > 0.0:
         fact += (
             f", and here {with_prefix(value, 'N')} press the other way, where its races have no "
-            "shoulder to take it: turn it round, or let the shaft's other bearing carry that"
+            "shoulder to take it: turn the bearing round, or let the shaft's other bearing carry it"
         )
         return Limit(name, value, 0.0, "N", True, f"{fact}.")
     return Limit(name, 0.0, 0.0, "N", False, f"{fact}, and is pressed that way.")

@@ -219,7 +219,7 @@ def _estimate(scene: Scene) -> Limit | None:
         0.0,
         "",
         "they are estimated from the designation, and everything shown follows from that."
-        f"{good} {accuracy(bearing.kind, bearing.contact_angle)} Give the real numbers where they "
+        f"{good} {accuracy(bearing.kind, bearing.contact_angle)} Enter the real numbers if they "
         "are known",
     )
 

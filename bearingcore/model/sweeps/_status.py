@@ -30,10 +30,10 @@ class SweepStatus(Status):
     SCENE_REFUSED = "scene_refused", "such a scene is not possible"
     COMPUTATION_REFUSED = (
         "computation_refused",
-        "this cannot be computed here: the shaft must turn, mass, stiffness and damping be "
-        "known in each direction that moves, for life and pressure the groove radii, for life a "
-        "rating, which hybrid and self-aligning bearings have from the catalogue, and for orbits "
-        "balls be massless and the law the published one",
+        "this cannot be computed here: the shaft must turn; mass, stiffness and damping must be "
+        "known along each free direction; life and pressure need the groove radii, and life a "
+        "rating (of hybrid and self-aligning bearings that of the catalogue); orbits need massless "
+        "balls and the published law",
     )
     NO_STATIC_START = "no_static_start", "there is no static state to start from"
     MOTION_DIVERGED = "motion_diverged", "the motion does not stay finite"

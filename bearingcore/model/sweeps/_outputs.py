@@ -134,7 +134,7 @@ def _table() -> dict[str, Output]:
     )
     table["converged_share"] = Output(
         "1",
-        "share of the positions that have one static state, and it was found",
+        "share of the positions with a single static state that the solver reached",
         "Balls",
         "positions with a static state, share",
         STATICS,
@@ -147,14 +147,14 @@ def _table() -> dict[str, Output]:
             f"contact pressure, {race} race",
             PRESSURE,
         )
-    not_in_it = "; pressure and blows on the edges of a defect are left out: an upper bound"
+    left_out = "; pressure and impacts at the edges of a defect are left out: an upper bound"
     for unit, name in (("1", "turns"), ("h", "hours")):
         reached = f"{name} that 9 of 10 bearings reach"
         table[f"life_{name}"] = Output(
-            unit, f"{reached}, by ISO 16281{not_in_it}", "Life", reached, LIFE
+            unit, f"{reached}, by ISO 16281{left_out}", "Life", reached, LIFE
         )
     share = "life over that of the healthy bearing"
-    table["life_share_of_healthy"] = Output("1", share + not_in_it, "Life", share, LIFE)
+    table["life_share_of_healthy"] = Output("1", share + left_out, "Life", share, LIFE)
     for which in ("least", "greatest"):
         table[f"band_{which}"] = Output(
             "Hz",

@@ -1,4 +1,4 @@
-"""Compile kernels before they are waited for; the machine code is kept on disk."""
+"""Compile kernels before anybody waits for them; the machine code is kept on disk."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def warm(report: Report = print, parts: Iterable[str] | None = None) -> None:
     report
         called with a line for each part.
     parts
-        names in `PARTS`; None: all of them, in order.
+        names in `PARTS`; None stands for all of them, in order.
     """
     for name in PARTS if parts is None else parts:
         start = time.perf_counter()
@@ -41,7 +41,7 @@ def _motion() -> None:
     for step_rate in (65536.0, 32768.0):
         motion = simulate(presets["fan-rig"], 1e-3, 65536.0, step_rate=step_rate)
         _ = motion.outer_acceleration, motion.ball_loads()
-    spectrum(np.zeros(4096), 65536.0)  # what the first one imports takes half a second
+    spectrum(np.zeros(4096), 65536.0)  # the first spectrum imports for half a second
 
 
 def _balls_with_mass() -> None:
@@ -51,11 +51,11 @@ def _balls_with_mass() -> None:
 
 def _orbits() -> None:
     orbit(presets["fan-rig"])
-    # of measured floors, and of bands of many scenes
+    # Measured floors need the first of these kernels, frequency bands of many scenes the second.
     kernels.roll_over(np.zeros(3), np.zeros(2))
-    one = np.ones((1, 1))
+    unit = np.ones((1, 1))
     kernels.modes_like(
-        one, one, one, one.copy(), np.zeros((1, 1), dtype=np.int64), one[None].copy()
+        unit, unit, unit, unit.copy(), np.zeros((1, 1), dtype=np.int64), unit[None].copy()
     )
 
 
@@ -66,4 +66,4 @@ PARTS: dict[str, Callable[[], None]] = {
     BALLS_WITH_MASS: _balls_with_mass,
     ORBITS: _orbits,
 }
-"""Parts that are compiled on their own: the first tab needs the first two, in this order."""
+"""Parts that can be compiled separately: the first tab needs the first two, in this order."""

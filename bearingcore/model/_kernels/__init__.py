@@ -13,5 +13,5 @@ _load, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
 
 
 def __getattr__(name: str) -> Any:
-    value = globals()[name] = _load(name)  # kept: `_load` looks in the modules each time
+    value = globals()[name] = _load(name)  # kept, as `_load` searches the modules each time
     return value

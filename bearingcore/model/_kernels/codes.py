@@ -1,4 +1,4 @@
-"""Numbers by which compiled code and the rest of the model name columns, edges and statuses."""
+"""Numbers for columns, edges and statuses, which compiled code and the rest of the model share."""
 
 PATH_COLUMNS = (
     "center",
@@ -13,7 +13,7 @@ PATH_COLUMNS = (
     "table_size",
     "row",
 )
-"""Columns of the rows that describe defects; the last is the bearing's row, or EVERY_ROW."""
+"""Columns of the table of defects; the last is the bearing's row, or EVERY_ROW."""
 CENTER, TURN_RATIO, HALF_EXTENT, DEPTH, FLOOR_ANGLE, EDGE = 0, 1, 2, 3, 4, 5
 RACEWAY_RADIUS, BALL_RADIUS, TABLE_START, TABLE_SIZE, ROW = 6, 7, 8, 9, 10
 
@@ -27,10 +27,10 @@ CONVERGED, NOTHING_TOUCHES, FREE_DIRECTION, NOT_CARRIED, NOT_CONVERGED = 0, 1, 2
 """Statuses of a cage angle; their sentences are in `equilibrium`."""
 
 OPEN, REFUSED = -1, 5
-"""Further statuses of a map's point: not solved yet; no such defects."""
+"""Further statuses of a map's point: not solved yet; defects that are impossible together."""
 
 TOO_MANY = 6
-"""Status of all cage angles where there are more of them than were to be solved."""
+"""Status of all cage angles if there are more of them than the caller allows."""
 
 BEYOND = 7
-"""Status of a balance of loads that only linear formulas have: see `Contacts.room`."""
+"""Status of a balance of loads outside the geometry of the bearing: see `Contacts.room`."""

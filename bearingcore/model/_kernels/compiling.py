@@ -1,25 +1,25 @@
 """Compilation of functions, and a cache of machine code on disk that stays up to date.
 
-numba compares a function on disk with the file that the function is in, and with nothing else:
-a function that has compiled a callee from another file into itself would be used with the old
-callee for ever. And it believes what it reads: half a file ends the program with a traceback, a
-flipped byte in machine code ends the process. So each file carries a digest of itself, and a
-version made of the contents of all files of its folder of compiled code. What does not match is
-compiled again and takes its place; what cannot be written is not kept.
+Numba compares a function on disk only with the source file of that function. If the function has
+compiled a callee from another file into itself, it would be used with the old callee for ever.
+Numba also trusts what it reads: half a file ends the program with a traceback, and a flipped byte
+in machine code ends the process. So each file here carries a digest of itself, and a version made
+of the contents of all source files of compiled code. A file that does not match is compiled again
+and replaced; code that cannot be written is not kept.
 
-Fast mathematics that drops NaN or reorders sums stays off: NaN where an answer is missing.
-"contract" alone of all that fastmath means: a·b + c in one instruction, rounded once, which makes
-statics a quarter faster. NaN, signs and the order of sums are as written.
+Fast mathematics that drops NaN or reorders sums stays off, because NaN marks a missing answer. Of
+its options only "contract" is used: a·b + c is one instruction, rounded once, which makes statics a
+quarter faster. NaN, signs and the order of sums stay as written.
 
-Private names of Numba stand in this file alone, and are looked for as it is loaded:
+Private names of Numba are used in this file alone, and are looked up when it is loaded:
 
 * `Compiler`, `JITCodeLibrary`, and the options in `_OPTIONS` and `_CALLED_BY_KERNELS`: kernels are
   compiled in a tenth of the time, and marching takes an eleventh (`PartLibrary`).
 * `FunctionCache`, `CompileResultCacheImpl`, `dumps`: the cache above (`KernelCache`).
 
-Where one is gone, or with the environment variable ``BEARING_EXPLORER_PLAIN=1``, kernels are
-compiled in Numba's public ways, and kept in a folder that is named after the sources. The value
-"page" asks this of the page alone, whose modules read the same variable.
+If one of them is missing, or with the environment variable ``BEARING_EXPLORER_PLAIN=1``, kernels
+are compiled by Numba's public interface, and kept in a folder that is named after the sources. The
+value "page" asks only the page, whose modules read the same variable, to avoid private names.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ from numba import njit
 log = logging.getLogger(__name__)
 
 PLAIN = os.environ.get("BEARING_EXPLORER_PLAIN", "0") not in ("", "0", "page")
-"""True where Numba's public ways are taken."""
+"""True if only Numba's public interface is used."""
 
 try:
     from numba.core.caching import CompileResultCacheImpl, FunctionCache
@@ -61,12 +61,12 @@ except (ImportError, AttributeError) as error:
 _PUBLIC_OPTIONS = {
     "nogil": True,
     "fastmath": {"contract"},
-    "error_model": "numpy",  # x/0 is inf or NaN; an exception would be code at each division
+    "error_model": "numpy",  # x/0 is inf or NaN; a test for it would cost time at each division
 }
 _OPTIONS = {
     **_PUBLIC_OPTIONS,
     "no_cfunc_wrapper": True,
-    # said everywhere, or it is as in the function that happens to be the first to call it
+    # set for every function, or it is as in the function that happens to be the first to call it
     "forceinline": False,
     # Arrays are made by callers and not counted: counting their owners up and down at each call
     # took most of the time of functions that take structs (marching: 11 times as long).
@@ -77,7 +77,7 @@ _OPTIONS = {
 class PartLibrary(JITCodeLibrary):  # type: ignore[misc]
     """Code of a function that only kernels call: optimised and translated with each kernel.
 
-    numba does both for every function on its own, and then once more in each of its callers.
+    Numba does both for every function separately, and then once more in each of its callers.
     """
 
     def _optimize_final_module(self) -> None: ...
@@ -86,20 +86,20 @@ class PartLibrary(JITCodeLibrary):  # type: ignore[misc]
         self._finalized = True
 
     def get_pointer_to_function(self, name: str) -> int:
-        """0: there is no machine code to call."""
+        """Return 0, as there is no machine code to call."""
         return 0
 
     @property
     def codegen(self) -> Any:
-        """Takes no environment: what has one can be called from Python."""
+        """Ignore the environment: only functions that Python can call need one."""
         return SimpleNamespace(set_env=lambda name, environment: None)
 
 
 class PartCompiler(Compiler):  # type: ignore[misc]
-    """numba's compiler, into a `PartLibrary`."""
+    """Numba's compiler, with a `PartLibrary` as its target."""
 
     def define_pipelines(self) -> Any:
-        """The usual passes."""
+        """Return the usual passes, with the library replaced."""
         state = self.state
         if state.library is None:
             state.library = PartLibrary(state.targetctx.codegen(), state.func_id.func_qualname)
@@ -112,9 +112,9 @@ _CALLED_BY_KERNELS = {**_OPTIONS, "no_cpython_wrapper": True, "pipeline_class": 
 
 
 def compiled(function: Callable[..., Any]) -> Any:
-    """A function for Python to call, to be compiled at its first call and kept on disk.
+    """Return a kernel, which Python calls: it is compiled at its first call and kept on disk.
 
-    It makes no arrays and returns none, as nothing compiled does.
+    Like all compiled functions here it neither makes nor returns arrays.
     """
     if PLAIN:
         return njit(cache=_keep_plain(), **_PUBLIC_OPTIONS)(function)
@@ -125,24 +125,23 @@ def compiled(function: Callable[..., Any]) -> Any:
         kernel._cache = KernelCache(function)
         _kernels.append(kernel)
     except RuntimeError:
-        # numba found no folder that it may write to: neither next to the sources nor in the home
-        # of the user. Each start compiles then, see `kept_on_disk`.
+        # Numba may write neither next to the sources nor in the home of the user. Then each start
+        # compiles, see `kept_on_disk`.
         _not_kept.append(function.__name__)
     return kernel
 
 
 def called(function: Callable[..., Any]) -> Any:
-    """A function for kernels to call."""
+    """Return a compiled function that only kernels call."""
     return njit(**(_PUBLIC_OPTIONS if PLAIN else _CALLED_BY_KERNELS))(function)
 
 
 def inlined(function: Callable[..., Any]) -> Any:
-    """A `called` function that becomes part of its callers.
+    """Return a `called` function that LLVM makes part of its callers.
 
-    A call with many arrays costs more than a small kernel's work. LLVM puts it there: numba's own
-    inlining types and translates the body again at each call. Every caller is a little slower to
-    compile for it, and a kernel is compiled together with all that it calls, so large functions are
-    called at one place.
+    A call with many arrays costs more than the work of a small function. Numba's own inlining is
+    not used, as it types and translates the body again at each call. Each inlined call makes the
+    compilation of its kernel slower, so large functions are called at one place.
     """
     return (
         called(function) if PLAIN else njit(**_CALLED_BY_KERNELS | {"forceinline": True})(function)
@@ -167,7 +166,7 @@ def all_on_disk() -> bool:
 
 @cache
 def _keep_plain() -> bool:
-    """Have Numba keep code in a folder of these sources alone; False where it cannot be written."""
+    """Let Numba keep code in a folder of these sources alone; return False if it is read-only."""
     here = Path(__file__).parent
     folder = Path(numba.config.CACHE_DIR or here / "__pycache__") / f"plain-{sources(here)}"
     with suppress(OSError):
@@ -185,10 +184,10 @@ def _warn_once(words: str) -> None:
 
 
 class ReadableFolder(_LOCATORS[0]):  # type: ignore[misc, valid-type]
-    """NUMBA_CACHE_DIR, which may be there to be read only, as that of an image is."""
+    """NUMBA_CACHE_DIR, which may be read-only, as it is in an image of a container."""
 
     def ensure_cache_path(self) -> None:
-        """Raise OSError where the folder can be neither read nor made."""
+        """Raise OSError if the folder neither exists nor can be made."""
         if not Path(self.get_cache_path()).is_dir():
             super().ensure_cache_path()
 
@@ -198,9 +197,9 @@ class _Places(CompileResultCacheImpl):  # type: ignore[misc]
 
 
 class KernelCache(FunctionCache):  # type: ignore[misc]
-    """numba's cache of a function, of which no fault ends the program.
+    """Numba's cache of a function, whose faults never end the program.
 
-    What cannot be read is removed and compiled anew; what cannot be written is not kept.
+    A file that cannot be read is removed and made anew; code that cannot be written is not kept.
     """
 
     _impl_class = _Places
@@ -213,7 +212,7 @@ class KernelCache(FunctionCache):  # type: ignore[misc]
         self._cache_file = KernelFiles(base, version)
 
     def load_overload(self, signature: Any, context: Any) -> Any:
-        """The machine code for a signature; None where it has to be compiled."""
+        """Return the machine code for a signature; None if it has to be compiled."""
         try:
             return super().load_overload(signature, context)
         except Exception as error:
@@ -221,7 +220,7 @@ class KernelCache(FunctionCache):  # type: ignore[misc]
             return None
 
     def save_overload(self, signature: Any, compiled_code: Any) -> None:
-        """Keep machine code, where that is possible."""
+        """Keep machine code on disk if possible."""
         try:
             super().save_overload(signature, compiled_code)
         except Exception as error:
@@ -230,10 +229,10 @@ class KernelCache(FunctionCache):  # type: ignore[misc]
 
 
 class KernelFiles:
-    """The files of one function, one for each signature: a digest, a version, machine code.
+    """The files of one function, one for each signature, with digest, version and machine code.
 
-    Replaces numba's `IndexDataCacheFile`, whose files do not show a flipped byte: machine
-    code with one ends the process.
+    They replace Numba's `IndexDataCacheFile`, whose files do not show a flipped byte, which in
+    machine code ends the process.
     """
 
     def __init__(self, base: Path, version: str) -> None:
@@ -245,7 +244,7 @@ class KernelFiles:
         return any(self._read(file) is not None for file in files)
 
     def load(self, key: object) -> Any:
-        """Data saved with a key; None if it is missing, outdated or broken."""
+        """Return the data saved with a key; None if missing, outdated or broken."""
         content = self._read(self._file(key))
         return None if content is None else pickle.loads(content)
 
@@ -261,7 +260,7 @@ class KernelFiles:
             raise
 
     def flush(self) -> None:
-        """Forget nothing: another version counts as no file. numba calls it when recompiling."""
+        """Do nothing when Numba recompiles: a file of another version counts as missing."""
 
     def _file(self, key: object) -> Path:
         digest = hashlib.sha256(repr(key).encode()).hexdigest()[:16]
@@ -275,7 +274,7 @@ class KernelFiles:
         if hashlib.sha256(content).digest() == digest:
             return content[32:] if content.startswith(self._version) else None
         _warn_once("kept machine code is broken and made anew")
-        with suppress(OSError):  # it may have another owner
+        with suppress(OSError):  # the file may have another owner
             if file.is_dir():
                 shutil.rmtree(file)
             else:
@@ -285,7 +284,7 @@ class KernelFiles:
 
 @cache
 def sources(folder: Path) -> str:
-    """A fingerprint of a folder's Python files, those of folders in it too; empty without any."""
+    """Return a fingerprint of all Python files in and under a folder; empty if there are none."""
     digest = hashlib.sha256()
     files = sorted(folder.rglob("*.py"))
     for file in files:

@@ -1,8 +1,8 @@
-"""One contact: places of the centres, compression and load.
+"""One contact: compression, direction and load.
 
-The paper's A (Eq. 8) is an unsigned distance, which mistakes a ball sunk beyond the other groove's
-centre for a loaded one; here the part of the distance along the unloaded line of contact counts
-only while it is positive, which changes nothing else and makes the energy
+The paper's A (Eq. 8) is an unsigned distance, so a ball that has sunk beyond the centre of the
+other groove looks loaded. Here the part of the distance along the unloaded line of contact counts
+only while it is positive. This changes nothing else, and makes the energy
 
     V(q) = Σ_j K/(n + 1) δ_j^(n+1) − F·q,   n = 3/2 for balls,
 
@@ -15,8 +15,8 @@ import math
 
 from bearingcore.model._kernels.compiling import inlined
 
-# Where the centres of a loaded ball have passed each other nothing holds it across its line; nearer
-# than this part of A0 to passing, rounding decides whether they have.
+# When the groove centres of a loaded ball have passed each other, nothing holds it across its line.
+# Nearer to passing than this part of A0, rounding decides whether they have.
 GUARD = 1e-12
 
 POINT_CONTACT = 1.5
@@ -25,9 +25,9 @@ POINT_CONTACT = 1.5
 
 @inlined
 def contact_load(delta, factor, exponent):
-    """Energy [N·m], load [N] (Eq. 13) and stiffness [N/m] of a contact compressed by δ ≥ 0."""
+    """Return energy [N·m], load [N] (Eq. 13) and stiffness [N/m] of a contact at δ ≥ 0."""
     if exponent == POINT_CONTACT:
-        root = math.sqrt(delta)  # a power takes ten times as long
+        root = math.sqrt(delta)  # ten times as fast as a power
         load = factor * delta * root
         return 0.4 * load * delta, load, 1.5 * factor * root
     load = factor * delta**exponent
@@ -37,19 +37,19 @@ def contact_load(delta, factor, exponent):
 
 @inlined
 def compression_under(load, factor, exponent):
-    """Compression [m] of a contact that carries a load [N]."""
+    """Return the compression [m] of a contact that carries a load [N]: Eq. 13 solved for δ."""
     return (load / factor) ** (1.0 / exponent)
 
 
 @inlined
 def compression(m, w, A0):
-    """Compression δ [m], its direction (eu, ew) along and across the line of contact, and 1/A.
+    """Return the compression δ [m], its direction (eu, ew) and 1/A [1/m]; δ ≤ 0 is a gap.
 
     m and w are the ball's displacement along and across the unloaded line of contact, so that
-    (A0 + m, w) is the vector between the groove centres (Eqs. 8-10). δ ≤ 0 is a gap. In place of
-    1/A is 0 where the centres have passed each other: only what is across the line counts
-    there, and the contact does not swivel. Nor does one without centres, whose A0 is 0: its
-    line is fixed, and m is all that counts.
+    (A0 + m, w) is the vector between the groove centres (Eqs. 8-10); eu and ew are along and across
+    that line too. If the centres have passed each other, only w counts: the contact does not
+    swivel, and 0 stands for 1/A. A contact without centres (A0 = 0) has a fixed line: only m
+    counts, and it does not swivel either.
     """
     p = A0 + m
     if p > 0.0:
@@ -68,9 +68,9 @@ def compression(m, w, A0):
 
 @inlined
 def ring_at_ball(x, cj, sj, j, contacts):
-    """Radial and axial displacement [m] of a ring's groove centre at contact j (Eqs. 11, 12).
+    """Return radial and axial displacement [m] of a groove centre at contact j (Eqs. 11, 12).
 
-    x is a tuple of five; also velocities, as `seen_from_the_cage` gives them.
+    x is a tuple of five displacements, or of five velocities from `seen_from_the_cage`.
     """
     arm = contacts.arm[j]
     r = (x[0] + arm * x[4]) * cj + (x[1] - arm * x[3]) * sj
@@ -80,9 +80,9 @@ def ring_at_ball(x, cj, sj, j, contacts):
 
 @inlined
 def race_touch(r, z, drop, A, j, contacts):
-    """δ [m], direction (er, ez) = (cos α_j, sin α_j) (Eq. 14) and 1/A of a contact.
+    """Return δ [m], direction (er, ez) = (cos α_j, sin α_j) (Eq. 14) and 1/A of a contact.
 
-    (r, z) is the displacement that closes it; the drop is taken along the line of contact.
+    (r, z) is the displacement that closes it; the drop opens it along the line of contact.
     """
     ca = contacts.line_r[j]
     sa = contacts.line_z[j]
@@ -93,7 +93,10 @@ def race_touch(r, z, drop, A, j, contacts):
 
 @inlined
 def touch(x, cj, sj, drop, j, contacts):
-    """`race_touch` of contact j at the displacement x, a tuple of five; cj, sj, drop: its ball."""
+    """Return `race_touch` of contact j at the displacement x, a tuple of five.
+
+    cj, sj and drop are cosine, sine and drop of its ball.
+    """
     r, z = ring_at_ball(x, cj, sj, j, contacts)
     r -= contacts.clearance[j]
     z += contacts.offset[j]
@@ -102,10 +105,10 @@ def touch(x, cj, sj, drop, j, contacts):
 
 @inlined
 def has_left(x, cj, sj, j, contacts):
-    """Return True if the inner ring has left the outer one at contact j, at any drop of the ball.
+    """Return True if the inner ring has left the outer ring at contact j, at any drop of the ball.
 
-    Across a fixed line of contact it has moved along the races by more than `Contacts.room`; else
-    it has moved back by all of the distance of the groove centres, where no groove is any more.
+    With a fixed line of contact it has then moved along the races by more than `Contacts.room`;
+    otherwise it has moved back by the whole distance of the groove centres, and no groove is left.
     """
     r, z = ring_at_ball(x, cj, sj, j, contacts)
     r -= contacts.clearance[j]
@@ -119,16 +122,16 @@ def has_left(x, cj, sj, j, contacts):
 
 @inlined
 def tilting(er, ez, j, contacts):
-    """Moment of a force of one unit along (er, ez), over r_d: it acts as (c, s) times it.
+    """Return τ: the moment over r_d of a unit force along (er, ez) at contact j.
 
-    Along q it is (er c, er s, ez, τ s, −τ c), τ this number.
+    The components of that force along q are (er c, er s, ez, τ s, −τ c).
     """
     return contacts.reach[j] * ez - contacts.arm[j] * er
 
 
 @inlined
 def carried(x, place, j, contacts):
-    """Elastic load [N] of contact j at the displacement x, a tuple of five."""
+    """Return the elastic load [N] (Eq. 13) of contact j at the displacement x, a tuple of five."""
     delta, _, _, _ = touch(x, place.c[j], place.s[j], place.d[j], j, contacts)
     if delta <= 0.0:
         return 0.0
@@ -138,10 +141,10 @@ def carried(x, place, j, contacts):
 
 @inlined
 def seen_from_the_cage(x, v, cage_speed):
-    """Velocity of the inner ring against balls at rest: their turning moved to the ring.
+    """Return the velocity of a ring relative to axes that turn with the cage, as a tuple of five.
 
-    cage_speed is that of the balls' row. x and v (5,) are displacement and velocity against the
-    outer ring; a tuple of five.
+    cage_speed belongs to the row of the balls. x and v (5,) are displacement and velocity of the
+    ring in axes that do not turn.
     """
     return (
         v[0] + cage_speed * x[1],
@@ -154,9 +157,9 @@ def seen_from_the_cage(x, v, cage_speed):
 
 @inlined
 def approach(u, cj, sj, d_rate, j, contacts):
-    """Rates [m/s], radial and axial, at which contact j is pushed together.
+    """Return the radial and axial rates [m/s] at which contact j is pushed together.
 
-    u is what `seen_from_the_cage` gives; d_rate is the rate of the ball's drop.
+    u is a velocity from `seen_from_the_cage`; d_rate is the rate of the ball's drop.
     """
     r, z = ring_at_ball(u, cj, sj, j, contacts)
     return r - contacts.line_r[j] * d_rate, z - contacts.line_z[j] * d_rate
@@ -164,5 +167,5 @@ def approach(u, cj, sj, d_rate, j, contacts):
 
 @inlined
 def components(q):
-    """An array of five as a tuple, which need not be read again after others were written."""
+    """Return an array of five as a tuple, which compiled code need not read again and again."""
     return q[0], q[1], q[2], q[3], q[4]

@@ -1,10 +1,10 @@
 """Natural frequencies of two bodies at many cage angles at once (Eqs. 24-25, without damping).
 
-numpy's `eigh` takes one matrix after the other, and for matrices of 10 × 10 what it does around
-each costs more than the arithmetic. Here the last axis of every array is the cage angle, so that
-each rotation of Jacobi's method is done for many of them by the same instructions. The method
-starts from the modes of the mean stiffness, which those of each angle are near, and its answers
-are as exact as `eigh`'s: nothing but rotations is done to the matrices.
+NumPy's `eigh` takes one matrix after the other, and its preparations for a matrix of 10 × 10 cost
+more than the arithmetic. Here the last axis of every array is the cage angle, so that the same
+instructions rotate many matrices by Jacobi's method. It starts from the modes of a template, the
+mean stiffness, which are near those of each angle. Its answers are as exact as those of `eigh`,
+because matrices are only rotated.
 """
 
 from __future__ import annotations
@@ -15,32 +15,34 @@ import numpy as np
 
 from bearingcore.model._kernels.compiling import called, compiled
 
-# Matrices that are turned together: enough to fill the processor's vectors, few enough that all
-# stay in its nearest cache.
+# Number of matrices that are rotated together: enough to fill the processor's vector registers, few
+# enough to stay in its nearest cache.
 TOGETHER = 32
-# Off the diagonal nothing is left that is more than this part of the greatest on it: what rounding
-# leaves. Jacobi's method then doubles the digits with each sweep; it never needs half as many.
+# Off-diagonal numbers below this part of the greater diagonal number are rounding. At the end each
+# sweep of Jacobi's method doubles the digits; half of the allowed sweeps have always sufficed.
 NEGLIGIBLE, MOST_SWEEPS = 1e-15, 30
 DOUBTFUL = -1
-# Keeps 0/0 away where nothing is to be turned.
+# Avoids 0/0 if a rotation has nothing to do.
 TINY = 1e-300
 
 
 def modes_like(terms, mixing, offset, squared, order, likeness):
-    """Squared angular frequencies [rad²/s²] at n cage angles, and which is like which template.
+    """Fill in squared angular frequencies [rad²/s²] at n cage angles, and match them to a template.
 
     Quantity                                 | Name     | Shape
     ---------------------------------------- | -------- | -------------------
     K_b, its upper triangle row by row       | terms    | (nd (nd + 1)/2, n)
     template's modes, inner less outer       | mixing   | (m, nd)
-    support's stiffness in its modes         | offset   | (m, m)
+    support's stiffness in these modes       | offset   | (m, m)
     (2π f)², in no order                     | squared  | (n, m), filled
-    the one that is like each template       | order    | (n, m), filled
-    how like each is, where order[k, 0] says | likeness | (n, m, m), filled
-    DOUBTFUL: two templates want the same    |          | there
+    number of the mode most like each mode   | order    | (n, m), filled
+    of the template                          |          |
+    likeness of all pairs, filled only where | likeness | (n, m, m)
+    order[k, 0] is DOUBTFUL: two modes of    |          |
+    the template would get the same mode     |          |
 
-    With modes t = (inner, outer) of unit modal mass, t' [K_b, −K_b; −K_b, K_b + K_o] t is
-    (inner − outer)' K_b (inner − outer) + outer' K_o outer. NaN in, NaN out.
+    With modes t = (inner, outer) of unit modal mass, t' [K_b, −K_b; −K_b, K_b + K_o] t (Eq. 25) is
+    (inner − outer)' K_b (inner − outer) + outer' K_o outer. NaN in gives NaN out.
     """
     m, nd = mixing.shape
     work = (
@@ -56,7 +58,7 @@ def modes_like(terms, mixing, offset, squared, order, likeness):
 
 @compiled
 def find_modes(terms, mixing, offset, squared, order, likeness, work):
-    """Body of `modes_like`, with work space."""
+    """Compiled body of `modes_like`, with work space."""
     m, nd = mixing.shape
     n = terms.shape[1]
     A, V, B, half, numbers, nearest = work
@@ -69,11 +71,12 @@ def find_modes(terms, mixing, offset, squared, order, likeness, work):
         for i in range(nd):
             for j in range(i, nd):
                 for k in range(TOGETHER):
-                    # places that are left over repeat the last angle
+                    # unused places of the last batch repeat the last angle
                     value = terms[term, begin + min(k, live - 1)]
                     B[i, j, k] = value
                     B[j, i, k] = value
                 term += 1
+        # B: symmetric K_b of each angle; A: the same with the support, in the template's modes
         transform_to_modes(B, mixing, offset, half, A)
         for i in range(m):
             for j in range(m):
@@ -81,7 +84,7 @@ def find_modes(terms, mixing, offset, squared, order, likeness, work):
                     V[i, j, k] = 1.0 if i == j else 0.0
         diagonalise(A, V, cosine, sine)
         for i in range(m):
-            # Modal assurance criterion: V[j, i]² is how like mode j is to the template's i.
+            # Modal assurance criterion: V[j, i]² is the likeness of mode j and the template's i.
             for k in range(TOGETHER):
                 nearest[k] = 0
                 most[k] = V[0, i, k] ** 2
@@ -92,6 +95,7 @@ def find_modes(terms, mixing, offset, squared, order, likeness, work):
                     most[k] = max(like, most[k])
             for k in range(live):
                 order[begin + k, i] = nearest[k]
+        # the diagonal of A now holds the squared frequencies
         for k in range(live):
             doubtful = False
             for i in range(m):
@@ -108,7 +112,7 @@ def find_modes(terms, mixing, offset, squared, order, likeness, work):
 
 @called
 def transform_to_modes(B, mixing, offset, half, A):
-    """A = mixing B mixing' + offset, upper triangle (Eq. 25 in the template's modes)."""
+    """Compute the upper triangle of A = mixing B mixing' + offset (Eq. 25 in template modes)."""
     m, nd = mixing.shape
     for i in range(m):
         for b in range(nd):
@@ -129,39 +133,41 @@ def transform_to_modes(B, mixing, offset, half, A):
 
 @called
 def diagonalise(A, V, cosine, sine):
-    """Jacobi's rotations of upper triangles A (m, m, .) and of rows V, until A is diagonal."""
+    """Apply Jacobi's rotations to upper triangles A (m, m, .) and to rows V until A is diagonal."""
     m = len(A)
     for _ in range(MOST_SWEEPS):
-        left = False
+        rotated = False
         for p in range(m - 1):
             for q in range(p + 1, m):
-                turned = False
+                needed = False
                 for k in range(TOGETHER):
                     scale = max(abs(A[p, p, k]), abs(A[q, q, k]))
                     if abs(A[p, q, k]) > NEGLIGIBLE * scale:
-                        turned = True
-                if turned:
-                    left = True
+                        needed = True
+                if needed:
+                    rotated = True
                     turn(A, V, p, q, cosine, sine)
-        if not left:
+        if not rotated:
             break
 
 
 @called
 def turn(A, V, p, q, cosine, sine):
-    """The rotation that makes A[p, q] zero; the smaller of the two angles (Rutishauser)."""
+    """Rotate A and V so that A[p, q] becomes zero, by the smaller of two angles (Rutishauser)."""
     m = len(A)
+    # tangent of the angle: t² + t (A_qq − A_pp)/A_pq = 1, the smaller root without cancellation
     for k in range(TOGETHER):
-        apart = A[q, q, k] - A[p, p, k]
+        difference = A[q, q, k] - A[p, p, k]
         twice = 2.0 * A[p, q, k]
-        size = abs(apart) + math.sqrt(apart * apart + twice * twice) + TINY
-        tangent = twice / math.copysign(size, apart)
+        size = abs(difference) + math.sqrt(difference * difference + twice * twice) + TINY
+        tangent = twice / math.copysign(size, difference)
         c = 1.0 / math.sqrt(1.0 + tangent * tangent)
         cosine[k] = c
         sine[k] = tangent * c
         A[p, p, k] -= 0.5 * tangent * twice
         A[q, q, k] += 0.5 * tangent * twice
         A[p, q, k] = 0.0
+    # rows and columns p and q, of which only the upper triangle is kept; then the modes
     for r in range(p):
         for k in range(TOGETHER):
             x, y = A[r, p, k], A[r, q, k]

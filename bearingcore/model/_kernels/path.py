@@ -1,4 +1,4 @@
-"""Places of the balls, and their drop into defects (Eqs. 4 and 6)."""
+"""Angles of the balls, and their drop into defects (Eqs. 4 and 6)."""
 
 from __future__ import annotations
 
@@ -87,6 +87,7 @@ def path_drop(angle, cage_angle, lead, row, path):
             continue
         turn = defects[i, TURN_RATIO]
         half = defects[i, HALF_EXTENT]
+        # angle from the defect's middle, from −π to π (Eq. 4)
         x = angle - defects[i, CENTER] - turn * cage_angle
         if turn != 0.0:
             x -= lead
@@ -96,10 +97,10 @@ def path_drop(angle, cage_angle, lead, row, path):
         if defects[i, EDGE] == TABLE:
             start = int(defects[i, TABLE_START])
             cells = int(defects[i, TABLE_SIZE]) - 1
-            at = (x + half) / (2.0 * half) * cells
-            k = min(int(at), cells - 1)
+            position = (x + half) / (2.0 * half) * cells
+            k = min(int(position), cells - 1)
             rise = tables[start + k + 1] - tables[start + k]
-            drop = tables[start + k] + (at - k) * rise
+            drop = tables[start + k] + (position - k) * rise
             slope = rise * cells / (2.0 * half)
         else:
             drop, slope = drop_and_slope(
@@ -112,7 +113,7 @@ def path_drop(angle, cage_angle, lead, row, path):
                 defects[i, BALL_RADIUS],
             )
         total += drop
-        total_slope += slope * (1.0 - turn)
+        total_slope += slope * (1.0 - turn)  # dx per cage angle, as the ball turns with its cage
     return total, total_slope
 
 
@@ -259,7 +260,7 @@ def lay_out_drops(cage, lead, contacts, path, d, slope):
 
 
 def new_passage(instants, angle):
-    """An empty `Passage` for instants; its contacts are at angles (n,) [rad] from the first."""
+    """Return an empty `Passage`; its contacts are at angles (n,) [rad] from the first ball."""
     c, s, d, d_rate = np.zeros((4, instants, angle.size))
     return Passage(c, s, d, d_rate, np.zeros((instants, 5)), np.cos(angle), np.sin(angle))
 
@@ -287,7 +288,7 @@ def lay_out_forces(start, turn, count, rotor, passage):
 
 @called
 def lay_out_balls(start, turn, count, cage_speed, contacts, path, passage):
-    """Put the balls' places at `count` cage angles start + i·turn [rad] into a passage.
+    """Write the balls' places at `count` cage angles start + i·turn [rad] into a passage.
 
     Each cage is turned by recurrence, and each ball is at a fixed angle to its cage.
     """

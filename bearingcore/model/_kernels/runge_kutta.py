@@ -1,4 +1,4 @@
-"""Classical Runge-Kutta steps of order 4, for all that moves."""
+"""Classical Runge-Kutta steps of order 4, for balls with and without mass."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ def all_finite(y):
     """Return True if every number of y (n,) is finite."""
     total = 0.0
     for i in range(y.size):
-        total += y[i] - y[i]  # 0, or NaN for what is not finite
+        total += y[i] - y[i]  # 0, or NaN if y[i] is not finite
     return total == 0.0
 
 
 @inlined
 def try_state(y, part, before, trial):
-    """The state y + part·before into trial, each (n,)."""
+    """Write the state y + part·before into trial, each (n,)."""
     for r in range(y.size):
         trial[r] = y[r] + part * before[r]
 
@@ -31,22 +31,22 @@ def stepper(
     changed: Callable[..., Any],
     record: Callable[..., Any],
 ) -> Any:
-    """Compiled steps of a system, out of four compiled functions of it.
+    """Return compiled steps of a system, made of four compiled functions.
 
-    `lay_out(angle, turn, count, system, work)` puts positions of the balls at `count` cage angles
-    into work; `rates(y, part, before, k, at, system, work)` the rate of y + part·before at the
-    instant `at` of these into k; `changed(y, at, system, work)` says whether it has changed y as a
-    step begins, whose rate is in work.k[0]; `record(sample, y, at, system, out, work)` keeps it.
+    * `lay_out(angle, turn, count, system, work)` writes the balls at `count` instants to work.
+    * `rates(y, part, before, k, instant, system, work)` writes the rate of y + part·before to k.
+    * `changed(y, instant, system, work)` may change y as a step begins, with its rate in work.k[0];
+      it returns True if it did.
+    * `record(sample, y, instant, system, out, work)` writes y to the output.
     """
 
     @inlined
     def runge_kutta(y, h, start_angle, stride, system, out, work, span):
-        """Steps of h [s] from y, which is moved to the end; the cage begins at start_angle [rad].
+        """March in steps of h [s] from y, which is moved to the end, and the cage from start_angle.
 
         Every `stride` steps a sample is recorded, as many as out.history has. span holds the first
-        step and that before which to end, whole numbers of half a BLOCK; see `parts`.
-        Returns the number of steps after which all was still finite, which is looked at once in
-        half a BLOCK.
+        step and the step before which to end, both multiples of half a BLOCK; see `parts`. Returns
+        the number of steps after which all was still finite; this is tested once in half a BLOCK.
         """
         k = work.k
         n_steps = stride * (out.history.shape[0] - 1)
@@ -59,19 +59,20 @@ def stepper(
                     return max(step - BLOCK // 2, 0)
                 instants = min(BLOCK, 2 * (n_steps - step)) + 1
                 lay_out(start_angle + 2 * step * half_turn, half_turn, instants, system, work)
-            # large functions are called at one place: each call is their code once more
-            looked = False
+            # Each call of an inlined function repeats its code, so each is called at one place. A
+            # state that `changed` has changed gets its rate of stage 0 a second time.
+            searched = False
             stage = 0
             while stage < 4:
-                at = i + (stage + 1) // 2
+                instant = i + (stage + 1) // 2
                 part = 0.0 if stage == 0 else (h if stage == 3 else 0.5 * h)
-                rates(y, part, k[max(stage - 1, 0)], k[stage], at, system, work)
+                rates(y, part, k[max(stage - 1, 0)], k[stage], instant, system, work)
                 if stage == 0:
-                    if not looked and changed(y, at, system, work):
-                        looked = True
+                    if not searched and changed(y, instant, system, work):
+                        searched = True
                         continue
                     if step % stride == 0:
-                        record(step // stride, y, at, system, out, work)
+                        record(step // stride, y, instant, system, out, work)
                     if step == n_steps:
                         break
                 stage += 1

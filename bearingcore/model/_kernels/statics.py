@@ -37,33 +37,33 @@ from bearingcore.model._kernels.structs import (
     Place,
 )
 
-# A residual |∂V/∂q| below this part of the load ends the iteration; one that rounding keeps above
-# it is still taken below the second. The third is the least pivot, relative to the greatest
-# stiffness, with which a Newton step is taken as it is.
+# The iteration ends if the residual |∂V/∂q| over the load is below RESIDUAL_AIM. If rounding keeps
+# it above, it is accepted below RESIDUAL_LIMIT. A Newton step is taken as it is if the least pivot,
+# relative to the greatest stiffness, is above LEAST_PIVOT.
 RESIDUAL_AIM, RESIDUAL_LIMIT, LEAST_PIVOT = 1e-12, 1e-9, 1e-12
-# So many Newton steps before another way is taken, and at each softness of that way. (Plain
-# integers would be types of their own, and what takes them compiled for each.)
+# Most Newton steps of the plain descent, and of the descent at each softness of contacts. (Numba
+# would compile the functions that take them anew for each plain integer.)
 MOST_ITERATIONS, MOST_PATIENT_ITERATIONS = np.int64(60), np.int64(600)
 
-# A stiffness below this part of the greatest is none: rounding leaves more than it. Where a pivot
-# is below the second, taking them in the order of the directions decides nothing.
+# A stiffness below the first part of the greatest one is rounding. If a pivot is below the second,
+# pivots taken in the order of the directions decide nothing, see `least_pivot`.
 NO_PIVOT, DOUBTFUL_PIVOT = 1e-14, 1e-5
 
-# Digits that q loses times the stiffness are a residual too: where a light load meets stiff balls
-# far from q = 0, none smaller can be had.
+# The rounding of q times the stiffness is a residual that no step can remove: it is large when a
+# light load meets stiff balls far from q = 0.
 ROUNDING = 4e-16
 
-# A ball that carries less than this many residuals may as well carry nothing; where even the
-# greatest stiffness is below this part of that of one ball under all of the load, rounding made it.
+# A ball that carries less than FAINT residuals may carry nothing. If the greatest stiffness is less
+# than FAINT_STIFFNESS of that of one ball under the whole load, it is rounding.
 FAINT, FAINT_STIFFNESS = 10.0, 1e-12
 
 
 @inlined
 def energy_gradient_hessian(q, force, place, contacts, g, H):
-    """V(q) [N·m], its gradient g (5,) [N] and its Hessian H (5, 5) [N/m], of which half is filled.
+    """Compute V(q) [N·m], its gradient g (5,) [N] and Hessian H (5, 5) [N/m] (lower triangle).
 
-    Returns V, a scale and the least load [N] that a touching ball carries. The scale is the sum of
-    the sizes of V's terms: rounding of V is a small part of it.
+    Returns V, a scale and the least load [N] of a touching ball. The scale is the sum of the sizes
+    of V's terms; the rounding of V is a small part of it.
     """
     energy = 0.0
     faintest = math.inf
@@ -93,14 +93,13 @@ def energy_gradient_hessian(q, force, place, contacts, g, H):
     for j in range(c.size):
         cj = c[j]
         sj = s[j]
-        delta, er, ez, bend = touch(x, cj, sj, d[j], j, contacts)
+        delta, er, ez, bend = touch(x, cj, sj, d[j], j, contacts)  # Equations (7)-(14)
         if delta <= 0.0:
             continue
         stored, Q, k1 = contact_load(delta, contacts.factor[j], contacts.exponent[j])
         k2 = Q * bend
         et = tilting(er, ez, j, contacts)
-        # across the contact, (−ez, er):
-        at = tilting(-ez, er, j, contacts)
+        nt = tilting(-ez, er, j, contacts)  # (−ez, er) is across the contact
         energy += stored
         faintest = min(faintest, Q)
         Qr = Q * er
@@ -112,9 +111,9 @@ def energy_gradient_hessian(q, force, place, contacts, g, H):
         f4 -= Qt * cj
         rr = k1 * er * er + k2 * ez * ez  # Appendix A: rr for (A.1), rz for (A.3), zz for (A.10)
         rz = (k1 - k2) * er * ez
-        rt = k1 * er * et - k2 * ez * at
-        zt = k1 * ez * et + k2 * er * at
-        tt = k1 * et * et + k2 * at * at
+        rt = k1 * er * et - k2 * ez * nt
+        zt = k1 * ez * et + k2 * er * nt
+        tt = k1 * et * et + k2 * nt * nt
         cc = cj * cj
         cs = cj * sj
         ss = sj * sj
@@ -160,10 +159,10 @@ def energy_gradient_hessian(q, force, place, contacts, g, H):
 
 @called
 def newton_direction(H, g, active, shift, L, p):
-    """P = −(H + shift·1)⁻¹ g over the active directions, by Cholesky's method.
+    """Compute p = −(H + shift·1)⁻¹ g over the active directions, by Cholesky's method.
 
-    Returns the least pivot over the greatest diagonal element; where that is not above
-    LEAST_PIVOT the direction is not computed.
+    Returns the least pivot over the greatest diagonal element. If it is not above LEAST_PIVOT, p is
+    not computed.
     """
     n = active.size
     greatest = 0.0
@@ -172,7 +171,7 @@ def newton_direction(H, g, active, shift, L, p):
     if greatest <= 0.0:
         return 0.0
     least = 1.0
-    for i in range(n):
+    for i in range(n):  # H = L L', with inverse numbers on the diagonal of L
         for j in range(i + 1):
             x = H[active[i], active[j]]
             if i == j:
@@ -186,12 +185,12 @@ def newton_direction(H, g, active, shift, L, p):
                 L[i, i] = 1.0 / math.sqrt(x)
             else:
                 L[i, j] = x * L[j, j]
-    for i in range(n):
+    for i in range(n):  # L y = −g
         x = -g[active[i]]
         for k in range(i):
             x -= L[i, k] * p[active[k]]
         p[active[i]] = x * L[i, i]
-    for i in range(n - 1, -1, -1):
+    for i in range(n - 1, -1, -1):  # L' p = y
         x = p[active[i]]
         for k in range(i + 1, n):
             x -= L[k, i] * p[active[k]]
@@ -201,12 +200,10 @@ def newton_direction(H, g, active, shift, L, p):
 
 @called
 def least_pivot(H, active, A):
-    """Least pivot of H over the active directions, relative to the greatest, the greatest first.
+    """Return the least pivot of H over the active directions, relative to the greatest pivot.
 
-    A (5, 5) is work space.
-
-    In any other order a pivot that should be zero keeps the rounding of those before it, divided by
-    the least of them.
+    Each step takes the greatest pivot that is left. In any other order a pivot that should be zero
+    would keep the rounding of earlier ones, divided by the least of them. A (5, 5) is work space.
     """
     n = active.size
     for i in range(n):
@@ -236,7 +233,7 @@ def least_pivot(H, active, A):
 
 @inlined
 def replace_factors(contacts, factor):
-    """The same contacts with other load-deflection factors (n,)."""
+    """Return the same contacts with other load-deflection factors (n,)."""
     return Contacts(
         contacts.angle,
         contacts.relative_speed,
@@ -258,11 +255,10 @@ def replace_factors(contacts, factor):
 
 @called
 def drop_negligible_contacts(q, noise, place, contacts, load, work, other):
-    """Least pivot of the Hessian without the balls that carry less than `noise` [N].
+    """Return the least pivot of the Hessian without the balls that carry less than `noise` [N].
 
-    The minimum may be an edge of a flat stretch, on which balls that only just touch look as if
-    they held the ring there. Gradient and Hessian without them go into work.g[other] and
-    work.H[other].
+    At the edge of a flat stretch of minima, balls that only just touch seem to hold the ring there.
+    Gradient and Hessian without them go into work.g[other] and work.H[other].
     """
     factor = work.firm
     x = components(q)
@@ -277,7 +273,7 @@ def drop_negligible_contacts(q, noise, place, contacts, load, work, other):
 
 @called
 def pressed_load(q, place, contacts):
-    """Sum [N] of what all contacts carry."""
+    """Return the sum of the loads of all contacts [N]."""
     x = components(q)
     total = 0.0
     for j in range(contacts.factor.size):
@@ -287,7 +283,7 @@ def pressed_load(q, place, contacts):
 
 @inlined
 def stiffest_contact(contacts):
-    """Number of the contact with the greatest load-deflection factor."""
+    """Return the number of the contact with the greatest load-deflection factor."""
     stiffest = 0
     for j in range(contacts.factor.size):
         if contacts.factor[j] > contacts.factor[stiffest]:
@@ -297,13 +293,13 @@ def stiffest_contact(contacts):
 
 @inlined
 def curved_length(contacts, j):
-    """A0 [m] of a contact whose line turns, along which the energy's valley is curved; else 0."""
+    """Return A0 [m] of contact j if its line can turn, which curves the valley of V; else 0."""
     return 0.0 if contacts.fixed[j] else contacts.distance[j]
 
 
 @inlined
 def load_size(load):
-    """Size [N] of the load along the free directions."""
+    """Return the size [N] of the load along the free directions."""
     size = 0.0
     for i in load.active:
         size += load.force[i] * load.force[i]
@@ -312,12 +308,12 @@ def load_size(load):
 
 @inlined
 def has_descended(V, V1, slope, slope1, step, rounding):
-    """True where a line search may stop at V1, a `step` along a direction from V.
+    """Return True if a line search may stop after a `step` that changed V into V1.
 
-    V is convex, so it has fallen while its slope there, slope1, still points down, whatever its own
-    rounding says. Beyond the minimum along the direction it must have fallen by a part of what the
-    first slope promised (Armijo's rule); where that fall drowns in `rounding`, the slope must at
-    least be less steep than the first one.
+    V is convex: while its slope there, slope1, still points down, V has fallen, even if rounding
+    hides it. Beyond the minimum along the direction, V must have fallen by a part of what the first
+    slope promised (Armijo's rule). If that fall is less than `rounding`, the slope must at least be
+    less steep than the first one.
     """
     return (
         slope1 <= 0.0
@@ -328,11 +324,11 @@ def has_descended(V, V1, slope, slope1, step, rounding):
 
 @inlined
 def shorten_step(step, slope, slope1):
-    """Return the step to try after one that went too far, along a direction of Newton's.
+    """Return a shorter step after one that went too far along Newton's direction.
 
-    It goes to where the slope, taken as a straight line from `slope` at 0 to `slope1` at the step,
-    is zero (the secant), but neither to almost 0 nor to almost as far again. Where rounding has
-    left no descent in the direction, that line is of no use.
+    The slope is taken as a straight line from `slope` at 0 to `slope1` at the step; the new step
+    ends at its zero (the secant), but is neither almost 0 nor almost as long as the old one. If
+    rounding has left no rise of the slope, the secant is useless and a fixed part is taken.
     """
     rise = slope1 - slope
     return step * (min(max(-slope / rise, 0.05), 0.6) if rise > 0.0 else 0.3)
@@ -340,7 +336,7 @@ def shorten_step(step, slope, slope1):
 
 @inlined
 def slope_along(g, p, active):
-    """Slope of V [N·m] along a direction p: g·p over the active directions."""
+    """Return the slope of V [N·m] along p: g·p over the active directions."""
     slope = 0.0
     for i in active:
         slope += g[i] * p[i]
@@ -349,42 +345,42 @@ def slope_along(g, p, active):
 
 @inlined
 def typical_stiffness(load, factor, exponent):
-    """Stiffness [N/m] of one contact under all of a load [N]."""
+    """Return the stiffness [N/m] of one contact that carries a whole load [N]."""
     _, _, stiffness = contact_load(compression_under(load, factor, exponent), factor, exponent)
     return stiffness
 
 
 @inlined
 def sizes_at(q, g, H, force, active, tight):
-    """Sizes by which a gradient is judged: |g|² over the active directions, ...
+    """Return four sizes by which a gradient is judged.
 
-    the square of what holds the other directions, g + F there; the greatest displacement, at least
-    `tight`; and the greatest stiffness on the diagonal.
+    They are |g|² over the active directions; the square of the reactions g + F along the held
+    directions; the greatest displacement, at least `tight`; and the greatest stiffness.
     """
     norm = 0.0
-    taken = 0.0
+    reactions = 0.0
     reach = tight
     stiffest = 0.0
     for i in range(5):
-        taken += (g[i] + force[i]) ** 2
+        reactions += (g[i] + force[i]) ** 2
         reach = max(reach, abs(q[i]))
     for i in active:
-        taken -= (g[i] + force[i]) ** 2
+        reactions -= (g[i] + force[i]) ** 2
         norm += g[i] * g[i]
         stiffest = max(stiffest, H[i, i])
-    return norm, taken, reach, stiffest
+    return norm, reactions, reach, stiffest
 
 
 @inlined
 def judge_minimum(q, noise, least, now, place, contacts, load, work):
-    """Tell a minimum that is held in all directions from one with a free direction.
+    """Distinguish a minimum that is held in all directions from one with a free direction.
 
-    H is positive definite at the one, and has a zero pivot at the other. `least` is the least pivot
-    of work.H[now]. Contacts that carry less than `noise` [N] do not count; 0 counts all of them.
-    Returns the status, and which of work.g and work.H belongs to it.
+    H is positive definite at the first, and has a zero pivot at the second. `least` is the least
+    pivot of work.H[now]. Contacts that carry less than `noise` [N] do not count; 0 counts all of
+    them. Returns the status, and the index of work.g and work.H that belongs to it.
     """
     if noise > 0.0:
-        # balls that only just touch must not be what makes the minimum look firm
+        # balls that only just touch must not make the minimum look firm
         least = drop_negligible_contacts(q, noise, place, contacts, load, work, 1 - now)
         if not least > NO_PIVOT:
             now = 1 - now
@@ -398,12 +394,12 @@ def descend(q, place, contacts, load, work, most):
     """Move q downhill to the minimum of V by Newton's method with a line search, in `most` steps.
 
     V(q) = Σ_j K/(n + 1) δ_j^(n+1) − F·q (see `contact`). The balance of loads (Eq. 15) is
-    g = ∂V/∂q = 0 and the stiffness (Appendix A) H = ∂²V/∂q². Each step goes along p = −H⁻¹ g as far
-    as V falls. V is convex, so there is one minimum, or a flat stretch of them, or none where
-    nothing carries the load: a descent cannot end in a false answer, only in none. What is returned
-    is that of `minimise_energy`.
+    g = ∂V/∂q = 0, and the stiffness (Appendix A) is H = ∂²V/∂q². Each step goes along p = −H⁻¹ g as
+    far as V falls. V is convex, so it has one minimum, or a flat stretch of minima, or none if
+    nothing carries the load. A descent therefore cannot end in a false answer, only in no answer.
+    The function returns what `minimise_energy` returns.
 
-    work.g and work.H have two places each: `now` is that of q, 1 − now that of the q that is tried.
+    work.g and work.H have two places: index `now` belongs to q, and 1 − now to the trial of q.
     """
     F = load.force
     active = load.active
@@ -415,11 +411,11 @@ def descend(q, place, contacts, load, work, most):
     hard = stiffest_contact(contacts)
     K = contacts.factor[hard]
     exponent = contacts.exponent[hard]
-    # lengths that cancel in a compression even where q is 0: their rounding is in every residual
+    # Lengths that cancel in a compression even at q = 0: their rounding is in every residual.
     tight = abs(contacts.offset[hard]) + max(-contacts.clearance[hard], 0.0)
     size = load_size(load)
-    carried_load = size * size
-    nothing = 0.0  # load [N] up to which nothing touches: all that rounding leaves of a preload
+    squared_load = size * size
+    nothing = 0.0  # load [N] that rounding leaves of a preload: below it nothing touches
     k_typical = 0.0
     shift_part = 1e-3
     residual = math.inf
@@ -432,40 +428,40 @@ def descend(q, place, contacts, load, work, most):
     faintest = 0.0
     now = 1
     evaluations = 0
-    # The first time round only evaluates the energy at q: written so, its code is
-    # here once, which halves the time to compile it.
+    # The first round only evaluates the energy at q. As part of the loop, the inlined code of the
+    # energy occurs once, which halves the time of compilation.
     for iteration in range(-1, most):
         g = G[now]
         if iteration >= 0:
-            # Is this the minimum? The residual is what is out of balance, |g|, over all that the
-            # bearing carries: the load, what held directions take, and where only a preload presses
-            # the contacts, that.
-            norm, taken, reach, stiffest = sizes_at(q, g, H[now], F, active, tight)
-            whole = math.sqrt(carried_load + max(taken, 0.0))
+            # Test for the minimum. The residual is what is out of balance, |g|, over the load and
+            # the reactions along held directions, or, if only a preload presses the contacts, over
+            # the sum of their loads.
+            norm, reactions, reach, stiffest = sizes_at(q, g, H[now], F, active, tight)
+            total_load = math.sqrt(squared_load + max(reactions, 0.0))
             if preloaded:
-                whole = pressed_load(q, place, contacts)
-            if whole <= nothing:
+                total_load = pressed_load(q, place, contacts)
+            if total_load <= nothing:
                 return now, NOTHING_TOUCHES, math.nan, iteration, evaluations
             before = residual
-            residual = math.sqrt(norm) / whole
-            limit = max(RESIDUAL_LIMIT, ROUNDING * reach * stiffest / whole)
+            residual = math.sqrt(norm) / total_load
+            limit = max(RESIDUAL_LIMIT, ROUNDING * reach * stiffest / total_load)
             least = newton_direction(H[now], g, active, 0.0, L, p)
-            # near the minimum a Newton step squares the residual: one that hardly falls is rounding
+            # Near the minimum a step squares the residual: one that hardly falls is rounding.
             settled = residual <= limit and residual >= 0.5 * before
             if residual <= RESIDUAL_AIM or settled or stuck:
-                noise = FAINT * max(residual, RESIDUAL_AIM) * whole
+                noise = FAINT * max(residual, RESIDUAL_AIM) * total_load
                 if faintest >= noise:
                     noise = 0.0
                 status, now = judge_minimum(q, noise, least, now, place, contacts, load, work)
                 return now, status, residual, iteration, evaluations
             if not least > LEAST_PIVOT or stiffest < FAINT_STIFFNESS * k_typical:
-                # Too few balls touch, so that H has no inverse: a small spring to ground replaces
-                # the missing stiffness, ever weaker so as not to hold q back at the end.
+                # Too few balls touch, so that H has no inverse. A small spring to ground replaces
+                # the missing stiffness. It becomes weaker, so that it does not hold q back at last.
                 newton_direction(H[now], g, active, shift_part * max(k_typical, stiffest), L, p)
                 shift_part = max(0.1 * shift_part, 1e-10)
             slope = slope_along(g, p, active)
-        # Line search along p: `short` is a step after which V still falls steeply, `long` one that
-        # went too far. The first step is Newton's own, which is right near the minimum.
+        # Line search along p: after a step `short` V still falls steeply, a step `long` is too far.
+        # The first trial is Newton's step, which is right near the minimum.
         step = 1.0
         short = 0.0
         long = math.inf
@@ -485,8 +481,8 @@ def descend(q, place, contacts, load, work, most):
                 if slope1 >= 0.9 * slope or long == math.inf or long < 1.5 * short:
                     accepted = True
                     break
-                # V still falls as steeply as at the start: between here and the step that was
-                # too long there is a better one
+                # V still falls as steeply as at the start: try a step between this one and the one
+                # that was too long.
                 short = step
                 step = math.sqrt(short * long)
             else:
@@ -495,7 +491,7 @@ def descend(q, place, contacts, load, work, most):
                 if step <= short:
                     step = math.sqrt(short * long)
         if not accepted:
-            # rounding hides every fall; what has been reached counts if it is within the limit
+            # Rounding hides every fall of V. The state counts as the minimum within the limit.
             if residual > limit:
                 return now, NOT_CONVERGED, residual, iteration, evaluations
             stuck = True
@@ -508,8 +504,9 @@ def descend(q, place, contacts, load, work, most):
         now = 1 - now
         if iteration < 0:
             if size == 0.0:
-                # without a load an interference presses balls, rows that press each other, or a
-                # clearance so large that the ring, held axially, is wedged: else it slips out
+                # Without a load, contacts are pressed by an interference, by rows against each
+                # other, or if the ring is held axially and wedged by a large clearance. A single
+                # row that is free axially slips out of its clearance instead.
                 preloaded = True
                 size = pressed_load(q, place, contacts)
                 axial = False
@@ -533,9 +530,9 @@ def minimise_energy(q, place, contacts, load, work):
     belong to the final q.
 
     A light load on stiff balls has its minimum far along a narrow curved valley, up to A0 long and
-    as wide as a compression; Newton's straight steps in it are short. Where they do not come to
-    their end it is reached with soft balls first, whose valley is wide, and from there with harder
-    ones: the difference of their answers is about what the softer balls are compressed.
+    as wide as a compression, in which Newton's straight steps are short. If they do not arrive, the
+    search begins anew with soft balls, whose valley is wide, and goes on with harder and harder
+    ones. The answers for two stiffnesses differ by about the compression of the softer balls.
     """
     now, status, residual, iterations, evaluations = descend(
         q, place, contacts, load, work, MOST_ITERATIONS
@@ -549,14 +546,17 @@ def minimise_energy(q, place, contacts, load, work):
     K = contacts.factor[stiffest]
     exponent = contacts.exponent[stiffest]
     hard = compression_under(size, K, exponent)
-    # compression of one ball under all of the load, at this softness; a straight valley needs none
+    # `hard` and `soft`: compression of one ball under the whole load, with the real and with the
+    # softened factor. A straight valley needs no softening.
     soft = max(curved_length(contacts, stiffest), hard)
     start = work.start
     soft_factor = work.soft
     for i in active:
-        # of a wedged ring without a load nothing says how soft to begin
-        away = max(contacts.clearance[stiffest], 0.0) / contacts.line_r[stiffest] + soft
-        start[i] = away * F[i] / size if size > 0.0 else q[i]
+        # without a load (a wedged ring) nothing says how far to begin
+        distance = max(contacts.clearance[stiffest], 0.0) / contacts.line_r[stiffest] + soft
+        start[i] = distance * F[i] / size if size > 0.0 else q[i]
+    # Each round multiplies the compression `soft` by `ratio`: bolder after a success, more careful
+    # after a failure, until the balls are as hard as the real ones.
     ratio = 1.0
     for _ in range(40):
         target = max(soft * ratio, hard)
@@ -569,10 +569,10 @@ def minimise_energy(q, place, contacts, load, work):
         for j in range(soft_factor.size):
             soft_factor[j] = softer * contacts.factor[j]
         softened = replace_factors(contacts, soft_factor)
-        now, status, residual, more, calls = descend(
+        now, status, residual, steps, calls = descend(
             q, place, softened, load, work, MOST_PATIENT_ITERATIONS
         )
-        iterations += more
+        iterations += steps
         evaluations += calls
         if size == 0.0:
             break
@@ -594,9 +594,9 @@ def minimise_energy(q, place, contacts, load, work):
 
 @inlined
 def extrapolate(cage_angles, k, q, active, state):
-    """Guess the state at cage angle k: the parabola through the last three answers q.
+    """Write a guess of the state at cage angle k: the parabola through the last three answers q.
 
-    Where they are not near and in order, the state stays as it is.
+    The state stays as it is if their angles are not near and in order.
     """
     x1 = cage_angles[k] - cage_angles[k - 1]
     x2 = cage_angles[k] - cage_angles[k - 2]
@@ -612,7 +612,7 @@ def extrapolate(cage_angles, k, q, active, state):
 
 @inlined
 def first_guess(contacts, load, state):
-    """Put into state (5,): the clearance and one ball's compression, along the load."""
+    """Write into state (5,) a displacement along the load: clearance and one ball's compression."""
     size = load_size(load)
     stiffest = stiffest_contact(contacts)
     reach = max(contacts.clearance[stiffest], 0.0) / contacts.line_r[stiffest] + compression_under(
@@ -623,7 +623,7 @@ def first_guess(contacts, load, state):
 
 
 def new_map_work(angle):
-    """Empty work space of a map of contacts at angles (n,) [rad] from the first ball."""
+    """Return empty work space of a map; contacts are at angles (n,) [rad] from the first ball."""
     c, s, d, slope, soft, firm = np.zeros((6, angle.size))
     state, guess, p, trial, start = np.zeros((5, 5))
     circle_c, circle_s = np.cos(angle), np.sin(angle)
@@ -633,7 +633,7 @@ def new_map_work(angle):
 
 
 def static_maps(cage_angles, contacts, paths, load, rows, memory, answers):
-    """Static states of the rows (first, last) of a map: see `solve_maps`."""
+    """Fill in the static states of the rows (first, last) of a map: see `solve_maps`."""
     work = new_map_work(contacts.angle)
     solve_maps(cage_angles, contacts, paths, load, rows, memory, answers, work)
 
@@ -651,11 +651,11 @@ def repeat_answer(e, k, answers):
 
 @inlined
 def keep_answer(e, k, now, contacts, work, memory, answers):
-    """Put what follows from work.state into row e at cage angle k.
+    """Write the results at work.state into row e at cage angle k.
 
-    Loads (Eq. 13), the stiffness work.descent.H[now] (Eq. 17), and BEYOND as the status of a
-    balance where no bearing could be: the formulas have those too. There the ring is tilted beyond
-    small angles or has left the other, or a ball is compressed beyond its room.
+    These are the loads (Eq. 13) and the stiffness work.descent.H[now] (Eq. 17). The formulas also
+    have balances outside the geometry of a bearing, which get the status BEYOND: the ring is tilted
+    beyond small angles or has left the other ring, or a ball is compressed beyond its room.
     """
     place = work.place
     loads = memory.loads
@@ -691,14 +691,14 @@ def keep_answer(e, k, now, contacts, work, memory, answers):
 
 @compiled
 def solve_maps(cage_angles, contacts, paths, load, rows, memory, answers, work):
-    """Static states of rows (first, last) of a map: the defects differ, cage angles do not.
+    """Solve the static states of rows (first, last) of a map, which differ in their defects only.
 
-    Points that are not OPEN are left alone; each is started from those before it in its row.
-    `memory` carries states and drops over from row to row, NaN before the first, and holds those of
-    the last row then.
+    Points that are not OPEN are left alone. Each point is started from the points before it in its
+    row. `memory` carries states and drops from row to row (NaN before the first), and at the end
+    holds those of the last row.
 
-    Where all balls have sunk as deep as in the row before, the answer is that of the row before:
-    most of a map of square defects is, as a ball is on the race or on the floor and seldom between.
+    If all balls have the same drops as in the row before, the answer is copied from that row. This
+    holds for most points: a ball is usually on the race or on the floor, and seldom between them.
     """
     n = cage_angles.size
     n_contacts = contacts.angle.size
@@ -727,7 +727,7 @@ def solve_maps(cage_angles, contacts, paths, load, rows, memory, answers, work):
             if same:
                 repeat_answer(e, k, answers)
                 continue
-            # Newton's method begins at the answer before, or at a parabola through three of them
+            # Newton's method begins at the last answer, or on a parabola through the last three.
             known = 0
             while known < min(k, 3) and CONVERGED <= status[e, k - 1 - known] < NOT_CARRIED:
                 known += 1
@@ -750,27 +750,20 @@ _TERMS[np.triu_indices(5)] = _TERMS.T[np.triu_indices(5)] = np.arange(15)
 
 
 def static_states(cage_angles, leads, contacts, path, load):
-    """Static equilibrium at each cage angle (n,) [rad], each started from those before it.
+    """Return the static equilibrium at each cage angle (n,) [rad], as a map of one row.
 
-    leads (n,) [rad]: how far defects that turn are ahead of where the cage angle has them.
+    leads (n,) [rad]: angle by which turning defects are ahead of their place at the cage angle.
 
-    A map of one row. Returns q (n, 5), contact loads (n, contacts), stiffness (n, 5, 5), loaded
-    contacts, status, residual and evaluations (n,), tilts and moments scaled as at the head of
-    `structs`; NaN for the stiffness where there is no equilibrium.
+    Returns q (n, 5), contact loads (n, contacts), stiffness (n, 5, 5), loaded contacts, status,
+    residual and evaluations (n,). Tilts and moments are scaled as `structs` says; the stiffness is
+    NaN where there is no equilibrium.
     """
     n = cage_angles.size
     count = np.array([path.defects.shape[0]])
     memory = new_memory(n, contacts)
     answers = new_answers(1, n)
-    static_maps(
-        cage_angles,
-        contacts,
-        MapPaths(path.defects[None], count, path.tables, leads[None]),
-        load,
-        (0, 1),
-        memory,
-        answers,
-    )
+    paths = MapPaths(path.defects[None], count, path.tables, leads[None])
+    static_maps(cage_angles, contacts, paths, load, (0, 1), memory, answers)
     return (
         memory.q,
         memory.loads,
@@ -783,7 +776,7 @@ def static_states(cage_angles, leads, contacts, path, load):
 
 
 def new_memory(n, contacts):
-    """An empty `MapMemory` of n cage angles."""
+    """Return an empty `MapMemory` of n cage angles."""
     n_contacts = contacts.angle.size
     return MapMemory(
         np.zeros((n, 5)),
@@ -794,7 +787,7 @@ def new_memory(n, contacts):
 
 
 def new_answers(rows, n):
-    """Empty `MapAnswers` of so many rows and n cage angles: everything is OPEN."""
+    """Return `MapAnswers` of some rows and n cage angles, with every point OPEN."""
     shape = (rows, n)
     return MapAnswers(
         np.full((15, *shape), math.nan),

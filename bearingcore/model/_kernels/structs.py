@@ -13,9 +13,9 @@ compression, load and stiffness of a contact      | δ, Q, k1 = ∂Q/∂δ  | m,
 load over loaded distance, Q/A                    | k2                | N/m
 radial and axial displacement of the inner groove's centre at a ball | r, z | m
 
-Tilts are carried as r_d θ and moments as M/r_d, so that all five components of q are lengths, all
-of F are forces, and one number measures a residual. r_d is the common lever of the bearing; where
-rows differ, `Contacts.reach` and `Contacts.arm` relate their own lengths to it.
+Tilts are kept as r_d θ and moments as M/r_d, so that all five components of q are lengths, all of F
+are forces, and a single number measures a residual. r_d is the common lever of the bearing;
+`Contacts.reach` and `Contacts.arm` are the lengths of each row over r_d.
 
 Equation numbers are those of Petersen, Howard & Prime (2014).
 """
@@ -32,39 +32,38 @@ Integers = NDArray[np.int64]
 
 
 class Contacts(NamedTuple):
-    """The contacts of all balls of all rows, each array (n,); those of a row follow each other.
+    """The contacts of all balls, each array (n,), row after row.
 
     Attributes
     ----------
     angle [rad]
-        from the first ball to the contact's, at cage angle 0.
+        of the contact's ball from the first ball, at cage angle 0.
     relative_speed
-        cage speed of the row over that of the bearing: at cage angle φ a ball is at
-        angle + relative_speed φ. The same for all of a row.
+        cage speed of the row over that of the bearing, equal for all contacts of a row: at cage
+        angle φ a ball is at angle + relative_speed φ.
     arm
         axial place of the row's inner groove centres over r_d.
     reach
-        radius on which the inner groove's centres of the row are, over r_d.
+        radius of the circle of the row's inner groove centres over r_d.
     line_r, line_z
         unloaded line of contact, radial and axial: cos α0, sin α0.
     fixed
-        True where no displacement turns the line of contact, as between straight races.
+        True if no displacement turns the line of contact, as between straight races.
     distance [m]
-        unloaded distance A0 of the groove curvature centres, about which a line turns that is not
-        fixed; 0 of one that is.
+        unloaded distance A0 of the groove curvature centres; 0 if the line is fixed.
     clearance [m]
         radial clearance r_L.
     offset [m]
-        axial place of the inner groove's centre beyond A0 sin α0: how rows are preloaded.
+        axial place of the inner groove's centre beyond A0 sin α0, by which rows are preloaded.
     room [m]
-        greatest compression, and where the line is fixed the greatest displacement along the
-        races, that the geometry of the contact allows.
+        greatest compression that the geometry of the contact allows; with a fixed line also the
+        greatest displacement along the races.
     factor [N/m^exponent], exponent
-        of the load-deflection law Q = K δ^exponent (Eq. 13): 3/2 for balls.
+        of the load-deflection law Q = K δ^exponent (Eq. 13); 3/2 for balls.
     rows : (k, 2)
-        first contact of each row and how many it has.
+        first contact and number of contacts of each row.
     most_tilt [m]
-        greatest rotation that is small, over which nothing here holds, times r_d.
+        greatest tilt for which the small-angle equations hold, times r_d.
     """
 
     angle: Array
@@ -84,11 +83,11 @@ class Contacts(NamedTuple):
     most_tilt: float
 
     def angles_at(self, cage_angles: Array) -> Array:
-        """Angles (n, contacts) [rad] of all contacts at cage angles (n,) [rad]."""
+        """Return the angles (n, contacts) [rad] of all contacts at cage angles (n,) [rad]."""
         return cage_angles[:, None] * self.relative_speed + self.angle
 
     def gradients(self, angles: Array, radial: Array, axial: Array) -> Array:
-        """Derivatives (..., contacts, 5) by q of a motion along (radial, axial) at the contacts.
+        """Return the derivatives (..., contacts, 5) by q of a motion along (radial, axial).
 
         Contacts at angles (..., contacts) [rad] move by e·q: e = (er c, er s, ez, τ s, −τ c), with
         τ as in `contact.tilting`.
@@ -99,17 +98,17 @@ class Contacts(NamedTuple):
         return np.stack([radial * c, radial * s, along, tilting * s, -tilting * c], axis=-1)
 
     def compression(self, load: float, contact: int = 0) -> float:
-        """Compression [m] of a contact that carries a load [N]."""
+        """Return the compression [m] of a contact that carries a load [N]."""
         return float((load / self.factor[contact]) ** (1.0 / self.exponent[contact]))
 
 
 class Path(NamedTuple):
-    """The way of a ball's centre over all defects.
+    """The path of a ball's centre over all defects.
 
     Attributes
     ----------
     defects : (m, len(PATH_COLUMNS))
-        see `path.PATH_COLUMNS`.
+        see `codes.PATH_COLUMNS`.
     tables : (t,) [m]
         tabulated drops, one after the other.
     """
@@ -127,16 +126,16 @@ class Place(NamedTuple):
 
 
 class Passage(NamedTuple):
-    """Places of the balls at some instants, and the changing forces.
+    """Places of the balls and changing forces at some instants.
 
     Attributes
     ----------
     c, s, d [m], d_rate [m/s] : (instants, n)
         cosine, sine, drop and its rate.
     push : (instants, 5) [N]
-        on the inner ring, from unbalance and from samples; moments over r_d.
+        force on the inner ring from unbalance and from samples; moments over r_d.
     circle_c, circle_s : (n,)
-        cosine and sine of the angle from the first ball.
+        cosine and sine of each contact's angle from the first ball.
     """
 
     c: Array
@@ -149,7 +148,7 @@ class Passage(NamedTuple):
 
 
 class StaticLoad(NamedTuple):
-    """Loads (5,) [N], moments over r_d, and the free directions, rising numbers out of 0 to 4."""
+    """Loads (5,) [N], moments over r_d, and numbers of the free directions, 0 to 4, rising."""
 
     force: Array
     active: Integers
@@ -161,13 +160,13 @@ class Descent(NamedTuple):
     Attributes
     ----------
     g : (2, 5) [N], H : (2, 5, 5) [N/m]
-        gradient and Hessian at the ring's place and at the place that is tried.
+        gradient and Hessian at the displacement and at its trial.
     L : (5, 5), p : (5,) [m], trial : (5,) [m]
-        Cholesky factor, step, and the displacement tried.
+        Cholesky factor, step, and trial of the displacement.
     start : (5,) [m]
-        where the descent with softened contacts begins.
+        displacement from which the descent with softened contacts begins.
     soft, firm : (contacts,) [N/m^exponent]
-        factors of softened contacts, and of those that carry more than rounding.
+        factors of softened contacts, and of contacts that carry more than rounding (others 0).
     """
 
     g: Array
@@ -186,13 +185,13 @@ class MapWork(NamedTuple):
     Attributes
     ----------
     descent
-        apart, as each array costs time in every call that hands it on.
+        a struct in itself, as each array costs time in every call that passes it on.
     state, guess : (5,) [m]
-        the displacement that moves, and one to begin with.
+        the displacement, and a first guess of it.
     place, slope [m/rad]
         places of the balls, and slopes of their drops over the cage angle.
     circle_c, circle_s : (contacts,)
-        cosine and sine of the angle from the first ball.
+        cosine and sine of each contact's angle from the first ball.
     """
 
     descent: Descent
@@ -205,9 +204,9 @@ class MapWork(NamedTuple):
 
 
 class MapPaths(NamedTuple):
-    """Paths of the e rows of a map: defects (e, m, columns), counts (e,) of them used; tables.
+    """Paths of the e rows of a map: defects (e, m, columns), of which counts (e,) are used; tables.
 
-    leads (e, n) [rad]: how far defects that turn are ahead, at each of n cage angles.
+    leads (e, n) [rad]: angle by which turning defects are ahead, at each of n cage angles.
     """
 
     defects: Array
@@ -217,7 +216,7 @@ class MapPaths(NamedTuple):
 
 
 class MapMemory(NamedTuple):
-    """The newest row of a map, from which the next goes on.
+    """The newest row of a map, from which the next row starts.
 
     Attributes
     ----------
@@ -225,7 +224,7 @@ class MapMemory(NamedTuple):
         states, tilts times r_d.
     drops : (n, contacts) [m], loads : (n, contacts) [N]
     evaluations : (n,)
-        how often the energy was evaluated.
+        number of evaluations of the energy.
     """
 
     q: Array
@@ -243,7 +242,7 @@ class MapAnswers(NamedTuple):
         upper triangle, row by row; NaN where there is no equilibrium.
     loaded : (e, n)
     greatest : (e, n) [N]
-        load of the contact that carries most.
+        load of the most heavily loaded contact.
     status, residual : (e, n)
     """
 
@@ -255,11 +254,11 @@ class MapAnswers(NamedTuple):
 
 
 VELOCITIES, SMOOTH, PLANAR = 0, 1, 2
-"""Variables of a motion: v as it is; w; w where contacts stay in the plane. See `motion`."""
+"""Variables of a motion: v; w; w of contacts that stay in the plane. See `motion.march`."""
 
 
 class Rotor(NamedTuple):
-    """Both bodies along the n active directions, each array (n,), and how their motion is marched.
+    """Both bodies along the n active directions, each array (n,), and the manner of marching.
 
     Attributes
     ----------
@@ -268,21 +267,21 @@ class Rotor(NamedTuple):
     active : (n,)
         numbers of the directions.
     cage_speed [rad/s]
-        of the bearing; that of a row is `Contacts.relative_speed` times it.
+        of the bearing; the cage of a row turns at `Contacts.relative_speed` times it.
     contact_damping [N·s/m]
         c of Eq. 18.
     variables
-        `VELOCITIES`, `SMOOTH` or `PLANAR`: what is marched.
+        the marched variables: `VELOCITIES`, `SMOOTH` or `PLANAR`.
     tension
-        whether the damper may draw a ball back, as published.
+        True if the damper may pull a ball back, as published.
     turning_force [N]
         force that turns with the shaft, along x at cage angle 0.
     shaft_ratio
         speed of the shaft over that of the cage.
     samples : (m, 5) [N]
-        of a force on the inner ring, moments over r_d, the last one 0; none, or two and more.
+        of a force on the inner ring, moments over r_d, the last one 0; m is 0 or at least 2.
     samples_a_radian [1/rad]
-        samples while the cage turns by one radian, the first one at cage angle 0.
+        number of samples per radian of the cage; the first one is at cage angle 0.
     """
 
     force: Array
@@ -302,7 +301,7 @@ class Rotor(NamedTuple):
 
 
 class System(NamedTuple):
-    """All that moves: two bodies, the contacts between them, and the way over their defects."""
+    """The moving system: two bodies, the contacts between them, and the path over their defects."""
 
     rotor: Rotor
     contacts: Contacts
@@ -315,16 +314,16 @@ class Forces(NamedTuple):
     Attributes
     ----------
     x, v : (5,) [m], [m/s]
-        inner against outer ring.
+        displacement and velocity of the inner ring relative to the outer ring.
     f : (5,) [N], S : (5,) [m]
         force on the outer ring; Σ δ e.
     touching : (contacts,)
         numbers of the compressed contacts, in order.
     contact : (contacts, 4)
-        their δ [m], er, ez, 1/A [1/m] (0 where the centres have passed each other and a contact
-        does not swivel).
+        their δ [m], er, ez, 1/A [1/m] (0 if a contact does not swivel, as its centres have passed
+        each other).
     touched : (1,)
-        how many are compressed.
+        number of compressed contacts.
     """
 
     x: Array
@@ -342,11 +341,11 @@ class Slopes(NamedTuple):
     Attributes
     ----------
     Sx : (5, 5), Px : (5, 5) [N/m], Pv : (5, 5) [N·s/m]
-        how Σ δ e and the force change with displacement and velocity.
+        derivatives of Σ δ e and of the force by displacement (x) and velocity (v).
     e, t, e_turn, t_turn : (5,)
-        along and across a contact in q, and their derivatives with the cage's turning.
+        directions along and across a contact in q, and their derivatives by the cage angle.
     rows : (2 n, 4 n)
-        sums over directions, of all columns.
+        sums over directions, for all columns of the tangent.
     """
 
     Sx: Array
@@ -360,8 +359,9 @@ class Slopes(NamedTuple):
 
 
 class Steps(NamedTuple):
-    """Work space of steps: ball positions, the equations of motion's, the tangent's, rates of the
-    four stages (4, size), and the state tried (size,).
+    """Work space of steps, of the equations of motion and of the tangent.
+
+    k (4, size) are the rates of the four stages, trial (size,) is a state that is tried.
     """
 
     passage: Passage
@@ -379,9 +379,9 @@ class Recorded(NamedTuple):
     history : (samples, 6, n)
         displacement, velocity and acceleration of the inner ring, then of the outer one.
     places : (places, k, balls) [m]
-        of balls with mass: radial, and axial unless the motion is planar.
+        positions of balls with mass: radial, and axial unless the motion is planar.
     every
-        samples from place to place.
+        number of samples from one row of places to the next.
     """
 
     history: Array

@@ -1,4 +1,4 @@
-"""Balls with or without mass: below which frequency massless ones will do."""
+"""Comparison of balls with and without mass: the frequency up to which massless balls suffice."""
 
 from __future__ import annotations
 
@@ -24,32 +24,31 @@ from bearingcore.model.scene import MASSLESS, WITH_MASS, Scene
 from bearingcore.recordings import spectrum
 
 BUDGET = 0.1
-"""Difference [dB] up to which massless balls will do."""
+"""Difference [dB] up to which massless balls suffice."""
 
 LOWEST_COMPARED = 300.0
 """Lowest third octave [Hz] that is compared, the lower end of the paper's band."""
 
 QUIETEST_COMPARED = 1e-4
-"""Power over the greatest of all bands and directions below which a band does not count."""
+"""Power over the greatest power of all bands and directions, below which a band does not count."""
 
 
 @shown_as_table
 @dataclass(frozen=True)
 class BallComparison:
-    """One scene with massless balls and with balls that have mass.
+    """A scene with massless balls compared with the same scene of balls with mass.
 
     Attributes
     ----------
     scene, budget [dB]
-        compared scene, and the difference that is allowed.
+        compared scene, and the allowed difference.
     edges : (m + 1,) [Hz]
-        of the third octaves that are compared.
+        edges of the compared third octaves.
     added : (m, d) [dB]
-        what mass adds to the power of the housing's acceleration in each, along x and y.
+        effect of mass on the power of the housing's acceleration in each band, along x and y.
     massless_up_to
-        [Hz] frequency up to which massless balls are within the budget wherever there is more power
-        than QUIETEST_COMPARED of the greatest; NaN where they are not even in the lowest third
-        octave.
+        [Hz] frequency up to which massless balls are within the budget in all bands that have more
+        than QUIETEST_COMPARED of the greatest power; NaN if they exceed it in the lowest band.
     """
 
     scene: Scene
@@ -60,7 +59,7 @@ class BallComparison:
 
     @property
     def sentence(self) -> str:
-        """Sentence that says up to which frequency massless balls will do."""
+        """Sentence with the frequency up to which massless balls suffice."""
         if math.isnan(self.massless_up_to):
             lowest = with_prefix(LOWEST_COMPARED, "Hz")
             return f"massless: more than {number(self.budget)} dB off from {lowest} on"
@@ -80,31 +79,27 @@ class BallComparison:
 
     @property
     def directions(self) -> tuple[str, ...]:
-        """Directions, x or y, in which the housing moves."""
+        """Those of the directions x and y in which the housing moves."""
         return compared_directions(self.scene.active_dofs)
 
 
-def compare_motions(
-    massless: Motion,
-    with_mass: Motion,
-    budget: float = BUDGET,
-) -> BallComparison:
+def compare_motions(massless: Motion, with_mass: Motion, budget: float = BUDGET) -> BallComparison:
     """Compare two motions of one scene over the same time.
 
-    Powers are those of third octaves, means over lines and ball passes: balls in free flight make
-    single lines sensitive to anything.
+    Powers of third octaves are compared, which are means over lines and ball passes, because balls
+    in free flight make single lines sensitive to the smallest change.
 
     Parameters
     ----------
     massless, with_mass
         the motions.
     budget
-        [dB]
+        allowed difference [dB].
 
     Raises
     ------
     ValueError
-        where a motion did not reach its end.
+        if a motion did not reach its end.
     """
     highest = min(massless.bandwidth, with_mass.bandwidth)
     count = math.floor(3.0 * math.log2(highest / LOWEST_COMPARED) + 1e-9)
@@ -125,12 +120,12 @@ def compare_motions(
 
 
 def compared_directions(dofs: tuple[str, ...]) -> tuple[str, ...]:
-    """Directions of the housing that are compared: those of sensors."""
+    """Return the directions of the housing that are compared: x and y, as sensors measure them."""
     return tuple(name for name in ("x", "y") if name in dofs)
 
 
 def band_powers(motion: Motion, edges: Array) -> Array:
-    """Power (m, d) [(m/s²)²] of the housing's settled acceleration along x and y between edges."""
+    """Return the power (m, d) [(m/s²)²] of the housing's settled acceleration between edges."""
     columns = [motion.dofs.index(name) for name in compared_directions(motion.dofs)]
     first = min(round(SETTLING * motion.sample_rate), len(motion.time) // 2)
     signal = motion.outer_acceleration[first:, columns]
@@ -145,15 +140,15 @@ def mass_share(
     sample_rate: float,
     progress: Progress | None = None,
 ) -> float:
-    """Share of the housing's power between two frequencies [Hz] that the balls' mass adds.
+    """Return the share of the housing's power between two frequencies [Hz] due to the balls' mass.
 
-    1 − P(massless)/P(with mass), all of x and y: 0 where mass changes nothing, near 1 where next to
-    all comes from it, below 0 where it takes power away.
+    It is 1 − P(massless)/P(with mass), x and y together: 0 if mass changes nothing, near 1 if
+    almost all power comes from it, negative if mass takes power away.
     """
     edges, powers = np.array([low, high]), []
-    for at in (scene.replace(balls=balls) for balls in (MASSLESS, WITH_MASS)):
-        rate = fine_step_rate(at, sample_rate)
-        motion = simulate(at, duration, sample_rate, step_rate=rate, progress=progress)
+    for variant in (scene.replace(balls=balls) for balls in (MASSLESS, WITH_MASS)):
+        rate = fine_step_rate(variant, sample_rate)
+        motion = simulate(variant, duration, sample_rate, step_rate=rate, progress=progress)
         powers.append(float(band_powers(motion, edges).sum()))
     massless, heavy = powers
     return 1.0 - massless / heavy if heavy > 0.0 else math.nan

@@ -1,4 +1,4 @@
-"""Damping of loaded contacts, and a moving scene as numbers with it."""
+"""Damping of loaded contacts, and a moving scene as numbers."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ from bearingcore.model.scene._packing import pack, rotor
 from bearingcore.model.statics._equilibrium import equilibrium_of, remove_defects
 
 DAMPING_OVER_STIFFNESS = 1e-5
-"""β [s] of the healthy bearing where a scene does not say its contact damping; the paper takes
-0.25e-5 to 2.5e-5 s."""
+"""β [s] of the healthy bearing, for scenes without a contact damping; the paper takes 0.25e-5 to
+2.5e-5 s."""
 
 
-# by all that the static state of a scene without its defects depends on
+# The key of the cache holds all inputs of the static state of a scene without its defects.
 @lru_cache_by_bytes(
     2_000_000,
     lambda *_: 0,
     lambda packed: (packed.scene.bearing, packed.scene.load, packed.dofs),
 )
-def _mean_stiffness_a_ball(packed: PackedScene) -> float:
-    """mean(k_xx + k_yy) / mean(loaded balls) [N/m] without defects, over a period of the curves."""
+def _mean_stiffness_per_ball(packed: PackedScene) -> float:
+    """Return mean(k_xx + k_yy)/mean(loaded balls) [N/m] without defects, over a period."""
     angles = np.arange(120) * (packed.scene.bearing.period / 120)
     healthy = remove_defects(packed)
     state = equilibrium_of(healthy, angles)
@@ -38,31 +38,29 @@ def _mean_stiffness_a_ball(packed: PackedScene) -> float:
 def contact_damping(scene: Scene) -> float:
     """Return the viscous damping c [N·s/m] of a loaded contact.
 
-    This is the scene's own, or else β·mean(k_xx + k_yy)/mean(n).
-
-    The paper does not print c; it takes a damping of the healthy bearing that is 0.25e-5 to
-    2.5e-5 s times its stiffness (Eq. 27). β = 1e-5 s. 0 where the healthy bearing has no static
-    state to take it from.
+    It is `Scene.contact_damping`, or without that β·mean(k_xx + k_yy)/mean(n) with β = 1e-5 s. The
+    paper does not print c; it takes a damping of the healthy bearing that is 0.25e-5 to 2.5e-5 s
+    times its stiffness (Eq. 27). c is 0 if the healthy bearing has no static state.
     """
     checks.instance("scene", scene, Scene)
     return damping_of(pack(scene)) if scene.contact_damping is None else scene.contact_damping
 
 
 def damping_of(packed: PackedScene) -> float:
-    """`contact_damping` of a scene that is packed."""
+    """Return the `contact_damping` of a packed scene."""
     if packed.scene.contact_damping is not None:
         return packed.scene.contact_damping
-    stiffness = _mean_stiffness_a_ball(packed)
+    stiffness = _mean_stiffness_per_ball(packed)
     return DAMPING_OVER_STIFFNESS * stiffness if math.isfinite(stiffness) else 0.0
 
 
 def packed_motion(scene: Scene, dofs: tuple[str, ...] | None = None) -> PackedMotion:
-    """A scene that moves along `dofs`, as numbers, contacts damped; None: its active directions.
+    """Return a scene that moves along `dofs` as numbers; None takes its active directions.
 
     Raises
     ------
     ValueError
-        for a support that lacks a number.
+        if the support lacks a number.
     """
     packed = pack(scene, dofs, balls=scene.balls == WITH_MASS)
     c, balls = damping_of(packed), packed.balls

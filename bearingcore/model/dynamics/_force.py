@@ -1,4 +1,4 @@
-"""A force in time on the moving ring, given as samples."""
+"""A force on the inner ring that varies in time, as samples."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from bearingcore.model.scene._packing import direction_numbers, length_units
 from bearingcore.model.scene._scene import check_dofs
 
 MOST = 1e12
-"""Greatest force [N] or moment [N·m]: squares of greater ones are no numbers any more."""
+"""Greatest force [N] or moment [N·m]; sums of squares of greater ones may overflow."""
 
 
 @dataclass(frozen=True, eq=False)
 class ForceSamples:
-    """A force on the inner ring with the shaft, beside the load of the scene.
+    """A force on the inner ring with the shaft, in addition to the load of the scene.
 
     The force is a straight line between samples. After the last one it falls to zero within one
-    interval and stays there, so samples may be fewer than the motion lasts.
+    interval and stays there, so samples may end before the motion.
 
     Attributes
     ----------
@@ -54,7 +54,7 @@ class ForceSamples:
 
 
 def with_force(packed: PackedMotion, force: ForceSamples) -> PackedMotion:
-    """Return the motion with a force in time; FieldError where it cannot move along that."""
+    """Return the motion with a force in time; FieldError if it cannot move along that force."""
     checks.instance("force", force, ForceSamples)
     if not set(force.dofs) <= set(packed.dofs):
         allowed = f"directions in which the scene moves: {', '.join(packed.dofs)}"
@@ -68,5 +68,5 @@ def with_force(packed: PackedMotion, force: ForceSamples) -> PackedMotion:
 
 
 def peak_force(packed: PackedMotion) -> float:
-    """Greatest size [N] of a motion's force in time, moments over r_d."""
+    """Return the greatest size [N] of a motion's force in time, moments over r_d."""
     return float(np.linalg.norm(packed.rotor.samples, axis=1).max(initial=0.0))

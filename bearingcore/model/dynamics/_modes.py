@@ -27,17 +27,17 @@ from bearingcore.model.statics._equilibrium import equilibrium_of
 from bearingcore.model.statics._positions import equilibrium_over_all, extremes, positions
 
 MIXED = 0.25
-"""Share of another mode that dampers add to a mode, at most, where damped frequencies are computed
-nearly: right to 1e-4 then."""
+"""Greatest share of another mode that dampers may add to a mode in `_approximate_damping`, which is
+then right within 1e-4."""
 
 
 @shown_as_table
 @dataclass(frozen=True)
 class Modes:
-    """Natural frequencies and damping at n cage angles, m modes, each followed by its shape.
+    """Natural frequencies, damping and shapes of m modes at n cage angles.
 
-    Each column is one mode: at every angle it is the mode closest to that mode at mean stiffness
-    (modal assurance criterion).
+    Each column is one mode: at every angle the one whose shape is most like that of this mode at
+    mean stiffness (modal assurance criterion).
 
     Attributes
     ----------
@@ -50,7 +50,7 @@ class Modes:
     undamped_frequency : (n, m) [Hz]
         of the mass and stiffness matrices alone.
     shape : (n, m, 2 len(dofs))
-        undamped mode shapes, inner ring first, of unit modal mass; the sign is continuous over the
+        undamped mode shapes of unit modal mass, inner ring first; signs are continuous over the
         angles.
     label : (m,)
         direction with the largest motion, numbered by rising frequency: "x1", "y1", "x2", "y2".
@@ -71,7 +71,7 @@ class Modes:
     state: Equilibrium = field(repr=False, compare=False)
 
     def reason(self, i: int) -> str:
-        """Status of the static state at cage angle i in words."""
+        """Return the status of the static state at cage angle i in words."""
         return self.state.reason(i)
 
     def table(self) -> ResultTable:
@@ -88,10 +88,10 @@ class Modes:
         )
 
     def bands(self) -> dict[str, tuple[float, float]]:
-        """Least and greatest frequency [Hz] of each mode at the cage angles, by label.
+        """Return the least and greatest frequency [Hz] of each mode at the cage angles, by label.
 
-        NaN for both if no angle has an answer. Positions between the angles and other turns of the
-        shaft do not count: see `frequency_bands`.
+        Both are NaN if no angle has an answer. `frequency_bands` also covers positions between the
+        angles and other turns of the shaft.
         """
         ends = zip(*(end.tolist() for end in least_and_greatest(self.frequency, 0)), strict=True)
         return dict(zip(self.label, ends, strict=True))
@@ -120,8 +120,8 @@ def frequency_bands(scene: Scene, *, coarse: bool = False) -> dict[str, tuple[fl
 
     The positions are all cage angles and, if a defect turns with the shaft, all shaft angles at
     each: see `bearingcore.model.statics._positions`. The search refines the surroundings of each
-    extreme sample. It leaves damping out where it is coarse or a defect turns with the shaft; the
-    frequency that is returned is the damped one, as in `Modes`.
+    extreme sample. It leaves damping out if it is coarse or a defect turns with the shaft. The
+    returned frequencies are always damped, as in `Modes`.
 
     Parameters
     ----------
@@ -148,42 +148,41 @@ def frequency_bands(scene: Scene, *, coarse: bool = False) -> dict[str, tuple[fl
     if not state.converged.any():
         return modes_at(state).bands()
     search = BandSearch(scene, stiffness_terms(state), state.shares)
-    undamped = scene.defect_turns or coarse  # many samples, or few that have to be quick
+    undamped = scene.defect_turns or coarse  # for many samples, or for a quick answer
 
     def frequencies(known: Equilibrium) -> Array:
         """(m, k) [Hz] at the angles of a static state."""
         if undamped:
             return search.frequencies(stiffness_terms(known))
-        # dampers that come in with a ball make frequencies jump, which undamped ones do not show
+        # the damper of a ball that touches makes frequencies jump; undamped ones do not show this
         return modes_at(known, search.template, nearly=True).frequency.T
 
     def closer(cage_angles: Array, shaft_angles: Array) -> Array:
         return frequencies(equilibrium_of(packed, cage_angles, shaft_angles))
 
     ends = extremes(positions(scene, n), frequencies(state), closer, rounds=rounds)
-    there = equilibrium_of(packed, ends.cage_angles.ravel(), ends.shaft_angles.ravel())
-    least, greatest = map(np.diagonal, np.split(modes_at(there, search.template).frequency, 2))
+    end_states = equilibrium_of(packed, ends.cage_angles.ravel(), ends.shaft_angles.ravel())
+    least, greatest = map(np.diagonal, np.split(modes_at(end_states, search.template).frequency, 2))
     pairs = zip(least.tolist(), greatest.tolist(), strict=True)
     return dict(zip(search.labels, pairs, strict=True))
 
 
 class BandSearch:
-    """Undamped frequencies of modes, followed by those of the mean stiffness at some positions.
+    """Undamped frequencies of many positions, in the order of the modes at mean stiffness.
 
-    They are those of `modes_at(...).undamped_frequency`, many matrices at a time without the
-    general eigenvalue problem that damping makes of them. Damping of a ratio ζ changes a frequency
-    |λ|/2π by about ζ² of it. Where no position has a stiffness, `labels` are those of the support
-    alone.
+    They are `modes_at(...).undamped_frequency`, computed for many matrices at a time, without the
+    general eigenvalue problem that damping needs. A damping ratio ζ changes a frequency |λ|/2π by
+    about ζ² of it. If no position has a stiffness, `labels` are those of the support alone.
 
     Parameters
     ----------
     scene
-        its active directions, support and inertia; its defect does not count.
+        a scene; its active directions, support and inertia are used, its defect is not.
     terms : (15, n)
         stiffness terms [N/m, N/rad, N·m/rad] in the order of `STIFFNESS_TERMS`; NaN where the
         static state has no answer.
     weights : (n,)
-        of the positions in the mean.
+        weights of the positions in the mean.
 
     Raises
     ------
@@ -206,7 +205,7 @@ class BandSearch:
         self.labels = _labels(self.template, mass, dofs)
 
     def frequencies(self, terms: Array) -> Array:
-        """(m, n) [Hz] for stiffness terms (15, n); NaN where one that counts is not known."""
+        """Return frequencies (m, n) [Hz] for stiffness terms (15, n); NaN if a term is unknown."""
         chosen = terms[self._rows]
         known = np.asarray(np.isfinite(chosen).all(axis=0))
         result = np.full((len(self.template), known.size), math.nan)
@@ -215,15 +214,15 @@ class BandSearch:
 
 
 def stiffness_terms(state: Equilibrium) -> Array:
-    """(15, n) the terms of a state's stiffness, in the order of `STIFFNESS_TERMS`."""
+    """Return the stiffness terms (15, n) of a state, in the order of `STIFFNESS_TERMS`."""
     return np.stack([state.term(name) for name in STIFFNESS_TERMS])
 
 
 def modes_at(state: Equilibrium, template: Array | None = None, *, nearly: bool = False) -> Modes:
-    """The modes at static states that are already known.
+    """Return the modes at static states that are already known.
 
-    They are followed by the shapes of a template (m, m), else by those of their mean stiffness.
-    `nearly`: damping by `_approximate_damping`, which is quicker.
+    Modes are ordered by their likeness to the shapes of a template (m, m); None takes the shapes at
+    mean stiffness. `nearly`: damping by `_approximate_damping`, which is quicker.
     """
     scene, dofs = state.scene, state.dofs
     nd = len(dofs)
@@ -239,7 +238,7 @@ def modes_at(state: Equilibrium, template: Array | None = None, *, nearly: bool 
     C_b = contact_damping(scene) * loaded_directions(state)[:, index][:, :, index]
     K = two_body_matrix(K_b, support)
     C = two_body_matrix(C_b, scene.support.damping(dofs))
-    # where a direction is free to move the stiffness is known, but not where the ring comes to rest
+    # With a free direction the stiffness is known, but not the place at which the ring rests.
     known = state.converged & np.isfinite(K).all(axis=(1, 2))
     n, m = len(K), 2 * nd
     undamped, frequency, ratio = (np.full((n, m), np.nan) for _ in range(3))
@@ -256,7 +255,7 @@ def modes_at(state: Equilibrium, template: Array | None = None, *, nearly: bool 
 
 
 def _frequencies_like(template: Array, terms: Array, support: Array) -> Array:
-    """Undamped frequencies (m, n) [Hz] of the modes like the template's (m, m).
+    """Return undamped frequencies (m, n) [Hz] of modes in the order of a template (m, m).
 
     `terms` (nd (nd + 1)/2, n) are the upper triangles of the bearing's stiffness, all known.
     """
@@ -279,9 +278,9 @@ def _frequencies_like(template: Array, terms: Array, support: Array) -> Array:
 
 
 def highest_natural_frequency(scene: Scene) -> float:
-    """The greatest undamped natural frequency [Hz] of a scene over all its positions.
+    """Return the greatest undamped natural frequency [Hz] of a scene over all its positions.
 
-    NaN where no angle has a static state. It decides how finely a motion must be stepped.
+    It determines the step rate of a motion. It is NaN if no angle has a static state.
     """
     return highest_frequency_of(pack(scene))
 
@@ -292,7 +291,7 @@ def highest_natural_frequency(scene: Scene) -> float:
     lambda packed: (packed.scene, packed.dofs),
 )
 def highest_frequency_of(packed: PackedScene) -> float:
-    """`highest_natural_frequency` of a scene that is packed."""
+    """Return the `highest_natural_frequency` of a packed scene."""
     scene, dofs = packed.scene, packed.dofs
     index = [DOF_NAMES.index(name) for name in dofs]
     K_b = equilibrium_over_all(packed, 31).stiffness[:, index][:, :, index]
@@ -310,7 +309,7 @@ def two_body_matrix(bearing: Array, support: Array) -> Array:
 
 
 def loaded_directions(state: Equilibrium) -> Array:
-    """Σ e e' over the loaded balls, (n, 5, 5), e the direction of a contact in q (Eq. 27)."""
+    """Return Σ e e' (n, 5, 5) of the loaded balls, with the direction e of a contact (Eq. 27)."""
     alpha, phi = np.nan_to_num(state.contact_angle), state.ball_angle
     e = contacts(state.scene.bearing).gradients(phi, np.cos(alpha), np.sin(alpha))
     e *= state.carries[..., None] * length_units(state.scene)
@@ -318,17 +317,17 @@ def loaded_directions(state: Equilibrium) -> Array:
 
 
 def _assignment(likeness: Array) -> NDArray[np.int64]:
-    """The column of each row (m,) that makes the sum of likeness (m, columns) greatest."""
+    """Assign a column to each row (m,) so that the sum of likeness (m, columns) is greatest."""
     from scipy.optimize import linear_sum_assignment  # imported late: slow to import
 
     return np.asarray(linear_sum_assignment(-likeness)[1])
 
 
 def _matched(likeness: Array) -> NDArray[np.int64]:
-    """(n, m) which column belongs to each row of likeness (n, m, columns), none taken twice.
+    """Return the column (n, m) for each row of likeness (n, m, columns), none of them twice.
 
-    Mostly the greatest of each row will do; where two rows want the same one, the assignment of
-    the greatest sum decides.
+    It is the column of the greatest likeness in each row. If this is the same for two rows, the
+    assignment with the greatest sum decides.
     """
     best = likeness.argmax(axis=2)
     clash = (np.diff(np.sort(best, axis=1), axis=1) == 0).any(axis=1)
@@ -338,12 +337,12 @@ def _matched(likeness: Array) -> NDArray[np.int64]:
 
 
 def _follow(frequency: Array, shape: Array, template: Array, mass: Array) -> tuple[Array, Array]:
-    """Modes reordered so that each column is one mode: the one most like its template.
+    """Reorder modes so that each column is the mode most like the same column of a template.
 
-    frequency (n, m), shape (n, m, m) and template (m, m), all of unit modal mass, so that the
-    modal assurance criterion is a squared product. Following from one angle to the next instead
-    would depend on the spacing of the angles: where two frequencies meet and part again, small
-    steps stay on a branch while its shape turns into the other's.
+    frequency is (n, m), shape (n, m, m) and template (m, m), all of unit modal mass, so that the
+    modal assurance criterion is a squared product. A comparison from one angle to the next would
+    depend on the spacing of the angles: where two frequencies meet and part again, small steps stay
+    on a branch while its shape changes into that of the other mode.
     """
     product = np.einsum("im,m,njm->nij", template, mass, shape)
     order = _matched(product**2)
@@ -355,7 +354,10 @@ def _follow(frequency: Array, shape: Array, template: Array, mass: Array) -> tup
 
 
 def _undamped(K: Array, mass: Array) -> tuple[Array, Array]:
-    """Natural frequencies (..., m) [Hz], rising, and shapes (..., m, m) of unit modal mass."""
+    """Return rising natural frequencies (..., m) [Hz], and shapes (..., m, m) of unit modal mass.
+
+    They solve K t = ω² M t (Eq. 24 without damping) for stiffness matrices K (..., m, m).
+    """
     root = np.sqrt(mass)
     values, vectors = np.linalg.eigh(K / (root[:, None] * root))
     frequency = np.sqrt(np.maximum(values, 0.0)) / (2.0 * math.pi)
@@ -363,9 +365,9 @@ def _undamped(K: Array, mass: Array) -> tuple[Array, Array]:
 
 
 def _exact_damping(K: Array, C: Array, mass: Array, shape: Array) -> tuple[Array, Array]:
-    """|λ|/2π [Hz] and −Re λ/|λ| of each mode with damping, each in the place of its undamped mode.
+    """Return |λ|/2π [Hz] and −Re λ/|λ| of each damped mode, in the order of the undamped modes.
 
-    State matrix [0, 1; −M⁻¹K, −M⁻¹C]: the signs of Eq. 28 mended.
+    λ are eigenvalues of the state matrix [0, 1; −M⁻¹K, −M⁻¹C], which is Eq. 28 with correct signs.
     """
     n, m = shape.shape[:2]
     A = np.zeros((n, 2 * m, 2 * m))
@@ -376,7 +378,7 @@ def _exact_damping(K: Array, C: Array, mass: Array, shape: Array) -> tuple[Array
     motion = vectors[:, :m, :] * np.sqrt(mass)[:, None]
     motion = motion / np.maximum(np.linalg.norm(motion, axis=1, keepdims=True), 1e-300)
     likeness = np.abs((shape * np.sqrt(mass)) @ motion) ** 2
-    # of a conjugate pair, alike in shape, the one that turns forwards
+    # the two modes of a conjugate pair have the same shape: prefer a positive imaginary part
     picked = _matched(likeness - 2.0 * (values.imag < 0.0)[:, None, :])
     chosen = np.take_along_axis(values, picked, axis=1)
     size = np.abs(chosen)
@@ -384,11 +386,11 @@ def _exact_damping(K: Array, C: Array, mass: Array, shape: Array) -> tuple[Array
 
 
 def _approximate_damping(K: Array, C: Array, mass: Array, shape: Array) -> tuple[Array, Array]:
-    """`_exact_damping` to the third order in what dampers couple, without an eigenvalue problem.
+    """Return `_exact_damping` to the third order in the coupling by dampers, without `eig`.
 
     In modal coordinates, with D_j = λ² + c_jj λ + ω_j² of the other modes j, k ≠ i:
-    λ² + c_ii λ + ω_i² = λ² Σ_j c_ij²/D_j − λ³ Σ_jk c_ij c_jk c_ki/(D_j D_k), k ≠ j. Where modes mix
-    by more than MIXED, or one hardly swings, as `_exact_damping` has it.
+    λ² + c_ii λ + ω_i² = λ² Σ_j c_ij²/D_j − λ³ Σ_jk c_ij c_jk c_ki/(D_j D_k), k ≠ j. It is solved by
+    iteration. If modes mix by more than MIXED, or one hardly swings, `_exact_damping` is used.
     """
     c = shape @ C @ np.swapaxes(shape, 1, 2)
     damping = np.diagonal(c, axis1=1, axis2=2)
@@ -397,21 +399,21 @@ def _approximate_damping(K: Array, C: Array, mass: Array, shape: Array) -> tuple
     rest = squared
     for _ in range(3):
         rate = -0.5 * damping + 1j * np.sqrt(rest - 0.25 * damping**2 + 0j)
-        there = rate[:, :, None]
-        D = there**2 + damping[:, None] * there + squared[:, None]
+        rates = rate[:, :, None]
+        D = rates**2 + damping[:, None] * rates + squared[:, None]
         part = between / np.where(between == 0.0, 1.0, D)
         pull = (part * between).sum(axis=2) - rate * ((part @ between) * part).sum(axis=2)
         rest = squared - rate**2 * pull
     size = np.abs(rate)
     frequency, ratio = size / (2.0 * math.pi), -rate.real / np.maximum(size, 1e-300)
-    near = (np.abs(there * part) < MIXED).all(axis=(1, 2)) & (damping**2 < squared).all(axis=1)
+    near = (np.abs(rates * part) < MIXED).all(axis=(1, 2)) & (damping**2 < squared).all(axis=1)
     if not near.all():
         frequency[~near], ratio[~near] = _exact_damping(K[~near], C[~near], mass, shape[~near])
     return frequency, ratio
 
 
 def _labels(template: Array, mass: Array, dofs: tuple[str, ...]) -> tuple[str, ...]:
-    """Direction and number of each mode, two modes a direction.
+    """Return direction and number of each mode; each direction has two modes.
 
     `template` (m, m) are shapes in the order of rising frequency.
     """

@@ -49,24 +49,24 @@ from bearingcore.model.statics._status import StaticStatus
 from bearingcore.recordings import Spectrum, spectrum
 
 SETTLING = 0.12
-"""Motion [s] before the part that counts as steady: several times the slowest mode's decay."""
+"""Time [s] after which a motion counts as steady: several times the decay of the slowest mode."""
 
 MOST_STEPS = 1_000_000
-"""Steps that a motion, or the periods of one orbit, take at most by default: up to
-15 s of marching in five directions, 40 s with the tangent."""
+"""Default limit on the steps of a motion, or of all periods of an orbit: up to 15 s of marching in
+five directions, 40 s with the tangent."""
 
 MOST_SAMPLES = 10_000_000
-"""Samples of a motion."""
+"""Greatest number of samples of a motion."""
 
 SAME_BANDS = 1.0
 """Difference [dB] up to which two motions have the same spectrum in third octaves."""
 
 MOST_DOUBLINGS, SAME_LEVEL, QUIET = 4, 0.1, 1e-7
-"""Doublings of the steps a second where contacts let go, at most; the part of a level up to which
-two motions are alike; and the level [m/s] below which nothing counts."""
+"""Limits for contacts without tension: most doublings of the step rate; the part of a level up to
+which two motions are alike; and the level [m/s] below which a motion counts as rest."""
 
 KEPT = 4
-"""Rows a sample, at most, that a motion of balls with mass is filtered from."""
+"""Greatest number of rows per sample from which a motion of balls with mass is filtered."""
 
 
 @shown_as_table
@@ -79,10 +79,10 @@ class Motion:
     scene, dofs, sample_rate [Hz], step_rate [Hz]
         the scene, its directions and rates.
     status
-        the outcome. A motion that is not completed is NaN from the time where it broke off.
+        the outcome. A motion that is not completed is NaN from the time at which it broke off.
     detail
-        numbers of the status, in words that follow it. For a completed motion whose contacts open
-        it gives the accuracy of bands of the spectrum if that is worse than 1 dB.
+        numbers of the status, in words that follow it. For a completed motion without tension it
+        gives the accuracy of bands of the spectrum if that is worse than 1 dB.
     right_hand_side_calls
         number of evaluations of the accelerations.
     time : (n,) [s]
@@ -90,15 +90,15 @@ class Motion:
     inner_displacement, outer_displacement : (n, len(dofs)) [m, rad]
     inner_velocity, outer_velocity : (n, len(dofs)) [m/s, rad/s]
     inner_acceleration, outer_acceleration : (n, len(dofs)) [m/s², rad/s²]
-        a sensor on the housing measures the outer one. Both are filtered as in a recorder before
-        they are sampled (`low_pass`): they are right within 0.1 dB up to `bandwidth`, and zero from
-        half the sample rate on. Peaks therefore depend on the sample rate: strikes of balls with
-        mass are shorter than a sample.
+        a sensor on the housing measures the outer acceleration. Both are filtered as in a recorder
+        before they are sampled (`low_pass`): they are right within 0.1 dB up to `bandwidth`, and
+        zero from half the sample rate on. Peaks therefore depend on the sample rate, as strikes of
+        balls with mass are shorter than a sample.
     bandwidth [Hz]
         frequency up to which accelerations are complete: 0.4 of the lower of sample and step rate.
     ball_place : (n, 1 or 2, N_b) [m] or None
-        radial place of balls with mass, and their axial place if they move along the shaft, both
-        against the unloaded ball that touches the outer race, with concentric rings.
+        radial position of balls with mass, and axial position if they move along the shaft, both
+        from that of an unloaded ball that touches the outer race of concentric rings.
     """
 
     scene: Scene
@@ -115,7 +115,7 @@ class Motion:
 
     @property
     def completed(self) -> bool:
-        """True where the motion stayed finite to its end."""
+        """True if the motion stayed finite to its end."""
         return self.status is MotionStatus.COMPLETED
 
     @property
@@ -159,9 +159,10 @@ class Motion:
         return self._accelerations("outer")
 
     def instant_acceleration(self, body: str) -> Array:
-        """(n, len(dofs)) [m/s², rad/s²] unfiltered acceleration of the "inner" or "outer" ring.
+        """Return the unfiltered acceleration (n, len(dofs)) of the "inner" or "outer" ring.
 
-        It follows from the forces at each sample time: use it for balances, not for spectra.
+        Units are [m/s², rad/s²]. It follows from the forces at each sample time: use it for
+        balances of forces, not for spectra.
         """
         return self._sampled(body, 2)
 
@@ -181,14 +182,14 @@ class Motion:
         return spectrum(signal, self.sample_rate, resolution).up_to(self.bandwidth)
 
     def ball_loads(self, start: int = 0, stop: int | None = None) -> Array:
-        """Elastic contact loads (stop − start, N_b) [N] of the samples from start to stop (Eq. 13).
+        """Return elastic loads (stop − start, N_b) [N] of samples from start to stop (Eq. 13).
 
         For balls with mass they are those at the outer race. Fewer samples cost less.
         """
         return self.race_loads(start, stop)[1]
 
     def race_loads(self, start: int = 0, stop: int | None = None) -> Array:
-        """Elastic loads (2, stop − start, N_b) [N] at inner and outer race, of some samples.
+        """Return elastic loads (2, stop − start, N_b) [N] at inner and outer race, as `ball_loads`.
 
         For massless balls both are the same.
         """
@@ -217,16 +218,16 @@ class Motion:
         return table_of(
             ("time", "s", self.time),
             *(
-                (f"{body}_{what}_{dof}", unit[dof.startswith("r")], values)
+                (f"{body}_{name}_{dof}", unit[dof.startswith("r")], values)
                 for body in ("inner", "outer")
-                for what, unit in units.items()
-                for dof, values in zip(self.dofs, getattr(self, f"{body}_{what}").T, strict=True)
+                for name, unit in units.items()
+                for dof, values in zip(self.dofs, getattr(self, f"{body}_{name}").T, strict=True)
             ),
         )
 
     def _accelerations(self, body: str) -> Array:
         n, first = len(self.time), 0 if body == "inner" else 3
-        if self.filtered is not None:  # of balls with mass not every step is kept
+        if self.filtered is not None:  # with mass: the history does not have every step
             scaled = self.filtered[first // 3]
         elif not self.right_hand_side_calls:
             scaled = np.full((n, len(self.dofs)), math.nan)
@@ -235,27 +236,28 @@ class Motion:
         return scaled / packing.length_units(self.scene, self.dofs)
 
     def _sampled(self, body: str, derivative: int) -> Array:
-        """A quantity of one body at the sample times."""
+        """Return a derivative of one body's displacement at the sample times."""
         scaled = self._scaled(body, derivative, 0, len(self.time))
         return scaled / packing.length_units(self.scene, self.dofs)
 
     def _scaled(self, body: str, derivative: int, start: int, stop: int) -> Array:
-        """Displacement (0), velocity (1) or acceleration (2), samples start to stop, scaled.
+        """Return displacement (0), velocity (1) or acceleration (2), tilts times r_d.
 
-        Between steps by quintic interpolation.
+        Samples are those from start to stop; between steps they are interpolated by quintics.
         """
-        # rows of the history a second: one a step, of balls with mass one a sample
+        # the history has a row for each step, or with mass for each sample
         history, rate = self.history, self.step_rate
         if self.ball_place is not None:
             rate = self.sample_rate
-        a_step, a_sample = _ratio(self.sample_rate, rate)
+        per_step, per_sample = _ratio(self.sample_rate, rate)
         first = 0 if body == "inner" else 3
         n = max(stop - start, 0)
-        if a_step == 1:
-            rows = slice(start * a_sample, start * a_sample + max(n * a_sample - a_sample + 1, 0))
-            return np.ascontiguousarray(history[rows, first + derivative][::a_sample])
+        if per_step == 1:
+            begin = start * per_sample
+            rows = slice(begin, begin + max(n * per_sample - per_sample + 1, 0))
+            return np.ascontiguousarray(history[rows, first + derivative][::per_sample])
         out = np.empty((n, history.shape[2]))
-        weights = hermite_weights(np.arange(a_step) / a_step, derivative, 1.0 / rate)
+        weights = hermite_weights(np.arange(per_step) / per_step, derivative, 1.0 / rate)
         kernels.interpolate_steps(history, first, weights, start, out)
         return out
 
@@ -281,10 +283,11 @@ def simulate(
     sample_rate
         [Hz] of the returned samples.
     force
-        a force in time on the inner ring, beside the scene's load, from the static state without it
-        on. Its rate is at most twice the step rate, as each step takes the force at its begin,
-        middle and end. The filter looks REACH samples ahead: a force that is not zero at the end of
-        the motion lasts as much longer, or accelerations hold the fall to zero.
+        a force in time on the inner ring, in addition to the scene's load. The static state at the
+        start does not include it. Its sample rate is at most twice the step rate, as each step
+        takes the force at its begin, middle and end. The filter looks REACH samples ahead: a force
+        that is not zero at the end of the motion should last that much longer, or accelerations
+        include its fall to zero.
     step_rate
         [Hz], a multiple or a whole fraction of the sample rate; for balls with mass a multiple. If
         a step is too long for the contacts of balls with mass, no motion is computed and the status
@@ -293,11 +296,11 @@ def simulate(
         enough. Samples between steps come from quintic interpolation.
     most_steps
         limit on the number of steps. Beyond it no motion is computed, and the status gives the
-        number. A light body on a stiff support needs hundreds of millions a second. Steps for the
-        REACH further samples that the filter needs (`low_pass`) are not counted.
+        number. A light body on a stiff support needs hundreds of millions of steps a second. Steps
+        for the REACH further samples that the filter needs (`low_pass`) are not counted.
     progress
         called about ten times a second with the part done, 0 to 1, and words; an exception from it
-        ends the work. Under the law without tension each number of steps begins at 0 again.
+        ends the work. Under the law without tension each step rate begins at 0 again.
 
     Returns
     -------
@@ -360,23 +363,23 @@ def _marched(
     most_steps: int,
     watch: kernels.Watch | None = None,
 ) -> Motion:
-    """Motion at one step rate [Hz]; `rest`: state at cage angle 0."""
+    """Return the motion at one step rate [Hz]; `rest` is the static state at cage angle 0."""
     scene, dofs = packed.scene, packed.dofs
     with_mass = scene.balls == WITH_MASS
-    _, a_sample = _ratio(sample_rate, step_rate, with_mass)  # refuses a rate that does not fit
+    _, per_sample = _ratio(sample_rate, step_rate, with_mass)  # refuses a rate that does not fit
     n = max(round(duration * sample_rate), 1)
-    # balls with mass take many steps a sample, of which accelerations do not need every one
-    kept = max(k for k in range(1, KEPT + 1) if a_sample % k == 0) if with_mass else a_sample
-    every = a_sample // kept
-    rows = rows_needed(n, sample_rate, step_rate / every)  # the last samples need what follows
+    # Balls with mass take many steps per sample, and the filter does not need each of them.
+    kept = max(k for k in range(1, KEPT + 1) if per_sample % k == 0) if with_mass else per_sample
+    every = per_sample // kept
+    rows = rows_needed(n, sample_rate, step_rate / every)  # some follow the last sample
     n_steps = (rows - 1) * every
-    shown = math.ceil((n - 1) * step_rate / sample_rate - 1e-9)  # without what follows
+    shown = math.ceil((n - 1) * step_rate / sample_rate - 1e-9)  # steps up to the last sample
     time = np.arange(n) / sample_rate
     n_balls = packed.contacts.angle.size
     parts = place_parts(scene, dofs)
     least = least_step_rate(packed) if with_mass else 0.0
     if (refusal := _refusal(shown, most_steps, step_rate, least)) is not None:
-        # NaN everywhere, without the memory of it
+        # NaN everywhere, without the memory that such arrays would need
         unknown = np.float64(math.nan)
         nothing = np.broadcast_to(unknown, (n if with_mass else shown + 1, 6, len(dofs)))
         nowhere = np.broadcast_to(unknown, (n, parts, n_balls)) if with_mass else None
@@ -408,7 +411,7 @@ def _marched(
         first = 0 if y is None else 1
         history[done // every + first :] = math.nan
         if place is not None:
-            place[done // a_sample + first :] = math.nan
+            place[done // per_sample + first :] = math.nan
     if place is not None:
         both = [low_passed(history, body, n, sample_rate, kept * sample_rate) for body in (0, 3)]
         filtered, place = np.stack(both), place[:n]
@@ -431,9 +434,9 @@ def _marched(
 def _refusal(
     shown: int, most_steps: int, step_rate: float, least: float
 ) -> tuple[MotionStatus, str] | None:
-    """Reason not to begin a motion with too many steps at a rate from `least` [Hz] on, or None.
+    """Return the reason to refuse a motion: a step rate below `least` [Hz] or too many steps.
 
-    Explicit steps that are too long for the stiffest mode of a ball grow without end.
+    Explicit steps that are too long for the stiffest mode of a ball grow without bound.
     """
     if step_rate < least:
         return MotionStatus.DIVERGED, (
@@ -449,12 +452,13 @@ def _refusal(
 
 
 def _double_steps(march: Callable[[float], Motion], rate: float, sample_rate: float) -> Motion:
-    """Motion of contacts that let go: steps are doubled until half as many make no difference.
+    """Return the motion of contacts without tension, with enough steps.
 
-    Where they touch and leave their load jumps, so that errors fall with the step itself.
+    The load of such a contact jumps as it opens, so errors fall only in proportion to the step.
+    Steps are doubled until half as many make no difference.
     """
-    a_sample = rate / sample_rate
-    before = _level(march(sample_rate * (a_sample // 2) if a_sample >= 2.0 else 0.5 * rate))
+    per_sample = rate / sample_rate
+    before = _level(march(sample_rate * (per_sample // 2) if per_sample >= 2.0 else 0.5 * rate))
     for _ in range(MOST_DOUBLINGS + 1):
         motion = march(rate)
         level = _level(motion)
@@ -474,40 +478,40 @@ def _double_steps(march: Callable[[float], Motion], rate: float, sample_rate: fl
 
 
 def _bands_apart(motion: Motion, finer: Motion) -> str:
-    """Changes of a spectrum by twice the steps, in words; "" where that is little.
+    """Return words on the change of a spectrum by twice the steps; "" if it is small.
 
-    Compared are bands of a third of an octave that hold a part in 10,000 of the power or more, once
-    the motion has settled. Where contacts let go it may be chaotic: then no steps are enough.
+    Third octaves with at least a ten-thousandth of the power are compared, in the second half of
+    the motions. A motion without tension may be chaotic: then no number of steps is enough.
     """
     if not finer.completed:
         return "; its spectrum is not checked with twice the steps, which are too many"
     since = 0.5 * float(motion.time[-1])
     edges = motion.bandwidth * 2.0 ** np.arange(-8.0, 0.1, 1.0 / 3.0)
     power = []
-    for each in (motion, finer):
-        lines = each.spectrum(max(0.25 * edges[0], 4.0 / since), since)
+    for compared in (motion, finer):
+        lines = compared.spectrum(max(0.25 * edges[0], 4.0 / since), since)
         power.append(np.add.reduceat(lines.density, np.searchsorted(lines.frequency, edges)[:-1]))
     loud = (power[1] > 1e-4 * power[1].sum(axis=0)) & (power[0] > 0.0)
-    apart = np.abs(10.0 * np.log10(power[0][loud] / power[1][loud])).max(initial=0.0)
-    if apart <= SAME_BANDS:
+    error = np.abs(10.0 * np.log10(power[0][loud] / power[1][loud])).max(initial=0.0)
+    if error <= SAME_BANDS:
         return ""
-    return f"; its contacts let go, and bands of its spectrum are known to {decibels(apart)} only"
+    return f"; its contacts open, and bands of its spectrum are known to {decibels(error)} only"
 
 
 def _level(motion: Motion) -> float:
-    """Root mean square [m/s] of the housing's velocity in the second half of a motion."""
-    last = motion.time[-1] * motion.step_rate  # what follows is for the filter alone
+    """Return the root mean square [m/s] of the housing's velocity in a motion's second half."""
+    last = motion.time[-1] * motion.step_rate  # later rows are for the filter alone
     late = motion.history[int(0.5 * last) : int(last) + 1, 4]
     return math.sqrt(float(np.mean(late * late)))
 
 
 def moving_system(packed: PackedMotion, *, velocities: bool = False) -> kernels.System:
-    """System of a scene with massless balls for the kernels; see `packing.rotor`.
+    """Return the system of a scene with massless balls for the kernels; see `packing.rotor`.
 
     Raises
     ------
     ValueError
-        for balls with mass: only `simulate` knows them.
+        for balls with mass, which only `simulate` can march.
     """
     balls = packed.scene.balls
     if balls != MASSLESS:
@@ -519,7 +523,7 @@ def moving_system(packed: PackedMotion, *, velocities: bool = False) -> kernels.
 
 
 def static_start(packed: PackedMotion, rest: Equilibrium) -> Array | None:
-    """State (4 len(dofs),) at rest at cage angle 0; None where there is no static state there.
+    """Return the state (4 len(dofs),) at rest at cage angle 0; None without a static state there.
 
     `rest` is the static state at cage angle 0.
     """
@@ -532,9 +536,9 @@ def static_start(packed: PackedMotion, rest: Equilibrium) -> Array | None:
 
 
 def _ratio(sample_rate: float, step_rate: float, with_mass: bool = False) -> tuple[int, int]:
-    """(samples a step, steps a sample), one of them 1; ValueError where neither is whole.
+    """Return (samples per step, steps per sample), one of them 1; ValueError if neither is whole.
 
-    Balls `with_mass` take a whole number of steps a sample.
+    Balls `with_mass` take a whole number of steps per sample.
     """
     step_rate = checks.real_number("step_rate", step_rate, above=0.0, unit="Hz")
     ratio = max(sample_rate, step_rate) / min(sample_rate, step_rate)

@@ -3,8 +3,8 @@
 Quantity                                              | Symbol | Name            | Unit
 ----------------------------------------------------- | ------ | --------------- | ----
 state: displacements and velocities of both rings     | y      |                 | m, m/s
-what a period does to it                              | P(y)   |                 |
-its derivative at the orbit                           | Φ      | monodromy       |
+state one period later                                | P(y)   |                 | m, m/s
+derivative of P at the orbit                          | Φ      | tangent         |
 eigenvalues of Φ                                      | μ      | multipliers     |
 """
 
@@ -28,11 +28,7 @@ from bearingcore.common import (
 )
 from bearingcore.model import _kernels as kernels
 from bearingcore.model.dynamics._damping import packed_motion
-from bearingcore.model.dynamics._low_pass import (
-    PASSED,
-    PASSED_OF_ORBITS,
-    acceleration_lines,
-)
+from bearingcore.model.dynamics._low_pass import PASSED, PASSED_OF_ORBITS, acceleration_lines
 from bearingcore.model.dynamics._modes import highest_frequency_of
 from bearingcore.model.dynamics._motion import MOST_SAMPLES, MOST_STEPS, moving_system, static_start
 from bearingcore.model.dynamics._status import OrbitStatus
@@ -42,24 +38,23 @@ from bearingcore.model.statics._equilibrium import equilibrium_of
 from bearingcore.recordings import Spectrum
 
 MOST_BALL_PASSES = 400
-"""The longest common period, in ball passes, that is looked for."""
+"""Longest common period that is considered, in ball passes."""
 
 WINDOW_REACH = 6
-"""Bins over which the Hann window lets a line be seen: beyond, its side lobes are 60 dB down."""
+"""Number of bins over which the Hann window spreads a line: beyond, side lobes are 60 dB down."""
 
 MOST_ITERATIONS = 25
-"""Newton steps at most."""
+"""Greatest number of Newton steps."""
 
 MARCHED_BEFORE = (2, 20, 60)
-"""Periods marched before Newton's method begins, and before it begins again."""
+"""Numbers of periods marched before Newton's method begins, and before each new beginning."""
 
 CLOSED = 1e-7
-"""An orbit is closed when it misses its beginning by this part of its own size."""
+"""Greatest distance between end and beginning of a closed orbit, over the size of the orbit."""
 
 STILL = 1e-12
-"""Motion [m], a hundredth of an atom, below which rings stand still: all balls of a row pressed
-together carry, and their passing moves the rings by no more than digits."""
-
+"""Motion [m], a hundredth of an atom, below which rings stand still: when all balls of a pressed
+row carry load, their passing moves the rings by rounding only."""
 
 LOSSES = {"-1": "period doubling", "pair": "Neimark-Sacker", "+1": "fold"}
 """Losses of stability by the place at which the largest multiplier leaves the unit circle."""
@@ -75,7 +70,7 @@ class Orbit:
     scene, dofs
         the scene, and the directions in which it moves.
     status
-        outcome of the search; there is none if there is no common period.
+        outcome of the search; without a common period there is no orbit.
     through
         for an unstable orbit, how its largest multiplier leaves the unit circle: "+1" (the motion
         drifts off to another orbit), "-1" (every second period alike: period-doubling) or "pair"
@@ -87,13 +82,13 @@ class Orbit:
     residual
         distance between end and beginning of the period, over the size of the orbit.
     iterations, right_hand_side_calls
-        Newton steps, and evaluations of the accelerations; one with the tangent counts once.
+        numbers of Newton steps and of evaluations of the accelerations, with or without tangent.
     history : (steps + 1, 6, len(dofs))
         displacement, velocity, acceleration of the inner, then of the outer ring over the period,
         tilts times r_d.
     cost
-        for "too many steps" their number in words; without a static state to start from the reason.
-        Empty otherwise.
+        for "too many steps" their number in words; for "no static state" the reason. Empty
+        otherwise.
     """
 
     scene: Scene
@@ -139,12 +134,13 @@ class Orbit:
         It ends where its error exceeds 0.1 dB: at 0.4 of the sample rate, or at 0.15 of the step
         rate of the orbit if that is less.
 
-        Density (m, len(dofs)) [(m/s²)²/Hz, (rad/s²)²/Hz] of a record of `duration` [s] that
-        begins `since` [s] after the period, without making the record: each Fourier line of the
-        orbit is seen through the Hann window, and lines beat with each other from segment to
+        The density (m, len(dofs)) [(m/s²)²/Hz, (rad/s²)²/Hz] is that of a record of `duration` [s]
+        that begins `since` [s] after the period. The record itself is not made: each Fourier line
+        of the orbit is spread by the Hann window, and lines beat with each other from segment to
         segment.
 
-        ValueError for a record, or a segment of 1/resolution, with more than MOST_SAMPLES samples.
+        Raises ValueError if the record or a segment of 1/resolution has more than MOST_SAMPLES
+        samples.
         """
         sample_rate = checks.real_number("sample_rate", sample_rate, above=0.0, unit="Hz")
         least, most = sample_rate / MOST_SAMPLES, MOST_SAMPLES / sample_rate
@@ -163,11 +159,11 @@ class Orbit:
         lines = acceleration_lines(self.history, 3, self.period / steps, count)
         lines /= packing.length_units(self.scene, self.dofs)
         lines *= np.exp(2j * math.pi * since / self.period * np.arange(len(lines)))[:, None]
-        # a segment's own beginning turns line k by exp(iπk/(period·resolution)); what is left of
-        # the Hann window's transform, half sinc(x)/(1 − x²) a sample, x bins away, is real
+        # A segment's middle turns line k by exp(iπk/(period·resolution)). The other factor of the
+        # Hann window's transform at x bins is real: half of sinc(x)/(1 − x²) per sample.
         spacing = 1.0 / (self.period * resolution)
         lines *= np.exp(1j * math.pi * spacing * np.arange(len(lines)))[:, None]
-        # lines within WINDOW_REACH bins of a frequency are what a segment sees there
+        # each frequency of a segment gets the lines within WINDOW_REACH bins
         reach = max(math.ceil(WINDOW_REACH / spacing), 2)
         k = np.rint(frequency * self.period).astype(int)[:, None] + np.arange(-reach, reach + 1)
         known = (k > 0) & (k < count)
@@ -175,15 +171,16 @@ class Orbit:
         edge = np.abs(np.abs(x) - 1.0) < 1e-9
         seen = np.where(edge, 0.25, 0.5 * np.sinc(x) / np.where(edge, 1.0, 1.0 - x * x)) * known
         density = np.zeros((len(frequency), lines.shape[1]))
-        turn = 2.0 * math.pi * hop / (sample_rate * self.period)  # of a line from the next, a hop
+        # phase between neighbouring lines from one segment to the next, and its mean over segments
+        turn = 2.0 * math.pi * hop / (sample_rate * self.period)
         beats = np.exp(1j * turn * np.outer(np.arange(2 * reach + 1), np.arange(segments)))
         beats = beats.mean(axis=1)
         for axis in range(lines.shape[1]):
             part = lines[np.where(known, k, 0), axis] * seen
             density[:, axis] = np.einsum("fk,fk->f", part, part.conj()).real
-            for apart in range(1, 2 * reach + 1):
-                cross = np.einsum("fk,fk->f", part[:, apart:], part[:, :-apart].conj())
-                density[:, axis] += 2.0 * (beats[apart] * cross).real
+            for offset in range(1, 2 * reach + 1):
+                cross = np.einsum("fk,fk->f", part[:, offset:], part[:, :-offset].conj())
+                density[:, axis] += 2.0 * (beats[offset] * cross).real
         scale = 2.0 * segment / (0.375 * sample_rate)  # Σ w² = 0.375 segment
         return Spectrum(frequency, np.maximum(scale * density, 0.0))
 
@@ -198,12 +195,12 @@ def orbit(
 ) -> Orbit:
     """Find the periodic motion of `scene` by Newton's method on P(y) = y (shooting).
 
-    Its period is the shortest after which all that acts on the rings repeats: one ball pass for
-    healthy bearings and outer-race defects; for an inner-race defect there is one only if shaft and
-    cage return together (`common_ball_passes`).
+    Its period is the shortest time after which all forces on the rings repeat. This is one ball
+    pass for healthy bearings and outer-race defects. For an inner-race defect a period exists only
+    if shaft and cage return together (`common_ball_passes`).
 
     The variational equations are integrated with the motion. Newton's method finds unstable orbits
-    too, so the multipliers are part of the answer: a machine settles to a stable orbit only.
+    too, but a machine settles to a stable orbit only: the multipliers distinguish them.
 
     Parameters
     ----------
@@ -212,7 +209,7 @@ def orbit(
     start
         an orbit of a similar scene to start from; None starts at the static state.
     step_rate
-        least step rate [Hz]; the period has a whole number of steps. None as in `simulate`.
+        least step rate [Hz]; the period has a whole number of steps. None takes that of `simulate`.
     most_steps
         limit on all steps of integration. They are counted before each period; beyond the limit the
         search ends and the status says so.
@@ -229,7 +226,7 @@ def orbit(
     checks.instance("scene", scene, Scene)
     checks.real_number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")
     if scene.contact_law != CONTACT_LAWS[0]:
-        words = f"{CONTACT_LAWS[0]} for an orbit: where contacts let go the motion has no tangent"
+        words = f"{CONTACT_LAWS[0]} for an orbit: a motion without tension has no tangent"
         raise checks.refuse("contact_law", scene.contact_law, words)
     dofs = scene.active_dofs
     ball_passes = common_ball_passes(scene) or 0
@@ -244,7 +241,7 @@ def orbit(
     packed = packed_motion(scene)
     rate = step_rate or step_rate_of(packed, 65536.0)
     steps = max(math.ceil(period * rate), 8)
-    # there is no orbit without two periods: one to see that it closes, one after a step of Newton's
+    # an orbit needs at least two periods: one to see whether it closes, one after a Newton step
     if 2 * steps > most_steps:
         most = thousands(most_steps)
         cost = f"{thousands(steps)} steps a period, allowed are most_steps = {most} in all"
@@ -253,14 +250,14 @@ def orbit(
     rest = equilibrium_of(packed, [0.0])
     y = static_start(packed, rest) if start is None else _state_at_start(start, dofs)
     if y is None:
-        why = rest.reason(0)
-        return replace(nothing, status=OrbitStatus.NO_START, period=period, cost=why)
+        reason = rest.reason(0)
+        return replace(nothing, status=OrbitStatus.NO_START, period=period, cost=reason)
     y = shooting.smooth_state(y)
     if start is not None:
         answer = _newton(nothing, shooting, y, period)
         if answer.status != OrbitStatus.NOT_CONVERGED or shooting.too_many:
             return shooting.reported(answer)
-    # where Newton loses its way it begins again, nearer to where the motion itself goes
+    # if Newton's method fails, it begins again after some periods of the motion itself
     for periods in MARCHED_BEFORE:
         y = shooting.march(y, periods)
         answer = _newton(nothing, shooting, y, period)
@@ -270,12 +267,12 @@ def orbit(
 
 
 def common_ball_passes(scene: Scene) -> int | None:
-    """Ball passes after which everything that acts on the rings repeats; None where it never does.
+    """Return the number of ball passes after which all forces on the rings repeat; None if never.
 
-    The balls of a row are alike after one of its own passes: for each pass of the bearing's balls
-    those of a row with a number or a cage of its own have made another part of one, and must have
-    come round by whole ones. So must what turns with the shaft, a defect of
-    the inner race or a force, by whole turns: the shaft has turned (2π/N_b)·ω_s/ω_c for each.
+    A row repeats after a pass of its own balls. If it has another number of balls or another cage
+    speed, it makes another number of passes in each pass of the bearing's balls. The period must
+    hold whole passes of each row. It must also hold whole turns of the shaft if an inner-race
+    defect or a force turns with it: the shaft turns by (2π/N_b)·ω_s/ω_c in each pass.
     """
     bearing = scene.bearing
     rounds = {
@@ -285,10 +282,10 @@ def common_ball_passes(scene: Scene) -> int | None:
     if scene.turning_force > 0.0 or scene.defect_turns:
         rounds.add(1.0 / (bearing.cage_ratio * bearing.n_balls))
     passes = 1
-    for turned in rounds:
-        fraction = Fraction(turned).limit_denominator(MOST_BALL_PASSES)
-        # what is left over in the longest period must be below any step: 1e-9 of a turn
-        if abs(float(fraction) - turned) * fraction.denominator > 1e-9:
+    for passed in rounds:
+        fraction = Fraction(passed).limit_denominator(MOST_BALL_PASSES)
+        # the remainder after the longest period must be below any step: 1e-9 of a turn
+        if abs(float(fraction) - passed) * fraction.denominator > 1e-9:
             return None
         passes = math.lcm(passes, fraction.denominator)
     return passes if passes <= MOST_BALL_PASSES else None
@@ -297,7 +294,7 @@ def common_ball_passes(scene: Scene) -> int | None:
 class _Shooting:
     """Map of a state over one period, with and without the tangent.
 
-    States are those that `kernels.march` moves.
+    States are in the variables of `kernels.march`.
     """
 
     def __init__(
@@ -315,18 +312,18 @@ class _Shooting:
         self._system = moving_system(packed)
         self._step = period / steps
         self.history = np.empty((steps + 1, 6, len(packed.dofs)))
-        # velocities count over the highest natural frequency, so that all of y are lengths
+        # velocities are divided by the highest natural frequency, so that all of y are lengths
         omega = 2.0 * math.pi * highest_frequency_of(packed)
         self.scale = np.repeat([1.0, 1.0 / omega, 1.0, 1.0 / omega], len(packed.dofs))
 
     def smooth_state(self, y: Array) -> Array:
-        """Turn displacements and velocities into the variables that are marched."""
+        """Turn displacements and velocities into the marched variables."""
         periodic = y.copy()
         kernels.turn_smooth(periodic, 1.0, 0.0, self._system)
         return periodic
 
     def march(self, y: Array, periods: int = 1) -> Array:
-        """P(y), or P of P, or more."""
+        """Return P(y), or the state after several periods."""
         end = y.copy()
         for _ in range(periods):
             if self.too_many:
@@ -336,11 +333,11 @@ class _Shooting:
         return end
 
     def march_with_tangent(self, y: Array) -> tuple[Array, Array]:
-        """P(y) and its derivative."""
-        both = np.concatenate([y, np.eye(y.size).ravel()])
-        kernels.march(both, self._step, 0.0, self._system, self.history, self._watch)
+        """Return P(y) and its derivative."""
+        state = np.concatenate([y, np.eye(y.size).ravel()])
+        kernels.march(state, self._step, 0.0, self._system, self.history, self._watch)
         self.calls += 4 * self.steps
-        return both[: y.size], both[y.size :].reshape(y.size, y.size)
+        return state[: y.size], state[y.size :].reshape(y.size, y.size)
 
     def _watch(self, part: float) -> None:
         """Report the steps so far and a part of a period."""
@@ -350,11 +347,11 @@ class _Shooting:
 
     @property
     def too_many(self) -> bool:
-        """True where another period would exceed the limit on steps."""
+        """True if another period would exceed the limit on steps."""
         return self.calls // 4 + self.steps > self._most_steps
 
     def reported(self, answer: Orbit) -> Orbit:
-        """Result of the search, or its status where it was ended for its cost."""
+        """Return the result of the search, with "too many steps" as its status if that ended it."""
         if answer.status != OrbitStatus.NOT_CONVERGED or not self.too_many:
             return answer
         cost = (
@@ -364,7 +361,7 @@ class _Shooting:
         return replace(answer, status=OrbitStatus.TOO_MANY_STEPS, cost=cost)
 
     def miss(self, y: Array, end: Array) -> float:
-        """|P(y) − y| over the size of the motion between, of rings that stand still over STILL."""
+        """Return |P(y) − y| over the size of the motion, which is at least STILL."""
         size = np.ptp(self.history[:, 0], axis=0).max() + np.ptp(self.history[:, 3], axis=0).max()
         if not (np.all(np.isfinite(end)) and math.isfinite(size)):
             return math.inf
@@ -372,7 +369,10 @@ class _Shooting:
 
 
 def _newton(nothing: Orbit, shooting: _Shooting, y: Array, period: float) -> Orbit:
-    """Solve P(y) = y from y; its Jacobian is the tangent less 1. A step is cut until it helps."""
+    """Solve P(y) = y by Newton's method from y; a step is shortened until it helps.
+
+    The Jacobian of P(y) − y is the tangent less the unit matrix.
+    """
     end, tangent = shooting.march_with_tangent(y)
     miss = shooting.miss(y, end)
     iterations = 0
@@ -382,6 +382,7 @@ def _newton(nothing: Orbit, shooting: _Shooting, y: Array, period: float) -> Orb
             step = np.linalg.solve(tangent - np.eye(y.size), y - end)
         except np.linalg.LinAlgError:
             break
+        # shorten the step until the orbit closes better
         part = 1.0
         while part > 0.02:
             trial = y + part * step
@@ -391,7 +392,7 @@ def _newton(nothing: Orbit, shooting: _Shooting, y: Array, period: float) -> Orb
                 break
             part *= 0.4
         else:
-            # no part of the step helps: let the motion itself move on
+            # no part of the step helps: continue at the end of the period
             trial = end
             trial_end, trial_tangent = shooting.march_with_tangent(trial)
             trial_miss = shooting.miss(trial, trial_end)
@@ -406,6 +407,7 @@ def _newton(nothing: Orbit, shooting: _Shooting, y: Array, period: float) -> Orb
     )
     if not miss <= CLOSED:
         return answer
+    # a closed orbit is stable if all multipliers are inside the unit circle
     multipliers = np.linalg.eigvals(tangent)
     multipliers = multipliers[np.argsort(-np.abs(multipliers))]
     largest = multipliers[0]
@@ -422,7 +424,10 @@ def _newton(nothing: Orbit, shooting: _Shooting, y: Array, period: float) -> Orb
 
 
 def _state_at_start(start: Orbit, dofs: tuple[str, ...]) -> Array | None:
-    """The first state of another orbit; None where it moves along other directions or is none."""
+    """Return the first state of another orbit; None if it has other directions or no state.
+
+    If there is no orbit, its static state is taken.
+    """
     first = start.history[0]
     if start.dofs != dofs:
         return None

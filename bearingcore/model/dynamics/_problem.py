@@ -1,4 +1,4 @@
-"""A scene's motion as numbers, for every integrator alike: start, right-hand side, kinks."""
+"""The motion of a scene as an initial-value problem for any integrator."""
 
 from __future__ import annotations
 
@@ -19,19 +19,19 @@ from bearingcore.model.statics._equilibrium import equilibrium_of
 
 @dataclass(frozen=True)
 class MotionProblem:
-    """Initial-value problem of a scene; rotations are carried times r_d.
+    """Initial-value problem of a scene; rotations are times r_d.
 
     Attributes
     ----------
     scene, dofs
         the scene and its n active directions.
     start : (4 n,) [m, m/s]
-        displacement and velocity of the inner ring, then of the outer one, at time 0.
+        displacement and velocity of the inner ring, then of the outer ring, at time 0.
     scale : (4 n,) [m, m/s]
-        sizes that count: one ball's compression under the load, and that times the highest natural
-        angular frequency. Tolerances are relative to them: the whole signal is micrometres.
+        typical sizes, to which tolerances are relative, as all displacements are micrometres: one
+        ball's compression under the load, and that times the highest natural angular frequency.
     system
-        numbers as the kernels take them to march velocities.
+        arguments of the kernels, with velocities as variables.
     """
 
     scene: Scene
@@ -41,11 +41,11 @@ class MotionProblem:
     system: kernels.System
 
     def rate(self, t: float, y: Array) -> Array:
-        """dy/dt at time t [s], compiled."""
+        """Return dy/dt at time t [s], by compiled code."""
         return np.asarray(kernels.motion_rates(np.array([t]), y[None], 0.0, self.system)[0])
 
     def kinks(self, duration: float) -> Array:
-        """Times [s], rising, at which a ball meets an edge or the floor of a defect."""
+        """Return rising times [s] at which a ball meets an edge or the floor of a defect."""
         if self.scene.cage_speed == 0.0:
             return np.zeros(0)
         last = duration * self.scene.cage_speed
@@ -54,12 +54,12 @@ class MotionProblem:
 
 
 def motion_problem(scene: Scene) -> MotionProblem:
-    """The motion of `scene` from rest at its static state, as `simulate` starts it.
+    """Return the motion of `scene` from rest at its static state, as `simulate` starts it.
 
     Raises
     ------
     ValueError
-        for a shaft that stands still, or where there is no static state to start from.
+        for a shaft that stands still, or if there is no static state to start from.
     """
     checks.real_number("shaft_speed", scene.shaft_speed, above=0.0, unit="rad/s")
     packed = packed_motion(scene)

@@ -1,8 +1,8 @@
-"""Simulated records: a motion behind wandering cages, paths, knocks, tones and noise.
+"""Simulated records: a motion with a wandering cage, a path to the sensor, knocks, tones and noise.
 
-A simulated motion has a cage that turns steadily and a sensor that feels the housing itself. Real
-ones have neither. Each effect can be switched off by itself, to find which of them a method bears.
-The effects are drawn, not derived: what is learned from such records has to be tried on real ones.
+A simulated motion has a cage that turns steadily and a sensor on the housing itself. Real records
+have neither. Each effect can be switched off, to find out which of them a method tolerates. The
+effects are random, not derived: methods learned from such records must be tested on real ones.
 """
 
 from __future__ import annotations
@@ -22,16 +22,16 @@ from bearingcore.recordings import Recording
 from bearingcore.recordings._recording import DIRECTIONS
 
 SLOWEST_WANDER = 0.3
-"""Frequency [Hz] of the cage's slowest wandering; the fastest is that of the cage."""
+"""Lowest frequency [Hz] at which the cage speed wanders; the highest is that of the cage."""
 
 WANDERS = 6
-"""Sines of which a wandering speed consists."""
+"""Number of sines in a wandering speed."""
 
 _BACKGROUND = (math.log(1.0), math.log(10.0))
-"""Logarithms of the least and greatest background [m/s²] that are drawn."""
+"""Logarithms of the least and greatest random background [m/s²]."""
 
 TONES = 6
-"""Harmonics of the shaft, each fainter than the one before: the first, half, a third of it …"""
+"""Number of harmonics of the shaft; their amplitudes are 1, 1/2, 1/3 … of the first."""
 
 
 @dataclass(frozen=True)
@@ -41,12 +41,12 @@ class Resonance:
     frequency: float
     """[Hz]"""
     damping: float
-    """ratio to the critical one"""
+    """damping ratio"""
     gain: tuple[float, ...]
-    """amount added at its peak, along each direction, to the 1 of the direct path"""
+    """amplitude added at its peak, along each direction, to the 1 of the direct path"""
 
     def transfer(self, frequency: Array) -> NDArray[np.complex128]:
-        """Amount added (n,) at frequencies [Hz], for a gain of 1: 2iζr/(1 − r² + 2iζr)."""
+        """Return the amplitude (n,) at frequencies [Hz] for a gain of 1: 2iζr/(1 − r² + 2iζr)."""
         r = frequency / self.frequency
         return np.asarray(2j * self.damping * r / (1.0 - r**2 + 2j * self.damping * r))
 
@@ -55,7 +55,7 @@ TWO_RESONANCES = (Resonance(950.0, 0.04, (2.0, -1.5)), Resonance(2100.0, 0.03, (
 
 
 def drawn_resonances(rng: np.random.Generator) -> tuple[Resonance, ...]:
-    """A low and a high resonance, each felt along x and y with gains of their own."""
+    """Draw a low and a high resonance with random gains along x and y."""
     return tuple(
         Resonance(
             math.exp(rng.uniform(math.log(low), math.log(high))),
@@ -68,24 +68,24 @@ def drawn_resonances(rng: np.random.Generator) -> tuple[Resonance, ...]:
 
 @dataclass(frozen=True)
 class PathEffects:
-    """Effects added to a simulated motion, each switched off by its 0, () or None.
+    """Effects added to a simulated motion; 0, () or None switches one off.
 
     Attributes
     ----------
     cage_wander
         standard deviation of the cage's speed, as a share of it.
     resonances
-        between housing and sensor.
+        resonances of the path between housing and sensor.
     knock, knock_frequency, knock_damping
-        peak of what a ball makes ring as it strikes the far edge, over the peak of the motion, on
-        an inner race as strong as the load there; its frequency [Hz] and damping ratio.
+        peak of the ringing after a ball strikes the far edge, over the peak of the motion; its
+        frequency [Hz] and damping ratio. On an inner race it is proportional to the load there.
     shaft_tones
         root mean square of the shaft's first harmonic, over that of the signal.
     noise
-        [dB] by which the power of pink noise lies below the signal's; None for none.
+        level [dB] of the power of pink noise below that of the signal; None for no noise.
     background
-        [m/s²] root mean square of pink noise that the machine makes whatever the bearing does. A
-        healthy bearing of this model is far quieter than any machine.
+        root mean square [m/s²] of pink noise of the machine, which does not depend on the bearing.
+        A healthy bearing of this model is far quieter than any machine.
     """
 
     cage_wander: float = 0.004
@@ -110,8 +110,8 @@ def simulated_record(
     """Simulate the record of a real sensor in a scene, for learning and trials.
 
     The record contains the motion of the housing, a path with resonances, a wandering cage, tones
-    of the shaft and noise. The cage wanders by a varying clock of the steady motion; natural
-    frequencies vary by the same few thousandths, which is too little to notice.
+    of the shaft and noise. The clock of the steady motion is varied to make the cage wander. This
+    varies natural frequencies by the same few thousandths, which is too little to notice.
 
     Parameters
     ----------
@@ -123,7 +123,7 @@ def simulated_record(
     duration, sample_rate
         [s], [Hz].
     seed
-        seed of the random numbers; None: a seed made from the scene, so that equal scenes give
+        seed of the random numbers. None makes a seed from the scene, so that equal scenes give
         equal records.
     progress
         see `simulate`.
@@ -152,6 +152,7 @@ def simulated_record(
     count = round(duration * sample_rate)
     time = np.arange(count) / sample_rate
     clock = start + wandering_clock(time, effects.cage_wander, scene, rng)
+    # the motion at the times of the wandering clock, by a spline through finer samples
     fine = resample_poly(motion.outer_acceleration[:, columns], 4, 1, axis=0)
     spline = make_interp_spline(np.arange(len(fine)) / (4.0 * sample_rate), fine, k=3)
     signal = np.asarray(spline(clock))
@@ -176,9 +177,9 @@ def simulated_record(
 
 
 def wandering_clock(time: Array, wander: float, scene: Scene, rng: np.random.Generator) -> Array:
-    """Times [s] (n,) of a steady cage at which one whose speed wanders stands as at `time`.
+    """Return the times (n,) [s] at which a steady cage has the angles of a wandering one at `time`.
 
-    The speed is a sum of slow sines of a standard deviation `wander` over the record.
+    The change of speed is a sum of slow sines, with a standard deviation `wander` over the record.
     """
     fastest = max(scene.cage_speed / (2.0 * math.pi), 1.5 * SLOWEST_WANDER)
     speed = np.zeros(len(time))
@@ -190,7 +191,7 @@ def wandering_clock(time: Array, wander: float, scene: Scene, rng: np.random.Gen
 
 
 def pink_noise(count: int, columns: int, rng: np.random.Generator) -> Array:
-    """Noise (count, columns) of deviation 1 whose power falls with frequency."""
+    """Return noise (count, columns) of standard deviation 1 whose power is that of 1/frequency."""
     transform = np.fft.rfft(rng.standard_normal((count, columns)), axis=0)
     number = np.arange(len(transform), dtype=float)
     number[0] = math.inf
@@ -201,34 +202,34 @@ def pink_noise(count: int, columns: int, rng: np.random.Generator) -> Array:
 def _knocks(
     scene: Scene, effects: PathEffects, clock: Array, time: Array, directions: tuple[str, ...]
 ) -> Array:
-    """Ringing (n, d), with a peak of about 1, each time that a ball reaches the far edge."""
+    """Return ringing (n, d) with a peak of about 1 each time that a ball reaches the far edge."""
     cage, ratio = scene.cage_speed, scene.bearing.cage_ratio
-    left = [
+    exits = [
         (crossing.cage_angle, scene.defects[crossing.defect])
         for crossing in crossings(scene, float(clock[0]) * cage, float(clock[-1]) * cage)
         if not crossing.enters
     ]
-    begins = np.interp([angle / cage for angle, _ in left], clock, time)
-    turns = [angle / ratio if defect.race == "inner" else 0.0 for angle, defect in left]
-    places = np.array([defect.center for _, defect in left]) + turns
-    inner = np.array([defect.race == "inner" for _, defect in left], dtype=bool)
+    begins = np.interp([angle / cage for angle, _ in exits], clock, time)
+    turns = [angle / ratio if defect.race == "inner" else 0.0 for angle, defect in exits]
+    places = np.array([defect.center for _, defect in exits]) + turns
+    inner = np.array([defect.race == "inner" for _, defect in exits], dtype=bool)
     strength = np.where(inner, _load_at(scene, places) if inner.any() else 1.0, 1.0)
-    # a blow along the defect's radius is felt a little across it too
+    # a sensor across the radius of the defect measures a part of the blow too
     along = np.stack([np.cos(places) if name == "x" else np.sin(places) for name in directions], 1)
-    felt = np.where(np.abs(along) < 0.3, 0.3, along) * strength[:, None]
+    measured = np.where(np.abs(along) < 0.3, 0.3, along) * strength[:, None]
     omega = 2.0 * math.pi * effects.knock_frequency
     signal = np.zeros((len(time), len(directions)))
-    for begin, by in zip(begins.tolist(), felt, strict=True):
+    for begin, amplitude in zip(begins.tolist(), measured, strict=True):
         first = int(np.searchsorted(time, begin))
         last = min(len(time), first + int(12.0 / (effects.knock_damping * omega * time[1])))
         since = time[first:last] - begin
         ring = np.exp(-effects.knock_damping * omega * since) * np.sin(omega * since)
-        signal[first:last] += ring[:, None] * by
+        signal[first:last] += ring[:, None] * amplitude
     return signal
 
 
 def _load_at(scene: Scene, places: Array) -> Array:
-    """Load of a ball of the healthy bearing at angles [rad], over the greatest."""
+    """Return the load of a ball of the healthy bearing at angles [rad], over the greatest load."""
     state = equilibrium(scene.healthy())
     angle, load = state.ball_angle.ravel(), np.nan_to_num(state.ball_load.ravel())
     order = np.argsort(angle)
@@ -237,7 +238,7 @@ def _load_at(scene: Scene, places: Array) -> Array:
 
 
 def _filter_by_path(signal: Array, rate: float, resonances: tuple[Resonance, ...]) -> Array:
-    """The signal (n, d) behind a path, each direction by its own gains."""
+    """Return the signal (n, d) behind a path; each direction has its gains."""
     from scipy.fft import next_fast_len  # imported late: see `spectrum`
 
     count = len(signal)

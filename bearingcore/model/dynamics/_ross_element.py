@@ -17,21 +17,21 @@ from bearingcore.model.statics._positions import over_all_positions
 ALONG = {
     "xx": (0, 0), "xy": (0, 1), "yx": (1, 0), "yy": (1, 1), "zz": (2, 2),
 }  # fmt: skip
-"""Row and column of what a bearing has in ROSS, whose axes are those of a scene."""
+"""Row and column of each coefficient of a bearing in ROSS, which has the axes of a scene."""
 
 MISSING = 'to_ross needs ROSS, which is not installed: pip install "bearing-explorer[ross]"'
 AXES = {"2": "frequency", "3": "speed"}
-"""Argument of `ross.BearingElement` for shaft speeds, by ROSS's first version number. ROSS 3 means
-by `frequency` that of the whirl."""
+"""Argument of `ross.BearingElement` for shaft speeds, by ROSS's first version number. In ROSS 3
+`frequency` is that of the whirl."""
 
 
 def to_ross(scene: Scene, speeds: ArrayLike, *, node: int = 0, **more: Any) -> Any:
     """Return the bearing of `scene` as a `ross.BearingElement`, with coefficients over shaft speed.
 
-    At each speed the balls carry their centrifugal load, whichever model of balls the scene has
+    At each speed the balls carry their centrifugal load, also if the scene has massless balls
     (`ball_positions`). Rollers have no known mass; their stiffness is the same at all speeds. The
-    coefficients are means over the cage angles of K_b (Eq. 17) and of c Σ e e' of the loaded balls
-    (Eq. 27), along x, y and z, as balls pass faster than the rotor turns. ROSS has no tilts, which
+    coefficients along x, y and z are means over the cage angles, because balls pass faster than the
+    rotor turns: K_b (Eq. 17) and c Σ e e' of the loaded balls (Eq. 27). ROSS has no tilts, which
     are taken to be held by the shaft, and no k_xz and k_yz. The support is not included: link the
     element to a node of the housing.
 
@@ -50,7 +50,7 @@ def to_ross(scene: Scene, speeds: ArrayLike, *, node: int = 0, **more: Any) -> A
     Raises
     ------
     ImportError
-        if ROSS is not installed, for which install the extra "ross", or is neither ROSS 2 nor 3.
+        if ROSS is not installed (the extra "ross" installs it), or is neither ROSS 2 nor 3.
     ValueError
         for speeds that are negative or do not increase, or a cage angle without a static state.
     """
@@ -67,15 +67,15 @@ def to_ross(scene: Scene, speeds: ArrayLike, *, node: int = 0, **more: Any) -> A
         raise checks.refuse("speeds", speeds.tolist(), "at least 0 rad/s and increasing")
     means = [_mean_matrices(scene.replace(shaft_speed=float(speed))) for speed in speeds]
     coefficients = {
-        f"{letter}{name}": np.array([matrices[k][at] for matrices in means])
+        f"{letter}{name}": np.array([matrices[k][place] for matrices in means])
         for k, letter in enumerate("kc")
-        for name, at in ALONG.items()
+        for name, place in ALONG.items()
     }
     return ross.BearingElement(n=node, **{axis: speeds}, **coefficients, **more)
 
 
 def _mean_matrices(scene: Scene) -> tuple[Array, Array]:
-    """Means over all positions of K_b and C_b, (5, 5), balls with mass where it is known."""
+    """Return the means of K_b and C_b (5, 5) over all positions; balls have mass if it is known."""
     if not scene.bearing.kind.mass_unknown:
         scene = scene.replace(balls=WITH_MASS)
     state = over_all_positions(scene, solve=static_state)

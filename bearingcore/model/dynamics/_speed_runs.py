@@ -1,4 +1,4 @@
-"""Spectra of the housing over shaft speed: a run-up, one steady speed after another."""
+"""Spectra of the housing over shaft speed: a run-up by one steady speed after another."""
 
 from __future__ import annotations
 
@@ -20,22 +20,18 @@ from bearingcore.common import (
 )
 from bearingcore.model.dynamics._low_pass import PASSED
 from bearingcore.model.dynamics._modes import frequency_bands
-from bearingcore.model.dynamics._motion import (
-    MOST_SAMPLES,
-    MOST_STEPS,
-    simulate,
-)
+from bearingcore.model.dynamics._motion import MOST_SAMPLES, MOST_STEPS, simulate
 from bearingcore.model.dynamics._orbit import Orbit, orbit
 from bearingcore.model.dynamics._status import MotionStatus
 from bearingcore.model.dynamics._step_rate import default_step_rate, fine_step_rate
 from bearingcore.model.scene import CONTACT_LAWS, MASSLESS, Scene
 
 MOST_STEPS_IN_ALL = 1_000_000_000
-"""Steps that all speeds of a run take at most by default: some minutes of marching in two
-directions, hours in five."""
+"""Default limit on the steps of all speeds of a run: some minutes of marching in two directions,
+hours in five."""
 
 SETTLING_SHARE = 0.5
-"""Part of a marched motion that is left out of its spectrum as transient."""
+"""Share of a marched motion that is left out of its spectrum as transient."""
 
 
 @shown_as_table
@@ -46,15 +42,15 @@ class SpeedRun:
     Attributes
     ----------
     scene, dofs
-        the scene, and the directions of `density`'s last axis.
+        the scene, and the directions of the last axis of `density`.
     shaft_speed : (n,) [rad/s]
     frequency : (m,) [Hz]
-        up to the highest frequency at which the spectrum of any speed is known.
+        frequencies up to the highest one at which the spectrum of any speed is known.
     density : (n, m, len(dofs)) [(m/s²)²/Hz, (rad/s²)²/Hz]
         NaN for a speed that was not computed, and above the frequency up to which its motion is
         known.
     ball_pass_frequency : (n,) [Hz]
-        of the race with the first defect; lines stand at its multiples.
+        of the inner race if it has a defect, otherwise of the outer; lines are at its multiples.
     from_orbit : (n,)
         True for the spectrum of a proven stable orbit, False for that of a marched motion.
     bands
@@ -107,9 +103,8 @@ def speed_run(
 ) -> SpeedRun:
     """Compute the steady spectrum at each shaft speed [rad/s].
 
-    It is that of the periodic orbit if this is stable, and else that of a marched motion.
-
-    Balls with mass, and contacts that let go, are always marched: they have no orbits here.
+    It is that of the periodic orbit if this is stable, and otherwise that of a marched motion.
+    Balls with mass and contacts without tension are always marched, as they have no orbits here.
 
     Parameters
     ----------
@@ -121,8 +116,8 @@ def speed_run(
         of the spectra, as in `simulate` and `spectrum`; a marched motion runs twice as long, and
         its first half is left out.
     most_steps
-        limit on the steps of an orbit, and of a marched motion. Beyond it the speed is refused, and
-        `refusals` gives the number.
+        limit on the steps of an orbit, and on those of a marched motion. Beyond it the speed is
+        refused, and `refusals` gives the number.
     most_steps_in_all
         limit on the steps that marching all speeds would take.
     progress, cancelled
@@ -158,6 +153,7 @@ def speed_run(
         most_words = f"allowed are most_steps_in_all = {thousands(most_steps_in_all)}"
         words = f"fewer: they take about {thousands(steps)} steps, {most_words}"
         raise checks.refuse("shaft_speeds", f"{speeds.size} speeds", words)
+    # each speed: the orbit, starting from that of the last stable speed, or else a march
     density = np.full((speeds.size, frequency.size, len(dofs)), math.nan)
     proven = np.zeros(speeds.size, dtype=bool)
     nearby: Orbit | None = None
@@ -170,18 +166,18 @@ def speed_run(
             progress(i / speeds.size, f"{speed / (2 * math.pi):.1f} Hz")
         done += 1
         try:
-            at = scene.replace(shaft_speed=speed)
+            running = scene.replace(shaft_speed=speed)
             answer = None
-            if at.balls == MASSLESS and at.contact_law == CONTACT_LAWS[0]:
-                rate = fine_step_rate(at, sample_rate)
-                answer = orbit(at, start=nearby, step_rate=rate, most_steps=most_steps)
+            if running.balls == MASSLESS and running.contact_law == CONTACT_LAWS[0]:
+                rate = fine_step_rate(running, sample_rate)
+                answer = orbit(running, start=nearby, step_rate=rate, most_steps=most_steps)
             if answer is not None and answer.stable:
                 lines = answer.spectrum(sample_rate, resolution, duration).density
                 density[i, : len(lines)] = lines
                 proven[i] = True
                 nearby = answer
                 continue
-            motion = simulate(at, lasting, sample_rate, most_steps=most_steps)
+            motion = simulate(running, lasting, sample_rate, most_steps=most_steps)
             if motion.status is MotionStatus.TOO_MANY_STEPS:
                 raise ValueError(motion.reason)
         except ValueError as error:
@@ -212,15 +208,15 @@ def speed_run(
 def _steps_of_marching(
     scene: Scene, speeds: Array, duration: float, sample_rate: float, most_steps: int
 ) -> float:
-    """Steps that all speeds take if each is marched for so long [s]; 0 where none can be.
+    """Return the steps of all speeds if each is marched for `duration` [s]; 0 if none can be.
 
-    A speed that takes more than `most_steps` takes none: it is refused by itself.
+    A speed that needs more than `most_steps` does not count, as it will be refused.
     """
     steps = []
     try:
         for speed in speeds.tolist():
             rate = default_step_rate(scene.replace(shaft_speed=speed), sample_rate)
             steps.append(duration * rate)
-    except ValueError:  # said where the motion is tried
+    except ValueError:  # `simulate` will raise it with its reason
         return 0.0
     return sum(step for step in steps if step <= most_steps)

@@ -1,4 +1,4 @@
-"""Rate of the steps of a motion."""
+"""Step rate of a motion."""
 
 from __future__ import annotations
 
@@ -16,30 +16,30 @@ from bearingcore.model.scene._packing import pack
 from bearingcore.model.statics._passes import STEPS_A_PASSAGE, shortest_passage
 
 STEPS_A_CYCLE = 16.0
-"""Steps in a period of the highest natural frequency, by default. On the fan rig this leaves an
-error of the spectrum near 0.02 dB; half as many leave 0.25 dB. On the Liew-Lim bearing, in five
-directions, 13 leave 0.05 dB up to 2.1 kHz and 0.11 dB beyond, 26 leave 0.005 dB: it is accuracy
-that needs them, as steps stay stable down to 2.2."""
+"""Default number of steps in a period of the highest natural frequency. Accuracy needs so many;
+steps are stable down to 2.2. On the fan rig 16 leave an error of the spectrum near 0.02 dB, 8 leave
+0.25 dB. On the Liew-Lim bearing, in five directions, 13 leave 0.05 dB up to 2.1 kHz and 0.11 dB
+beyond, 26 leave 0.005 dB."""
 
 LEAST_STEPS_A_SAMPLE = 0.45
-"""However slow the modes are: contacts that open and close shake faster. A heavy rotor on few
-balls, stepped at an eighth of the samples, was 4 dB off. As a whole fraction it is a half, and a
-quarter where just over half of the steps are asked for."""
+"""Least number of steps per sample, also for slow modes, as contacts that open and close vibrate
+faster. A heavy rotor on few balls had an error of 4 dB with an eighth. As a whole fraction it is a
+half, or a quarter if a `part` just over a half is requested."""
 
 
 def default_step_rate(scene: Scene, sample_rate: float, part: float = 1.0) -> float:
-    """The least step rate [Hz], a multiple or whole fraction of the sample rate, that will do.
+    """Return the least sufficient step rate [Hz], a multiple or whole fraction of the sample rate.
 
-    It has STEPS_A_CYCLE steps in a period of the highest natural frequency, under the unbalance
-    too, LEAST_STEPS_A_SAMPLE, or a `part` of both; STEPS_A_PASSAGE while a ball passes the defect,
-    and as many as dampers need. Where balls have mass a multiple, see `ball_step_rate`. Raises
-    ValueError where none is finite.
+    It has at least STEPS_A_CYCLE steps in a period of the highest natural frequency, also under
+    unbalance, and LEAST_STEPS_A_SAMPLE steps per sample, or a `part` of both. It has at least
+    STEPS_A_PASSAGE steps while a ball passes the defect, and enough for the decay by dampers. Balls
+    with mass take a multiple, see `ball_step_rate`. Raises ValueError if no finite rate suffices.
     """
     return step_rate_of(packed_motion(scene), sample_rate, part)
 
 
 def step_rate_of(packed: PackedMotion, sample_rate: float, part: float = 1.0) -> float:
-    """`default_step_rate` of a scene that is packed."""
+    """Return the `default_step_rate` of a packed scene."""
     scene = packed.scene
     highest = STEPS_A_CYCLE * _highest_loaded_frequency(packed)
     needed = part * max(LEAST_STEPS_A_SAMPLE * sample_rate, highest)
@@ -57,32 +57,33 @@ def step_rate_of(packed: PackedMotion, sample_rate: float, part: float = 1.0) ->
 
 
 def _highest_loaded_frequency(packed: PackedMotion) -> float:
-    """`highest_frequency_of`, or that of a load greater by the force of unbalance and samples."""
+    """Return `highest_frequency_of`, or that under a load with unbalance and samples if higher."""
     scene, highest = packed.scene, highest_frequency_of(packed)
     if not (force := scene.turning_force + peak_force(packed)):
         return highest
-    still = np.array([scene.load.fx, scene.load.fy, scene.load.fz])
-    size = float(np.linalg.norm(still))
-    loaded = still * (1.0 + force / size) if size else np.array([force, 0.0, 0.0])
+    load = np.array([scene.load.fx, scene.load.fy, scene.load.fz])
+    size = float(np.linalg.norm(load))
+    loaded = load * (1.0 + force / size) if size else np.array([force, 0.0, 0.0])
     heavier = scene.replace(**dict(zip(("fx", "fy", "fz"), loaded.tolist(), strict=True)))
     return float(np.fmax(highest, highest_frequency_of(pack(heavier, packed.dofs))))
 
 
 def _greatest_decay(packed: PackedMotion) -> float:
-    """Bound [1/s] of how fast dampers stop the rings: the trace of C over M, all elements loaded.
+    """Return a bound [1/s] of the decay of the rings: the trace of M⁻¹C with all balls loaded.
 
-    Beyond what steps hold a motion diverges, or, under a law without tension, stays finite.
+    If the decay is too fast for the steps, a motion diverges, or is wrong without tension.
     """
-    every, rotor = packed.contacts, packed.rotor
-    tilting = every.reach * every.line_z - every.arm * every.line_r
-    radial, axial, turned = (float(part @ part) for part in (every.line_r, every.line_z, tilting))
+    contacts, line_r, line_z = packed.contacts, packed.contacts.line_r, packed.contacts.line_z
+    tilting = contacts.reach * line_z - contacts.arm * line_r
+    radial, axial, turned = (float(part @ part) for part in (line_r, line_z, tilting))
     along = np.array([0.5 * radial, 0.5 * radial, axial, 0.5 * turned, 0.5 * turned])
-    both = rotor.inverse_inner + rotor.inverse_outer
-    contacts = rotor.contact_damping * float(along[rotor.active] @ both)
-    return contacts + float((rotor.damping * rotor.inverse_outer).max())
+    rotor = packed.rotor
+    inverse_mass = rotor.inverse_inner + rotor.inverse_outer
+    decay = rotor.contact_damping * float(along[rotor.active] @ inverse_mass)
+    return decay + float((rotor.damping * rotor.inverse_outer).max())
 
 
 def fine_step_rate(scene: Scene, sample_rate: float) -> float:
-    """Step rate [Hz] that is at least the sample rate: the motion is then known up to 0.4 of it."""
+    """Return a step rate [Hz] of at least the sample rate, so that 0.4 of it is the bandwidth."""
     packed = packed_motion(scene)
     return max(step_rate_of(packed, sample_rate), sample_rate)

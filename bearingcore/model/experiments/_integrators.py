@@ -1,7 +1,7 @@
-"""Ways to march a motion, each behind one small interface, so that they can be compared.
+"""Time integrators of a motion behind a common interface, for comparison.
 
-A setting is one number: steps a second [Hz] for fixed steps, the tolerance relative to
-`MotionProblem.scale` for steps that choose themselves.
+A setting is a number: the step rate [Hz] for fixed steps, or for adaptive steps the tolerance
+relative to `MotionProblem.scale`.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ class March:
     step_rate
         [Hz] of the history.
     calls
-        right-hand sides evaluated.
+        number of evaluations of the right-hand side.
     failure
         empty, or the reason why the motion is not complete, in the words of the method.
     """
@@ -46,20 +46,20 @@ class March:
 
 @dataclass(frozen=True)
 class Method:
-    """A way to march.
+    """A time integrator.
 
     Attributes
     ----------
     name
-        as charts show it.
+        name in charts.
     march
         (problem, setting, duration [s], sample rate [Hz]) -> March.
     tolerances
-        settings at which it is measured; none where the setting is a step rate [Hz].
+        settings at which it is measured; empty if the setting is a step rate [Hz].
     order
-        of convergence where all forces are smooth; 0 for steps that choose themselves.
+        order of convergence with smooth forces; 0 for adaptive steps.
     slow
-        True where it takes longer than the others together.
+        True if it takes longer than all others together.
     """
 
     name: str
@@ -70,23 +70,23 @@ class Method:
 
     @property
     def fixed_step(self) -> bool:
-        """True where the setting is a step rate [Hz], False where it is a tolerance."""
+        """True if the setting is a step rate [Hz], False if it is a tolerance."""
         return not self.tolerances
 
 
 def instants(rate: float, duration: float) -> Array:
-    """Times [s] from 0, at `rate` [Hz], that cover `duration` [s] in at least one interval."""
+    """Return times [s] from 0 at `rate` [Hz] that cover `duration` [s], at least one interval."""
     return np.arange(max(math.ceil(duration * rate - 1e-9), 1) + 1) / rate
 
 
 class TooManyRatesError(RuntimeError):
-    """A method was given up for the number of its right-hand sides."""
+    """Error of a method that needs too many evaluations of the right-hand side."""
 
 
 class Rates:
-    """The compiled right-hand side of a problem in variables scaled to 1; it counts its calls.
+    """The compiled right-hand side of a problem, in variables scaled to 1, with a count of calls.
 
-    `report` is called with each time [s]. After `most` calls it raises TooManyRatesError.
+    `report` is called with each time [s]. More than `most` calls raise TooManyRatesError.
     """
 
     def __init__(
@@ -111,20 +111,20 @@ class Rates:
         return self.problem.rate(t, y * self.problem.scale) / self.problem.scale
 
     def history(self, time: Array, states: Array) -> Array:
-        """History (n, 6, directions) of scaled states (≤ n, 4 directions) at times (n,) [s].
+        """Return the history (n, 6, directions) of scaled states (≤ n, 4 directions) at times (n,).
 
-        NaN from where there are no states.
+        Instants after the last state are NaN.
         """
         problem, n = self.problem, len(self.problem.dofs)
-        whole = np.full((len(time), 4 * n), math.nan)
-        whole[: len(states)] = states * problem.scale
-        rates = kernels.motion_rates(time, whole, 0.0, problem.system)
+        unscaled = np.full((len(time), 4 * n), math.nan)
+        unscaled[: len(states)] = states * problem.scale
+        rates = kernels.motion_rates(time, unscaled, 0.0, problem.system)
         history = np.empty((len(time), 6, n))
         for body in range(2):
             columns = slice(2 * body * n, (2 * body + 1) * n)
             following = slice((2 * body + 1) * n, (2 * body + 2) * n)
-            history[:, 3 * body] = whole[:, columns]
-            history[:, 3 * body + 1] = whole[:, following]
+            history[:, 3 * body] = unscaled[:, columns]
+            history[:, 3 * body + 1] = unscaled[:, following]
             history[:, 3 * body + 2] = rates[:, following]
         return history
 
@@ -137,7 +137,7 @@ def _runge_kutta(
     *,
     velocities: bool = False,
 ) -> March:
-    """Steps of one length: in variables that do not jump where the law allows it, or velocities."""
+    """March in fixed steps, in velocities or, if the law allows it, in variables without jumps."""
     system = problem.system
     if not velocities:
         system = moving_system(packed_motion(problem.scene, problem.dofs))
@@ -146,36 +146,35 @@ def _runge_kutta(
     y = problem.start.copy()
     kernels.turn_smooth(y, 1.0, 0.0, system)
     done = kernels.march(y, 1.0 / step_rate, 0.0, system, history)
-    why = "" if done >= n_steps else f"diverged after {done / step_rate:.2g} s"
-    return March(history, step_rate, 4 * n_steps, why)
+    failure = "" if done >= n_steps else f"diverged after {done / step_rate:.2g} s"
+    return March(history, step_rate, 4 * n_steps, failure)
 
 
 MOST_RATES = 500_000
-"""Right-hand sides after which a general-purpose method is given up."""
-
+"""Limit on the right-hand sides of a general-purpose method."""
 
 States = Callable[[Rates, Array, float], Array]
-"""(rates, times (n,) [s], tolerance) -> scaled states (≤ n, 4 directions), as far as it came."""
+"""(rates, times (n,) [s], tolerance) -> scaled states (≤ n, 4 directions), up to a failure."""
 
 
-def _own_steps(
+def _adaptive(
     problem: MotionProblem, tolerance: float, duration: float, sample_rate: float, *, states: States
 ) -> March:
-    """Steps that a general-purpose method chooses itself."""
+    """March by a general-purpose method with adaptive steps."""
     time = instants(sample_rate, duration)
     rates = Rates(problem, most=MOST_RATES)
-    history, why = np.empty((0, rates.start.size)), ""
+    history, failure = np.empty((0, rates.start.size)), ""
     try:
         history = states(rates, time, tolerance)
         if len(history) < len(time):
-            why = f"{MotionStatus.STEP_VANISHED} after {time[max(len(history) - 1, 0)]:.2g} s"
+            failure = f"{MotionStatus.STEP_VANISHED} after {time[max(len(history) - 1, 0)]:.2g} s"
     except (TooManyRatesError, ValueError, np.linalg.LinAlgError) as error:
-        why = str(error) or type(error).__name__
-    return March(rates.history(time, history), sample_rate, rates.calls, why)
+        failure = str(error) or type(error).__name__
+    return March(rates.history(time, history), sample_rate, rates.calls, failure)
 
 
 def _scipy(name: str, *tolerances: float, slow: bool = False) -> Method:
-    """`scipy.integrate.solve_ivp` by the name of its method."""
+    """Return a method of `scipy.integrate.solve_ivp` by its name."""
 
     def states(rates: Rates, time: Array, tolerance: float) -> Array:
         from scipy.integrate import solve_ivp  # imported late: slow to import
@@ -186,15 +185,15 @@ def _scipy(name: str, *tolerances: float, slow: bool = False) -> Method:
         )
         return np.asarray(answer.y).T
 
-    return Method(f"scipy {name}", partial(_own_steps, states=states), tolerances, slow=slow)
+    return Method(f"scipy {name}", partial(_adaptive, states=states), tolerances, slow=slow)
 
 
 HAS_CVODE = importlib.util.find_spec("sksundae") is not None
-"""True if scikit-sundae is installed: the extra "cvode"."""
+"""True if scikit-sundae is installed, which the extra "cvode" does."""
 
 
 def cvode_states(rates: Rates, time: Array, tolerance: float, name: str = "Adams") -> Array:
-    """Scaled states at times [s], as far as CVODE of SUNDIALS came; also `name` "BDF"."""
+    """Return scaled states at times [s] by CVODE of SUNDIALS, up to a failure; name: or "BDF"."""
     from sksundae.cvode import CVODE  # imported late: optional
 
     def fill(t: float, y: Array, out: Array) -> None:
@@ -205,19 +204,19 @@ def cvode_states(rates: Rates, time: Array, tolerance: float, name: str = "Adams
 
 
 def _cvode(name: str, *tolerances: float) -> Method:
-    march = partial(_own_steps, states=partial(cvode_states, name=name))
+    march = partial(_adaptive, states=partial(cvode_states, name=name))
     return Method(f"CVODE {name}", march, tolerances)
 
 
 FINE, COARSE = (1e-2, 1e-4, 1e-6, 1e-9, 1e-11), (1e-3, 1e-6)
-"""Tolerances at which methods are measured; the second of those that take long below."""
+"""Tolerances at which methods are measured; COARSE is for those that take long at small ones."""
 
 METHODS: dict[str, Method] = {
     method.name: method
     for method in (
-        # as the program uses it: in variables that do not jump where the scene allows them
+        # the program's own method, in variables without jumps if the scene allows them
         Method("RK4", _runge_kutta, order=4),
-        # with velocities as variables, whose rates jump as a ball touches
+        # with velocities as variables, whose rates jump when a ball touches
         Method("RK4 in velocities", partial(_runge_kutta, velocities=True), order=4),
         _scipy("RK45", *FINE[:-1]),
         _scipy("DOP853", *FINE, slow=True),
@@ -228,11 +227,11 @@ METHODS: dict[str, Method] = {
         _cvode("BDF", *COARSE, 1e-9),
     )
 }
-"""Ways to march by name."""
+"""Time integrators by name."""
 
 
 def usable_methods(*, slow: bool = True) -> tuple[str, ...]:
-    """Names of the methods whose packages are installed; without `slow` only quick ones."""
+    """Return names of methods whose packages are installed; without `slow` only quick ones."""
     return tuple(
         name
         for name, method in METHODS.items()

@@ -1,4 +1,4 @@
-"""All experiments on a scene, with the machine they were measured on, as a value and as a file."""
+"""All experiments on a scene and the machine of the measurement, as a value and as a file."""
 
 from __future__ import annotations
 
@@ -34,9 +34,9 @@ EXPERIMENTS: dict[str, Callable[[Scene, Watch, bool], Experiment]] = {
     ),
     "statics": lambda scene, watch, _: statics_experiment(scene, n_angles=31, watch=watch),
 }
-"""Experiments by name, as the page and the shipped files have them: (scene, watch, slow ones)."""
+"""Experiments by their names on the page and in files: functions of (scene, watch, slow)."""
 MEASURED = (*EXPERIMENTS, STABILITY, ORBITS)
-"""Everything that can be measured."""
+"""Names of everything that can be measured."""
 
 
 @dataclass(frozen=True)
@@ -46,14 +46,14 @@ class Machine:
     Attributes
     ----------
     processor, cores
-        its name, and how many are there.
+        name of the processor, and number of cores.
     versions
-        of Python and the packages, by name.
+        versions of Python and the packages, by name.
     date
-        day of the measurement, as ISO 8601 has it.
+        day of the measurement in ISO 8601.
     c_loop
-        [s] that a plain C loop took in the same minute for 1.4 s of the fan rig's motion in two
-        directions, 65536 steps a second; NaN where it did not run.
+        time [s] of a plain C loop in the same minute for 1.4 s of the fan rig's motion in two
+        directions, 65536 steps a second; NaN if it did not run.
     """
 
     processor: str
@@ -74,7 +74,7 @@ class Machine:
 
 
 def this_machine(c_loop: float = math.nan) -> Machine:
-    """The machine and the versions that this process has."""
+    """Return the machine and the versions of this process."""
     versions = {"Python": platform.python_version()}
     for package in PACKAGES:
         try:
@@ -104,13 +104,13 @@ class Measurements:
     machine
         the machine on which it was measured.
     experiments
-        by their names in EXPERIMENTS.
+        results by their names in EXPERIMENTS.
     stability
-        verdicts over steps, if measured.
+        verdicts over step rates, if measured.
     orbits
         the periodic motion over the shaft speed, if measured.
     refused
-        the reason why an experiment is impossible with this scene, by the name of the experiment.
+        reasons why experiments are impossible with this scene, by name.
     """
 
     machine: Machine
@@ -127,17 +127,17 @@ class Measurements:
         return points + len(trials) + len(self.orbits)
 
     def table(self) -> ResultTable:
-        """A row for each point of the experiments: errors under their names, NaN for the others.
+        """A row for each point of the experiments: errors by name; missing ones are NaN.
 
-        An error that is infinite, as that of a signal of nothing in decibels, is NaN.
+        Infinite errors, such as that of a zero signal in decibels, are NaN too.
         """
 
         def known(point: Point, name: str) -> float:
             error = point.errors.get(name, math.nan)
             return error if math.isfinite(error) else math.nan
 
-        points = [(name, p) for name, made in self.experiments.items() for p in made.points]
-        units = {e: made.unit(e) for made in self.experiments.values() for e in made.errors}
+        points = [(name, p) for name, done in self.experiments.items() for p in done.points]
+        units = {e: done.unit(e) for done in self.experiments.values() for e in done.errors}
         return table_of(
             ("experiment", "", [name for name, _ in points]),
             ("reference", "", [p.against for _, p in points]),
@@ -154,7 +154,7 @@ class Measurements:
 
 
 def measurements_from(text: str) -> Measurements:
-    """The measurements in the text of a file; ValueError where it holds anything else."""
+    """Return the measurements in the text of a file; ValueError if it holds anything else."""
     # JSON as Python writes it: with NaN, which msgspec itself refuses
     return cast(Measurements, msgspec.convert(json.loads(text), Measurements))
 

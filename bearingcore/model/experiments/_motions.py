@@ -1,4 +1,4 @@
-"""Work and precision of ways to march a motion."""
+"""Work and precision of the time integrators of a motion."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ SAMPLE_RATE = 65536.0
 """Rate [Hz] of the instants at which motions are compared."""
 
 SHARE_OF_REFERENCE = 0.3
-"""Part of the work that the reference usually is."""
+"""Usual share of the reference in the work."""
 
 MOTIONS_LEFT_OUT = (
     "Radau and BDF below a tolerance of 1e-6, where they take minutes; general-purpose methods "
@@ -43,7 +43,7 @@ MOTIONS_LEFT_OUT = (
 
 
 def settings_of(method: Method, step_rate: float) -> tuple[float, ...]:
-    """The settings at which a method is measured, around `step_rate` [Hz] for fixed steps."""
+    """Return the settings for a method: its tolerances, or step rates around `step_rate` [Hz]."""
     if method.fixed_step:
         return tuple(step_rate * 2.0**k for k in range(-2, 4))
     return method.tolerances
@@ -52,13 +52,13 @@ def settings_of(method: Method, step_rate: float) -> tuple[float, ...]:
 def measured(
     method: Method, setting: float, reference: MotionReference, usual: float = math.nan
 ) -> Point:
-    """One method at one setting against a reference; `usual`: the program's own steps [Hz]."""
+    """Measure a method at a setting; `usual` is the step rate [Hz] that the program would use."""
     problem, duration, rate = reference.problem, reference.duration, reference.sample_rate
     march, seconds = least_time(lambda: method.march(problem, setting, duration, rate))
     words = f"{setting:.0f} steps/s" if method.fixed_step else f"tolerance {scientific(setting)}"
     if march.failure:
-        why = f"failed: {march.failure}"
-        return Point(method.name, words, setting, {}, seconds, march.calls, why)
+        status = f"failed: {march.failure}"
+        return Point(method.name, words, setting, {}, seconds, march.calls, status)
     history = resample(march.history, march.step_rate, rate, len(reference.history))
     errors = reference.errors(history)
     used = method.name == "RK4" and setting == usual
@@ -66,9 +66,9 @@ def measured(
 
 
 def resample(history: np.ndarray, step_rate: float, sample_rate: float, n: int) -> np.ndarray:
-    """A history at n instants of another rate; between steps by quintic interpolation.
+    """Return a history at n instants of another rate, by quintic interpolation between steps.
 
-    Of two rates one must be a whole multiple of the other, as in `simulate`.
+    One rate must be a whole multiple of the other, as in `simulate`.
     """
     if step_rate >= sample_rate:
         return history[:: round(step_rate / sample_rate)][:n]
@@ -88,18 +88,18 @@ def motion_experiment(
     methods: Sequence[str] | None = None,
     watch: Watch = NOT_WATCHED,
 ) -> Experiment:
-    """Error against cost of ways to march the motion of `scene` from rest.
+    """Measure error and cost of time integrators for the motion of `scene` from rest.
 
     Parameters
     ----------
     scene
-        scene that moves, along its own directions.
+        scene that moves, along its active directions.
     duration
         [s] of motion.
     methods
         names out of `integrators.METHODS`; None takes all that are installed.
     watch
-        progress, points as they come, and cancelling.
+        progress, intermediate results, and cancelling.
 
     Raises
     ------
@@ -115,7 +115,7 @@ def motion_experiment(
     report = watch.within(0.0, SHARE_OF_REFERENCE)
     report(0.0)
     for name in names:
-        if METHODS[name].fixed_step:  # so that nothing is compiled while time is taken
+        if METHODS[name].fixed_step:  # compile now, not while time is measured
             first = settings_of(METHODS[name], SAMPLE_RATE)[0]
             METHODS[name].march(problem, first, 1e-3, SAMPLE_RATE)
     reference = motion_reference(problem, duration, SAMPLE_RATE, BAND * highest, report)

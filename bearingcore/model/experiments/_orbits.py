@@ -20,7 +20,7 @@ class OrbitAtSpeed:
     shaft_speed
         [rad/s]
     status
-        outcome of the search, as of `dynamics.orbit`; "refused: " and the reason if there is none.
+        outcome of the search by `dynamics.orbit`, or "refused: " and the reason.
     loss
         name of its loss of stability, one of LOSSES; empty for a stable orbit or none.
     multipliers
@@ -39,15 +39,15 @@ class OrbitAtSpeed:
 
 
 SPEEDS = tuple(2.0 ** (k / 8.0) for k in range(-8, 25))
-"""Shaft speeds over that of the scene at which orbits are looked for."""
+"""Shaft speeds over that of the scene at which orbits are computed."""
 
 MOST_ORBIT_STEPS = 200_000
 
 
 def orbits_over_speed(scene: Scene, watch: Watch = NOT_WATCHED) -> tuple[OrbitAtSpeed, ...]:
-    """Stability of the periodic motion over the shaft speed, from half to eight times the scene's.
+    """Compute the stability of the periodic motion at half to eight times the scene's shaft speed.
 
-    It takes balls without mass and ends early when cancelled.
+    Balls are massless. The computation ends early if it is cancelled.
     """
     orbits = []
     for factor in watch.in_turn(SPEEDS, str):

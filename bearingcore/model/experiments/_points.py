@@ -1,4 +1,4 @@
-"""Results of a work-precision experiment: points of error against cost, failures among them."""
+"""Results of a work-precision experiment: points of error and cost, including failures."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from bearingcore.common._progress import CancelledError
 T = TypeVar("T")
 
 ShowExperiment = Callable[["Experiment"], object]
-"""Called with what there is of an experiment, after each point."""
+"""Function that is called with the unfinished experiment after each point."""
 
 RIGHT = "right"
 
@@ -29,23 +29,23 @@ class Point:
     Attributes
     ----------
     method, setting
-        its name, and how it was set, in words.
+        name of the method, and its setting in words.
     value
-        the setting as a number: steps a second [Hz], tolerance, number of cage angles.
+        the setting as a number: step rate [Hz], tolerance, number of cage angles.
     errors
-        against the reference, by the names in `Experiment.errors`; NaN where there is none.
+        differences from the reference, by the names in `Experiment.errors`.
     seconds
-        [s] the least of several runs, after one that is not counted; of statics for one
+        time [s], the least of several runs after a warm-up; for statics the time of one
         equilibrium.
     evaluations
-        right-hand sides, or evaluations of all contacts at one displacement: the cost that does
-        not depend on the machine. A mean where the time is one.
+        number of right-hand sides, or of evaluations of all contacts at one displacement: a cost
+        that does not depend on the machine. For statics it is a mean over the equilibria.
     status
-        "right", or "failed: " and why.
+        "right", or "failed: " and the reason.
     against
-        name of the reference of the errors, where an experiment has several.
+        name of the reference of the errors, if an experiment has several.
     in_use
-        True for what the program does with the scene unless it is set otherwise.
+        True for the method and setting that the program uses for the scene by default.
     """
 
     method: str
@@ -60,12 +60,12 @@ class Point:
 
     @property
     def failed(self) -> bool:
-        """True where the method gave no answer."""
+        """True if the method gave no right answer."""
         return self.status != RIGHT
 
     @property
     def label(self) -> str:
-        """The setting in a few letters: "10⁻⁶" for a tolerance, "65.5k" for 65,536 steps."""
+        """Short form of the setting: "10⁻⁶" for a tolerance, "65.5k" for 65,536 steps."""
         if self.value < 1.0:
             return scientific(self.value).removeprefix("1·")
         if self.value < 1e4:
@@ -84,8 +84,8 @@ class Reference:
     agreement
         difference of the first two, by the names in `Experiment.errors`.
     trusted
-        True where they agree well enough to judge the points. Errors below the agreement say
-        nothing.
+        True if they agree well enough to judge the points. Errors below the agreement have no
+        meaning.
     note
         further remark.
     """
@@ -109,13 +109,13 @@ class Experiment:
     evaluations
         measure of cost other than time.
     references
-        by name; "" is that of every point that names none.
+        references by name; "" belongs to points without the name of a reference.
     points
-        in the order measured.
+        points in the order of measurement.
     left_out
-        methods that are left out, and why.
+        methods that are left out, with the reasons.
     completed
-        False where it was cancelled.
+        False if the experiment was cancelled.
     """
 
     name: str
@@ -128,15 +128,15 @@ class Experiment:
 
     @property
     def methods(self) -> tuple[str, ...]:
-        """Names of the methods, in the order measured."""
+        """Names of the methods, in the order of measurement."""
         return tuple(dict.fromkeys(point.method for point in self.points))
 
     def of(self, method: str) -> tuple[Point, ...]:
-        """The points of one method."""
+        """Return the points of one method."""
         return tuple(point for point in self.points if point.method == method)
 
     def per_reference(self) -> dict[str, Experiment]:
-        """An experiment for each reference, with the points that are compared with it."""
+        """Return an experiment for each reference, with the points that are compared with it."""
         return {
             name: replace(
                 self,
@@ -147,10 +147,10 @@ class Experiment:
         }
 
     def order(self, method: str, error: str) -> float:
-        """Order of convergence: slope of an error over the evaluations, both logarithmic.
+        """Return the order of convergence: slope of log error over log evaluations, as a positive.
 
-        Points that failed, and errors within five times the agreement of the references, say
-        nothing of it. NaN with fewer than three others.
+        Failed points, and errors within five times the agreement of the references, do not count.
+        The order is NaN with fewer than three other points.
         """
         known = [
             (point.evaluations, point.errors[error])
@@ -166,7 +166,7 @@ class Experiment:
         return -float(np.polyfit(evaluations, errors, 1)[0])
 
     def frontier(self, error: str | None = None, cost: str = "seconds") -> tuple[Point, ...]:
-        """The points that no other point beats in both error and cost, from cheap to exact."""
+        """Return the points that no other point beats in both error and cost, cheapest first."""
         name = error or next(iter(self.errors))
         right = (point for point in self.points if not point.failed)
         known = [point for point in right if math.isfinite(point.errors.get(name, math.nan))]
@@ -177,29 +177,29 @@ class Experiment:
         return tuple(best)
 
     def unit(self, error: str) -> str:
-        """Unit of an error: "dB", or "1" for a ratio."""
+        """Return the unit of an error: "dB", or "1" for a ratio."""
         return "dB" if "[dB]" in self.errors[error] else "1"
 
 
 @dataclass(frozen=True)
 class Watch:
-    """Callables by which an experiment reports, and by which it can be ended.
+    """Functions by which an experiment reports, and can be cancelled.
 
     Attributes
     ----------
     progress
-        called with the part done, 0 to 1, and what is being done. Where it raises CancelledError
-        between points the experiment ends with those that are there; within references, which are
-        needed for any point, the error goes on.
+        called with the part done, 0 to 1, and the name of the current step. If it raises
+        CancelledError between points, the experiment ends with the points so far. Within
+        references, which all points need, the error is passed on.
     shown
-        called with the experiment as far as it is, after each point.
+        called with the unfinished experiment after each point.
     """
 
     progress: Progress = lambda part, words: None
     shown: ShowExperiment = lambda experiment: None
 
     def within(self, begin: float, end: float) -> Callable[[float], object]:
-        """Return the progress of references, which are the part from `begin` to `end` of it all."""
+        """Return the progress of references, which are the work from `begin` to `end`, 0 to 1."""
         return lambda part: self.progress(begin + (end - begin) * part, "references")
 
     def in_turn(
@@ -217,7 +217,7 @@ class Watch:
 
 
 NOT_WATCHED = Watch()
-"""Neither reports nor ends early."""
+"""A `Watch` that neither reports nor cancels."""
 
 
 def measure_in_turn(
@@ -229,9 +229,9 @@ def measure_in_turn(
     *,
     begin: float,
 ) -> Experiment:
-    """The experiment with a point for each task, shown after each; ends early when cancelled.
+    """Return the experiment with a point for each task; it ends early if cancelled.
 
-    `begin` is the part of the work that its references were.
+    It is shown after each point. `begin` is the share of the references in the work.
     """
     for task in watch.in_turn(tasks, name, begin):
         experiment = replace(
@@ -242,10 +242,10 @@ def measure_in_turn(
 
 
 def least_time(work: Callable[[], T], *, runs: int = 5, budget: float = 0.5) -> tuple[T, float]:
-    """Result of `work`, and the least time [s] of several runs after a warm-up.
+    """Return the result of `work`, and the least time [s] of several runs after a warm-up.
 
-    The warm-up counts as the one run where it alone takes longer than `budget` [s] and the work is
-    compiled already; runs end when the budget is spent.
+    Runs end when they have taken `budget` [s]. If the warm-up alone takes longer, it is the only
+    run, so work must be compiled before.
     """
     start = time.perf_counter()
     answer = work()
@@ -256,6 +256,6 @@ def least_time(work: Callable[[], T], *, runs: int = 5, budget: float = 0.5) -> 
     while done < runs and spent < budget:
         start = time.perf_counter()
         answer = work()
-        taken = time.perf_counter() - start
-        least, spent, done = min(least, taken), spent + taken, done + 1
+        duration = time.perf_counter() - start
+        least, spent, done = min(least, duration), spent + duration, done + 1
     return answer, least

@@ -1,10 +1,9 @@
-"""References for motions and statics: two families of methods each, and how far they are apart.
+"""References for motions: several families of methods, and their differences.
 
 No method is its own reference. Motions are integrated by a multistep method of variable order
-(LSODA) and by a one-step embedded pair (Dormand and Prince's of order 8, started anew wherever a
-ball meets an edge or floor); static states are found as roots of the forces in double precision
-(MINPACK) and as minima of the energy in extended precision. Where scikit-sundae is installed, a
-third code (CVODE, Adams) integrates motions too.
+(LSODA), and by a one-step embedded pair (Dormand and Prince's of order 8) that restarts when a ball
+meets an edge or floor. If scikit-sundae is installed, a third code (CVODE, Adams) integrates
+motions too. `_statics` has the references for statics.
 """
 
 from __future__ import annotations
@@ -24,7 +23,7 @@ from bearingcore.recordings._spectrum_difference import spectrum_difference
 TOLERANCE = 1e-13
 
 KINK_SLIVER = 1e-13
-"""Half the length [s] of the step across a kink: 1e-13 s times any jump is nothing."""
+"""Half the length [s] of the step across a kink; 1e-13 s times any jump is negligible."""
 
 MOTION_ERRORS = {
     "spectrum": "greatest error of the housing's spectrum [dB], up to 1.25 times the highest "
@@ -37,17 +36,17 @@ MOTION_ERRORS = {
 """Errors of motions by name."""
 
 TRUSTED = {"spectrum": 1e-2, "series L2": 1e-3, "displacement": 1e-4}
-"""Greatest difference of the families [as MOTION_ERRORS]."""
+"""Greatest differences of families that count as agreement, in units of MOTION_ERRORS."""
 
 LEAST_RTOL = 2.3e-14
-"""Relative tolerance, the least that SciPy takes."""
+"""Least relative tolerance that SciPy accepts."""
 
 
 @dataclass(frozen=True)
 class MotionReference:
-    """A motion that the families agree on, or not: `reference` says so.
+    """A motion by several families; `reference` says whether they agree.
 
-    `history` (n, 6, directions) at `sample_rate` [Hz], that of LSODA.
+    `history` (n, 6, directions) at `sample_rate` [Hz] is that of LSODA.
     """
 
     problem: MotionProblem
@@ -58,16 +57,16 @@ class MotionReference:
     reference: Reference
 
     def errors(self, history: Array) -> dict[str, float]:
-        """Errors of another history at the same instants, by the names in MOTION_ERRORS."""
+        """Return the errors of another history at the same instants, by names in MOTION_ERRORS."""
         return motion_errors(history, self.history, self.sample_rate, self.band)
 
 
 def motion_errors(
     history: Array, expected: Array, sample_rate: float, band: float
 ) -> dict[str, float]:
-    """Errors of a history against another one, by the names in MOTION_ERRORS; band [Hz].
+    """Return the errors of a history up to a frequency `band` [Hz], by the names in MOTION_ERRORS.
 
-    Infinite where the motion is not finite.
+    They are infinite if the motion is not finite.
     """
     n = min(len(history), len(expected))
     history, expected = history[:n], expected[:n]
@@ -75,17 +74,17 @@ def motion_errors(
         return dict.fromkeys(MOTION_ERRORS, math.inf)
     places = expected[:, (0, 3)]
     swing = np.abs(places - places.mean(axis=0)).max()
-    signal, mine = expected[:, 5], history[:, 5]
+    signal, tested = expected[:, 5], history[:, 5]
     size = math.sqrt(float(np.mean(signal**2)))
     with np.errstate(over="ignore"):
-        off = np.abs(history[:, (0, 3)] - places) / swing
-        series = math.sqrt(float(np.mean((mine - signal) ** 2))) / size
+        displacement = np.abs(history[:, (0, 3)] - places) / swing
+        series = math.sqrt(float(np.mean((tested - signal) ** 2))) / size
     return {
-        "spectrum": spectrum_difference(mine, signal, sample_rate, band),
-        "third octaves": spectrum_difference(mine, signal, sample_rate, band, third_octaves=True),
+        "spectrum": spectrum_difference(tested, signal, sample_rate, band),
+        "third octaves": spectrum_difference(tested, signal, sample_rate, band, third_octaves=True),
         "series L2": series,
-        "displacement": float(off.max()),
-        "final state": float(off[-1].max()),
+        "displacement": float(displacement.max()),
+        "final state": float(displacement[-1].max()),
     }
 
 
@@ -96,7 +95,7 @@ def motion_reference(
     band: float,
     report: Callable[[float], object] = lambda part: None,
 ) -> MotionReference:
-    """The motion by all families at a tolerance of 1e-13, and how far they are apart.
+    """Compute the motion by all families at a tolerance of 1e-13, and compare them.
 
     `report` is called with the part done, 0 to 1.
     """
@@ -109,30 +108,32 @@ def motion_reference(
 
     histories = [history(k, states) for k, (_, states) in enumerate(families)]
     first = histories[0]
-    apart = [motion_errors(other, first, sample_rate, band) for other in histories[1:]]
-    agreement = apart[0]
+    differences = [motion_errors(other, first, sample_rate, band) for other in histories[1:]]
+    agreement = differences[0]
     finished = [bool(np.all(np.isfinite(history))) for history in histories]
     finished_of = dict(zip((name for name, _ in families), finished, strict=True))
-    unfinished = [name.partition(" ")[0] for name, whole in finished_of.items() if not whole]
-    # two families are a reference; a third one that stops at a kink takes nothing from it
+    unfinished = [name.partition(" ")[0] for name, complete in finished_of.items() if not complete]
+    # two families make a reference, even if a third one stops at a kink
     trusted = all(finished[:2]) and all(
         difference[name] <= TRUSTED[name]
-        for difference, whole in zip(apart, finished[1:], strict=True)
-        if whole
+        for difference, complete in zip(differences, finished[1:], strict=True)
+        if complete
         for name in TRUSTED
     )
-    note = f"CVODE is {scientific(apart[1]['spectrum'], 2)} dB from the first" if apart[1:] else ""
+    note = ""
+    if differences[1:]:
+        note = f"CVODE is {scientific(differences[1]['spectrum'], 2)} dB from the first"
     if unfinished:
         note = f"{' and '.join(unfinished)} did not finish"
     elif not trusted:
         note = "The motion may be sensitive to its start: errors grow whatever the method"
-    names = tuple(name for name, whole in finished_of.items() if whole or not trusted)
+    names = tuple(name for name, complete in finished_of.items() if complete or not trusted)
     reference = Reference(names, agreement, trusted, note)
     return MotionReference(problem, duration, sample_rate, band, first, reference)
 
 
 def _multistep(rates: Rates, time: Array) -> Array:
-    """Scaled states by LSODA at times [s]. It finds jumps by itself: its order falls."""
+    """Return scaled states at times [s] by LSODA, which reduces its order at jumps by itself."""
     from scipy.integrate import odeint  # imported late: slow to import
 
     states: Array = odeint(
@@ -142,10 +143,9 @@ def _multistep(rates: Rates, time: Array) -> Array:
 
 
 def _embedded_pair(rates: Rates, time: Array) -> Array:
-    """Scaled states by DOP853 at times [s], as far as it came; each step is smooth.
+    """Return scaled states at times [s] by DOP853, up to a failure; each step is smooth.
 
-    A sliver of a step leads across each kink, so that those before and after it end and begin on
-    the right side.
+    A very short step crosses each kink, so that the steps before and after it stay on their side.
     """
     from scipy.integrate import DOP853  # imported late: slow to import
 
@@ -173,4 +173,4 @@ FAMILIES = (
     ("DOP853 (embedded pair)", _embedded_pair),
     ("CVODE (Adams)", lambda rates, time: cvode_states(rates, time, TOLERANCE)),
 )
-"""Integrators of the references; the last one only where it is installed."""
+"""Integrators of the references; the last one is used only if it is installed."""

@@ -1,4 +1,4 @@
-"""Other models of a scene than the one it has: what each would change, and what it would cost."""
+"""Other models of a scene than its own: their effect on the results, and their cost."""
 
 from __future__ import annotations
 
@@ -27,27 +27,26 @@ from bearingcore.recordings._spectrum_difference import (
 
 SPECTRUM, CURVES, DISPLACEMENT = "spectrum", "stiffness", "displacement"
 """Quantities of errors: the housing's settled acceleration [dB], stiffness over the cage angle, or
-the inner ring's displacement as it moves (both over their swing)."""
+the inner ring's displacement in motion (both over their swing)."""
 
 DURATION = 0.25
-"""Length [s] of the motion that is compared; the second half counts, as on the page."""
+"""Length [s] of the compared motion; the second half counts, as on the page."""
 
 MOST_CALLS = 300_000
-"""Right-hand sides of one motion, and of the search for an orbit: what would take more is left
-out, so that all rows together take about a second."""
+"""Limit on the right-hand sides of a motion, and of the search for an orbit. Models that need more
+are left out, so that all rows together take about a second."""
 
 REPEATS, LONG = 3, 0.1
-"""Motions that are timed, of which the least counts, as a first one may wait for the processor;
-one that takes longer [s] is not repeated."""
+"""Number of timed motions, of which the shortest time counts, as the first may wait for the
+processor; a motion that takes longer than LONG [s] is not repeated."""
 
 N_ANGLES = 361
-"""Cage angles over a period of the drawn curves."""
-
+"""Number of cage angles over a period of the drawn curves."""
 
 _TERMS = np.triu_indices(5)
 
 LEAST_SWING = 0.01
-"""Errors are taken over a curve's swing, but not over less than this part of its size."""
+"""Errors are divided by the swing of a curve, or by this part of its size if that is more."""
 
 
 @dataclass(frozen=True)
@@ -59,13 +58,13 @@ class Alternative:
     name
         difference from the scene, such as "directions x y".
     quantity
-        SPECTRUM, CURVES or DISPLACEMENT: what the error is of.
+        quantity of the error: SPECTRUM, CURVES or DISPLACEMENT.
     error
-        difference from the scene's own model: the greatest of spectra [dB] and of displacements,
-        and that below which stiffness is at 99 % of the cage angles (over the swing); NaN where it
-        was not computed.
+        difference from the scene's own model: the greatest of spectra [dB] and of displacements
+        (over the swing); for stiffness (over the swing) the difference that 99 % of the cage angles
+        do not exceed; NaN if it was not computed.
     seconds, own_seconds
-        [s] of computing it, and the same of the scene's own model.
+        time [s] of this model, and of the scene's own model.
     note
         further remark, or the reason why there is no error.
     """
@@ -79,7 +78,7 @@ class Alternative:
 
     @property
     def saved(self) -> float:
-        """Time [s] that it saves; negative where it costs more."""
+        """Time [s] that this model saves; negative if it costs more."""
         return self.own_seconds - self.seconds
 
 
@@ -91,11 +90,11 @@ class Alternatives:
     Attributes
     ----------
     scene
-        whose model is compared.
+        scene whose model is compared.
     rows
         the other models.
     right_hand_side_calls
-        evaluations of all contacts in all motions, which say what it cost on any machine.
+        evaluations of all contacts in all motions: the cost, independent of the machine.
     """
 
     scene: Scene
@@ -106,8 +105,9 @@ class Alternatives:
         """A row for each model: error in the spectrum or the curves, and the time of both."""
         spectral = [row.quantity == SPECTRUM for row in self.rows]
         errors = [row.error for row in self.rows]
-        decibels = [error if of else math.nan for error, of in zip(errors, spectral, strict=True)]
-        shares = [math.nan if of else error for error, of in zip(errors, spectral, strict=True)]
+        pairs = list(zip(errors, spectral, strict=True))
+        decibels = [error if is_spectral else math.nan for error, is_spectral in pairs]
+        shares = [math.nan if is_spectral else error for error, is_spectral in pairs]
         return table_of(
             ("model", "", "name"),
             ("error_of", "", "quantity"),
@@ -121,11 +121,11 @@ class Alternatives:
 
 
 def alternatives(scene: Scene, cancelled: Callable[[], bool] | None = None) -> Alternatives:
-    """Measure what other models of a scene would change, and what they cost.
+    """Measure the effect and the cost of other models of a scene.
 
-    Fewer directions, other edges, massless balls or balls with mass, no inertia (quasi-static), the
-    periodic orbit instead of a march, other steps, and more or fewer cage angles. Nothing is
-    predicted: each is computed and compared with what the page draws. Motions last DURATION.
+    They have fewer directions, other edges, massless balls or balls with mass, no inertia
+    (quasi-static), the periodic orbit instead of a march, other steps, or other numbers of cage
+    angles. Each is computed and compared with the scene's own model. Motions last DURATION.
 
     Parameters
     ----------
@@ -144,17 +144,17 @@ def alternatives(scene: Scene, cancelled: Callable[[], bool] | None = None) -> A
 
 
 class _Measure:
-    """The scene's own curves and motion, and each alternative held against them."""
+    """The scene's own curves and motion, and the comparison of alternatives with them."""
 
     def __init__(self, scene: Scene) -> None:
         self.scene = scene
         self.calls = 0
         self.state, self.static_seconds = self._static(scene, N_ANGLES)
-        self.own: Motion  # the scene's, once it was marched
+        self.own: Motion  # motion of the scene's own model, once it was marched
         self.own_seconds = self.band = math.nan
 
     def rows(self) -> Iterator[Alternative]:
-        """One after the other."""
+        """Yield the alternatives, each after its computation."""
         for dofs in fewer_directions(self.scene):
             state, seconds = self._static(self.scene.replace(dofs=dofs), N_ANGLES)
             yield self._curves(f"directions {' '.join(dofs)}", state, self.state, seconds)
@@ -175,17 +175,15 @@ class _Measure:
             yield self._orbit()
         yield self._quasi_static()
 
-    # Curves
-
     def _static(self, scene: Scene, n: int) -> tuple[Equilibrium, float]:
-        began = time.thread_time()
+        start = time.thread_time()
         state = static_state(scene, default_cage_angles(scene, n))
-        return state, time.thread_time() - began
+        return state, time.thread_time() - start
 
     def _curves(
         self, name: str, state: Equilibrium, expected: Equilibrium, seconds: float, note: str = ""
     ) -> Alternative:
-        """Error over the swing that 99 % of the cage angles keep below."""
+        """Return an alternative with the error that 99 % of the cage angles do not exceed."""
         error = curve_errors(
             state.cage_angles,
             stiffness_curves(state),
@@ -201,17 +199,15 @@ class _Measure:
         note = f"drawn: {self.state.cage_angles.size}"
         return self._curves(f"{other.cage_angles.size} cage angles", coarse, fine, seconds, note)
 
-    # Motions
-
     def _march(self, scene: Scene, step_rate: float | None = None) -> tuple[Motion, float]:
         seconds = math.inf
         for _ in range(REPEATS):
-            began = time.thread_time()
+            start = time.thread_time()
             motion = simulate(scene, DURATION, step_rate=step_rate, most_steps=MOST_CALLS // 4)
             if not motion.completed:
                 raise ValueError(motion.status)
             _ = motion.outer_acceleration
-            seconds = min(seconds, time.thread_time() - began)
+            seconds = min(seconds, time.thread_time() - start)
             if seconds > LONG:
                 break
         self.calls += motion.right_hand_side_calls
@@ -224,7 +220,7 @@ class _Measure:
         return self._spectrum(name, math.nan, math.nan, f"not computed: {why}")
 
     def _difference(self, other: Motion) -> float:
-        """Difference [dB] of settled spectra, in the directions that both have."""
+        """Return the difference [dB] of settled spectra in common directions."""
         late = [
             motion.outer_acceleration[
                 len(motion.time) // 2 :,
@@ -244,7 +240,7 @@ class _Measure:
         return self._spectrum(name, self._difference(motion), seconds, note)
 
     def _edges(self) -> Iterator[Alternative]:
-        """The other models of the edges of all defects."""
+        """Yield the other edge models, each for all defects."""
         defects = self.scene.defects
         for edge in EDGES if defects else ():
             if any(defect.edge != edge for defect in defects):
@@ -255,19 +251,19 @@ class _Measure:
         heavy = self.scene.balls == WITH_MASS
         name = "massless balls" if heavy else "balls with mass"
         try:
-            run, seconds = self._march(self.scene.replace(balls=MASSLESS if heavy else WITH_MASS))
+            other, seconds = self._march(self.scene.replace(balls=MASSLESS if heavy else WITH_MASS))
         except ValueError as refused:
             return self._refused(name, refused)
-        comparison = compare_motions(*((run, self.own) if heavy else (self.own, run)))
+        comparison = compare_motions(*((other, self.own) if heavy else (self.own, other)))
         added = np.abs(comparison.added[comparison.edges[1:] <= self.band])
         error = float(added.max()) if added.size else math.nan
         return self._spectrum(name, error, seconds, comparison.sentence)
 
     def _orbit(self) -> Alternative:
         name, motion = "periodic orbit", self.own
-        began = time.thread_time()
+        start = time.thread_time()
         answer = orbit(self.scene, step_rate=motion.step_rate, most_steps=MOST_CALLS // 4)
-        seconds = time.thread_time() - began
+        seconds = time.thread_time() - start
         self.calls += answer.right_hand_side_calls
         if not answer.stable:
             why = "unstable" if answer.multipliers.size else answer.status
@@ -279,11 +275,11 @@ class _Measure:
         return self._spectrum(name, density_difference(lines, settled, self.band), seconds)
 
     def _quasi_static(self) -> Alternative:
-        """The inner ring at rest at every instant, against the ring that moves."""
+        """Compare an inner ring in static equilibrium at every instant with the moving ring."""
         motion = self.own
         half = len(motion.time) // 2
         angles = self.scene.cage_speed * motion.time[half:]
-        began = time.thread_time()
+        start = time.thread_time()
         state = self.state
         last = float(state.cage_angles[-1])
         along = [DOF_NAMES.index(dof) for dof in motion.dofs]
@@ -291,7 +287,7 @@ class _Measure:
             [np.interp(angles % last, state.cage_angles, state.displacement[:, i]) for i in along],
             axis=1,
         )
-        seconds = self.static_seconds + time.thread_time() - began
+        seconds = self.static_seconds + time.thread_time() - start
         moving = motion.inner_displacement[half:] - motion.outer_displacement[half:]
         swing = swings(moving)
         apart = np.abs((rest - rest.mean(axis=0)) - (moving - moving.mean(axis=0))) / swing
@@ -301,29 +297,30 @@ class _Measure:
 
 
 def fewer_directions(scene: Scene) -> list[tuple[str, ...]]:
-    """Smaller sets of directions than a scene's that keep x and y."""
+    """Return smaller sets of directions than a scene's that include x and y."""
     dofs = scene.active_dofs
     if scene.bearing.kind.left_out:
-        return []  # it carries nothing along the others
+        return []  # the bearing carries no load along other directions
     return [DOF_NAMES[:n] for n in (2, 3) if n < len(dofs) and set(DOF_NAMES[:n]) <= set(dofs)]
 
 
 def stiffness_curves(state: Equilibrium) -> Array:
-    """(n, 15) the terms of the stiffness, in their units; NaN where there is no answer."""
+    """Return the terms (n, 15) of the stiffness in their units; NaN without an answer."""
     return state.stiffness[:, *_TERMS]
 
 
 def swings(values: Array) -> Array:
-    """(m,) what errors of curves (n, m) are taken over: swings, or LEAST_SWING of the size.
+    """Return the divisors (m,) for errors of curves (n, m): swings, at least LEAST_SWING of size.
 
-    A term that symmetry makes zero is measured by the size of its neighbours: 1 where nothing is.
+    For a stiffness term that symmetry makes zero, the size of the diagonal terms of its directions
+    counts. The divisor is 1 if all are zero.
     """
     known = values[np.isfinite(values).all(axis=1)]
     if not known.size:
         return np.ones(values.shape[1])
     size = np.abs(known).max(axis=0)
     swing = np.maximum(np.ptp(known, axis=0), LEAST_SWING * size)
-    if values.shape[1] == 15:  # stiffness: a term counts over the diagonal ones of its directions
+    if values.shape[1] == 15:  # stiffness terms
         rows, columns = _TERMS
         diagonal = size[rows == columns]
         swing = np.maximum(swing, 1e-6 * np.sqrt(diagonal[rows] * diagonal[columns]))
@@ -331,19 +328,19 @@ def swings(values: Array) -> Array:
 
 
 def curve_errors(angles: Array, values: Array, dense: Array, expected: Array) -> Array:
-    """Error of straight lines between cage angles: the greatest of all curves, over its swing.
+    """Return the greatest error over swing of all curves, as straight lines between cage angles.
 
     Parameters
     ----------
     angles : (n,) [rad], values : (n, m)
-        cage angles, rising, and the curves there.
+        rising cage angles, and the curves at these angles.
     dense : (k,) [rad], expected : (k, m)
-        the same at far more angles.
+        far more cage angles, and the curves at these angles.
 
     Returns
     -------
     (≤ k,)
-        at those of the far more angles where all curves have an answer.
+        errors at the dense angles at which all curves have an answer.
     """
     lines = np.stack(
         [np.interp(dense, angles, values[:, i]) for i in range(values.shape[1])], axis=1

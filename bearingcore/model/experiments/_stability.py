@@ -1,8 +1,8 @@
 """Limits of stability: steps that are too long for Runge-Kutta.
 
 The linear limit is the longest step at which a linear oscillation does not grow, for the stiffest
-static state of the scene: the eigenvalues λ of the linearised motion (Eq. 28, signs mended) go
-through the method's own amplification.
+static state of the scene. It follows from the eigenvalues λ of the linearised motion (Eq. 28 with
+correct signs) and the amplification of the method.
 """
 
 from __future__ import annotations
@@ -25,22 +25,22 @@ from bearingcore.model.statics._positions import over_all_positions
 STABLE, DIVERGED = "stable", "diverged"
 
 GROWN = 100.0
-"""Amplitude from which a motion has diverged."""
+"""Amplitude above which a motion counts as diverged."""
 
 FIXED_STEP = tuple(name for name, method in METHODS.items() if method.fixed_step)
 
 
 @dataclass(frozen=True)
 class Trial:
-    """One method at one step.
+    """One method at one step rate.
 
     Attributes
     ----------
     method, step_rate [Hz]
-        name of the method, and steps a second.
+        name of the method, and step rate.
     amplitude
         root mean square of the housing's acceleration over that with the program's own steps;
-        infinite where the motion broke off.
+        infinite if the motion broke off.
     """
 
     method: str
@@ -49,25 +49,25 @@ class Trial:
 
     @property
     def verdict(self) -> str:
-        """Say "diverged" where the motion has grown beyond any bound, else "stable"."""
+        """The word "diverged" if the amplitude is GROWN or more, otherwise "stable"."""
         return STABLE if self.amplitude < GROWN else DIVERGED
 
 
 @shown_as_table
 @dataclass(frozen=True)
 class StabilityChart:
-    """Verdicts over methods and steps, with what linear theory predicts.
+    """Verdicts over methods and step rates, with the limits of linear theory.
 
     Attributes
     ----------
     linear_limit
-        least step rate [Hz] at which each method should be stable, 0 where any will do.
+        least step rate [Hz] at which each method should be stable; 0 if all are stable.
     highest_frequency
-        [Hz] of the stiffest static state.
+        highest natural frequency [Hz] of the stiffest static state.
     trials
-        trials at each speed.
+        trials of each method and step rate.
     completed
-        False where it was cancelled.
+        False if the chart was cancelled.
     """
 
     linear_limit: dict[str, float]
@@ -76,7 +76,7 @@ class StabilityChart:
     completed: bool = True
 
     def stability_limit(self, method: str) -> float:
-        """Least step rate tried [Hz] from which on the method never diverged; inf for none."""
+        """Return the least tried step rate [Hz] above which no trial diverged; inf for none."""
         limit = math.inf
         for trial in sorted(self.trials, key=lambda t: -t.step_rate):
             if trial.method == method:
@@ -99,9 +99,9 @@ class StabilityChart:
 
 
 def linear_limits(scene: Scene) -> dict[str, float]:
-    """Least stable step rate [Hz] of each fixed-step method at the scene's stiffest static state.
+    """Return the least stable step rate [Hz] of each fixed-step method for the stiffest state.
 
-    0 for methods that are stable at any step. Damping counts: it can help or harm.
+    It is 0 for methods that are stable at any step. Damping, which can help or harm, is included.
     """
     dofs = scene.active_dofs
     index = [DOF_NAMES.index(name) for name in dofs]
@@ -109,7 +109,7 @@ def linear_limits(scene: Scene) -> dict[str, float]:
     mass = scene.support.inertias(dofs)
     damping = contact_damping(scene) * loaded_directions(state)
     values = []
-    # the softer ones of thousands of positions need no eigenvalues
+    # only the stiffest of thousands of positions need eigenvalues
     size = (state.stiffness[:, index, index] / mass[: len(dofs)]).sum(axis=1)
     stiffest = np.argsort(-np.where(state.converged, size, -math.inf))[:31]
     for k in stiffest[state.converged[stiffest]]:
@@ -121,15 +121,15 @@ def linear_limits(scene: Scene) -> dict[str, float]:
         values.append(np.linalg.eigvals(motion))
     if not values:
         return dict.fromkeys(FIXED_STEP, math.nan)
-    # the stiffest is the one whose fastest eigenvalue is greatest
+    # the stiffest state is that with the greatest eigenvalue
     stiffest_of_all = max(values, key=lambda rates: np.abs(rates).max())
     return dict.fromkeys(FIXED_STEP, _least_stable_rate(stiffest_of_all))
 
 
 def _least_stable_rate(rates: NDArray[np.complex128]) -> float:
-    """Least step rate [Hz] at which no motion of eigenvalues λ [1/s] grows.
+    """Return the least step rate [Hz] at which no motion with eigenvalues λ [1/s] grows.
 
-    A Runge-Kutta step h of order 4 takes a motion by 1 + z + z²/2 + z³/6 + z⁴/24, z = h λ.
+    A Runge-Kutta step h of order 4 multiplies a motion by 1 + z + z²/2 + z³/6 + z⁴/24, z = h λ.
     """
     from scipy.optimize import brentq  # imported late: slow to import
 
@@ -146,10 +146,7 @@ def _least_stable_rate(rates: NDArray[np.complex128]) -> float:
 
 
 def stability_chart(
-    scene: Scene,
-    *,
-    duration: float = 0.25,
-    watch: Watch = NOT_WATCHED,
+    scene: Scene, *, duration: float = 0.25, watch: Watch = NOT_WATCHED
 ) -> StabilityChart:
     """March `scene` by every fixed-step method at steps from far too long to good.
 
@@ -172,7 +169,7 @@ def stability_chart(
     usual = default_step_rate(scene, 65536.0)
     good = _size(METHODS["RK4"].march(problem, usual, duration, usual))
     limits = linear_limits(scene)
-    # steps a period of the highest natural frequency; powers of √2 about the limits of 2.2 and π
+    # steps per period of the highest natural frequency: powers of √2 around the limits 2.2 and π
     rates = highest * 2.0 ** np.arange(0.0, 6.01, 0.5)
     tasks = [(name, rate) for name in FIXED_STEP for rate in rates.tolist()]
     trials = []
@@ -184,5 +181,5 @@ def stability_chart(
 
 
 def _size(march: March) -> float:
-    """Root mean square of the housing's acceleration; infinite of a motion that broke off."""
+    """Return the root mean square of the housing's acceleration; inf if the motion broke off."""
     return math.inf if march.failure else math.sqrt(float(np.mean(march.history[:, 5] ** 2)))

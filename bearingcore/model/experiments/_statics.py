@@ -1,7 +1,7 @@
 """Work and precision of solvers of the static equilibrium.
 
-The contacts stand here a second time, in NumPy and over all cage angles at once: readable, in any
-precision. The compiled contacts are compared with them.
+The contacts are implemented here a second time, in NumPy, readable, for all cage angles at once and
+in any precision. The compiled contacts are compared with them.
 """
 
 from __future__ import annotations
@@ -44,16 +44,16 @@ STATICS_LEFT_OUT = (
 )
 
 WRONG_STIFFNESS, STRICT = 0.1, 1e-6
-"""Error and tolerance of a failure: a solver with the second tolerance or less has failed
-where it calls an answer solved whose stiffness errs by more than the first."""
+"""Error and tolerance that define a failure: a solver with a tolerance of STRICT or less fails if
+the stiffness of an answer that it calls solved is wrong by more than WRONG_STIFFNESS."""
 
 
 @dataclass(frozen=True)
 class StaticProblem:
     """Static equilibrium of a scene at m cage angles, rotations times r_d, moments over r_d.
 
-    `c`, `s`, `d` (m, N_b): cosine, sine [-] and drop [m] of each ball; `force` (5,) [N]; `active`
-    the free directions; `packed` all contacts; `guess` (5,) [m] to start from.
+    `c`, `s`, `d` (m, N_b) are cosine, sine [-] and drop [m] of each ball; `force` (5,) [N] is the
+    load, `active` the free directions, `packed` all contacts, `guess` (5,) [m] the first guess.
     """
 
     scene: Scene
@@ -73,7 +73,7 @@ class StaticProblem:
 
 
 def static_problem(scene: Scene, angles: Array) -> StaticProblem:
-    """The numbers of a scene's static equilibrium at cage angles (m,) [rad]."""
+    """Return the numbers of a scene's static equilibrium at cage angles (m,) [rad]."""
     numbers = packing.pack(scene)
     packed, (force, active) = numbers.contacts, numbers.load
     phi = packed.angles_at(angles)
@@ -90,9 +90,7 @@ def static_problem(scene: Scene, angles: Array) -> StaticProblem:
 
 
 class Contacts(NamedTuple):
-    """Energy (m,) [N·m] without the load's, forces (m, 5) [N], stiffness (m, 5, 5) [N/m], and
-    ball loads (m, N_b) [N].
-    """
+    """Elastic energy (m,) [N·m], forces (m, 5) [N], stiffness (m, 5, 5), loads (m, N_b) [N]."""
 
     energy: Any
     force: Any
@@ -101,7 +99,7 @@ class Contacts(NamedTuple):
 
 
 def contacts(problem: StaticProblem, q: Any, rows: Any = slice(None)) -> Contacts:
-    """All contacts at displacements q (m, 5) [m], of the precision that q has (Eqs. 7-17)."""
+    """Return all contacts at displacements q (m, 5) [m], in the precision of q (Eqs. 7-17)."""
     packed = problem.packed
     ca, sa, A0, n = packed.line_r, packed.line_z, packed.distance, packed.exponent
     c, s, d = problem.c[rows], problem.s[rows], problem.d[rows]
@@ -114,7 +112,7 @@ def contacts(problem: StaticProblem, q: Any, rows: Any = slice(None)) -> Contact
     across = axial * ca - radial * sa
     guarded = np.maximum(along, 0.0)
     A = np.sqrt(guarded**2 + across**2)  # Equation (7)
-    # A - A0 without subtracting: lines of centres are a thousand compressions long
+    # A − A0 without a difference, as A0 is a thousand compressions long
     whole = np.maximum(A + A0, 1e-300)
     stretch = np.where(along > 0.0, (longer * (A0 + along) + across**2) / whole, A - A0)
     delta = np.maximum(np.where(packed.fixed, longer, stretch), 0.0)
@@ -134,7 +132,7 @@ def contacts(problem: StaticProblem, q: Any, rows: Any = slice(None)) -> Contact
 
 
 class Solved(NamedTuple):
-    """Displacements (m, 5), a mask of those that the solver calls solved, and all evaluations."""
+    """Displacements (m, 5), True where the solver claims success, and number of evaluations."""
 
     q: Any
     solved: NDArray[np.bool_]
@@ -162,7 +160,7 @@ def refine(problem: StaticProblem, q: Array) -> Solved:
 
 
 def residuals(problem: StaticProblem, q: Any) -> Array:
-    """Unbalanced load over the load (m,) at displacements (m, 5) [m] of any precision."""
+    """Return the unbalanced load over the load (m,) at displacements (m, 5) [m]."""
     unbalanced = (contacts(problem, q).force - problem.force)[:, problem.active].astype(float)
     sizes: Array = np.linalg.norm(unbalanced, axis=1)
     return sizes / (problem.load or 1.0)
@@ -217,19 +215,19 @@ def _scipy(
             result: Any = least_squares(
                 unbalanced, start, jac=jacobian, args=(k,), ftol=tight, xtol=tight, gtol=tight
             )
-            good = result.success and np.abs(result.fun).max() <= max(tolerance, 1e-8)
+            success = result.success and np.abs(result.fun).max() <= max(tolerance, 1e-8)
         elif method == "trust-exact":
             result = minimize(
                 energy, start, args=(k,), jac=True, hess=jacobian, method="trust-exact",
                 options={"gtol": tolerance},
             )  # fmt: skip
-            good = result.success
+            success = result.success
         else:
             result = root(  # type: ignore[call-overload]
                 unbalanced, start, args=(k,), jac=jacobian, method=method, tol=tolerance
             )
-            good = result.success
-        q[k, active], solved[k] = result.x * length, good
+            success = result.success
+        q[k, active], solved[k] = result.x * length, success
     return Solved(q, solved, evaluations)
 
 
@@ -279,15 +277,15 @@ class StaticReference:
 
 
 GRAZING = 1e-14
-"""Share of the greatest load of a ball: less is rounding."""
+"""Share of the greatest load of a ball below which a load is rounding."""
 
 
 def static_reference(problem: StaticProblem) -> StaticReference:
-    """Minima of the energy, refined in extended precision, and roots of the forces in double.
+    """Compute minima of the energy in extended precision, and roots of the forces in double.
 
-    Angles where the least stiffness is zero have no unique answer. Where rounding alone loads a
-    contact, its stiffness is rounding too. No precision settles it, least of all for rollers, whose
-    stiffness grows as the ninth root of their compression.
+    Angles with a least stiffness of zero have no unique answer. If only rounding loads a contact,
+    its stiffness is rounding too, at any precision. This matters most for rollers, whose stiffness
+    grows as the ninth root of their compression.
     """
     exact = refine(problem, _compiled(problem, 0.0).q)
     other = _scipy(problem, 1e-12, "hybr")
@@ -298,15 +296,15 @@ def static_reference(problem: StaticProblem) -> StaticReference:
         near = _scipy(problem, 1e-12, "hybr", False, 1.01 * exact.q.astype(float))  # 1 % beside
         q = np.where(other.solved[:, None], other.q, near.q)
         other = Solved(q, other.solved | near.solved, 0)
-    at = contacts(problem, exact.q)
+    state = contacts(problem, exact.q)
     active = np.ix_(np.arange(len(exact.q)), problem.active, problem.active)
-    least = np.linalg.eigvalsh(at.stiffness.astype(float)[active])[:, 0]
-    greatest = np.abs(at.stiffness.astype(float)[active]).max(axis=(1, 2))
-    faint = GRAZING * at.load.max(axis=1, keepdims=True)
-    grazed = ((at.load > 0.0) & (at.load < faint)).any(axis=1)
+    least = np.linalg.eigvalsh(state.stiffness.astype(float)[active])[:, 0]
+    greatest = np.abs(state.stiffness.astype(float)[active]).max(axis=(1, 2))
+    faint = GRAZING * state.load.max(axis=1, keepdims=True)
+    grazed = ((state.load > 0.0) & (state.load < faint)).any(axis=1)
     unique = exact.solved & (least > 1e-10 * greatest)
     known = unique & ~grazed
-    stiffness, load = at.stiffness.astype(float), at.load.astype(float)
+    stiffness, load = state.stiffness.astype(float), state.load.astype(float)
     both = known & other.solved
     agreement = (
         static_errors(problem, other.q[both], stiffness[both], load[both], both)
@@ -330,7 +328,7 @@ def static_reference(problem: StaticProblem) -> StaticReference:
 def static_errors(
     problem: StaticProblem, q: Array, stiffness: Array, load: Array, rows: Any
 ) -> dict[str, float]:
-    """Errors of displacements q (m, 5) against stiffness and loads, names of STATIC_ERRORS."""
+    """Return the errors of stiffness and loads at q (m, 5), by the names of STATIC_ERRORS."""
     state = contacts(problem, q, rows)
     size = np.abs(stiffness).max(axis=0)
     diagonal = np.diagonal(size)
@@ -344,12 +342,9 @@ def static_errors(
 
 
 def statics_experiment(
-    scene: Scene,
-    *,
-    n_angles: int = 121,
-    watch: Watch = NOT_WATCHED,
+    scene: Scene, *, n_angles: int = 121, watch: Watch = NOT_WATCHED
 ) -> Experiment:
-    """Error against cost of ways to solve the static equilibrium over a period of cage angles.
+    """Measure error and cost of solvers of the static equilibrium over a period of cage angles.
 
     Parameters
     ----------
@@ -358,7 +353,7 @@ def statics_experiment(
     n_angles
         equally spaced cage angles in a ball spacing.
     watch
-        progress, points as they come, and cancelling.
+        progress, intermediate results, and cancelling.
 
     Raises
     ------
@@ -371,6 +366,7 @@ def statics_experiment(
         "": static_problem(scene, default_cage_angles(scene, n_angles)),
         **hard_cases(scene),
     }
+    # a reference for each problem, then all solvers at all tolerances, and on the hard cases once
     truths = {}
     for k, (case, problem) in enumerate(problems.items()):
         report(k / len(problems))
@@ -379,7 +375,7 @@ def statics_experiment(
         raise checks.refuse("scene", equilibrium(scene, [0.0]).reason(0), "one with a static state")
     for name in SOLVERS:
         if SOLVERS[name][1] == (kernels.RESIDUAL_AIM,):
-            SOLVERS[name][0](problems[""], 0.0)  # compiles now, not while time is taken
+            SOLVERS[name][0](problems[""], 0.0)  # compiles now, not while time is measured
     tasks = [("", name, tolerance) for name in SOLVERS for tolerance in SOLVERS[name][1]]
     tasks += [
         (case, name, SOLVERS[name][1][-1 if len(SOLVERS[name][1]) == 1 else -2])

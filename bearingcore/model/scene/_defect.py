@@ -29,15 +29,15 @@ from bearingcore.model.scene._floor import MeasuredFloor, RoughFloor, measured_f
 
 RACES = ("outer", "inner")
 EDGES = ("published", "chord", "exact")
-"""Edge models. `published` is Eq. 6 with r_b read for r_b² and its factor 0.25, which the paper's
-figures were made with; `chord` is the same with factor 1; `exact` is a ball that pivots on the
-corner of the curved race."""
+"""Edge models. `published` is Eq. 6 with r_b in place of r_b² and factor 0.25, as in the figures of
+the paper; `chord` is the same with factor 1; `exact` is a ball that pivots on the corner of the
+curved race."""
 
 TWO_PI = 2.0 * math.pi
 
 ANGLE_ROUNDING = 1e-9
-"""Angle [rad] below which edges are at one place: a nanometre on the largest race, and more than
-rounding leaves of angles that were typed in degrees and added."""
+"""Angle [rad] below which two edges are at the same place. It is a nanometre on the largest race,
+and more than the rounding of angles that were typed in degrees and added."""
 
 
 @dataclass(frozen=True)
@@ -59,9 +59,9 @@ class Defect:
     edge
         model of the ball's path over the edges: "published", "chord" or "exact".
     floor
-        None for a flat floor, or a `RoughFloor` or `MeasuredFloor`, whose depth is then `depth`.
+        None for a flat floor; a `RoughFloor` or `MeasuredFloor` has the depth `depth`.
     row
-        number of the row of balls that rolls over it, counted from 0; None for all rows.
+        number of the row of balls that rolls over the defect, counted from 0; None for all rows.
 
     Raises
     ------
@@ -78,7 +78,7 @@ class Defect:
     row: int | None = None
 
     def __post_init__(self) -> None:
-        # 360° typed as a decimal must not fail on the last digit of 2π, nor leave a wall
+        # 360° typed as a decimal must neither fail on the last digit of 2π, nor leave a thin wall
         most = TWO_PI + ANGLE_ROUNDING
         checks.keep_number(self, "extent", at_least=0.0, at_most=most, unit="rad")
         if self.extent > TWO_PI - ANGLE_ROUNDING:
@@ -104,7 +104,7 @@ class Defect:
     ) -> Self:
         """Make a defect of any shape: angles [rad] on the race, depths [m] below it.
 
-        Negative depths stand above the race, as a rim pushed up beside a dent does.
+        Negative depths are above the race, such as a rim that was pushed up beside a dent.
         """
         floor, extent, deepest, center = measured_floor(angle, depth)
         return cls(extent, deepest, center, race, edge, floor)
@@ -115,20 +115,19 @@ class Defect:
         return self.extent == 0.0 or self.depth == 0.0
 
     def turn_ratio(self, bearing: Bearing) -> float:
-        """Angle of the defect per cage angle: 0 (outer) or ω_s/ω_c (inner)."""
+        """Return the angle of the defect per cage angle: 0 (outer) or ω_s/ω_c (inner)."""
         return 0.0 if self.race == "outer" else 1.0 / bearing.cage_ratio
 
     def raceway_radius(self, bearing: Bearing) -> float:
-        """Radius [m] of the race that the defect is cut into."""
-        return (
-            bearing.inner_raceway_radius if self.race == "inner" else bearing.outer_raceway_radius
-        )
+        """Return the radius [m] of the race that has the defect."""
+        inner, outer = bearing.inner_raceway_radius, bearing.outer_raceway_radius
+        return inner if self.race == "inner" else outer
 
     def check(self, bearing: Bearing) -> None:
         """Raise ValueError for a defect that `bearing` cannot have.
 
-        It may name a row that is not there, be deeper than a ball could roll over, or have a floor
-        that is finer than can be computed.
+        Such a defect is on a row that does not exist, is too deep for balls to roll over, or has a
+        floor with more detail than can be computed.
         """
         if self.row is not None and self.row >= len(bearing.all_rows):
             raise checks.refuse(
@@ -149,7 +148,7 @@ class Defect:
     def edge_row(self, bearing: Bearing) -> Array:
         """Return the path of a ball over the edges, in the order of `kernels.PATH_COLUMNS`."""
         R, r_b, h = self.raceway_radius(bearing), bearing.ball_radius, self.depth
-        # where there is no edge left the floor is everywhere
+        # a defect of 2π has no edges, and its floor is everywhere
         s_floor = self.edge_width(bearing, h) if self.extent < TWO_PI else 0.0
         code = EDGES.index(self.edge)
         if self.race == "inner" and self.edge == "exact":
@@ -163,8 +162,8 @@ class Defect:
         """Return the angle [rad] from an edge at which a ball has sunk by a drop [m]."""
         R, r_b = self.raceway_radius(bearing), bearing.ball_radius
         if self.edge == "exact":
-            # law of cosines: the ball touches floor and corner at once; one much larger than the
-            # inner race (2 or 3 balls) never reaches the floor
+            # Law of cosines for a ball that touches floor and corner at once. A ball much larger
+            # than the inner race (bearings with 2 or 3 balls) never reaches the floor.
             rho = R + r_b - drop if self.race == "inner" else R - r_b + drop
             cosine = (R * R + rho * rho - r_b * r_b) / (2.0 * R * rho)
             return math.acos(min(max(cosine, -1.0), 1.0))
@@ -193,14 +192,14 @@ class Defect:
 
 
 def _wrapped(angle: Array) -> Array:
-    """Angles [rad] brought to −π … π."""
+    """Return the angles [rad] in the range from −π to π."""
     return angle - TWO_PI * np.floor(angle / TWO_PI + 0.5)
 
 
 def edge_drop(s: Array, defect: Defect, bearing: Bearing, deepest: float) -> Array:
-    """Drop [m] at the angle s [rad] from a corner, of a ball that nothing else holds up.
+    """Return the drop [m] of a ball that only a corner holds up, at the angle s [rad] from it.
 
-    Infinite where the ball has lost the corner, and where it would hang below `deepest` [m].
+    It is infinite where the ball has lost the corner, or would hang below `deepest` [m].
     """
     depth = min(deepest, bearing.ball_radius)
     row = dataclasses.replace(defect, depth=depth, extent=math.pi).edge_row(bearing)
@@ -217,27 +216,26 @@ def edge_drop(s: Array, defect: Defect, bearing: Bearing, deepest: float) -> Arr
 
 
 def floor_bytes(defects: tuple[Defect, ...]) -> int:
-    """Bytes that the numbers of measured floors take: two tuples of floats each."""
+    """Return the memory [bytes] of the numbers of measured floors, two tuples of floats each."""
     floors = [defect.floor for defect in defects]
     return sum(64 * len(floor.places) for floor in floors if isinstance(floor, MeasuredFloor))
 
 
-# of a rough floor a table holds up to two million numbers: a count of them would be no bound
+# The cache is bounded by bytes, as the table of a rough floor has up to two million numbers.
 @lru_cache_by_bytes(
     64_000_000,
     lambda path, defects, _: sum(part.nbytes for part in path) + floor_bytes(defects),
 )
 def path_tables(defects: tuple[Defect, ...], bearing: Bearing) -> kernels.Path:
-    """Arrays of all defects for the kernels: rows of numbers, and paths as tables.
+    """Return all defects as arrays for the kernels: rows of numbers, and tabulated paths.
 
-    The rows (n, len(kernels.PATH_COLUMNS)) describe one square defect each, or a stretch of the
-    race whose path [m] is tabulated in the second array: a floor that is not flat, or several
-    defects that run into one another.
+    Each of the rows (n, len(kernels.PATH_COLUMNS)) is a square defect, or a stretch of the race
+    whose path [m] is in the second array, because its floor is not flat or several defects touch.
 
     Raises
     ------
     ValueError
-        where defects that run into one another differ in edge model or have floors of their own.
+        if defects that touch differ in edge model or have floors that are not flat.
     """
     if not bearing.rows_are_alike:
         return _paths_of_rows(defects, bearing)
@@ -263,13 +261,13 @@ def path_tables(defects: tuple[Defect, ...], bearing: Bearing) -> kernels.Path:
 
 
 def _paths_of_rows(defects: tuple[Defect, ...], bearing: Bearing) -> kernels.Path:
-    """Paths of several rows: the balls of each row run on raceways of their own radius."""
+    """Return the paths of unlike rows, whose raceways have different radii."""
     rows, tables, size = [], [], 0
     for row in range(len(bearing.all_rows)):
-        there = tuple(
+        of_row = tuple(
             dataclasses.replace(defect, row=row) for defect in defects if defect.row in (None, row)
         )
-        path = path_tables(there, bearing.of_row(row).replace(rows=()))
+        path = path_tables(of_row, bearing.of_row(row).replace(rows=()))
         lines = path.defects.copy()
         lines[:, _TABLE_START] += size
         rows.append(lines)
@@ -288,10 +286,9 @@ def drop_into(
     cage_angle: ArrayLike = 0.0,
     row: int = 0,
 ) -> Array:
-    """Drop [m] of a ball's centre at the ball angles [rad] into all of the defects.
+    """Return the drop [m] of the centre of a ball of `row` into all defects, at ball angles [rad].
 
-    `cage_angle` [rad] says how far the cage has turned, `row` which row's ball it is; shapes
-    broadcast.
+    `cage_angle` [rad] is the angle of the cage; shapes broadcast.
     """
     angles = np.asarray(ball_angle, dtype=float) + np.zeros_like(cage_angle, dtype=float)
     cage = np.asarray(cage_angle, dtype=float) + np.zeros_like(angles)
@@ -301,7 +298,7 @@ def drop_into(
 
 
 def _touching(defects: tuple[Defect, ...]) -> list[list[Defect]]:
-    """Defects in groups that overlap or touch on the same race."""
+    """Return the defects in groups that overlap or touch on the same race."""
     groups: list[list[Defect]] = []
     for defect in defects:
         near = [
@@ -324,8 +321,8 @@ def _touching(defects: tuple[Defect, ...]) -> list[list[Defect]]:
 
 
 TABLE_STEP = 1e-4
-"""Spacing [rad] of tabulated paths: between nodes the curve of an edge leaves a straight line by
-R_o²/r_b (step²)/8, about 1e-10 m, and the bend where a ball reaches the floor is off by 1e-8 m."""
+"""Spacing [rad] of tabulated paths. Between nodes the curve of an edge differs from a straight line
+by R_o²/r_b (step²)/8, about 1e-10 m; where a ball reaches the floor the error is 1e-8 m."""
 
 
 def _nodes(half: float) -> Array:
@@ -333,10 +330,10 @@ def _nodes(half: float) -> Array:
 
 
 def _joined_path(group: list[Defect], bearing: Bearing) -> tuple[float, float, Array]:
-    """Center, half extent [rad] and tabulated path [m] of square defects that run together.
+    """Return center, half extent [rad] and tabulated path [m] of square defects that touch.
 
-    The joint profile is a staircase. The ball's centre is held up by the floor beneath it and by
-    every step's corner: d(φ) = min over the stretches k of h_k + drop(angle from φ to stretch k).
+    The joint profile is a staircase. The ball is held up by the floor below it and by the corners
+    of all steps: d(φ) = min over the stretches k of h_k + drop(angle from φ to stretch k).
     """
     first = group[0]
     if any(defect.row != first.row for defect in group):
@@ -362,6 +359,7 @@ def _joined_path(group: list[Defect], bearing: Bearing) -> tuple[float, float, A
             f"{len(group)} around the whole race",
             "defects that leave some of the race healthy where they touch",
         )
+    # the whole profile from begin to end, held up at both ends by the healthy race
     middle, half = 0.5 * (begin + end), 0.5 * (end - begin)
     angle = _nodes(half) + middle
     edges = np.sort([edge for c, w, _ in places for edge in (c - w, c + w)])
@@ -379,33 +377,33 @@ def _joined_path(group: list[Defect], bearing: Bearing) -> tuple[float, float, A
 
 
 def _floor_path(defect: Defect, bearing: Bearing) -> tuple[float, float, Array]:
-    """Center, half extent [rad] and tabulated path [m] over a floor that is not flat.
+    """Return center, half extent [rad] and tabulated path [m] over a floor that is not flat.
 
-    The path is the surface with the ball's circle rolled over it, a grey-scale morphological
-    operation: d(φ) = min over Δ of surface(φ + Δ) + drop(Δ). Where the circle sits on the curved
-    race, drop is that of the edge model, so that a square slot gives the edge model back. What is
-    neglected is of the order of depth over raceway radius.
+    The ball's circle rolls over the surface, a grey-scale morphological operation:
+    d(φ) = min over Δ of surface(φ + Δ) + drop(Δ). The drop of a point of the circle is that of the
+    edge model, so that a square slot reproduces the edge model. The neglected terms are of the
+    order of depth over raceway radius.
     """
     half = 0.5 * defect.extent
-    whole = defect.extent >= TWO_PI
-    if isinstance(defect.floor, MeasuredFloor) and not whole:
-        # a ball climbs a raised rim before it is over it
+    all_around = defect.extent >= TWO_PI
+    if isinstance(defect.floor, MeasuredFloor) and not all_around:
+        # a ball touches a raised rim before its centre is above it
         height = -defect.depth * min(defect.floor.depths)
         if height > 0.0:
             half = min(half + defect.edge_width(bearing, height), math.pi)
     angle = _nodes(half)
     step = angle[1] - angle[0]
     surface = defect.surface(defect.center + angle, bearing)
-    # the corners belong to the healthy race; a whole race closes on itself
-    surface[0] = surface[-1] = min(surface[0], surface[-1]) if whole else 0.0
-    # no farther than the floor is long: a tiny defect would need steps without end
+    # both ends belong to the healthy race; a defect of the whole race closes on itself
+    surface[0] = surface[-1] = min(surface[0], surface[-1]) if all_around else 0.0
+    # The circle is no longer than the floor, as a tiny defect would need a huge number of steps.
     with np.errstate(over="ignore", divide="ignore"):
         steps = math.ceil(min(0.5 * math.pi / step, angle.size))
     reach = np.arange(steps) * step
     circle = edge_drop(reach, defect, bearing, float(np.ptp(surface)))
     circle = circle[np.isfinite(circle)]
-    if not whole:
+    if not all_around:
         return defect.center, half, kernels.roll_over(surface, circle)
-    past = circle.size - 1
-    around = np.concatenate([surface[-1 - past : -1], surface, surface[1 : 1 + past]])
-    return defect.center, half, kernels.roll_over(around, circle)[past : past + angle.size]
+    margin = circle.size - 1
+    around = np.concatenate([surface[-1 - margin : -1], surface, surface[1 : 1 + margin]])
+    return defect.center, half, kernels.roll_over(around, circle)[margin : margin + angle.size]

@@ -1,4 +1,4 @@
-"""Floors of defects that are not flat: rough ones, and measured ones.
+"""Floors of defects that are not flat: rough floors and measured floors.
 
 Quantity                                        | Symbol | Name               | Unit
 ----------------------------------------------- | ------ | ------------------ | ----
@@ -21,12 +21,12 @@ from bearingcore.common import Array, _checks as checks
 from bearingcore.common._byte_cache import lru_cache_by_bytes
 
 SAMPLES_A_LENGTH = 10
-"""Samples of a rough floor in a correlation length."""
+"""Samples of a rough floor per correlation length."""
 
 MOST_ROWS = 100_000
 
 MOST_SAMPLES = 2_000_000
-"""Samples of a rough floor; more would not fit a table of its path."""
+"""Greatest number of samples of a rough floor; more would not fit the table of its path."""
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ class RoughFloor:
     correlation_length
         distance along the race [m] at which the correlation of heights has fallen to 1/e.
     seed
-        whole number; equal seeds give equal surfaces, and a longer defect continues the same one.
+        whole number; equal seeds give equal surfaces, which a longer defect continues.
     """
 
     kind: ClassVar[str] = "rough"
@@ -68,9 +68,9 @@ class RoughFloor:
             )
 
     def surface(self, angle: Array, extent: float, depth: float, radius: float) -> Array:
-        """Depth [m] at angles [rad] from the middle of a defect on a race of `radius` [m].
+        """Return the depth [m] at angles [rad] from the middle, on a race of `radius` [m].
 
-        It is never above the healthy race.
+        The floor is never above the healthy race.
         """
         step = self.correlation_length / SAMPLES_A_LENGTH
         reach = math.ceil(0.5 * extent * radius / step) + 1
@@ -81,10 +81,10 @@ class RoughFloor:
 
 @lru_cache_by_bytes(64_000_000, lambda heights, *_: heights.nbytes)
 def _roughness(seed: int, reach: int) -> Array:
-    """2·reach + 1 heights of unit variance, SAMPLES_A_LENGTH in a correlation length."""
+    """Return 2·reach + 1 heights of unit variance, SAMPLES_A_LENGTH per correlation length."""
     from scipy import ndimage  # imported late: it would double the time to import this package
 
-    # correlation exp(−(x/l)²) comes from white noise smoothed by a Gaussian of σ = l/2
+    # white noise smoothed by a Gaussian of σ = l/2 has the correlation exp(−(x/l)²)
     sigma = 0.5 * SAMPLES_A_LENGTH
     margin = math.ceil(5.0 * sigma)
     sides = [
@@ -101,15 +101,15 @@ def _roughness(seed: int, reach: int) -> Array:
 
 @dataclass(frozen=True)
 class MeasuredFloor:
-    """The shape of a measured floor: depths in between are linear.
+    """The shape of a measured floor, linear between its points.
 
     Parameters
     ----------
     places
-        rising, from −1 (beginning of the defect) to 1 (its end).
+        places along the defect, rising from −1 (its beginning) to 1 (its end).
     depths
-        at those places, over the defect's depth: 0 is the healthy race, 1 the depth; below 0 it
-        stands above the race, as a rim that was pushed up does.
+        depth at each place over the depth of the defect: 0 is the healthy race; a negative number
+        is above the race, such as a rim that was pushed up.
     """
 
     kind: ClassVar[str] = "measured"
@@ -134,14 +134,14 @@ class MeasuredFloor:
         checks.keep(self, places=tuple(places.tolist()), depths=tuple(depths.tolist()))
 
     def surface(self, angle: Array, extent: float, depth: float, radius: float) -> Array:
-        """Depth [m] at angles [rad] from the middle of a defect."""
+        """Return the depth [m] at angles [rad] from the middle of a defect."""
         return depth * np.interp(angle / (0.5 * extent), self.places, self.depths)
 
 
 def measured_floor(angle: ArrayLike, depth: ArrayLike) -> tuple[MeasuredFloor, float, float, float]:
-    """A floor from measured angles [rad] and depths [m], in any order; below 0 it is raised.
+    """Make a floor from measured angles [rad] and depths [m] in any order; below 0 it is raised.
 
-    Returns the floor and the extent [rad], depth [m] and center [rad] of the defect it belongs to.
+    Returns the floor, and the extent [rad], depth [m] and center [rad] of its defect.
 
     Raises
     ------

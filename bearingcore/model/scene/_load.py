@@ -26,7 +26,7 @@ class Load:
 
     @property
     def has_moment(self) -> bool:
-        """True if it has a moment."""
+        """True if the load has a moment."""
         return (self.mx, self.my) != (0.0, 0.0)
 
     @property

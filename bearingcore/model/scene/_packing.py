@@ -1,7 +1,7 @@
-"""A scene as the structs that kernels take: the one place that fills them.
+"""A scene as structs of numbers for the kernels; only this module fills them.
 
-`pack` makes all of a scene at rest at once; solvers take what it returns and need not come back.
-Tilts are carried times r_d and moments over r_d, r_d being `Bearing.groove_center_radius`.
+`pack` makes all structs of a scene at rest, and solvers need nothing else. Tilts are times r_d and
+moments over r_d, where r_d is `Bearing.groove_center_radius`.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ from bearingcore.model.scene._scene import DOF_NAMES, Scene
 from bearingcore.units import STANDARD_GRAVITY
 
 SMALL_TILT = 0.2
-"""Rotation [rad] of a ring up to which it counts as small: its sine is 0.7 % less, and what is left
-out of the place of its groove's centres, r_d θ²/2, is 2 % of their radius."""
+"""Greatest rotation [rad] of a ring that counts as small: its sine is 0.7 % less, and the neglected
+displacement of its groove centres, r_d θ²/2, is 2 % of their radius."""
 
 HEALTHY_PATH = kernels.Path(np.zeros((0, len(kernels.PATH_COLUMNS))), np.zeros(0))
-"""The way of a ball's centre where there is no defect."""
+"""Path of a ball's centre without any defect."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,15 +38,15 @@ class PackedScene:
     scene, dofs
         scene that was packed, and the free directions.
     contacts, path, load
-        all contacts, the way of the balls over all defects, load and free directions.
+        all contacts, the path of the balls over all defects, load and free directions.
     inner_path
-        the way over the defects of the inner race alone.
+        path over the defects of the inner race alone.
     units : (5,)
         divisors of scaled displacements, see `length_units`.
     rows
-        the bearing with the numbers of each row, see `Bearing.of_row`.
+        a bearing for each row, with its numbers, see `Bearing.of_row`.
     balls
-        both contacts of each ball, its mass and weight, and its way into each race; where asked.
+        contacts, masses, weights and paths of balls with mass; None for massless balls.
     """
 
     scene: Scene
@@ -62,49 +62,50 @@ class PackedScene:
 
 @dataclass(frozen=True, eq=False)
 class PackedMotion(PackedScene):
-    """A scene that moves along `dofs`: `PackedScene`, and both bodies."""
+    """A scene that moves along `dofs`: `PackedScene` with both bodies."""
 
     rotor: kernels.Rotor
 
 
 def pack(scene: Scene, dofs: tuple[str, ...] | None = None, *, balls: bool = False) -> PackedScene:
-    """A scene whose ring is free along `dofs`, as numbers; None takes its active directions.
+    """Return a scene whose ring is free along `dofs` as numbers; None takes its active directions.
 
-    balls: whether their masses are asked for. Their contacts have the damping 1 N·s/m, see `races`.
+    balls: True to include balls with mass. Their contacts have the damping 1 N·s/m, see `races`.
     """
     free = scene.active_dofs if dofs is None else dofs
     units = length_units(scene)
     load = kernels.StaticLoad(scene.load.vector / units, direction_numbers(free))
     both = races(scene, 1.0, weight=True) if balls else None
     defects, bearing = scene.defects, scene.bearing
-    rows, every = own_rows(bearing), contacts(bearing)
+    rows, all_contacts = bearings_of_rows(bearing), contacts(bearing)
     whole = path_tables(defects, bearing)
-    ways = []
+    paths = []
     for race in ("inner", "outer"):
         on_race = tuple(defect for defect in defects if defect.race == race)
         alone = len(on_race) == len(defects)
-        ways.append(whole if alone else path_tables(on_race, bearing) if on_race else HEALTHY_PATH)
-    of_balls = None if both is None else kernels.StaticBalls(every, both, *ways)
-    return PackedScene(scene, free, every, whole, ways[0], load, units, rows, of_balls)
+        paths.append(whole if alone else path_tables(on_race, bearing) if on_race else HEALTHY_PATH)
+    static_balls = None if both is None else kernels.StaticBalls(all_contacts, both, *paths)
+    return PackedScene(scene, free, all_contacts, whole, paths[0], load, units, rows, static_balls)
 
 
 @lru_cache(maxsize=256)
-def own_rows(bearing: Bearing) -> tuple[Bearing, ...]:
-    """The bearing with the numbers of each row."""
+def bearings_of_rows(bearing: Bearing) -> tuple[Bearing, ...]:
+    """Return a bearing for each row, with the numbers of that row."""
     return tuple(bearing.of_row(k) for k in range(len(bearing.all_rows)))
 
 
 @lru_cache(maxsize=256)
 def contacts(bearing: Bearing) -> kernels.Contacts:
-    """All contacts of a bearing."""
-    bearings = own_rows(bearing)
+    """Return all contacts of a bearing."""
+    bearings = bearings_of_rows(bearing)
+    # a line of contact for each row, and all lengths over the common lever r_d
     counts = [row_bearing.n_balls for row_bearing in bearings]
     lines = [bearing.kind.contact(row_bearing) for row_bearing in bearings]
     rows = list(zip(bearing.all_rows, lines, strict=True))
     lever = bearing.groove_center_radius
 
     def each(values: Iterable[float]) -> Array:
-        """The values of the rows, once for each of their contacts."""
+        """Repeat the value of each row for all contacts of that row."""
         return np.repeat(np.array(list(values), dtype=float), counts)
 
     return kernels.Contacts(
@@ -132,33 +133,33 @@ def contacts(bearing: Bearing) -> kernels.Contacts:
 
 
 def ball_angles(bearing: Bearing, cage_angles: Array) -> Array:
-    """Angles (n, balls) [rad] of all balls at cage angles (n,), row after row."""
+    """Return the angles (n, balls) [rad] of all balls at cage angles (n,), row after row."""
     return contacts(bearing).angles_at(cage_angles)
 
 
 def path(scene: Scene, race: str | None = None) -> kernels.Path:
-    """The way of a ball's centre over all defects of a scene, or over those of one race."""
+    """Return the path of a ball's centre over all defects of a scene, or over those of one race."""
     defects = tuple(defect for defect in scene.defects if race in (None, defect.race))
     return path_tables(defects, scene.bearing)
 
 
 def races(scene: Scene, contact_damping: float, *, weight: bool) -> kernels.Races:
-    """Both contacts of each ball, its mass and the loads on it.
+    """Return both contacts of each ball, its mass and the loads on it.
 
-    contact_damping: c [N·s/m] of both contacts in series. It is shared so that balls without mass
-    would move as the published law has them: damping over stiffness alike on both sides. Alike
-    contacts have 2 c each. `weight`: whether the balls' weight acts.
+    contact_damping: c [N·s/m] of both contacts in series. Both contacts get the same ratio of
+    damping and stiffness, as then balls without mass would move by the published law. Two equal
+    contacts have 2 c each. weight: True if the weight of the balls acts.
     """
-    rows = own_rows(scene.bearing)
+    rows = bearings_of_rows(scene.bearing)
     softer = [(row.race_factors[0] / row.race_factors[1]) ** (1.0 / row.kind.exponent)
               for row in rows]  # fmt: skip
 
     def each(values: Iterable[float]) -> Array:
-        """The values of the rows, once for each of their balls."""
+        """Repeat the value of each row for all balls of that row."""
         return np.repeat(np.array(list(values), dtype=float), [row.n_balls for row in rows])
 
     def both(values: Iterable[tuple[float, float]]) -> Array:
-        """Pairs of values of the rows, for the inner and the outer race, once for each ball."""
+        """Repeat the pairs of values (inner, outer) of the rows for all balls."""
         inner, outer = zip(*values, strict=True)
         return np.stack([each(inner), each(outer)])
 
@@ -177,26 +178,26 @@ def races(scene: Scene, contact_damping: float, *, weight: bool) -> kernels.Race
 
 
 def direction_numbers(dofs: Sequence[str]) -> NDArray[np.int64]:
-    """Indices of directions in x, y, z, rx, ry."""
+    """Return the indices of directions in x, y, z, rx, ry."""
     return np.array([DOF_NAMES.index(name) for name in dofs], dtype=np.int64)
 
 
 def length_units(scene: Scene, dofs: Sequence[str] = DOF_NAMES) -> Array:
-    """Divisors of scaled displacements: 1 [m], or r_d for tilts [m/rad]."""
+    """Return the divisors of scaled displacements: 1, or r_d [m/rad] for tilts."""
     lever = scene.bearing.groove_center_radius
     return np.array([lever if name in ("rx", "ry") else 1.0 for name in dofs])
 
 
 def rotor(scene: Scene, dofs: tuple[str, ...], contact_damping: float) -> kernels.Rotor:
-    """Both bodies of a scene that moves along `dofs`, and what its motion is marched in.
+    """Return both bodies of a scene that moves along `dofs`, and the variables of its motion.
 
-    That is variables without jumps where the contact law has them, with the shorter sums of
-    contacts that stay in the plane where they do. contact_damping: c [N·s/m] of Eq. 18.
+    The published contact law has variables without jumps, and shorter sums for contacts that stay
+    in the plane. contact_damping: c [N·s/m] of Eq. 18.
 
     Raises
     ------
     ValueError
-        for a support that lacks a number.
+        if the support lacks a number.
     """
     published = scene.contact_law == "published"
     variables = kernels.VELOCITIES
@@ -223,9 +224,9 @@ def rotor(scene: Scene, dofs: tuple[str, ...], contact_damping: float) -> kernel
 
 
 def is_planar(scene: Scene) -> bool:
-    """True where only x and y move, α0 = 0 and the law is the published one.
+    """Return True if only x and y move, α0 = 0 and the contact law is the published one.
 
-    Such a motion is cheaper: its contacts never swivel.
+    Such a motion costs less, as its contacts never swivel.
     """
     flat = scene.active_dofs == DOF_NAMES[:2] and scene.bearing.is_flat
     return flat and scene.contact_law == "published"

@@ -1,7 +1,7 @@
-"""Scenes to start from, and where their numbers come from.
+"""Scenes to start from, and the sources of their numbers.
 
-Few inside dimensions of bearings are printed anywhere. The note of each preset says of its numbers
-whether they are printed, computed or assumed.
+Inside dimensions of bearings are rarely printed. The note of each preset says which of its numbers
+are printed, computed or assumed.
 """
 
 from __future__ import annotations
@@ -19,9 +19,9 @@ from bearingcore.model.scene._scene import TILT_FREE, Scene
 from bearingcore.model.scene._support import Support
 from bearingcore.units import INCH
 
-# Table 1 of the paper gives masses and the radial support; the rest, which its motion in x and y
-# never uses, is assumed: the same spring and damper along z, and rings that tilt with the inertia
-# of a disc of the mass at a radius of 50 mm, on springs a radius of 50 mm apart.
+# Table 1 of the paper gives masses and the radial support. The other numbers are assumed; motion in
+# x and y never uses them. The spring and damper along z are the same as the radial ones. For tilts
+# the mass of each ring and the springs and dampers are on a circle with a radius of 50 mm.
 _GYRATION = 0.05**2 / 2.0
 FAN_RIG_SUPPORT = Support(
     inner_mass=2.0,
@@ -41,11 +41,11 @@ FAN_RIG_SUPPORT = Support(
 )
 
 WIDTH_7208 = 18e-3
-"""Width [m] of a 7208 by ISO 15: the rows of two of them side by side are as far apart."""
+"""Width [m] of a 7208 by ISO 15, which is the distance of the rows of a pair."""
 
 ASSUMED = (
     "groove radii of 0.52 (inner) and 0.53 (outer) ball diameters, steel with 210 GPa and 0.3, "
-    "speed unless said otherwise, and the rotor and support of the fan rig, with which no rig of "
+    "speed unless stated otherwise, and the rotor and support of the fan rig, with which no rig of "
     "this bearing has been measured."
 )
 """End of every note."""
@@ -69,9 +69,9 @@ def _scene(
     edge: str = "exact",
     dofs: tuple[str, ...] | str | None = None,
 ) -> Scene:
-    """A scene on the fan rig's support, its defect in the middle of the load zone.
+    """Return a scene on the fan rig's support, with a defect in the middle of the load zone.
 
-    Where there are several rows it is in the first one.
+    The defect is in the first row if the bearing has several.
     """
     row = 0 if bearing.rows else None
     return Scene(
@@ -91,9 +91,9 @@ def _row(
     angle_deg: float | None = None,
     groove_center_radius: float | None = None,
 ) -> Bearing:
-    """A row of balls in usual grooves; without an angle 10 µm of diametral clearance.
+    """Return a row of balls in usual grooves; without an angle its diametral clearance is 10 µm.
 
-    Such grooves are the widest that ISO 281 rates in full.
+    Usual grooves are the widest that ISO 281 rates in full.
     """
     return Bearing.from_drawing(
         n_balls,
@@ -371,18 +371,18 @@ _PRESETS: Mapping[str, Preset] = {
 
 
 class UnknownPresetError(KeyError):
-    """A name that no preset has; its words name those that there are."""
+    """Error for a name that no preset has; its message lists the known names."""
 
     def __str__(self) -> str:
-        """The words themselves: a KeyError would put them in quotes."""
+        """Return the message itself, which KeyError would put in quotes."""
         return str(self.args[0])
 
 
 class _Scenes(Mapping[str, Scene]):
     """Scenes by name, each made when it is first used.
 
-    Those from drawings need SciPy's elliptic integrals, which take longer to import than the rest
-    of this package together.
+    Scenes from drawings need SciPy's elliptic integrals, whose import takes longer than that of the
+    rest of this package.
     """
 
     def __init__(self) -> None:

@@ -1,4 +1,4 @@
-"""Scene: everything that decides an answer, as one value. Equal scenes give equal results."""
+"""Scene: all inputs of a computation, as a value. Equal scenes give equal results."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ from bearingcore.model.scene._support import Support
 
 DOF_NAMES = DIRECTIONS
 DOF_SYMBOLS = {"x": "x", "y": "y", "z": "z", "rx": "θx", "ry": "θy"}
-"""Displacements of the inner ring against the outer one: along x, y, z, rotations about x, y."""
+"""Displacements of the inner ring relative to the outer ring: along x, y, z, tilts about x, y."""
 
 TILTS = ("rx", "ry")
 TILT_HELD, TILT_FREE = "tilt held", "tilt free"
-"""Choices of directions: those that the scene needs but for the tilts, as on a shaft on two
-bearings, and all that it needs, as if this bearing alone held the shaft."""
+"""Choices of directions. `tilt free`: all that the scene needs, as if this bearing alone held the
+shaft. `tilt held`: these without tilts, as for a shaft on two bearings."""
 
 FREE_TILT_WORDS = (
     "The shaft may tilt, as if this bearing alone held it; a second bearing would hold the tilt."
@@ -38,14 +38,13 @@ LOAD_ALONG = {"x": "fx", "y": "fy", "z": "fz", "rx": "mx", "ry": "my"}
 """The field of `Load` along each direction."""
 
 CONTACT_LAWS = ("published", "no tension")
-"""`published`: viscous damping in every loaded contact (Eq. 18), which can pull as a ball leaves.
-`no tension`: the same, never below zero."""
-
+"""`published`: viscous damping in every loaded contact (Eq. 18), which can pull a ball that leaves.
+`no tension`: the same, but the force of a contact never pulls."""
 
 MASSLESS, WITH_MASS = "massless", "with mass"
 BALLS = (MASSLESS, WITH_MASS)
-"""Models of balls in a simulated motion. `massless`: each is a spring between the rings (Eq. 13).
-`with mass`: each has its place, its inertia, centrifugal load and weight, and two contacts."""
+"""Models of balls in a simulated motion. `massless`: a ball is a spring between the rings (Eq. 13).
+`with mass`: a ball has a position, inertia, centrifugal load, weight and two contacts."""
 
 
 @dataclass(frozen=True)
@@ -86,7 +85,7 @@ class Scene:
     """
 
     WANTED: ClassVar[str] = 'a Scene, such as scene_of("6205") or presets["fan-rig"]'
-    """Words for one where a scene is wanted, for `checks.instance`."""
+    """Words for a scene in the errors of `checks.instance`."""
 
     bearing: Bearing
     defect: Defect | tuple[Defect, ...]
@@ -99,7 +98,7 @@ class Scene:
     balls: str = dataclasses.field(default=MASSLESS, metadata=scene_file.LEFT_OUT)
     unbalance: float = dataclasses.field(default=0.0, metadata=scene_file.LEFT_OUT)
 
-    if TYPE_CHECKING:  # the fields say what a scene holds, this what it takes
+    if TYPE_CHECKING:  # types of the arguments, which are wider than those of the fields
 
         def __init__(
             self,
@@ -121,8 +120,8 @@ class Scene:
         checks.keep_number(self, "contact_damping", optional=True, at_least=0.0)
         checks.choice("contact_law", self.contact_law, CONTACT_LAWS)
         checks.choice("balls", self.balls, BALLS)
-        said = self.dofs if isinstance(self.dofs, str) else ""
-        if self.dofs is not None and said not in (TILT_HELD, TILT_FREE):
+        choice = self.dofs if isinstance(self.dofs, str) else ""
+        if self.dofs is not None and choice not in (TILT_HELD, TILT_FREE):
             checks.keep(self, dofs=check_dofs(self.dofs))
         if not isinstance(self.defect, Defect):
             several = (
@@ -134,7 +133,7 @@ class Scene:
         checks.keep(self, bearing=bearing_of(self.bearing))
         checks.instance("load", self.load, Load)
         checks.instance("support", self.support, Support)
-        if said == TILT_HELD:
+        if choice == TILT_HELD:
             checks.keep(self, dofs=self._held_dofs)
         self._check_directions()
         for defect in self.defects:
@@ -143,7 +142,7 @@ class Scene:
             path_tables(self.defects, self.bearing)  # refuses defects that exclude each other
 
     def __repr__(self) -> str:
-        """Bearing, defects, loads and speed, in a line."""
+        """Return bearing, loads, speed and defects in a line."""
         loads = {name: getattr(self.load, name) for name in LOAD_ALONG.values()}
         parts = [
             repr(self.bearing).removeprefix("<Bearing: ").removesuffix(">"),
@@ -178,11 +177,9 @@ class Scene:
     def needed_dofs(self) -> tuple[str, ...]:
         """Directions that the load moves if this bearing alone holds the shaft.
 
-        All five, unless a smaller set is exact.
-
-        A radial load on a bearing with zero contact angle leaves the plane of the balls a plane of
-        symmetry: z, rx and ry stay zero and only x and y are needed. Some kinds of
-        bearing have fewer than five directions, see `Kind.needed_directions`.
+        These are all five, unless fewer are exact. Under a radial load a bearing with zero contact
+        angle is symmetric about the plane of the balls: z, rx and ry stay zero, and only x and y
+        are needed. Some kinds of bearing have fewer directions, see `Kind.needed_directions`.
         """
         flat = self.bearing.is_flat
         radial = self.load.fz == self.load.mx == self.load.my == 0.0
@@ -193,9 +190,9 @@ class Scene:
         return tuple(name for name in self.needed_dofs if name not in TILTS)
 
     def tilt_words(self, dofs: Iterable[str] | None = None) -> str:
-        """Sentences on tilts, free or held, and on loads that this bearing does not carry.
+        """Return sentences on free or held tilts, and on loads that this bearing does not carry.
 
-        Empty if the load causes no tilt and is carried.
+        They are empty if the load causes no tilt and is carried.
         """
         free = self.free_dofs(dofs)
         if set(TILTS) & set(free):
@@ -210,7 +207,7 @@ class Scene:
 
     @property
     def active_dofs(self) -> tuple[str, ...]:
-        """Directions that are computed: see `dofs`."""
+        """Directions of a computation, as `dofs` chooses them."""
         if isinstance(self.dofs, tuple):
             return self.dofs
         free = self.dofs == TILT_FREE or self.load.has_moment
@@ -233,7 +230,7 @@ class Scene:
 
     @property
     def cage_speed(self) -> float:
-        """Cage speed ω_c [rad/s] of the bearing's own numbers (Eq. 3)."""
+        """Cage speed ω_c [rad/s] by the bearing's main numbers (Eq. 3)."""
         return self.bearing.cage_speed(self.shaft_speed)
 
     @property
@@ -248,18 +245,18 @@ class Scene:
 
     @property
     def holds_tilt_unasked(self) -> bool:
-        """True if `dofs` is None and tilts that the load would cause are therefore held."""
+        """True if tilts that the load would cause are held because `dofs` is None."""
         return self.dofs is None and self.active_dofs != self.needed_dofs
 
-    def with_tilts_as(self, said: object) -> Self:
-        """Return the scene of a file or link whose text of `dofs` is `said`.
+    def with_tilts_as(self, choice: object) -> Self:
+        """Return the scene of a file or link whose text of `dofs` is `choice`.
 
         A file without `dofs` has free tilts, as before held tilts became the default; newer files
         state that tilts are held.
         """
-        if said is None and self.holds_tilt_unasked:
+        if choice is None and self.holds_tilt_unasked:
             return dataclasses.replace(self, dofs=TILT_FREE)
-        if said == TILT_HELD and self.load.has_moment:
+        if choice == TILT_HELD and self.load.has_moment:
             return dataclasses.replace(self, dofs=TILT_HELD)
         return self
 
@@ -271,7 +268,7 @@ class Scene:
         """Return the scene as dictionaries, lists, numbers and strings; None is left out."""
         defects = [scene_file.to_data(defect) for defect in self.defects]
         data = {"version": scene_file.VERSION, **scene_file.to_data(self), "defect": defects}
-        # what says nothing had free tilts before there was a choice: see `with_tilts_as`
+        # a file without `dofs` has free tilts, see `with_tilts_as`
         if self.holds_tilt_unasked:
             data["dofs"] = TILT_HELD
         elif self.dofs == TILT_FREE and self.replace(dofs=None).holds_tilt_unasked:
@@ -297,8 +294,7 @@ class Scene:
         if table.get("defect", []) == []:
             table["defect"] = Defect.none()
         elif isinstance(table["defect"], list) and len(table["defect"]) == 1:
-            only = table["defect"][0]
-            table["defect"] = scene_file.from_data(Defect, "defect 1", only)
+            table["defect"] = scene_file.from_data(Defect, "defect 1", table["defect"][0])
         table.setdefault("load", {})
         if isinstance(table.get("bearing"), dict):
             bearing = {"groove_center_distance": None} | table["bearing"]  # rollers have none
@@ -307,10 +303,10 @@ class Scene:
                     bearing["load_deflection_factor"], bearing.get("roller_length")
                 )
             table["bearing"] = bearing
-        said = table.get("dofs")
-        if said == TILT_HELD:
+        choice = table.get("dofs")
+        if choice == TILT_HELD:
             table["dofs"] = None
-        return scene_file.from_data(cls, "scene", table, top=True).with_tilts_as(said)
+        return scene_file.from_data(cls, "scene", table, top=True).with_tilts_as(choice)
 
     def to_toml(self) -> str:
         """Return the scene as TOML text for `from_toml`, in SI units and radians."""
@@ -328,14 +324,14 @@ class Scene:
         return cls.from_data(scene_file.from_toml(text))
 
     def replace(self, **changes: Any) -> Self:
-        """Return a scene with changed fields, its own or those of its parts, by name.
+        """Return a scene with changed fields, of the scene itself or of its parts, by name.
 
         >>> from bearingcore import presets
         >>> scene = presets["fan-rig"].replace(extent=0.2, fy=-50.0)
         >>> scene.defect.extent, scene.load.fy
         (0.2, -50.0)
 
-        Fields of a defect, and of its rough floor, change the first of several defects. For those
+        Fields of a defect, and of its rough floor, change the first of several defects. For fields
         of two rows see `Bearing.replace`.
 
         Raises
@@ -356,16 +352,16 @@ class Scene:
         if "bearing" in fields:
             fields["bearing"] = bearing_of(fields["bearing"])
         for part, values in inside.items():
-            old = fields.get(part, getattr(self, part))
-            if part == "defect" and not isinstance(old, Defect):
-                first = _change_defect(old[0] if old else Defect.none(), values)
-                fields[part] = (first, *old[1:])
+            current = fields.get(part, getattr(self, part))
+            if part == "defect" and not isinstance(current, Defect):
+                first = _change_defect(current[0] if current else Defect.none(), values)
+                fields[part] = (first, *current[1:])
             elif part == "defect":
-                fields[part] = _change_defect(old, values)
-            elif isinstance(old, Bearing):
-                fields[part] = old.replace(**values)
+                fields[part] = _change_defect(current, values)
+            elif isinstance(current, Bearing):
+                fields[part] = current.replace(**values)
             else:
-                fields[part] = dataclasses.replace(old, **values)
+                fields[part] = dataclasses.replace(current, **values)
         return dataclasses.replace(self, **fields)
 
 
@@ -386,7 +382,7 @@ _PART_OF_FIELD |= dict.fromkeys(_OF_FLOOR, "defect")
 
 
 def _change_defect(defect: Defect, values: dict[str, Any]) -> Defect:
-    """A defect with changed fields, those of its rough floor among them."""
+    """Return a defect with changed fields, of itself or of its rough floor."""
     of_floor = {name: values[name] for name in values if name in _OF_FLOOR}
     of_defect = {name: values[name] for name in values if name not in _OF_FLOOR}
     defect = dataclasses.replace(defect, **of_defect)
@@ -399,7 +395,7 @@ def _change_defect(defect: Defect, values: dict[str, Any]) -> Defect:
 
 
 def check_dofs(dofs: Iterable[str]) -> tuple[str, ...]:
-    """`dofs` in the order of `DOF_NAMES`; ValueError for unknown, repeated or no names."""
+    """Return `dofs` in the order of `DOF_NAMES`; ValueError for unknown, repeated or no names."""
     allowed = "different names out of " + ", ".join(DOF_NAMES)
     if not isinstance(dofs, Iterable):
         raise checks.refuse("dofs", dofs, allowed)

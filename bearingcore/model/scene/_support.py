@@ -1,4 +1,4 @@
-"""Masses, springs and dampers of the rotor and of its housing (Eqs. 22, 23)."""
+"""Masses, springs and dampers of the rotor and the housing (Eqs. 22, 23)."""
 
 from __future__ import annotations
 
@@ -48,16 +48,15 @@ class Support:
             checks.keep_number(self, field.name, optional=field.default is None, **least)
 
     def _numbers(self, names: Mapping[str, str]) -> Array:
-        """Numbers by direction; where one is not known all that are not are named."""
+        """Return numbers by direction; if one is unknown, refuse and name all unknown ones."""
         for dof, name in names.items():
             if getattr(self, name) is None:
-                raise checks.refuse(
-                    name, None, f"a number, as {dof} is among the free directions{self._way(names)}"
-                )
+                words = f"a number, as {dof} is among the free directions{self._remedy(names)}"
+                raise checks.refuse(name, None, words)
         return np.array([getattr(self, name) for name in names.values()])
 
-    def _way(self, dofs: Iterable[str]) -> str:
-        """All numbers that motion along `dofs` lacks, and how to do without them."""
+    def _remedy(self, dofs: Iterable[str]) -> str:
+        """Words: all numbers that motion along `dofs` lacks, and the way to do without them."""
         needed = {
             dof: [f"stiffness_{dof}", f"damping_{dof}", *(f"{b}_{_inertia(dof)}" for b in BODIES)]
             for dof in dofs
@@ -65,10 +64,10 @@ class Support:
         missing = {
             dof: [n for n in names if getattr(self, n) is None] for dof, names in needed.items()
         }
-        every = dict.fromkeys(name for names in missing.values() for name in names)
+        needed_names = dict.fromkeys(name for names in missing.values() for name in names)
         known = tuple(dof for dof, names in missing.items() if not names)
         held = f", or scene.replace(dofs={known}) to hold the others" if known else ""
-        return f". Give {', '.join(every)} of the support{held}"
+        return f". Give {', '.join(needed_names)} of the support{held}"
 
     def stiffness(self, dofs: Iterable[str]) -> Array:
         """Return the stiffness to ground along `dofs` [N/m, N·m/rad]; ValueError if unknown."""

@@ -1,4 +1,4 @@
-"""Static equilibrium of fast bearings: centrifugal load gives each race its own contact angle."""
+"""Static equilibrium of fast bearings: contact angles of both races under centrifugal load."""
 
 from __future__ import annotations
 
@@ -32,16 +32,16 @@ from bearingcore.model.statics._shortage import explanation
 from bearingcore.model.statics._status import StaticStatus
 
 BALANCED = 1e-8
-"""Force left on a ball, over the greatest load, up to which its place counts as settled."""
+"""Greatest unbalanced force on a settled ball, over the greatest load."""
 
 CARRYING = 0.05
-"""Part of the heaviest load above which a ball counts as carrying."""
+"""Share of the heaviest load above which a ball counts as loaded."""
 
 
 @shown_as_table
 @dataclass(frozen=True)
 class BallPositions:
-    """Static equilibrium of a scene whose balls find their own places, at n cage angles.
+    """Static equilibrium of a scene with freely placed balls, at n cage angles.
 
     NaN where there is no answer. In arrays with one entry per race the inner race comes first.
 
@@ -56,13 +56,13 @@ class BallPositions:
     load : (2, n, N_b) [N]
         of the contacts with the inner and outer race.
     contact_angle : (2, n, N_b) [rad]
-        of each contact; NaN where a contact carries nothing.
+        of each contact; NaN if it carries nothing.
     position : (n, 2, N_b) [m]
-        of each ball, radial and axial, against the ball that touches the outer race at the unloaded
-        contact angle. A ball that carries nothing has its position inside the clearance.
+        of each ball, radial and axial, from that of a ball that touches the outer race at the
+        unloaded contact angle. A ball that carries nothing is inside the clearance.
     stiffness : (n, 5, 5) [N/m, N/rad, N·m/rad]
     status, residual : (n,)
-        as of `Equilibrium`; a load that no contact can carry is not solved again.
+        as in `Equilibrium`.
     leads, cost
         the same as in `Equilibrium`.
     """
@@ -83,20 +83,20 @@ class BallPositions:
 
     @cached_property
     def converged(self) -> NDArray[np.bool_]:
-        """(n,) True where there is one equilibrium, and the solver reached it."""
+        """(n,) True where there is exactly one equilibrium, and the solver reached it."""
         return self.status == StaticStatus.CONVERGED
 
     def term(self, name: str) -> Array:
-        """(n,) one stiffness term by name, e.g. "k_yy" [N/m, N/rad, N·m/rad]."""
+        """Return a stiffness term (n,) by name, e.g. "k_yy" [N/m, N/rad, N·m/rad]."""
         i, j = TERM_INDICES[name]
         return self.stiffness[:, i, j]
 
     def reason(self, i: int) -> str:
-        """Status of cage angle i in words."""
+        """Return the status of cage angle i in words."""
         status = StaticStatus(int(self.status[i]))
         words = status.sentence(" or ".join(self.dofs), float(self.residual[i]))
-        at = float(self.cage_angles[i])
-        return self.cost or words + explanation(status, self.scene, at, self.dofs)
+        angle = float(self.cage_angles[i])
+        return self.cost or words + explanation(status, self.scene, angle, self.dofs)
 
     def table(self) -> ResultTable:
         """A row for each cage angle: displacement, stiffness, loads and angles of each ball."""
@@ -130,17 +130,17 @@ def ball_positions(
 ) -> BallPositions:
     """Compute the static equilibrium of `scene` under the centrifugal load of its balls.
 
-    Each ball finds its place between its two contacts; contact angles, loads and stiffness follow.
-    Without centrifugal load this is `equilibrium` to rounding. The weight of the balls is left out,
-    and so is their gyroscopic moment, which has no potential: `limits` says from what speed it
-    matters.
+    Each ball moves to its equilibrium between its two contacts; contact angles, loads and stiffness
+    follow. Without centrifugal load the result is that of `equilibrium`, but for rounding. The
+    weight of the balls is left out, and so is their gyroscopic moment, which has no potential:
+    `limits` gives the speed from which it matters.
 
     Parameters
     ----------
     scene, cage_angles, dofs, shaft_angles
         the same as in `equilibrium`.
     centrifugal_load
-        F_c [N] of each ball; None: at the scene's speed.
+        F_c [N] of each ball; None takes that at the scene's speed.
 
     Returns
     -------
@@ -173,21 +173,21 @@ def ball_positions(
             massless.displacement, loads, loads, np.swapaxes(loads, 0, 1), massless.stiffness,
             massless.status, massless.residual, massless.leads, massless.cost,
         )  # fmt: skip
+    # the state of massless balls is the first guess
     start = np.where(np.isfinite(massless.state), massless.state, 0.0)
     with _refuse_overflow(scene):
+        balls = packed.balls._replace(races=races)
         q, load, angle, place, stiffness, status, residual, _ = kernels.ball_positions(
-            massless.cage_angles,
-            massless.leads,
-            start,
-            packed.balls._replace(races=races),
-            packed.load,
+            massless.cage_angles, massless.leads, start, balls, packed.load
         )
+    # check the answers: geometry, loads that no contact carries, balance of each ball
     status[_exceeds_geometry(packed.balls, q, load, status)] = StaticStatus.BEYOND_GEOMETRY
-    for none in (StaticStatus.NOT_CARRIED, StaticStatus.BEYOND_GEOMETRY):
-        status[massless.status == none] = none
-    left = _unbalanced(races, load, angle)
-    status[(status < StaticStatus.NOT_CARRIED) & (left > BALANCED)] = StaticStatus.NOT_CONVERGED
-    residual = np.maximum(residual, left)
+    for missing in (StaticStatus.NOT_CARRIED, StaticStatus.BEYOND_GEOMETRY):
+        status[massless.status == missing] = missing
+    unbalanced = _unbalanced(races, load, angle)
+    unsettled = (status < StaticStatus.NOT_CARRIED) & (unbalanced > BALANCED)
+    status[unsettled] = StaticStatus.NOT_CONVERGED
+    residual = np.maximum(residual, unbalanced)
     units = packed.units
     gone = status >= StaticStatus.NOT_CARRIED
     displacement = q / units
@@ -215,10 +215,10 @@ def ball_positions(
 
 @dataclass(frozen=True)
 class EquilibriumWithMass(Equilibrium):
-    """Static equilibrium whose balls carry their centrifugal load.
+    """Static equilibrium of balls under their centrifugal load.
 
-    As `Equilibrium`; `ball_load` and `contact_angle` are those at the outer race, which carries the
-    ball's load and its centrifugal load.
+    `ball_load` and `contact_angle` are those at the outer race, which carries the load of the inner
+    race and the centrifugal load.
 
     Attributes
     ----------
@@ -240,7 +240,7 @@ class EquilibriumWithMass(Equilibrium):
 
     @property
     def inner_contact_angle(self) -> Array:
-        """(n, N_b) [rad] contact angle at the inner race; NaN where that carries nothing."""
+        """(n, N_b) [rad] contact angle at the inner race; NaN for contacts that carry nothing."""
         return self.positions.contact_angle[0]
 
 
@@ -251,7 +251,7 @@ def static_state(
     *,
     shaft_angles: ArrayLike | None = None,
 ) -> Equilibrium:
-    """Compute the static equilibrium by the scene's own model of the balls.
+    """Compute the static equilibrium with the balls that the scene has, massless or with mass.
 
     For massless balls this is `equilibrium`. Balls with mass (`Scene.balls`) carry their
     centrifugal load at the scene's speed, with an `EquilibriumWithMass` from `ball_positions`.
@@ -281,19 +281,19 @@ def static_state(
 
 
 class CentrifugalEffect(NamedTuple):
-    """Changes of a scene's static state by centrifugal load, the greatest over its cage angles.
+    """Greatest changes of a scene's static state by centrifugal load, over its cage angles.
 
     Attributes
     ----------
     load
         change of a load at the outer race over the heaviest load.
     contact_angle [rad]
-        between the two contacts of a ball that carries more than CARRYING of the heaviest load.
+        angle between the two contacts of a ball with more than CARRYING of the heaviest load.
     stiffness
-        change of k_xx, k_yy or k_zz over the greatest of its term: root mean square over the cage
-        angles, as terms jump where a ball comes to carry.
+        change of k_xx, k_yy or k_zz over the greatest value of that term, root mean square over the
+        cage angles, as terms jump when a ball takes up load.
     converged
-        True where both states have an answer at all cage angles.
+        True if both states have an answer at all cage angles.
     """
 
     load: float
@@ -304,7 +304,7 @@ class CentrifugalEffect(NamedTuple):
 
 @contextmanager
 def _refuse_overflow(scene: Scene) -> Iterator[None]:
-    """Say by name what leads to numbers that a computer does not have."""
+    """Turn an overflow into an error that names the load-deflection factor."""
     try:
         yield
     except ArithmeticError:
@@ -318,7 +318,7 @@ def _refuse_overflow(scene: Scene) -> Iterator[None]:
 def centrifugal_effect(
     scene: Scene, cage_angles: ArrayLike | None = None, shaft_angles: ArrayLike | None = None
 ) -> CentrifugalEffect:
-    """Static states with and without centrifugal load, compared; see `ball_positions`."""
+    """Compare the static states with and without centrifugal load; see `ball_positions`."""
     without = ball_positions(scene, cage_angles, shaft_angles=shaft_angles, centrifugal_load=0.0)
     with_load = ball_positions(scene, without.cage_angles, shaft_angles=shaft_angles)
     both = without.converged & with_load.converged
@@ -328,36 +328,36 @@ def centrifugal_effect(
     load = np.abs(with_load.load[1] - without.load[1]).max() / heaviest
     parted = np.abs(with_load.contact_angle[0] - with_load.contact_angle[1])
     parted = parted[(with_load.load > CARRYING * heaviest).all(axis=0)]
-    # over the cage angles: where a ball comes to carry the terms jump, at another angle each
+    # a mean over the cage angles, as the terms of both states jump at different angles
     changes = [
         np.sqrt(np.mean((with_load.term(name) - without.term(name)) ** 2))
         / max(without.term(name).max(), 1.0)
         for name in ("k_xx", "k_yy", "k_zz")
     ]
-    apart = float(np.nanmax(parted)) if np.isfinite(parted).any() else 0.0
-    return CentrifugalEffect(float(load), apart, float(max(changes)), True)
+    separation = float(np.nanmax(parted)) if np.isfinite(parted).any() else 0.0
+    return CentrifugalEffect(float(load), separation, float(max(changes)), True)
 
 
 def _unbalanced(races: kernels.Races, load: Array, angle: Array) -> Array:
-    """(n,) greatest force left on a ball over the greatest load at that cage angle.
+    """Return the greatest unbalanced force (n,) on a ball, over the greatest load at that angle.
 
-    Looked at once more with the answer at hand: a ball that did not settle must not pass for one.
+    This checks the answer of the kernel independently, so that no unsettled ball is accepted.
     """
     known = np.nan_to_num(angle)
     radial, axial = load * np.cos(known), load * np.sin(known)
     outwards = radial[0] - radial[1] + races.centrifugal
-    left = np.hypot(outwards, axial[0] - axial[1]).max(axis=1)
-    # a ball with next to no load in the gap has none left on it
+    force = np.hypot(outwards, axial[0] - axial[1]).max(axis=1)
+    # the centrifugal load keeps the ratio finite for balls without load in the gap
     size = np.maximum(load.max(axis=(0, 2)), np.abs(races.centrifugal).max())
-    return np.asarray(left / np.maximum(size, 1e-300) * (left > 0.0))
+    return np.asarray(force / np.maximum(size, 1e-300) * (force > 0.0))
 
 
 def _exceeds_geometry(
     balls: kernels.StaticBalls, q: Array, load: Array, status: NDArray[np.int8]
 ) -> NDArray[np.bool_]:
-    """(n,) True where the formulas have a balance that the contacts' geometry does not allow.
+    """Return True (n,) for balances of loads outside the geometry of the contacts.
 
-    See `kernels.Contacts.room`: each contact of a ball has all of it.
+    Each of the two contacts of a ball may use all of `kernels.Contacts.room`.
     """
     contacts = balls.contacts
     most = balls.races.factor * contacts.room**contacts.exponent

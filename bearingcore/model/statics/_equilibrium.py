@@ -1,4 +1,4 @@
-"""Static equilibrium over cage angles: load distribution and the 5×5 stiffness (Eqs. 7-17)."""
+"""Static equilibrium over cage angles: load distribution and 5×5 stiffness (Eqs. 7-17)."""
 
 from __future__ import annotations
 
@@ -55,11 +55,11 @@ TERM_SYMBOLS = {
 ANGLES_A_PERIOD = 121
 
 UNEXPLAINED = (StaticStatus.NOT_CONVERGED, StaticStatus.BEYOND_GEOMETRY)
-"""Ends of the descent that it may have come to as no contact can carry the load."""
+"""Outcomes of a descent whose cause may be that no contact can carry the load."""
 
 MOST_CONTACTS = 20_000_000
-"""Contacts, those of all balls at all cage angles, that are solved at most in one call: some
-seconds of one core and a gigabyte of answers."""
+"""Greatest number of contacts in one call, balls times cage angles: some seconds of one core and a
+gigabyte of answers."""
 
 
 @shown_as_table
@@ -85,17 +85,17 @@ class Equilibrium:
         each a `StaticStatus`; `reason(i)` puts it into words.
     residual : (n,)
         unbalanced load over total load, moments divided by r_d; the total includes loads of held
-        directions. A state has converged at 1e-9 or less, or at the rounding error of the
-        displacement where a very light load meets very stiff balls.
+        directions. A state has converged at 1e-9 or less, or, under a very light load on very
+        stiff balls, at the rounding error of the displacement.
     state : (n, 5) [m]
-        the last displacement reached, tilts times r_d, also where the solver failed.
+        the last displacement of the solver, tilts times r_d, even if it failed.
     leads : (n,) [rad]
-        lead of the shaft over its angle by the cage angle: see `shaft_angles`.
+        angle of the shaft beyond ω_s/ω_c times the cage angle: see `shaft_angles`.
     cost
-        the number of contacts if they exceeded MOST_CONTACTS; else empty.
+        words with the number of contacts if it exceeded MOST_CONTACTS; otherwise empty.
     weights : (n,)
         share of the time of each angle if the angles sample all positions of balls and shaft (see
-        `bearingcore.model.statics._positions`); else None.
+        `bearingcore.model.statics._positions`); otherwise None.
     """
 
     scene: Scene
@@ -114,7 +114,7 @@ class Equilibrium:
 
     @cached_property
     def converged(self) -> NDArray[np.bool_]:
-        """(n,) True where there is one equilibrium, and the solver reached it."""
+        """(n,) True where there is exactly one equilibrium, and the solver reached it."""
         return self.status == StaticStatus.CONVERGED
 
     @property
@@ -130,7 +130,7 @@ class Equilibrium:
 
     @cached_property
     def shares(self) -> Array:
-        """(n,) share of the time of each angle: `weights`, else `time_shares`."""
+        """(n,) share of the time of each angle: `weights`, or without them `time_shares`."""
         if self.weights is not None:
             return self.weights
         return time_shares(self.cage_angles, self.scene.bearing.period)
@@ -142,7 +142,7 @@ class Equilibrium:
 
     @property
     def inner_load(self) -> Array:
-        """(n, N_b) [N] load of each ball at the inner race: Q_j, where balls have no mass."""
+        """(n, N_b) [N] load of each ball at the inner race; for massless balls Q_j."""
         return self.ball_load
 
     @cached_property
@@ -155,7 +155,7 @@ class Equilibrium:
         """(n, N_b) [rad] loaded contact angle α_j (Eq. 14); NaN for balls that carry nothing."""
         contacts = packing.contacts(self.scene.bearing)
         along, across = moved(self.scene, self.cage_angles, self.state, self.leads)
-        # Equation (8): the part along the unloaded line of contact only while positive
+        # Equation (8), in which the part along the unloaded line counts only while positive
         along += contacts.distance
         turned = np.arctan2(across, np.maximum(along, 0.0))
         angle = np.arctan2(contacts.line_z, contacts.line_r)
@@ -164,11 +164,11 @@ class Equilibrium:
 
     @property
     def inner_contact_angle(self) -> Array:
-        """(n, N_b) [rad] contact angle at the inner race: α_j, where balls have no mass."""
+        """(n, N_b) [rad] contact angle at the inner race; for massless balls α_j."""
         return self.contact_angle
 
     def term(self, name: str) -> Array:
-        """(n,) one stiffness term by name, e.g. "k_yy" [N/m, N/rad, N·m/rad]."""
+        """Return a stiffness term (n,) by name, e.g. "k_yy" [N/m, N/rad, N·m/rad]."""
         if name not in TERM_INDICES:
             raise checks.refuse("stiffness term", name, ", ".join(STIFFNESS_TERMS))
         i, j = TERM_INDICES[name]
@@ -193,22 +193,19 @@ class Equilibrium:
         )
 
     def stiffness_table(self, i: int | None = None) -> ResultTable:
-        """K_b as 5 × 5 numbers in SI units: a row for each load, a column for each displacement.
+        """Return K_b as 5 × 5 numbers in SI units: a row per load, a column per displacement.
 
-        At cage angle i; None: the mean in time over all angles with an equilibrium.
+        It is that at cage angle i; None takes the mean in time over all angles with an equilibrium.
         """
         if i is None:
             stiffness = self._mean(self.stiffness)
         else:
             at_most = len(self.cage_angles) - 1
             stiffness = self.stiffness[checks.whole_number("i", i, at_least=0, at_most=at_most)]
-        loads = zip(DOF_NAMES, LOAD_ALONG.values(), strict=True)
+        loads = LOAD_ALONG.items()
+        names = [f"{load} [{'N·m' if dof.startswith('r') else 'N'}]" for dof, load in loads]
         return table_of(
-            (
-                "load",
-                "",
-                [f"{load} [{'N·m' if dof.startswith('r') else 'N'}]" for dof, load in loads],
-            ),
+            ("load", "", names),
             *(
                 (f"per_{'rad' if dof.startswith('r') else 'm'}_{dof}", "", column)
                 for dof, column in zip(DOF_NAMES, stiffness.T, strict=True)
@@ -216,9 +213,10 @@ class Equilibrium:
         )
 
     def displacement_table(self) -> ResultTable:
-        """Displacement of the inner ring over all angles: a row for each direction, in m and rad.
+        """Return the displacement of the inner ring, a row for each direction, in m and rad.
 
-        Least value, mean in time and greatest value of the angles with an equilibrium.
+        Columns are the least value, the mean in time and the greatest value of the angles with an
+        equilibrium.
         """
         least, greatest = least_and_greatest(self.displacement, 0)
         return table_of(
@@ -230,29 +228,29 @@ class Equilibrium:
         )
 
     def _mean(self, values: Array) -> Array:
-        """Mean in time (...) of numbers (n, ...) over the angles at which all are known."""
+        """Return the mean in time of numbers (n, ...) over the angles at which all are known."""
         known = np.isfinite(values).all(axis=tuple(range(1, values.ndim)))
         share = np.where(known, self.shares, 0.0)
         return np.tensordot(share, np.nan_to_num(values), 1) / (share.sum() or np.nan)
 
     def reason(self, i: int) -> str:
-        """Status of cage angle i in words."""
+        """Return the status of cage angle i in words."""
         free = [
             name for name in self.dofs if math.isnan(self.displacement[i, DOF_NAMES.index(name)])
         ]
         status = StaticStatus(int(self.status[i]))
         words = status.sentence(", ".join(free), float(self.residual[i]))
-        at = float(self.cage_angles[i])
-        return self.cost or words + explanation(status, self.scene, at, self.dofs, self.state[i])
+        angle = float(self.cage_angles[i])
+        return self.cost or words + explanation(status, self.scene, angle, self.dofs, self.state[i])
 
 
 def default_cage_angles(scene: Scene, n: int = ANGLES_A_PERIOD) -> Array:
-    """N equally spaced cage angles [rad] over one period of the scene's curves, ends included.
+    """Return n evenly spaced cage angles [rad] over a period of the scene's curves, ends included.
 
-    The period is a ball spacing, as the balls are alike; where rows are not, `Bearing.period`, with
-    eight times as many angles. A defect of the inner race turns with the shaft and breaks it: its
-    curves are given over the cage angle in which the shaft turns once. That is one turn of many:
-    what holds for all is in `bearingcore.model.statics._positions`.
+    The period is a ball spacing, or `Bearing.period` for unlike rows. A defect of the inner race
+    turns with the shaft, and curves then have no period: they are given over one turn of the shaft
+    of many, all of which `bearingcore.model.statics._positions` covers. More than a ball spacing
+    has eight times as many angles.
     """
     period = scene.bearing.period
     if scene.defect_turns:
@@ -261,10 +259,10 @@ def default_cage_angles(scene: Scene, n: int = ANGLES_A_PERIOD) -> Array:
 
 
 def time_shares(cage_angles: Array, period: float) -> Array:
-    """Share of the time (n,) that each cage angle (n,) [rad] stands for, by the trapezium rule.
+    """Return the share of the time (n,) of each cage angle (n,) [rad], by the trapezium rule.
 
-    Both ends of a period are one position, each of which counts half. All angles are alike where
-    they do not rise, or where one more even step would end a period [rad].
+    Both ends of a period are the same position, so each counts half. All shares are equal if angles
+    do not rise, or if one more even step would end a period [rad].
     """
     steps = np.diff(cage_angles)
     shares = np.ones(cage_angles.size)
@@ -277,7 +275,7 @@ def time_shares(cage_angles: Array, period: float) -> Array:
 
 
 def has_long_period(scene: Scene) -> bool:
-    """True where a ball spacing is not the period of the scene's curves."""
+    """Return True if the period of the scene's curves is not a ball spacing."""
     turning = scene.defect_turns
     return turning or scene.bearing.period != scene.bearing.ball_spacing
 
@@ -296,14 +294,14 @@ def equilibrium(
     scene
         the scene to solve.
     cage_angles : (n,)
-        [rad]; None takes `default_cage_angles`. Each solution starts from the ones before it, so
-        ordered angles are cheapest; the answer does not depend on the order.
+        [rad]; None takes `default_cage_angles`. Each solution starts from earlier ones, so ordered
+        angles are cheapest; the answer does not depend on the order.
     dofs
         free directions, names out of x, y, z, rx, ry, or "tilt held"; None takes the scene's. The
         constraint of a held direction carries the load along it.
     shaft_angles : (n,)
-        [rad], angle of the shaft, and of an inner-race defect, at each cage angle. None: ω_s/ω_c
-        times the cage angle, which is one of many possible runs: see
+        [rad], angle of the shaft, and of an inner-race defect, at each cage angle. None takes
+        ω_s/ω_c times the cage angle, which is one of many possible runs: see
         `bearingcore.model.statics._positions`.
 
     Returns
@@ -333,7 +331,7 @@ def remove_defects(packed: PackedScene) -> PackedScene:
 def equilibrium_of(
     packed: PackedScene, cage_angles: ArrayLike, shaft_angles: ArrayLike | None = None
 ) -> Equilibrium:
-    """`equilibrium` of a scene that is packed."""
+    """Return the `equilibrium` of a packed scene."""
     scene = packed.scene
     angles = checks.finite("cage_angles", cage_angles, "rad")
     leads = np.zeros_like(angles)
@@ -350,6 +348,7 @@ def equilibrium_of(
         angles, leads, packed.contacts, packed.path, packed.load
     )
     displacement = q / units
+    # without an answer, numbers are NaN; where nothing touches, only the loads (0) are known
     failed = np.flatnonzero(status)
     if failed.size:
         _explain(packed, angles, status, stiffness, displacement, failed)
@@ -362,7 +361,7 @@ def equilibrium_of(
         nowhere = gone | loose
         displacement[nowhere] = math.nan
         stiffness[nowhere] = math.nan
-    stiffness *= units[:, None] * units
+    stiffness *= units[:, None] * units  # of scaled tilts and moments, into [N/rad, N·m/rad]
     return Equilibrium(
         scene=scene,
         dofs=packed.dofs,
@@ -379,7 +378,7 @@ def equilibrium_of(
 
 
 def too_many_contacts(contacts: int) -> str:
-    """Cost of solving many contacts in words, where it is too high; else empty."""
+    """Return words on the number of contacts if it is too large; otherwise an empty text."""
     if contacts <= MOST_CONTACTS:
         return ""
     most = thousands(MOST_CONTACTS)
@@ -387,7 +386,7 @@ def too_many_contacts(contacts: int) -> str:
 
 
 def _not_begun(packed: PackedScene, angles: Array, leads: Array, cost: str) -> Equilibrium:
-    """NaN everywhere, without the memory of it."""
+    """Return an `Equilibrium` of NaN everywhere, without the memory that its arrays would need."""
     n, balls, unknown = angles.size, packed.contacts.angle.size, np.float64(math.nan)
     rows = np.broadcast_to(unknown, (n, 5))
     return Equilibrium(
@@ -414,12 +413,12 @@ def _explain(
     displacement: Array,
     failed: NDArray[np.int64],
 ) -> None:
-    """Find the true reason of each failure: the free directions, or a load nothing can carry."""
+    """Find the cause of each failure: free directions, or a load that no contact can carry."""
     force, active = packed.load
     for k in failed:
         if status[k] == StaticStatus.FREE_DIRECTION:
             K = stiffness[k][np.ix_(active, active)]
-            if not np.isfinite(K).all():  # numbers beyond those of a computer: nothing is free
+            if not np.isfinite(K).all():  # the stiffness overflows, so that nothing is free
                 status[k] = StaticStatus.NOT_CONVERGED
                 continue
             values, vectors = np.linalg.eigh(K)

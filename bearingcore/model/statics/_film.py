@@ -3,7 +3,7 @@
 Quantity                                        | Symbol | Name               | Unit
 ----------------------------------------------- | ------ | ------------------ | -----
 dynamic viscosity at the contact's temperature  | η0     | viscosity          | Pa·s
-growth of its logarithm with pressure           | ξ      | pressure_viscosity | 1/Pa
+increase of its logarithm with pressure         | ξ      | pressure_viscosity | 1/Pa
 mean speed of ball and race through the contact | u      | rolling_speed      | m/s
 radius of curvature along the rolling, ball and race together | R_x | | m
 modulus of both, E/(1 − ν²) for one material    | E'     |                    | Pa
@@ -14,25 +14,24 @@ least film thickness                            | h_min  | thickness          | 
 roughness of ball and race, root mean square    | σ      | roughness          | m
 film parameter, h_min over the roughness of both | Λ     | film_parameter     |
 
-Of balls
+The film of balls is
 
     h_min/R_x = 3.63 U^0.68 G^0.49 W^(−0.073) (1 − e^(−0.68 k)),
     U = η0 u/(E' R_x), G = ξ E', W = Q/(E' R_x²),
 
-for hard elliptical contacts that roll without sliding, at one temperature, with as much oil as they
-take in (Hamrock and Dowson, 1977, Part III; fully flooded). It was fitted to ellipses of k = 1 to
-8, across the rolling; closer grooves have longer ones, and the last factor is 1 there anyway. Of
-rollers
+for hard elliptical contacts that roll without sliding, at one temperature, fully flooded with oil
+(Hamrock and Dowson, 1977, Part III). The formula was fitted to ellipses of k = 1 to 8, across the
+rolling. Closer grooves have longer ellipses, for which the last factor is 1. The film of rollers is
 
     h_min/R_x = 1.714 U^0.694 G^0.568 W'^(−0.128), W' = Q/(l E' R_x),
 
-for lines (Pan and Hamrock, 1989), with the same U and G; near its ends, where the pressure of an
-uncrowned roller rises, the film is thinner.
-Left out: heat of shear at the inlet, which thins the film at high speed, too little oil or grease
-(starvation), and the edges of a defect, which tear the film wherever it is.
+for lines (Pan and Hamrock, 1989), with the same U and G. Near the ends of a roller without crowning
+the pressure rises, and the film is thinner. Left out are heat of shear at the inlet, which thins
+the film at high speed, a shortage of oil or grease (starvation), and the edges of a defect, which
+tear the film.
 
 Source: Hamrock and Dowson, J. Lubrication Technology 99 (1977) 264-276; Hamrock and Anderson,
-Rolling-Element Bearings, NASA RP-1126, for the speeds and for what Λ means; Pan and Hamrock,
+Rolling-Element Bearings, NASA RP-1126, for the speeds and the meaning of Λ; Pan and Hamrock,
 J. Tribology 111 (1989) 246-252, for lines.
 """
 
@@ -61,11 +60,11 @@ from bearingcore.model.statics._positions import state_of
 from bearingcore.model.statics._pressure import RACES, HeaviestBall, heaviest_balls
 
 TOUCHING, PARTED = 1.0, 3.0
-"""Film parameter below which peaks of the surfaces touch all the time, and above which they hardly
-ever do."""
+"""Film parameter below which peaks of the surfaces always touch, and above which they hardly ever
+touch."""
 
 LUBRICATION = ("boundary", "mixed", "full film")
-"""Lubrication below the first, between, and above the second."""
+"""Names of the lubrication below TOUCHING, between both, and above PARTED."""
 
 MINERAL_OIL = 2.0e-8
 """Pressure-viscosity coefficient ξ [1/Pa] of a usual mineral oil: 1.5 to 2.5e-8."""
@@ -73,7 +72,7 @@ MINERAL_OIL = 2.0e-8
 
 @dataclass(frozen=True)
 class RaceFilm:
-    """Film between the heaviest loaded ball or roller and one race. NaN where it is not known.
+    """Film between the heaviest loaded ball or roller and one race. Unknown numbers are NaN.
 
     Attributes
     ----------
@@ -82,13 +81,13 @@ class RaceFilm:
     load [N]
         of the contact.
     thickness [m]
-        h_min; 0 where the shaft stands still.
+        h_min; 0 if the shaft stands still.
     roughness [m]
         of both surfaces together.
     film_parameter
         Λ.
     lubrication
-        one of LUBRICATION; empty where the film is not known.
+        one of LUBRICATION; empty if the film is unknown.
     sentence
         the same in words.
     """
@@ -124,7 +123,7 @@ class Film:
 
     @property
     def thinner(self) -> RaceFilm:
-        """The film at the race where it is thinner against the roughness."""
+        """The film at the race with the smaller film parameter."""
         return self.outer if self.outer.film_parameter < self.inner.film_parameter else self.inner
 
     @property
@@ -135,7 +134,7 @@ class Film:
 
     @property
     def limit(self) -> Limit:
-        """The film parameter of the thinner film against the one below which surfaces touch."""
+        """The film parameter of the thinner film, and its value below which surfaces touch."""
         value = self.thinner.film_parameter
         return Limit("film parameter", value, TOUCHING, "", value < TOUCHING, self.thinner.sentence)
 
@@ -143,12 +142,7 @@ class Film:
         """A row for each race: speed, film thickness, roughness, film parameter, and a sentence."""
         return table_of(
             ("race", "", "race"),
-            (
-                "rolling_speed",
-                "m/s",
-                [self.rolling_speed] * 2,
-                "mean speed of both surfaces through the contact",
-            ),
+            ("rolling_speed", "m/s", [self.rolling_speed] * 2, "mean speed of both surfaces"),
             ("ball_load", "N", "load", "of the heaviest loaded ball"),
             ("film_thickness", "m", "thickness", "where it is least"),
             ("roughness", "m", "roughness", "of both surfaces together"),
@@ -169,9 +163,9 @@ ROLLER_LEFT_OUT = FILM_LEFT_OUT.replace(
 
 
 def rolling_speed(bearing: Bearing, shaft_speed: float) -> float:
-    """Mean speed u [m/s] of ball and race through the contact, at a shaft speed [rad/s].
+    """Return the mean speed u [m/s] of ball and race at a contact, for a shaft speed [rad/s].
 
-    u = ω_s D_p (1 − γ²)/4 with γ = D_b cos α0/D_p, at both races, as the ball rolls on both.
+    u = ω_s D_p (1 − γ²)/4 with γ = D_b cos α0/D_p holds for both races, as the ball rolls on both.
     """
     gamma = bearing.ball_diameter * math.cos(bearing.contact_angle) / bearing.pitch_diameter
     return 0.25 * shaft_speed * bearing.pitch_diameter * (1.0 - gamma**2)
@@ -221,8 +215,8 @@ def film(
     pressure_viscosity
         ξ [1/Pa]; a usual mineral oil by default.
     roughness_inner, roughness_outer, roughness_ball
-        σ [m], root mean square, of each surface, rollers too; usual ones of honed races by default.
-        The root of the sum of squares counts, and must be above 0.
+        σ [m], root mean square, of each surface (roughness_ball also of rollers); the defaults are
+        usual for honed races. The root of the sum of squares counts, and must be above 0.
     state
         the static equilibrium of the scene, if it is known; None computes it at all positions.
 
@@ -250,14 +244,14 @@ def film(
     }
     state = state_of(scene, state, static_state)
     films = [_film_of(scene, heaviest, (eta, xi), sigma) for heaviest in heaviest_balls(state)]
-    # one that is not known is not the thinnest, unless none is known
+    # an unknown film is not the thinnest, unless all are unknown
     return min(films, key=lambda answer: np.nan_to_num(answer.thinner.film_parameter, nan=math.inf))
 
 
 def _film_of(
     scene: Scene, ball: HeaviestBall, oil: tuple[float, float], sigma: dict[str, float]
 ) -> Film:
-    """Film of one ball; oil: viscosity and pressure-viscosity coefficient."""
+    """Return the film of one ball; `oil` is viscosity and pressure-viscosity coefficient."""
     bearing, element = scene.bearing.of_row(ball.row), scene.bearing.kind.element
     bearing.race_contact("inner")  # refuses a bearing without its drawing
     u = rolling_speed(bearing, scene.shaft_speed)
@@ -270,14 +264,14 @@ def _film_of(
 
 
 def _race_film(race: str, load: float, h: float, sigma: float, element: str) -> RaceFilm:
-    """Film of thickness h [m] on surfaces of a roughness σ [m], with its sentence."""
+    """Return a film of thickness h [m] on surfaces of roughness σ [m], with its sentence."""
     ratio = h / sigma
     if ratio < TOUCHING:
-        kind, so = LUBRICATION[0], "their peaks carry the load and wear"
+        kind, effect = LUBRICATION[0], "their peaks carry the load and wear"
     elif ratio < PARTED:
-        kind, so = LUBRICATION[1], "their peaks touch now and then"
+        kind, effect = LUBRICATION[1], "their peaks touch now and then"
     else:
-        kind, so = LUBRICATION[2], f"{element} and race hardly ever touch"
+        kind, effect = LUBRICATION[2], f"{element} and race hardly ever touch"
     if math.isnan(h):
         why = f"no {element} is loaded"
         if math.isnan(load):
@@ -289,6 +283,6 @@ def _race_film(race: str, load: float, h: float, sigma: float, element: str) -> 
         sentence = (
             f"The film on the {race} race is {with_prefix(h, 'm')} thick where a {element} carries "
             f"most ({with_prefix(load, 'N')}), {number(ratio)} times the roughness of the surfaces "
-            f"({with_prefix(sigma, 'm')}): {kind} lubrication, {so}."
+            f"({with_prefix(sigma, 'm')}): {kind} lubrication, {effect}."
         )
     return RaceFilm(race, load, h, sigma, ratio, kind, sentence)

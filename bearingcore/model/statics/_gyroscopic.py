@@ -1,4 +1,4 @@
-"""Gyroscopic moment of the balls, which the statics leave out, against the loads that hold it.
+"""Gyroscopic moment of the balls, which the statics leave out, compared with their loads.
 
 Quantity                                              | Symbol | Unit
 ----------------------------------------------------- | ------ | -----
@@ -10,7 +10,7 @@ moment of inertia of a ball, m D²/10                  | J      | kg·m²
 load at the outer race                                | Q_o    | N
 distances of a ball's centre from its grooves' centres | l_i, l_o | m
 
-A ball rolls about an axis that the cage carries round, for which it takes the moment
+A ball rolls about an axis that turns with the cage. This takes the moment
 
     M_g = J ω_r ω_c sin β,  tan β = sin α_o/(cos α_o + γ'),
     ω_r = ω_s/(γ' cos β) / ((cos α_o + tan β sin α_o)/(1 + γ' cos α_o)
@@ -18,17 +18,17 @@ A ball rolls about an axis that the cage carries round, for which it takes the m
 
     ω_c = ω_s (1 − γ' cos α_i)/(1 + cos(α_o − α_i)),
 
-where the ball does not spin on the outer race. Friction at that race gives it as a force
-T = 2 M_g/D across the groove: T/Q_o is the friction that it takes, and at most the angle by which
-the outer contact turns. Under thrust that is less: as it turns, the ball rises or sinks between the
-grooves, and the inner contact turns the other way, by (l_o sin α_o)/(l_i sin α_i) times as much.
-What a ball carries along the shaft stays, so that its radial part at the inner race changes, and
-with it the direction of its load at the outer one:
+for a ball that does not spin on the outer race. Friction at that race supplies the moment by a
+force T = 2 M_g/D across the groove. T/Q_o is the necessary friction, and the greatest angle by
+which the outer contact turns. Under thrust alone it turns less. The ball then rises or sinks
+between the grooves, and the inner contact turns the other way, (l_o sin α_o)/(l_i sin α_i) times as
+much. The axial load of the ball stays, so its radial load at the inner race changes, and with it
+the direction of its load at the outer race:
 
     dα_o = T/Q_o / (1 + (l_o/l_i) (sin α_o/sin α_i)³).
 
-Beside a radial load as large as the thrust, in which the ring moves too, it is up to twice this.
-Far beyond the limit it is more, as the moment grows with the turn: `GREATEST_ESTIMATE`.
+Under a radial load as large as the thrust, which also moves the ring, the turn is up to twice this.
+Far beyond the limit it is more, as the moment grows with the turn: see `GREATEST_ESTIMATE`.
 
 Source: A. B. Jones, J. Basic Engineering 82 (1960) 309-322; Harris, Rolling Bearing Analysis,
 chapter "Bearing deflections, preloading": "Race control".
@@ -51,22 +51,20 @@ from bearingcore.model.statics._limit import Limit, unknown, upper_limit
 GYROSCOPIC_MOMENT = "gyroscopic moment"
 
 LIMIT = 0.02
-"""Share of the load: friction between ball and race holds so much (Harris), and the contact turns
-by a degree at the most."""
+"""Greatest share of the load: friction between ball and race holds so much (Harris), and the
+contact turns by a degree at most."""
 
 GREATEST_ESTIMATE = math.radians(3.6)
-"""Turn up to which the estimate holds: at 4 to 10° contacts turn by up to twice as much."""
+"""Greatest turn for which the estimate holds: at 4 to 10° contacts turn by up to twice as much."""
 
 HEAVY = 0.5
-"""Part of the heaviest load from which a ball counts: what others carry matters little."""
+"""Share of the heaviest load above which a ball counts, as lighter loads matter little."""
 
 _ANGLES, _ROUNDS = 13, 3
 
 
 class _Gyroscopic(NamedTuple):
-    """The greatest T/Q_o of heavily loaded balls, M_g [N·m] and Q_o [N] of that one, and the
-    greatest turn [rad] under thrust.
-    """
+    """The ball with the greatest T/Q_o: this share, M_g [N·m], Q_o [N]; greatest turn [rad]."""
 
     share: float
     moment: float
@@ -75,9 +73,9 @@ class _Gyroscopic(NamedTuple):
 
 
 def gyroscopic_limit(scene: Scene) -> Limit | None:
-    """Gyroscopic moment of the balls against their load; None where there is none to speak of.
+    """Return the limit on the gyroscopic moment of the balls; None if that is negligible.
 
-    That is of rollers, at rest, and of balls that carry at right angles to the shaft.
+    It is negligible for rollers, at rest, and for contacts at right angles to the shaft.
     """
     if scene.bearing.kind.mass_unknown or not scene.shaft_speed:
         return None
@@ -104,7 +102,7 @@ def gyroscopic_limit(scene: Scene) -> Limit | None:
 
 
 def _turn_words(worst: _Gyroscopic) -> str:
-    """Turn of the outer contact; the moment grows with it, which the estimate leaves out."""
+    """Return words on the turn of the outer contact, or on the end of its estimate."""
     turn, most = math.degrees(worst.turn), math.degrees(worst.share)
     if worst.turn > GREATEST_ESTIMATE:
         return f"more than {number(turn, 2)}°"
@@ -112,7 +110,7 @@ def _turn_words(worst: _Gyroscopic) -> str:
 
 
 def _speed_of_limit(scene: Scene, share: float) -> float:
-    """Shaft speed [rad/s] at which T/Q_o reaches the limit; NaN where none is nearby."""
+    """Return the shaft speed [rad/s] at which T/Q_o reaches the limit; NaN if none is nearby."""
     speed = scene.shaft_speed
     for _ in range(_ROUNDS):
         speed *= math.sqrt(LIMIT / share)
@@ -127,7 +125,7 @@ def _speed_of_limit(scene: Scene, share: float) -> float:
 
 
 def _greatest(scene: Scene) -> _Gyroscopic | None:
-    """The greatest of all balls of all rows at some cage angles; None where no state is known."""
+    """Return the worst ball of all rows at some cage angles; None if no state is known."""
     state = ball_positions(scene, default_cage_angles(scene, _ANGLES))
     if not state.converged.any():
         return None
@@ -136,7 +134,7 @@ def _greatest(scene: Scene) -> _Gyroscopic | None:
 
 
 def _worst_of_row(bearing: Bearing, state: BallPositions, balls: slice) -> _Gyroscopic:
-    """The greatest of the balls of a row."""
+    """Return the worst ball of a row."""
     load = state.load[1][state.converged, balls]
     carries = load > HEAVY * state.load[1][state.converged].max()
     carries &= state.load[0][state.converged, balls] > 0.0
@@ -145,20 +143,20 @@ def _worst_of_row(bearing: Bearing, state: BallPositions, balls: slice) -> _Gyro
     inner, outer = (np.abs(state.contact_angle[i][state.converged, balls][carries]) for i in (0, 1))
     g, D = bearing.ball_diameter / bearing.pitch_diameter, bearing.ball_diameter
     tan = np.sin(outer) / (np.cos(outer) + g)
-    both = (np.cos(outer) + tan * np.sin(outer)) / (1.0 + g * np.cos(outer))
-    both += (np.cos(inner) + tan * np.sin(inner)) / (1.0 - g * np.cos(inner))
-    # ω_r sin β, as sin β/cos β = tan β
-    about = state.scene.shaft_speed * tan / (g * both)
+    bracket = (np.cos(outer) + tan * np.sin(outer)) / (1.0 + g * np.cos(outer))
+    bracket += (np.cos(inner) + tan * np.sin(inner)) / (1.0 - g * np.cos(inner))
+    # ω_r sin β = ω_s tan β/(γ' Σ), where Σ is the bracket in the head of the module
+    spin = state.scene.shaft_speed * tan / (g * bracket)
     cage = state.scene.shaft_speed * (1.0 - g * np.cos(inner)) / (1.0 + np.cos(outer - inner))
-    moment = 0.1 * bearing.ball_mass * D**2 * about * cage
+    moment = 0.1 * bearing.ball_mass * D**2 * spin * cage
     share = 2.0 * moment / (D * load[carries])
     l_i, l_o = bearing.kind.race_distances(bearing)
-    risen = l_i * np.sin(inner) ** 3
-    back = np.divide(l_o * np.sin(outer) ** 3, risen, out=np.zeros_like(risen), where=risen > 0.0)
+    part_i, part_o = l_i * np.sin(inner) ** 3, l_o * np.sin(outer) ** 3
+    ratio = np.divide(part_o, part_i, out=np.zeros_like(part_i), where=part_i > 0.0)
     worst = int(np.argmax(share))
     return _Gyroscopic(
         float(share[worst]),
         float(moment[worst]),
         float(load[carries][worst]),
-        float((share / (1.0 + back)).max()),
+        float((share / (1.0 + ratio)).max()),
     )

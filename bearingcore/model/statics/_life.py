@@ -4,9 +4,9 @@ Quantity                                      | Symbol | Name                 | 
 --------------------------------------------- | ------ | -------------------- | ---------------
 dynamic load rating                           | C_r    | dynamic_load_rating  | N
 load of a ball under which a race lasts 10⁶ turns | Q_ci, Q_ce | rating of a race | N
-load that tires a race as all it carries does | Q_ei, Q_ee | load of a race   | N
+constant load of a ball with the same life of a race | Q_ei, Q_ee | load of a race | N
 life that 9 of 10 bearings reach              | L_10r  | million_revolutions  | 10⁶ turns
-the same at the scene's speed                 | L_10h  | hours                | h
+this life at the scene's speed                | L_10h  | hours                | h
 load of the same life by ISO 281, P_ref       | P      | equivalent_load      | N
 exponent of load against life                 | p      | load_exponent        |
 exponent of the scatter of lives              | e      | scatter              |
@@ -14,29 +14,25 @@ D_b cos α0 / D_p                              | γ      |                      
 
     L_10r = ((Q_ci/Q_ei)^(−p e) + (Q_ce/Q_ee)^(−p e))^(−1/e),
 
-p = 3, e = 10/9 for balls, p = 4, e = 9/8 for rollers. Rollers are cut into laminae, whose loads and
-stresses differ along the roller (`_laminae`); Q_ei, Q_ee are the loads, spread
-evenly, that tire the races as much. Their ratings are larger by 1/(λν) = 1/0.83 than C_r says, as
-C_r allows for uneven loads by that factor, and ISO 281 by a smaller exponent too:
+with p = 3, e = 10/9 for balls and p = 4, e = 9/8 for rollers. Rollers are cut into laminae, because
+load and stress differ along a roller (`_laminae`); Q_ei, Q_ee are then evenly spread loads with the
+same life of the races. Ratings of rollers are divided by λν = 0.83, as C_r contains this factor for
+uneven loads. ISO 281 also allows for uneven loads by a smaller exponent:
 
-    P = C_r/L_10r^(1/3) of balls, P = C_r/L_10r^(3/10) of rollers.
+    P = C_r/L_10r^(1/3) for balls, P = C_r/L_10r^(3/10) for rollers.
 
 An NU 208 without clearance under a radial load of C_r/4 lives three times as long by ISO 16281 as
 by ISO 281, under C_r/20 three and a half times, under C_r/2 twice as long.
 
-Of several rows the sum is over all their races, each row with its own ratings Q_ci, Q_ce, as all of
-them have to live.
+For several rows the sum is over all their races, each with its Q_ci, Q_ce, as the bearing fails
+with the first of them. `_load_rating` divides C_r among the rows, and `_race_loads` averages the
+loads, which include the centrifugal load of balls with mass.
 
-What C_r says of each of several rows: `_load_rating`.
-
-Which loads are averaged, and how: `_race_loads`. Those of balls with mass hold
-their centrifugal load.
-
-What the standard leaves out, and a damaged race has: it rates fatigue that begins below smooth
-races. Pressure on the edges of a defect is several times that of the smooth race, each passing ball
-strikes the far edge, and debris dents the rest. All of that shortens the life, so the life here
-for a damaged bearing is the effect of the changed load distribution alone: an upper bound, no
-forecast and no promise. Lubrication, cleanliness and the fatigue limit (a_ISO) are left out too.
+The standard rates fatigue that begins below smooth races. On a damaged race the pressure at the
+edges of the defect is several times higher, each passing ball strikes the far edge, and debris
+dents the rest. All of this shortens the life. The life of a damaged bearing here is therefore the
+effect of the changed load distribution alone: an upper bound, no forecast and no promise.
+Lubrication, cleanliness and the fatigue limit (a_ISO) are left out too.
 
 Source: ISO 16281 (before: ISO/TS 16281); Lundberg and Palmgren for the exponents.
 """
@@ -78,10 +74,10 @@ in the examples of the standard, or all positions, as in the machine."""
 class ContactLife(NamedTuple):
     """Constants of ISO 16281 for a kind of contact.
 
-    Load against life p and scatter of lives e, load against life in ISO 281, and what of the rating
-    is left to bear an uneven load (λν); then, for the rating of each race, what part of
-    C_r/(Z cos α) each takes, what rows count together, and how races share: a factor, and powers of
-    (1 − γ)/(1 + γ) and of what the grooves are to each other.
+    First the exponents of load against life p and of the scatter of lives e, the exponent of load
+    against life in ISO 281, and the factor λν for uneven loads. Then, for the rating of each race,
+    the parts of C_r/(Z cos α) for both races, the power of the number of rows, and the ratio of the
+    races: a factor, and the powers of (1 − γ)/(1 + γ) and of the ratio of the grooves.
     """
 
     load_exponent: float
@@ -113,8 +109,8 @@ class Life:
     scene, dynamic_load_rating [N], positions
         arguments of `life`.
     inner_rating, outer_rating [N]
-        Q_ci, Q_ce: the ball load under which each race of the first row lasts 10⁶ turns; of a
-        roller one that is spread evenly along it.
+        Q_ci, Q_ce: the ball load under which each race of the first row lasts 10⁶ turns; for
+        rollers a load that is spread evenly along them.
     inner_load, outer_load [N]
         Q_ei, Q_ee: equivalent load of each race, the constant load of a ball with the same life as
         all loads of all rows. Loads of other rows are scaled by the ratio of the ratings.
@@ -127,12 +123,12 @@ class Life:
     hours
         L_10h [h]; NaN if the shaft stands still.
     equivalent_load [N]
-        P, under which ISO 281 gives the same life: C_r/L_10r^(1/3) of balls, C_r/L_10r^(3/10) of
+        P, the load with the same life by ISO 281: C_r/L_10r^(1/3) for balls, C_r/L_10r^(3/10) for
         rollers (P_ref of ISO 16281).
     healthy_million_revolutions
         L_10r [10⁶ turns] of the same bearing without its defects, averaged in the same way.
     status
-        code of the first cage angle with unknown loads, else CONVERGED.
+        code of the first cage angle with unknown loads; CONVERGED without any.
     sentence
         the result in words, with its limitations.
     rating_source
@@ -158,7 +154,7 @@ class Life:
 
     @property
     def known(self) -> bool:
-        """True where there is a life."""
+        """True if the life is known."""
         return not math.isnan(self.million_revolutions)
 
     @property
@@ -170,26 +166,21 @@ class Life:
 
     def table(self) -> ResultTable:
         """One row: life, loads, ratings, and the result in words."""
-        element = self.scene.bearing.kind.element
+        element, healthy = self.scene.bearing.kind.element, self.healthy_million_revolutions
         of_ball = f"load of a {element} under which the {{}} race lasts 10⁶ turns"
-        as_tiring = f"equivalent load of a {element} on the {{}} race"
+        equivalent = f"equivalent load of a {element} on the {{}} race"
         return table_of(
             ("million_revolutions", "", self.million_revolutions, "L_10r, in 10⁶ turns"),
             ("life", "h", self.hours, "L_10h"),
-            (
-                "healthy_million_revolutions",
-                "",
-                self.healthy_million_revolutions,
-                "L_10r without the defects, in 10⁶ turns",
-            ),
+            ("healthy_million_revolutions", "", healthy, "L_10r without the defects, in 10⁶ turns"),
             ("share_of_healthy", "1", self.share_of_healthy, "life over the healthy bearing's"),
             ("dynamic_load_rating", "N", self.dynamic_load_rating, f"C_r, {self.rating_source}"),
             ("equivalent_load", "N", self.equivalent_load, "P, for which ISO 281 gives L_10r"),
             ("heaviest_load", "N", self.heaviest_load, f"greatest load of a {element}"),
             ("inner_rating", "N", self.inner_rating, of_ball.format("inner")),
             ("outer_rating", "N", self.outer_rating, of_ball.format("outer")),
-            ("inner_load", "N", self.inner_load, as_tiring.format("inner")),
-            ("outer_load", "N", self.outer_load, as_tiring.format("outer")),
+            ("inner_load", "N", self.inner_load, equivalent.format("inner")),
+            ("outer_load", "N", self.outer_load, equivalent.format("outer")),
             *(
                 (f"million_revolutions_of_row_{k + 1}", "", L, "L_10r of that row alone")
                 for k, L in enumerate(self.rows if len(self.rows) > 1 else ())
@@ -198,12 +189,7 @@ class Life:
         )
 
 
-def life(
-    scene: Scene,
-    dynamic_load_rating: float | None = None,
-    *,
-    positions: str = "all",
-) -> Life:
+def life(scene: Scene, dynamic_load_rating: float | None = None, *, positions: str = "all") -> Life:
     """Compute the reference rating life L_10r of a bearing under the loads that its defects leave.
 
     Parameters
@@ -212,8 +198,8 @@ def life(
         bearing, defects, load, speed. A ball bearing needs its groove radii.
     dynamic_load_rating
         C_r [N] of the whole bearing with all its rows, from the catalogue;
-        `dynamic_load_rating(bearing)` computes it by ISO 281. None: the rating that the bearing
-        carries, as bearings known by their designation do.
+        `dynamic_load_rating(bearing)` computes it by ISO 281. None takes the rating in the bearing,
+        which bearings by designation have.
     positions
         "all": loads averaged over all cage angles, and over all shaft angles if a defect turns with
         the shaft, because a turning cage reaches all of them. "load line": one cage angle, with a
@@ -260,7 +246,7 @@ def life(
     carried = loads.load_of_rows
     L = million_revolutions(contact, rated, carried)
     Q_ci, Q_ce = rated[0].tolist()
-    # what all rows together do to a race, as a load on that of the first row
+    # equivalent load of all rows together, as a load on the races of the first row
     chain = contact.load_exponent * contact.scatter
     parts = (carried / rated).T.tolist()
     Q_ei, Q_ee = Q_ci * combined_load(parts[0], chain), Q_ce * combined_load(parts[1], chain)
@@ -294,10 +280,10 @@ def contact_life(bearing: Bearing) -> ContactLife:
 
 
 def race_ratings(bearing: Bearing, dynamic_load_rating: float, row: int = 0) -> tuple[float, float]:
-    """Q_ci, Q_ce [N]: the loads of a ball under which inner and outer race last 10⁶ turns.
+    """Return Q_ci, Q_ce [N], the loads of a ball under which both races last 10⁶ turns.
 
-    Of one row, from the rating of all rows (ISO 16281). ValueError where a ball bearing does not
-    carry its groove radii.
+    They belong to one row and follow from the rating of all rows (ISO 16281). Raises ValueError for
+    a ball bearing without groove radii.
     """
     row_bearing, contact = bearing.of_row(row), contact_life(bearing)
     cosine, ball = math.cos(row_bearing.contact_angle), row_bearing.ball_diameter
@@ -308,8 +294,8 @@ def race_ratings(bearing: Bearing, dynamic_load_rating: float, row: int = 0) -> 
             name = f"{'inner' if inner is None else 'outer'}_groove_radius"
             raise checks.refuse(name, None, "a number, where life is computed")
         grooves = groove_ratio(inner / ball, outer / ball)
-    each = [1.0] if bearing.rows_are_alike else ratings_alone(bearing)
-    part = each[row % len(each)] * len(each) / sum(each)  # over the mean of all rows
+    ratings = [1.0] if bearing.rows_are_alike else ratings_alone(bearing)
+    part = ratings[row % len(ratings)] * len(ratings) / sum(ratings)  # over the mean of all rows
     gamma = ball * cosine / row_bearing.pitch_diameter
     power = contact.load_exponent * contact.scatter
     B = (
@@ -317,11 +303,11 @@ def race_ratings(bearing: Bearing, dynamic_load_rating: float, row: int = 0) -> 
         * ((1.0 - gamma) / (1.0 + gamma)) ** contact.gamma_power
         * grooves**contact.groove_power
     )
-    # C_r/(Z cos α): a load on half of the elements of a row presses each by some such part
+    # C_r/(Z cos α) i^(-0.7 or -7/9)/λν, of which Q_ci and Q_ce (ISO 16281) are multiples
     share = dynamic_load_rating * part / (row_bearing.n_balls * cosine)
-    of_a_row = share / len(bearing.all_rows) ** contact.row_power / contact.evenness
-    Q_ci = of_a_row / contact.inner_part * (1.0 + B**power) ** (1.0 / power)
-    Q_ce = of_a_row / contact.outer_part * (1.0 + B**-power) ** (1.0 / power)
+    row_share = share / len(bearing.all_rows) ** contact.row_power / contact.evenness
+    Q_ci = row_share / contact.inner_part * (1.0 + B**power) ** (1.0 / power)
+    Q_ce = row_share / contact.outer_part * (1.0 + B**-power) ** (1.0 / power)
     return Q_ci, Q_ce
 
 
@@ -337,11 +323,11 @@ def _loads(scene: Scene, positions: str) -> RaceLoads:
 
 
 def million_revolutions(contact: ContactLife, ratings: ArrayLike, loads: ArrayLike) -> float:
-    """L_10r [10⁶ turns] from Q_ci, Q_ce and Q_ei, Q_ee [N] (ISO 16281); infinite under no load.
+    """Return L_10r [10⁶ turns] from Q_ci, Q_ce and Q_ei, Q_ee [N] of all rows (ISO 16281).
 
-    Of several rows those of all of them. L_10r = ((Q_ci/Q_ei)^(−p e) + (Q_ce/Q_ee)^(−p e))^(−1/e).
+    L_10r = ((Q_ci/Q_ei)^(−p e) + (Q_ce/Q_ee)^(−p e))^(−1/e); it is infinite without load.
     """
     p, e = contact.load_exponent, contact.scatter
     parts = np.ravel(np.asarray(loads) / np.asarray(ratings)).tolist()
-    failing = sum(part ** (p * e) for part in parts)
-    return math.inf if failing == 0.0 else float(failing ** (-1.0 / e))
+    damage = sum(part ** (p * e) for part in parts)
+    return math.inf if damage == 0.0 else float(damage ** (-1.0 / e))

@@ -8,7 +8,7 @@ from bearingcore.common import number, percent, thousands
 from bearingcore.model.scene import Scene
 
 HEAVIEST_SHARE = 0.5
-"""Share of the rating up to which ISO 281 vouches for its life (P ≤ 0.5 C_r)."""
+"""Greatest share of the rating for which ISO 281 is valid (P ≤ 0.5 C_r)."""
 
 LEFT_OUT = (
     "This counts the changed load distribution only. The standard rates smooth races: pressure on "
@@ -16,18 +16,17 @@ LEFT_OUT = (
     "bearing fails sooner. Treat it as an upper limit."
 )
 
-
 A_CENTURY = 876_600.0
-"""Life [h] beyond which its number means nothing."""
+"""Life [h] above which its number has no meaning."""
 
 
 def long_number(value: float) -> str:
-    """Write a life to three digits, which is all that is known; long ones in groups of three."""
+    """Return a life with three digits, as no more are known; long numbers in groups of three."""
     return number(value, 3) if value < 1e4 else thousands(float(f"{value:.3g}"))
 
 
 def turns_in_words(L: float) -> str:
-    """A life [10⁶ turns], up to a million of millions; "unlimited" where it is infinite."""
+    """Return a life [10⁶ turns] in words, up to 10¹² turns; "unlimited" if it is infinite."""
     if math.isinf(L):
         return "unlimited"
     return (
@@ -36,7 +35,7 @@ def turns_in_words(L: float) -> str:
 
 
 def hours_in_words(hours: float) -> str:
-    """Hours of a life [h], up to a century."""
+    """Return a life [h] in words, up to a century."""
     return f"{long_number(hours)} hours" if hours < A_CENTURY else "more than 100 years"
 
 
@@ -45,7 +44,7 @@ def life_sentence(
 ) -> str:
     """Return a life of L [10⁶ turns] in words, with what it leaves out.
 
-    `reason` says why loads are not known, `share` is that of the equivalent load in the rating.
+    `reason` says why loads are unknown; `share` is the equivalent load over the rating.
     """
     if reason:
         return f"Life is not known: not every cage angle has a static equilibrium ({reason})."
@@ -60,7 +59,7 @@ def life_sentence(
     if share > HEAVIEST_SHARE:
         words += (
             f" The equivalent load is {100.0 * share:.0f} % of the rating: above "
-            f"{100.0 * HEAVIEST_SHARE:.0f} % the standard does not vouch for its formula."
+            f"{100.0 * HEAVIEST_SHARE:.0f} % the standard's formula is not valid."
         )
     words = f"{words} {scene.tilt_words()}".rstrip()
     if scene.defects:

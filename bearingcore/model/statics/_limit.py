@@ -1,4 +1,4 @@
-"""A number of a scene against its limit, and what it means in words."""
+"""A number of a scene with its limit, and its meaning in words."""
 
 from __future__ import annotations
 
@@ -16,21 +16,21 @@ _SHORTLY = {
     NO_OIL: "oil unknown",
     NO_MOTION: "no motion yet",
 }
-"""Reasons for which a value is not known, and the same in short."""
+"""Reasons for unknown values, and their short forms."""
 
 
 @dataclass(frozen=True)
 class Limit:
-    """One number of a scene against its limit.
+    """A number of a scene with its limit.
 
     Attributes
     ----------
     name
-        the quantity that is checked.
+        the checked quantity.
     value, limit [unit]
         `value` is NaN if it is not known.
     unit
-        SI; empty for a ratio or a count.
+        SI unit; empty for a ratio or a count.
     crossed
         True if the model no longer holds; False if the value is not known.
     sentence
@@ -48,18 +48,18 @@ class Limit:
 def upper_limit(
     name: str, value: float, limit: float, unit: str, fact: str, beyond: str, within: str
 ) -> Limit:
-    """A limit from above, whose sentence is `fact` and then `beyond` the limit or `within` it."""
+    """Return an upper limit; its sentence is `fact` and then `beyond` the limit or `within` it."""
     crossed = value > limit
     return Limit(name, value, limit, unit, crossed, f"{fact}{beyond if crossed else within}")
 
 
 def unknown(name: str, limit: float, unit: str, why: str) -> Limit:
-    """A limit whose value is not known; `why` goes on after "as"."""
+    """Return a limit of unknown value; `why` continues its sentence after "as"."""
     return Limit(name, math.nan, limit, unit, False, f"{name.capitalize()}: not known, as {why}.")
 
 
 def summary(limits: Sequence[Limit]) -> str:
-    """The limits in a line: "No limit exceeded (4 unchecked: groove radii unknown)"."""
+    """Return the limits in a line: "No limit exceeded (4 unchecked: groove radii unknown)"."""
     crossed = sum(limit.crossed for limit in limits)
     words = f"{count(crossed, 'limit') if crossed else 'No limit'} exceeded"
     unchecked = [limit.sentence for limit in limits if math.isnan(limit.value)]

@@ -40,9 +40,8 @@ from bearingcore.model.statics._status import StaticStatus
 GREATEST_EXTENT = math.radians(90.0)
 """Greatest extent of maps by default, as in the paper's Figs. 5 and 6."""
 
-
 FIRST_POINTS = 20_000
-"""Points of a map that are solved before it is looked whether to go on."""
+"""Number of points of a map that are solved before the first report of progress."""
 
 
 @shown_as_table
@@ -55,8 +54,7 @@ class Maps:
     Attributes
     ----------
     scene, dofs
-        the scene that was solved, and its free directions. The extent of its first defect does not
-        matter.
+        the solved scene, and its free directions. The extent of its first defect is not used.
     extents : (m,) [rad]
     cage_angles : (n,) [rad]
     stiffness : (15, m, n) [N/m, N/rad, N·m/rad]
@@ -64,7 +62,7 @@ class Maps:
     loaded_balls : (m, n)
         number of balls that carry load.
     greatest_load : (m, n) [N]
-        load of the ball that carries most.
+        load of the most heavily loaded ball.
     status : (m, n)
         each a `StaticStatus`; `reason(i, k)` puts it into words.
     residual : (m, n)
@@ -86,11 +84,11 @@ class Maps:
 
     @cached_property
     def converged(self) -> NDArray[np.bool_]:
-        """(m, n) True where there is one equilibrium, and the solver reached it."""
+        """(m, n) True where there is exactly one equilibrium, and the solver reached it."""
         return self.status == StaticStatus.CONVERGED
 
     def term(self, name: str) -> Array:
-        """(m, n) one stiffness term by name, e.g. "k_yy" [N/m, N/rad, N·m/rad]."""
+        """Return a stiffness term (m, n) by name, e.g. "k_yy" [N/m, N/rad, N·m/rad]."""
         if name not in STIFFNESS_TERMS:
             raise checks.refuse("stiffness term", name, ", ".join(STIFFNESS_TERMS))
         return self.stiffness[STIFFNESS_TERMS.index(name)]
@@ -115,7 +113,7 @@ class Maps:
         )
 
     def reason(self, i: int, k: int) -> str:
-        """Status of extent i and cage angle k in words."""
+        """Return the status of extent i and cage angle k in words."""
         if self.status[i, k] == StaticStatus.REFUSED:
             return self.refusals[i]
         status = StaticStatus(int(self.status[i, k]))
@@ -133,8 +131,9 @@ def stiffness_maps(
 ) -> Maps:
     """Compute stiffness (Eq. 17) and loaded balls of `scene` for each extent of its first defect.
 
-    The answers are those of `equilibrium` for `scene.replace(extent=...)`, several times faster:
-    a point at which all balls have sunk as deep as at the previous extent is not solved again.
+    The answers are those of `equilibrium` for `scene.replace(extent=...)`, but several times
+    faster: a point at which all balls have the same drop as at the previous extent is not solved
+    again.
 
     Parameters
     ----------
@@ -143,7 +142,7 @@ def stiffness_maps(
     extents : (m,)
         [rad], 0 to 2π; None takes 91 from 0 to 90 degrees.
     cage_angles : (n,)
-        [rad]; None takes `default_cage_angles`, which for a defect of the inner race are many.
+        [rad]; None takes `default_cage_angles`, of which a defect of the inner race has many.
     dofs
         free directions, names out of x, y, z, rx, ry; None takes the scene's.
     progress
@@ -153,8 +152,8 @@ def stiffness_maps(
     Returns
     -------
     Maps
-        with a status for each point. A missing answer, or defects that overlap at this extent, are
-        a status and not an error.
+        with a status for each point. A missing answer is a status, not an error, and so are defects
+        that cannot have this extent together.
 
     Raises
     ------
@@ -183,8 +182,8 @@ def stiffness_maps(
         most = MOST_CONTACTS // contacts.angle.size
         raise checks.refuse("extents times cage_angles", points, f"at most {most}")
     first, *others = scene.defect if isinstance(scene.defect, tuple) else (scene.defect,)
-    ways, refusals = _paths(first, tuple(others), bearing, tuple(sizes.tolist()))
-    ways = ways._replace(leads=np.zeros(shape))
+    map_paths, refusals = _paths(first, tuple(others), bearing, tuple(sizes.tolist()))
+    map_paths = map_paths._replace(leads=np.zeros(shape))
     answers = kernels.new_answers(*shape)
     status = answers.status
     refused = np.array([bool(words) for words in refusals], dtype=bool)
@@ -193,12 +192,12 @@ def stiffness_maps(
 
     def solve(begin: int, end: int) -> None:
         for rows in kernels.parts(begin, end, max(FIRST_POINTS // max(angles.size, 1), 1)):
-            kernels.static_maps(angles, contacts, ways, load, rows, memory, answers)
+            kernels.static_maps(angles, contacts, map_paths, load, rows, memory, answers)
             if progress is not None:
                 progress(rows[1] / sizes.size, f"{rows[1]} of {sizes.size} extents")
 
-    # Whether a load can be carried depends on the cage angle alone, and to find out that it cannot
-    # takes long: the first row shows which cage angles the others need not try.
+    # The cage angle alone decides whether contacts can carry the load, and a descent without an
+    # answer takes long. So the first row shows which cage angles the other rows can leave out.
     start = int(np.argmin(refused)) if not refused.all() else sizes.size
     begun = min(start + 1, sizes.size)
     solve(start, begun)
@@ -224,7 +223,7 @@ def stiffness_maps(
     )
 
 
-# of rough floors the tables of a map may take a gigabyte
+# The cache is bounded by bytes, as the tables of rough floors in a map may take a gigabyte.
 @lru_cache_by_bytes(
     128_000_000,
     lambda paths, first, *_: (
@@ -234,16 +233,16 @@ def stiffness_maps(
 def _paths(
     first: Defect, others: tuple[Defect, ...], bearing: Bearing, extents: tuple[float, ...]
 ) -> tuple[kernels.MapPaths, tuple[str, ...]]:
-    """Paths of the ball over the defects, the first of them with each of the extents.
+    """Return the paths over the defects, with each of the extents for the first defect.
 
-    Returns the paths, and why the defects of each row cannot be; empty where they can. A few are
-    kept, as with several defects or floors that are not flat they cost more than the maps, and do
-    not change while only the load does.
+    Also returns, for each extent, the reason why such defects are impossible; empty if they are
+    possible. Results are cached: with several defects, or floors that are not flat, paths cost more
+    than the maps, and a change of load does not change them.
     """
     sizes = np.array(extents)
     columns = len(kernels.PATH_COLUMNS)
     if not others and first.floor is None and bearing.rows_are_alike:
-        # one row of numbers fits all: only the extent differs
+        # all extents have the same row of numbers, but for the extent itself
         row = dataclasses.replace(first, extent=math.pi).edge_row(bearing)
         rows = np.tile(row, (sizes.size, 1, 1))
         rows[:, 0, _HALF_EXTENT] = 0.5 * sizes
@@ -255,7 +254,7 @@ def _paths(
     for extent in extents:
         defects = (dataclasses.replace(first, extent=extent), *others)
         try:
-            # past its cache, which this would fill with what is not needed again
+            # without its cache, which would fill with tables that are not needed again
             paths.append(inspect.unwrap(path_tables)(defects, bearing))
             refusals.append("")
         except ValueError as error:

@@ -1,4 +1,4 @@
-"""Balls passing defects: how deep each one sinks, and when it enters and leaves (Eqs. 4-6)."""
+"""Balls that pass defects: their drops, and the cage angles of entry and exit (Eqs. 4-6)."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ from bearingcore.model.scene._packing import contacts, path
 TWO_PI = 2.0 * math.pi
 
 SAME_ANGLE = 1e-12
-"""Angle [rad]: kinks that are closer to each other or to an end differ by rounding alone."""
+"""Angle [rad] below which two kinks, or a kink and an end, differ by rounding alone."""
 
 STEPS_A_PASSAGE = 24.0
-"""Least number of time steps while a ball passes a defect that keep its edges in a motion."""
+"""Least number of time steps in the passage of a ball, so that a motion shows the edges."""
 
 
 class Crossing(NamedTuple):
-    """A ball centre passing an edge of a defect."""
+    """Passage of a ball centre over an edge of a defect."""
 
     cage_angle: float
     """[rad]"""
@@ -34,7 +34,7 @@ class Crossing(NamedTuple):
     defect: int
     """index into `scene.defects`"""
     enters: bool
-    """into the defect; else out of it"""
+    """True into the defect, False out of it"""
 
 
 def ball_drop(
@@ -44,10 +44,10 @@ def ball_drop(
     race: str | None = None,
     row: int = 0,
 ) -> Array:
-    """Drop d(φ) [m] of ball centres at `ball_angle` [rad] over all defects of a scene.
+    """Return the drop d(φ) [m] of ball centres of a row at `ball_angle` [rad] into all defects.
 
-    `cage_angle` [rad] moves inner-race defects. `race` takes the drop into that race alone;
-    None for both together, as the contacts see it; `row` for balls of that row. Shapes broadcast.
+    `cage_angle` [rad] moves inner-race defects. With `race` only the drop into that race counts;
+    None adds both, as contacts do. Shapes broadcast.
     """
     if race is not None:
         checks.choice("race", race, RACES)
@@ -56,16 +56,16 @@ def ball_drop(
 
 
 def drops_now(scene: Scene, cage_angle: float, race: str | None = None) -> Array:
-    """Drop [m] of each ball of the bearing with the cage at an angle [rad], row after row."""
+    """Return the drop [m] of each ball with the cage at an angle [rad], row after row."""
     return drops_at(scene, np.array([cage_angle]), race)[0]
 
 
 def drops_at(
     scene: Scene, cage_angles: Array, race: str | None = None, leads: Array | None = None
 ) -> Array:
-    """Drop (n, balls) [m] of each ball at cage angles (n,) [rad], row after row.
+    """Return the drop (n, balls) [m] of each ball at cage angles (n,) [rad], row after row.
 
-    leads (n,) [rad]: how far the shaft is ahead of where the cage angle has it; None: nowhere.
+    leads (n,) [rad]: angle of the shaft beyond ω_s/ω_c times the cage angle; None stands for 0.
     """
     turned = cage_angles
     if leads is not None:
@@ -74,9 +74,9 @@ def drops_at(
 
 
 def crossings(scene: Scene, first: float, last: float) -> list[Crossing]:
-    """Every entry and exit while the cage turns from `first` to `last` [rad], in order.
+    """Return all entries and exits while the cage turns from `first` to `last` [rad], in order.
 
-    A defect around the whole race has no edges and gives none.
+    A defect around the whole race has no edges, and so no crossings.
     """
     events = []
     bearing = scene.bearing
@@ -85,7 +85,8 @@ def crossings(scene: Scene, first: float, last: float) -> list[Crossing]:
         defect = scene.defects[index]
         if defect.extent >= TWO_PI or defect.row not in (None, row):
             continue
-        # Balls pass the defect with the cage, or, as an inner race overtakes the cage, against it.
+        # An outer-race defect stands still, and balls pass it with the cage. An inner-race defect
+        # overtakes the cage, so balls pass it backwards.
         rate = passing_rate(scene, defect, row)
         balls = bearing.balls_of_rows[row]
         for enters in (True, False):
@@ -94,23 +95,24 @@ def crossings(scene: Scene, first: float, last: float) -> list[Crossing]:
                 # cage_angle·rate + angle of the ball = edge + 2π k
                 start = (edge - angle) / rate
                 period = TWO_PI / abs(rate)
-                at = start + math.ceil((first - start) / period) * period
-                while at <= last:
-                    events.append(Crossing(at, ball, index, enters))
-                    at += period
+                cage_angle = start + math.ceil((first - start) / period) * period
+                while cage_angle <= last:
+                    events.append(Crossing(cage_angle, ball, index, enters))
+                    cage_angle += period
     return sorted(events)
 
 
 def passing_rate(scene: Scene, defect: Defect, row: int) -> float:
-    """Turning of a ball of a row past a defect for each unit of cage angle; the race may pass it
-    instead, which is below 0.
+    """Return the angle of a row's ball relative to a defect, per cage angle.
+
+    It is negative if the defect overtakes the ball.
     """
     bearing = scene.bearing.of_row(row)
     return scene.bearing.pace(row) * (1.0 - defect.turn_ratio(bearing))
 
 
 def shortest_passage(scene: Scene) -> float:
-    """Cage angle [rad] in which a ball passes a defect, the least of all; infinite without one."""
+    """Return the least cage angle [rad] in which a ball passes a defect; infinite without one."""
     rows = range(len(scene.bearing.all_rows))
     passages = [
         defect.extent / abs(passing_rate(scene, defect, row))
@@ -122,10 +124,10 @@ def shortest_passage(scene: Scene) -> float:
 
 
 def path_kinks(scene: Scene, first: float, last: float) -> Array:
-    """Cage angles [rad] from first to last, rising, at which a ball meets an edge or a floor.
+    """Return rising cage angles [rad] from first to last at which a ball meets an edge or a floor.
 
-    The path of a ball has a corner, or its curvature jumps, there and only there, as long as
-    floors are flat and defects are apart.
+    If floors are flat and defects are apart, these are the only places where the path of a ball has
+    a corner or its curvature jumps.
     """
     kinks = []
     for crossing in crossings(scene, first - math.pi, last + math.pi):
@@ -133,12 +135,11 @@ def path_kinks(scene: Scene, first: float, last: float) -> Array:
         row, _ = scene.bearing.row_of_ball(crossing.ball)
         rate = abs(passing_rate(scene, defect, row))
         inwards = 1.0 if crossing.enters else -1.0
-        at = crossing.cage_angle
-        kinks.append(at)
-        # too short for the floor, it turns up again in the middle
+        # a ball that does not reach the floor of a short defect turns up again in its middle
         bearing = scene.bearing.of_row(row)
         s_floor = min(float(defect.edge_row(bearing)[4]), 0.5 * defect.extent)
-        kinks.append(at + inwards * s_floor / rate)
+        to_floor = inwards * s_floor / rate
+        kinks += [crossing.cage_angle, crossing.cage_angle + to_floor]
     angles = np.array(sorted(kinks))
     angles = angles[(angles > first - SAME_ANGLE) & (angles < last + SAME_ANGLE)]
     for end in (first, last):

@@ -1,23 +1,23 @@
-"""All positions that balls and shaft take to each other, for what is said over all of them.
+"""All relative positions of balls and shaft, for least, greatest and mean values over them.
 
 Quantity                                    | Symbol  | Unit
 ------------------------------------------- | ------- | ----
 cage angle                                  | c       | rad
 shaft angle, that of inner-race defects too | ψ       | rad
-shaft against cage, ψ − c                   | u       | rad
+shaft angle relative to the cage, ψ − c     | u       | rad
 
-With defects at rest all repeats after a ball spacing. A defect of the inner race turns with the
-shaft, 1/`cage_ratio` times as fast as the cage. That is no simple fraction, so no turn is like the
-one before: in time all pairs (c, ψ) occur, each as often as any other. Least, greatest and mean are
-those over both angles; where the defect began does not matter.
+If defects are at rest, everything repeats after a ball spacing. A defect of the inner race turns
+with the shaft, 1/`cage_ratio` times as fast as the cage. This ratio is no simple fraction, so turns
+never repeat: in time all pairs (c, ψ) occur equally often. Least, greatest and mean values are
+those over both angles, and do not depend on the first position of the defect.
 
 Only c modulo the bearing's period and ψ modulo 2π count. Here u runs over the period and c over a
-whole turn: at one u balls and defects turn together against the load, so that whatever bends
-sharply, the path of a ball over the edges, does so along u. Nodes in u end at the edges; nodes
-between which no drop changes are solved once.
+whole turn. At constant u, balls and defects turn together relative to the load. Sharp bends, from
+the path of a ball over the edges, are therefore along u. Nodes in u are at the edges; nodes with
+the same drops are solved once.
 
-Cages of unlike rows turn at speeds of their own. The place of one row against the other is then a
-further angle; it is taken at ROW_PLACES places, which whole ball spacings of the first row lead to.
+Cages of unlike rows turn at different speeds. The position of one row relative to another is then a
+further angle. It is sampled at ROW_PLACES places, after whole ball spacings of the first row.
 """
 
 from __future__ import annotations
@@ -50,50 +50,50 @@ from bearingcore.model.statics._equilibrium import (
 TWO_PI = 2.0 * math.pi
 
 ALL_AROUND = {"balls": 4, "rollers": 1}
-"""Factors by which cage angles to a ball spacing are fewer all around, at least 8. The
-stiffness of a roller jumps as it comes to carry, so that its angles are not fewer."""
+"""Divisors of the number of cage angles per ball spacing if these go all around. The stiffness
+jumps when a roller takes up load, so the number for rollers is not reduced."""
 
 SINKING = (0.0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1.0, 1.25, 1.5, 2.0, 3.0)
-"""Drops at which nodes are put on an edge, over the greatest compression of a ball in the bearing
-without defects: about there it lets go. With clearance a light load follows it further."""
+"""Drops at which edges get nodes, over the greatest compression of a ball in the bearing without
+defects: near 1 a ball loses contact. In a clearance a lightly loaded ring follows it further."""
 
 FARTHEST_ASIDE = math.radians(80.0)
-"""Angle from the load's line up to which a ball is taken to carry beside a defect."""
+"""Greatest angle from the load's line at which a ball beside a defect is assumed to carry load."""
 
 ON_A_FLOOR = 96
-"""Nodes in a ball spacing where a floor is not flat, so that its path bends everywhere, or where
-rows turn against each other."""
+"""Nodes per ball spacing if a floor is not flat, so that the path bends everywhere, or if rows turn
+relative to each other."""
 
 ROW_PLACES, FARTHEST = 16, 4096
-"""Places of a row against the other, and of how many ball spacings they are picked."""
+"""Number of positions of one row relative to another, and of ball spacings to choose them from."""
 
 STARTS, ROUNDS, PARTS = 3, 4, 3
-"""Numbers of the search for an extreme: lowest samples it looks around, rounds of looking closer,
-and parts into which it divides the distance to each neighbour."""
+"""Numbers of the search for an extreme: lowest samples to begin with, rounds of refinement, and
+parts into which a round divides the distance to each neighbour."""
 
 
 @dataclass(frozen=True)
 class Positions:
-    """Pairs of cage and shaft angle that stand for all that occur: a grid of r rows, n columns.
+    """Grid of r rows and n columns of pairs of cage and shaft angle that represents all positions.
 
     Attributes
     ----------
     columns : (n,) [rad]
         cage angles, rising.
     rows : (r,) [rad]
-        shaft against cage, rising, within `period`; one number where nothing turns.
+        shaft relative to cage, rising, within `period`; a single number if no defect turns.
     alike : (r,)
-        which of m rows that differ each row is.
+        index of each row among the m different rows.
     cage_angles, shaft_angles : (m·n,) [rad]
-        the pairs: all columns of the first row that differs, then of the next.
+        the pairs: all columns of the first different row, then of the next.
     weights : (m·n,)
-        their share of the time; they sum to 1.
+        share of the time of each pair; they sum to 1.
     steps : (2, n) [rad]
-        from each column to the one before and to the one after.
+        distance of each column to the column before and to the column after.
     period [rad]
-        of the rows.
+        period of the rows.
     shaft_ratio
-        turning of the shaft with the cage along a row.
+        shaft angle per cage angle along a row.
     """
 
     columns: Array
@@ -108,7 +108,7 @@ class Positions:
 
 
 class Extremes(NamedTuple):
-    """Least and greatest of q quantities, and the angles (2, q) [rad] at which they are so."""
+    """Least and greatest values of q quantities, and the angles (2, q) [rad] of these values."""
 
     least: Array
     greatest: Array
@@ -121,7 +121,7 @@ def over_all_positions(
     n: int = ANGLES_A_PERIOD,
     solve: Callable[..., Equilibrium] = equilibrium,
 ) -> Equilibrium:
-    """Static equilibrium at all pairs of `positions`, with their weights.
+    """Return the static equilibrium at all pairs of `positions`, with their weights.
 
     `solve` is `static_state` for balls with mass.
     """
@@ -133,9 +133,9 @@ def over_all_positions(
 def state_of(
     scene: Scene, state: Equilibrium | None, solve: Callable[..., Equilibrium] = equilibrium
 ) -> Equilibrium:
-    """The equilibrium of a scene that was passed, else that of `over_all_positions`.
+    """Return `state`, or if it is None the equilibrium of `over_all_positions`.
 
-    ValueError for the equilibrium of another scene.
+    Raises ValueError for the equilibrium of another scene.
     """
     if state is not None and state.scene != scene:
         raise checks.refuse("state", "the equilibrium of another scene", "that of this scene")
@@ -143,7 +143,7 @@ def state_of(
 
 
 def equilibrium_over_all(packed: PackedScene, n: int) -> Equilibrium:
-    """`over_all_positions` of a scene that is packed."""
+    """Return `over_all_positions` for a packed scene."""
     places = positions(packed.scene, n)
     state = equilibrium_of(packed, places.cage_angles, places.shaft_angles)
     return dataclasses.replace(state, weights=places.weights)
@@ -154,11 +154,11 @@ def equilibrium_over_all(packed: PackedScene, n: int) -> Equilibrium:
     lambda places, scene, _: 24 * places.weights.size + floor_bytes(scene.defects),
 )
 def positions(scene: Scene, n: int) -> Positions:
-    """The positions of a scene.
+    """Return the positions of a scene.
 
-    n : cage angles to the bearing's period, ends included, where no defect turns with the shaft.
-    Else (n − 1)/ALL_AROUND to each ball spacing, all around, with one where the ball is on the line
-    of the load, and further ones where it meets an edge of the outer race.
+    n is the number of cage angles in the bearing's period, ends included. If a defect turns with
+    the shaft, cage angles go all around, (n − 1)/ALL_AROUND of them per ball spacing, at least 8.
+    They include angles with a ball on the line of the load, or at an edge of the outer race.
     """
     packed, bearing = pack(scene), scene.bearing
     period, ratio = bearing.period, bearing.cage_ratio
@@ -177,26 +177,27 @@ def positions(scene: Scene, n: int) -> Positions:
     if bearing.has_one_cage_speed:
         rows = _nodes(packed, "inner")
         corners = _nodes(packed, "outer")
-        whole = period * np.arange(round(TWO_PI / period))
-        every = np.concatenate([even, (whole[:, None] - corners).ravel() % TWO_PI])
-        columns = np.unique(np.round(every, 12))
+        periods = period * np.arange(round(TWO_PI / period))
+        all_columns = np.concatenate([even, (periods[:, None] - corners).ravel() % TWO_PI])
+        columns = np.unique(np.round(all_columns, 12))
         steps = _steps(columns, TWO_PI)
-        # Under a light load in a clearance a ball on the line, and only there, leaves the ring
-        # nearly free aside: k_xx goes with |x|^(1/3). Its mean up to the neighbours takes half of
-        # that node's time; the other half is theirs.
+        # Under a light load in a clearance, the ring is nearly free sideways only while a ball is
+        # on the line of the load: k_xx goes with |x|^(1/3). The mean of this function up to the
+        # next nodes is right if this node has half of its time, and its neighbours the other half.
         balls = line + bearing.ball_spacing * np.arange(bearing.n_balls)
         off_line = ~np.isin(columns, np.round(balls % TWO_PI, 12))
-        of_columns = 0.5 * steps.mean(axis=0)
-        of_columns[off_line] += 0.5 * _steps(columns[off_line], TWO_PI).mean(axis=0)
+        column_shares = 0.5 * steps.mean(axis=0)
+        column_shares[off_line] += 0.5 * _steps(columns[off_line], TWO_PI).mean(axis=0)
     else:
         steps = np.full((2, ROW_PLACES * around), TWO_PI / around)
-        of_columns = steps[0]
+        column_shares = steps[0]
         columns = np.add.outer(_row_places(packed), even).ravel()
         period = bearing.ball_spacing
         rows = np.linspace(0.0, period, ON_A_FLOOR, endpoint=False)
+    # rows with the same drops into the inner race are solved once, with their common share
     share = _steps(rows, period).mean(axis=0)
-    still, turned = np.zeros(rows.size), ratio * rows
-    drops = np.round(kernels.drops_of(packed.contacts, packed.inner_path, still, turned), 14)
+    zeros, turned = np.zeros(rows.size), ratio * rows
+    drops = np.round(kernels.drops_of(packed.contacts, packed.inner_path, zeros, turned), 14)
     _, first, alike = np.unique(drops, axis=0, return_index=True, return_inverse=True)
     if not bearing.has_one_cage_speed:
         first = alike = np.arange(rows.size)
@@ -208,7 +209,7 @@ def positions(scene: Scene, n: int) -> Positions:
         alike.ravel(),
         cage,
         cage + np.repeat(rows[first], columns.size),
-        np.outer(shares / shares.sum(), of_columns / of_columns.sum()).ravel(),
+        np.outer(shares / shares.sum(), column_shares / column_shares.sum()).ravel(),
         steps,
         period,
         1.0,
@@ -216,13 +217,13 @@ def positions(scene: Scene, n: int) -> Positions:
 
 
 def _steps(angles: Array, period: float) -> Array:
-    """Distances (2, n) [rad] of rising angles on a circle to those before and after them."""
+    """Return distances (2, n) [rad] of rising angles on a circle to the angle before and after."""
     after = np.diff(angles, append=angles[0] + period)
     return np.stack([np.roll(after, 1), after])
 
 
 def _cage_angles(packed: PackedScene, n: int) -> tuple[Array, Array]:
-    """Cage angles [rad] over the bearing's period, ends included, and their shares of the time."""
+    """Return cage angles [rad] over the bearing's period, ends included, and shares of the time."""
     weights, bearing = np.ones(n), packed.scene.bearing
     weights[[0, -1]] = 0.5
     if bearing.has_one_cage_speed:
@@ -233,7 +234,10 @@ def _cage_angles(packed: PackedScene, n: int) -> tuple[Array, Array]:
 
 
 def _row_places(packed: PackedScene) -> Array:
-    """Cage angles (ROW_PLACES,) [rad], whole ball spacings, after which rows are evenly turned."""
+    """Return cage angles (ROW_PLACES,) [rad] at which rows have evenly spread relative positions.
+
+    They are whole ball spacings of the first row.
+    """
     speeds = packed.contacts.relative_speed[packed.contacts.rows[:, 0]]
     spacings = np.array([row.ball_spacing for row in packed.rows])
     spacing = spacings[0] / speeds[0]
@@ -241,13 +245,13 @@ def _row_places(packed: PackedScene) -> Array:
     turned = speeds[others] / spacings[others] * spacing
     reached = np.arange(FARTHEST)[:, None] * turned % 1.0
     odd = 2 * np.arange(turned.size) + 1  # a lattice rule, if there are several
-    wanted = np.arange(ROW_PLACES)[:, None] * odd / ROW_PLACES % 1.0
-    away = np.abs((reached - wanted[:, None] + 0.5) % 1.0 - 0.5).max(axis=2)
-    return np.asarray(away.argmin(axis=1) * spacing)
+    targets = np.arange(ROW_PLACES)[:, None] * odd / ROW_PLACES % 1.0
+    distance = np.abs((reached - targets[:, None] + 0.5) % 1.0 - 0.5).max(axis=2)
+    return np.asarray(distance.argmin(axis=1) * spacing)
 
 
 def _nodes(packed: PackedScene, race: str) -> Array:
-    """Race against cage [rad] over the period, rising: where balls meet an edge, and between."""
+    """Return rising angles of a race relative to the cage [rad] at which balls pass its edges."""
     scene = packed.scene
     bearing, period = scene.bearing, scene.bearing.period
     angles = [np.zeros(1 if race == "inner" else 0)]
@@ -266,22 +270,22 @@ def _nodes(packed: PackedScene, race: str) -> Array:
 
 
 def _places_on_edges(defect: Defect, bearing: Bearing, compression: float) -> Array:
-    """Angles [rad] of a ball at both edges, where it meets the floor, and on the way there."""
+    """Return angles [rad] of a ball at both edges, at the floor and at some drops between."""
     half = 0.5 * defect.extent
-    # with clearance the ring follows a ball that sinks until those beside the defect carry
+    # in a clearance the ring follows a sinking ball until the balls beside the defect carry load
     aside = math.cos(min(half + bearing.ball_spacing, FARTHEST_ASIDE))
     followed = compression + max(bearing.radial_clearance, 0.0) * (1.0 / aside - 1.0)
     sizes = (compression, followed) if followed > 2.0 * compression else (compression,)
     drops = {min(share * size, defect.depth) for share in SINKING for size in sizes}
     drops.add(defect.depth)
-    whole = defect.extent >= TWO_PI
-    inwards = [0.0 if whole else defect.edge_width(bearing, drop) for drop in drops]
+    all_around = defect.extent >= TWO_PI
+    inwards = [0.0 if all_around else defect.edge_width(bearing, drop) for drop in drops]
     away = half - np.minimum(inwards, half)
     return np.asarray(defect.center + np.concatenate([-away, away]))
 
 
 def _greatest_compression(packed: PackedScene, row: int) -> float:
-    """Greatest compression [m] in a row of the bearing without defects; 0 where none is known."""
+    """Return the greatest compression [m] in a row of the healthy bearing; 0 if unknown."""
     healthy, contacts = remove_defects(packed), packed.contacts
     state = equilibrium_of(healthy, np.linspace(0.0, packed.scene.bearing.period, 13))
     first, count = contacts.rows[row]
@@ -290,11 +294,11 @@ def _greatest_compression(packed: PackedScene, row: int) -> float:
 
 
 def _lowest(values: Array) -> NDArray[np.int64]:
-    """Places (STARTS, q) of the lowest of values (q, r, n) that are below those around them."""
+    """Return the places (STARTS, q) of the lowest local minima of values (q, r, n)."""
     q, r, n = values.shape
     low = np.ones(values.shape, dtype=bool)
-    for axis, by in product((1, 2), (1, -1)):
-        low &= values <= np.roll(values, by, axis=axis)
+    for axis, shift in product((1, 2), (1, -1)):
+        low &= values <= np.roll(values, shift, axis=axis)
     order = np.where(low, values, math.inf).reshape(q, r * n)
     lowest = np.argpartition(order, min(STARTS, r * n - 1), axis=1)[:, :STARTS].T
     lowest[0] = values.reshape(q, r * n).argmin(axis=1)
@@ -308,52 +312,56 @@ def extremes(
     *,
     rounds: int = ROUNDS,
 ) -> Extremes:
-    """Least and greatest of q quantities over all positions; NaN where none is known.
+    """Return least and greatest values of q quantities over all positions; NaN if none is known.
+
+    The surroundings of each extreme of the grid are searched on finer and finer grids.
 
     Parameters
     ----------
     values : (q, m·n)
-        at the pairs of `places`; what is NaN does not count.
+        quantities at the pairs of `places`; NaN does not count.
     evaluate
-        gives the quantities (q, k) at cage and shaft angles (k,): around each extreme of the grid
-        they are looked at ever closer.
+        function that returns the quantities (q, k) at cage and shaft angles (k,).
     rounds
-        number of rounds; each looks PARTS times closer.
+        number of rounds; each grid is PARTS times finer.
     """
+    # values (2 q, rows, columns) of the whole grid, with both signs
     r, n, q = places.rows.size, places.columns.size, len(values)
     whole = values.reshape(q, places.weights.size // n, n)[:, places.alike].reshape(q, r * n)
-    signed = np.concatenate([whole, -whole])  # the least of each is looked for
+    signed = np.concatenate([whole, -whole])  # a greatest value is the least negative one
     signed = np.where(np.isnan(signed), math.inf, signed)
+    # the lowest samples, at cage angles c and shaft against cage u, from which the search starts
     starts = _lowest(signed.reshape(2 * q, r, n))
     best = np.take_along_axis(signed.T, starts, axis=0)
-    changes = np.isfinite(best) & (signed.max(axis=1) > best)
+    changes = np.isfinite(best) & (signed.max(axis=1) > best)  # constant quantities need no search
     row, column = np.divmod(starts, n)
     c, u = places.columns[column], places.rows[row]
-    turn, ways = places.steps[:, column], _steps(places.rows, places.period)[:, row]
+    turn, aside = places.steps[:, column], _steps(places.rows, places.period)[:, row]
     parts = np.arange(-PARTS, PARTS + 1) / PARTS
     across = parts if r > 1 else np.zeros(1)
-    side = np.sign(parts).astype(int).clip(0)
-    of = np.broadcast_to(np.arange(2 * q), starts.shape)[changes]
-    for _ in range(rounds if of.size else 0):
+    side = np.sign(parts).astype(int).clip(0)  # 0 towards the neighbour before, 1 after
+    quantity = np.broadcast_to(np.arange(2 * q), starts.shape)[changes]
+    # each round evaluates a finer grid around the best place so far, and moves to its lowest point
+    for _ in range(rounds if quantity.size else 0):
         cs = c[changes][:, None] + turn[side][:, changes].T * parts
-        us = u[changes][:, None] + ways[side[: across.size]][:, changes].T * across
+        us = u[changes][:, None] + aside[side[: across.size]][:, changes].T * across
         pairs = np.broadcast_arrays(cs[:, None, :], us[:, :, None])
         # many quantities have an extreme in common
         where, back = np.unique(np.stack([cs[:, 0], us[:, 0]]), axis=1, return_index=True,
                                 return_inverse=True)[1:]  # fmt: skip
         cage = pairs[0][where].ravel()
         shaft = places.shaft_ratio * cage + pairs[1][where].ravel()
-        new = evaluate(cage, shaft).reshape(q, where.size, -1)
-        tried = np.where(of < q, 1.0, -1.0)[:, None] * new[of % q, back.ravel()]
+        answers = evaluate(cage, shaft).reshape(q, where.size, -1)
+        tried = np.where(quantity < q, 1.0, -1.0)[:, None] * answers[quantity % q, back.ravel()]
         tried = np.where(np.isnan(tried), math.inf, tried)
-        at = tried.argmin(axis=1)
-        i, k = np.divmod(at, parts.size)
+        i, k = np.divmod(tried.argmin(axis=1), parts.size)
         lower = tried.min(axis=1) <= best[changes]
-        each = np.arange(of.size)
-        c[changes] = np.where(lower, cs[each, k], c[changes])
-        u[changes] = np.where(lower, us[each, i], u[changes])
+        index = np.arange(quantity.size)
+        c[changes] = np.where(lower, cs[index, k], c[changes])
+        u[changes] = np.where(lower, us[index, i], u[changes])
         best[changes] = np.minimum(best[changes], tried.min(axis=1))
-        turn, ways = turn / PARTS, ways / PARTS
+        turn, aside = turn / PARTS, aside / PARTS
+    # the lowest result of all starts
     better = best.argmin(axis=0)
     least, c, u = (np.take_along_axis(x, better[None], axis=0)[0] for x in (best, c, u))
     least = np.where(np.isinf(least), math.nan, least)

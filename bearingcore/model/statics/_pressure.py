@@ -6,8 +6,8 @@ load of the ball                            | Q      | load              | N
 semi-axes, across and along the rolling     | a, b   | semi_axis_across, semi_axis_along | m
 greatest pressure, in the middle            | p      | greatest_pressure | Pa
 
-The contact itself is that of `bearings._hertz`. On the edge of a defect the ball presses
-harder than this says: a corner has no ellipse.
+The contact is that of `bearings._hertz`. On the edge of a defect the pressure is higher, as a
+corner has no contact ellipse.
 """
 
 from __future__ import annotations
@@ -30,16 +30,16 @@ RACES = ("inner", "outer")
 
 @dataclass(frozen=True)
 class HeaviestBall:
-    """Place at which a ball carries most, of some positions. NaN where nothing is known.
+    """The most heavily loaded ball of some positions. NaN if no load is known.
 
     Attributes
     ----------
     load, inner_load [N]
-        Q, and that at the inner race, where balls with mass press less than on the outer one.
+        Q, and the load at the inner race, which balls with mass press less than the outer one.
     cage_angle, ball_angle [rad]
-        φ_c and the ball's own φ_j at that moment.
+        φ_c and the angle φ_j of the ball at that moment.
     row
-        of the ball, counted from 0.
+        row of the ball, counted from 0.
     """
 
     load: float
@@ -49,14 +49,14 @@ class HeaviestBall:
     inner_load: float = math.nan
 
     def load_on(self, race: str) -> float:
-        """Load [N] on a race; the greatest on the inner one may be that of another ball."""
+        """Return the load [N] on a race; that on the inner race may belong to another ball."""
         return self.inner_load if race == "inner" else self.load
 
 
 def heaviest_balls(state: Equilibrium) -> tuple[HeaviestBall, ...]:
-    """The heaviest loaded ball of each row that is unlike the others; one where all are alike.
+    """Return the heaviest loaded ball of each unlike row, or a single one if all rows are alike.
 
-    Over all positions whose loads are known.
+    All positions with known loads count.
     """
     return tuple(_heaviest(state, balls) for _, balls in state.scene.bearing.unlike_rows)
 
@@ -78,7 +78,7 @@ def _heaviest(state: Equilibrium, balls: slice) -> HeaviestBall:
 
 @dataclass(frozen=True)
 class RacePressure:
-    """Contact of the heaviest loaded ball with one race. NaN where the load is not known.
+    """Contact of the heaviest loaded ball with one race. NaN if the load is unknown.
 
     Attributes
     ----------
@@ -87,7 +87,7 @@ class RacePressure:
     load [N]
         Q.
     semi_axis_across, semi_axis_along [m]
-        a and b of the ellipse, across the rolling and along it; 0 where nothing is carried.
+        a and b of the ellipse, across the rolling and along it; 0 without load.
     greatest_pressure [Pa]
         p, in the middle.
     """
@@ -125,18 +125,8 @@ class ContactPressures:
             ("race", "", "race"),
             ("ball_load", "N", "load", "of the heaviest loaded ball"),
             ("ball_angle", "rad", [self.ball.ball_angle] * 2, "angle of that ball"),
-            (
-                "semi_axis_across",
-                "m",
-                "semi_axis_across",
-                "of the contact ellipse, across the rolling",
-            ),
-            (
-                "semi_axis_along",
-                "m",
-                "semi_axis_along",
-                "of the contact ellipse, along the rolling",
-            ),
+            ("semi_axis_across", "m", "semi_axis_across", "of the ellipse, across the rolling"),
+            ("semi_axis_along", "m", "semi_axis_along", "of the ellipse, along the rolling"),
             ("greatest_pressure", "Pa", "greatest_pressure", "in the middle of the ellipse"),
             ("status", "", [self.reason or "known"] * 2),
             of=(self.inner, self.outer),
@@ -165,7 +155,7 @@ def contact_pressures(scene: Scene, state: Equilibrium | None = None) -> Contact
     checks.instance("scene", scene, Scene)
     state = state_of(scene, state, static_state)
     answers = [_pressures(scene.bearing.of_row(ball.row), ball) for ball in heaviest_balls(state)]
-    worst = max(answers, key=lambda of: max(of.inner.greatest_pressure, of.outer.greatest_pressure))
+    worst = max(answers, key=lambda a: max(a.inner.greatest_pressure, a.outer.greatest_pressure))
     unknown = math.isnan(worst.ball.load) and state.cage_angles.size
     return dataclasses.replace(worst, reason=state.reason(0)) if unknown else worst
 

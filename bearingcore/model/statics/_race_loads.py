@@ -1,4 +1,4 @@
-"""Long-run load of every place of a race, and the one load that tires it as much.
+"""Equivalent load of a race: the constant load with the same life as all loads on its places.
 
 Quantity                                         | Symbol | Name            | Unit
 ------------------------------------------------ | ------ | --------------- | ----
@@ -11,32 +11,30 @@ angle of the shaft                               | ψ      |                 | r
 
 Two averages follow each other (Lundberg and Palmgren; Harris, chapter "Fatigue life"):
 
-- one place of a race sees one load after the other. Each uses up life as Q^p (Palmgren, Miner), so
-  the place lives as under mean(Q^p)^(1/p), the mean over everything that passes it;
-- a race lives until the first of its places fails: lives combine as Σ L^(−e) (Weibull), so the race
-  lives as under mean(Q^(p e))^(1/(p e)), the mean over its places.
+- A place of a race carries one load after another. Each load consumes life as Q^p (Palmgren,
+  Miner), so the equivalent load of the place is mean(Q^p)^(1/p) over all loads that pass it.
+- A race fails with the first of its places. Lives combine as Σ L^(−e) (Weibull), so the equivalent
+  load of the race is mean(Q^(p e))^(1/(p e)) over its places.
 
-A place of the standing race of a healthy bearing always sees the same load, a place of the turning
-race sees all of them, which leaves the second average alone for the one and the first alone for the
-other: the two means of ISO 16281. A defect breaks this up, as it is in one of the races:
+In a healthy bearing a place of the standing race always carries the same load, and only the second
+average is needed. A place of the turning race carries all loads, and only the first average is
+needed. These are the two means of ISO 16281. With a defect it depends on the race:
 
-- in the outer race it keeps to the load too, and nothing changes: a ball that comes to φ finds the
-  cage, the other balls and the defect as every ball before it did;
-- in the inner race it turns against the load, so that every place of either race sees varying
-  loads, and places of one race differ: both averages are needed for both races.
+- A defect of the outer race stands still like the load, and nothing changes: each ball at φ meets
+  the same cage, balls and defect.
+- A defect of the inner race turns relative to the load. Every place of both races carries varying
+  loads, and places of a race differ: both averages are needed for both races.
 
-Each row has races of its own, which all have to live: their lives combine as those of places do.
+Each row has its races. The bearing fails with the first of them, so lives combine as those of
+places do.
 
-Rows whose cages turn at speeds of their own take all positions to each other in the long run:
-loads are then averaged over a whole turn of the cage, and over TURNS_OF_ROWS ways in which the rows
-are turned to each other, spread evenly. What passes a standing place then varies a little; that is
-counted by the second average too, which is on the safe side.
+Rows with different cage speeds take all relative positions in the long run. Loads are then averaged
+over a whole turn of the cage, and over TURNS_OF_ROWS evenly spread relative positions. The loads on
+a standing place then vary a little; they are averaged by the second mean too, on the safe side.
 
-Balls with mass press the outer race harder than the inner one, by their centrifugal load: each race
-has loads of its own (`static_state`).
-
-A race of rollers is a chain of laminae too, each of which has places and loads of its own: all of
-this holds for each of them (`bearingcore.model.statics._laminae`).
+Balls with mass press the outer race harder than the inner one, by their centrifugal load, so loads
+of both races differ (`static_state`). A race of rollers also consists of laminae, and all of this
+holds for each lamina (`bearingcore.model.statics._laminae`).
 
 The integrals are taken over panels that end where a ball meets an edge or a floor.
 """
@@ -60,34 +58,34 @@ from bearingcore.model.statics._laminae import carried, strips
 from bearingcore.model.statics._status import StaticStatus
 
 PANELS, PANELS_ON_AN_EDGE = 16, 6
-"""Panels in a ball spacing, and between an edge and where a ball meets the floor: somewhere in
-there it lets go, within a small part of that angle."""
+"""Panels per ball spacing, and between an edge and the place where a ball meets the floor. There a
+ball loses contact within a small part of the angle."""
 
 PANELS_ON_A_FLOOR = 96
-"""Panels in a ball spacing where a floor is not flat: its path bends everywhere."""
+"""Panels per ball spacing if a floor is not flat, so that the path bends everywhere."""
 
 POINTS = 4
-"""Gauss points in a panel."""
+"""Gauss points per panel."""
 
 SHAFT_ANGLES, SHAFT_ANGLES_BOTH = 61, 361
-"""Shaft angles in a turn, with defects in the inner race alone, and in both: the second kind meet
-the balls at every place of the inner race, so no panel can end there. Odd, so that no wave of a
-series is its own mirror image."""
+"""Shaft angles per turn, with defects in the inner race alone, and in both races. Balls meet an
+outer defect at every place of the inner race, so no panels can end there. The numbers are odd, so
+that no term of a series is its own mirror image."""
 
 TURNS_OF_ROWS = 16
 SPREAD = (0, 1, 5, 7, 3, 11, 13, 9)
-"""Ways in which rows are turned to each other, and how many of their parts of a spacing each cage
-speed takes from one to the next: odd ones, so that every part is met once (a lattice rule)."""
+"""Number of relative positions of rows, and the steps of each cage speed from one position to the
+next, in parts of a ball spacing. They are odd, so that each part occurs once (a lattice rule)."""
 
 FINER = 4
-"""Places of the outer race for each shaft angle."""
+"""Number of places of the outer race for each shaft angle."""
 
 
 class RaceLoads(NamedTuple):
-    """The load [N] that tires each race as much as all that it carries, and the greatest of all.
+    """Equivalent loads [N] of the inner and outer race of each row, and the heaviest load.
 
-    Of inner and outer race one for each row. NaN where the loads of some cage angle are not known;
-    `status` and `reason` then say why, and are CONVERGED and empty otherwise.
+    They are NaN if the loads of some cage angle are unknown. `status` and `reason` then say why;
+    otherwise they are CONVERGED and empty.
     """
 
     inner: tuple[float, ...]
@@ -105,10 +103,10 @@ class RaceLoads(NamedTuple):
 def snapshot_loads(
     scene: Scene, cage_angle: float, load_exponent: float, scatter: float
 ) -> RaceLoads:
-    """The means over the balls at one cage angle [rad], as a standard takes them.
+    """Return the means over the balls at one cage angle [rad], as the standard takes them.
 
-    Right for a healthy bearing with rows alike. Half a ball spacing on is looked at too: where the
-    bearing carries nothing there, it has no life.
+    They are right for a healthy bearing with rows alike. The state half a ball spacing later must
+    have known loads too.
     """
     state = static_state(scene, [cage_angle, cage_angle + 0.5 * scene.bearing.ball_spacing])
     loads = carried(state)
@@ -119,9 +117,9 @@ def snapshot_loads(
 
 
 def race_loads(scene: Scene, load_exponent: float, scatter: float) -> RaceLoads:
-    """The means over all cage angles, and over all shaft angles where a defect turns.
+    """Return the means over all cage angles, and over all shaft angles if a defect turns.
 
-    ValueError for a defect of the inner race of a bearing whose rows are not alike.
+    Raises ValueError for an inner-race defect in a bearing with unlike rows.
     """
     if scene.defect_turns:
         return _average_turning_defects(scene, load_exponent, scatter)
@@ -140,7 +138,7 @@ def race_loads(scene: Scene, load_exponent: float, scatter: float) -> RaceLoads:
 
 
 def _rows_turned(scene: Scene) -> list[Scene]:
-    """The scene with its rows turned to each other as they come to be; itself where they stay."""
+    """Return the scene with rows in all relative positions; itself if these do not change."""
     bearing = scene.bearing
     if bearing.has_one_cage_speed:
         return [scene]
@@ -167,7 +165,7 @@ def _averaged(
     load_exponent: float,
     scatter: float,
 ) -> RaceLoads:
-    """Both races under what is `carried` (2, n, balls), where nothing turns against the load."""
+    """Return both races under `carried` loads (2, n, balls), if no defect turns with the shaft."""
     chain = load_exponent * scatter
     powers = load_exponent, chain
     inner, outer = (
@@ -183,7 +181,7 @@ def _averaged(
 
 
 def combined_load(loads: Sequence[float], power: float) -> float:
-    """Return the one load that tires as much as all loads do, each on a part that has to live."""
+    """Return the equivalent load of parts that fail independently, each under one of the loads."""
     size = max(loads)
     if len(loads) == 1 or not size > 0.0:
         return size
@@ -191,7 +189,7 @@ def combined_load(loads: Sequence[float], power: float) -> float:
 
 
 def _mean(loads: Array, weights: Array, power: float) -> float:
-    """Power mean of loads (n, N_b) with weights (n,) that sum to 1; scaled, so none overflows."""
+    """Return the power mean of loads (n, N_b) with weights (n,) that sum to 1, without overflow."""
     size = float(loads.max(initial=0.0))
     if size == 0.0:
         return 0.0
@@ -199,7 +197,7 @@ def _mean(loads: Array, weights: Array, power: float) -> float:
 
 
 def _unknown(state: Equilibrium, loads: Array) -> RaceLoads | None:
-    """NaN with the reason, where the loads of some cage angle are not known; None where all are."""
+    """Return NaN with the reason if loads of some cage angle are unknown; otherwise None."""
     failed = np.flatnonzero(~np.isfinite(loads).all(axis=(0, 2)))
     if not failed.size:
         return None
@@ -212,7 +210,7 @@ def _unknown(state: Equilibrium, loads: Array) -> RaceLoads | None:
 
 
 def _panels(scene: Scene, race: str) -> tuple[Array, Array]:
-    """Places [rad] of a ball over the bearing's period, and weights that sum to 1."""
+    """Return places [rad] of a ball over the bearing's period, and weights that sum to 1."""
     bearing, period = scene.bearing, scene.bearing.period
     spacings = max(round(period / bearing.ball_spacing), 1)
     defects = [defect for defect in scene.defects if defect.race == race]
@@ -223,8 +221,8 @@ def _panels(scene: Scene, race: str) -> tuple[Array, Array]:
         row_bearing = bearing.of_row(k)
         spacing = row_bearing.ball_spacing / bearing.pace(k)
         for corner in _corners(defect, row_bearing):
-            at = (corner - row.turn) / bearing.pace(k) % spacing
-            corners += np.arange(at, period, spacing).tolist()
+            first = (corner - row.turn) / bearing.pace(k) % spacing
+            corners += np.arange(first, period, spacing).tolist()
     ends = np.unique(np.concatenate([even, corners]))
     ends = ends[np.diff(ends, prepend=-1.0) > 1e-12]
     x, w = np.polynomial.legendre.leggauss(POINTS)
@@ -235,7 +233,7 @@ def _panels(scene: Scene, race: str) -> tuple[Array, Array]:
 
 
 def _corners(defect: Defect, bearing: Bearing) -> list[float]:
-    """Angles [rad] of the defect's edges, of where a ball meets its floor, and some between."""
+    """Return angles [rad] of a ball at the edges of a defect, at its floor and some between."""
     half = 0.5 * defect.extent
     to_floor = min(float(defect.edge_row(bearing)[4]), half)
     away = half - to_floor * np.linspace(0.0, 1.0, PANELS_ON_AN_EDGE + 1)
@@ -243,10 +241,10 @@ def _corners(defect: Defect, bearing: Bearing) -> list[float]:
 
 
 def _average_turning_defects(scene: Scene, load_exponent: float, scatter: float) -> RaceLoads:
-    """`race_loads` where cage and shaft angle matter both, as their ratio is no simple fraction.
+    """Return `race_loads` over all cage and shaft angles, as their ratio is no simple fraction.
 
-    Balls are put at fixed places θ of the inner race, where panels can end at its edges, and the
-    shaft turns with them: ψ in equal steps, as nothing has edges there.
+    Balls are at fixed places θ of the inner race, so that panels can end at its edges. The shaft
+    turns with them, in equal steps of ψ, as there are no edges along ψ.
     """
     bearing, ratio = scene.bearing, scene.bearing.cage_ratio
     if not bearing.rows_are_alike:
@@ -261,6 +259,7 @@ def _average_turning_defects(scene: Scene, load_exponent: float, scatter: float)
     offset = places / (ratio - 1.0)  # ψ at the first of the n steps
     loads = np.empty((2, n, places.size, bearing.total_balls))
     heaviest = 0.0
+    # loads (2, n, places, balls): for each start angle ψ_0, all places θ at one solve
     for k, psi_0 in enumerate(first):
         turned = dataclasses.replace(scene, defect=_turned(scene, float(psi_0)))
         state = static_state(turned, (places + psi_0) * ratio / (ratio - 1.0))
@@ -272,14 +271,17 @@ def _average_turning_defects(scene: Scene, load_exponent: float, scatter: float)
     order = np.arange(n // 2 + 1)[:, None, None]
 
     def inner_race(load: Array, theta: Array) -> float:
-        """Equivalent load under loads (n, places, N_b) of balls at places θ."""
+        """Return the equivalent load of the inner race under loads (n, places, N_b) at θ."""
         size = float(load.max()) or 1.0
         used = (load / size) ** load_exponent
         along = float(weights @ np.mean(np.mean(used, axis=0) ** scatter, axis=1))
         return size * along ** (1.0 / chain)
 
     def outer_race(load: Array, theta: Array) -> float:
-        """Equivalent load of the outer race: its place φ meets θ at ψ = φ − θ, by a series in ψ."""
+        """Return the equivalent load of the outer race, whose place φ meets θ at ψ = φ − θ.
+
+        A Fourier series in ψ gives the loads at these angles.
+        """
         size = float(load.max()) or 1.0
         series = np.fft.rfft((load / size) ** load_exponent, axis=0) / n
         shifted = series * np.exp(-1j * order * (theta + offset[:, None]))
@@ -294,15 +296,15 @@ def _average_turning_defects(scene: Scene, load_exponent: float, scatter: float)
     inner, outer = (
         tuple(
             combined_load([race(strip, theta) for strip in strips(bearing, row, chain)], chain)
-            for theta, row in zip(thetas, np.split(there, len(thetas), axis=2), strict=True)
+            for theta, row in zip(thetas, np.split(race_load, len(thetas), axis=2), strict=True)
         )
-        for race, there in zip((inner_race, outer_race), loads, strict=True)
+        for race, race_load in zip((inner_race, outer_race), loads, strict=True)
     )
     return RaceLoads(inner, outer, heaviest)
 
 
 def _turned(scene: Scene, angle: float) -> tuple[Defect, ...]:
-    """The scene's defects, those of the inner race turned by an angle [rad]."""
+    """Return the scene's defects, with those of the inner race turned by an angle [rad]."""
     return tuple(
         dataclasses.replace(defect, center=defect.center + angle)
         if defect.race == "inner"

@@ -1,4 +1,4 @@
-"""Least, greatest and mean of static answers over all positions of balls and shaft."""
+"""Least, greatest and mean values of static answers over all positions of balls and shaft."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from bearingcore.model.statics._equilibrium import ANGLES_A_PERIOD, STIFFNESS_TE
 from bearingcore.model.statics._positions import ROUNDS, extremes, over_all_positions, positions
 
 BALL_LOAD = "ball_load"
-"""Name of the load [N] of the ball that carries most, besides those of `STIFFNESS_TERMS`."""
+"""Name of the load [N] of the most heavily loaded ball, in addition to `STIFFNESS_TERMS`."""
 
 
 @dataclass(frozen=True)
@@ -28,8 +28,8 @@ class StaticRanges:
     state
         states at n pairs of cage and shaft angle, with their share of the time.
     least, greatest
-        extremes of stiffness terms and of `BALL_LOAD`, by name; between the pairs too. Pairs
-        without an answer do not count; NaN where no pair has one.
+        extremes of stiffness terms and of `BALL_LOAD`, by name, also between the pairs. Pairs
+        without an answer do not count; NaN if no pair has one.
     """
 
     state: Equilibrium
@@ -37,7 +37,7 @@ class StaticRanges:
     greatest: Mapping[str, float]
 
     def mean(self, values: Array) -> float:
-        """Mean over time of numbers (n,); unknown ones (NaN) do not count."""
+        """Return the mean over time of numbers (n,); unknown ones (NaN) do not count."""
         known = np.isfinite(values)
         share = self.state.shares[known].sum()
         return float(values[known] @ self.state.shares[known] / share) if share > 0.0 else math.nan
@@ -74,7 +74,7 @@ def static_ranges(
 
 
 def ranges_of(state: Equilibrium) -> StaticRanges:
-    """Ranges of states at equally spaced angles over a period, both ends included."""
+    """Return the ranges of states at equally spaced angles over a period, both ends included."""
     names = [*STIFFNESS_TERMS, BALL_LOAD]
     ends = least_and_greatest(_numbers(state, names), 1)
     least, greatest = (dict(zip(names, end.tolist(), strict=True)) for end in ends)
@@ -82,7 +82,7 @@ def ranges_of(state: Equilibrium) -> StaticRanges:
 
 
 def _numbers(state: Equilibrium, names: list[str]) -> Array:
-    """The named numbers (q, n) of a state."""
+    """Return the named numbers (q, n) of a state."""
     rows = [
         state.ball_load.max(axis=1) if name == BALL_LOAD else state.term(name) for name in names
     ]

@@ -1,11 +1,11 @@
-"""Reasons for a missing equilibrium: loads that no contact can carry, and what a scene lacks.
+"""Reasons for a missing equilibrium: loads that no contact can carry, and remedies.
 
 Quantity                                                        | Symbol | Name     | Unit
 --------------------------------------------------------------- | ------ | -------- | ----
 load, moments over r_d                                          | F      | load     | N
 direction in which the ring moves, tilts times r_d              | w      |          |
 gradients of a ball's motion along its unloaded line of contact | e_j    | pressing |
-and across it                                                   | t_j    |          |
+gradients of a ball's motion across this line                   | t_j    | across   |
 """
 
 from __future__ import annotations
@@ -25,13 +25,13 @@ _Z, _TILTS = 2, (3, 4)
 _TILTS_HELD = "the shaft's other bearing, or tilts that are held"
 
 ROUNDING = 1e-13
-"""A gradient below this is that of a ball which is across the direction to a digit."""
+"""Size below which a gradient is rounding: the ball is exactly across the direction."""
 
 
 def explanation(
     status: int, scene: Scene, cage_angle: float, dofs: tuple[str, ...], state: Array | None = None
 ) -> str:
-    """A clause that goes on after the sentence of the status of one cage angle; often empty.
+    """Return a clause that continues the sentence of the status of one cage angle; often empty.
 
     Parameters
     ----------
@@ -40,7 +40,7 @@ def explanation(
     scene, cage_angle, dofs
         solved scene, its cage angle [rad], and the free directions.
     state : (5,) [m]
-        as of `Equilibrium.state`; None where it was not kept.
+        as in `Equilibrium.state`; None if it was not kept.
     """
     if status == StaticStatus.BEYOND_GEOMETRY:
         return "" if state is None else f": {_bound_exceeded(scene, cage_angle, state)}"
@@ -59,10 +59,10 @@ def explanation(
 def moved(
     scene: Scene, cage_angles: Array, state: Array, leads: Array | None = None
 ) -> tuple[Array, Array]:
-    """Displacements (n, N_b) [m] along and across the unloaded lines of contact (Eqs. 9-12).
+    """Return displacements (n, N_b) [m] along and across unloaded lines of contact (Eqs. 9-12).
 
-    `state` (n, 5) [m] and `leads` (n,) [rad] are those of `Equilibrium`; clearance and drop into
-    defects are taken off.
+    Clearance and drop into defects are subtracted. `state` (n, 5) [m] and `leads` (n,) [rad] are
+    those of `Equilibrium`.
     """
     contacts = packing.contacts(scene.bearing)
     angle = contacts.angles_at(cage_angles)
@@ -75,7 +75,7 @@ def moved(
 
 
 def _lacks(scene: Scene, cage_angle: float, dofs: tuple[str, ...]) -> str:
-    """Tilts that are held, thrust, or both, with which the contacts would carry the load."""
+    """Return words on the held tilts, the thrust, or both, with which contacts carry the load."""
     packed = packing.pack(scene, dofs)
     force, active = packed.load
     facing = float(np.sign(packed.contacts.line_z.sum()))
@@ -99,11 +99,11 @@ def _lacks(scene: Scene, cage_angle: float, dofs: tuple[str, ...]) -> str:
 
 
 def _thrust(scene: Scene, cage_angle: float, thrust: float) -> str:
-    """Clause on the thrust that rows lack beside the radial load and a thrust [N] one way.
+    """Return a clause on the thrust that rows need in addition to a thrust [N] one way.
 
-    A row holds F_r with F_r tan α where one element is on the load's line; where it is between two
-    both carry, and the fewer there are the more: cos(β/2 − γ)/cos(β/2) times as much, β the
-    spacing, γ the angle from the one before the line.
+    With one element on the line of the radial load F_r, a row needs the thrust F_r tan α. If the
+    line is between two elements, it needs cos(β/2 − γ)/cos(β/2) times as much, where β is their
+    spacing and γ the angle of the line beyond the first of them.
     """
     if thrust < 0.0:
         words = f"thrust the other way: {with_prefix(-thrust, 'N')} press the inner ring out"
@@ -120,7 +120,7 @@ def _thrust(scene: Scene, cage_angle: float, thrust: float) -> str:
 
 
 def _bound_exceeded(scene: Scene, cage_angle: float, state: Array) -> str:
-    """The first bound of the contacts' geometry that a state (5,) [m] is beyond."""
+    """Return words on the first bound of the contacts' geometry that a state (5,) [m] exceeds."""
     contacts = packing.contacts(scene.bearing)
     element = scene.bearing.kind.element
     tilt = float(np.abs(state[3:]).max()) / scene.bearing.groove_center_radius
@@ -128,17 +128,17 @@ def _bound_exceeded(scene: Scene, cage_angle: float, state: Array) -> str:
         most, tilted = (number(math.degrees(angle)) for angle in (packing.SMALL_TILT, tilt))
         return f"the ring would tilt by {tilted}°, and tilts are small here, up to {most}°"
     along, across = (part[0] for part in moved(scene, np.array([cage_angle]), state[None]))
-    apart = np.hypot(np.maximum(contacts.distance + along, 0.0), across)
-    pressed = np.where(contacts.fixed, along, apart - contacts.distance)
+    distance = np.hypot(np.maximum(contacts.distance + along, 0.0), across)
+    pressed = np.where(contacts.fixed, along, distance - contacts.distance)
     deepest = int(np.argmax(pressed - contacts.room))
     if pressed[deepest] > contacts.room[deepest]:
-        by, most = (with_prefix(float(of[deepest]), "m") for of in (pressed, contacts.room))
-        return f"a {element} would be compressed by {by}, and {most} is more than any can be"
-    left = np.where(contacts.fixed & (pressed > 0.0), np.abs(across), 0.0)
-    if (left > contacts.room).any():
+        size, most = (with_prefix(float(a[deepest]), "m") for a in (pressed, contacts.room))
+        return f"a {element} would be compressed by {size}, and {most} is more than any can be"
+    outside = np.where(contacts.fixed & (pressed > 0.0), np.abs(across), 0.0)
+    if (outside > contacts.room).any():
         return (
-            f"the inner race would move {with_prefix(float(left.max()), 'm')} along the outer one, "
-            f"off a {element} that is {with_prefix(2.0 * float(contacts.room.max()), 'm')} long"
+            f"the inner race would move {with_prefix(float(outside.max()), 'm')} along the outer "
+            f"one, off a {element} of {with_prefix(2.0 * float(contacts.room.max()), 'm')} length"
         )
     return (
         "the inner ring would move out of the outer one, past the "
@@ -149,13 +149,14 @@ def _bound_exceeded(scene: Scene, cage_angle: float, state: Array) -> str:
 def descent_direction(
     contacts: kernels.Contacts, cage_angle: float, active: NDArray[np.int64], load: Array
 ) -> tuple[Array, float]:
-    """Direction (len(active),) in which a load works and no ball is ever pressed, and its share.
+    """Return a direction (len(active),) in which the load does work and no ball is ever pressed.
 
-    A ball stays free for ever just when it moves straight back along its unloaded line of contact,
-    so these directions are the cone e_j·w ≤ 0, t_j·w = 0 over all balls; rollers, whose line of
-    contact is fixed, may move across it as well, so that e_j·w ≤ 0 is all of it. The nearest of
-    them to the load is what contacts leave of it, F − Σ a_j e_j − Σ b_j t_j with a_j ≥ 0; its share
-    of the load is 0 where contacts can carry all of it.
+    Also returns its share of the load, which is 0 if contacts can carry all of the load.
+
+    A ball stays free for ever only if it moves straight back along its unloaded line of contact. So
+    these directions are the cone e_j·w ≤ 0, t_j·w = 0 over all balls. The line of contact of
+    rollers is fixed: they may also move across it, and only e_j·w ≤ 0 holds. The direction nearest
+    to the load is the part that contacts cannot carry, F − Σ a_j e_j − Σ b_j t_j with a_j ≥ 0.
     """
     from scipy.optimize import nnls  # imported late: slow to import
 
@@ -166,25 +167,26 @@ def descent_direction(
     ca, sa = contacts.line_r, contacts.line_z
     across = contacts.gradients(phi, -sa, ca)[~contacts.fixed][:, active]
     across[np.abs(across) < ROUNDING] = 0.0
+    # directions with t_j·w = 0: the null space of all t_j
     _, sizes, vectors = np.linalg.svd(across)
     held = np.count_nonzero(sizes > 1e-10)
-    still = vectors[held:]
-    if not len(still):
+    free = vectors[held:]
+    if not len(free):
         return nothing
-    pressing = still @ contacts.gradients(phi, ca, sa)[:, active].T
-    # what is left free is known to a digit times how unevenly the rest is held
+    pressing = free @ contacts.gradients(phi, ca, sa)[:, active].T
+    # their rounding grows with the unevenness of the stiffness in the held directions
     unevenness = sizes[0] / sizes[held - 1] if held else 1.0
     pressing[np.abs(pressing) < max(ROUNDING, 10.0 * np.finfo(float).eps * unevenness)] = 0.0
-    along = still @ load / np.linalg.norm(load)
-    taken, _ = nnls(pressing, along, maxiter=100 * pressing.shape[1])
-    left = along - pressing @ taken
-    return left @ still, float(np.linalg.norm(left))
+    along = free @ load / np.linalg.norm(load)
+    carried, _ = nnls(pressing, along, maxiter=100 * pressing.shape[1])
+    rest = along - pressing @ carried
+    return rest @ free, float(np.linalg.norm(rest))
 
 
 def is_unbounded(
     contacts: kernels.Contacts, cage_angle: float, active: NDArray[np.int64], load: Array
 ) -> bool:
-    """True where some motion does work on the load and never presses a ball.
+    """Return True if the load does work in a motion that never presses a ball.
 
     The energy then falls without end. `load` belongs to the active directions.
     """

@@ -11,9 +11,9 @@ from bearingcore.model import _kernels as kernels
 
 @enum.unique
 class StaticStatus(enum.IntEnum):
-    """The codes that `Equilibrium`, `Maps` and `BallPositions` hold in `status`.
+    """The codes of `status` in `Equilibrium`, `Maps` and `BallPositions`.
 
-    They rise with what is missing: from NOT_CARRIED on nothing of a state is known.
+    From NOT_CARRIED on, nothing of a state is known.
     """
 
     NOT_COMPUTED = kernels.OPEN
@@ -27,12 +27,12 @@ class StaticStatus(enum.IntEnum):
     BEYOND_GEOMETRY = kernels.BEYOND
 
     def sentence(self, free: str = "some direction", residual: float = math.nan) -> str:
-        """The status in words, without a full stop.
+        """Return the status in words, without a full stop.
 
         Parameters
         ----------
         free
-            directions that nothing resists.
+            directions without resistance.
         residual
             size of the unbalanced load over the size of the load; NaN is left out.
         """

@@ -1,18 +1,18 @@
-"""Limits on rows that carry thrust one way: pressed the other way, or with too little of it.
+"""Limits on rows that carry thrust one way only: thrust the other way, or too little thrust.
 
 Quantity                                                 | Symbol | Unit
 -------------------------------------------------------- | ------ | -----
 load and contact angle of a ball or roller               | Q_j, α_j | N, rad
-angle from the most loaded one                           | φ_j    | rad
+angle from the most heavily loaded element               | φ_j    | rad
 radial load, thrust                                      | F_r, F_a | N
 
 A row at a contact angle turns part of a radial load into thrust, ΣQ_j sin α_j, which pushes its
-rings apart along the shaft. How much depends on how many carry. Half of the row carries where the
-rings are in their places along the shaft without clearance, Q_j ~ (cos φ_j)^n over half a turn:
-the thrust of that state is the one that a radial load is said to induce. At a fixed contact angle
-it is F_r tan α Ja(0.5)/Jr(0.5) with Sjövall's integrals (Harris, Rolling Bearing Analysis), 1.216
-F_r tan α of balls and 1.25 F_r tan α of rollers, which is the F_r/(2 Y) of makers' catalogues. Here
-it is found by the statics, as contact angles of balls change under load.
+rings apart along the shaft. The size depends on the number of loaded elements. If the rings are
+held along the shaft without clearance, half of the row carries load, Q_j ~ (cos φ_j)^n over half a
+turn. The thrust of that state is called the thrust that the radial load induces. At a fixed contact
+angle it is F_r tan α Ja(0.5)/Jr(0.5) with Sjövall's integrals (Harris, Rolling Bearing Analysis):
+1.216 F_r tan α for balls and 1.25 F_r tan α for rollers, which is F_r/(2 Y) in makers' catalogues.
+Here the statics compute it, as contact angles of balls change under load.
 """
 
 from __future__ import annotations
@@ -32,11 +32,11 @@ from bearingcore.model.statics._limit import Limit, unknown
 _ANGLES = 31
 
 _NOTICED = 1e-6
-"""Thrust the wrong way over the loads of a row, from which on it is more than rounding."""
+"""Thrust the wrong way over the loads of a row, above which it is more than rounding."""
 
 
 def thrust_limits(scene: Scene, state: Equilibrium) -> Iterator[Limit]:
-    """Limits on thrust; none for a bearing whose rows all carry it both ways, or not at all."""
+    """Yield limits on thrust; none if all rows carry thrust both ways, or not at all."""
     if any(_one_way(scene.bearing)):
         yield _wrong_way(scene, state)
         if (induced := induced_thrust(scene)) > 0.0:
@@ -44,16 +44,16 @@ def thrust_limits(scene: Scene, state: Equilibrium) -> Iterator[Limit]:
 
 
 def facing(bearing: Bearing) -> int:
-    """Sign of the thrust on the inner ring that a bearing carries one way only; 0 for any other."""
+    """Return the sign of the thrust on the inner ring if a bearing carries one way only, or 0."""
     signs = set(_one_way(bearing))
     return signs.pop() if len(signs) == 1 else 0
 
 
 def induced_thrust(scene: Scene) -> float:
-    """Thrust [N] that the radial load of a scene induces in a bearing that carries it one way.
+    """Return the thrust [N] that a radial load induces in a bearing that carries thrust one way.
 
-    0 where none is: without a radial load, with rows that carry thrust both ways between them, and
-    where the ring is held along the shaft. The mean over the cage angles, without defects.
+    It is the mean over the cage angles without defects. It is 0 without a radial load, if the rows
+    together carry thrust both ways, and if the ring is held along the shaft.
     """
     one_way = facing(scene.bearing)
     if not one_way or "z" not in scene.active_dofs or not np.hypot(scene.load.fx, scene.load.fy):
@@ -74,14 +74,14 @@ def _one_way(bearing: Bearing) -> list[int]:
 
 
 def _thrusts(state: Equilibrium) -> np.ndarray:
-    """(n, rows) thrust ΣQ_j sin α_j [N] of each row on the outer ring; NaN where not known."""
+    """Return the thrust ΣQ_j sin α_j (n, rows) [N] of rows on the outer ring; NaN if unknown."""
     thrust = state.ball_load * np.sin(np.nan_to_num(state.contact_angle))
     rows = state.scene.bearing.balls_of_rows
     return np.stack([thrust[:, row].sum(axis=1) for row in rows], axis=1)
 
 
 def _wrong_way(scene: Scene, state: Equilibrium) -> Limit:
-    """Thrust that presses a row the way in which it carries none, the greatest of all rows."""
+    """Return the limit on thrust that presses a row the wrong way, the greatest of all rows."""
     name, bearing = "thrust the wrong way", scene.bearing
     one_way = np.array(_one_way(bearing))
     wrong = -one_way * _thrusts(state)
@@ -93,19 +93,19 @@ def _wrong_way(scene: Scene, state: Equilibrium) -> Limit:
         return unknown(name, 0.0, "N", "no cage angle has a static equilibrium")
     value = max(float(known.max(initial=0.0)), against, 0.0)
     alone = f"A row of {bearing.kind.elements} at {math.degrees(bearing.contact_angle):.1f}°"
-    which = f"Each row of {bearing.kind.elements}" if bearing.rows else alone
-    fact = f"{which} carries thrust one way only"
+    subject = f"Each row of {bearing.kind.elements}" if bearing.rows else alone
+    fact = f"{subject} carries thrust one way only"
     if value > 0.0:
         fact += (
             f", and here {with_prefix(value, 'N')} press the other way, where its races have no "
-            "shoulder to take it: turn it round, or let the shaft's other bearing carry that"
+            "shoulder to take it: turn the bearing round, or let the shaft's other bearing carry it"
         )
         return Limit(name, value, 0.0, "N", True, f"{fact}.")
     return Limit(name, 0.0, 0.0, "N", False, f"{fact}, and is pressed that way.")
 
 
 def _too_little(scene: Scene, state: Equilibrium, induced: float) -> Limit:
-    """The axial load of a row that carries thrust one way, against the one that it induces."""
+    """Return the limit on the axial load: at least the thrust that the radial load induces."""
     axial = facing(scene.bearing) * scene.load.fz
     crossed = axial < induced * (1.0 - 1e-9)
     kind = scene.bearing.kind

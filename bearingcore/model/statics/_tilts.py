@@ -1,4 +1,4 @@
-"""Tilts: what another bearing is taken to carry where they are held, how far they go where not."""
+"""Tilts: the moment on the shaft's other bearing if they are held, their size if they are free."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from bearingcore.model.statics._limit import Limit
 HELD_TILTS, FREE_TILTS = "held tilts", "free tilts"
 
 _NOTICED = 1e-6
-"""Moment over that of all loads at the pitch circle, from which on it is more than rounding."""
+"""Moment over that of all loads at the pitch circle, above which it is more than rounding."""
 
 
 def held_tilts(state: Equilibrium) -> Limit | None:
-    """The greatest moment [N·m] that held tilts take, in words; None where there is none.
+    """Return the greatest moment [N·m] that holds the tilts, in words; None if it is 0.
 
     M = Σ Q_j (r_d sin α_j − z_k cos α_j)(sin φ_j, −cos φ_j), less the moment of the load.
     """
@@ -50,7 +50,7 @@ def held_tilts(state: Equilibrium) -> Limit | None:
 
 
 def free_tilts(state: Equilibrium) -> Limit | None:
-    """The tilt of a shaft that nothing but this bearing holds; None where there is none."""
+    """Return the tilt of a shaft that only this bearing holds, in words; None if it is 0."""
     tilt = np.hypot(state.displacement[:, 3], state.displacement[:, 4])
     most = float(tilt[np.isfinite(tilt)].max(initial=0.0))
     if not {"rx", "ry"} & set(state.scene.free_dofs(state.dofs)) or most == 0.0:

@@ -1,4 +1,4 @@
-"""A sound bearing with a speed and a load as bearings of its size and kind have them."""
+"""A healthy bearing with the usual speed and load of its size and kind."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from bearingcore.model.statics._thrust import facing, induced_thrust
 from bearingcore.units import STANDARD_GRAVITY
 
 SPEED_FACTOR = 150_000.0
-"""n d_m [mm/min], a third of what ball bearings in grease reach, half of what tapered ones do."""
+"""n d_m [mm/min], a third of the limit of ball bearings in grease, half of that of tapered ones."""
 
 LOAD_SHARE = 1.0 / 15.0
-"""Radial load over the rating: machines are laid out for C/P of 10 to 20."""
+"""Radial load over the rating: machines are usually designed for C/P of 10 to 20."""
 
 THRUST_SHARE = 1.3
-"""Thrust over the one that the radial load induces: with less of it half of a row is idle."""
+"""Thrust over the thrust that the radial load induces; at 1, half of a row is idle."""
 
 
 def scene_of(bearing: BearingLike) -> Scene:
@@ -60,28 +60,28 @@ def scene_of(bearing: BearingLike) -> Scene:
         defect=Defect.none(),
         load=Load(fy=-load),
         shaft_speed=2.0 * math.pi * _rounded(SPEED_FACTOR / (60e3 * known.pitch_diameter)),
-        support=_carrying(load, known.pitch_diameter),
+        support=_scaled_support(load, known.pitch_diameter),
     )
-    way = facing(known)
-    if not way:
+    direction = facing(known)
+    if not direction:
         return scene
-    return scene.replace(fz=way * _rounded(THRUST_SHARE * induced_thrust(scene)))
+    return scene.replace(fz=direction * _rounded(THRUST_SHARE * induced_thrust(scene)))
 
 
 def _rounded(value: float) -> float:
     return float(f"{value:.3g}")
 
 
-def _carrying(load: float, pitch_diameter: float) -> Support:
-    """The fan rig's support with rings that weigh a load [N], for a bearing of this size [m]."""
+def _scaled_support(load: float, pitch_diameter: float) -> Support:
+    """Return the fan rig's support, scaled to bodies that weigh a load [N] and a pitch circle."""
     rig = presets["fan-rig"]
     length = pitch_diameter / rig.bearing.pitch_diameter
     heavier = _rounded(load / STANDARD_GRAVITY) / rig.support.inner_mass
     damping = math.sqrt(heavier * length)
     factors = {"mass": heavier, "inertia": heavier, "stiffness": length, "damping": damping}
-    made = {}
+    scaled = {}
     for name, value in dataclasses.asdict(rig.support).items():
         tilts = "inertia" in name or name.endswith(("_rx", "_ry"))
         factor = next(factor for part, factor in factors.items() if part in name)
-        made[name] = value * factor * (length**2 if tilts else 1.0)
-    return Support(**made)
+        scaled[name] = value * factor * (length**2 if tilts else 1.0)
+    return Support(**scaled)

@@ -1,4 +1,4 @@
-"""Limits of the model in a scene: each with its number, its limit and a sentence.
+"""Limits of the model in a scene, each with its number, its limit and a sentence.
 
 Quantity                                    | Symbol | Unit
 ------------------------------------------- | ------ | -----
@@ -9,29 +9,29 @@ density of the balls                        | ρ      | kg/m³
 centrifugal force of a ball                 | F_c    | N
 compression of a ball, distance of the groove centres | δ, A0 | m
 
-What the model leaves out and what is looked at here:
+These effects are left out of the model and checked here:
 
-- plastic flow: contact pressure against 4.2 GPa, the static limit of ISO 76 for ball bearings
-  (a dent of 1/10,000 of the ball diameter), at rest and, where a motion was simulated, in motion.
-  Corners of a defect press harder than this says;
-- the end of the groove: contact angle and half the contact ellipse against the shoulder;
-- the balls' inertia: what centrifugal force changes of loads, stiffness and contact angles, found
-  by solving with it (`ball_positions`), and its size against the contact load. The shock of a ball
-  that meets the far edge of a defect is left out too;
-- gyroscopic moments of the balls, against their loads (`gyroscopic`);
-- the size of the contact: Hertz takes it for small against the ball;
-- thrust: a row that carries it one way alone and is pressed the other way, or with less than its
+- plastic flow: contact pressure compared with 4.2 GPa, the static limit of ISO 76 for ball bearings
+  (a dent of 1/10,000 of the ball diameter), at rest and, after a simulation, in motion. Pressure at
+  the corners of a defect is higher;
+- the end of the groove: contact angle and half the contact ellipse compared with the shoulder;
+- inertia of the balls: the change of loads, stiffness and contact angles by centrifugal force,
+  solved with `ball_positions`, and this force compared with the contact load. The shock of a ball
+  at the far edge of a defect is left out and not checked;
+- gyroscopic moments of the balls, compared with their loads (`gyroscopic`);
+- the size of the contact, which Hertz's theory assumes to be small compared with the ball;
+- thrust: a row that carries thrust one way only, under thrust the other way, or under less than its
   radial load induces (`thrust`);
-- tilts: the moment that the shaft's other bearing is taken to carry where the scene holds them, and
-  how far the shaft tilts where they are free (`tilts`);
-- stale stiffness: a load-deflection factor that does not go with the drawing;
-- the lubricant film: its thickness over the roughness of the surfaces, where an oil is given;
+- tilts: the moment that the shaft's other bearing must carry if the scene holds them, and the tilt
+  of the shaft if they are free (`tilts`);
+- inconsistent stiffness: a load-deflection factor that does not agree with the drawing;
+- the lubricant film: its thickness over the roughness of the surfaces, if an oil is given;
 - coarse time steps: steps while a ball passes a defect;
 - an estimated inside, of a bearing that is known by its designation alone.
 
-Not looked at: friction, temperature, fits, rings that bend, a cage that slips.
-Balls sunk deep into a defect, which the printed Eq. 8 mistakes for loaded ones, need no warning:
-the kernels distinguish them exactly.
+Friction, temperature, fits, bending of rings and slip of the cage are not checked. Balls that have
+sunk deep into a defect, which look loaded in the printed Eq. 8, need no warning, as the kernels
+distinguish them exactly.
 """
 
 from __future__ import annotations
@@ -74,41 +74,41 @@ from bearingcore.model.statics._thrust import thrust_limits
 from bearingcore.model.statics._tilts import free_tilts, held_tilts
 
 ANGLES = 361
-"""Cage angles in a ball spacing at which a scene is looked at; a third of them go into the
-positions of a defect that turns."""
+"""Number of cage angles per ball spacing in a check; a third of them if a defect turns with the
+shaft."""
 
 CENTRIFUGAL_SHARE = 1.0
-"""Centrifugal force over contact load up to which it may be left out: the least loaded ball it may
-lift off the inner race."""
+"""Limit on centrifugal force over contact load; beyond it the least loaded ball lifts off the inner
+race."""
 
 CENTRIFUGAL_CHANGE = 0.1
-"""Part by which centrifugal force may change loads, over the heaviest, and stiffness: neither is
-usually known better than to a tenth."""
+"""Limit on the change of loads, over the heaviest, and of stiffness by centrifugal force. Both are
+rarely known better than to a tenth."""
 
 _CHANGE_ANGLES, _MOST_CHANGES = 31, 240
 
 GREATEST_COMPRESSION = 0.2
-"""Compression over distance of the groove centres. The contact's half width is 1.24 r_b √(δ/A0)
-within 4 % for all usual grooves, here 0.55 ball radii: 34° to either side."""
+"""Limit on compression over distance of the groove centres. The contact's half width is 1.24 r_b
+√(δ/A0) within 4 % for all usual grooves, at this limit 0.55 ball radii: 34° to either side."""
 
 STIFFNESS_MISMATCH = 0.01
-"""Part by which the load-deflection factor may differ from what the drawing gives."""
+"""Limit on the relative difference of the load-deflection factor and that of the drawing."""
 
 
 def usual_shoulder_height(contact_angle: float) -> float:
-    """Height of a groove's shoulders over its bottom, in ball diameters, at α0 [rad]: assumed.
+    """Return the assumed height of a groove's shoulder over its bottom, in ball diameters.
 
-    0.2 for deep grooves, rising evenly to 0.3 at 40°: of the shoulder that carries, as shoulder
-    diameters in catalogues say.
+    It is 0.2 for deep grooves and rises linearly to 0.3 at α0 = 40°, which holds for the loaded
+    shoulder by the shoulder diameters in catalogues.
     """
     return min(0.2 + 0.1 * contact_angle / math.radians(40.0), 0.5)
 
 
 def state_of_limits(scene: Scene) -> Equilibrium:
-    """The static equilibrium at all positions of `limits`: fine, and always the same.
+    """Return the static equilibrium for `limits` at all positions, which are always the same.
 
-    A verdict must not depend on the resolution of a figure, nor on where a defect that turns with
-    the shaft began: see `bearingcore.model.statics._positions`.
+    A verdict must not depend on the resolution of a figure, nor on the first position of a defect
+    that turns with the shaft: see `bearingcore.model.statics._positions`.
     """
     return over_all_positions(scene, (ANGLES - 1) // 3 + 1 if scene.defect_turns else ANGLES)
 
@@ -131,12 +131,12 @@ def limits(
         its static equilibrium at chosen cage angles; None takes `state_of_limits`, so that equal
         scenes have equal verdicts. Loads and angles are the greatest over the angles.
     dynamic_load
-        greatest load of a ball [N] in a simulated motion, e.g. of `Motion.ball_loads`; None if no
+        greatest load of a ball [N] in a simulated motion, e.g. of `Motion.ball_loads`. None if no
         motion was simulated: limits that depend on it are then not known.
     step_rate
         step rate [Hz] of a simulated motion, e.g. `Motion.step_rate`; None leaves its limit out.
     film
-        the film of the scene's lubricant, from `film`; None if no oil is given: contact of the
+        the film of the scene's lubricant, from `film`. None if no oil is given: contact of the
         surfaces is then not known.
 
     Returns
@@ -158,7 +158,7 @@ def limits(
     in_motion = []
     if dynamic_load is not None:
         load = checks.real_number("dynamic_load", dynamic_load, at_least=0.0, unit="N")
-        # which row it was is not known: the one on which it matters most counts
+        # the row of this load is unknown: the row on which it matters most counts
         in_motion = [(row, load) for row, _ in bearing.unlike_rows]
     candidates: list[Limit | None] = [
         _pressure(
@@ -206,7 +206,7 @@ def _film_limit(scene: Scene, film: Film | None) -> Limit:
 
 
 def _estimate(scene: Scene) -> Limit | None:
-    """The note on an estimated inside, from which everything is computed; None for a given one."""
+    """Return a note on estimated inside dimensions; None if they are known."""
     bearing = scene.bearing
     if not bearing.estimated:
         return None
@@ -219,13 +219,13 @@ def _estimate(scene: Scene) -> Limit | None:
         0.0,
         "",
         "they are estimated from the designation, and everything shown follows from that."
-        f"{good} {accuracy(bearing.kind, bearing.contact_angle)} Give the real numbers where they "
+        f"{good} {accuracy(bearing.kind, bearing.contact_angle)} Enter the real numbers if they "
         "are known",
     )
 
 
 def _known(state: Equilibrium) -> NDArray[np.bool_]:
-    """Cage angles at which the balls' loads are known, also where the ring is free to move."""
+    """Return True for cage angles with known loads of the balls, also with a free direction."""
     return np.isfinite(state.ball_load.sum(axis=1))
 
 
@@ -238,7 +238,7 @@ NOT_IN_STATICS_WITH_MASS = (
 NO_STATE = "no cage angle has a static equilibrium"
 
 Loaded = Sequence[tuple[Bearing, float]]
-"""Rows that are unlike, and the greatest load [N] of an element of each; none without a motion."""
+"""Unlike rows, each with the greatest load [N] of an element; empty without a motion."""
 
 
 def _are_known(loaded: Loaded) -> bool:
@@ -248,9 +248,9 @@ def _are_known(loaded: Loaded) -> bool:
 def _pressure(
     bearing: Bearing, name: str, loaded: Loaded, races: Sequence[str], no_load: str
 ) -> Limit:
-    """Greatest pressure of most loaded elements on some races against that of ISO 76.
+    """Compare the greatest pressure of the most loaded elements on some races with ISO 76.
 
-    `no_load` is NO_MOTION of loads in motion, else NO_STATE.
+    `no_load` is NO_MOTION for loads in motion, and NO_STATE at rest.
     """
     allowed = bearing.kind.static_pressure
     if not bearing.knows_contacts:
@@ -274,13 +274,13 @@ def _pressure(
 
 
 def _shoulder(scene: Scene, state: Equilibrium) -> Limit:
-    """`_shoulder_of` all rows, or of the one that is nearest to its shoulder where they differ."""
-    bearing, kept = scene.bearing, _known(state)
+    """Return `_shoulder_of` the row whose contact is nearest to its shoulder."""
+    bearing, known = scene.bearing, _known(state)
     if words := bearing.kind.tilt_unknown:
         name = f"tilt of the {bearing.kind.elements}"
         return Limit(name, math.nan, math.nan, "rad", False, words)
-    loads = {"inner": state.inner_load[kept], "outer": state.ball_load[kept]}
-    angles = {"inner": state.inner_contact_angle[kept], "outer": state.contact_angle[kept]}
+    loads = {"inner": state.inner_load[known], "outer": state.ball_load[known]}
+    angles = {"inner": state.inner_contact_angle[known], "outer": state.contact_angle[known]}
     return _worst(
         _shoulder_of(row, race, loads[race][:, balls], angles[race][:, balls])
         for row, balls in bearing.unlike_rows
@@ -289,15 +289,15 @@ def _shoulder(scene: Scene, state: Equilibrium) -> Limit:
 
 
 def _worst(limits: Iterable[Limit]) -> Limit:
-    """The one that is nearest to its limit, or farthest beyond it."""
+    """Return the limit that is nearest to being crossed, or crossed the farthest."""
     return max(limits, key=lambda limit: float(np.nan_to_num(limit.value / limit.limit, nan=-1.0)))
 
 
 def _shoulder_of(bearing: Bearing, race: str, loads: Array, angles: Array) -> Limit:
-    """Contact angle of loaded balls at a race, with half the contact ellipse where it is known.
+    """Compare contact angles at a race, with half the contact ellipse if known, with the shoulder.
 
-    The shoulder's edge, a height h over the bottom, is seen from the groove's centre at
-    arccos(1 − h/r_b) (Harris, truncated contact ellipse).
+    The edge of a shoulder with a height h over the bottom is at the angle arccos(1 − h/r_b) from
+    the groove's centre (Harris, truncated contact ellipse).
     """
     name = "contact angle at the shoulder"
     height = usual_shoulder_height(bearing.contact_angle)
@@ -313,11 +313,11 @@ def _shoulder_of(bearing: Bearing, race: str, loads: Array, angles: Array) -> Li
         reach = angles + spread
     worst = int(np.argmax(reach))
     value = float(reach[worst])
-    at = math.degrees(angles[worst])
+    angle = math.degrees(angles[worst])
     load = with_prefix(float(loads[carries][worst]), "N")
-    made_of = f"with a contact angle of {at:.1f}°"
+    made_of = f"with a contact angle of {angle:.1f}°"
     if known:
-        made_of += f" and half a contact ellipse of {math.degrees(value) - at:.1f}°"
+        made_of += f" and half a contact ellipse of {math.degrees(value) - angle:.1f}°"
     else:
         made_of += " (half the contact ellipse comes on top, not known without groove radii)"
     fact = (
@@ -330,10 +330,10 @@ def _shoulder_of(bearing: Bearing, race: str, loads: Array, angles: Array) -> Li
 
 
 def _centrifugal_share(bearing: Bearing, balls: slice, scene: Scene, state: Equilibrium) -> Limit:
-    """Centrifugal force against the load of the least loaded of some balls.
+    """Compare the centrifugal force with the load of the least loaded ball that carries load.
 
-    Balls at the rim of the load zone come down to no load at some cage angles, at any speed, so
-    it is the least loaded of those that carry, at the median cage angle.
+    Its median over the cage angles counts, because at some cage angles balls at the rim of the load
+    zone carry almost nothing at any speed.
     """
     which = f"least loaded {bearing.kind.element}"
     name, limit = f"centrifugal force, {which}", CENTRIFUGAL_SHARE
@@ -358,15 +358,15 @@ def _centrifugal_share(bearing: Bearing, balls: slice, scene: Scene, state: Equi
 
 
 def _centrifugal_change(scene: Scene) -> Limit:
-    """Change of loads and stiffness by centrifugal load, by solving with it."""
+    """Solve with and without centrifugal load, and check the change of loads and stiffness."""
     force = scene.bearing.centrifugal_load(scene.shaft_speed)
     name, limit = "change by centrifugal force", CENTRIFUGAL_CHANGE
     if words := scene.bearing.kind.mass_unknown:
         return unknown(name, limit, "", f"there is no model with the mass of {words}")
     try:
         grid = positions(scene, _CHANGE_ANGLES)
-        some = slice(None, None, max(grid.weights.size // _MOST_CHANGES, 1))
-        effect = centrifugal_effect(scene, grid.cage_angles[some], grid.shaft_angles[some])
+        sample = slice(None, None, max(grid.weights.size // _MOST_CHANGES, 1))
+        effect = centrifugal_effect(scene, grid.cage_angles[sample], grid.shaft_angles[sample])
     except ValueError as error:
         return unknown(name, limit, "", str(error))
     if not effect.converged:
@@ -390,21 +390,21 @@ def _share_words(share: float) -> str:
 
 
 def _compression(name: str, loaded: Loaded, no_load: str) -> Limit:
-    """Compression of most loaded balls against the distance of the groove centres."""
+    """Compare the compression of the most loaded balls with the distance of the groove centres."""
     if not _are_known(loaded):
         return unknown(name, GREATEST_COMPRESSION, "", no_load)
-    who = "In the simulated motion a ball" if no_load == NO_MOTION else "The most loaded ball"
-    return _worst(_compressed(row, name, load, who) for row, load in loaded)
+    subject = "In the simulated motion a ball" if no_load == NO_MOTION else "The most loaded ball"
+    return _worst(_compressed(row, name, load, subject) for row, load in loaded)
 
 
-def _compressed(bearing: Bearing, name: str, load: float, who: str) -> Limit:
+def _compressed(bearing: Bearing, name: str, load: float, subject: str) -> Limit:
     compression = contacts(bearing).compression(load)
-    apart = center_distance(bearing.groove_center_distance)
-    share = compression / apart
+    distance = center_distance(bearing.groove_center_distance)
+    share = compression / distance
     most = percent(GREATEST_COMPRESSION)
     fact = (
-        f"{who} is compressed by {with_prefix(compression, 'm')}, {percent(share)} of the "
-        f"{with_prefix(apart, 'm')} between the groove centres"
+        f"{subject} is compressed by {with_prefix(compression, 'm')}, {percent(share)} of the "
+        f"{with_prefix(distance, 'm')} between the groove centres"
     )
     beyond = (
         f": above {most} grooves so close around the ball touch it far up their sides, and "
@@ -415,25 +415,25 @@ def _compressed(bearing: Bearing, name: str, load: float, who: str) -> Limit:
 
 
 def _stiffness(scene: Scene) -> Limit | None:
-    """Load-deflection factor against that of the drawing; None without a drawing."""
+    """Compare the load-deflection factor with that of the drawing; None without a drawing."""
     bearing = scene.bearing
     if not bearing.is_drawn:
         return None
     drawn = series_factor(
         *(bearing.race_contact(race).load_deflection_factor for race in ("inner", "outer"))
     )
-    off = abs(bearing.load_deflection_factor / drawn - 1.0)
+    difference = abs(bearing.load_deflection_factor / drawn - 1.0)
     fact = (
         f"The load-deflection factor of {number(bearing.load_deflection_factor / 1e6)} MN/m^1.5 "
-        f"is {percent(off)} off the {number(drawn / 1e6)} MN/m^1.5 that the drawing gives"
+        f"is {percent(difference)} off the {number(drawn / 1e6)} MN/m^1.5 that the drawing gives"
     )
     beyond = ": pressures and contact ellipses belong to the drawing, displacements to the factor."
     name = "load-deflection factor against the drawing"
-    return upper_limit(name, off, STIFFNESS_MISMATCH, "", fact, beyond, ".")
+    return upper_limit(name, difference, STIFFNESS_MISMATCH, "", fact, beyond, ".")
 
 
 def _steps(scene: Scene, step_rate: float) -> Limit | None:
-    """Time steps while a ball passes the shortest defect; None where none is passed."""
+    """Count the time steps while a ball passes the shortest defect; None without a passage."""
     if not scene.defects or scene.cage_speed == 0.0:
         return None
     passing = shortest_passage(scene) / scene.cage_speed

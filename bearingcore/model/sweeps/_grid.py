@@ -1,4 +1,4 @@
-"""Grid: the scenes of a sweep and what is asked of each; and its regions, which are its tasks."""
+"""Grid: the scenes of a sweep, the requested outputs, and the regions that become its tasks."""
 
 from __future__ import annotations
 
@@ -45,24 +45,24 @@ from bearingcore.model.sweeps._status import SweepStatus
 
 MOST_AXES = 8
 MOST_VALUES = 1_000_000
-"""Values of one axis at the most."""
+"""Greatest number of values of an axis."""
 MOST_SCENES = 10_000_000_000
 
 TASK_SECONDS = 4.0
-"""Time [s] that a task should take: long compared with handing it out and writing it, short
-enough to lose when a worker is killed."""
+"""Time [s] that a task should take: long compared with sending and writing it, but short enough
+that little is lost if a worker is killed."""
 TASKS_AT_LEAST = 16
-"""Least number of tasks, so that all workers have something to do where scenes are few."""
+"""Least number of tasks, so that all workers are busy even with few scenes."""
 TRIED = 64
-"""Scenes that are looked at before a sweep is begun."""
+"""Number of scenes that are tried before a sweep begins."""
 LONGEST_ROW = 128
-"""Extents that are solved together at the most."""
+"""Greatest number of extents that are solved together."""
 
 WORDS = ("race", "edge", "contact_law", "balls")
-"""Fields of words that a sweep can go over."""
+"""Fields with words as values that a sweep can vary."""
 
 UNITS = {field.full_name: field.unit for field in SCENE_FIELDS} | dict.fromkeys(WORDS, "")
-"""Fields that a sweep can vary, and the unit of each; words have none."""
+"""Fields that a sweep can vary, each with its unit; words have none."""
 
 _OF_DEFECTS = {field.name for field in dataclasses.fields(Defect)} | {
     field.name for field in SCENE_FIELDS if field.part == "floor"
@@ -72,25 +72,25 @@ Slices = tuple[slice, ...]
 
 
 class StillDirectionError(FieldError):
-    """An output along a direction in which no scene of the grid moves."""
+    """Error for an output along a direction in which no scene of the grid moves."""
 
 
 @dataclass(frozen=True, eq=False)
 class Axis:
-    """One field of the scenes and the values that it takes, in SI units."""
+    """A field of the scenes with its values, in SI units."""
 
     name: str
     values: NDArray[Any]
 
     @property
     def unit(self) -> str:
-        """Empty for words."""
+        """SI unit of the values; empty for words."""
         return UNITS[self.name]
 
 
 @dataclass(frozen=True, eq=False)
 class Grid:
-    """All combinations of some values of some fields of a scene, and the outputs asked for."""
+    """All combinations of some values of some fields of a scene, and the requested outputs."""
 
     scene: Scene
     axes: tuple[Axis, ...]
@@ -107,12 +107,12 @@ class Grid:
         outputs: Iterable[str],
         settings: Settings | None = None,
     ) -> Grid:
-        """A grid of what was asked for, checked.
+        """Make a grid from a request, and check it.
 
         Raises
         ------
         ValueError
-            naming the field or output, what stands there and what is allowed.
+            naming the field or output, its value and what is allowed.
         """
         checks.instance("scene", scene, Scene)
         if not isinstance(over, Mapping) or not 1 <= len(over) <= MOST_AXES:
@@ -143,7 +143,7 @@ class Grid:
 
     @property
     def labels(self) -> tuple[str, ...]:
-        """Modes of the band edges."""
+        """Labels of the modes of the band edges."""
         return mode_labels(self.dofs)
 
     @cached_property
@@ -153,9 +153,9 @@ class Grid:
 
     @property
     def in_rows(self) -> bool:
-        """True where scenes that differ in extent alone are solved together.
+        """True if scenes that differ only in extent are solved together.
 
-        No defect turns then, and no ball has a mass.
+        This requires that no defect turns and no ball has a mass.
         """
         several = self.scene.defect if isinstance(self.scene.defect, tuple) else [self.scene.defect]
         standing = all(defect.race == "outer" for defect in several)
@@ -163,14 +163,14 @@ class Grid:
         return set(self.needs) <= IN_ROWS and "extent" in self.dims and standing and light
 
     def dims_of(self, output: str) -> tuple[str, ...]:
-        """Dimensions of an output."""
+        """Return the dimensions of an output."""
         if OUTPUTS[output].per_sample:
             seeds = (SEED,) if self.settings.has_several_seeds else ()
             return (*self.dims, *seeds, SAMPLE)
         return (*self.dims, MODE) if OUTPUTS[output].per_mode else self.dims
 
     def shape_of(self, output: str, shape: Sequence[int] | None = None) -> tuple[int, ...]:
-        """Shape of an output over the grid, or over a region of this shape."""
+        """Return the shape of an output over the grid, or over a region of this shape."""
         part = tuple(self.shape if shape is None else shape)
         if OUTPUTS[output].per_sample:
             seeds = (len(self.settings.seeds),) if self.settings.has_several_seeds else ()
@@ -178,16 +178,14 @@ class Grid:
         return (*part, len(self.labels)) if OUTPUTS[output].per_mode else part
 
     def scene_at(self, index: Sequence[int]) -> Scene:
-        """The scene at an index; ValueError where there can be none."""
+        """Return the scene at an index; ValueError if it is impossible."""
         pairs = zip(self.axes, index, strict=True)
         return self.scene.replace(**{axis.name: axis.values[i].item() for axis, i in pairs})
 
-    # ---------------------------------------------------------------------------- regions
-
     def region_shape(self, scenes: int | None = None) -> tuple[int, ...]:
-        """Shape of the regions that make a task each: about `scenes` scenes.
+        """Return the shape of the regions, each of which is a task of about `scenes` scenes.
 
-        None takes what should be TASK_SECONDS of work, and not fewer than TASKS_AT_LEAST regions.
+        None takes about TASK_SECONDS of work for each, and at least TASKS_AT_LEAST regions.
         """
         if scenes is None:
             table = SECONDS_IN_A_ROW if self.in_rows else SECONDS
@@ -197,33 +195,33 @@ class Grid:
             if len(self.dofs) > 2 and set(self.needs) & MOVING:
                 seconds *= 10.0
             scenes = min(round(TASK_SECONDS / seconds), self.size // TASKS_AT_LEAST)
-        left = max(scenes, 1)
+        remaining = max(scenes, 1)
         shape = [1] * len(self.shape)
         order = list(reversed(range(len(self.shape))))
         if self.in_rows:
-            # the row first, or there would be nothing to solve together
+            # extents come first, as a region must contain whole rows of them
             row = self.dims.index("extent")
-            shape[row] = _even(self.shape[row], min(left, LONGEST_ROW))
-            left //= shape[row]
+            shape[row] = _even(self.shape[row], min(remaining, LONGEST_ROW))
+            remaining //= shape[row]
             order.remove(row)
         for axis in order:
-            shape[axis] = _even(self.shape[axis], max(left, 1))
-            left //= shape[axis]
+            shape[axis] = _even(self.shape[axis], max(remaining, 1))
+            remaining //= shape[axis]
         return tuple(shape)
 
     def region_counts(self, shape: Sequence[int]) -> tuple[int, ...]:
-        """Number of regions of this shape along each axis; those at the ends may be smaller."""
+        """Return the number of regions of this shape along each axis; the last may be smaller."""
         return tuple(-(-n // part) for n, part in zip(self.shape, shape, strict=True))
 
     def region(self, shape: Sequence[int], index: Sequence[int]) -> Slices:
-        """The slices of one region."""
+        """Return the slices of one region."""
         return tuple(
             slice(i * part, min((i + 1) * part, n))
             for i, part, n in zip(index, shape, self.shape, strict=True)
         )
 
     def part(self, region: Slices) -> Grid:
-        """The grid of one region, which knows as much of the whole as it takes to compute it."""
+        """Return the grid of one region, with all that its computation needs."""
         axes = tuple(
             Axis(axis.name, axis.values[piece])
             for axis, piece in zip(self.axes, region, strict=True)
@@ -231,20 +229,20 @@ class Grid:
         return dataclasses.replace(self, axes=axes)
 
     def compute(self, progress: Progress | None = None) -> tuple[NDArray[np.int8], Numbers]:
-        """Codes of STATUSES and the outputs of all scenes, in this thread.
+        """Compute codes of STATUSES and the outputs of all scenes, in this thread.
 
-        `progress` is called after each row or scene and during long ones, to end them by raising.
+        `progress` is called after each row or scene, and during long ones; it ends them by raising.
         """
         status = np.zeros(self.shape, dtype=np.int8)
         numbers = {name: np.full(self.shape_of(name), math.nan) for name in self.outputs}
-        each = ((at, *self._scene(at, progress)) for at in np.ndindex(*self.shape))
-        for at, codes, answers in self._rows(progress) if self.in_rows else each:
+        scenes = ((index, *self._scene(index, progress)) for index in np.ndindex(*self.shape))
+        for index, codes, answers in self._rows(progress) if self.in_rows else scenes:
             if progress is not None:
                 progress(0.0, "scenes")
-            status[at] = codes
+            status[index] = codes
             for name in self.outputs:
                 if name in answers:
-                    numbers[name][at] = answers[name]
+                    numbers[name][index] = answers[name]
         for values in numbers.values():
             values[np.isnan(values)] = math.nan  # one kind of NaN: equal results, equal bytes
         return status, numbers
@@ -259,13 +257,13 @@ class Grid:
     def _rows(self, progress: Progress | None) -> Iterator[tuple[Any, Any, Numbers]]:
         row = self.dims.index("extent")
         extents = self.axes[row].values
-        # a scene without its defect may have another period: it is not of the row
+        # a scene without its defect may have another period, so it does not belong to the row
         together = np.flatnonzero(extents > 0.0)
         others = [1 if axis == row else n for axis, n in enumerate(self.shape)]
-        for at in np.ndindex(*others):
+        for index in np.ndindex(*others):
 
-            def place(i: Any, at: tuple[int, ...] = at) -> tuple[Any, ...]:
-                return (*at[:row], i, *at[row + 1 :])
+            def place(i: Any, index: tuple[int, ...] = index) -> tuple[Any, ...]:
+                return (*index[:row], i, *index[row + 1 :])
 
             alone = set(range(len(extents)))
             if together.size:
@@ -277,14 +275,12 @@ class Grid:
                     )
                     alone -= set(together.tolist())
                 except ValueError:
-                    pass  # what cannot be with one extent may be with another
+                    pass  # a scene that is impossible with one extent may exist with another
             for i in alone:
                 yield place(i), *self._scene(place(i), progress)
 
-    # ---------------------------------------------------------------------------- checks
-
     def _check(self) -> None:
-        """Refuse what can be seen to be a mistake before hours are spent on it."""
+        """Refuse obvious mistakes before hours are spent on them."""
         for name in self.outputs:
             dof = OUTPUTS[name].dof
             if dof and dof not in self.dofs:
@@ -300,14 +296,14 @@ class Grid:
             try:
                 damaged = bool(self.scene.replace(**largest).defects)
             except ValueError:
-                damaged = True  # there can be none, which is refused below
+                damaged = True  # the scene is impossible, and refused below
             if not damaged:
                 raise checks.refuse(
                     "over",
                     of_defect[0],
                     "fields of the scenes, which have no defect here: its extent or depth is zero",
                 )
-        # where none of many scenes, spread over the grid, can be, it is not the scenes' doing
+        # if many scenes, spread over the grid, are all impossible, the request is the mistake
         spread = np.random.default_rng(0).integers(self.size, size=TRIED)
         refusal: ValueError | None = None
         for place in {0, self.size - 1, *spread.tolist()}:
@@ -321,7 +317,7 @@ class Grid:
             raise refusal
 
     def _try(self, index: Sequence[int]) -> None:
-        """ValueError where the scene at an index, or the numbers its outputs need, cannot be."""
+        """Raise ValueError if the scene at an index is impossible or lacks a needed number."""
         scene = self.scene_at(index)
         if set(self.needs) & {MODES, *MOVING}:
             dofs = scene.active_dofs
@@ -337,11 +333,9 @@ class Grid:
         if set(self.needs) & MOVING and scene.shaft_speed == 0.0:
             raise checks.refuse("shaft_speed", 0.0, "above 0 for a motion or an orbit", "rad/s")
 
-    # ---------------------------------------------------------------------------- in words
-
     @cached_property
     def request(self) -> str:
-        """The request as JSON: axes by name, outputs, settings."""
+        """Request as JSON: axes by name, outputs, settings."""
         return json.dumps(
             {
                 "over": self.dims,
@@ -353,10 +347,9 @@ class Grid:
 
 @cache
 def program_version() -> str:
-    """Version of this program, and a digest of the sources of its core.
+    """Return the version of this program with a digest of the sources of its core.
 
-    Code changes more often than its version: results of other sources are results of another
-    program.
+    Code changes more often than its version, and results of other sources may be different.
     """
     try:
         version = metadata.version("bearing-explorer")
@@ -370,23 +363,24 @@ def program_version() -> str:
     return f"{version}+{digest.hexdigest()}"
 
 
-def _axis(name: object, given: Any) -> Axis:
-    """A field's values, of the right kind, all different."""
+def _axis(name: object, request: Any) -> Axis:
+    """Return a field with its values, of the right kind and all different."""
     if name not in UNITS:
         raise checks.refuse("field in over", name, ", ".join(UNITS))
     assert isinstance(name, str)
     kind = "words" if name in WORDS else "numbers"
     allowed = f"1 to {MOST_VALUES:,} different {kind}"
-    values = list(given) if isinstance(given, Iterable) and not isinstance(given, str) else [given]
+    several = isinstance(request, Iterable) and not isinstance(request, str)
+    values = list(request) if several else [request]
     if not 1 <= len(values) <= MOST_VALUES:
         raise checks.refuse(f"number of values of {name}", len(values), allowed)
     if name in WORDS:
         if not all(isinstance(value, str) for value in values):
-            raise checks.refuse(f"values of {name}", given, allowed)
+            raise checks.refuse(f"values of {name}", request, allowed)
         array = np.array([str(value) for value in values])
     else:
         if any(isinstance(value, bool | np.bool_ | str | bytes) for value in values):
-            raise checks.refuse(f"values of {name}", given, allowed)
+            raise checks.refuse(f"values of {name}", request, allowed)
         array = np.array([checks.real_number(f"value of {name}", value) for value in values])
         if FIELD_OF[name].whole:
             most = 2**31 - 1 if name == "seed" else 500
@@ -395,13 +389,13 @@ def _axis(name: object, given: Any) -> Axis:
                 [checks.whole_number(name, value, at_least=least, at_most=most) for value in values]
             )
     if len(np.unique(array)) != len(array):
-        raise checks.refuse(f"values of {name}", given, allowed)
+        raise checks.refuse(f"values of {name}", request, allowed)
     return Axis(name, array)
 
 
 def _all_dofs(scene: Scene, axes: Iterable[Axis]) -> tuple[str, ...]:
-    """Directions in which some scene of a grid moves."""
-    # what makes a scene need more directions is a number that is not zero
+    """Return the directions in which some scene of a grid moves."""
+    # a number of these fields that is not zero can make a scene need more directions
     richest = {
         axis.name: max(axis.values.tolist(), key=abs)
         for axis in axes
@@ -414,6 +408,6 @@ def _all_dofs(scene: Scene, axes: Iterable[Axis]) -> tuple[str, ...]:
 
 
 def _even(n: int, most: int) -> int:
-    """The least part size that cuts n into as few parts as parts of size `most` do."""
+    """Return the least size of parts that cut n into as few parts as size `most` does."""
     parts = -(-n // min(most, n))
     return -(-n // parts)

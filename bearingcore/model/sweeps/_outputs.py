@@ -1,7 +1,7 @@
 """Outputs of a sweep: names, units, and the computation of each.
 
-Every output is one number a scene, but for the band edges, which have one for each mode, and for
-records, which have one for each sample.
+An output is one number per scene. Band edges have a number for each mode, and records have one for
+each sample.
 """
 
 from __future__ import annotations
@@ -16,13 +16,7 @@ from numpy.typing import NDArray
 
 from bearingcore.common import Array, Progress, _checks as checks
 from bearingcore.common._arrays import least_and_greatest
-from bearingcore.model.dynamics import (
-    BandSearch,
-    PathEffects,
-    orbit,
-    simulate,
-    simulated_record,
-)
+from bearingcore.model.dynamics import BandSearch, PathEffects, orbit, simulate, simulated_record
 from bearingcore.model.dynamics._ball_comparison import mass_share
 from bearingcore.model.dynamics._low_pass import PASSED
 from bearingcore.model.dynamics._modes import stiffness_terms
@@ -55,12 +49,12 @@ MOVING = frozenset({MOTION, ORBIT, MASS, RECORD})
 
 SECONDS = {STATICS: 4e-4, PRESSURE: 4e-4, LIFE: 1e-3, MODES: 5e-4}
 SECONDS |= {MOTION: 2e-2, ORBIT: 1e-2, MASS: 0.2, RECORD: 0.1}
-"""Rough cost of each computation of one scene in two directions [s]; decides how many scenes make
-a task. Five directions cost about ten times as much, but for statics, modes and life; with a
-defect of the inner race statics and modes take thirty times as long, life fifteen times."""
+"""Rough time [s] of each computation for one scene in two directions; it determines the number of
+scenes in a task. Motions in five directions take about ten times as long. With a defect of the
+inner race statics and modes take thirty times as long, life fifteen times."""
 
 SECONDS_IN_A_ROW = {STATICS: 1e-4, MODES: 4e-4}
-"""Time [s] of a scene where the extent varies: a row of extents is solved together."""
+"""Time [s] per scene if the extent varies, as a row of extents is solved together."""
 
 _STATIC_CODES = np.array([OF_STATICS[code].code for code in sorted(OF_STATICS)], np.int8)
 """Code of a sweep for each status of a static state."""
@@ -72,29 +66,29 @@ SAMPLE = "sample"
 """Name of the dimension of records; its coordinate is the time [s]."""
 
 SEED = "seed"
-"""Name of the dimension of records that are drawn several times, with several seeds."""
+"""Name of the dimension of records that are drawn with several seeds."""
 
 MOST_SEEDS = 100_000
 
 
 @dataclass(frozen=True)
 class Output:
-    """One quantity that a sweep gives.
+    """A quantity that a sweep can compute.
 
     Attributes
     ----------
     unit, meaning
-        unit and meaning for people; the unit is "1" where there is none.
+        unit and meaning for people; the unit of a ratio or a count is "1".
     group, label
-        for lists and axes: the heading that it stands under, and a few words. With a number for
-        each mode, "{}" stands for the mode in the label.
+        heading for lists, and a few words for lists and axes. If there is a number for each mode,
+        "{}" in the label stands for the mode.
     needs
-        computation it needs: "statics", "pressure", "life", "modes", "motion", "orbit", "mass" or
+        necessary computation: "statics", "pressure", "life", "modes", "motion", "orbit", "mass" or
         "record".
     dof
-        the direction that must be free for it; empty where none.
+        direction that must be free; empty if there is none.
     per_mode, per_sample
-        True where there is one number for each mode, or each sample of a record.
+        True if there is a number for each mode, or for each sample of a record.
     """
 
     unit: str
@@ -108,7 +102,7 @@ class Output:
 
 
 def mode_symbol(label: str) -> str:
-    """Symbol of a mode by its label: "x₁" for "x1"."""
+    """Return the symbol of a mode by its label: "x₁" for "x1"."""
     return DOF_SYMBOLS[label[:-1]] + label[-1].translate(_LOWERED)
 
 
@@ -140,7 +134,7 @@ def _table() -> dict[str, Output]:
     )
     table["converged_share"] = Output(
         "1",
-        "share of the positions that have one static state, and it was found",
+        "share of the positions with a single static state that the solver reached",
         "Balls",
         "positions with a static state, share",
         STATICS,
@@ -153,14 +147,14 @@ def _table() -> dict[str, Output]:
             f"contact pressure, {race} race",
             PRESSURE,
         )
-    not_in_it = "; pressure and blows on the edges of a defect are left out: an upper bound"
+    left_out = "; pressure and impacts at the edges of a defect are left out: an upper bound"
     for unit, name in (("1", "turns"), ("h", "hours")):
         reached = f"{name} that 9 of 10 bearings reach"
         table[f"life_{name}"] = Output(
-            unit, f"{reached}, by ISO 16281{not_in_it}", "Life", reached, LIFE
+            unit, f"{reached}, by ISO 16281{left_out}", "Life", reached, LIFE
         )
     share = "life over that of the healthy bearing"
-    table["life_share_of_healthy"] = Output("1", share + not_in_it, "Life", share, LIFE)
+    table["life_share_of_healthy"] = Output("1", share + left_out, "Life", share, LIFE)
     for which in ("least", "greatest"):
         table[f"band_{which}"] = Output(
             "Hz",
@@ -216,8 +210,7 @@ def _table() -> dict[str, Output]:
 
 
 OUTPUTS: Mapping[str, Output] = _table()
-"""Every output by name."""
-
+"""All outputs by name."""
 
 _SHOWN = 6
 _EXAMPLES = (
@@ -227,14 +220,14 @@ _EXAMPLES = (
 
 
 def chosen_outputs(names: Iterable[str]) -> tuple[str, ...]:
-    """Names of outputs, `*` and `?` standing for any letters, in the order of OUTPUTS.
+    """Return the names of outputs for patterns with `*` and `?`, in the order of OUTPUTS.
 
-    Records, which are long, are only those of a pattern that begins with "record".
+    Records, which are long, are chosen only by a pattern that begins with "record".
 
     Raises
     ------
     ValueError
-        for a name or pattern that fits none, or where nothing is asked for.
+        for a name or pattern that fits no output, or if there are no patterns.
     """
     patterns = [names] if isinstance(names, str) else list(names)
     chosen: set[str] = set()
@@ -253,7 +246,7 @@ def chosen_outputs(names: Iterable[str]) -> tuple[str, ...]:
 
 
 def mode_labels(dofs: Iterable[str]) -> tuple[str, ...]:
-    """Labels of the modes of `bearingcore.modes`, two a direction, in the order of directions."""
+    """Return the labels of the modes of `bearingcore.modes`, two for each direction."""
     return tuple(f"{dof}{number}" for dof in dofs for number in (1, 2))
 
 
@@ -267,24 +260,24 @@ class Settings:
         number of cage angles in a period, ends included. With an inner-race defect, a quarter as
         many per ball spacing all around, at each place where a ball meets an edge; least and
         greatest values are then searched between the angles too. Otherwise they are those at the
-        angles: if few balls carry, as under a light or tilting load, stiffness may vary by some per
-        cent more between the angles.
+        angles. If few balls carry load, as under a light or tilting load, stiffness may vary by
+        some per cent more between the angles.
     duration
         [s] of simulated motions and records; the first half of a motion is left out as transient.
     sample_rate
         [Hz] of simulated motions and records.
     dynamic_load_rating
-        C_r [N] for lives; None: the rating of each bearing, by the catalogue if its number is
-        known, else by ISO 281.
+        C_r [N] for lives. None takes the rating of each bearing, by the catalogue if its number is
+        known, otherwise by ISO 281.
     band_low, band_high
-        [Hz] of the band for the share of the power that mass adds.
+        ends [Hz] of the band for the share of the power that mass adds.
     seed
-        of the random numbers of records, the same for all scenes: they then differ by what the
-        scenes do and not by what is drawn. Several seeds draw each scene several times, and
-        records have the further dimension "seed". None: a seed made from each scene, so that each
-        has another path; use it to learn from records.
+        seed of the random numbers of records, the same for all scenes: records then differ by the
+        scenes alone. Several seeds draw each scene several times, and records have the further
+        dimension "seed". None makes a seed from each scene, so that each has another path; use it
+        to learn from records.
     effects
-        of the path of the sensor in records; None draws them, see `simulated_record`.
+        effects of the path to the sensor in records; None draws them, see `simulated_record`.
     """
 
     cage_angles: int = 121
@@ -318,12 +311,12 @@ class Settings:
 
     @property
     def seeds(self) -> tuple[int | None, ...]:
-        """Seeds with which each record is drawn."""
+        """Seeds of the draws of each record."""
         return self.seed if isinstance(self.seed, tuple) else (self.seed,)
 
     @property
     def has_several_seeds(self) -> bool:
-        """True if seeds are a dimension of records, also of a single one in a list."""
+        """True if seeds are a dimension of records, even with a single seed in a list."""
         return isinstance(self.seed, tuple)
 
     @property
@@ -343,12 +336,12 @@ def of_scene(
     outputs: Iterable[str] = OUTPUTS,
     progress: Progress | None = None,
 ) -> tuple[int, Numbers]:
-    """Code of what became of one scene, and its outputs: those of the computations in `needs`.
+    """Return the status code of one scene, and the outputs of the computations in `needs`.
 
-    `labels` are the modes that the band edges are given for. With a defect that turns the ends of
-    no other stiffness than in `outputs` are looked for. `progress` is called during motions.
+    `labels` are the modes of the band edges. If a defect turns, extremes between the positions are
+    searched only for stiffness in `outputs`. `progress` is called during motions.
     """
-    ended: list[SweepStatus] = []
+    statuses: list[SweepStatus] = []
     numbers: Numbers = {}
     if STATICS in needs or MODES in needs:
         ranges = static_ranges(
@@ -362,7 +355,7 @@ def of_scene(
             rounds=ROUNDS if scene.defect_turns else 0,
         )
         code, numbers = _statics_of_ranges(ranges)
-        ended.append(STATUSES[int(code)])
+        statuses.append(STATUSES[int(code)])
     computations: dict[str, Callable[[], SweepStatus]] = {
         PRESSURE: lambda: _pressure(scene, settings, numbers),
         LIFE: lambda: _life(scene, settings, numbers),
@@ -375,18 +368,18 @@ def of_scene(
     for name, compute in computations.items():
         if name not in needs:
             continue
-        try:  # each by itself: what one of them refuses leaves the others as they are
-            ended.append(compute())
+        try:  # separately, so that a refusal of one leaves the others as they are
+            statuses.append(compute())
         except ValueError:
-            ended.append(SweepStatus.COMPUTATION_REFUSED)
+            statuses.append(SweepStatus.COMPUTATION_REFUSED)
         except (ArithmeticError, np.linalg.LinAlgError):
-            ended.append(SweepStatus.ARITHMETIC_FAILED)
-    known = SweepStatus.COMPLETE
-    return next((status for status in ended if status is not known), known).code, numbers
+            statuses.append(SweepStatus.ARITHMETIC_FAILED)
+    complete = SweepStatus.COMPLETE
+    return next((status for status in statuses if status is not complete), complete).code, numbers
 
 
 def _statics_of_ranges(ranges: StaticRanges) -> tuple[NDArray[np.int8], Numbers]:
-    """`_statics` of one scene, with the ends that were looked for between the positions."""
+    """Return `_statics` of one scene, with the extremes between the positions."""
     state = ranges.state
     terms = stiffness_terms(state)
     greatest_load = state.ball_load.max(axis=1)
@@ -402,22 +395,22 @@ def _statics_of_ranges(ranges: StaticRanges) -> tuple[NDArray[np.int8], Numbers]
 def _bands_over_all_positions(
     ranges: StaticRanges, labels: tuple[str, ...], n: int, numbers: Numbers
 ) -> SweepStatus:
-    """Put the edges (len(labels),) of the bands of one scene into `numbers`."""
-    scene = ranges.state.scene.replace(balls=MASSLESS)  # frequencies leave the balls' mass out
+    """Put the edges (len(labels),) of the frequency bands of one scene into `numbers`."""
+    scene = ranges.state.scene.replace(balls=MASSLESS)  # frequencies leave out the balls' mass
     if scene != ranges.state.scene:
         ranges = static_ranges(scene, (), n, rounds=0)
     terms = stiffness_terms(ranges.state)
     if not scene.defect_turns:
-        of_one = _bands(scene, terms[:, None], labels)
-        numbers |= {name: values[0] for name, values in of_one.items()}
+        bands = _bands(scene, terms[:, None], labels)
+        numbers |= {name: values[0] for name, values in bands.items()}
         return SweepStatus.COMPLETE
     search = BandSearch(scene, terms, ranges.state.shares)
 
-    def at(cage_angles: Array, shaft_angles: Array) -> Array:
+    def evaluate(cage_angles: Array, shaft_angles: Array) -> Array:
         state = equilibrium(scene, cage_angles, shaft_angles=shaft_angles)
         return search.frequencies(stiffness_terms(state))
 
-    ends = extremes(positions(scene, n), search.frequencies(terms), at)
+    ends = extremes(positions(scene, n), search.frequencies(terms), evaluate)
     edges = [dict(zip(search.labels, end.tolist(), strict=True)) for end in ends[:2]]
     for which, edge in zip(("least", "greatest"), edges, strict=True):
         numbers[f"band_{which}"] = np.array([edge.get(label, math.nan) for label in labels])
@@ -431,9 +424,9 @@ IN_ROWS = frozenset({STATICS, MODES})
 def of_row(
     scene: Scene, extents: Array, needs: Iterable[str], labels: tuple[str, ...], settings: Settings
 ) -> tuple[NDArray[np.int8], Numbers]:
-    """Codes (m,) and outputs (m, ...) of `scene` with each of the extents, solved together.
+    """Return codes (m,) and outputs (m, ...) of `scene` with each extent, solved together.
 
-    `needs` are of IN_ROWS, `labels` the modes that the band edges are given for. No defect turns.
+    `needs` are out of IN_ROWS, `labels` the modes of the band edges. No defect turns.
     """
     grid = positions(scene, settings.cage_angles)
     maps = stiffness_maps(scene, extents, grid.cage_angles)
@@ -450,7 +443,7 @@ def of_row(
 
 
 def _bands(scene: Scene, terms: Array, labels: tuple[str, ...]) -> Numbers:
-    """Edges (m, len(labels)) of bands, from stiffness terms (15, m, n) of m scenes."""
+    """Return edges (m, len(labels)) of bands from stiffness terms (15, m, n) of m scenes."""
     edges = np.full((2, terms.shape[1], len(labels)), math.nan)
     for i, row in enumerate(np.moveaxis(terms, 1, 0)):
         search = BandSearch(scene, row, np.ones(row.shape[1]))
@@ -468,10 +461,10 @@ def _statics(
     greatest_load: Array,
     weights: Array,
 ) -> tuple[NDArray[np.int8], Numbers]:
-    """Codes and numbers (...) from positions (..., n) with weights (n,), stiffness (15, ..., n).
+    """Return codes and numbers (...) from positions (..., n) with weights (n,).
 
-    NaN at any of the positions makes NaN of the statistic: a mean over what happens to be known
-    would look like that of all.
+    stiffness is (15, ..., n). A statistic is NaN if any position is NaN, because a mean over the
+    known positions alone would look like that of all.
     """
     gone = status >= StaticStatus.NOT_CARRIED
     balls = np.where(gone, math.nan, loaded_balls)
@@ -492,15 +485,15 @@ def _statics(
         numbers |= {
             f"{term}_{which}": value for term, value in zip(STIFFNESS_TERMS, values, strict=True)
         }
-    # codes of the solver rise with what is missing
+    # the greatest code of the solver is the one with the least known
     return _STATIC_CODES[status.max(axis=-1)], numbers
 
 
 def _life(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus:
-    """Put the life into `numbers`; say what became of it.
+    """Put the life into `numbers` and return its status.
 
-    Averaged over all cage angles, so that healthy and damaged bearings can be compared. Infinite
-    lives, where nothing is carried, are not known to a map.
+    It is averaged over all cage angles, so that healthy and damaged bearings can be compared.
+    Infinite lives of unloaded bearings are NaN, as maps cannot show them.
     """
     known_rating = scene.bearing.dynamic_load_rating
     rating = settings.dynamic_load_rating or known_rating or dynamic_load_rating(scene.bearing)
@@ -518,7 +511,7 @@ def _life(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus:
 
 
 def _pressure(scene: Scene, settings: Settings, numbers: Numbers) -> SweepStatus:
-    """Put the pressures on both races into `numbers`; say what became of them."""
+    """Put the pressures on both races into `numbers` and return their status."""
     state = over_all_positions(scene, settings.cage_angles, static_state)
     pressures = contact_pressures(scene, state)
     for contact in (pressures.inner, pressures.outer):
@@ -541,7 +534,7 @@ def _mass(
 
 
 def _orbit(scene: Scene, numbers: Numbers, progress: Progress | None) -> SweepStatus:
-    """Put the largest multiplier of the orbit into `numbers`; say what became of it."""
+    """Put the largest multiplier of the orbit into `numbers` and return its status."""
     motion = orbit(scene, progress=progress)
     numbers["floquet_multiplier_greatest"] = np.array(motion.largest_multiplier)
     return OF_ORBIT[motion.status]
@@ -566,7 +559,7 @@ def _record(
 def _motion(
     scene: Scene, settings: Settings, numbers: Numbers, progress: Progress | None
 ) -> SweepStatus:
-    """Put what the motion gives into `numbers`; say what became of it."""
+    """Put the accelerations of the motion into `numbers` and return its status."""
     motion = simulate(scene, settings.duration, settings.sample_rate, progress=progress)
     late = motion.outer_acceleration[round(SETTLING_SHARE * len(motion.time)) :]
     for i, dof in enumerate(motion.dofs):

@@ -1,4 +1,4 @@
-"""Sweeps: every scene of a grid, on Dask, to an xarray.Dataset."""
+"""Sweeps: all scenes of a grid, computed on Dask, as an xarray.Dataset."""
 
 from __future__ import annotations
 
@@ -29,14 +29,14 @@ if TYPE_CHECKING:
     from distributed import Client, LocalCluster
 
 MOST_BYTES = 2_000_000_000
-"""Size of results that are kept in memory; larger ones need a store."""
+"""Greatest size of results in memory; larger ones need a store."""
 
 AHEAD = 4
-"""Tasks that are handed out for each thread of the cluster: enough that none waits, few enough for
-the scheduler to carry, however many there are in all."""
+"""Number of submitted tasks per thread of the cluster: enough that no thread waits, and few enough
+for the scheduler, even if there are millions in all."""
 
 LOOK_AGAIN = 5.0
-"""Time [s] after which the size of the cluster is asked for again."""
+"""Time [s] between two requests for the size of the cluster."""
 
 _NOT_WRITABLE = {
     *(errno.EACCES, errno.EPERM, errno.EROFS, errno.ENOENT, errno.ENOTDIR, errno.EEXIST),
@@ -48,7 +48,7 @@ LOST = "the scheduler or the connection to it is lost; what is finished is kept 
 
 
 def needs_extra() -> None:
-    """ImportError with what to do about it, where what sweeps need is not installed."""
+    """Raise ImportError with the remedy if a package that sweeps need is missing."""
     try:
         for name in ("xarray", "dask", "distributed", "zarr"):
             importlib.import_module(name)
@@ -91,16 +91,16 @@ def sweep(
         it already holds a part of the same sweep, only the rest is computed. None keeps results
         in memory.
     settings
-        the resolution, and what is drawn for records; see `Settings`.
+        the resolution, and the random effects of records; see `Settings`.
     resolution
         single fields of `Settings` by name, such as ``duration=0.5``, instead of those of
         `settings`.
     workers, processes
         on this machine: the number of workers (None: one per core), and True for processes instead
-        of threads. Processes share nothing and are faster, but take a second or two to
-        start; a script that asks for them must do so under ``if __name__ == "__main__":``.
+        of threads. Processes share nothing and are faster, but take a second or two to start; a
+        script must start them under ``if __name__ == "__main__":``.
     scenes_per_task
-        None takes about four seconds of work. A store that is taken up keeps its own.
+        None takes about four seconds of work. A resumed store keeps its number.
     progress
         called about ten times a second with the part done, 0 to 1, and a sentence; an exception
         from it, as Ctrl-C, stops the sweep at once.
@@ -249,7 +249,7 @@ class _Progress:
 
 @contextmanager
 def _cluster(client: Client | str | None, workers: int | None, processes: bool) -> Iterator[Client]:
-    """The client to compute with; what is started here is stopped here."""
+    """Yield the client; a cluster or client that is started here is also stopped here."""
     from distributed import Client, LocalCluster
 
     if client is not None and not isinstance(client, str):
@@ -267,7 +267,7 @@ def _cluster(client: Client | str | None, workers: int | None, processes: bool) 
     shape = (
         {"n_workers": cores, "threads_per_worker": 1}
         if processes
-        # threads share the memory of their host, whose use says nothing of theirs: no limit
+        # no limit for threads, as they share the memory of their host with its other work
         else {"n_workers": 1, "threads_per_worker": cores, "memory_limit": 0}
     )
     here = "localhost:0"  # Dask's pages are for this machine alone, on any free port
@@ -278,7 +278,7 @@ def _cluster(client: Client | str | None, workers: int | None, processes: bool) 
                     processes=processes,
                     dashboard_address=here,
                     worker_dashboard_address=here,
-                    # what a task raises is raised here too, and said once
+                    # an error of a task is raised here too, and should not be logged as well
                     silence_logs=logging.CRITICAL,
                     **shape,
                 )
@@ -298,7 +298,7 @@ def _cluster(client: Client | str | None, workers: int | None, processes: bool) 
 
 
 async def _end_processes(cluster: LocalCluster) -> None:
-    """End the workers' processes: Dask waits four seconds for what runs in them."""
+    """End the workers' processes at once; Dask would wait four seconds for running tasks."""
     closing = (nanny.close(timeout=0.1) for nanny in cluster.workers.values())
     await asyncio.gather(*closing, return_exceptions=True)
 
@@ -309,15 +309,15 @@ def _finished(
     tasks: Iterable[Any],
     report: Callable[[], object],
 ) -> Iterator[tuple[Any, Any]]:
-    """Each task with what `work` makes of it on the cluster, in the order of their ends.
+    """Yield each task with the result of `work` on the cluster, as tasks end.
 
-    `report` is called again and again while none ends.
+    `report` is called again and again while the next result is awaited.
     """
     from distributed import KilledWorker, as_completed
     from distributed.client import FutureCancelledError
 
     waiting = iter(tasks)
-    going: dict[Any, Any] = {}
+    running: dict[Any, Any] = {}
     done = as_completed([], loop=client.loop)
     version = program_version()
     threads, looked = 0, -LOOK_AGAIN
@@ -327,14 +327,16 @@ def _finished(
                 if time.monotonic() - looked > LOOK_AGAIN:
                     threads = max(sum(client.nthreads().values()), 1)
                     looked = time.monotonic()
-                for task in islice(waiting, max(AHEAD * threads - len(going), 0)):
+                # keep AHEAD tasks per thread submitted
+                for task in islice(waiting, max(AHEAD * threads - len(running), 0)):
                     future = client.submit(_on_worker, version, work, task, pure=False)
-                    going[future] = task
+                    running[future] = task
                     done.add(future)
             except OSError as error:
                 raise ConnectionError(LOST) from error
-            if not going:
+            if not running:
                 return
+            # wait for the next result, and report meanwhile
             for waited in count():
                 if done.has_ready():
                     break
@@ -347,7 +349,7 @@ def _finished(
             except FutureCancelledError as error:
                 raise ConnectionError(LOST) from error
             except OSError as error:
-                if future.status == "error":  # the task's own: a full disk, a folder not allowed
+                if future.status == "error":  # an error of the task, such as a full disk
                     raise
                 raise ConnectionError(LOST) from error
             except KilledWorker as error:
@@ -355,14 +357,14 @@ def _finished(
                     "workers died again and again at the same task; is there enough memory? "
                     f"What is finished is kept in the store. ({error})"
                 ) from error
-            yield going.pop(future), result
+            yield running.pop(future), result
     finally:
-        if going and client.status == "running":
-            client.cancel(list(going), force=True)
+        if running and client.status == "running":
+            client.cancel(list(running), force=True)
 
 
 def _on_worker(version: str, work: Callable[[Any, Progress], Any], task: Any) -> Any:
-    """Do the work on a worker, if both ends are the same program, while it is wanted."""
+    """Do the work on a worker of the same program version, until the task is cancelled."""
     from distributed import get_worker
 
     here = program_version()
@@ -372,7 +374,7 @@ def _on_worker(version: str, work: Callable[[Any, Progress], Any], task: Any) ->
     key = worker.get_current_task()
 
     def still_wanted(*_: object) -> None:
-        """End the task once it is cancelled: Dask lets what runs run on, and waits for it."""
+        """Raise CancelledError if the task was cancelled, as Dask itself would let it run on."""
         state = worker.state.tasks.get(key)
         if state is None or state.state == "cancelled":
             raise CancelledError("the sweep was stopped")

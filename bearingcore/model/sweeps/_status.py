@@ -13,8 +13,8 @@ from bearingcore.model.statics._status import StaticStatus
 class SweepStatus(Status):
     """Outcome of a scene of a sweep: `complete`, or the first reason for an unknown number.
 
-    A static reason holds at one cage angle or more. A free direction still has a stiffness. Unknown
-    numbers are NaN.
+    A static reason holds at one or more cage angles. With a free direction, stiffness is known.
+    Unknown numbers are NaN.
     """
 
     NOT_COMPUTED = "not_computed", "not computed"
@@ -30,10 +30,10 @@ class SweepStatus(Status):
     SCENE_REFUSED = "scene_refused", "such a scene is not possible"
     COMPUTATION_REFUSED = (
         "computation_refused",
-        "this cannot be computed here: the shaft must turn, mass, stiffness and damping be "
-        "known in each direction that moves, for life and pressure the groove radii, for life a "
-        "rating, which hybrid and self-aligning bearings have from the catalogue, and for orbits "
-        "balls be massless and the law the published one",
+        "this cannot be computed here: the shaft must turn; mass, stiffness and damping must be "
+        "known along each free direction; life and pressure need the groove radii, and life a "
+        "rating (of hybrid and self-aligning bearings that of the catalogue); orbits need massless "
+        "balls and the published law",
     )
     NO_STATIC_START = "no_static_start", "there is no static state to start from"
     MOTION_DIVERGED = "motion_diverged", "the motion does not stay finite"
@@ -46,13 +46,12 @@ class SweepStatus(Status):
 
     @property
     def code(self) -> int:
-        """Place in `STATUSES`, as in results; 0, not computed, is the value of empty files."""
+        """Index in `STATUSES`, as in results; 0, not computed, is the value of empty files."""
         return STATUSES.index(self)
 
 
 STATUSES = tuple(SweepStatus)
 """All statuses in the order of their codes."""
-
 
 OF_STATICS = {
     StaticStatus.CONVERGED: SweepStatus.COMPLETE,

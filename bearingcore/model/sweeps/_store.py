@@ -1,8 +1,8 @@
 """The results of a sweep on disk, as Zarr, written region by region.
 
-A region is finished when its mark is there. The mark is a checksum of all its numbers, written
-after them in one step (Zarr writes a temporary file and moves it into place): what a killed
-process left half-written has no mark, or numbers that do not fit it, and is computed again.
+A finished region has a mark, a checksum of all its numbers. The mark is written after the numbers
+in one step (Zarr writes a temporary file and moves it into place). A region that a killed process
+left half-written has no mark, or numbers that do not fit it, and is computed again.
 """
 
 from __future__ import annotations
@@ -29,13 +29,13 @@ from bearingcore.model.sweeps._status import STATUSES
 PROGRAM = "bearing-explorer"
 
 MARKS = "regions/finished"
-"""Array of the marks: 0, or a region's checksum plus one. Hidden from who opens the results."""
+"""Array of the marks: 0, or a region's checksum plus one. It is not part of the opened results."""
 
 STATUS = "status"
 
 
 def attributes(grid: Grid) -> dict[str, Any]:
-    """Attributes of the results: the scene, the request and the program."""
+    """Return the attributes of the results: the scene, the request and the program."""
     return {
         "title": "Sweep over " + ", ".join(grid.dims),
         "program": PROGRAM,
@@ -47,7 +47,7 @@ def attributes(grid: Grid) -> dict[str, Any]:
 
 
 def variable_attributes(name: str) -> dict[str, Any]:
-    """Unit and meaning of an output or of the status."""
+    """Return unit and meaning of an output or of the status."""
     if name == STATUS:
         return {
             "long_name": "status of the scene",
@@ -59,13 +59,13 @@ def variable_attributes(name: str) -> dict[str, Any]:
 
 
 def coordinate_attributes(grid: Grid) -> dict[str, dict[str, Any]]:
-    """Units of the axes."""
+    """Return the units of the axes."""
     units = {axis.name: axis.unit for axis in grid.axes} | {SAMPLE: "s"}
     return {name: {"units": unit} if unit else {} for name, unit in units.items()}
 
 
 def coordinates(grid: Grid) -> dict[str, NDArray[Any]]:
-    """Values of the axes and, where they are asked for, labels of modes and times of samples."""
+    """Return the values of the axes and, if outputs need them, of modes, samples and seeds."""
     values = {axis.name: axis.values for axis in grid.axes}
     if any(OUTPUTS[name].per_mode for name in grid.outputs):
         values[MODE] = np.array(grid.labels)
@@ -77,7 +77,7 @@ def coordinates(grid: Grid) -> dict[str, NDArray[Any]]:
 
 
 def local_path(store: str | os.PathLike[str]) -> Path:
-    """The folder of a store, absolute; ValueError for an address."""
+    """Return the absolute folder of a store; ValueError for an address."""
     name = os.fspath(store) if isinstance(store, os.PathLike) else store
     if "://" in checks.instance("store", name, str, "a folder") or "\0" in name:
         raise checks.refuse("store", name, "a folder that this and all workers see")
@@ -85,20 +85,20 @@ def local_path(store: str | os.PathLike[str]) -> Path:
 
 
 def prepare(path: Path, grid: Grid, region_shape: Sequence[int]) -> tuple[int, ...]:
-    """Make an empty store, or take up one of the same sweep; return the shape of its regions.
+    """Make an empty store, or open one of the same sweep; return the shape of its regions.
 
     Raises
     ------
     ValueError
-        where the folder holds something else, or results of another sweep.
+        if the folder holds something else, or results of another sweep.
     """
     if not path.exists() or (path.is_dir() and not any(path.iterdir())):
         _create(path, grid, region_shape)
-    return _belonging(path, grid)
+    return _check_store(path, grid)
 
 
 def _create(path: Path, grid: Grid, region_shape: Sequence[int]) -> None:
-    """All of a store but the results, made aside and moved to its place in one step."""
+    """Create a store without results, in a temporary folder that is renamed in one step."""
     import zarr
 
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -136,21 +136,21 @@ def _create(path: Path, grid: Grid, region_shape: Sequence[int]) -> None:
             fill_value=0,
         )
         with warnings.catch_warnings():
-            # one file describes all arrays, so that xarray opens the results in one step: Zarr says
-            # that the format's text does not know this yet; xarray does, and others look past
+            # A single file describes all arrays, so that xarray opens the results in one step. Zarr
+            # warns that its format does not specify this yet; other readers ignore the file.
             warnings.simplefilter("ignore")
             zarr.consolidate_metadata(aside)
         try:
             aside.rename(path)
         except OSError:
             if not (path.is_dir() and any(path.iterdir())):
-                raise  # else another process was first, and its store is looked at as any other
+                raise  # otherwise another process was first, and its store is checked
     finally:
         shutil.rmtree(aside, ignore_errors=True)
 
 
-def _belonging(path: Path, grid: Grid) -> tuple[int, ...]:
-    """Shape of the regions of a store of just this sweep."""
+def _check_store(path: Path, grid: Grid) -> tuple[int, ...]:
+    """Return the shape of the regions of a store; refuse a store of another sweep."""
     import zarr
 
     try:
@@ -176,7 +176,7 @@ def _belonging(path: Path, grid: Grid) -> tuple[int, ...]:
     for axis in grid.axes:
         try:
             values = np.asarray(root[axis.name][...])
-        except Exception as error:  # whatever a decoder makes of half a file
+        except Exception as error:  # half a file may raise anything in its decoder
             words = (
                 f"is damaged in {axis.name} ({type(error).__name__}): delete it, or copy it back"
             )
@@ -187,32 +187,32 @@ def _belonging(path: Path, grid: Grid) -> tuple[int, ...]:
 
 
 def _taken(path: Path, words: str) -> FieldError:
-    """The refusal of a folder with something else in it."""
+    """Return the refusal of a folder with something else in it."""
     return checks.refuse("store", path.name, f"a new folder, or this sweep's own: {path} {words}")
 
 
 class Region(NamedTuple):
-    """A region of a store: where it is, and the part of the grid that it holds."""
+    """A region of a store: its place, and its part of the grid."""
 
     path: str
     part: Grid
     place: tuple[slice, ...]
-    at: tuple[int, ...]
+    region_index: tuple[int, ...]
     """index among the regions"""
     layout: tuple[tuple[int, ...], ...]
-    """shapes of the whole and of a region: stores alike in both have the same arrays"""
+    """shapes of the whole and of a region, by which opened arrays are cached"""
 
 
 def region(path: Path, grid: Grid, region_shape: tuple[int, ...], index: tuple[int, ...]) -> Region:
-    """One region of the store of a grid."""
+    """Return a region of the store of a grid."""
     place = grid.region(region_shape, index)
     return Region(str(path), grid.part(place), place, index, (grid.shape, region_shape))
 
 
 def finish(region: Region, progress: Progress | None = None) -> bool:
-    """Bring one region to its end; True where it had to be computed.
+    """Compute and write a region unless it is finished; return True if it was computed.
 
-    An exception from `progress` ends it before anything is written.
+    An exception from `progress` ends the work before anything is written.
     """
     arrays = _arrays(region.path, region.part.outputs, region.layout)
     if is_finished(region):
@@ -221,26 +221,26 @@ def finish(region: Region, progress: Progress | None = None) -> bool:
     for name, values in numbers.items():
         arrays[name][region.place] = values
     arrays[STATUS][region.place] = status
-    arrays[MARKS][region.at] = _checksum(status, numbers)
+    arrays[MARKS][region.region_index] = _checksum(status, numbers)
     return True
 
 
 def is_finished(region: Region) -> bool:
-    """True where a region has its mark and all its numbers are what they were then."""
+    """Return True if a region has its mark, and all its numbers fit it."""
     arrays = _arrays(region.path, region.part.outputs, region.layout)
     try:
-        mark = int(arrays[MARKS][region.at])
+        mark = int(arrays[MARKS][region.region_index])
         if mark == 0:
             return False
         status = np.asarray(arrays[STATUS][region.place])
         numbers = {name: np.asarray(arrays[name][region.place]) for name in region.part.outputs}
-    except Exception:  # whatever a decoder makes of half a file
+    except Exception:  # half a file may raise anything in its decoder
         return False
     return _checksum(status, numbers) == mark
 
 
 def _checksum(status: NDArray[np.int8], numbers: Numbers) -> int:
-    """Checksum, above 0, of all bytes of a region's results."""
+    """Return a checksum, above 0, of all bytes of a region's results."""
     sum_ = zlib.crc32(np.ascontiguousarray(status).tobytes())
     for name in sorted(numbers):
         sum_ = zlib.crc32(np.ascontiguousarray(numbers[name]).tobytes(), sum_)
@@ -251,7 +251,7 @@ def _checksum(status: NDArray[np.int8], numbers: Numbers) -> int:
 def _arrays(
     path: str, outputs: tuple[str, ...], layout: tuple[tuple[int, ...], ...]
 ) -> dict[str, Any]:
-    """The arrays of a store: opening them takes longer than writing a region."""
+    """Return the arrays of a store, cached, as opening them takes longer than writing a region."""
     import zarr
 
     root = zarr.open_group(path, mode="r+", zarr_format=3)

@@ -1,1 +1,1 @@
-"""Balls with mass: their motion, and their place at high speed."""
+"""Balls with mass: their motion, and their static positions at high speed."""

@@ -1,4 +1,8 @@
-"""Both contacts of each ball: where they are compressed, and what they carry. See `motion`."""
+"""The two contacts of each ball: their compression and load, in the symbols of `motion`.
+
+`instant` is the index of an instant in a passage. `passage` has the drops into defects of the outer
+race, `inner` those of the inner race.
+"""
 
 from __future__ import annotations
 
@@ -15,13 +19,13 @@ from bearingcore.model._kernels.contact import (
 
 @inlined
 def row_components(q, row):
-    """A row of five as a tuple."""
+    """Return a row of five numbers as a tuple."""
     return q[row, 0], q[row, 1], q[row, 2], q[row, 3], q[row, 4]
 
 
 @inlined
 def ring_state(y, rotor, x):
-    """Displacements of both rings into x (2, 5)."""
+    """Write the displacements of both rings in the state y into x (2, 5)."""
     n = rotor.active.size
     for a in range(n):
         x[INNER, rotor.active[a]] = y[a]
@@ -29,10 +33,10 @@ def ring_state(y, rotor, x):
 
 
 @inlined
-def find_contacts(y, first, passage, inner, at, system, work):
-    """δ, e and 1/A of all contacts into work.contact, Σ c δ e into work.S; y[first:] are places.
+def find_contacts(y, first, passage, inner, instant, system, work):
+    """Write δ, e and 1/A of all contacts into work.contact, and Σ c δ e into work.S.
 
-    A released contact counts as open.
+    y[first:] are the positions of the balls. A released contact counts as open.
     """
     contacts = system.contacts
     races = system.races
@@ -42,8 +46,8 @@ def find_contacts(y, first, passage, inner, at, system, work):
     S = work.S
     S[:, :] = 0.0
     for j in range(n_balls):
-        cj = passage.c[at, j]
-        sj = passage.s[at, j]
+        cj = passage.c[instant, j]
+        sj = passage.s[instant, j]
         br = y[first + j]
         bz = y[first + n_balls + j]
         for race in range(2):
@@ -51,12 +55,13 @@ def find_contacts(y, first, passage, inner, at, system, work):
                 r, z = ring_at_ball(xi, cj, sj, j, contacts)
                 r -= br + contacts.clearance[j]
                 z += contacts.offset[j] - bz
-                drop = inner.d[at, j]
+                drop = inner.d[instant, j]
             else:
                 r, z = ring_at_ball(xo, cj, sj, j, contacts)
                 r = br - r
                 z = bz - z
-                drop = passage.d[at, j]
+                drop = passage.d[instant, j]
+            # δ_i or δ_e and its direction, see `motion`
             delta, er, ez, bend = race_touch(r, z, drop, races.distance[race, j], j, contacts)
             if delta <= 0.0 or work.released[race, j]:
                 work.contact[race, j, 0] = 0.0
@@ -75,10 +80,11 @@ def find_contacts(y, first, passage, inner, at, system, work):
 
 
 @inlined
-def push_contacts(k, first, passage, inner, at, system, work, smooth):
-    """Forces of all contacts into work.f and, with F_c and G, on the balls into work.ball.
+def push_contacts(k, first, passage, inner, instant, system, work, smooth):
+    """Write the forces of all contacts to work.f and, with F_c and G, those on balls to work.ball.
 
-    Q e + c δ̇ e (Eq. 18) with velocities work.v and k[first:], or where `smooth` Q e − c δ ė.
+    They are Q e + c δ̇ e (Eq. 18) or, if `smooth`, Q e − c δ ė. Velocities are work.v of the rings
+    and k[first:] of the balls.
     """
     rotor = system.rotor
     contacts = system.contacts
@@ -95,8 +101,8 @@ def push_contacts(k, first, passage, inner, at, system, work, smooth):
     f = work.f
     f[:, :] = 0.0
     for j in range(n_balls):
-        cj = passage.c[at, j]
-        sj = passage.s[at, j]
+        cj = passage.c[instant, j]
+        sj = passage.s[instant, j]
         work.ball[0, j] = races.centrifugal[j] - races.weight[j] * sj
         work.ball[1, j] = 0.0
         if contacts.relative_speed[j] != relative_speed:  # another row
@@ -114,12 +120,12 @@ def push_contacts(k, first, passage, inner, at, system, work, smooth):
                 r, z = ring_at_ball(ui, cj, sj, j, contacts)
                 r -= k[first + j]
                 z -= k[first + n_balls + j]
-                d_rate = inner.d_rate[at, j]
+                d_rate = inner.d_rate[instant, j]
             else:
                 r, z = ring_at_ball(uo, cj, sj, j, contacts)
                 r = k[first + j] - r
                 z = k[first + n_balls + j] - z
-                d_rate = passage.d_rate[at, j]
+                d_rate = passage.d_rate[instant, j]
             r -= contacts.line_r[j] * d_rate
             z -= contacts.line_z[j] * d_rate
             _, Q, _ = contact_load(delta, races.factor[race, j], contacts.exponent[j])
@@ -127,13 +133,14 @@ def push_contacts(k, first, passage, inner, at, system, work, smooth):
             turn_r = 0.0
             turn_t = 0.0
             if smooth:
+                # −c δ ė: e swivels in the plane of the ball, and turns with the cage
                 swivel = damping * delta * (er * z - ez * r) * work.contact[race, j, 3]
                 along_r = Q * er + swivel * ez
                 along_z = Q * ez - swivel * er
                 turn_r = damping * delta * w * er
                 turn_t = damping * delta * w * tilting(er, ez, j, contacts)
             else:
-                push = Q + damping * (er * r + ez * z)
+                push = Q + damping * (er * r + ez * z)  # Q + c δ̇
                 if push <= 0.0 and not rotor.tension:
                     work.contact[race, j, 0] = -delta  # would pull
                     continue
@@ -151,10 +158,10 @@ def push_contacts(k, first, passage, inner, at, system, work, smooth):
 
 
 @inlined
-def planar_contacts(y, first, passage, inner, at, system, work):
-    """`find_contacts` and the smooth forces in one where contacts stay in the plane: e = ±(c, s).
+def planar_contacts(y, first, passage, inner, instant, system, work):
+    """Do `find_contacts` and the smooth forces in one pass, for contacts that stay in the plane.
 
-    ė = ω_c (−s, c) for the rings and none for the balls: no velocity is needed.
+    There e = ±(c, s), and ė = ω_c (−s, c) for the rings and 0 for the balls: no velocity is needed.
     """
     contacts = system.contacts
     races = system.races
@@ -176,11 +183,11 @@ def planar_contacts(y, first, passage, inner, at, system, work):
     So0 = 0.0
     So1 = 0.0
     for j in range(clearance.size):
-        cj = passage.c[at, j]
-        sj = passage.s[at, j]
+        cj = passage.c[instant, j]
+        sj = passage.s[instant, j]
         u = y[first + j]
         force = races.centrifugal[j] - races.weight[j] * sj
-        closing = i0 * cj + i1 * sj - u - clearance[j] - inner.d[at, j]
+        closing = i0 * cj + i1 * sj - u - clearance[j] - inner.d[instant, j]  # δ_i
         if closing > 0.0 and not released[INNER, j]:
             _, Q, _ = contact_load(closing, factor[INNER, j], exponent[j])
             work.contact[INNER, j, 0] = closing
@@ -192,7 +199,7 @@ def planar_contacts(y, first, passage, inner, at, system, work):
             force += Q
         else:
             work.contact[INNER, j, 0] = 0.0
-        closing = u - (o0 * cj + o1 * sj) - passage.d[at, j]
+        closing = u - (o0 * cj + o1 * sj) - passage.d[instant, j]  # δ_e
         if closing > 0.0 and not released[OUTER, j]:
             _, Q, _ = contact_load(closing, factor[OUTER, j], exponent[j])
             work.contact[OUTER, j, 0] = closing
@@ -217,8 +224,8 @@ def planar_contacts(y, first, passage, inner, at, system, work):
 
 
 @inlined
-def planar_push(k, first, passage, inner, at, system, work):
-    """`push_contacts` with velocities where contacts stay in the plane."""
+def planar_push(k, first, passage, inner, instant, system, work):
+    """Do what `push_contacts` does with velocities, for contacts that stay in the plane."""
     rotor = system.rotor
     contacts = system.contacts
     races = system.races
@@ -230,18 +237,18 @@ def planar_push(k, first, passage, inner, at, system, work):
     f = work.f
     f[:, :] = 0.0
     for j in range(contacts.angle.size):
-        cj = passage.c[at, j]
-        sj = passage.s[at, j]
+        cj = passage.c[instant, j]
+        sj = passage.s[instant, j]
         for race in range(2):
             delta = work.contact[race, j, 0]
             if delta <= 0.0:
                 continue
             if race == INNER:
-                rate = vi0 * cj + vi1 * sj - k[first + j] - inner.d_rate[at, j]
+                rate = vi0 * cj + vi1 * sj - k[first + j] - inner.d_rate[instant, j]
             else:
-                rate = k[first + j] - vo0 * cj - vo1 * sj - passage.d_rate[at, j]
+                rate = k[first + j] - vo0 * cj - vo1 * sj - passage.d_rate[instant, j]
             _, Q, _ = contact_load(delta, races.factor[race, j], contacts.exponent[j])
-            push = Q + races.damping[race, j] * rate
+            push = Q + races.damping[race, j] * rate  # Equation (18)
             if push <= 0.0 and not rotor.tension:
                 work.contact[race, j, 0] = -delta  # would pull
                 continue

@@ -1,20 +1,21 @@
-"""Static ball positions under centrifugal load: still the minimum of a convex energy.
+"""Static ball positions under centrifugal load: the minimum of a convex energy, as in `statics`.
 
-With a ball's place b free in the plane through it, and F its radial load (centrifugal, weight),
+A ball's position b is free in the plane through the ball. With F_j its radial load (centrifugal
+load less weight),
 
     V(q, b) = Σ_j [ E_i(δ_i,j) + E_e(δ_e,j) − F_j b_r,j ] − F·q,   E(δ) = K/(n + 1) δ^(n+1),
 
-lengths of affine vectors are convex and the rest is increasing and convex or linear. So V is convex
-in q and all b together, and what is left of it when each b has found its minimum,
+is convex in q and all b together: lengths of affine vectors are convex, and the functions of them
+are increasing and convex or linear. The least energy over all b,
 
     V(q) = Σ_j W_j(q) − F·q,
 
-is convex too, with the gradient Q_i e_i of the inner contact and the Hessian
-(M_i⁻¹ + M_e⁻¹)⁻¹, M = k₁ e e' + (Q/A) t t' the stiffness of a contact. Newton's method with a line
-search finds each minimum: a 2×2 problem a ball, inside of one in q. Without F both contacts are on
-one line, and this is the energy of `statics`.
+is convex too. Each ball adds the gradient Q_i e_i of its inner contact and the Hessian
+(M_i⁻¹ + M_e⁻¹)⁻¹; the stiffness of a contact is M = k₁ e e' + (Q/A) t t'. Newton's method with a
+line search finds each minimum: one problem in q, and inside it a 2×2 problem for each ball.
+Without F_j both contacts are on one line, and this is the energy of `statics`.
 
-Symbols as in `ball_mass`; the outer ring stands still.
+Symbols are those of `motion`; the outer ring stands still.
 """
 
 from __future__ import annotations
@@ -62,11 +63,11 @@ from bearingcore.model._kernels.structs import Array, Contacts, Integers, Path
 
 MOST_BALL_STEPS, MOST_RING_STEPS = 200, 200
 BALL_AIM, BALL_LIMIT = 1e-15, 1e-10
-"""A ball's unbalanced load over its loads: what is sought, and what is still taken."""
+"""Unbalanced load of a ball over its loads: the aim, and the limit that is still accepted."""
 
 
 class StaticBalls(NamedTuple):
-    """A bearing whose balls find their own places; the way over defects of each race."""
+    """A bearing whose balls are free to move, with the path over the defects of each race."""
 
     contacts: Contacts
     races: Races
@@ -75,19 +76,19 @@ class StaticBalls(NamedTuple):
 
 
 class BallPlaces(NamedTuple):
-    """Places of balls and what they carry, each array (n,), or (2, n) by race.
+    """Positions and loads of the balls, each array (n,), or (2, n) by race.
 
     Attributes
     ----------
     c, s
-        cosine and sine of their angles.
+        cosine and sine of the angles of the balls.
     drop : (2, n) [m]
     place : (2, n) [m]
-        radial and axial.
+        radial and axial position.
     known : (n,)
-        1 where `place` is a fair first guess.
+        1 where `place` is a good first guess.
     load : (2, n) [N], er : (2, n), ez : (2, n)
-        at the inner and outer contact; direction of each.
+        load and direction of the inner and the outer contact.
     """
 
     c: Array
@@ -102,7 +103,7 @@ class BallPlaces(NamedTuple):
 
 @inlined
 def contact_terms(r, z, drop, race, j, balls):
-    """Energy, load, e and the stiffness (rr, rz, zz) of one contact that (r, z) closes."""
+    """Return energy, load, e and stiffness (rr, rz, zz) of one contact, which (r, z) closes."""
     races = balls.races
     delta, er, ez, bend = race_touch(r, z, drop, races.distance[race, j], j, balls.contacts)
     if delta <= 0.0:
@@ -122,9 +123,9 @@ def contact_terms(r, z, drop, race, j, balls):
 
 @inlined
 def first_place(r, z, force, j, balls, places):
-    """A place (radial, axial) of ball j to set out from, and whether it touches there.
+    """Return a first guess of ball j's position (radial, axial), and True if it touches there.
 
-    (r, z) is the displacement of the inner groove's centre, clearance taken off.
+    (r, z) is the displacement of the inner groove's centre, less the clearance.
     """
     contacts = balls.contacts
     races = balls.races
@@ -137,12 +138,12 @@ def first_place(r, z, force, j, balls, places):
     de = places.drop[OUTER, j]
     delta, er, ez, _ = race_touch(r, z, di + de, Ai + Ae, j, contacts)
     if delta > 0.0:
-        # both contacts on one line, the compression shared as their softness is
+        # Both contacts are on one line, and share the compression in proportion to their softness.
         soft_i = races.factor[INNER, j] ** (-1.0 / exponent)
         soft_e = races.factor[OUTER, j] ** (-1.0 / exponent)
         reach = Ae + delta * soft_e / (soft_i + soft_e)
         return reach * er - (Ae - de) * ca, reach * ez - (Ae - de) * sa, True
-    # in the gap: at the bottom of the race that its load presses it to
+    # The ball is in the gap: it lies on the race against which its own load presses it.
     if force >= 0.0:
         reach = Ae + compression_under(force, races.factor[OUTER, j], exponent)
         return reach - (Ae - de) * ca, -(Ae - de) * sa, force > 0.0
@@ -152,10 +153,10 @@ def first_place(r, z, force, j, balls, places):
 
 @inlined
 def series_stiffness(i_rr, i_rz, i_zz, e_rr, e_rz, e_zz, i_r, i_z):
-    """Stiffness (M_i⁻¹ + M_e⁻¹)⁻¹ of both contacts of a ball, one behind the other [N/m].
+    """Return the stiffness (M_i⁻¹ + M_e⁻¹)⁻¹ [N/m] of both contacts of a ball in series.
 
-    Computed as M_e (M_i + M_e)⁻¹ M_i, which is no difference of near numbers; a direction that
-    nothing stiffens keeps nothing. (i_r, i_z) is the line of the inner contact.
+    It is computed as M_e (M_i + M_e)⁻¹ M_i, which subtracts no nearly equal numbers and leaves a
+    direction without stiffness at 0. (i_r, i_z) is the line of the inner contact.
     """
     h_rr = i_rr + e_rr
     h_rz = i_rz + e_rz
@@ -163,7 +164,8 @@ def series_stiffness(i_rr, i_rz, i_zz, e_rr, e_rz, e_zz, i_r, i_z):
     det = h_rr * h_zz - h_rz * h_rz
     trace = h_rr + h_zz
     if det < 1e-300 + 1e-15 * trace * trace:
-        # across the line of contact, where any spring keeps the answer along it
+        # M_i + M_e is singular across the line of contact. A spring of any stiffness there leaves
+        # the answer along the line as it is.
         h_rr += trace * i_z * i_z
         h_rz -= trace * i_r * i_z
         h_zz += trace * i_r * i_r
@@ -180,15 +182,15 @@ def series_stiffness(i_rr, i_rz, i_zz, e_rr, e_rz, e_zz, i_r, i_z):
 
 @called
 def settle_ball(r, z, j, balls, places):
-    """Move ball j to its minimum; (r, z) is the displacement of the inner groove's centre.
+    """Move ball j to its position of least energy, at a displacement (r, z) of the inner groove.
 
-    Its place b = (br, bz) minimises W(b) = E_i(δ_i) + E_e(δ_e) − F b_r, which is convex, by
-    Newton's method in the plane: g = ∂W/∂b = Q_e e_e − Q_i e_i − (F, 0) is 0 where the ball's loads
-    balance, and H = M_i + M_e is what both contacts stiffen it by. A move of b closes the outer
-    contact and opens the inner one, hence the signs.
+    The energy of ball position b = (br, bz), W(b) = E_i(δ_i) + E_e(δ_e) − F b_r, is convex.
+    Newton's method needs its gradient g = ∂W/∂b = Q_e e_e − Q_i e_i − (F, 0), which is 0 where the
+    loads of the ball balance, and its Hessian H = M_i + M_e, the stiffness of both contacts. A move
+    of b closes the outer contact and opens the inner one, hence the signs.
 
-    Returns W [N·m], whether the ball settled, and the stiffness (rr, rz, zz) [N/m] that the inner
-    ring feels. Loads and directions go into `places`.
+    Returns W [N·m], True if the ball settled, and the stiffness (rr, rz, zz) [N/m] that the ball
+    gives to the inner ring. Position, loads and directions go into `places`.
     """
     races = balls.races
     factor = races.factor[OUTER, j]
@@ -205,7 +207,7 @@ def settle_ball(r, z, j, balls, places):
             places.load[INNER, j] = 0.0
             places.load[OUTER, j] = 0.0
             return 0.0, True, 0.0, 0.0, 0.0
-    # `contact_terms` of both contacts at (br, bz)
+    # `contact_terms` of both contacts at (br, bz), the best position so far
     inner = outer = (0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0)
     W = 0.0
     scale = 0.0
@@ -221,8 +223,7 @@ def settle_ball(r, z, j, balls, places):
     y = bz
     tries = 0
     for _ in range(MOST_BALL_STEPS):
-        # Evaluate at the place (x, y) that is tried; the first time that is where the ball is, and
-        # no step has been made.
+        # Evaluate at the trial position (x, y); in the first round this is the first guess itself.
         inner1 = contact_terms(r - x, z - y, places.drop[INNER, j], INNER, j, balls)
         outer1 = contact_terms(x, y, places.drop[OUTER, j], OUTER, j, balls)
         Ei, Qi, i_r, i_z, i_rr, i_rz, i_zz = inner1
@@ -240,7 +241,7 @@ def settle_ball(r, z, j, balls, places):
             x = br + step * pr
             y = bz + step * pz
             continue
-        # The step is taken. Does the ball balance here?
+        # The energy has fallen: take the step, and test the balance of loads there.
         br = x
         bz = y
         W = W1
@@ -257,16 +258,18 @@ def settle_ball(r, z, j, balls, places):
         h_rz = i_rz + e_rz
         h_zz = i_zz + e_zz
         lost = ROUNDING * (abs(r) + abs(z) + abs(br) + abs(bz)) * max(h_rr, h_zz) / size
-        # a residual that no longer halves at what lost digits of the places make of it is rounding
+        # Lost digits of the positions leave a residual: one of that size that no longer halves is
+        # rounding.
         if residual <= BALL_AIM or (residual <= max(BALL_LIMIT, lost) and residual >= 0.5 * before):
             settled = True
             break
         before = residual
-        # Newton's step p = −H⁻¹ g, a system of two equations.
+        # Newton's step p = −H⁻¹ g: two equations.
         det = h_rr * h_zz - h_rz * h_rz
         trace = h_rr + h_zz
         if not det > 1e-13 * trace * trace:
-            # one contact alone holds nothing across its line: a small spring does, ever weaker
+            # One contact alone has no stiffness across its line. A small spring stands in for it,
+            # and is made weaker at each use.
             spring = shift * max(typical_stiffness(size, factor, exponent), trace)
             shift = max(0.1 * shift, 1e-12)
             h_rr += spring
@@ -299,9 +302,9 @@ def settle_ball(r, z, j, balls, places):
 
 @called
 def ring_energy(q, force, balls, places, g, H):
-    """V(q) [N·m] with all balls at their minima, its gradient g (5,) and Hessian H (5, 5).
+    """Compute V(q) [N·m] with all balls at their minima, its gradient g (5,) and Hessian H (5, 5).
 
-    Returns V, the size of its terms and whether all balls settled.
+    Returns V, the sum of the sizes of its terms, and True if all balls settled.
     """
     contacts = balls.contacts
     x = components(q)
@@ -326,7 +329,7 @@ def ring_energy(q, force, balls, places, g, H):
         size += abs(W)
         Q = places.load[INNER, j]
         if Q == 0.0:
-            continue
+            continue  # the ball does not press the inner race
         er = places.er[INNER, j]
         ez = places.ez[INNER, j]
         et = tilting(er, ez, j, contacts)
@@ -335,7 +338,7 @@ def ring_energy(q, force, balls, places, g, H):
         g[2] += Q * ez
         g[3] += Q * et * sj
         g[4] -= Q * et * cj
-        # the place (r, z) of the groove's centre depends on q as these two rows say
+        # R and Z are the derivatives by q of r and z, the groove centre's place (Eqs. 11 and 12).
         arm = contacts.arm[j]
         reach = contacts.reach[j]
         R = (cj, sj, 0.0, -arm * sj, arm * cj)
@@ -350,12 +353,12 @@ def ring_energy(q, force, balls, places, g, H):
 def settle_ring(q, load, balls, places, work):
     """Move q to the minimum of V(q) = Σ_j W_j(q) − F·q. Returns (which, status, residual, steps).
 
-    Newton's method as in `descend`, but each evaluation settles all balls first. They are left
-    where they settled at q; work.g[which] and work.H[which] belong to it.
+    This is Newton's method as in `descend`, but each evaluation settles all balls first. Balls are
+    left where they settled at the final q, to which work.g[which] and work.H[which] belong.
     """
     F = load.force
     active = load.active
-    carried_load = load_size(load) ** 2
+    squared_load = load_size(load) ** 2
     now = 0
     V, scale, settled = ring_energy(q, F, balls, places, work.g[0], work.H[0])
     residual = math.inf
@@ -363,26 +366,28 @@ def settle_ring(q, load, balls, places, work):
     for iteration in range(MOST_RING_STEPS):
         g = work.g[now]
         H = work.H[now]
-        norm, taken, reach, stiffest = sizes_at(q, g, H, F, active, 0.0)
-        # what the held directions take counts to the load
-        whole = math.sqrt(max(carried_load + taken, 0.0))
-        if norm == 0.0 and whole == 0.0:
+        norm, reactions, reach, stiffest = sizes_at(q, g, H, F, active, 0.0)
+        # The residual is what is out of balance, |g|, over the whole load. The reactions along held
+        # directions are part of the load.
+        total_load = math.sqrt(max(squared_load + reactions, 0.0))
+        if norm == 0.0 and total_load == 0.0:
             return now, NOTHING_TOUCHES, math.nan, iteration
-        # balls press the ring from both sides where it is preloaded: no load says how hard
+        # In a preloaded bearing balls press the ring from both sides, harder than any load shows.
         for j in range(places.c.size):
-            whole = max(whole, places.load[INNER, j])
+            total_load = max(total_load, places.load[INNER, j])
         before = residual
-        residual = math.sqrt(norm) / whole
-        limit = max(RESIDUAL_LIMIT, ROUNDING * reach * stiffest / whole)
+        residual = math.sqrt(norm) / total_load
+        limit = max(RESIDUAL_LIMIT, ROUNDING * reach * stiffest / total_load)
         stays = residual <= limit and residual >= 0.5 * before
         if settled and (residual <= RESIDUAL_AIM or stays):
             least = least_pivot(H, active, work.L)
             return now, CONVERGED if least > NO_PIVOT else FREE_DIRECTION, residual, iteration
         if not newton_direction(H, g, active, 0.0, work.L, work.p) > 1e-12:
-            # too few balls touch: a small spring to ground replaces the missing stiffness
+            # Too few balls touch: a small spring to ground replaces the missing stiffness.
             newton_direction(H, g, active, shift * max(stiffest, 1.0), work.L, work.p)
             shift = max(0.1 * shift, 1e-12)
         slope = slope_along(g, work.p, active)
+        # line search: shorten Newton's step until V falls
         step = 1.0
         accepted = False
         for _ in range(50):
@@ -411,13 +416,10 @@ def settle_ring(q, load, balls, places, work):
 
 
 def ball_positions(cage_angles, leads, start, balls, load):
-    """Static equilibrium with free balls at each cage angle, from the rings' places `start` (n, 5).
+    """Return the static equilibrium with free balls at each cage angle, as `PositionAnswers`.
 
-    leads (n,) [rad]: how far defects that turn are ahead of where the cage angle has them.
-
-    Returns q (n, 5), loads (2, n, n_balls), contact angles (2, n, n_balls) [rad], places
-    (n, 2, n_balls) [m], stiffness (n, 5, 5), status, residual and iterations (n,); tilts and
-    moments scaled as in `structs`, race by race the inner one first.
+    The search begins at displacements `start` (n, 5) of the ring. leads (n,) [rad]: angle by which
+    turning defects are ahead of their place at the cage angle.
     """
     n = cage_angles.size
     n_balls = balls.contacts.angle.size
@@ -440,7 +442,11 @@ def ball_positions(cage_angles, leads, start, balls, load):
 
 
 class PositionAnswers(NamedTuple):
-    """Output of `ball_positions`."""
+    """Output of `ball_positions` at n cage angles; tilts and moments are scaled as in `structs`.
+
+    q (n, 5) [m]; loads (2, n, balls) [N] and contact angles (2, n, balls) [rad], of the inner race
+    first; where (n, 2, balls) [m], the positions; stiffness (n, 5, 5) [N/m]; the others (n,).
+    """
 
     q: Array
     loads: Array
@@ -454,7 +460,7 @@ class PositionAnswers(NamedTuple):
 
 @compiled
 def find_positions(cage_angles, leads, start, balls, load, answers, work):
-    """Body of `ball_positions`, with work space."""
+    """Compiled body of `ball_positions`, with work space."""
     turning, places = work
     descent = turning.descent
     q = answers.q
@@ -469,7 +475,7 @@ def find_positions(cage_angles, leads, start, balls, load, answers, work):
             drop = places.drop[race]
             lay_out_drops(cage, leads[k], balls.contacts, path, drop, turning.slope)
         if k > 0 and status[k - 1] == CONVERGED:
-            # what the balls' loads moved the ring by, and the balls, at the angle before
+            # Start with the shift of the ring, and the positions of the balls, at the last angle.
             for a in range(5):
                 q[k, a] += q[k - 1, a] - start[k - 1, a]
         else:

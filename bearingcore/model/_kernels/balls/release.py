@@ -1,4 +1,4 @@
-"""Contacts whose damper would pull: they push no more until they would push again. See `motion`."""
+"""Release of contacts whose damper would pull, until they would push again. See `motion`."""
 
 from __future__ import annotations
 
@@ -16,8 +16,11 @@ from bearingcore.model._kernels.structs import PLANAR
 
 
 @called
-def change_variable(y, race, j, sign, passage, at, system, work):
-    """Take what a contact adds to w out of the state y (sign 1), or put it in (−1)."""
+def change_variable(y, race, j, sign, passage, instant, system, work):
+    """Take c δ e/m of a contact out of w of ring and ball in the state y; with sign −1 put it in.
+
+    w is v with these parts of all contacts, see `motion`; v does not change.
+    """
     rotor = system.rotor
     contacts = system.contacts
     races = system.races
@@ -25,8 +28,8 @@ def change_variable(y, race, j, sign, passage, at, system, work):
     n = active.size
     n_balls = contacts.angle.size
     planar = rotor.variables == PLANAR
-    cj = passage.c[at, j]
-    sj = passage.s[at, j]
+    cj = passage.c[instant, j]
+    sj = passage.s[instant, j]
     er = 1.0 if planar else work.contact[race, j, 1]
     ez = 0.0 if planar else work.contact[race, j, 2]
     damped = sign * races.damping[race, j] * abs(work.contact[race, j, 0])
@@ -46,52 +49,53 @@ def change_variable(y, race, j, sign, passage, at, system, work):
 
 
 @called
-def locate_contacts(y, passage, inner, at, system, work):
-    """Contacts at the state y into work, the rings' displacements being there already."""
+def locate_contacts(y, passage, inner, instant, system, work):
+    """Write the contacts at the state y into work, which holds the rings' displacements already."""
     first = 4 * system.rotor.active.size
     if system.rotor.variables == PLANAR:
-        planar_contacts(y, first, passage, inner, at, system, work)
+        planar_contacts(y, first, passage, inner, instant, system, work)
     else:
-        find_contacts(y, first, passage, inner, at, system, work)
+        find_contacts(y, first, passage, inner, instant, system, work)
 
 
 @called
-def true_forces(k, passage, inner, at, system, work):
-    """Σ (Q + c δ̇) e of both rings into work.f, at the positions that `ball_rates` left in work."""
+def true_forces(k, passage, inner, instant, system, work):
+    """Write Σ (Q + c δ̇) e (Eq. 18) of both rings into work.f, for the contacts in work."""
     first = 4 * system.rotor.active.size
     if system.rotor.variables == PLANAR:
-        planar_push(k, first, passage, inner, at, system, work)
+        planar_push(k, first, passage, inner, instant, system, work)
     else:
-        push_contacts(k, first, passage, inner, at, system, work, False)
+        push_contacts(k, first, passage, inner, instant, system, work, False)
 
 
 @called
-def update_released(y, k, passage, inner, at, system, work):
+def update_released(y, k, passage, inner, instant, system, work):
     """Release contacts whose damper would pull, and take up those that push again.
 
-    work holds the contacts at y as `ball_rates` left them and is spoilt. Returns whether any
-    changed: then the rates have, too.
+    work holds the contacts at y as `ball_rates` left them, and is overwritten. Returns True if any
+    contact changed; then the rates have changed too.
     """
     released = work.released
     before = work.before
     changed = False
-    some = False
+    any_before = False
     n_balls = released.shape[1]
-    true_forces(k, passage, inner, at, system, work)
+    # Release: `true_forces` gives a contact that would pull a negative δ.
+    true_forces(k, passage, inner, instant, system, work)
     for race in range(2):
         for j in range(n_balls):
             before[race, j] = released[race, j]
-            some = some or released[race, j]
-            # those that were released before are looked at again below, as if they pushed
+            any_before = any_before or released[race, j]
+            # earlier releases are taken back here and tested below, as if they pushed
             released[race, j] = not released[race, j] and work.contact[race, j, 0] < 0.0
             if released[race, j]:
-                change_variable(y, race, j, 1.0, passage, at, system, work)
+                change_variable(y, race, j, 1.0, passage, instant, system, work)
                 changed = True
-    if not some:
+    if not any_before:
         return changed
-    # those that were released before: are they still compressed, and would they still pull?
-    locate_contacts(y, passage, inner, at, system, work)
-    true_forces(k, passage, inner, at, system, work)
+    # Take up: an earlier release stays while its contact is compressed and would still pull.
+    locate_contacts(y, passage, inner, instant, system, work)
+    true_forces(k, passage, inner, instant, system, work)
     for race in range(2):
         for j in range(n_balls):
             if not before[race, j]:
@@ -99,14 +103,14 @@ def update_released(y, k, passage, inner, at, system, work):
             if work.contact[race, j, 0] < 0.0:
                 released[race, j] = True
             elif work.contact[race, j, 0] > 0.0:
-                change_variable(y, race, j, -1.0, passage, at, system, work)
+                change_variable(y, race, j, -1.0, passage, instant, system, work)
                 changed = True
     return changed
 
 
 @called
 def smooth_start(y, passage, inner, system, work):
-    """Turn the velocities in y into w: everything that is compressed counts as pushing."""
+    """Turn the velocities in y into w; each compressed contact counts as pushing."""
     ring_state(y, system.rotor, work.x)
     locate_contacts(y, passage, inner, 0, system, work)
     for race in range(2):

@@ -1,4 +1,4 @@
-"""Arguments of compiled functions of balls with mass: their numbers, and their work space."""
+"""Arguments of compiled functions of balls with mass: numbers of the balls, and work space."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ INNER, OUTER = 0, 1
 class Races(NamedTuple):
     """Numbers of each ball that are not in `Contacts`, each array (n,), or (2, n) by race.
 
-    The first row is that of the inner, the second that of the outer contact.
+    The first row belongs to the inner contact, the second to the outer contact.
 
     Attributes
     ----------
@@ -36,7 +36,7 @@ class Races(NamedTuple):
 
 
 class BallSystem(NamedTuple):
-    """All that moves where balls have mass; the way over defects of each race."""
+    """Rings and balls with mass, and the path over the defects of each race."""
 
     rotor: Rotor
     contacts: Contacts
@@ -46,20 +46,20 @@ class BallSystem(NamedTuple):
 
 
 class BallForces(NamedTuple):
-    """Work space of the equations of motion; by race, the inner one first.
+    """Work space of the equations of motion; the inner race or ring comes first.
 
     Attributes
     ----------
     x, v : (2, 5) [m], [m/s]
         displacement and velocity of the rings.
     S, f : (2, 5) [N·s], [N]
-        Σ c δ e; force of the contacts, on the outer ring and on the balls' outer side.
+        Σ c δ e; force of the contacts of each race, as it acts on the body outside of them.
     contact : (2, n, 4)
-        δ [m] (0 for what does not push), er, ez, 1/A [1/m].
+        δ [m] (0 if the contact is open, less if it would pull), er, ez, 1/A [1/m].
     ball : (2, n) [N]
         force on the balls, radial and axial.
     released, before : (2, n)
-        contacts that are compressed and yet do not push, now and a step ago.
+        True for contacts that are compressed and yet do not push, now and a step ago.
     """
 
     x: Array
@@ -73,8 +73,10 @@ class BallForces(NamedTuple):
 
 
 class BallSteps(NamedTuple):
-    """Work space of steps: positions of the balls, with the drops into the outer race and into the
-    inner one; the equations of motion's; rates of the four stages (4, size); the state tried.
+    """Work space of steps: `passage` has the drops into the outer race, `inner` into the inner one.
+
+    forces is that of the equations of motion; k (4, size) the rates of the four stages; trial
+    (size,) a state that is tried.
     """
 
     passage: Passage

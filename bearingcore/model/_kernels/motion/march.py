@@ -1,7 +1,7 @@
 """Motion of both rings (Eqs. 18-23): the equations of motion, and steps of order 4.
 
-The published damper's force c δ̇ e jumps as a ball touches, and a step across the jump errs by as
-much as the step is long. But c δ̇ e = d/dt(c δ e) − c δ ė while δ > 0, so with
+The force of the published damper, c δ̇ e, jumps when a ball touches, and a step across the jump has
+an error in proportion to its length. But c δ̇ e = d/dt(c δ e) − c δ ė while δ > 0. So with
 
     S = Σ δ_j e_j,    w_i = v_i + (c/m_i) S,    w_o = v_o − (c/m_o) S
 
@@ -9,15 +9,17 @@ the equations of motion (Eq. 18) have no jump left:
 
     ẋ_i = w_i − (c/m_i) S,    m_i ẇ_i = F − p,    p = Σ (Q_j e_j − c δ_j ė_j)
 
-and likewise, with opposite signs and its support, for the outer ring. It is the same law: only the
-variable that is marched has changed. Against velocities the error of a motion at the same steps is
-smaller by a factor of 10 to 100. A law without tension has no such S: there w = v, and p is the
+and likewise, with opposite signs and with the support, for the outer ring. The law is the same, and
+only the marched variable has changed. The error of a motion is 10 to 100 times smaller than with
+velocities at the same steps. A law without tension has no such S: there w = v, and p is the
 force itself.
 
-A contact's direction e turns with the ball and swivels as the contact angle changes. Where α0, z
-and tilts are zero it is e = (c, s) whatever the rings do, and δ = δx c + δy s − r_L − d (Eq. 19):
-then ė = ω_c (−s, c), and neither δ̇ nor the slope of d is needed. That case has its own sums over
-the contacts, in `planar`, which says what they buy; its steps are those of every motion.
+The direction e of a contact turns with the ball and swivels as the contact angle changes. If α0, z
+and tilts are zero, it is e = (c, s) for all motions of the rings, δ = δx c + δy s − r_L − d
+(Eq. 19) and ė = ω_c (−s, c), and neither δ̇ nor the slope of d is needed. `planar` has the faster
+sums over contacts for this case; the steps are the same.
+
+`instant` is the index of an instant in a passage.
 """
 
 from __future__ import annotations
@@ -52,8 +54,8 @@ from bearingcore.model._kernels.structs import (
 
 
 @inlined
-def find_touching(passage, at, contacts, work):
-    """List the contacts compressed at work.x in work, and put Σ δ e into work.S."""
+def find_touching(passage, instant, contacts, work):
+    """List the contacts that are compressed at work.x, and write Σ δ e into work.S."""
     x = components(work.x)
     touching = work.touching
     contact = work.contact
@@ -64,9 +66,11 @@ def find_touching(passage, at, contacts, work):
     S4 = 0.0
     count = 0
     for j in range(contacts.angle.size):
-        cj = passage.c[at, j]
-        sj = passage.s[at, j]
-        delta, er, ez, bend = touch(x, cj, sj, passage.d[at, j], j, contacts)
+        cj = passage.c[instant, j]
+        sj = passage.s[instant, j]
+        delta, er, ez, bend = touch(
+            x, cj, sj, passage.d[instant, j], j, contacts
+        )  # Equations (7)-(14)
         if delta <= 0.0:
             continue
         touching[count] = j
@@ -83,19 +87,19 @@ def find_touching(passage, at, contacts, work):
         S2 += ez
         S3 += et * sj
         S4 -= et * cj
-    S = work.S
+    S = work.S  # written at the end, as sums in registers are faster
     S[0], S[1], S[2], S[3], S[4] = S0, S1, S2, S3, S4
     work.touched[0] = count
 
 
 @inlined
-def push_of_contacts(passage, at, rotor, contacts, work, smooth):
-    """Force of all contacts on the outer ring [N], moments over r_d, into work.f.
+def push_of_contacts(passage, instant, rotor, contacts, work, smooth):
+    """Write the force of all contacts on the outer ring [N], moments over r_d, into work.f.
 
-    Every loaded ball pushes with K δ^n + c δ̇ (Eq. 18) along its contact, δ̇ the full time
-    derivative: velocities of the rings, turning of the ball, slope of the path. Where `smooth` it
-    is p = Σ (Q e − c δ ė): e turns with the ball and with the contact angle, whose rate is (t·ṗ)/A,
-    t across the contact and ṗ the rate of the ball's displacement.
+    Every loaded ball pushes with K δ^n + c δ̇ (Eq. 18) along its contact. δ̇ is the full time
+    derivative, due to velocities of the rings, turning of the ball and slope of the path. If
+    `smooth`, the force is p = Σ (Q e − c δ ė) instead. Here e turns with the ball and with the
+    contact angle, whose rate is (t·ṗ)/A; t is across the contact, ṗ the rate of (r, z).
     """
     damping = rotor.contact_damping
     tension = rotor.tension
@@ -113,15 +117,16 @@ def push_of_contacts(passage, at, rotor, contacts, work, smooth):
         delta = contact[i, 0]
         er = contact[i, 1]
         ez = contact[i, 2]
-        cj = passage.c[at, j]
-        sj = passage.s[at, j]
+        cj = passage.c[instant, j]
+        sj = passage.s[instant, j]
         if contacts.relative_speed[j] != relative_speed:  # another row
             relative_speed = contacts.relative_speed[j]
             w = relative_speed * rotor.cage_speed
             u = seen_from_the_cage(work.x, work.v, w)
-        r_rate, z_rate = approach(u, cj, sj, passage.d_rate[at, j], j, contacts)
+        r_rate, z_rate = approach(u, cj, sj, passage.d_rate[instant, j], j, contacts)
         _, Q, _ = contact_load(delta, contacts.factor[j], contacts.exponent[j])
         if smooth:
+            # Q e, and −c δ ė in two parts: the swivel acts along −t, the turning around the shaft
             damped = damping * delta
             swivel = damped * (er * z_rate - ez * r_rate) * contact[i, 3]
             turn_r = damped * w * er
@@ -135,7 +140,7 @@ def push_of_contacts(passage, at, rotor, contacts, work, smooth):
             f3 += along_t * sj - turn_t * cj
             f4 -= along_t * cj + turn_t * sj
         else:
-            push = Q + damping * (er * r_rate + ez * z_rate)
+            push = Q + damping * (er * r_rate + ez * z_rate)  # Equation (18)
             if push <= 0.0 and not tension:
                 continue
             push_t = push * tilting(er, ez, j, contacts)
@@ -149,10 +154,10 @@ def push_of_contacts(passage, at, rotor, contacts, work, smooth):
 
 
 @inlined
-def equations_of_motion(y, k, passage, at, rotor, contacts, work):
-    """dy/dt into k (4 n,); y is x, w of the inner, x, w of the outer ring, n directions each.
+def equations_of_motion(y, k, passage, instant, rotor, contacts, work):
+    """Write dy/dt into k (4 n,); y is x and w of the inner, then of the outer ring (Eq. 18).
 
-    `work` is left as it is at y.
+    Each of these has n directions. `work` keeps the contacts at y.
     """
     active = rotor.active
     n = active.size
@@ -164,20 +169,20 @@ def equations_of_motion(y, k, passage, at, rotor, contacts, work):
     smooth = rotor.variables != VELOCITIES
     for a in range(n):
         x[active[a]] = y[a] - y[2 * n + a]
-    find_touching(passage, at, contacts, work)
+    find_touching(passage, instant, contacts, work)
     for a in range(n):
         jump = damping * S[active[a]] if smooth else 0.0
         k[a] = y[n + a] - rotor.inverse_inner[a] * jump
         k[2 * n + a] = y[3 * n + a] + rotor.inverse_outer[a] * jump
         v[active[a]] = k[a] - k[2 * n + a]
-    push_of_contacts(passage, at, rotor, contacts, work, smooth)
+    push_of_contacts(passage, instant, rotor, contacts, work, smooth)
     for a in range(n):
-        k[n + a], k[3 * n + a] = ring_accelerations(y, k, rotor, a, f, f, passage.push[at])
+        k[n + a], k[3 * n + a] = ring_accelerations(y, k, rotor, a, f, f, passage.push[instant])
 
 
 @called
 def lay_out(angle, turn, count, system, work):
-    """Balls and outer forces at `count` cage angles angle + i·turn [rad], into work."""
+    """Write balls and outer forces at `count` cage angles angle + i·turn [rad] into work."""
     rotor = system.rotor
     passage = work.passage
     lay_out_balls(angle, turn, count, rotor.cage_speed, system.contacts, system.path, passage)
@@ -185,8 +190,8 @@ def lay_out(angle, turn, count, system, work):
 
 
 @inlined
-def rates(y, part, before, k, at, system, work):
-    """Rate of y + part·before into k: of the motion (4 n,), and of its tangent behind it."""
+def rates(y, part, before, k, instant, system, work):
+    """Write the rate of y + part·before into k: motion (4 n,) first, its tangent behind it."""
     rotor = system.rotor
     contacts = system.contacts
     passage = work.passage
@@ -194,29 +199,29 @@ def rates(y, part, before, k, at, system, work):
     if with_tangent or rotor.variables != PLANAR:
         try_state(y, part, before, work.trial)
     if rotor.variables == PLANAR:
-        planar_equations_of_motion(y, part, before, k, passage, at, rotor, contacts)
+        planar_equations_of_motion(y, part, before, k, passage, instant, rotor, contacts)
     else:
-        equations_of_motion(work.trial, k, passage, at, rotor, contacts, work.forces)
+        equations_of_motion(work.trial, k, passage, instant, rotor, contacts, work.forces)
     if with_tangent:
-        march_tangent(k, at, system, work)
+        march_tangent(k, instant, system, work)
 
 
 @inlined
-def changed(y, at, system, work):
-    """Return False: a state of massless balls is never changed between steps."""
+def changed(y, instant, system, work):
+    """Return False: with massless balls a state is never changed between steps."""
     return False
 
 
 @inlined
-def keep(sample, y, at, system, out, work):
+def keep(sample, y, instant, system, out, work):
     """Record the state y with the forces as published."""
     rotor = system.rotor
     forces = work.forces
     if rotor.variables == PLANAR:
-        planar_forces(y, work.k[0], work.passage, at, rotor, system.contacts, forces.f)
+        planar_forces(y, work.k[0], work.passage, instant, rotor, system.contacts, forces.f)
     elif rotor.variables == SMOOTH:
-        push_of_contacts(work.passage, at, rotor, system.contacts, forces, False)
-    push = work.passage.push[at]
+        push_of_contacts(work.passage, instant, rotor, system.contacts, forces, False)
+    push = work.passage.push[instant]
     record(out.history, sample, y, work.k[0], rotor, forces.f, forces.f, push)
 
 
@@ -224,7 +229,7 @@ runge_kutta = stepper(lay_out, rates, changed, keep)
 
 
 def new_steps(size, instants, system):
-    """Empty work space of steps from states of `size` numbers."""
+    """Return empty work space for steps of a state of `size` numbers."""
     angle = system.contacts.angle
     x, v, f, S = np.zeros((4, 5))
     touching, touched = np.empty(angle.size, dtype=np.int64), np.zeros(1, dtype=np.int64)
@@ -238,15 +243,15 @@ def new_steps(size, instants, system):
 
 
 def march(y, h, start_angle, system, history, watch=None):
-    """Steps of h [s] from y, which is moved to the end; the cage begins at start_angle.
+    """March in steps of h [s] from y, which is moved to the end; the cage begins at start_angle.
 
-    Behind the 4 n numbers of a state y may hold the tangent (4 n, columns), row by row: how the end
-    changes with the beginning. It takes smooth variables, in which nothing jumps as balls touch:
-    its steps are the derivative of those of the motion, without corrections.
+    Behind the 4 n numbers of a state, y may hold the tangent (4 n, columns), row by row: the
+    derivative of the end by the beginning. The tangent needs smooth variables. In them nothing
+    jumps when balls touch, so its steps are the exact derivative of the steps of the motion.
 
     history (steps + 1, 6, n) takes displacement, velocity and acceleration of the inner ring, then
-    of the outer ring, at every step. Returns the number of steps after which all was still finite,
-    which is looked at once in half a BLOCK. `watch`: see `march_in_parts`.
+    of the outer ring, at every step. Returns the number of steps after which all was still finite;
+    this is tested once in half a BLOCK. `watch`: see `march_in_parts`.
     """
     n_steps = history.shape[0] - 1
     work = new_steps(y.size, min(2 * n_steps, BLOCK) + 1, system)
@@ -261,7 +266,7 @@ def march(y, h, start_angle, system, history, watch=None):
 
 @compiled
 def march_each(states, h, start_angles, system, histories, work, span):
-    """`march` of each row of states, from each start angle; returns what the last one does.
+    """Do `march` for each row of states and its start angle; return the result of the last one.
 
     span: see `runge_kutta`.
     """
@@ -275,21 +280,21 @@ def march_each(states, h, start_angles, system, histories, work, span):
 def turn_smooth(y, sign, angle, system):
     """Turn velocities in the state y (4 n,) into w (sign 1), or back (sign −1), in place.
 
-    Where velocities are what the rotor marches they stay as they are. With w = 0 the velocities
-    are what the smooth variables take off them.
+    A rotor that marches velocities keeps them. A state with w = 0 has exactly the velocities that
+    have to be subtracted, v − w; one record of that state gives them.
     """
     if system.rotor.variables == VELOCITIES:
         return
     n = system.rotor.active.size
-    still = y.reshape(4, n) * np.array([[1.0], [0.0], [1.0], [0.0]])
+    at_zero_w = y.reshape(4, n) * np.array([[1.0], [0.0], [1.0], [0.0]])
     history = np.empty((1, 6, n))
-    march(still.ravel(), 0.0, angle, system, history)
+    march(at_zero_w.ravel(), 0.0, angle, system, history)
     y[n : 2 * n] -= sign * history[0, 1]
     y[3 * n :] -= sign * history[0, 4]
 
 
 def motion_rates(times, states, start_angle, system):
-    """dy/dt (m, 4 n) at times (m,) [s] and states (m, 4 n) of a system in VELOCITIES."""
+    """Return dy/dt (m, 4 n) at times (m,) [s] and states (m, 4 n) of a system in VELOCITIES."""
     angles = start_angle + system.rotor.cage_speed * times
     histories = np.empty((times.size, 1, 6, system.rotor.active.size))
     work = new_steps(states.shape[1], 1, system)
@@ -298,9 +303,9 @@ def motion_rates(times, states, start_angle, system):
 
 
 def elastic_loads(x, active, start_angle, turn, contacts, path):
-    """K δ^n (m, contacts) [N] (Eq. 13) at displacements x (m, len(active)) [m], tilts times r_d.
+    """Return K δ^n (m, contacts) [N] (Eq. 13) at displacements x (m, len(active)) [m].
 
-    The cage is at start_angle + k·turn at row k.
+    Tilts in x are times r_d. In row k of x the cage is at start_angle + k·turn.
     """
     loads = np.zeros((x.shape[0], contacts.angle.size))
     work = np.ascontiguousarray(x), np.zeros(5), new_passage(BLOCK, contacts.angle)
@@ -310,7 +315,7 @@ def elastic_loads(x, active, start_angle, turn, contacts, path):
 
 @compiled
 def fill_loads(active, start_angle, turn, contacts, path, loads, work):
-    """Body of `elastic_loads`; work holds x, a place (5,) for a displacement, 0, and a passage."""
+    """Compiled body of `elastic_loads`; work is x, five zeros for a displacement, and a passage."""
     x, q, passage = work
     for first in range(0, x.shape[0], BLOCK):
         instants = min(BLOCK, x.shape[0] - first)
@@ -325,10 +330,10 @@ def fill_loads(active, start_angle, turn, contacts, path, loads, work):
 
 @compiled
 def interpolate_steps(history, body, weights, first, out):
-    """Fill out (n_out, n) with a quantity of one body, samples from `first` on, between steps.
+    """Fill out (n_out, n) with samples of one body from `first` on, interpolated between steps.
 
-    weights (ratio, 6) multiply x, v, acceleration at a step and at the next one; body is 0 for the
-    inner and 3 for the outer ring. Sample k is (k mod ratio)/ratio of a step after step k//ratio.
+    Each step has `ratio` samples. weights (ratio, 6) multiply x, v and acceleration at a step and
+    at the next one, and choose the quantity; body is 0 for the inner and 3 for the outer ring.
     """
     ratio = weights.shape[0]
     last = history.shape[0] - 2
@@ -336,12 +341,12 @@ def interpolate_steps(history, body, weights, first, out):
         k = first + row
         step = min(k // ratio, last)
         w = k - step * ratio
-        if w == ratio:  # the very end, one whole step after the last but one
+        if w == ratio:  # the last sample, one whole step after the last but one
             step += 1
             w = 0
         following = min(step + 1, last + 1)
         for a in range(out.shape[1]):
-            # the difference of displacements first: on its own each is many times larger
+            # the difference of displacements comes first, as each of them is many times larger
             out[row, a] = (
                 (weights[w, 0] + weights[w, 3]) * history[step, body, a]
                 + weights[w, 3] * (history[following, body, a] - history[step, body, a])
@@ -354,10 +359,10 @@ def interpolate_steps(history, body, weights, first, out):
 
 @compiled
 def lay_side_by_side(history, body, before, rows):
-    """Put displacement since the first row, v and a of a body into rows (n, 3 stride, m), all 0.
+    """Copy displacement since the first row, v and a of a body into rows (n, 3 stride, m), all 0.
 
-    Row i of the history is column (before + i)//stride, of each quantity the (before + i) mod
-    stride-th row: what is `stride` rows apart in time then lies side by side.
+    Row i of the history goes into column (before + i)//stride of row (before + i) mod stride of
+    each quantity. Instants that are `stride` rows apart in time then lie side by side.
     """
     stride = rows.shape[1] // 3
     n = min(history.shape[0], rows.shape[2] * stride - before)
@@ -373,7 +378,7 @@ def lay_side_by_side(history, body, before, rows):
 @compiled
 def sliding_sums(rows, weights, out):
     """Add Σ weights[c, t]·rows[c, k + t] to each out[k] (n,); rows (c, at least n + t)."""
-    piece = 1024  # stays in the cache while all weights pass over it
+    piece = 1024  # so many numbers stay in the cache while all weights pass over them
     taps = weights.shape[1]
     for first in range(0, out.size, piece):
         part = out[first : first + piece]

@@ -1,4 +1,4 @@
-"""Accelerations of the two rings, and the record of their motion."""
+"""Accelerations of both rings, and the record of their motion."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from bearingcore.model._kernels.compiling import inlined
 
 @inlined
 def accelerations(rotor, a, inner_force, outer_force, push, xo, vo):
-    """Accelerations of inner and outer ring along active direction a (Eq. 18).
+    """Return the accelerations of inner and outer ring along active direction a (Eq. 18).
 
     inner_force, outer_force: force [N] of the contacts of each ring, as it acts on the outer ring;
-    one and the same for massless balls. push: force on the inner ring from unbalance and samples;
-    xo, vo: displacement and velocity of the outer ring.
+    both are the same force for massless balls. push: force on the inner ring from unbalance and
+    samples; xo, vo: displacement and velocity of the outer ring.
     """
     inner = (rotor.force[a] + push - inner_force) * rotor.inverse_inner[a]
     outer = (outer_force - rotor.stiffness[a] * xo - rotor.damping[a] * vo) * rotor.inverse_outer[a]
@@ -20,7 +20,7 @@ def accelerations(rotor, a, inner_force, outer_force, push, xo, vo):
 
 @inlined
 def ring_accelerations(y, k, rotor, a, inner_force, outer_force, push):
-    """`accelerations` at a state y with rate k, of forces and push (5,) along all directions."""
+    """Return `accelerations` at a state y with rate k; forces and push (5,) have all directions."""
     n = rotor.active.size
     d = rotor.active[a]
     return accelerations(
@@ -30,7 +30,7 @@ def ring_accelerations(y, k, rotor, a, inner_force, outer_force, push):
 
 @inlined
 def record(history, sample, y, k, rotor, inner_force, outer_force, push):
-    """Displacements, velocities and accelerations (Eq. 18) of one instant into history[sample]."""
+    """Write displacements, velocities and accelerations of one instant into history[sample]."""
     n = rotor.active.size
     for a in range(n):
         inner, outer = ring_accelerations(y, k, rotor, a, inner_force, outer_force, push)

@@ -1,4 +1,4 @@
-"""Derivative of a motion by its beginning: the tangent, marched with it as columns."""
+"""The tangent of a motion: its derivative by the beginning, marched as columns beside it."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from bearingcore.model._kernels.structs import PLANAR, Slopes
 
 
 def new_slopes(size, whole):
-    """Empty work space of the tangent behind states of `size` numbers, `whole` with it."""
+    """Return empty work space for the tangent; states have `size` numbers, with it `whole`."""
     columns = whole // size - 1
     return Slopes(
         np.zeros((5, 5)),
@@ -26,11 +26,11 @@ def new_slopes(size, whole):
 
 
 @called
-def march_tangent(k, at, system, work):
-    """Rate of the tangent into k, behind that of the state work.trial.
+def march_tangent(k, instant, system, work):
+    """Write the rate of the tangent into k, behind the rate of the state work.trial.
 
-    k and work.trial hold the tangent (4 n, columns) behind 4 n numbers of the state. The variables
-    are smooth: velocities jump as a ball touches, and their tangent would have to.
+    k and work.trial hold the tangent (4 n, columns) behind the 4 n numbers of the state. Variables
+    are smooth, because velocities jump when a ball touches, and so would their tangent.
     """
     rotor = system.rotor
     slopes = work.slopes
@@ -38,18 +38,19 @@ def march_tangent(k, at, system, work):
     shape = (size, k.size // size - 1)
     tried = work.trial[size:].reshape(shape)
     if rotor.variables == PLANAR:
-        planar_slopes(work.trial, work.passage, at, rotor, system.contacts, slopes)
+        planar_slopes(work.trial, work.passage, instant, rotor, system.contacts, slopes)
     else:
-        swivelling_slopes(work.passage, at, rotor, system.contacts, work.forces, slopes)
+        swivelling_slopes(work.passage, instant, rotor, system.contacts, work.forces, slopes)
     tangent_rates(tried, k[size:].reshape(shape), rotor, slopes)
 
 
 @called
-def swivelling_slopes(passage, at, rotor, contacts, work, slopes):
-    """Derivatives of Σ δ e and the force by x and v, into slopes.Sx, Px and Pv; contacts swivel.
+def swivelling_slopes(passage, instant, rotor, contacts, work, slopes):
+    """Write the derivatives by x and v of Σ δ e and the force into slopes.Sx, Px and Pv.
 
-    With e along a contact and t across it, in q, and their derivatives with the cage's turning:
-    de = t (t·dx)/A, dt = −e (t·dx)/A, dδ = dA = e·dx, and σ = (t·ṗ)/A.
+    Contacts swivel: de = t (t·dx)/A, dt = −e (t·dx)/A and dδ = dA = e·dx, with e along a contact
+    and t across it, both as components along q. The rate of the contact angle is σ = (t·ṗ)/A, and
+    e_turn and t_turn are the derivatives of e and t by the cage angle.
     """
     damping = rotor.contact_damping
     Sx = slopes.Sx
@@ -73,13 +74,13 @@ def swivelling_slopes(passage, at, rotor, contacts, work, slopes):
         er = work.contact[i, 1]
         ez = work.contact[i, 2]
         bend = work.contact[i, 3]
-        cj = passage.c[at, j]
-        sj = passage.s[at, j]
+        cj = passage.c[instant, j]
+        sj = passage.s[instant, j]
         if contacts.relative_speed[j] != relative_speed:  # another row
             relative_speed = contacts.relative_speed[j]
             w = relative_speed * rotor.cage_speed
             u = seen_from_the_cage(work.x, work.v, w)
-        r_rate, z_rate = approach(u, cj, sj, passage.d_rate[at, j], j, contacts)
+        r_rate, z_rate = approach(u, cj, sj, passage.d_rate[instant, j], j, contacts)
         directions_in_q(er, ez, cj, sj, tilting(er, ez, j, contacts), e, e_turn)
         directions_in_q(-ez, er, cj, sj, tilting(-ez, er, j, contacts), t, t_turn)
         _, Q, k1 = contact_load(delta, contacts.factor[j], contacts.exponent[j])
@@ -88,11 +89,12 @@ def swivelling_slopes(passage, at, rotor, contacts, work, slopes):
         k2 = Q * bend
         damped = damping * delta * bend
         for b in range(5):
-            # of swivel = c δ σ, which pushes along −t
+            # derivative of the swivelling force c δ σ, which acts along −t
             swivel = damping * sigma * (1.0 - delta * bend) * e[b] + damped * (
                 w * t_turn[b] - along * bend * t[b]
             )
             for a in range(5):
+                # d(δ e)/dx, dp/dx and dp/dv, by the derivatives above
                 Sx[a, b] += e[a] * e[b] + delta * bend * t[a] * t[b]
                 Px[a, b] += (
                     k1 * e[a] * e[b]
@@ -105,7 +107,7 @@ def swivelling_slopes(passage, at, rotor, contacts, work, slopes):
 
 @inlined
 def directions_in_q(er, ez, cj, sj, et, e, e_turn):
-    """Components of (er, ez) at a ball along q, into e, and their derivatives by the cage angle."""
+    """Write the components along q of (er, ez) to e, their derivatives by cage angle to e_turn."""
     e[0] = er * cj
     e[1] = er * sj
     e[2] = ez
@@ -120,12 +122,13 @@ def directions_in_q(er, ez, cj, sj, et, e, e_turn):
 
 @called
 def tangent_rates(Y, kY, rotor, slopes):
-    """Rate of the tangent Y (4 n, columns) into kY: the equations of motion, differentiated."""
+    """Write the rate of the tangent Y (4 n, columns) into kY: derivatives of Eq. 18."""
     active = rotor.active
     n = active.size
     columns = Y.shape[1]
     damping = rotor.contact_damping
     rows = slopes.rows
+    # of ẋ = w ∓ (c/m) S: first the rows of c dS, then of dẋ
     for a in range(n):
         for column in range(columns):
             rows[a, column] = 0.0
@@ -138,6 +141,7 @@ def tangent_rates(Y, kY, rotor, slopes):
             kY[a, column] = Y[n + a, column] - rotor.inverse_inner[a] * rows[a, column]
             kY[2 * n + a, column] = Y[3 * n + a, column] + rotor.inverse_outer[a] * rows[a, column]
             rows[n + a, column] = 0.0
+    # of ẇ: first the rows of the force dp, which depends on x and ẋ, then of dẇ
     for a in range(n):
         for b in range(n):
             kx = slopes.Px[active[a], active[b]]

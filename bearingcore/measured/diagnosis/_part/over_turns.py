@@ -14,7 +14,7 @@ import numpy as np
 
 from bearingcore.common import Array, number, runs, span
 from bearingcore.measured.diagnosis._part.unknown_speed import NARROW
-from bearingcore.measured.signals._filter_bank import thinned
+from bearingcore.measured.signals._filter_bank import downsample
 from bearingcore.measured.signals._resampling import resample_over_turns
 from bearingcore.recordings import FEWEST_SAMPLES, Recording
 
@@ -158,7 +158,7 @@ def followed_change(columns: Sequence[Array], rate: float, shaft: float) -> floa
         given speed [Hz].
     """
     speeds = np.linspace(NEAR[0] * shaft, NEAR[1] * shaft, 141)
-    slow = [thinned(column, rate, 6.0 * shaft) for column in columns]
+    slow = [downsample(column, rate, 6.0 * shaft) for column in columns]
     change = max(_change(values, rate, shaft, speeds) for values, rate in slow)
     return change or max(_small_change(values, rate, shaft) for values, rate in slow)
 

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from bearingcore.measured.diagnosis._part.combs import FAINTEST, HARMONICS, lines_at, noise_level
 from bearingcore.measured.diagnosis._part.mains import MAINS, mains_lines
 from bearingcore.measured.diagnosis._part.search import RARE
-from bearingcore.measured.signals._filter_bank import LOWEST, Band, squared_envelopes, thinned
+from bearingcore.measured.signals._filter_bank import LOWEST, Band, downsample, squared_envelopes
 from bearingcore.measured.signals._line_levels import LineLevels, line_levels
 
 SEGMENT_TURNS = 240.0
@@ -87,7 +87,7 @@ def shaft_lines(
     """
     segment, top = SEGMENT_TURNS / low, (2 * HARMONICS + 1) * high
     best = ShaftLines(0.5 * (low + high), -np.inf, np.inf)
-    series = [thinned(samples - samples.mean(), sample_rate, top) for samples in columns]
+    series = [downsample(samples - samples.mean(), sample_rate, top) for samples in columns]
     whole, width = [Band(LOWEST, 0.5 * sample_rate)], SHAFT_WHITENING * low
     for samples in columns if envelopes else ():
         whitened = squared_envelopes(samples, sample_rate, whole, top, None, width)

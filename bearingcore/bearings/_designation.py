@@ -269,10 +269,8 @@ BY_FREQUENCIES = (
 
 def series_words() -> str:
     """Return the series that are known by number, in words."""
-    names: dict[str, list[str]] = {}
-    for series, kind in SERIES.items():
-        names.setdefault(kind, []).append(series)
-    listed = "; ".join(f"{', '.join(series)} ({kind}s)" for kind, series in names.items())
+    kinds = {kind: [s for s in SERIES if SERIES[s] == kind] for kind in SERIES.values()}
+    listed = "; ".join(f"{', '.join(series)} ({kind}s)" for kind, series in kinds.items())
     return f"{listed}; bores of 10 to 100 mm, of 60 and 62 from 3 mm, of rollers from 20 mm"
 
 

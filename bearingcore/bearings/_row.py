@@ -120,10 +120,7 @@ def pair(distance: float, arrangement: str, preload: float = 0.0) -> tuple[Row, 
             raise checks.refuse("preload", preload, "0: rows in tandem do not press each other")
         return Row(-half), Row(half)
     upper = 1 if arrangement == "face-to-face" else -1
-    return (
-        Row(-half, -upper, offset=-upper * push),
-        Row(half, upper, offset=upper * push),
-    )
+    return Row(-half, -upper, offset=-upper * push), Row(half, upper, offset=upper * push)
 
 
 def arrangement_of(rows: tuple[Row, ...]) -> str:

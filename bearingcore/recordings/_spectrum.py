@@ -9,13 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from bearingcore.common import (
-    Array,
-    ResultTable,
-    _checks as checks,
-    shown_as_table,
-    table_of,
-)
+from bearingcore.common import Array, ResultTable, _checks as checks, shown_as_table, table_of
 
 
 @shown_as_table

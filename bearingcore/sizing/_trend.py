@@ -27,8 +27,7 @@ LOWEST_LINE = 3.0
 """Lowest frequency of a line that is searched, over the resolution."""
 
 SURROUNDINGS, FEWEST_AROUND = 2.0, 9
-"""Width, over the shaft frequency, of the surroundings whose median is the background of a line;
-and the fewest lines in it."""
+"""Width over which the median is the background, in shaft frequencies; fewest lines in it."""
 
 CHANCE = 1e-3
 """Probability that noise alone reaches the level above which a line counts."""
@@ -308,11 +307,7 @@ def _line_amplitudes(
     column: int,
     band: tuple[float, float],
 ) -> tuple[Array, Array]:
-    """Return amplitudes (4,) of `LINES` in the envelope, and the levels of noise there [m/s²].
-
-    A mean of n Welch segments of noise has a gamma distribution with n degrees: its median scales
-    the background, its quantile gives the level.
-    """
+    """Return amplitudes (4,) of `LINES` in the envelope, and the levels of noise there [m/s²]."""
     from scipy.special import gammaincinv  # imported late: see `spectrum`
 
     turn = shaft_speed / (2.0 * math.pi)
@@ -328,6 +323,7 @@ def _line_amplitudes(
     around = max(round(SURROUNDINGS * turn / step), FEWEST_AROUND) | 1
     if len(frequency) < around:
         return unknown, unknown
+    # means of so many spectra of noise have a gamma distribution, whose median is not its mean
     background = local_median(density, around) / float(gammaincinv(averages, 0.5))
     finest = envelope_spectrum(signal, recording.sample_rate, band)
     lines, noise = unknown.copy(), unknown.copy()

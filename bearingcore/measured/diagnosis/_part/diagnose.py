@@ -23,10 +23,7 @@ from bearingcore.measured.diagnosis._part.decide import ENOUGH_SWING, decide, no
 from bearingcore.measured.diagnosis._part.evidence import CANNOT_TELL, NONE_SEEN, Diagnosis
 from bearingcore.measured.diagnosis._part.judged import judge
 from bearingcore.measured.diagnosis._part.listened_signal import ListenedSignal, unfit
-from bearingcore.measured.diagnosis._part.over_turns import (
-    resample_to_steady_speed,
-    speed_change,
-)
+from bearingcore.measured.diagnosis._part.over_turns import resample_to_steady_speed, speed_change
 from bearingcore.measured.diagnosis._part.parts import BALL, INNER, OUTER, PartLines, part_lines
 from bearingcore.measured.diagnosis._part.status import DiagnosisStatus
 from bearingcore.measured.diagnosis._part.unknown_speed import NARROW, diagnose_in_range

@@ -19,15 +19,15 @@ _short.maxstring = _short.maxother = _short.maxlong = 80  # a value may be a who
 
 
 class Status(enum.StrEnum):
-    """Outcome of a solver. A member equals its text, which files and tables hold.
+    """Outcome of a solver. A member equals its text, which files and tables contain.
 
-    A member is a text, or a text and a sentence; `sentence` is the latter, or else the text.
+    A member is defined by a text, or by a text and a sentence. `sentence` is the text by default.
     """
 
     sentence: str
 
     def __new__(cls, text: str, sentence: str = "") -> Self:
-        """A member that is its text."""
+        """Make a member that equals its text."""
         member = str.__new__(cls, text)
         member._value_, member.sentence = text, sentence or text
         return member
@@ -35,16 +35,16 @@ class Status(enum.StrEnum):
 
 @dataclass(frozen=True)
 class Interval:
-    """Finite numbers between two bounds, each of which belongs to it or does not.
+    """Interval of finite numbers.
 
     Attributes
     ----------
     at_least, at_most
-        bounds that belong to it.
+        bounds that belong to the interval.
     above, below
         bounds that do not.
     note
-        why, or the bounds in other words; may be empty.
+        reason for the bounds, or the bounds in other words; may be empty.
     """
 
     at_least: float = -math.inf
@@ -54,15 +54,15 @@ class Interval:
     note: str = ""
 
     def words(self, amount: Callable[[float], str], unit: str = "") -> str:
-        """The interval in words, its bounds written by `amount`; `unit` stands behind them."""
+        """Return the interval in words; `amount` makes the text of a bound, `unit` follows them."""
         bounds = (
             ("at least", self.at_least),
             ("above", self.above),
             ("at most", self.at_most),
             ("below", self.below),
         )
-        said = [f"{word} {amount(bound)}" for word, bound in bounds if math.isfinite(bound)]
-        words = " ".join(["a finite number", " and ".join(said)]).rstrip()
+        limits = [f"{word} {amount(bound)}" for word, bound in bounds if math.isfinite(bound)]
+        words = " ".join(["a finite number", " and ".join(limits)]).rstrip()
         return words + (f" [{unit}]" if unit else "") + (f": {self.note}" if self.note else "")
 
 
@@ -79,11 +79,11 @@ class FieldError(ValueError):
         the values that are allowed: an `Interval` [unit], or words. In words ``{name}`` stands for
         a field and ``{name:unit}`` for its number, both out of `numbers`.
     unit
-        SI unit of the value and of the bounds of an interval; empty where it is not said.
+        SI unit of the value and of the bounds of an interval; empty if it is not stated.
     numbers
         numbers in the words, by name, in the unit given there.
     where
-        the parts that the field is in, outermost first: ("row 2",), ("line 7",).
+        the parts that contain the field, outermost first: ("row 2",), ("line 7",).
     """
 
     def __init__(
@@ -95,7 +95,7 @@ class FieldError(ValueError):
         numbers: Mapping[str, float] = MappingProxyType({}),
         where: tuple[str, ...] = (),
     ) -> None:
-        # the arguments in full, so that an error comes out of another process as it went in
+        # all arguments, so that an error can be pickled on its way from another process
         super().__init__(field, value, allowed, unit, dict(numbers), where)
         self.field, self.value, self.allowed, self.unit = field, value, allowed, unit
         self.numbers, self.where = dict(numbers), where
@@ -107,14 +107,14 @@ class FieldError(ValueError):
         )
 
     def allowed_words(self, name: Callable[[str], str], amount: Callable[[float, str], str]) -> str:
-        """The allowed values, in words.
+        """Return the allowed values, in words.
 
         Parameters
         ----------
         name
-            called with the name of a field: returns its label.
+            function that returns the label of a field from its name.
         amount
-            called with a number and its SI unit: returns both as text.
+            function that returns a number with its SI unit as text.
         """
         if isinstance(self.allowed, Interval):
             return self.allowed.words(lambda bound: amount(bound, self.unit))
@@ -137,27 +137,27 @@ class FieldError(ValueError):
         return f"{self.value:g}" if isinstance(self.value, float) else _short.repr(self.value)
 
     def __str__(self) -> str:
-        """Field, value and what is allowed, in SI units."""
+        """Return the field, its value and the allowed values, in SI units."""
         return "".join(f"{part}: " for part in self.where) + (
             f"{self.field} is {self.value_text}; allowed: {self.allowed_text}"
         )
 
 
 class FieldTypeError(FieldError, TypeError):
-    """A value of another type than a field can have: its words say which are wanted."""
+    """A value of a type that a field cannot have; `allowed` names the types that it can have."""
 
 
 class MissingError(FieldError):
-    """An argument that has to be given, as it does not follow from the others."""
+    """A missing argument, which does not follow from the others."""
 
     def __str__(self) -> str:
-        """Field, and what to pass, in SI units."""
+        """Return the field and the value to pass, in SI units."""
         return f"{self.field} is missing: pass {self.field}=..., {self.allowed_text}"
 
 
 @dataclass(frozen=True)
 class _InWords:
-    """A number inside words: formatted without a unit it is its name, else the amount."""
+    """A number inside words: its format is the label without a unit, and the amount with one."""
 
     name: str
     number: float

@@ -14,8 +14,8 @@ from typing import Any
 from bearingcore.units import UNITS
 
 WIDEST_CONFORMITY = 0.6
-"""Groove radius over ball diameter up to which a groove is believed. Makers use 0.505 to 0.54,
-instrument bearings up to about 0.58."""
+"""Greatest groove radius over ball diameter that is accepted. Makers use 0.505 to 0.54, and up to
+about 0.58 for instrument bearings."""
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,7 @@ class Range:
     step
         of the slider.
     typed_least, typed_most
-        least and greatest number that may be typed; NaN: no more than the slider reaches.
+        least and greatest number that may be typed; NaN: the end of the slider.
     """
 
     least: float
@@ -47,11 +47,11 @@ class Range:
         )
 
     def holds(self, value: float) -> bool:
-        """Return True if the slider reaches `value`, or if it is left open (NaN)."""
+        """Return True if the slider reaches `value`, or if `value` is unknown (NaN)."""
         return self.least <= value <= self.most or math.isnan(value)
 
     def around(self, value: float) -> Range:
-        """Extend the slider so that it reaches `value`: to the end or a round number past it."""
+        """Extend the slider to a round number past `value`, or to the end of the typed numbers."""
         if self.holds(value):
             return self
         low, high = self.allowed
@@ -62,8 +62,8 @@ class Range:
 
 
 def round_up(value: float) -> float:
-    """The next number of 1, 2, 5, 10, 20, 50, ... that is not below `value`."""
-    value = max(value, 1e-300)  # below, powers of ten are no numbers any more
+    """Return the least number of 1, 2, 5, 10, 20, 50, ... that is not below `value`."""
+    value = max(value, 1e-300)  # smaller powers of ten underflow
     power = 10.0 ** math.floor(math.log10(value))
     return next(step * power for step in (1.0, 2.0, 5.0, 10.0) if step * power >= value * 0.999999)
 
@@ -73,13 +73,13 @@ RangeOf = Callable[[Any, float], Range]
 
 
 def _usual(_: Any, value: float) -> Range:
-    """Range from nothing to twice the preset's number; a typed number may be much larger."""
-    most = round_up(2.0 * value) if value > 0.0 else 100.0  # NaN too: its size is not known
+    """Return the range from 0 to twice the preset's number; a typed number may be much larger."""
+    most = round_up(2.0 * value) if value > 0.0 else 100.0  # also for NaN, an unknown number
     return Range(0.0, most, round_up(most / 2000.0), 0.0, 1e9)
 
 
 def _usual_of_first_row(name: str) -> RangeOf:
-    """Range like `_usual`, around the number of the first row [mm]."""
+    """Return the range `_usual` for the number of the first row [mm]."""
     return lambda scene, _: _usual(scene, getattr(scene.bearing, name) * 1e3)
 
 
@@ -89,19 +89,19 @@ def _largest_force(scene: Any) -> float:
 
 
 def _force(scene: Any, _: float) -> Range:
-    """Range of a force, either way: a few times the preset's largest."""
+    """Return the range of a force in both directions, a few times the preset's largest one."""
     most = _largest_force(scene)
     return Range(-most, most, most / 500.0, -1e6, 1e6)
 
 
 def _moment(scene: Any, _: float) -> Range:
-    """Range of a moment, either way: that of such a force at the pitch radius."""
+    """Return the range of a moment: a quarter of such a force times the pitch diameter."""
     most = round_up(0.25 * _largest_force(scene) * scene.bearing.pitch_diameter)
     return Range(-most, most, most / 500.0, -1e5, 1e5)
 
 
 def groove_range(scene: Any, _: float = math.nan) -> Range:
-    """Range from hardly wider than a ball to the widest groove that guides one."""
+    """Return the range from hardly wider than a ball to the widest groove that guides one."""
     ball = scene.bearing.ball_diameter * 1e3
     widest = float(f"{WIDEST_CONFORMITY * ball:.12g}")
     return Range(float(f"{0.501 * ball:.6g}"), widest, 0.0005 * ball, 0.0, 1e4)
@@ -116,29 +116,29 @@ class Field:
     name
         of the attribute that holds it.
     part
-        what has this attribute: "scene", "bearing", "load", "support", "defect", "floor" (the rough
-        floor of a defect), "pair" (a bearing of two rows), "second" (the second row of a bearing),
-        or "" for a number of the page alone.
+        the part that has this attribute: "scene", "bearing", "load", "support", "defect", "floor"
+        (the rough floor of a defect), "pair" (a bearing of two rows), "second" (the second row of a
+        bearing), or "" for a number of the page alone.
     label
         name in words.
     symbol
-        with an underscore before what stands below: "D_b".
+        letter, with its subscript after an underscore: "D_b".
     shown_unit
         unit of sliders, links and lessons, one of `UNITS`; empty for counts and ratios.
     group
-        heading that its slider stands under; empty where it has none.
+        heading of its slider; empty where it has none.
     range
         possible numbers, or a function of a preset's scene that returns them.
     meaning
         meaning in a sentence.
     optional
-        True if it may be left open: None in the scene.
+        True if it may be left empty: None in the scene.
     whole
         True if it is a whole number.
     sweep_range
-        ends of maps over it, if they show more than its whole slider.
+        ends of maps over it, if they show more than its whole slider would.
     reverse_label
-        name of the number with the other sign, where people read that: "Load, downwards".
+        name of the number with the opposite sign, if people read that one: "Load, downwards".
     """
 
     name: str
@@ -161,18 +161,18 @@ class Field:
 
     @property
     def read_sign(self) -> float:
-        """-1 where people read the number with the other sign, under `reverse_label`."""
+        """-1 if people read the number with the opposite sign, under `reverse_label`; else 1."""
         return -1.0 if self.reverse_label else 1.0
 
     @property
     def key(self) -> str:
-        """Its name on the page, in links and in lessons, with the unit: "extent_deg"."""
+        """Name on the page, in links and in lessons, with the unit: "extent_deg"."""
         suffix = _SUFFIXES.get(self.shown_unit)
         return f"{self.full_name}_{suffix}" if suffix else self.full_name
 
     @property
     def full_name(self) -> str:
-        """The name, of a second row's field with that before it: different for every field."""
+        """The name, which differs for every field: "second_n_balls" for the second row."""
         return f"second_{self.name}" if self.part == "second" else self.name
 
     @property
@@ -197,7 +197,7 @@ class Field:
         return ("−" if self.reverse_label else "") + self.symbol_html
 
     def range_for(self, scene: Any, value: float) -> Range:
-        """The range about a preset's scene, in which the field has `value` [shown unit]."""
+        """Return the range for a preset's scene, in which the field has `value` [shown unit]."""
         return self.range if isinstance(self.range, Range) else self.range(scene, value)
 
 
@@ -205,7 +205,7 @@ _SUFFIXES = {
     "°": "deg", "µm": "um", "mm": "mm", "Hz": "hz", "GPa": "gpa",
     "N": "n", "N·m": "nm", "g·mm": "g_mm",
 }  # fmt: skip
-"""Units that stand in the keys of fields; keys are in links that people have kept."""
+"""Units in the keys of fields. They must not change, as links that people have kept use them."""
 
 _FIRST = " Empty: the value of the first row."
 
@@ -278,7 +278,7 @@ _BEARING = (
           "Balls in the second row." + _FIRST, optional=True, whole=True),
     Field("ball_diameter", "second", "Ball diameter, row 2", "D_b2", "mm", "Second row",
           _usual_of_first_row("ball_diameter"),
-          "Diameter of a ball of the second row; its grooves go with it." + _FIRST,
+          "Diameter of a ball of the second row; its grooves scale with it." + _FIRST,
           optional=True),
     Field("pitch_diameter", "second", "Pitch diameter, row 2", "D_p2", "mm", "Second row",
           _usual_of_first_row("pitch_diameter"),
@@ -361,12 +361,12 @@ _CONTACT_DAMPING = (
 
 
 def _support(name: str, symbol: str, unit: str, tilt_unit: str, meaning: str) -> tuple[Field, ...]:
-    """The springs or dampers of the support along x, y, z and about x, y."""
-    made = []
+    """Return the springs or dampers of the support along x, y, z and about x, y."""
+    fields = []
     for dof, words in (("x", "along x"), ("y", "along y"), ("z", "along z"),
                        ("rx", "about x"), ("ry", "about y")):  # fmt: skip
         tilts = dof.startswith("r")
-        made.append(
+        fields.append(
             Field(
                 f"{name}_{dof}",
                 "support",
@@ -379,7 +379,7 @@ def _support(name: str, symbol: str, unit: str, tilt_unit: str, meaning: str) ->
                 optional=dof not in ("x", "y"),
             )
         )
-    return tuple(made)
+    return tuple(fields)
 
 
 FIELDS: tuple[Field, ...] = (

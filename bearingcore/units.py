@@ -77,20 +77,20 @@ UNITS: Mapping[str, Unit] = {
     "GPa": Unit("Pa", 1e9, "gpa"),
     "dB": Unit("dB", 1.0, "db"),
 }
-"""All units by the text that stands behind a number."""
+"""All units by the text that follows a number."""
 
 
 def units_like(unit: str) -> list[str]:
-    """Units of the same kind as `unit`, itself among them."""
+    """Return the units of the same kind as `unit`, including itself."""
     return [name for name, other in UNITS.items() if other.si == UNITS[unit].si]
 
 
-def factor_between(given: str, wanted: str) -> float | None:
-    """Factor from `given` to `wanted`; None between units of different kinds."""
-    first, other = UNITS.get(given), UNITS.get(wanted)
-    if first is None or other is None or first.si != other.si:
+def factor_between(unit: str, wanted: str) -> float | None:
+    """Return the factor from `unit` to `wanted`; None between units of different kinds."""
+    start, end = UNITS.get(unit), UNITS.get(wanted)
+    if start is None or end is None or start.si != end.si:
         return None
-    return first.factor * (1.0 / other.factor)
+    return start.factor * (1.0 / end.factor)
 
 
 _SPELLINGS = {
@@ -98,7 +98,7 @@ _SPELLINGS = {
     **{"hz": "Hz", "n": "N", "nm": "N·m", "1/min": "rpm", "min⁻¹": "rpm", "r/min": "rpm"},
     **{"kn": "kN", "khz": "kHz", "mpa": "MPa", "gpa": "GPa", "pa": "Pa", "n/um": "N/µm"},
 }
-"""Other ways to write units; the second of them is a Greek letter that looks like the sign."""
+"""Other spellings of units. The second one has the Greek letter μ instead of the micro sign µ."""
 
 _TYPED: Mapping[str, tuple[float, str]] = {
     **{"g": (1e-3, "kg"), "t": (1e3, "kg"), "kgf": (STANDARD_GRAVITY, "N")},
@@ -110,7 +110,7 @@ _PREFIXES = {"n": 1e-9, "µ": 1e-6, "u": 1e-6, "m": 1e-3, "k": 1e3, "M": 1e6, "G
 _WITH_PREFIX = frozenset(
     ["m", "s", "g", "Hz", "rad", "N", "N·m", "Nm", "N/m", "N/mm", "N/rad", "N·m/rad", "Pa"]
 )
-"""Units that may stand behind a prefix."""
+"""Units that may follow a prefix."""
 
 _WITH_UNIT = re.compile(
     r"(?P<number>[+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)"
@@ -121,7 +121,7 @@ _WITH_UNIT = re.compile(
 
 
 def _factor_of(unit: str, wanted: str) -> float | None:
-    """Factor from a unit as it was typed, also with an SI prefix: "kN", "MPa", "N/mm"."""
+    """Return the factor from a typed unit, also with an SI prefix: "kN", "MPa", "N/mm"."""
     if unit == wanted:
         return 1.0
     spelled = unit if unit in UNITS else _SPELLINGS.get(unit.lower(), unit)
@@ -137,14 +137,14 @@ def _factor_of(unit: str, wanted: str) -> float | None:
 
 
 def read_number(text: str, unit: str) -> float:
-    """A number that was typed, in `unit`: "8 mm", "5/16 in", "12 µm", "0,5", "0.2 MN".
+    """Return a typed number in `unit`: "8 mm", "5/16 in", "12 µm", "0,5", "0.2 MN".
 
-    Without a unit it is in `unit` already.
+    A number without a unit is already in `unit`.
 
     Raises
     ------
     ValueError
-        for what is no number, or one in a unit of another kind.
+        for text that is no number, or a number in a unit of another kind.
     """
     plain = " ".join(text.replace("−", "-").replace(",", ".").split())
     match = _WITH_UNIT.fullmatch(plain)
@@ -157,5 +157,6 @@ def read_number(text: str, unit: str) -> float:
         value = math.copysign(abs(value) + part, value) if match["above"] else part
     factor = _factor_of((match["unit"] or unit).strip(), unit)
     if factor is None or not math.isfinite(value):
-        raise ValueError(f"“{text}” is no number in {unit}" if unit else f"“{text}” is no number")
+        of_unit = f" in {unit}" if unit else ""
+        raise ValueError(f"“{text}” is not a number{of_unit}")
     return value * factor

@@ -11,10 +11,7 @@ from bearingcore.bearings._catalogue import (
     catalogue as catalogue,
     read_catalogue as read_catalogue,
 )
-from bearingcore.bearings._convert import (
-    convert_bearing as convert_bearing,
-    drawn as drawn,
-)
+from bearingcore.bearings._convert import convert_bearing as convert_bearing, drawn as drawn
 from bearingcore.bearings._designation import (
     Designation as Designation,
     designations as designations,

@@ -47,7 +47,7 @@ class Ball(Kind):
     def _check_balls(self, bearing: InRows) -> None:
         if bearing.roller_length is not None:
             raise checks.refuse(
-                "roller_length", bearing.roller_length, "None of balls: see Bearing.cylindrical"
+                "roller_length", bearing.roller_length, "None for balls: see Bearing.cylindrical"
             )
 
     def inputs(self, bearing: InRows) -> tuple[str, ...]:

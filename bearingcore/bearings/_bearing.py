@@ -1,4 +1,4 @@
-"""The bearing: what is true of all kinds."""
+"""The bearing: the fields and methods that all kinds share."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ RATED = (
     *("inner_groove_radius", "outer_groove_radius", "groove_center_distance"),
     *("ball_youngs_modulus", "ball_poisson"),
 )
-"""Fields that C_r depends on, besides how many rows there are and what each has of its own."""
+"""Fields that C_r depends on, in addition to the rows and their own numbers."""
 
 
 @dataclass(frozen=True)
@@ -48,8 +48,8 @@ class Bearing(InRows):
         radius r_d [m] of the circle on which the inner groove's centres of curvature are: the
         lever with which a tilt of the ring moves a ball's contact along z (Eq. 12).
     groove_center_distance
-        distance A0 [m] between the groove centres of an unloaded ball (Eqs. 9, 10). None of
-        rollers, whose line of contact is fixed; a number of old files is taken off.
+        distance A0 [m] between the groove centres of an unloaded ball (Eqs. 9, 10). None for
+        rollers, whose line of contact is fixed; a number from an old file is dropped.
     radial_clearance
         r_L [m], in addition to the contact angle (Eq. 11); below 0 an interference fit, which
         compresses the elements by this amount without a load.
@@ -59,7 +59,7 @@ class Bearing(InRows):
         radii R_o and R_i [m] at the bottom of the grooves; defects are cut there (Eq. 6).
     inner_groove_radius, outer_groove_radius, youngs_modulus, poisson
         r_i, r_o [m], E [Pa] and ν, all four of them, if the drawing is known: contact pressure
-        needs them. `from_drawing` derives K, A0, r_d, R_o and R_i from them, `replace` again.
+        needs them. `from_drawing` and `replace` derive K, A0, r_d, R_o and R_i from them.
     rows
         empty for one row at the middle of the bearing; else each `Row`. A row without its own
         number of balls or dimensions takes those of the bearing.
@@ -70,9 +70,9 @@ class Bearing(InRows):
         of the balls [kg/m³]; 7800 for steel, 3200 for silicon nitride. Only balls with mass need
         it.
     ball_youngs_modulus, ball_poisson
-        E [Pa] and ν of balls of another material than the rings, as of a hybrid bearing, whose
-        `youngs_modulus` and `poisson` are then those of the rings; see `with_balls_of`. None: as of
-        the rings. Only with a drawing: K given as a number is that of both materials together.
+        E [Pa] and ν of balls of another material than the rings, as in a hybrid bearing; see
+        `with_balls_of`. None: balls have the `youngs_modulus` and `poisson` of the rings. Both need
+        a drawing, because K given as a number already contains both materials.
     kind
         a `Kind` or its name, out of `bearingcore.bearings._kinds`. Empty: the kind follows from the
         other fields, as in files without it.
@@ -98,7 +98,7 @@ class Bearing(InRows):
         super().__post_init__()
         checks.keep(self, kind=kind_of(self))
         self.kind.check(self)
-        if self.kind.line_contact:  # scenes and links of earlier days have one
+        if self.kind.line_contact:  # old scenes and links have a number here
             checks.keep(self, groove_center_distance=None)
         else:
             drawing.center_distance(self.groove_center_distance)
@@ -121,7 +121,7 @@ class Bearing(InRows):
         ball_youngs_modulus: float | None = None,
         ball_poisson: float | None = None,
     ) -> Self:
-        """A bearing from its dimensions: A0, r_d, K and the raceway radii follow.
+        """Make a bearing from its dimensions, from which A0, r_d, K and raceway radii are derived.
 
         Parameters
         ----------
@@ -134,16 +134,16 @@ class Bearing(InRows):
         contact_angle, diametral_clearance
             α0 [rad] and s [m], at least one of them, as they describe the same freedom.
             Clearance alone: a deep-groove bearing, α0 = 0 and r_L = s/2; `free_contact_angle` is
-            the angle that it amounts to.
-            Angle alone: r_L = 0; `diametral_play` is the clearance that it amounts to.
-            Both, as Petersen, Howard & Prime (2014) have it: r_L = s/2 on top of the angle.
+            the equivalent angle.
+            Angle alone: r_L = 0; `diametral_play` is the equivalent clearance.
+            Both, as in Petersen, Howard & Prime (2014): r_L = s/2 in addition to the angle.
             Below 0 the clearance is an interference.
         youngs_modulus, poisson
             E [Pa] and ν of the rings; steel by default.
         groove_center_radius
             r_d [m]; None: D_p/2 + (r_i − D_b/2) cos α0.
         ball_youngs_modulus, ball_poisson
-            E [Pa] and ν of the balls; None: as of the rings.
+            E [Pa] and ν of the balls; None: those of the rings.
 
         Raises
         ------
@@ -180,21 +180,21 @@ class Bearing(InRows):
             "ball_poisson": ball_poisson,
         }
         dimensions |= drawing.checked(dimensions)
-        follows = drawing.derive(**dimensions)._asdict()
-        # pushed farther along the shaft than the greatest angle the ring would slip through
+        derived = drawing.derive(**dimensions)._asdict()
+        # s/(2 A0) at which the free contact angle is the greatest: above it the ring slips through
         most = math.cos(angle) - math.cos(GREATEST_CONTACT_ANGLE)
         s = checks.real_number(
             "diametral_clearance",
             0.0 if diametral_clearance is None else diametral_clearance,
             at_least=-D_b,
-            at_most=2.0 * follows["groove_center_distance"] * most,
+            at_most=2.0 * derived["groove_center_distance"] * most,
             unit="m",
             note="more would need a free contact angle above "
             f"{math.degrees(GREATEST_CONTACT_ANGLE):.0f} degrees",
         )
         if groove_center_radius is not None:
-            follows["groove_center_radius"] = groove_center_radius
-        return cls(n_balls=n_balls, **dimensions, **follows, radial_clearance=0.5 * s)
+            derived["groove_center_radius"] = groove_center_radius
+        return cls(n_balls=n_balls, **dimensions, **derived, radial_clearance=0.5 * s)
 
     @classmethod
     def cylindrical(
@@ -205,7 +205,7 @@ class Bearing(InRows):
         pitch_diameter: float,
         radial_clearance: float = 0.0,
     ) -> Self:
-        """A cylindrical roller bearing of steel, its line contacts as stiff as ISO 16281 has them.
+        """Make a cylindrical roller bearing of steel with the contact stiffness of ISO 16281.
 
         K = 35 948 l^(8/9) N/mm^(10/9), l [mm] the length of a roller, both contacts in series.
         Lengths in m. A roller does not tilt here and carries nothing along the shaft.
@@ -228,10 +228,10 @@ class Bearing(InRows):
         contact_angle: float,
         radial_clearance: float = 0.0,
     ) -> Self:
-        """One row of tapered rollers of steel; `Bearing.paired` makes two of it.
+        """Make one row of tapered rollers of steel; `Bearing.paired` makes a pair of it.
 
         Diameters [m] are those of the middles of the rollers, the angle [rad] is that of the outer
-        race. See `bearingcore.bearings._tapered` for what is left out.
+        race. `bearingcore.bearings._tapered` says what the model leaves out.
 
         Raises
         ------
@@ -253,9 +253,9 @@ class Bearing(InRows):
         youngs_modulus: float = 210e9,
         poisson: float = 0.3,
     ) -> Self:
-        """A self-aligning ball bearing: two rows in a spherical outer race about its centre.
+        """Make a self-aligning ball bearing: two rows in one spherical outer race.
 
-        See `bearingcore.bearings._self_aligning` for what follows from these.
+        See `bearingcore.bearings._self_aligning` for the dimensions that are derived.
 
         Parameters
         ----------
@@ -279,7 +279,7 @@ class Bearing(InRows):
         return cls(**self_aligning_numbers(*sizes, radial_clearance, youngs_modulus, poisson))
 
     def __repr__(self) -> str:
-        """Rolling elements and their places, in a line."""
+        """Return number, size, pitch diameter and rows of the elements in one line."""
         rows = f", {len(self.rows)} rows" if len(self.rows) > 1 else ""
         angle = f", {math.degrees(self.contact_angle):.4g}°" if self.contact_angle else ""
         return (
@@ -307,7 +307,7 @@ class Bearing(InRows):
     def preload_force(self) -> float | None:
         """Axial force F0 [N] with which both rows of a pair press each other at rest, unloaded.
 
-        0 where a clearance parts them. None without a pair, and of one in tandem.
+        0 where a clearance separates them. None without a pair, and for a pair in tandem.
         """
         return preload_force(self)
 
@@ -331,39 +331,39 @@ class Bearing(InRows):
     def replace(self, **changes: Any) -> Self:
         """Return the bearing with changed fields; derived fields follow.
 
-        Of two rows it also takes `row_distance` and `preload` [m], or `preload_force` [N] in its
-        place, and what the second row has of its own: `second_n_balls`, `second_contact_angle`,
-        `second_ball_diameter` and `second_pitch_diameter`.
+        For two rows it also takes `row_distance` [m]; `preload` [m] or else `preload_force` [N];
+        and the second row's own `second_n_balls`, `second_contact_angle`, `second_ball_diameter`
+        and `second_pitch_diameter`.
 
         A derived field (A0, r_d, K, R_o, R_i) that differs from the value by the drawing keeps its
         ratio to that value; one that is named in `changes` is taken as it is.
         """
-        of_rows = {name: changes.pop(name) for name in ROW_CHANGES if name in changes}
-        if of_rows:
+        row_changes = {name: changes.pop(name) for name in ROW_CHANGES if name in changes}
+        if row_changes:
             new = self.replace(**changes)
-            return new.replace(rows=change_rows(new, of_rows))
+            return new.replace(rows=change_rows(new, row_changes))
         kept = {"estimated": tuple(name for name in self.estimated if name not in changes)}
         changes = self.kind.completed(self, kept | changes)
         new = dataclasses.replace(self, **changes)
         before, after = self.kind.derived(self), new.kind.derived(new)
         if before is not None and after is not None:
-            follows = {}
+            derived = {}
             for name in before._fields:
-                old, was, now = getattr(self, name), getattr(before, name), getattr(after, name)
-                if name not in changes and now != was:
-                    follows[name] = now if old == was else old * (now / was)
-            new = dataclasses.replace(new, **follows)
+                value, old, now = getattr(self, name), getattr(before, name), getattr(after, name)
+                if name not in changes and now != old:
+                    derived[name] = now if value == old else value * (now / old)
+            new = dataclasses.replace(new, **derived)
         if "dynamic_load_rating" in changes:
             return new
         rating = self.dynamic_load_rating if new.rated == self.rated else None
         return dataclasses.replace(new, dynamic_load_rating=rating)
 
     def paired(self, distance: float, arrangement: str, preload: float = 0.0) -> Self:
-        """Two rows like this one, `distance` [m] apart on the shaft.
+        """Return two rows like this one, `distance` [m] apart on the shaft.
 
-        `arrangement` is "back-to-back", "face-to-face" or "tandem"; `preload` [m] is how far the
-        inner grooves are pushed along the shaft against each other, below 0 a clearance between
-        them. `replace(preload_force=...)` sets it by its force instead.
+        `arrangement` is "back-to-back", "face-to-face" or "tandem". `preload` [m] is the
+        displacement of the inner grooves along the shaft against each other; below 0 it is a
+        clearance between them. `replace(preload_force=...)` sets the preload by its force.
 
         Raises
         ------
@@ -376,20 +376,20 @@ class Bearing(InRows):
 
     @property
     def pressure_centers_apart(self) -> float | None:
-        """Distance [m] of the points in which the lines of contact of a pair meet the shaft.
+        """Distance [m] between the points where the lines of contact of a pair meet the shaft.
 
-        With it a pair resists tilt. None for a bearing that is no pair, and for one in tandem.
+        It is the lever with which a pair resists tilt. None without a pair, and for one in tandem.
         """
         if self.arrangement not in ("back-to-back", "face-to-face"):
             return None
-        meets = [
-            row.place - row.facing * 0.5 * own.pitch_diameter * math.tan(own.contact_angle)
-            for row, own in ((row, self.of_row(k)) for k, row in enumerate(self.rows))
+        centers = [
+            row.place - row.facing * 0.5 * single.pitch_diameter * math.tan(single.contact_angle)
+            for row, single in ((row, self.of_row(k)) for k, row in enumerate(self.rows))
         ]
-        return abs(meets[1] - meets[0])
+        return abs(centers[1] - centers[0])
 
     def with_balls_of(self, material: BallMaterial) -> Self:
-        """The bearing with balls of a material and their density; ValueError without a drawing."""
+        """Return the bearing with balls of a material; raise ValueError without a drawing."""
         return self.replace(
             ball_youngs_modulus=material.youngs_modulus,
             ball_poisson=material.poisson,
@@ -397,27 +397,27 @@ class Bearing(InRows):
         )
 
     def frequency_spread(self, name: str) -> float:
-        """Relative error of a frequency that 19 of 20 estimates stay below; 0 of no estimate.
+        """Return the relative error of a frequency that 19 of 20 estimates stay below.
 
-        `name` is "bpfo", "bpfi", "ftf" or "bsf". It is what the estimated ratio of ball and pitch
-        diameter may do: a number of balls that is estimated too may be one more or less, which
-        moves BPFO and BPFI by a whole part in that number and is not in here. Of tapered rollers,
-        whose number is less sure, it is.
+        `name` is "bpfo", "bpfi", "ftf" or "bsf". The error is that of the estimated ratio of ball
+        and pitch diameter; it is 0 without an estimate. An estimated number of balls may also be
+        wrong by one, which changes BPFO and BPFI by one part in that number. This is included for
+        tapered rollers only, whose number is less sure.
         """
         checks.choice("name", name, ("bpfo", "bpfi", "ftf", "bsf"))
-        ratio, counted = self.kind.estimate_spread or (RATIO_SPREAD, 0)
+        ratio_error, count_error = self.kind.estimate_spread or (RATIO_SPREAD, 0)
         spread = 0.0
         if {"ball_diameter", "pitch_diameter"} & set(self.estimated):
             gamma = self.size_ratio
-            part = {
+            sensitivity = {
                 "bpfo": gamma / (1.0 - gamma),
                 "ftf": gamma / (1.0 - gamma),
                 "bpfi": gamma / (1.0 + gamma),
                 "bsf": (1.0 + gamma**2) / (1.0 - gamma**2),
             }
-            spread = ratio * part[name]
+            spread = ratio_error * sensitivity[name]
         if "n_balls" in self.estimated and name in ("bpfo", "bpfi"):
-            spread += counted / self.n_balls
+            spread += count_error / self.n_balls
         return spread
 
     @property
@@ -438,8 +438,9 @@ class Bearing(InRows):
         """
         if not self.is_hybrid:
             return "steel"
-        pair = (self.ball_youngs_modulus, self.ball_poisson)
-        return next((name for name, material in BALL_MATERIALS.items() if material[:2] == pair), "")
+        moduli = (self.ball_youngs_modulus, self.ball_poisson)
+        named = (name for name, material in BALL_MATERIALS.items() if material[:2] == moduli)
+        return next(named, "")
 
     @property
     def knows_contacts(self) -> bool:
@@ -469,7 +470,7 @@ class Bearing(InRows):
 
     @property
     def free_contact_angle(self) -> float:
-        """Contact angle α_f [rad] with the balls pushed home, see `Contact.free_angle`."""
+        """Contact angle α_f [rad] of the ring pushed along the shaft, see `Contact.free_angle`."""
         return self.contact.free_angle(self.radial_clearance)
 
     @property

@@ -1,4 +1,4 @@
-"""Tables of bearings by name: inside dimensions as a CSV, which a workshop can write for itself.
+"""Tables of bearings by name: inside dimensions in a CSV file, which a workshop can write itself.
 
 A table has a line of headings and a line for each bearing. Columns, in any order:
 
@@ -6,14 +6,14 @@ A table has a line of headings and a line for each bearing. Columns, in any orde
 - `inner_groove_radius_mm` or `inner_groove_ratio` (radius over ball diameter), the same for the
   outer race: 0.52 and 0.53 ball diameters where empty;
 - `contact_angle_deg`: 0 where empty;
-- `diametral_clearance_um`: on top of the contact angle. Where empty 0 with a contact angle, else
-  10 µm, about the middle of the normal class of ISO 5753 for bores up to 40 mm;
+- `diametral_clearance_um`: in addition to the contact angle. Where empty: 0 with a contact angle,
+  else 10 µm, about the middle of the normal class of ISO 5753 for bores up to 40 mm;
 - `dynamic_load_rating_kn`, `note`: may stay empty.
 
-Columns are parted by semicolons, commas or tabs; decimals may have a comma where columns do not.
-Empty lines and lines that begin with # are passed over. What was assumed for an empty cell is said
-with each bearing. A table with a fault is refused as a whole, the first one named by line and
-column.
+Columns are separated by semicolons, commas or tabs. If they are not separated by commas, numbers
+may have a decimal comma. Empty lines and lines that begin with # are skipped. Each bearing lists
+the values assumed for its empty cells. A table with a fault is refused as a whole; the error names
+the line and the column of the first fault.
 """
 
 from __future__ import annotations
@@ -81,7 +81,7 @@ class CatalogueBearing:
 
 @lru_cache(maxsize=1)
 def catalogue() -> Mapping[str, CatalogueBearing]:
-    """Bearings by name whose inside dimensions are published, each with its source in its note."""
+    """Return the bearings whose inside dimensions are published, by name; notes give the source."""
     text = resources.files("bearingcore.bearings").joinpath("bearings.csv").read_bytes()
     return MappingProxyType(read_catalogue(text))
 
@@ -111,15 +111,15 @@ def read_catalogue(table: str | bytes) -> dict[str, CatalogueBearing]:
     columns = _columns(headings)
     entries: dict[str, CatalogueBearing] = {}
     for (number, _), row in zip(lines[1:], cells, strict=False):
-        at = f"table of bearings: line {number}"
+        place = f"table of bearings: line {number}"
         if any(row[len(columns) :]):
             hint = "; numbers with a decimal comma need semicolons between columns"
             allowed = f"{len(columns)}, as headings{hint if separator == ',' else ''}"
-            raise checks.refuse(f"number of cells in {at}", len(row), allowed)
+            raise checks.refuse(f"number of cells in {place}", len(row), allowed)
         row += [""] * (len(columns) - len(row))
-        entry = _bearing(at, dict(zip(columns, row, strict=False)), separator != ",")
+        entry = _bearing(place, dict(zip(columns, row, strict=False)), separator != ",")
         if entry.name in entries:
-            raise checks.refuse(f"{at}, column name", entry.name, "a name of its own for each")
+            raise checks.refuse(f"{place}, column name", entry.name, "a different name for each")
         entries[entry.name] = entry
     return entries
 
@@ -134,7 +134,7 @@ def _decode(table: str | bytes) -> str:
 
 
 def _columns(headings: list[str]) -> list[str]:
-    """Columns out of CATALOGUE_COLUMNS that headings name; FieldError for any other."""
+    """Return the columns out of CATALOGUE_COLUMNS that headings name; FieldError for any other."""
     plain = (heading.lower().replace("µ", "u").replace("-", " ") for heading in headings)
     names = ["_".join(heading.split()) for heading in plain]
     while names and not names[-1]:
@@ -149,15 +149,15 @@ def _columns(headings: list[str]) -> list[str]:
     return names
 
 
-def _bearing(at: str, texts: Mapping[str, str], decimal_comma: bool) -> CatalogueBearing:
-    """The bearing of a line, whose cells are given by column; `at` is its place in words."""
+def _bearing(place: str, texts: Mapping[str, str], decimal_comma: bool) -> CatalogueBearing:
+    """Return the bearing of a line from its cells by column; `place` names the line in errors."""
     assumed: list[str] = []
 
     def refused(column: str, allowed: str) -> FieldError:
-        return checks.refuse(f"{at}, column {column}", texts.get(column, ""), allowed)
+        return checks.refuse(f"{place}, column {column}", texts.get(column, ""), allowed)
 
     def number(column: str) -> float | None:
-        """The number in a column; None where it is empty and may be."""
+        """Return the number in a column; None where an optional cell is empty."""
         text, needed = texts.get(column, ""), column in NEEDED_COLUMNS
         if not text and not needed:
             return None
@@ -171,7 +171,7 @@ def _bearing(at: str, texts: Mapping[str, str], decimal_comma: bool) -> Catalogu
         return value
 
     def groove(race: str) -> float:
-        """Groove radius [mm] of a race, by its radius or its ratio, or else the usual one."""
+        """Return the groove radius [mm] of a race, by its radius or its ratio; else the usual."""
         names = f"{race}_groove_radius_mm", f"{race}_groove_ratio"
         radius, ratio = map(number, names)
         if radius is not None and ratio is not None:
@@ -202,7 +202,7 @@ def _bearing(at: str, texts: Mapping[str, str], decimal_comma: bool) -> Catalogu
     rating_in_newton = None if rating is None else rating * 1e3
     try:
         bearing = Bearing.from_drawing(
-            balls,  # type: ignore[arg-type]  # it refuses what is no whole number
+            balls,  # type: ignore[arg-type]  # fractions are refused there
             ball / 1e3,
             pitch / 1e3,
             inner / 1e3,
@@ -212,7 +212,7 @@ def _bearing(at: str, texts: Mapping[str, str], decimal_comma: bool) -> Catalogu
         ).replace(dynamic_load_rating=rating_in_newton)
     except FieldError as error:
         raise error.inside(
-            f"{at}, column {_COLUMN_OF_FIELD.get(error.field, error.field)}"
+            f"{place}, column {_COLUMN_OF_FIELD.get(error.field, error.field)}"
         ) from None
     return CatalogueBearing(name, bearing, rating_in_newton, note, tuple(assumed))
 

@@ -17,14 +17,14 @@ from bearingcore.common import _checks as checks
 
 
 def convert_bearing(bearing: Bearing, variant: str) -> Bearing:
-    """Return the bearing of a variant out of `Kind.variants` that has the dimensions of another.
+    """Return a bearing with the same dimensions as another variant, out of `Kind.variants`.
 
-    What the other does not say is assumed as it is usual.
+    Dimensions that the bearing does not have get usual values.
 
     Raises
     ------
     ValueError
-        for an unknown variant, or where there is no such bearing.
+        for an unknown variant, or where no such bearing exists.
     """
     kinds = {offered.name: kind for kind in KINDS.values() for offered in kind.variants}
     checks.choice("variant", variant, tuple(kinds))
@@ -41,9 +41,9 @@ def convert_bearing(bearing: Bearing, variant: str) -> Bearing:
 
 
 def drawn(bearing: Bearing) -> Bearing:
-    """One row of steel balls with the dimensions of a bearing, in usual grooves.
+    """Return one row of steel balls with the dimensions of a bearing, in usual grooves.
 
-    The inner groove is the bearing's own, where it has one.
+    If the bearing has an inner groove, the row has the same one.
     """
     ball = bearing.ball_diameter
     return bearing.from_drawing(
@@ -63,17 +63,17 @@ def _single_row(bearing: Bearing) -> Bearing:
 
 def _pair_of_balls(bearing: Bearing, arrangement: str) -> Bearing:
     distance, preload = bearing.row_distance, bearing.preload
-    made = _single_row(bearing).paired(
+    pair = _single_row(bearing).paired(
         USUAL_DISTANCE * bearing.ball_diameter if distance is None else distance,
         arrangement,
         0.0 if arrangement == "tandem" or preload is None else preload,
     )
     if bearing.rows_are_alike or len(bearing.rows) != 2:
-        return made
-    return made.replace(
+        return pair
+    return pair.replace(
         rows=tuple(
             dataclasses.replace(new, **old.own)  # type: ignore[arg-type]  # its own numbers
-            for new, old in zip(made.rows, bearing.rows, strict=True)
+            for new, old in zip(pair.rows, bearing.rows, strict=True)
         )
     )
 
@@ -93,7 +93,7 @@ def _self_aligning(bearing: Bearing) -> Bearing:
 
 def _tapered_rollers(bearing: Bearing, variant: str) -> Bearing:
     diameter, distance, preload = bearing.ball_diameter, bearing.row_distance, bearing.preload
-    made = bearing.tapered(
+    row = bearing.tapered(
         bearing.n_balls,
         diameter,
         bearing.roller_length or diameter,
@@ -102,6 +102,6 @@ def _tapered_rollers(bearing: Bearing, variant: str) -> Bearing:
         bearing.radial_clearance,
     )
     if variant == TAPERED.name:
-        return made
-    apart = USUAL_DISTANCE * diameter if distance is None else distance
-    return made.paired(apart, variant.removeprefix(PAIR_PREFIX), preload or 0.0)
+        return row
+    distance = USUAL_DISTANCE * diameter if distance is None else distance
+    return row.paired(distance, variant.removeprefix(PAIR_PREFIX), preload or 0.0)

@@ -1,16 +1,16 @@
 """A bearing by its designation: "6208-2RS/C3", "7208 BECBP DB", "NU 208", "2206", "30206 DB".
 
-The basic number gives boundary dimensions (ISO 15, ISO 355), the suffix the contact angle of
+The basic number gives boundary dimensions (ISO 15, ISO 355). The suffix gives the contact angle of
 angular-contact bearings, a reinforced inside, the class of clearance (ISO 5753-1), balls of silicon
 nitride and the arrangement of two angular-contact or tapered bearings: see
 `bearingcore.bearings._suffix`. The inside is estimated from the ratings of a catalogue, see
-`bearingcore.bearings._inside`: the bearing says so itself (`Bearing.estimated`).
+`bearingcore.bearings._inside`; `Bearing.estimated` names the estimates.
 
-Understood are deep groove bearings 60, 62, 63, 64, 160, 618, 619, angular-contact ones 70, 72, 73,
-719, self-aligning ones 12, 13, 22, 23, cylindrical rollers NU, N, NJ, NUP of the series 2, 3, 10,
-22, 23 and tapered rollers 302, 303, 320, 322, 323, with bores of 10 to 100 mm (604 to 609 and 623
-to 629 below, rollers from 20 mm; 719 from 10 mm is 79 of other makers). Tapered
-rollers with steeper cups (B, C, D behind the number) are other bearings, and are not.
+The known series are deep groove 60, 62, 63, 64, 160, 618, 619; angular-contact 70, 72, 73, 719 (79
+of other makers); self-aligning 12, 13, 22, 23; cylindrical rollers NU, N, NJ, NUP 2, 3, 10, 22, 23;
+and tapered rollers 302, 303, 320, 322, 323. Bores are 10 to 100 mm; 604 to 609 and 623 to 629 have
+smaller ones, rollers begin at 20 mm. Tapered rollers with steeper cups (B, C, D behind the number)
+are other bearings and not known.
 """
 
 from __future__ import annotations
@@ -72,20 +72,20 @@ CATALOGUE_ANGLE = math.radians(30.0)
 """Contact angle for which the table has the ratings of angular-contact bearings."""
 
 OTHER_ANGLES = {"719": math.radians(15.0)}
-"""That angle for series whose ratings are for another one."""
+"""Exceptions to CATALOGUE_ANGLE, by series."""
 
 ROWS_OF_BALLS, ROWS_OF_ROLLERS = 0.7, 7.0 / 9.0
-"""Powers with which C_r of ISO 281 grows with the rows of balls and of rollers."""
+"""Exponents of the number of rows in C_r of ISO 281, for balls and for rollers."""
 
 LONGEST_DESIGNATION = 60
 
 _FORM = re.compile(
     BEFORE + r"(?:(?P<letters>NUP|NU|NJ|NF|N|B|HR)[ -]?)?(?P<number>\d{3,5})(?P<suffix>\D.*)?"
 )
-_ROWS_OF = {ANGULAR_CONTACT: ROWS_OF_BALLS, TAPERED_ROLLERS: ROWS_OF_ROLLERS} | dict.fromkeys(
+_ROW_EXPONENTS = {ANGULAR_CONTACT: ROWS_OF_BALLS, TAPERED_ROLLERS: ROWS_OF_ROLLERS} | dict.fromkeys(
     (DEEP_GROOVE, SELF_ALIGNING_BALLS, ROLLERS), 0.0
 )
-"""Power of the number of rows in C_r; the rating of the others is that of the whole bearing."""
+"""Exponent of the number of rows in C_r by kind; 0 where the table rates the whole bearing."""
 
 
 @dataclass(frozen=True)
@@ -103,8 +103,8 @@ class Designation:
     bore, outside_diameter, width
         boundary dimensions [m] by ISO 15, of tapered rollers by ISO 355: T of one bearing.
     dynamic_load_rating
-        C_r [N] of the catalogue, at the contact angle of the designation; of a pair that of both
-        rows, by ISO 281. None where it is not known: of hybrid bearings, and of a class of steel
+        C_r [N] of the catalogue, at the contact angle of the designation; for a pair that of both
+        rows, by ISO 281. None where it is not known: for hybrid bearings, and for a class of steel
         that its maker rates higher.
     clearance_class
         out of CLEARANCE_CLASSES; empty for angular-contact and tapered bearings, which have none.
@@ -136,8 +136,8 @@ class Designation:
         """The bearing as an entry of a list of bearings."""
         kind = self.kind[0].upper() + self.kind[1:]
         if self.bearing.arrangement:
-            stand = self.bearing.arrangement.replace("-", " ").replace("tandem", "in tandem")
-            kind = f"Two {self.kind}s, {stand}"
+            words = self.bearing.arrangement.replace("-", " ").replace("tandem", "in tandem")
+            kind = f"Two {self.kind}s, {words}"
         tapered = self.kind == TAPERED_ROLLERS
         digits = 3 if tapered else 5
         note = (
@@ -172,35 +172,35 @@ def read_designation(text: str) -> Designation:
     form, basic = _form_and_basic(text)
     name, letters, suffix = form.string, form["letters"] or "", form["suffix"] or ""
     kind, size = _kind_of(basic), boundaries()[basic]
-    said = read_suffix(name, kind, suffix, form["count"] or "", form["ceramic"] is not None)
-    if said.inside:
-        size = _reinforced(name, basic, size, said.inside)
+    meaning = read_suffix(name, kind, suffix, form["count"] or "", form["ceramic"] is not None)
+    if meaning.inside:
+        size = _reinforced(name, basic, size, meaning.inside)
     elif _has_plain_rollers(basic) and is_reinforced(suffix):
         raise checks.refuse("designation", name, REINFORCED)
     assumed: list[str] = []
-    angle = _angle(basic, size, said.angle, assumed)
+    angle = _angle(basic, size, meaning.angle, assumed)
     has_clearance = kind not in (ANGULAR_CONTACT, TAPERED_ROLLERS)  # theirs is set at mounting
-    clearance_class = (said.clearance_class or "CN") if has_clearance else ""
+    clearance_class = (meaning.clearance_class or "CN") if has_clearance else ""
     play = _play(kind, size, clearance_class, assumed) if has_clearance else 0.0
-    inside = _inside(kind, size, angle) if said.inside else inside_of(basic)
-    bearing = _built(kind, inside, angle, play, assumed)
+    inside = _inside(kind, size, angle) if meaning.inside else inside_of(basic)
+    bearing = _build(kind, inside, angle, play, assumed)
     if unread := unknown_letters(kind, suffix):
         assumed.append(f"that {unread}, which is not known here, changes nothing")
     if kind == ROLLERS:
         assumed += _flange_words(letters, basic, suffix)
-    if said.is_ceramic:
+    if meaning.is_ceramic:
         ceramic = BALL_MATERIALS["silicon nitride"]
         bearing = bearing.with_balls_of(ceramic)
         assumed.append(
             f"balls of silicon nitride with {number(1e-9 * (ceramic.youngs_modulus or 0.0))} GPa; "
             "their load rating (ISO 20056) is not known here"
         )
-    elif said.has_better_steel:
-        assumed.append("no load rating: that of X-life is its maker's")
-    bearing = _mounted(bearing, kind, size, said, assumed)
-    rating = size.dynamic_rating * (1.0 if said.inside else _rating_at(basic, inside, angle))
-    rating *= len(bearing.all_rows) ** _ROWS_OF[kind]
-    known = None if said.is_ceramic or said.has_better_steel else rating
+    elif meaning.has_better_steel:
+        assumed.append("no load rating: only its maker knows that of X-life")
+    bearing = _mount(bearing, kind, size, meaning, assumed)
+    rating = size.dynamic_rating * (1.0 if meaning.inside else _rating_ratio(basic, inside, angle))
+    rating *= len(bearing.all_rows) ** _ROW_EXPONENTS[kind]
+    known_rating = None if meaning.is_ceramic or meaning.has_better_steel else rating
     return Designation(
         lower_arrangement(name),
         basic,
@@ -208,22 +208,22 @@ def read_designation(text: str) -> Designation:
         size.bore,
         size.outside_diameter,
         size.width,
-        known,
+        known_rating,
         clearance_class,
-        bearing.replace(dynamic_load_rating=known),
+        bearing.replace(dynamic_load_rating=known_rating),
         tuple(assumed),
-        said.inside,
+        meaning.inside,
         unread,
     )
 
 
 def _form_and_basic(text: str) -> tuple[re.Match[str], str]:
-    """Parts of a designation in capitals, and its basic number in the table; else ValueError."""
+    """Return the parts of a designation in capitals and its basic number; else ValueError."""
     name = " ".join(text.upper().replace("–", "-").split())
     name = re.sub(r"^(\d{2,3}) (\d{2})\b", r"\1\2", name)  # "320 08": series, then bore
     form = _FORM.fullmatch(name) if len(name) <= LONGEST_DESIGNATION else None
     basic = form and _basic(form["letters"] or "", form["number"])
-    # the table has no steep tapered rollers, whose other angle makes another inside
+    # steep tapered rollers are not in the table: with another angle they have another inside
     steep = form and basic and _kind_of(basic) == TAPERED_ROLLERS and is_steep(form["suffix"] or "")
     if not form or not basic or steep:
         allowed = f"a bearing of the series {series_words()}; {BY_FREQUENCIES}"
@@ -232,7 +232,7 @@ def _form_and_basic(text: str) -> tuple[re.Match[str], str]:
 
 
 def _play(kind: str, size: Boundary, clearance_class: str, assumed: list[str]) -> float:
-    """Clearance [m] in the middle of a class, which is added to what is assumed."""
+    """Return the clearance [m] in the middle of a class, and add it to `assumed`."""
     least, most = clearance(kind, size.bore, clearance_class)
     play = 0.5 * (least + most)
     assumed.append(
@@ -249,9 +249,9 @@ def is_known(text: str) -> bool:
 
 
 def designations(beginning: str = "") -> Iterator[str]:
-    """Basic numbers of the table that begin so; "nu 2" is as good as "NU2".
+    """Return the basic numbers of the table with a beginning such as "62", "NU2" or "nu 2".
 
-    Those of N, NJ and NUP, which the table has as NU, are given with their own letters.
+    The table lists N, NJ and NUP as NU; they are returned with their own letters.
     """
     wanted = beginning.upper().replace(" ", "")
     match = re.match(r"NUP|NJ|N(?=\d)", wanted)
@@ -262,37 +262,37 @@ def designations(beginning: str = "") -> Iterator[str]:
 
 
 BY_FREQUENCIES = (
-    "another bearing has other frequencies, however alike: say its own (BPFO, BPFI, BSF, FTF), "
-    "which are in the maker's sheet"
+    "even a similar bearing has other frequencies: enter its own (BPFO, BPFI, BSF, FTF) from the "
+    "maker's sheet"
 )
 
 
 def series_words() -> str:
-    """The series that are known by number, in words."""
-    names = {kind: [s for s, of in SERIES.items() if of == kind] for kind in SERIES.values()}
-    listed = "; ".join(f"{', '.join(of)} ({kind}s)" for kind, of in names.items())
+    """Return the series that are known by number, in words."""
+    kinds = {kind: [s for s in SERIES if SERIES[s] == kind] for kind in SERIES.values()}
+    listed = "; ".join(f"{', '.join(series)} ({kind}s)" for kind, series in kinds.items())
     return f"{listed}; bores of 10 to 100 mm, of 60 and 62 from 3 mm, of rollers from 20 mm"
 
 
 @cache
 def inside_of(basic: str) -> Inside:
-    """Estimated rolling elements of a basic number of the table."""
+    """Return the estimated rolling elements of a basic number of the table."""
     size, kind = boundaries()[basic], _kind_of(basic)
     if kind == ROLLERS:
-        alike = [
+        of_same_raceways = [
             other.static_rating
             for name, other in boundaries().items()
             if name != basic
             and (other.inner_raceway, other.outer_raceway)
             == (size.inner_raceway, size.outer_raceway)
         ]
-        ratings_of_all = (size.static_rating, *alike)
+        ratings_of_all = (size.static_rating, *of_same_raceways)
         return rollers_from_raceways(size.inner_raceway, size.outer_raceway, ratings_of_all)
     return _inside(kind, size, _rated_angle(basic, size))
 
 
 def _inside(kind: str, size: Boundary, angle: float) -> Inside:
-    """Balls or tapered rollers with the ratings of a line of the table at an angle [rad]."""
+    """Return balls or tapered rollers with the ratings of a table's line at an angle [rad]."""
     rated = size.dynamic_rating, size.static_rating
     if kind == TAPERED_ROLLERS:
         return tapered_rollers_from_ratings(size.bore, size.outside_diameter, *rated, angle)
@@ -307,7 +307,7 @@ def _inside(kind: str, size: Boundary, angle: float) -> Inside:
 
 
 def _reinforced(name: str, basic: str, size: Boundary, inside: str) -> Boundary:
-    """A line of the table with the ratings of a reinforced inside; refused where not tabulated."""
+    """Return a table's line with the ratings of a reinforced inside; FieldError without them."""
     rows = [row[inside] for row in rows_of("reinforced.csv") if row["designation"] == basic]
     if not rows or not rows[0]:
         raise checks.refuse("designation", name, REINFORCED)
@@ -319,7 +319,7 @@ def _reinforced(name: str, basic: str, size: Boundary, inside: str) -> Boundary:
 
 
 def _basic(letters: str, digits: str) -> str | None:
-    """The number as the table has it; None where it has it not."""
+    """Return the basic number as the table spells it; None if it is not in the table."""
     if letters in ("NU", "N", "NJ", "NUP"):
         digits = f"NU{digits}"
     elif letters == "NF" or (letters == "HR" and SERIES.get(series_of(digits)) != TAPERED_ROLLERS):
@@ -334,7 +334,7 @@ def _kind_of(basic: str) -> str:
 
 
 def _rated_angle(basic: str, size: Boundary) -> float:
-    """Contact angle [rad] for which the table has the ratings."""
+    """Return the contact angle [rad] for which the table has the ratings."""
     kind = _kind_of(basic)
     if kind == SELF_ALIGNING_BALLS:
         return math.atan(0.42 / size.axial_factor)  # Y_1 of ISO 281 is 0.42 cot α
@@ -344,59 +344,59 @@ def _rated_angle(basic: str, size: Boundary) -> float:
     return angle if kind == ANGULAR_CONTACT else 0.0
 
 
-def _angle(basic: str, size: Boundary, said: float | None, assumed: list[str]) -> float:
-    """Contact angle [rad] of a designation that says an angle [degrees], or none."""
+def _angle(basic: str, size: Boundary, stated: float | None, assumed: list[str]) -> float:
+    """Return the contact angle [rad]: the stated one [degrees], or that of the ratings."""
     rated = _rated_angle(basic, size)
     if _kind_of(basic) != ANGULAR_CONTACT:
         return rated
-    if said is None:
+    if stated is None:
         angle = number(math.degrees(rated))
         assumed.append(
             f"a contact angle of {angle}°, as no letter says it (B is 40°, AC 25°, C 15°)"
         )
         return rated
-    return math.radians(said)
+    return math.radians(stated)
 
 
-def _rating_at(basic: str, inside: Inside, angle: float) -> float:
-    """C_r at a contact angle over that of the catalogue, by ISO 281; 1 where there is one angle."""
+def _rating_ratio(basic: str, inside: Inside, angle: float) -> float:
+    """Return C_r at a contact angle over that of the catalogue (ISO 281); 1 for other kinds."""
     if _kind_of(basic) != ANGULAR_CONTACT:
         return 1.0
 
-    def rated(at: float) -> float:
-        cosine = math.cos(at)
+    def rating(contact_angle: float) -> float:
+        cosine = math.cos(contact_angle)
         gamma = inside.ball_diameter * cosine / inside.pitch_diameter
         f_c = ratings.capacity_factor(gamma, USUAL_GROOVES["inner"], USUAL_GROOVES["inner"])
         return float(ratings.dynamic_rating(f_c, inside.n_balls, inside.ball_diameter, cosine))
 
-    return rated(angle) / rated(OTHER_ANGLES.get(series_of(basic), CATALOGUE_ANGLE))
+    return rating(angle) / rating(OTHER_ANGLES.get(series_of(basic), CATALOGUE_ANGLE))
 
 
-def _built(kind: str, inside: Inside, angle: float, play: float, assumed: list[str]) -> Bearing:
-    """The bearing, with `play` [m] from contact to contact; adds what is assumed of its grooves."""
+def _build(kind: str, inside: Inside, angle: float, play: float, assumed: list[str]) -> Bearing:
+    """Build a bearing with `play` [m] from contact to contact; add its grooves to `assumed`."""
     count, D, pitch = inside.n_balls, inside.ball_diameter, inside.pitch_diameter
     estimated = ("n_balls", "ball_diameter", "pitch_diameter")
     if inside.roller_length is not None:
         if kind == ROLLERS:
-            made = Bearing.cylindrical(count, D, inside.roller_length, pitch, 0.5 * play)
-            return made.replace(estimated=("n_balls", "roller_length"))
-        made = Bearing.tapered(count, D, inside.roller_length, pitch, angle)
-        return made.replace(estimated=(*estimated, "roller_length"))
+            bearing = Bearing.cylindrical(count, D, inside.roller_length, pitch, 0.5 * play)
+            return bearing.replace(estimated=("n_balls", "roller_length"))
+        bearing = Bearing.tapered(count, D, inside.roller_length, pitch, angle)
+        return bearing.replace(estimated=(*estimated, "roller_length"))
     if kind == SELF_ALIGNING_BALLS:
         assumed.append(f"inner grooves of {USUAL_GROOVE:g} ball diameters")
         sphere = 0.5 * pitch / math.cos(angle) + 0.5 * D
-        made = Bearing.self_aligning(count, D, sphere, USUAL_GROOVE * D, angle, 0.5 * play)
-        return made.replace(estimated=estimated)
+        bearing = Bearing.self_aligning(count, D, sphere, USUAL_GROOVE * D, angle, 0.5 * play)
+        return bearing.replace(estimated=estimated)
     inner, outer = USUAL_GROOVES["inner"], USUAL_GROOVES["outer"]
     assumed.append(f"grooves of {inner:g} (inner) and {outer:g} (outer) ball diameters")
-    made = Bearing.from_drawing(
+    bearing = Bearing.from_drawing(
         count, D, pitch, inner * D, outer * D, contact_angle=angle, diametral_clearance=play
     )
-    return made.replace(estimated=estimated)
+    return bearing.replace(estimated=estimated)
 
 
 def _flange_words(letters: str, basic: str, suffix: str) -> list[str]:
-    """Words on the flanges and the inside of cylindrical rollers."""
+    """Return the assumptions on flanges and inside of cylindrical rollers, in words."""
     assumed = []
     if letters in ("NJ", "NUP"):
         ways = "one way" if letters == "NJ" else "both ways"
@@ -413,27 +413,27 @@ def _has_plain_rollers(basic: str) -> bool:
     return basic.startswith("NU10") or basic == "NU2319"
 
 
-def _mounted(
-    bearing: Bearing, kind: str, size: Boundary, said: Suffix, assumed: list[str]
+def _mount(
+    bearing: Bearing, kind: str, size: Boundary, meaning: Suffix, assumed: list[str]
 ) -> Bearing:
-    """The bearing alone or as the suffix arranges two; adds what is assumed of their mounting.
+    """Return the bearing, or the pair that its suffix names; add the mounting to `assumed`.
 
-    Back to back outer rings touch, face to face inner ones. Balls are in the middle of their
-    width. The pressure centres of tapered rollers are `pressure_center` from the back of the cup:
-    the lines of contact, through the middles of the rollers, meet the shaft there.
+    In a pair back to back the outer rings touch, in one face to face the inner rings. Balls are in
+    the middle of their width. Lines of contact, through the middles of tapered rollers, meet the
+    shaft at the pressure centre: it is `pressure_center` from the back of the cup.
     """
-    if not said.arrangement:
+    if not meaning.arrangement:
         if kind == TAPERED_ROLLERS:
             assumed.append("neither clearance nor preload, which are set as it is mounted")
-        elif said.matched:
-            assumed.append(f"no clearance, as {said.matched} is that of two such bearings")
+        elif meaning.matched:
+            assumed.append(f"no clearance, as {meaning.matched} is that of two such bearings")
         return bearing
     distance = size.width
     words = f"rows {number(1e3 * distance, 4)} mm apart, as rings that touch"
-    if said.arrangement == "tandem":
+    if meaning.arrangement == "tandem":
         assumed.append(words)
-        return bearing.paired(distance, said.arrangement)
-    back = said.arrangement == "back-to-back"
+        return bearing.paired(distance, meaning.arrangement)
+    back = meaning.arrangement == "back-to-back"
     reach = bearing.pitch_diameter * math.tan(bearing.contact_angle)
     if kind == TAPERED_ROLLERS:
         centers = 2.0 * (size.pressure_center if back else size.width - size.pressure_center)
@@ -442,18 +442,18 @@ def _mounted(
             f"pressure centres {number(1e3 * centers, 3)} mm apart, as "
             f"{'cups' if back else 'cones'} that touch"
         )
-    preload, clearance_words = _set(size, said)
+    preload, clearance_words = _pair_preload(size, meaning)
     assumed.append(f"{words}, {clearance_words}")
-    return bearing.paired(distance, said.arrangement, preload)
+    return bearing.paired(distance, meaning.arrangement, preload)
 
 
-def _set(size: Boundary, said: Suffix) -> tuple[float, str]:
-    """Preload [m] of a pair, below 0 an axial clearance, and both in words."""
-    play, words = said.axial_play, ""
-    if said.matched:
-        least, most = matched_clearance(size.bore, said.matched)
+def _pair_preload(size: Boundary, meaning: Suffix) -> tuple[float, str]:
+    """Return the preload [m] of a pair, below 0 an axial clearance, and a phrase with it."""
+    play, words, matched = meaning.axial_play, "", meaning.matched
+    if matched:
+        least, most = matched_clearance(size.bore, matched)
         play = 0.5 * (least + most)
-        words = f", the middle of {said.matched} ({number(1e6 * least)} to {number(1e6 * most)} µm)"
+        words = f", the middle of {matched} ({number(1e6 * least)} to {number(1e6 * most)} µm)"
     if not play:
         return 0.0, f"without clearance or preload{words}"
     name = "preload" if play < 0.0 else "clearance"

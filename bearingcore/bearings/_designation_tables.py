@@ -1,6 +1,6 @@
 """Tables of designations: boundary dimensions, ratings, and classes of clearance.
 
-The heads of the CSV files say where their numbers are from.
+The heads of the CSV files name the sources of their numbers.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ _CLEARANCE_KIND = {DEEP_GROOVE: "ball", SELF_ALIGNING_BALLS: "self-aligning", RO
 
 
 class Boundary(NamedTuple):
-    """A line of the table of designations, in SI; what a series does not have is NaN."""
+    """A line of the table of designations, in SI units; NaN where a series has no such number."""
 
     bore: float
     outside_diameter: float
@@ -47,7 +47,7 @@ _UNITS = Boundary(1e-3, 1e-3, 1e-3, 1e3, 1e3, 1.0, 1e-3, 1e-3, 1.0, 1e-3, 1e-3, 
 
 @cache
 def boundaries() -> Mapping[str, Boundary]:
-    """Boundary dimensions and ratings by basic number."""
+    """Return boundary dimensions and ratings by basic number."""
     table = {}
     for row in rows_of("designations.csv"):
         values = [float(cell) if cell else math.nan for cell in list(row.values())[1:]]
@@ -57,14 +57,14 @@ def boundaries() -> Mapping[str, Boundary]:
 
 
 def series_of(basic: str) -> str:
-    """Series of a basic number: 62 of 6208 and of 628, NU2 of NU208."""
+    """Return the series of a basic number: 62 for 6208 and for 628, NU2 for NU208."""
     return basic[: -1 if len(basic) == 3 else -2]
 
 
 def clearance(kind: str, bore: float, clearance_class: str) -> tuple[float, float]:
-    """Least and greatest radial internal clearance [m] of ISO 5753-1.
+    """Return the least and the greatest radial internal clearance [m] of ISO 5753-1.
 
-    From contact to contact, as a bearing is delivered: fits and warmth take some of it away.
+    It is measured from contact to contact of a bearing as delivered; fits and heat reduce it.
 
     Parameters
     ----------
@@ -91,7 +91,7 @@ def clearance(kind: str, bore: float, clearance_class: str) -> tuple[float, floa
 
 
 def matched_clearance(bore: float, name: str) -> tuple[float, float]:
-    """Least and greatest axial clearance [m] of a pair of matched angular-contact ball bearings.
+    """Return the least and the greatest axial clearance [m] of a matched angular-contact pair.
 
     Below 0 it is a preload. `bore` in m; `name` is the class, "CA", "CB", "CC", "GA", "GB" or "GC"
     (SKF). ValueError for a bore that the table does not have.
@@ -105,7 +105,7 @@ def matched_clearance(bore: float, name: str) -> tuple[float, float]:
 
 @cache
 def rows_of(name: str) -> list[dict[str, str]]:
-    """Lines of a table of this package by their headings."""
+    """Return the lines of a table of this package, each with its cells by heading."""
     text = resources.files("bearingcore.bearings").joinpath(name).read_text("utf-8")
     lines = [line for line in text.splitlines() if not line.startswith("#")]
     return list(csv.DictReader(lines, delimiter=";"))

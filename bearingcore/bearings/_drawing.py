@@ -1,4 +1,4 @@
-"""Numbers of the contact model out of the dimensions on a drawing.
+"""Numbers of the contact model, derived from the dimensions on a drawing.
 
 Quantity                                    | Symbol | Name                     | Unit
 ------------------------------------------- | ------ | ------------------------ | ----
@@ -7,7 +7,7 @@ groove radius over ball diameter            | f      | conformity               
 unloaded distance of the groove centres     | A0     | groove_center_distance   | m
 radius on which inner groove centres lie    | r_d    | groove_center_radius     | m
 unloaded, free contact angle                | α0, α_f | contact_angle, free_contact_angle | rad
-radial clearance on top of α0               | r_L    | radial_clearance         | m
+radial clearance in addition to α0          | r_L    | radial_clearance         | m
 
 The contact angle and the clearance describe one freedom. With the rings concentric and their
 grooves opposite each other, the groove centres are A0 cos α0 − r_L apart. Pushed along the shaft
@@ -30,14 +30,14 @@ from bearingcore.common import _checks as checks
 from bearingcore.fields import WIDEST_CONFORMITY
 
 USUAL_GROOVES = {"inner": 0.52, "outer": 0.53}
-"""Groove radii over the ball diameter where none are given: the widest that ISO 281 rates fully."""
+"""Groove radii over the ball diameter by default: the widest with the full rating of ISO 281."""
 
 GROOVES = ("inner_groove_radius", "outer_groove_radius")
 OPTIONAL_FIELDS = (*GROOVES, "youngs_modulus", "poisson")
 """Fields of a `Bearing` that only one with a drawing has."""
 
 BALL_MATERIAL = ("ball_youngs_modulus", "ball_poisson")
-"""Fields that such a bearing may have: None where balls and rings are of one material."""
+"""Fields that may be set with a drawing: None where balls and rings are of one material."""
 
 DIMENSIONS = ("ball_diameter", "pitch_diameter", "contact_angle", *OPTIONAL_FIELDS, *BALL_MATERIAL)
 """Fields of a `Bearing` that others are derived from."""
@@ -54,9 +54,9 @@ class Derived(NamedTuple):
 
 
 def check_groove(race: str, radius: float | None, ball_diameter: float) -> float:
-    """The groove radius [m] of a race as a float; ValueError where no ball runs in such a groove.
+    """Return the groove radius [m] of a race as a float; raise ValueError if no ball fits it.
 
-    It must pass freely around the ball, and guide it.
+    The groove must clear the ball and still guide it.
     """
     name = f"{race}_groove_radius"
     return checks.real_number(
@@ -69,14 +69,14 @@ def check_groove(race: str, radius: float | None, ball_diameter: float) -> float
 
 
 def center_distance(distance: float | None) -> float:
-    """A0 [m] as a float; ValueError where there are no centres, as of rollers."""
+    """Return A0 [m] as a float; raise ValueError without groove centres, as for rollers."""
     return checks.real_number("groove_center_distance", distance, above=0.0, unit="m")  # type: ignore[arg-type]
 
 
 def checked(values: Mapping[str, Any]) -> dict[str, float]:
-    """Groove radii and materials of a `Bearing` as floats, of one with a drawing.
+    """Return groove radii and materials of a `Bearing` as floats; {} for one without a drawing.
 
-    ValueError where one is wrong or missing, or there without groove radii.
+    ValueError for a wrong or missing number, or for a material of balls without groove radii.
     """
     if all(values[name] is None for name in OPTIONAL_FIELDS):
         for name in BALL_MATERIAL:
@@ -98,9 +98,9 @@ def checked(values: Mapping[str, Any]) -> dict[str, float]:
 
 
 def check_fit(values: Mapping[str, Any]) -> None:
-    """FieldError where dimensions of a `Bearing` [SI] do not fit together.
+    """Raise FieldError if dimensions of a `Bearing` [SI] do not fit together.
 
-    Its `numbers` name the other fields that it is about.
+    Its `numbers` name the other fields of the conflict.
     """
     ball, pitch, count = (values[name] for name in ("ball_diameter", "pitch_diameter", "n_balls"))
     if count != int(count):
@@ -146,16 +146,16 @@ def derive(
     ball_youngs_modulus: float | None = None,
     ball_poisson: float | None = None,
 ) -> Derived:
-    """A0, r_d, K and the raceway radii from the drawing (SI, rad).
+    """Derive A0, r_d, K and the raceway radii from the drawing (SI, rad).
 
     - A0 = r_i + r_o − D_b;
-    - r_d = D_p/2 + (r_i − D_b/2) cos α0: a ball on the pitch circle touches the inner groove on
-      the far side of its centre from the groove's (Harris, locus of the inner groove centres);
+    - r_d = D_p/2 + (r_i − D_b/2) cos α0, as the centre of a ball on the pitch circle is between its
+      inner contact and the centre of the inner groove (Harris, locus of the groove centres);
     - K of both Hertzian contacts in series, see `bearingcore.bearings._hertz`;
-    - raceway radii D_p/2 ± D_b/2, at the bottom of the grooves. Left out: a quarter of the
-      diametral play, some µm; and that balls which touch at α0 roll on a track that is
-      (1 − cos α0) D_b/2 nearer to the pitch circle: at 40° an outer-race defect of a given angle
-      is there 4 % shorter.
+    - raceway radii D_p/2 ± D_b/2, at the bottom of the grooves. This leaves out a quarter of the
+      diametral play, some µm. It also leaves out that balls which touch at α0 roll on a track that
+      is (1 − cos α0) D_b/2 nearer to the pitch circle: at 40° this makes an outer-race defect of a
+      given angle 4 % shorter.
     """
     material = (youngs_modulus, poisson, ball_youngs_modulus, ball_poisson)
     factors = [

@@ -20,22 +20,22 @@ FREQUENCIES = ("bpfo", "bpfi", "ftf", "bsf")
 """Outer race, inner race, cage, and one turn of a ball."""
 
 WHOLE = 0.02
-"""Relative difference to a whole number of balls that printed frequencies have at most."""
+"""Greatest relative difference between BPFO + BPFI as printed and a whole number of balls."""
 
 _LARGEST_ANGLE = math.radians(50.0)
 
 
 def bearing_of_frequencies(orders: Mapping[str, float], pitch_diameter: float) -> Bearing:
-    """The ball bearing whose parts have these frequencies.
+    """Return the ball bearing whose parts have these frequencies.
 
     Parameters
     ----------
     orders
         frequencies in turns of the shaft, by the names of FREQUENCIES. BPFO and BPFI are needed, or
-        one of them with FTF. FTF is passed over where both are there: it is often that of a
+        one of them with FTF. If both are there, FTF is ignored, because it is often that of a
         turning outer ring. Without a BSF that fits, the contact angle is 0.
     pitch_diameter
-        [m] that it is drawn with; no frequency depends on it. It is marked as estimated.
+        [m] of the bearing, marked as estimated; no frequency depends on it.
 
     Raises
     ------
@@ -63,7 +63,7 @@ def bearing_of_frequencies(orders: Mapping[str, float], pitch_diameter: float) -
 
 
 def _balls_and_ratio(known: Mapping[str, float]) -> tuple[int, float]:
-    """N_b and γ."""
+    """Return N_b and γ."""
     outer, inner, cage = (known.get(name) for name in ("bpfo", "bpfi", "ftf"))
     if outer is None and inner is not None and cage is not None and cage < 0.5:
         outer = inner * cage / (1.0 - cage)
@@ -87,7 +87,7 @@ def _balls_and_ratio(known: Mapping[str, float]) -> tuple[int, float]:
 
 
 def _shape(gamma: float, spin: float | None) -> tuple[float, float]:
-    """D_b/D_p and the contact angle [rad]; some sheets list twice the spin."""
+    """Return D_b/D_p and the contact angle [rad]; some sheets list twice the BSF."""
     for turns in () if spin is None else (spin, 0.5 * spin):
         ratio = (1.0 - gamma**2) / (2.0 * turns)
         if gamma <= ratio * (1.0 + WHOLE) and gamma >= ratio * math.cos(_LARGEST_ANGLE):

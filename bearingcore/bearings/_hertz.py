@@ -11,7 +11,7 @@ ellipse ratio a/b                           | χ      | ellipse_ratio           
 complete elliptic integrals at 1 − 1/χ²     | K, E   | first_, second_integral  |
 load-deflection factor of one contact       | K_race | load_deflection_factor   | N/m^1.5
 greatest pressure, in the middle            | p      | greatest_pressure        | Pa
-Young's modulus, Poisson's ratio            | E, ν   | youngs_modulus, poisson  | Pa,
+Young's modulus, Poisson's ratio            | E, ν   | youngs_modulus, poisson  | Pa, 1
 2/((1 − ν²)/E of the ring + that of the ball) | E*   | modulus                  | Pa
 
 E* is E/(1 − ν²) where ball and ring are of one material. The contact is small against the ball,
@@ -34,8 +34,8 @@ from numpy.typing import ArrayLike
 from bearingcore.common import Array, _checks as checks
 
 GREATEST_LOG_RATIO = 40.0
-"""ln χ up to which the ellipse is looked for. Even a groove that is wider than the ball by only
-10^-15 of its diameter lies far below."""
+"""Greatest ln χ of the search. Even a groove that is wider than the ball by only 10^-15 of its
+diameter stays far below it."""
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ class RaceContact:
     youngs_modulus [Pa], poisson
         of the ring.
     ball_youngs_modulus [Pa], ball_poisson
-        of the ball; None: as of the ring.
+        of the ball; None: those of the ring.
     """
 
     race: str
@@ -100,7 +100,7 @@ class RaceContact:
         0 at no load.
         """
         Q = np.asarray(load, dtype=float)
-        # a b grows as Q^⅔, so p as Q^⅓; the ellipse at 1 N serves a load of zero too
+        # a b grows as Q^⅔, so p grows as Q^⅓: scaled from 1 N, as a zero load has no ellipse
         a, b = self.semi_axes(1.0)
         return 1.5 / (math.pi * a * b) * np.cbrt(Q)
 
@@ -128,7 +128,7 @@ def race_contact(
     contact_angle
         α0 [rad]; it tilts the race's curvature around the shaft.
     youngs_modulus, poisson, ball_youngs_modulus, ball_poisson
-        E [Pa] and ν of the ring and of the ball; of the ball None: as of the ring.
+        E [Pa] and ν of the ring and of the ball; None for the ball: those of the ring.
 
     Raises
     ------
@@ -143,7 +143,7 @@ def race_contact(
         )
     gamma = ball_diameter * math.cos(contact_angle) / pitch_diameter
     side = 1.0 if race == "inner" else -1.0
-    # curvatures: ball, ball, race around the shaft (convex inside, concave outside), groove
+    # Σρ = two of the ball, the race around the shaft (inner convex, outer concave), the groove
     around = side * 2.0 * gamma / ((1.0 - side * gamma) * ball_diameter)
     groove = 1.0 / groove_radius
     total = 4.0 / ball_diameter + around - groove
@@ -156,7 +156,7 @@ def race_contact(
         )
     from scipy.special import ellipe, ellipkm1  # imported late, as scipy.special is slow to import
 
-    # 1 − F = (4/D_b − 2/r)/Σρ without the cancellation that a tight groove would bring
+    # 1 − F = (4/D_b − 2/r)/Σρ, in a form without the cancellation of a tight groove
     rest = 2.0 * (2.0 * groove_radius - ball_diameter) / (ball_diameter * groove_radius * total)
     chi = _ellipse_ratio(rest)
     m1 = 1.0 / chi**2
@@ -176,7 +176,7 @@ def race_contact(
 def spherical_contact(
     ball_diameter: float, sphere_radius: float, youngs_modulus: float, poisson: float
 ) -> RaceContact:
-    """Contact of a ball with a spherical outer race of radius R_e [m]: a circle, χ = 1."""
+    """Return the contact of a ball with a spherical outer race of radius R_e [m]: χ = 1."""
     return RaceContact(
         race="outer",
         curvature_sum=4.0 / ball_diameter - 2.0 / sphere_radius,
@@ -189,7 +189,7 @@ def spherical_contact(
 
 
 def _ellipse_ratio(rest: float) -> float:
-    """χ at which 2/(χ²−1)·(K/E − 1) = rest, with rest = 1 − F(ρ).
+    """Solve 2/(χ²−1)·(K/E − 1) = rest for χ, with rest = 1 − F(ρ).
 
     With m = 1 − 1/χ² and K − E = (m/3) R_D(0, 1/χ², 1) (Carlson's integral) the left side is
     2 R_D/(3 χ² E), which is exact at χ = 1 and falls steadily from 1 to 0.
@@ -197,16 +197,16 @@ def _ellipse_ratio(rest: float) -> float:
     from scipy.optimize import brentq  # imported late: slow to import, and seldom needed
     from scipy.special import ellipe, elliprd
 
-    def off(log_chi: float) -> float:
+    def log_mismatch(log_chi: float) -> float:
         m1 = math.exp(-2.0 * log_chi)
         left = 2.0 * m1 * float(elliprd(0.0, m1, 1.0)) / (3.0 * float(ellipe(1.0 - m1)))
         return math.log(left / rest)
 
-    return math.exp(brentq(off, 0.0, GREATEST_LOG_RATIO, xtol=1e-15, rtol=1e-15))
+    return math.exp(brentq(log_mismatch, 0.0, GREATEST_LOG_RATIO, xtol=1e-15, rtol=1e-15))
 
 
 def series_factor(inner: float, outer: float) -> float:
-    """Load-deflection factor K [N/m^1.5] of both contacts of a ball, one after the other.
+    """Return the load-deflection factor K [N/m^1.5] of both contacts of a ball in series.
 
     Approaches add at equal load: K = (K_i^(−2/3) + K_e^(−2/3))^(−3/2) (Harris).
     """

@@ -1,4 +1,4 @@
-"""Numbers and rows of a bearing of any kind, before its kind says what follows from them."""
+"""Numbers and rows of a bearing of any kind, without the rules of its kind."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ _ONE_ROW = (Row(),)
 
 @dataclass(frozen=True)
 class InRows(Kinematics):
-    """Numbers of a bearing, each checked by itself, and its rows; methods of a `Kind` take these.
+    """Numbers of a bearing, each checked by itself, and its rows.
 
-    `Bearing` says what the fields are.
+    `Bearing` describes the fields. Methods of a `Kind` take this class, which does not need one.
     """
 
     groove_center_radius: float
@@ -46,7 +46,7 @@ class InRows(Kinematics):
     rows: tuple[Row, ...] = ()
     roller_length: float | None = None
     density: float = field(default=STEEL_DENSITY, metadata=scene_file.LEFT_OUT)
-    kind: object = ""  # of `Bearing` a Kind, whose methods take these numbers
+    kind: object = ""  # a Kind in `Bearing`; its methods take this class, so it is not named here
     estimated: tuple[str, ...] = field(default=(), metadata=scene_file.LEFT_OUT)
     ball_youngs_modulus: float | None = None
     ball_poisson: float | None = None
@@ -67,7 +67,7 @@ class InRows(Kinematics):
         rows = self.rows if isinstance(self.rows, tuple | list) else (self.rows,)
         checks.keep(self, rows=tuple(rows))
         if len(self.rows) > MOST_ROWS or not all(isinstance(row, Row) for row in self.rows):
-            raise checks.refuse("rows", self.rows, f"at most {MOST_ROWS} of Row")
+            raise checks.refuse("rows", self.rows, f"at most {MOST_ROWS} objects of type Row")
         names: object = self.estimated
         for name in names if isinstance(names, tuple | list) else (names,):
             checks.choice("estimated", name, ESTIMATES)
@@ -119,7 +119,7 @@ class InRows(Kinematics):
 
     def unlike(self, row: Row) -> dict[str, float]:
         """Return the numbers of a row that differ from the bearing's."""
-        return {name: held for name, held in row.own.items() if held != getattr(self, name)}
+        return {name: value for name, value in row.own.items() if value != getattr(self, name)}
 
     @property
     def unlike_rows(self) -> tuple[tuple[Self, slice], ...]:
@@ -145,9 +145,9 @@ class InRows(Kinematics):
         raise checks.refuse("ball", ball, f"0 to {self.total_balls - 1}")
 
     def pace(self, row: int) -> float:
-        """Return the speed of a row's cage over that by the bearing's own numbers."""
-        own = self.of_row(row)
-        return 1.0 if own.size_ratio == self.size_ratio else own.cage_ratio / self.cage_ratio
+        """Return the speed of a row's cage, over the one that the bearing's own numbers give."""
+        single = self.of_row(row)
+        return 1.0 if single.size_ratio == self.size_ratio else single.cage_ratio / self.cage_ratio
 
     @property
     def has_one_cage_speed(self) -> bool:
@@ -177,7 +177,7 @@ B = TypeVar("B", bound=InRows)
 
 @lru_cache(maxsize=256)
 def _build_row(bearing: B, numbers: tuple[tuple[str, float], ...]) -> B:
-    """The bearing without rows and with what one of them has of its own."""
+    """Return a bearing without rows, with the numbers of one of them; grooves grow with balls."""
     values: dict[str, Any] = dict(numbers)
     if not bearing.is_drawn:
         for name in LENGTHS:
@@ -186,7 +186,7 @@ def _build_row(bearing: B, numbers: tuple[tuple[str, float], ...]) -> B:
                     f"{name} of a row", values[name], "None, unless the bearing has groove radii"
                 )
     elif "ball_diameter" in values:
-        larger = values["ball_diameter"] / bearing.ball_diameter
+        scale = values["ball_diameter"] / bearing.ball_diameter
         for name in drawing.GROOVES:
-            values.setdefault(name, larger * getattr(bearing, name))
+            values.setdefault(name, scale * getattr(bearing, name))
     return bearing.replace(rows=()).replace(**values)

@@ -67,7 +67,8 @@ class Kind:
     needed_directions
         directions that a general load moves if this bearing alone holds the shaft.
     carries
-        a sentence on the requirements of the other directions; empty if all five are possible.
+        a clause on what a bearing without the other directions carries; empty if all five are
+        possible.
     left_out
         the reason why fewer than five directions are possible; empty if all five are.
     shoulders
@@ -225,7 +226,7 @@ class Kind:
     def check_mass(self) -> None:
         """Raise ValueError if the mass of the elements is not modelled."""
         if self.mass_unknown:
-            raise checks.refuse("balls", "with mass", f'"massless" of {self.mass_unknown}')
+            raise checks.refuse("balls", "with mass", f'"massless" for {self.mass_unknown}')
 
     def check_directions(self, dofs: tuple[str, ...]) -> None:
         """Raise ValueError for directions in which a bearing of this kind cannot move."""

@@ -1,4 +1,4 @@
-"""All kinds of bearing. The first that recognizes the numbers of an old file has it."""
+"""All kinds of bearing. An old file gets the first kind that recognizes its numbers."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ KINDS: dict[str, Kind] = {kind.name: kind for kind in (BALL, SELF_ALIGNING, ROWS
 
 
 def kind_of(bearing: InRows) -> Kind:
-    """The kind of a bearing; ValueError where its `kind` is no name of one."""
+    """Return the kind of a bearing; ValueError if its `kind` is not the name of one."""
     if isinstance(bearing.kind, Kind):
         return bearing.kind
     if not bearing.kind:
-        return recognized(bearing)
+        return recognize_kind(bearing)
     return KINDS[checks.choice("kind", bearing.kind, tuple(KINDS))]
 
 
-def recognized(bearing: InRows) -> Kind:
-    """The kind that recognizes the numbers of a bearing, as of files that do not name it."""
+def recognize_kind(bearing: InRows) -> Kind:
+    """Return the kind that recognizes the numbers of a bearing, for files that do not name it."""
     return next(kind for kind in KINDS.values() if kind.recognizes(bearing))

@@ -9,8 +9,8 @@ half length, half width of the contact      | l/2, b | semi_axes              | 
 greatest pressure, in the middle            | p      | greatest_pressure      | Pa
 load-deflection factor of both contacts     | K, c_L | series_factor          | N/m^(10/9)
 
-Pressure is even along the roller: the ends, where it rises unless roller or race is crowned, and a
-roller that is skewed are left out.
+The pressure is even along the roller. Its rise at the ends of a roller and race without a crown,
+and skewed rollers, are left out.
 
 Source: ISO 16281, after Palmgren; Hertz for a cylinder on a cylinder (Harris, Rolling Bearing
 Analysis, chapter "Contact stress and deformation").
@@ -30,11 +30,11 @@ STEEL_MODULUS, STEEL_POISSON = 210e9, 0.3
 """E [Pa] and ν of rollers and rings: the factor is for steel."""
 
 SERIES_CONSTANT = 35_948.0
-"""Constant c_L/l^(8/9) [N/mm^2] of ISO 16281, of a steel roller between BOTH its races. Palmgren's
-3.84e-5 mm of 1 N on 1 mm, 8.06e4, is for ONE contact: two in series make 3.73e4."""
+"""Constant c_L/l^(8/9) [N/mm^2] of ISO 16281, for a steel roller between BOTH its races. Palmgren's
+3.84e-5 mm for 1 N on 1 mm, or 8.06e4, is for ONE contact: two in series make 3.73e4."""
 
 ONE_CONTACT = 8.06e4
-"""Palmgren's constant of one contact: old saved scenes of rollers hold it as that of both."""
+"""Palmgren's constant of one contact. Old saved scenes of rollers used it for both."""
 
 LONG_ROLLER = 2.5
 """Length over diameter above which the profile of a roller has a straight part (ISO 16281)."""
@@ -57,11 +57,11 @@ class RollerContact:
     length: float
 
     ellipse_ratio = math.inf
-    """A line is an ellipse without end."""
+    """Infinite, as a line is an ellipse without end."""
 
     @property
     def load_deflection_factor(self) -> float:
-        """K [N/m^(10/9)] of this contact alone: each race gives half of what both give."""
+        """K [N/m^(10/9)] of this contact alone: each race takes half of the compression."""
         return 2.0 ** (10.0 / 9.0) * series_factor(self.length)
 
     @property
@@ -77,7 +77,7 @@ class RollerContact:
     def semi_axes(self, load: ArrayLike) -> tuple[Array, Array]:
         """Half the length and half the width b = 2 Q/(π l p) [m] of the contact at a load [N]."""
         Q = np.asarray(load, dtype=float)
-        # b grows as Q^½: from the contact at 1 N, which exists at no load too
+        # b grows as Q^½: scaled from 1 N, as a zero load has no contact
         b = 2.0 / (math.pi * self.length * self.greatest_pressure(1.0)) * np.sqrt(Q)
         return np.where(Q > 0.0, 0.5 * self.length, 0.0), b
 
@@ -85,7 +85,7 @@ class RollerContact:
 def roller_contact(
     race: str, roller_diameter: float, pitch_diameter: float, roller_length: float
 ) -> RollerContact:
-    """The contact of a steel roller with a race; lengths in m.
+    """Return the contact of a steel roller with a race; lengths in m.
 
     Σρ = 2/(D (1 − γ)) inside, 2/(D (1 + γ)) outside, γ = D/D_p.
     """
@@ -96,10 +96,10 @@ def roller_contact(
 
 
 def profile_drop(place: ArrayLike, diameter: float, length: float) -> Array:
-    """P [m] of a cylindrical roller at places [m] from its middle: Eqs. (42), (43) of ISO 16281.
+    """Return the drop P [m] of a cylindrical roller's profile at places x [m] from its middle.
 
-    Its reference profile is 0.00035 D ln(1/(1 − (2x/l)²)). A roller longer than 2.5 D is straight
-    except for 1.25 D at each end, which has 0.0005 D instead.
+    P = 0.00035 D ln(1/(1 − (2x/l)²)). A roller longer than 2.5 D is straight except for 1.25 D at
+    each end, with 0.0005 D in the equation (ISO 16281, Eqs. 42, 43).
     """
     rounded = min(length, LONG_ROLLER * diameter)
     part = np.maximum(2.0 * np.abs(np.asarray(place)) - (length - rounded), 0.0) / rounded
@@ -108,22 +108,22 @@ def profile_drop(place: ArrayLike, diameter: float, length: float) -> Array:
 
 
 def tapered_profile_drop(place: ArrayLike, diameter: float, length: float) -> Array:
-    """P [m] of a tapered roller, 0.00045 D ln(1/(1 − (2x/l)²)): Eq. (44) of ISO 16281."""
+    """Return the drop P [m] of a tapered roller, 0.00045 D ln(1/(1 − (2x/l)²)) (Eq. 44)."""
     return np.asarray(-0.00045 * diameter * np.log1p(-((2.0 * np.asarray(place) / length) ** 2)))
 
 
 def series_factor(roller_length: float) -> float:
-    """K [N/m^(10/9)] of both contacts of a steel roller of a length [m], one after the other.
+    """Return K [N/m^(10/9)] of both contacts of a steel roller of a length [m] in series.
 
     K = 35 948 l^(8/9) N/mm^(10/9), l in mm (c_L of ISO 16281).
     """
     return float(SERIES_CONSTANT * (1e3 * roller_length) ** (8.0 / 9.0) * 1e3 ** (10.0 / 9.0))
 
 
-def mended_factor(factor: object, roller_length: object) -> object:
-    """K [N/m^(10/9)] of a file, where it is that of a time when ONE_CONTACT stood for both.
+def mend_factor(factor: object, roller_length: object) -> object:
+    """Return K [N/m^(10/9)] of a file, corrected if ONE_CONTACT was used for both contacts.
 
-    Anything else stays as it is.
+    Any other value is returned as it is.
     """
     if not isinstance(factor, float) or not isinstance(roller_length, float):
         return factor

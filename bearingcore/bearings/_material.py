@@ -1,4 +1,4 @@
-"""Materials of balls: Young's modulus and Poisson's ratio [Pa] and density [kg/m³].
+"""Materials of balls: Young's modulus [Pa], Poisson's ratio and density [kg/m³].
 
 Source of silicon nitride: SKF general catalogue, properties of bearing steel and bearing grade
 silicon nitride (310 GPa, 3200 kg/m³); ν is the usual 0.26.
@@ -14,7 +14,7 @@ STEEL_DENSITY = 7800.0
 
 
 class BallMaterial(NamedTuple):
-    """E [Pa] and ν of balls, None: as of the rings; and their density [kg/m³]."""
+    """E [Pa], ν and density [kg/m³] of balls; None for E and ν: those of the rings."""
 
     youngs_modulus: float | None
     poisson: float | None

@@ -1,4 +1,4 @@
-"""A bearing as it may be given: itself, as one of a table, or by its name or number."""
+"""Bearings given as an object, as an entry of a table, by name or by number."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ BearingLike: TypeAlias = Bearing | CatalogueBearing | Designation | str
 """Values that `bearing_of` takes."""
 
 WANTED = (
-    'a Bearing, a designation such as "6205", a name out of catalogue(), or what '
-    "read_designation or a table of bearings gives"
+    'a Bearing, a designation such as "6205", a name out of catalogue(), or a result of '
+    "read_designation or of a table of bearings"
 )
 
 
 def bearing_of(value: BearingLike) -> Bearing:
-    """The bearing that is meant by a value where a bearing is wanted.
+    """Return the bearing that an object, a name or a number stands for.
 
     Parameters
     ----------
@@ -33,7 +33,7 @@ def bearing_of(value: BearingLike) -> Bearing:
     Raises
     ------
     ValueError
-        for text that is neither; of a value of another type it is a TypeError too.
+        for text that is neither; for a value of another type it is a TypeError too.
     """
     if isinstance(value, str):
         value = catalogue().get(value) or read_designation(value)
@@ -47,33 +47,33 @@ _ANGLES, _CLEARANCES = ("", " B", " C", " AC"), ("", "/C2", "/C3", "/C4", "/C5")
 
 
 def name_of(bearing: Bearing) -> str:
-    """The text by which `bearing_of` makes a bearing; empty without one.
+    """Return the text from which `bearing_of` makes a bearing; empty if there is none.
 
-    Of a bearing that a number gives but for its clearance, which is of no class, that number.
+    If only the clearance differs, and fits no class, this is the number without a class.
     """
     for name, entry in catalogue().items():
         if entry.bearing == bearing:
             return name
-    for name in (f"{basic}{angle}" for basic in _alike(bearing) for angle in _ANGLES):
-        made = _made(name)
-        if made and made.replace(radial_clearance=bearing.radial_clearance) == bearing:
-            whole = (f"{name}{suffix}" for suffix in _CLEARANCES)
-            return next((name for name in whole if _made(name) == bearing), name)
+    for name in (f"{basic}{angle}" for basic in _similar_numbers(bearing) for angle in _ANGLES):
+        named = _bearing_or_none(name)
+        if named and named.replace(radial_clearance=bearing.radial_clearance) == bearing:
+            with_class = (f"{name}{suffix}" for suffix in _CLEARANCES)
+            return next((name for name in with_class if _bearing_or_none(name) == bearing), name)
     return ""
 
 
-def _made(name: str) -> Bearing | None:
+def _bearing_or_none(name: str) -> Bearing | None:
     try:
         return bearing_of(name)
     except ValueError:
         return None
 
 
-def _alike(bearing: Bearing) -> Iterator[str]:
-    """Basic numbers of bearings about as large with about this rating: it follows the angle."""
+def _similar_numbers(bearing: Bearing) -> Iterator[str]:
+    """Yield basic numbers of about this size and rating, which depends on the contact angle."""
     rating = bearing.dynamic_load_rating or math.inf
     for basic, size in boundaries().items():
         middle = 0.5 * (size.bore + size.outside_diameter)
-        alike = abs(bearing.pitch_diameter / middle - 1.0) < 0.1
-        if alike and 0.7 < rating / size.dynamic_rating < 1.5:
+        is_as_large = abs(bearing.pitch_diameter / middle - 1.0) < 0.1
+        if is_as_large and 0.7 < rating / size.dynamic_rating < 1.5:
             yield basic

@@ -1,4 +1,4 @@
-"""Two rows of a bearing: their distance, what the second has of its own, and their preload.
+"""Two rows of a bearing: their distance, the second row's own numbers, and their preload.
 
 A pair is preloaded by pushing its inner grooves along the shaft against each other by u. No load
 acts, so each row gives way by its part u_k until both press the shaft with the same force F0:
@@ -26,7 +26,7 @@ from bearingcore.common import _checks as checks
 
 _SECOND = {f"second_{name}": name for name in OWN}
 ROW_CHANGES = ("row_distance", "preload", "preload_force", *_SECOND)
-"""Names of numbers of two rows, as `change_rows` takes them."""
+"""Names of the numbers of two rows that `change_rows` takes."""
 
 MOST_GIVE = 1e-3
 """Displacement [m] of a row that no preload exceeds."""
@@ -38,8 +38,8 @@ def change_rows(bearing: InRows, changes: Mapping[str, Any]) -> tuple[Row, ...]:
     Raises
     ------
     ValueError
-        for a bearing that has not two rows, or whose rows form no pair; for a preload of rows in
-        tandem, or of contacts at an angle of 0.
+        for a bearing without two rows that form a pair; for a preload of rows in tandem, or of
+        contacts at an angle of 0.
     """
     of_second = {_SECOND[name]: value for name, value in changes.items() if name in _SECOND}
     of_pair = {name: value for name, value in changes.items() if name not in _SECOND}
@@ -55,7 +55,7 @@ def change_rows(bearing: InRows, changes: Mapping[str, Any]) -> tuple[Row, ...]:
     preload = of_pair.get("preload", (high.offset - low.offset) * high.facing)
     if "preload_force" in of_pair:
         if "preload" in of_pair or arrangement == "tandem":
-            wanted = "left out, as it is with preload, and of rows in tandem"
+            wanted = "nothing where preload is given, and for rows in tandem"
             raise checks.refuse("preload_force", of_pair["preload_force"], wanted)
         preload = _displacement(bearing, of_pair["preload_force"])
     made = pair(distance, arrangement, preload)
@@ -68,58 +68,58 @@ def change_rows(bearing: InRows, changes: Mapping[str, Any]) -> tuple[Row, ...]:
 
 
 def preload_force(bearing: InRows) -> float | None:
-    """Return F0 [N] of a pair; None of any other bearing."""
+    """Return F0 [N] of a pair; None for any other bearing."""
     if _kind_of(bearing).arrangement(bearing) in ("", "tandem"):
         return None
     low, high = bearing.rows
     half = 0.5 * (high.offset - low.offset) * high.facing
     first, second = (_force_of_row(bearing, row) for row in (0, 1))
     most = abs(half) + MOST_GIVE
-    # the softer row gives way more
+    # u_1 + u_2 is the preload, and both forces are equal: the first row moves by `half + more`
     more = _threshold(lambda u: first(half + u) - second(half - u), 0.0, -most, most)
     return first(half + more)
 
 
 def _displacement(bearing: InRows, force: float) -> float:
-    """Displacement [m] of a pair's inner grooves by which its rows press each other with a force.
+    """Return the displacement [m] of a pair's inner grooves at a preload force [N].
 
-    Of no force it is the largest at which they do not.
+    For no force it is the largest displacement at which the rows do not press each other.
     """
     force = checks.real_number("preload_force", force, at_least=0.0, unit="N")
     total = 0.0
     for row in (0, 1):
-        of_row = _force_of_row(bearing, row)
-        if not force < (most := of_row(MOST_GIVE)):
+        force_of_row = _force_of_row(bearing, row)
+        if not force < (most := force_of_row(MOST_GIVE)):
             raise checks.refuse("preload_force", force, f"below {most:.4g} N")
-        total += _threshold(of_row, force, -MOST_GIVE, MOST_GIVE)
+        total += _threshold(force_of_row, force, -MOST_GIVE, MOST_GIVE)
     return total
 
 
 def _force_of_row(bearing: InRows, row: int) -> Callable[[float], float]:
-    """The axial force [N] of a row over its displacement [m]; never below 0."""
-    own = bearing.of_row(row)
-    contact = _kind_of(own).contact(own)
+    """Return the axial force [N] of a row as a function of its displacement [m]; at least 0."""
+    single = bearing.of_row(row)
+    contact = _kind_of(single).contact(single)
     clearance = bearing.radial_clearance + bearing.all_rows[row].clearance
     sine, cosine = math.sin(contact.angle), math.cos(contact.angle)
-    stiffness = own.n_balls * contact.factor
+    factor = single.n_balls * contact.factor
 
     def force(give: float) -> float:
-        if (apart := contact.center_distance) is None:
-            return stiffness * max(give * sine - clearance * cosine, 0.0) ** contact.exponent * sine
-        along = max(apart * sine + give, 0.0)
-        length = math.hypot(apart * cosine - clearance, along)
-        return stiffness * max(length - apart, 0.0) ** contact.exponent * along / length
+        if (distance := contact.center_distance) is None:
+            return factor * max(give * sine - clearance * cosine, 0.0) ** contact.exponent * sine
+        along = max(distance * sine + give, 0.0)
+        length = math.hypot(distance * cosine - clearance, along)
+        return factor * max(length - distance, 0.0) ** contact.exponent * along / length
 
     return force
 
 
-def _threshold(of: Callable[[float], float], value: float, low: float, high: float) -> float:
-    """The number between two bounds from which on a rising function exceeds a value."""
+def _threshold(rising: Callable[[float], float], value: float, low: float, high: float) -> float:
+    """Bisect for the number above which a rising function exceeds a value."""
     while low < (middle := 0.5 * (low + high)) < high:
-        low, high = (low, middle) if of(middle) > value else (middle, high)
+        low, high = (low, middle) if rising(middle) > value else (middle, high)
     return low
 
 
 def _kind_of(bearing: InRows) -> Kind:
-    assert isinstance(bearing.kind, Kind)  # rows do not know what a kind is
+    assert isinstance(bearing.kind, Kind)  # `InRows` has no type for it
     return bearing.kind

@@ -13,7 +13,7 @@ factors of both ratings                 | f_c, f_0 |
 
     C_r = b_m f_c (i cos α)^0.7 Z^(2/3) D^1.8,    C_0r = f_0 i Z D² cos α,
 
-D^1.8 being 3.647 D^1.4 above 25.4 mm, and of rollers
+with 3.647 D^1.4 in place of D^1.8 above 25.4 mm, and for rollers
 
     C_r = b_m f_c (i l cos α)^(7/9) Z^(3/4) D^(29/27),    C_0r = 44 (1 − γ) i Z l D cos α.
 """
@@ -51,12 +51,12 @@ _SELF_ALIGNING_FACTOR = (
 
 
 def groove_ratio(f_i: float, f_e: float) -> float:
-    """Effect of the grooves on Q_ci/Q_ce; f are groove radii over the ball diameter."""
+    """Return the effect of the grooves on Q_ci/Q_ce; f are groove radii over ball diameters."""
     return f_i / f_e * (2.0 * f_e - 1.0) / (2.0 * f_i - 1.0)
 
 
 def capacity_factor(gamma: ArrayLike, f_i: float, f_e: float) -> Array:
-    """f_c of Lundberg and Palmgren, with the 38.2 that meets the table of ISO 281."""
+    """Return f_c of Lundberg and Palmgren, with the constant 38.2 of the table in ISO 281."""
     g = np.asarray(gamma, dtype=float)
     B = 1.04 * ((1.0 - g) / (1.0 + g)) ** 1.72 * groove_ratio(f_i, f_e) ** 0.41
     shape = g**0.3 * (1.0 - g) ** 1.39 / (1.0 + g) ** (1.0 / 3.0)
@@ -65,14 +65,14 @@ def capacity_factor(gamma: ArrayLike, f_i: float, f_e: float) -> Array:
 
 
 def self_aligning_capacity_factor(gamma: ArrayLike) -> Array:
-    """f_c of ISO 281 for self-aligning ball bearings, between the numbers of its table."""
+    """Return f_c of ISO 281 for self-aligning ball bearings, interpolated in its table."""
     return np.interp(np.asarray(gamma, dtype=float), _SELF_ALIGNING_GAMMA, _SELF_ALIGNING_FACTOR)
 
 
 def dynamic_rating(
     factor: ArrayLike, n_balls: ArrayLike, ball_diameter: ArrayLike, cosine: float, rows: int = 1
 ) -> Array:
-    """C_r [N] of `rows` rows of balls [m] with the factor f_c and the cosine of α."""
+    """Return C_r [N] of `rows` rows of balls [m] with the factor f_c and the cosine of α."""
     D = 1e3 * np.asarray(ball_diameter, dtype=float)
     size = np.where(D <= LARGE_BALL, D**1.8, 3.647 * D**1.4)
     number = np.asarray(n_balls, dtype=float) ** (2.0 / 3.0)
@@ -87,10 +87,10 @@ def roller_dynamic_rating(
     cosine: float = 1.0,
     rows: int = 1,
 ) -> Array:
-    """C_r [N] of `rows` rows of rollers; lengths in m, with the cosine of α.
+    """Return C_r [N] of `rows` rows of rollers; lengths in m, with the cosine of α.
 
-    f_c with the constants of the explanatory notes on ISO 281 (ISO/TR 1281-1), whose λν = 0.83
-    allows for what a real load along the roller takes.
+    f_c has the constants of the explanatory notes on ISO 281 (ISO/TR 1281-1), whose λν = 0.83
+    allows for the uneven load along a real roller.
     """
     D, length = np.asarray(roller_diameter, dtype=float), np.asarray(roller_length, dtype=float)
     gamma = D * cosine / pitch_diameter
@@ -105,7 +105,7 @@ def roller_dynamic_rating(
 def roller_static_rating_per_length(
     n_rollers: ArrayLike, roller_diameter: ArrayLike, pitch_diameter: float, cosine: float = 1.0
 ) -> Array:
-    """C_0r [N] of a row of rollers [m] over the length [m] of a roller that touches."""
+    """Return C_0r [N] of a row of rollers [m] over the length [m] of a roller that touches."""
     D = np.asarray(roller_diameter, dtype=float)
     gamma = D * cosine / pitch_diameter
     return np.asarray(44e6 * (1.0 - gamma) * np.asarray(n_rollers, dtype=float) * D * cosine)
@@ -114,16 +114,16 @@ def roller_static_rating_per_length(
 def static_rating(
     factor: ArrayLike, n_balls: ArrayLike, ball_diameter: ArrayLike, cosine: float, rows: int = 1
 ) -> Array:
-    """C_0r [N] of `rows` rows of balls [m] with the factor f_0 and the cosine of α."""
+    """Return C_0r [N] of `rows` rows of balls [m] with the factor f_0 and the cosine of α."""
     D = 1e3 * np.asarray(ball_diameter, dtype=float)
     return np.asarray(factor) * rows * np.asarray(n_balls, dtype=float) * D**2 * cosine
 
 
 def static_factor(gamma: ArrayLike, self_aligning: bool = False) -> Array:
-    """f_0 of ISO 76 for ball bearings, between hundredths of γ.
+    """Return f_0 of ISO 76 for ball bearings, interpolated between hundredths of γ.
 
-    What a ball carries at the pressure that the standard allows, by Hertz, on whichever race
-    carries less: it meets the standard's table to its last digit.
+    It follows from the Hertzian load of a ball at the allowed pressure, on the race that carries
+    less, and agrees with the standard's table to its last digit.
     """
     factors = _static_factors(self_aligning)
     g = np.asarray(gamma, dtype=float)
@@ -132,7 +132,7 @@ def static_factor(gamma: ArrayLike, self_aligning: bool = False) -> Array:
 
 @cache
 def _static_factors(self_aligning: bool) -> tuple[float, ...]:
-    """f_0 at γ = 0.01, 0.02, ... 0.40; a load is spread as if a fifth of the balls carried it."""
+    """Compute f_0 at γ = 0.01, 0.02, ... 0.40; a fifth of the balls carries the load (ISO 76)."""
     D, modulus, poisson = 0.01, 207e9, 0.3
     allowed = ISO_76_SELF_ALIGNING if self_aligning else ISO_76_BALLS
     groove = (USUAL_GROOVES["outer"] if self_aligning else USUAL_GROOVES["inner"]) * D
@@ -145,7 +145,7 @@ def _static_factors(self_aligning: bool) -> tuple[float, ...]:
             else race_contact("outer", D, pitch, USUAL_GROOVES["outer"] * D, 0.0, modulus, poisson)
         )
         inner = race_contact("inner", D, pitch, groove, 0.0, modulus, poisson)
-        greatest = max(float(radius.greatest_pressure(1.0)) for radius in (inner, outer))
+        greatest = max(float(contact.greatest_pressure(1.0)) for contact in (inner, outer))
         return (allowed / greatest) ** 3 / 5.0 / (1e3 * D) ** 2
 
     return tuple(factor(0.01 * k) for k in range(1, 41))

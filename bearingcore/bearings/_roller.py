@@ -24,7 +24,7 @@ def roller_numbers(
     contact_angle: float,
     radial_clearance: float,
 ) -> dict[str, Any]:
-    """Fields of a row of steel rollers; `sizes` [m] are diameter, length and pitch diameter."""
+    """Return the fields of a row of steel rollers from diameter, length and pitch diameter [m]."""
     diameter = checks.real_number("roller_diameter", sizes[0], above=0.0, unit="m")
     length = checks.real_number("roller_length", sizes[1], above=0.0, unit="m")
     pitch = checks.real_number("pitch_diameter", sizes[2], above=diameter, unit="m")
@@ -54,7 +54,7 @@ def _derived(
 
 
 def length_of(bearing: InRows) -> float:
-    """Length of the rollers [m]. ValueError where there is none."""
+    """Return the length of the rollers [m]; ValueError where there is none."""
     return checks.real_number("roller_length", bearing.roller_length, above=0.0, unit="m")  # type: ignore[arg-type]  # None is refused there
 
 
@@ -67,8 +67,8 @@ class Roller(Kind):
         Variant(
             "rollers",
             "Cylindrical rollers",
-            "Line contact between cylindrical races, stiff as ISO 16281 has it for steel. Radial "
-            "loads only: axial loads and moments are taken out of the scene. Rollers do not tilt.",
+            "Line contact between cylindrical races, with the stiffness of ISO 16281. Radial loads "
+            "only: axial loads and moments are removed from the scene. Rollers do not tilt.",
         ),
     )
     picture = Picture(

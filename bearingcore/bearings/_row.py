@@ -1,7 +1,7 @@
-"""A row of elements in a bearing: what it has of its own, and pairs of them.
+"""A row of elements in a bearing with its own numbers, and pairs of rows.
 
-A row whose contact angle has the sign of its place faces one on the other side
-(X: the lines of contact meet near the axis), one of the opposite sign back to back (O).
+Two rows are face to face (X) if each contact angle has the sign of the row's place: their lines of
+contact meet near the axis. With the opposite signs they are back to back (O).
 """
 
 from __future__ import annotations
@@ -27,22 +27,22 @@ OWN = ("n_balls", "contact_angle", *LENGTHS)
 
 @dataclass(frozen=True)
 class Row:
-    """One row of balls. A dimension that it leaves open is that of the bearing.
+    """One row of balls. A dimension that is None is that of the bearing.
 
-    The cage of a row with dimensions of its own may turn at another speed than the bearing's. A
-    cage angle φ is that of the bearing's own numbers; the cage of a row is at φ times its speed
-    over the bearing's, and at φ = 0 as `turn` says (`Bearing.pace`).
+    The cage of a row with its own dimensions may turn faster or slower than the bearing's cage.
+    When the bearing's cage is at an angle φ, that of the row is at φ times the ratio of both speeds
+    (`Bearing.pace`), plus `turn`.
 
     Parameters
     ----------
     place
-        z_k [m] along the shaft of the circle on which its balls' centres run; of a self-aligning
+        z_k [m] along the shaft of the circle on which its balls' centres run; in a self-aligning
         bearing that of its inner groove's centres. A bearing without rows has its origin at the
-        inner groove's centres, as the paper (Eq. 12).
+        inner groove's centres, as in the paper (Eq. 12).
     facing
-        1 or -1: the contact angle counts as it is, or turned round.
+        1 keeps the sign of the contact angle, -1 reverses it.
     clearance
-        [m] on top of the bearing's radial clearance; below 0 it preloads the row.
+        [m] in addition to the bearing's radial clearance; below 0 it preloads the row.
     offset
         [m] displacement of the inner groove up the shaft by the preload.
     turn
@@ -54,7 +54,7 @@ class Row:
     ball_diameter, pitch_diameter
         [m] of this row; None: those of the bearing.
     inner_groove_radius, outer_groove_radius
-        [m] of this row; None: those of the bearing, as much wider or closer as its balls are.
+        [m] of this row; None: those of the bearing, scaled with the diameter of the balls.
 
     Raises
     ------
@@ -98,14 +98,14 @@ class Row:
     @property
     def own(self) -> dict[str, float]:
         """Numbers of the row itself, by the names of the fields of `Bearing`."""
-        return {name: held for name in OWN if (held := getattr(self, name)) is not None}
+        return {name: value for name in OWN if (value := getattr(self, name)) is not None}
 
 
 def pair(distance: float, arrangement: str, preload: float = 0.0) -> tuple[Row, Row]:
-    """Two rows `distance` [m] apart, the lower one first.
+    """Return two rows `distance` [m] apart, the lower one first.
 
-    `preload` [m] is how far the inner grooves are pushed along the shaft, together or apart, so
-    that both rows are pressed: half of it each. Below 0 it is a clearance between them.
+    `preload` [m] is the displacement of the inner grooves along the shaft that presses both rows,
+    half of it each. Below 0 it is a clearance between them.
 
     Raises
     ------
@@ -120,18 +120,15 @@ def pair(distance: float, arrangement: str, preload: float = 0.0) -> tuple[Row, 
             raise checks.refuse("preload", preload, "0: rows in tandem do not press each other")
         return Row(-half), Row(half)
     upper = 1 if arrangement == "face-to-face" else -1
-    return (
-        Row(-half, -upper, offset=-upper * push),
-        Row(half, upper, offset=upper * push),
-    )
+    return Row(-half, -upper, offset=-upper * push), Row(half, upper, offset=upper * push)
 
 
 def arrangement_of(rows: tuple[Row, ...]) -> str:
-    """Return the one of ARRANGEMENTS in which `pair` makes two rows; empty if it makes none."""
+    """Return the arrangement, out of ARRANGEMENTS, of rows made by `pair`; empty for others."""
     if len(rows) != 2:
         return ""
     low, high = rows
-    # rounding of numbers that were added makes no other arrangement
+    # rounding of sums does not change the arrangement
     uneven = max(abs(low.place + high.place), abs(low.offset + high.offset))
     if uneven > 1e-12 or high.place < 0.0:
         return ""

@@ -1,8 +1,8 @@
 """Self-aligning ball bearings: two rows in a spherical outer race about the bearing's middle.
 
-All outer groove centres are in the middle of the bearing, so A0 = R_e + r_i − D_b is the distance
-of the inner ones from there, and r_d = A0 cos α0, z_k = ± A0 sin α0: turning the inner ring about
-the middle moves no ball.
+All outer groove centres are in the middle of the bearing. A0 = R_e + r_i − D_b is therefore the
+distance of the inner ones from the middle, with r_d = A0 cos α0 and z_k = ± A0 sin α0. An inner
+ring that turns about the middle moves no ball.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ USUAL_GROOVE = 0.53
 """Contact angle [rad] and inner groove radius over the ball that are assumed for a new one."""
 
 _DRAWN_BY = ("ball_diameter", "outer_raceway_radius", "inner_groove_radius", "contact_angle")
-_FOLLOWS = (
+_DERIVED = (
     *("pitch_diameter", "groove_center_radius", "groove_center_distance"),
     *("inner_raceway_radius", "outer_groove_radius", "roller_length"),
 )
@@ -43,7 +43,7 @@ def self_aligning_numbers(
     youngs_modulus: float = 210e9,
     poisson: float = 0.3,
 ) -> dict[str, Any]:
-    """Fields of a self-aligning bearing; see `Bearing.self_aligning`."""
+    """Return the fields of a self-aligning bearing; see `Bearing.self_aligning`."""
     angle = check_contact_angle(contact_angle)
     checks.real_number("contact_angle", angle, above=0.0, unit="rad")
     diameter = checks.real_number("ball_diameter", ball_diameter, above=0.0, unit="m")
@@ -78,7 +78,7 @@ def _contacts(
     modulus: float,
     poisson: float,
 ) -> tuple[RaceContact, RaceContact]:
-    """Contacts of a ball with the inner groove and with the sphere."""
+    """Return the contacts of a ball with the inner groove and with the sphere."""
     inner = race_contact("inner", ball, pitch, groove, angle, modulus, poisson)
     return inner, spherical_contact(ball, sphere, modulus, poisson)
 
@@ -88,14 +88,14 @@ def _factor(inner: RaceContact, outer: RaceContact) -> float:
 
 
 def inner_groove(bearing: InRows) -> float:
-    """Inner groove radius r_i = A0 + D_b − R_e [m]."""
+    """Return the inner groove radius r_i = A0 + D_b − R_e [m]."""
     distance = bearing.groove_center_distance
-    assert distance is not None  # as recognized
+    assert distance is not None  # `recognizes` has checked it
     return distance + bearing.ball_diameter - bearing.outer_raceway_radius
 
 
 class SelfAligning(Kind):
-    """Two alike rows of balls that run on one sphere about the middle of the bearing."""
+    """Two equal rows of balls that run on one sphere about the middle of the bearing."""
 
     name = "self-aligning"
     element = "ball"
@@ -103,8 +103,8 @@ class SelfAligning(Kind):
         Variant(
             "self-aligning",
             "Self-aligning, two rows",
-            "Two rows on one spherical outer race: the inner ring tilts freely, which is left to "
-            "the shaft's other bearing. Ball, sphere, inner groove and contact angle are given.",
+            "Two rows on one spherical outer race: the inner ring tilts freely, so the shaft's "
+            "other bearing holds it. Inputs are ball, sphere, inner groove and contact angle.",
         ),
     )
     picture = Picture(
@@ -150,31 +150,31 @@ class SelfAligning(Kind):
         return ("sphere_rows_apart", "load_deflection_factor", "groove_center_distance")
 
     def completed(self, bearing: InRows, changes: dict[str, Any]) -> dict[str, Any]:
-        """Add what follows from the drawing where some of its dimensions change."""
+        """Add the fields derived from the drawing if some of its dimensions change."""
         if "rows" in changes:
             return super().completed(bearing, changes)
-        given = {name: value for name, value in changes.items() if name not in _FOLLOWS}
-        for name in _FOLLOWS:
-            value, held = changes.get(name), getattr(bearing, name)
-            if value is not None and (held is None or not math.isclose(value, held, rel_tol=1e-9)):
+        inputs = {name: value for name, value in changes.items() if name not in _DERIVED}
+        for name in _DERIVED:
+            value, old = changes.get(name), getattr(bearing, name)
+            if value is not None and (old is None or not math.isclose(value, old, rel_tol=1e-9)):
                 raise checks.refuse(
-                    name, value, "what follows from ball, sphere, groove and contact angle"
+                    name, value, "the value by ball, sphere, groove and contact angle"
                 )
-        if not any(given.get(name) is not None for name in _DRAWN_BY):
-            return given
-        new = _drawn_anew(bearing, given)
-        # a factor that was set apart from the drawing's keeps its proportion to it
-        stiffer = bearing.load_deflection_factor
-        stiffer /= _drawn_anew(bearing, {})["load_deflection_factor"]
-        new["load_deflection_factor"] *= stiffer
+        if not any(inputs.get(name) is not None for name in _DRAWN_BY):
+            return inputs
+        new = _numbers_with(bearing, inputs)
+        # a factor that differs from the one by the drawing keeps its ratio to it
+        ratio = bearing.load_deflection_factor
+        ratio /= _numbers_with(bearing, {})["load_deflection_factor"]
+        new["load_deflection_factor"] *= ratio
         new["rows"] = tuple(
             dataclasses.replace(row, place=fresh.place)
             for row, fresh in zip(bearing.rows, new["rows"], strict=True)
         )
-        return new | {name: value for name, value in given.items() if name not in _DRAWN_BY}
+        return new | {name: value for name, value in inputs.items() if name not in _DRAWN_BY}
 
     def race_contact(self, bearing: InRows, race: str) -> RaceContact:
-        """Contact of a ball; the modulus is the one that gives K."""
+        """Return a contact of a ball; the modulus is the one that gives K."""
         sizes = (
             bearing.ball_diameter,
             bearing.pitch_diameter,
@@ -187,14 +187,14 @@ class SelfAligning(Kind):
         return inner if race == "inner" else outer
 
     def carries_thrust_one_way(self, bearing: InRows) -> bool:
-        return False  # both rows are of one ring, and carry it both ways between them
+        return False  # the two rows of one ring together carry thrust both ways
 
     def groove_radius(self, bearing: InRows, race: str) -> float:
         return inner_groove(bearing) if race == "inner" else bearing.outer_raceway_radius
 
 
-def _drawn_anew(bearing: InRows, fields: dict[str, Any]) -> dict[str, Any]:
-    """Fields of the bearing with some of what it is drawn by changed."""
+def _numbers_with(bearing: InRows, fields: dict[str, Any]) -> dict[str, Any]:
+    """Return the fields of the bearing after some dimensions of its drawing have changed."""
     get = fields.get
     return self_aligning_numbers(
         n_balls=get("n_balls", bearing.n_balls),

@@ -1,8 +1,8 @@
 """Letters around the number of a designation: its inside, angle, arrangement, clearance and balls.
 
-Makers write them in one word, "BECBP" is B, 40°; E, a reinforced inside; CB, the axial clearance of
-a pair; P, the cage. Letters that do not change an answer here, of cages, seals, tolerances, are
-passed over. What would make another bearing of it than is known is refused with a sentence.
+Makers write them in one word: "BECBP" is B, 40°; E, a reinforced inside; CB, the axial clearance of
+a pair; P, the cage. Letters of cages, seals and tolerances change no answer here and are ignored.
+Letters that make the bearing one that is not known are refused with a sentence.
 """
 
 from __future__ import annotations
@@ -28,8 +28,8 @@ BEFORE = (
     r"|NIS|FBJ|EZO|PEER|PFI|RKB|CRAFT|ROLLWAY|HOFFMANN|STEYR|GPZ|MPZ|SLF|DKF)[ -]*)?"
     r"(?P<ceramic>(?:HCB?|3NC|5S)[ -]?)?"
 )
-"""Text that may stand before letters and number: of other words many are another kind of bearing,
-as in HK 1210 and NA 6904."""
+"""Text that may precede letters and number. Many other words name another kind of bearing, as in
+HK 1210 and NA 6904."""
 
 _PAIR = re.compile(
     r"D(?P<letter>[BFT])(?:C(?P<play>\d{2,4}))?|(?P<words>BACK|FACE)[ -]TO[ -](?P=words)|TANDEM"
@@ -59,7 +59,7 @@ _CYRILLIC = re.compile(r"[А-ЯЁ]")
 _STEEP = re.compile(r"[ /-]*[BCD]")
 
 ONE_OF_TWO = (
-    "one that says how both bearings stand: DB (back to back), DF (face to face) or DT (tandem)"
+    "one with the arrangement of both bearings: DB (back to back), DF (face to face) or DT (tandem)"
 )
 SETS = "a single bearing, or a pair (DB, DF, DT): sets of three and more are not known by number"
 ONLY_PAIRS_OF = "a single bearing: pairs are known of angular-contact and tapered bearings"
@@ -71,7 +71,7 @@ GOST = (
 )
 BORE = "one whose number says the bore: bores behind a slash, as in 32307/37, are not known"
 SPACED = (
-    "one without spacers, whose width it does not say: take the pair and change the distance of "
+    "one without spacers, as their width is not stated: take the pair and change the distance of "
     "its rows"
 )
 PRECISION = (
@@ -80,7 +80,7 @@ PRECISION = (
 )
 REINFORCED = (
     "the number without E, or the dimensions: no ratings of this reinforced inside are known, and "
-    "its rolling elements are others than those of the plain one"
+    "its rolling elements differ from those of the plain one"
 )
 SEALED = "the open one: sealed self-aligning bearings have smaller balls, which are not known here"
 CERAMIC_ROLLERS = "steel rollers: the stiffness of ceramic ones is not known here"
@@ -92,17 +92,17 @@ class Suffix(NamedTuple):
     Attributes
     ----------
     angle
-        contact angle [degrees] of angular contact, or None where no letter says it.
+        contact angle [degrees] of angular contact, or None where no letter states it.
     inside
         column of `reinforced.csv`; empty: the plain inside.
     arrangement
         of a pair; empty for a single bearing.
     matched
-        class of axial clearance of a pair, "CA" to "GC"; empty where none is said.
+        class of axial clearance of a pair, "CA" to "GC"; empty where none is stated.
     axial_play
-        [m] of a pair that names it, as DFC120 does; else None.
+        [m] of a pair whose letters state it, as in DFC120; else None.
     clearance_class
-        out of CLEARANCE_CLASSES; empty where none is said.
+        out of CLEARANCE_CLASSES; empty where none is stated.
     is_ceramic
         balls of silicon nitride.
     has_better_steel
@@ -129,37 +129,35 @@ def is_reinforced(suffix: str) -> bool:
     return _REINFORCED.match(suffix) is not None
 
 
-_PASSED_OVER = re.compile(
+_IGNORED = re.compile(
     r"[A-DHJLMNPRY]|(?:(?:2?-?(?:H?RS[1-9RHLJTD]?|RSH2|RSL|ZZ?|RZ|Z[RN]|DDU?|LL[BUH]|LU|LB|VV|UU|EE)"
     r"|NSL|DSD|JR|TN[9HG]?|TVPB?|TVHB?|T[VWX]?|JP?|M[AB]?|F[AB]?|PH?|Y|NR?|ECM?[LPJA]?|E[MT]?[12P]?"
     r"|P[2456]X?|P6[23]|P5[23]|C[2345N]M?|CM|K(?:30)?|W(?:20|33|64)?|WT|[HLM]T\d*|GJ[NHB]|G[ABC]"
     r"|LHT\d*|V[AELQ]\d*|S[0-4]|SQ1|Q\d?|XL|HC5?|SN24|BE[AP]?|AC|A5|D[BFTU]|U[ALO]|C[ABC])\d?)+"
 )
-"""Known letters, of cages, seals, tolerances, grease and what is read above."""
+"""Known letters of cages, seals, tolerances and grease, and those that are read above."""
 
 
 def unknown_letters(kind: str, text: str) -> str:
-    """The parts of a suffix of which no meaning is known, empty where there are none."""
+    """Return the parts of a suffix without a known meaning; empty where there are none."""
     rest = _PAIR.sub(" ", text)
     parts = [part for part in re.split(r"[ /,.()+-]+", rest) if part]
     known = {"X"} if kind == TAPERED_ROLLERS else set()  # outside as in ISO 355
-    return " ".join(
-        part for part in parts if part not in known and not _PASSED_OVER.fullmatch(part)
-    )
+    return " ".join(part for part in parts if part not in known and not _IGNORED.fullmatch(part))
 
 
 def lower_arrangement(name: str) -> str:
-    """A name in capitals with the words of an arrangement in small letters."""
+    """Return a name in capitals, but with the words of an arrangement in small letters."""
     return _PAIR.sub(lambda pair: pair[0] if pair["letter"] else pair[0].lower(), name)
 
 
 def read_suffix(name: str, kind: str, text: str, count: str, is_ceramic: bool) -> Suffix:
-    """Meaning of `text`, behind the number of a `kind` of bearing; `count` of them are named.
+    """Return the meaning of `text` behind the number of a `kind`, for `count` bearings.
 
     Raises
     ------
     FieldError
-        for what would be another bearing than is known: its `allowed` says what to write instead.
+        for letters of a bearing that is not known; its `allowed` says what to write instead.
     """
     try:
         return _suffix_of(kind, text, count, is_ceramic)
@@ -181,35 +179,35 @@ def _suffix_of(kind: str, text: str, count: str, is_ceramic: bool) -> Suffix:
     is_ceramic = is_ceramic or _CERAMIC.search(rest) is not None
     rest = _CERAMIC.sub(" ", rest)
     match = _CLEARANCE.search(rest)
-    said = Suffix(
+    meaning = Suffix(
         arrangement=arrangement,
         axial_play=1e-6 * float(pair["play"]) if pair and pair["play"] else None,
         clearance_class=f"C{match[1]}" if match else "",
         is_ceramic=is_ceramic,
         has_better_steel=_BETTER_STEEL.search(rest) is not None,
     )
-    return _inside_of(kind, said, rest)
+    return _with_inside(kind, meaning, rest)
 
 
-def _inside_of(kind: str, said: Suffix, rest: str) -> Suffix:
-    """`said` and what else the letters say of the inside; ValueError with what is allowed."""
-    if said.is_ceramic and kind in (ROLLERS, TAPERED_ROLLERS):
+def _with_inside(kind: str, meaning: Suffix, rest: str) -> Suffix:
+    """Add a reinforced inside to a meaning; ValueError with what is allowed."""
+    if meaning.is_ceramic and kind in (ROLLERS, TAPERED_ROLLERS):
         raise ValueError(CERAMIC_ROLLERS)
     if kind == ANGULAR_CONTACT:
-        return _inside_at_an_angle(said, rest)
+        return _with_angular_inside(meaning, rest)
     if kind == SELF_ALIGNING_BALLS and _SEALED.search(rest):
         raise ValueError(SEALED)
     if kind == SELF_ALIGNING_BALLS and is_reinforced(rest):
-        return said._replace(inside="E")
+        return meaning._replace(inside="E")
     if kind == DEEP_GROOVE and is_reinforced(rest):
         if not re.match(r"[ /-]*ETN9", rest):
             raise ValueError(REINFORCED)
-        return said._replace(inside="ETN9")
-    return said
+        return meaning._replace(inside="ETN9")
+    return meaning
 
 
-def _inside_at_an_angle(said: Suffix, rest: str) -> Suffix:
-    """Suffix of angular contact, whose letters name the angle and a reinforced inside."""
+def _with_angular_inside(meaning: Suffix, rest: str) -> Suffix:
+    """Add angle, reinforced inside and class of a pair to a meaning of angular contact."""
     if _PRECISION.match(rest):
         raise ValueError(PRECISION)
     if _OF_ANOTHER_MAKER.match(rest):
@@ -219,13 +217,13 @@ def _inside_at_an_angle(said: Suffix, rest: str) -> Suffix:
     matched = letters["matched"] or ""
     if letters["reinforced"]:
         inside = "BEY" if letters["brass"] else "BECB" if matched else "BE"
-        return said._replace(angle=40.0, inside=inside, matched=matched)
+        return meaning._replace(angle=40.0, inside=inside, matched=matched)
     angle = ANGLES.get(letters["angle"] or "")
-    return said._replace(angle=angle, matched=matched)
+    return meaning._replace(angle=angle, matched=matched)
 
 
 def _arrangement(kind: str, text: str, count: str, pair: re.Match[str] | None) -> str:
-    """Arrangement out of ARRANGEMENTS, or empty; ValueError with what is allowed instead."""
+    """Return the arrangement, out of ARRANGEMENTS, or empty; ValueError with what is allowed."""
     if count not in ("", "1", "2") or _SETS.search(text):
         raise ValueError(SETS)
     if pair is None:

@@ -1,4 +1,4 @@
-"""Tapered rollers: line contacts at a contact angle that stays as it is, in one row or a pair.
+"""Tapered rollers: line contacts at a fixed contact angle, in one row or a pair.
 
 Quantity                                    | Symbol | Name
 ------------------------------------------- | ------ | --------------
@@ -7,16 +7,16 @@ length of a roller that lies on the races   | l      | roller_length
 diameter of the circle of those middles     | D_p    | pitch_diameter
 angle of the line of contact                | α      | contact_angle
 
-A roller is pressed by what both races approach each other along its line of contact,
-δ = δ_r cos α + δ_z sin α, and carries Q = K δ^(10/9), K as of a cylindrical roller. The
-line of contact goes through the middle of the roller, which is where a tilt of the ring moves it.
-Races are straight: no displacement turns the line of contact, and where the rings have moved along
-them by half the length of a roller, one has left the other.
+The approach of both races along the line of contact, δ = δ_r cos α + δ_z sin α, compresses a
+roller. It then carries Q = K δ^(10/9), with the K of a cylindrical roller. The line of contact goes
+through the middle of the roller, which a tilt of the ring moves. Races are straight: no
+displacement turns the line of contact. A ring that moves along its races by half the length of a
+roller loses contact.
 α is that of the outer race, which a catalogue's Y = 0.4 cot α gives (ISO 281).
 
-Left out: the taper of a roller. The inner race is less steep than the outer one by twice half of
-the roller's, some 4°, and the rib takes what the races leave, some per cent of the load, and rubs.
-Nor does a roller swivel or tilt between its races: it is as stiff as its middle.
+Left out: the taper of a roller. It makes the inner race some 4° less steep than the outer one, and
+the rib takes the rest of the load, a few per cent, with friction. Rollers neither swivel nor tilt
+between their races.
 """
 
 from __future__ import annotations
@@ -89,7 +89,7 @@ class Tapered(Roller):
         checks.real_number("contact_angle", bearing.contact_angle, above=0.0, unit="rad")
         if bearing.is_drawn:
             raise checks.refuse(
-                "inner_groove_radius", bearing.inner_groove_radius, "None of tapered rollers"
+                "inner_groove_radius", bearing.inner_groove_radius, "None for tapered rollers"
             )
         if any(row.own for row in bearing.rows):
             raise checks.refuse("rows", len(bearing.rows), "rows of tapered rollers that are alike")
@@ -115,7 +115,7 @@ class Tapered(Roller):
         return {"kind": self} | changes
 
     def contact(self, bearing: InRows) -> Contact:
-        # a rib holds the roller on the inner race: half its length on, its middle is past the outer
+        # the rib holds a roller on the inner race; after half its length the outer race loses it
         return super().contact(bearing)._replace(room=0.5 * length_of(bearing))
 
     def race_contact(self, bearing: InRows, race: str) -> RollerContact:

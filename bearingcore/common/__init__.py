@@ -6,10 +6,7 @@ from bearingcore.common._arrays import (
     summit as summit,
     weighted_quantile as weighted_quantile,
 )
-from bearingcore.common._checks import (
-    choice as choice,
-    refuse as refuse,
-)
+from bearingcore.common._checks import choice as choice, refuse as refuse
 from bearingcore.common._lazy import cached_property as cached_property
 from bearingcore.common._numbers import (
     PREFIXES as PREFIXES,

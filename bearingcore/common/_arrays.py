@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
-"""Floats; docstrings give the shape."""
+"""Array of floats; docstrings give its shape."""
 
 
 def runs(which: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
@@ -20,8 +20,8 @@ def weighted_quantile(values: Array, weights: Array, share: float) -> float:
     if not values.size:
         return np.nan
     order = np.argsort(values)
-    reached = np.cumsum(weights[order]) - 0.5 * weights[order]
-    return float(np.interp(share * weights.sum(), reached, values[order]))
+    middles = np.cumsum(weights[order]) - 0.5 * weights[order]  # of each number's share
+    return float(np.interp(share * weights.sum(), middles, values[order]))
 
 
 def summit(left: Array, middle: Array, right: Array) -> Array:

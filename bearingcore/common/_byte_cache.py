@@ -1,7 +1,7 @@
-"""Results that are kept for when they are asked for again, but no more bytes of them than agreed.
+"""A cache of results that is bounded by their bytes.
 
-`functools.lru_cache` counts results. Where one may be a hundred bytes and another sixteen
-megabytes, a count is no bound on memory.
+`functools.lru_cache` counts results. If one may have a hundred bytes and another sixteen megabytes,
+a count does not bound the memory.
 """
 
 from __future__ import annotations
@@ -18,23 +18,23 @@ P = ParamSpec("P")
 Result = TypeVar("Result")
 
 OVERHEAD = 4096
-"""Bytes of objects around a result, those of its arguments among them."""
+"""Bytes of the objects around a result, including those of its arguments."""
 
 
 def lru_cache_by_bytes(
     most_bytes: int, size: Callable[..., int], key: Callable[..., Hashable] | None = None
 ) -> Callable[[Callable[P, Result]], Callable[P, Result]]:
-    """Keep what a function returns, by its arguments, the least recently used going first.
+    """Cache the results of a function by its arguments; the least recently used are dropped first.
 
     Parameters
     ----------
     most_bytes
-        size of all kept results. A result that is larger is not kept at all.
+        greatest size of all kept results. A larger result is not kept.
     size
-        bytes of the arrays of a result and of what it keeps alive: called with the result, then
-        the arguments.
+        called with a result and the arguments; returns the bytes of the result's arrays and of
+        all objects that the result keeps alive.
     key
-        function that makes a result's key of the arguments; None: the arguments are the key.
+        function that makes the key of a result from the arguments; None: the arguments are the key.
     """
 
     def key_of(*arguments: Any, **named: Any) -> Hashable:

@@ -19,7 +19,7 @@ T = TypeVar("T")
 
 
 def refuse(field: str, value: object, allowed: str, unit: str = "", **numbers: float) -> FieldError:
-    """Return the error to raise for `field`; `allowed` may hold ``{name:unit}`` of `numbers`."""
+    """Return the error to raise for `field`; `allowed` may use `numbers` as ``{name:unit}``."""
     return FieldError(field, value, allowed, unit, numbers)
 
 
@@ -31,7 +31,7 @@ def missing(field: str, wanted: str) -> MissingError:
 def instance(field: str, value: object, kind: type[T], wanted: str = "") -> T:
     """Return `value` if it is of a type, else raise FieldTypeError with the words `wanted`.
 
-    Without `wanted` the words are the type's own `WANTED`, if it has them.
+    By default the words are `WANTED` of the type, or else its name.
     """
     if isinstance(value, kind):
         return value
@@ -41,7 +41,7 @@ def instance(field: str, value: object, kind: type[T], wanted: str = "") -> T:
 
 
 def _is_number(value: object) -> bool:
-    """Return False also for text and truth values, which Python would convert to numbers."""
+    """Return True for a number, but not for text or truth values, which `float` would convert."""
     return isinstance(value, SupportsFloat) and not isinstance(value, bool | np.bool_ | str)
 
 
@@ -56,7 +56,7 @@ def real_number(
     unit: str = "",
     note: str = "",
 ) -> float:
-    """Return `value` as a finite float inside the limits [unit]; `note` gives their reason.
+    """Return `value` as a finite float within the limits [unit]; `note` gives their reason.
 
     Raises
     ------
@@ -86,7 +86,7 @@ def keep_number(
 ) -> None:
     """Check a number of a frozen dataclass with `real_number`, and keep it as a float.
 
-    An `optional` number may be None; a refusal appends `of` to the name.
+    An `optional` number may be None. An error appends `of` to the name.
     """
     value = getattr(part, name)
     if value is not None or not optional:
@@ -118,7 +118,7 @@ def whole_number(field: str, value: object, *, at_least: int, at_most: int) -> i
 def finite(field: str, values: ArrayLike, unit: str, columns: int | None = None) -> Array:
     """Return a number or array as a copy (n,) of finite floats, else raise ValueError.
 
-    With `columns` its shape is (n, columns), n > 0; a row may stand for a single column.
+    With `columns` the shape is (n, columns), n > 0; for one column it may also be (n,).
     """
     allowed = f"finite numbers [{unit}]"
     try:

@@ -1,8 +1,8 @@
-"""Attributes that are computed when first asked for, in any thread, without a lock of the class.
+"""Attributes that are computed on first use, in any thread, without a lock of the class.
 
 Before Python 3.12 `functools.cached_property` holds one lock for all objects of a class while it
-computes: who asks for the attribute of one waits for that of any other, seconds where a thread has
-a long one at work. Here two threads that ask for the same one at once may both compute it.
+computes. A thread then waits, maybe for seconds, until another thread has computed the attribute of
+another object. Without the lock two threads may both compute the same attribute.
 """
 
 from __future__ import annotations
@@ -28,6 +28,6 @@ else:
         def __get__(self, instance: Any, owner: type | None = None) -> Any:
             if instance is None:
                 return self
-            # Python looks there first, so that this runs once
+            # Python looks into vars first, so this code runs once
             value = vars(instance)[self._name] = self.func(instance)
             return value

@@ -1,7 +1,7 @@
-"""One way to write numbers in sentences: as many digits as mean something, and no more.
+"""Numbers in sentences, with as many digits as are meaningful.
 
-Files, tables and lines of Python carry all digits; these are for people. The page's scripts follow
-the same rules (`JS_PREFIX` of its figures), and a test holds the two together.
+Files, tables and lines of Python have all digits. The page's scripts follow the same rules as this
+module (`JS_PREFIX` of its figures), and a test compares the two.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ PREFIXES = {-12: "p", -9: "n", -6: "µ", -3: "m", 0: "", 3: "k", 6: "M", 9: "G",
 """SI prefixes by their power of ten."""
 
 SMALLEST, LARGEST = 1e-4, 1e7
-"""Numbers from the first up to the second are written out, others with a power of ten."""
+"""Numbers between these bounds are written out, others with a power of ten."""
 
 NO_VALUE = "no value"
 """Text for NaN and infinity."""
@@ -26,10 +26,10 @@ _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def number(value: float, digits: int = 3) -> str:
-    """`value` to `digits` significant digits, with a true minus sign.
+    """Return `value` with `digits` significant digits and a true minus sign.
 
-    Zeros at the end are left away: 50 and not 50.0; digits before the point are all kept: 1389 and
-    not 1390. Beyond `SMALLEST` and `LARGEST` a power of ten stands behind it.
+    Zeros at the end are dropped: 50 and not 50.0. Digits before the point are all kept: 1389 and
+    not 1390. Numbers beyond `SMALLEST` and `LARGEST` have a power of ten.
     """
     if not math.isfinite(value):
         return NO_VALUE
@@ -44,7 +44,7 @@ def number(value: float, digits: int = 3) -> str:
 
 
 def scientific(value: float, digits: int = 1) -> str:
-    """`value` with a power of ten as people write it: 3·10⁻¹²."""
+    """Return `value` with a power of ten: 3·10⁻¹²."""
     if not math.isfinite(value):
         return NO_VALUE
     if value == 0.0:
@@ -56,16 +56,16 @@ def scientific(value: float, digits: int = 1) -> str:
 
 
 def prefix_power(top: float) -> int:
-    """Power of ten of the SI prefix for numbers up to `top`."""
+    """Return the power of ten of the SI prefix for numbers up to `top`."""
     if not (top > 0.0 and math.isfinite(top)):
         return 0
     return max(-12, min(12, 3 * math.floor(math.log10(top * 1.0000001) / 3)))
 
 
 def with_prefix(value: float, unit: str, digits: int = 3) -> str:
-    """`value` [unit] with an SI prefix: ``with_prefix(2061.6, "N")`` is "2.06 kN".
+    """Return `value` [unit] with an SI prefix: ``with_prefix(2061.6, "N")`` is "2.06 kN".
 
-    What no prefix reaches has a power of ten and the plain unit: 8·10⁻²⁴ N.
+    A number that no prefix reaches has a power of ten and the plain unit: 8·10⁻²⁴ N.
     """
     if not math.isfinite(value):
         return NO_VALUE
@@ -79,7 +79,7 @@ def with_prefix(value: float, unit: str, digits: int = 3) -> str:
 
 
 def percent(share: float, digits: int = 3) -> str:
-    """A share as percent: 0.125 is "12.5 %", 24.8 is "2480 %"; tiny ones "below 0.01 %"."""
+    """Return a share as percent: 0.125 is "12.5 %", 24.8 is "2480 %", 1e-5 is "below 0.01 %"."""
     if not math.isfinite(share):
         return NO_VALUE
     if 0.0 < abs(share) < 1e-4:
@@ -88,10 +88,7 @@ def percent(share: float, digits: int = 3) -> str:
 
 
 def percent_off(share: float) -> str:
-    """A deviation as percent with its sign, to a tenth: "+0.3 %", "−1.2 %"; nothing is "0.0 %".
-
-    NaN and infinity have NO_VALUE.
-    """
+    """Return a deviation as percent with its sign, to a tenth: "+0.3 %", "−1.2 %", "0.0 %"."""
     if not math.isfinite(share):
         return NO_VALUE
     text = f"{100.0 * share:+.1f}"
@@ -99,7 +96,7 @@ def percent_off(share: float) -> str:
 
 
 def probability(chance: float) -> str:
-    """A probability in words. Nothing is quite certain, and nothing quite impossible."""
+    """Return a probability as percent, from "below 1 %" to "above 99 %"."""
     if not math.isfinite(chance):
         return NO_VALUE
     if chance > 0.99:
@@ -108,9 +105,9 @@ def probability(chance: float) -> str:
 
 
 def decibels(level: float, digits: int = 2) -> str:
-    """A level or a difference of levels [dB]; from 100 dB on it is only said to be that much.
+    """Return a level or a difference of levels [dB] in words.
 
-    Infinity is what a signal of nothing gives: "unlimited".
+    An infinite one, as over a signal of zeros, is "unlimited" or "none".
     """
     if math.isnan(level):
         return NO_VALUE
@@ -124,7 +121,7 @@ def decibels(level: float, digits: int = 2) -> str:
 
 
 def level_difference(power: ArrayLike, reference: ArrayLike) -> Array:
-    """10 log10(power/reference) [dB]; NaN where one of them is nothing: there is no such level."""
+    """Return 10 log10(power/reference) [dB]; NaN where one of them is 0, which has no level."""
     both = np.broadcast_arrays(np.asarray(power, dtype=float), np.asarray(reference, dtype=float))
     known = (both[0] > 0.0) & (both[1] > 0.0)
     ratio = np.divide(both[0], both[1], out=np.full(known.shape, math.nan), where=known)
@@ -132,33 +129,34 @@ def level_difference(power: ArrayLike, reference: ArrayLike) -> Array:
 
 
 def count(n: int, thing: str, plural: str = "") -> str:
-    """A count with its noun: "1 limit", "2 limits", "no limits"."""
+    """Return a count with its noun: "1 limit", "2 limits", "no limits"."""
     if n == 1:
         return f"1 {thing}"
     return f"{n or 'no'} {plural or thing + 's'}"
 
 
 def span(low: float, high: float, unit: str, digits: int = 3) -> str:
-    """Range between two numbers in words: "365 to 436 Hz", or "670 Hz" where they look alike."""
+    """Return a range in words: "365 to 436 Hz", or "670 Hz" if both ends have the same text."""
     if not (math.isfinite(low) and math.isfinite(high)):
         return NO_VALUE
-    low_text, other = number(low, digits), number(high, digits)
-    return f"{low_text} {unit}" if low_text == other else f"{low_text} to {other} {unit}"
+    low_text, high_text = number(low, digits), number(high, digits)
+    return f"{low_text} {unit}" if low_text == high_text else f"{low_text} to {high_text} {unit}"
 
 
 def prefixed_span(low: float, high: float, unit: str) -> str:
-    """Range between two numbers with a prefix in words: "11.1 to 20.1 MN/m"."""
-    low_text, other = with_prefix(low, unit), with_prefix(high, unit)
-    first, its_unit = low_text.rsplit(" ", 1)
-    if low_text == other or not (math.isfinite(low) and math.isfinite(high)):
-        return other
-    return f"{first if low == 0.0 or other.endswith(f' {its_unit}') else low_text} to {other}"
+    """Return a range with an SI prefix in words: "11.1 to 20.1 MN/m"."""
+    low_text, high_text = with_prefix(low, unit), with_prefix(high, unit)
+    low_number, low_unit = low_text.rsplit(" ", 1)
+    if low_text == high_text or not (math.isfinite(low) and math.isfinite(high)):
+        return high_text
+    same_unit = low == 0.0 or high_text.endswith(f" {low_unit}")
+    return f"{low_number if same_unit else low_text} to {high_text}"
 
 
 def with_deviation(value: float, deviation: float, unit: str) -> str:
-    """A number and its standard deviation, to the digit in which the deviation shows itself.
+    """Return a number and its standard deviation, to the first digit of the deviation.
 
-    ``with_deviation(62.19, 0.31, "°")`` is "62.2° ± 0.3°". Units of angle stand close.
+    ``with_deviation(62.19, 0.31, "°")`` is "62.2° ± 0.3°", without a space before the degree sign.
     """
     if not (math.isfinite(value) and math.isfinite(deviation)):
         return NO_VALUE
@@ -171,7 +169,7 @@ def with_deviation(value: float, deviation: float, unit: str) -> str:
 
 
 def thousands(value: float) -> str:
-    """A whole number with a narrow space after each three digits: 65 536."""
+    """Return a whole number with a narrow space between groups of three digits: 65 536."""
     if not math.isfinite(value):
         return NO_VALUE
     return f"{round(value):,}".replace(",", "\u202f").replace("-", "−")

@@ -1,11 +1,11 @@
-"""Progress of what takes a while, and the error that ends it."""
+"""Progress of long work, and the error that ends it."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 
 Progress = Callable[[float, str], object]
-"""Called with the part done, 0 to 1, and what is being done."""
+"""Called with the part that is done, 0 to 1, and the name of the current step."""
 
 
 class CancelledError(RuntimeError):

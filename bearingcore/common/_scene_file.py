@@ -1,4 +1,4 @@
-"""Values as plain data and as TOML text, and back; what comes in is not trusted.
+"""Conversion of values to plain data and TOML text, and back. Input is not trusted.
 
 Works for any frozen dataclass whose fields are numbers, names, tuples of them, or further
 dataclasses; `Scene.to_toml` and `Scene.from_toml` are its users. The text of a scene has a version,
@@ -17,9 +17,9 @@ the scene's own fields, and a table for each part::
     kind = "rough"
     ...
 
-SI units and radians, as everywhere in the core. A field that is left out has its default; one that
-does not exist is refused by name. Where a field can hold one of several classes, `kind` names
-it: each has its name there as the class attribute `kind`.
+Numbers are in SI units and radians. A field that is left out has its default; one that does not
+exist is refused by name. If a field can hold one of several classes, `kind` names the class by its
+class attribute `kind`.
 """
 
 from __future__ import annotations
@@ -38,68 +38,68 @@ VERSION = 1
 """Version of the format. A reader refuses other versions instead of guessing."""
 
 LARGEST_TEXT = 2_000_000
-"""Characters that are read at the most: a measured floor of 100,000 points fits."""
+"""Most characters that are read: a measured floor of 100,000 points fits."""
 
 MOST_OF = {",": 220_000, "\n": 250_000, "=": 10_000, "[": 10_000, "{": 10_000}
-"""Largest number of each sign in a text: reading takes time for each value, line and table, and a
+"""Largest number of each sign in a text: every value, line and table takes time to read, and a
 measured floor of 100,000 points has no more."""
 
 MOST_PARTS = 20
-"""Parts of a name with dots: reading one takes time as the square of their number."""
+"""Most parts of a dotted name: the time to read one grows with the square of their number."""
 
 MOST_DIGITS = 1000
-"""Digits of a number: more than any float has; whole numbers of a million take time to be read and
-more to be printed."""
+"""Most digits of a number, more than any float has: whole numbers of a million digits take long to
+read, and longer to print."""
 
 _LONG_NUMBER = re.compile(rf"=[ \t]*[+-]?(?:0[xob])?[0-9a-fA-F_]{{{MOST_DIGITS}}}")
 
 _LONG_NAME = re.compile(rf"(?:\.[ \t]*[\w\"'-]+[ \t]*){{{MOST_PARTS}}}")
 
 MOST_TABLES = 20
-"""Parts of one kind, defects for example, that are read at the most."""
+"""Most parts of one kind, such as defects, that are read."""
 
 LEFT_OUT = types.MappingProxyType({"left_out": True})
-"""Metadata of a field that came after files were about: its default is not written."""
+"""Metadata of a field that is newer than the first files: its default is not written."""
 
 T = TypeVar("T")
 
 
 def to_data(value: Any) -> dict[str, Any]:
-    """A dataclass as dictionaries, lists, numbers and strings, without what is None or empty.
+    """Return a dataclass as dictionaries, lists, numbers and strings, without empty fields.
 
-    A field marked LEFT_OUT is left out too where it has its default.
+    A field marked LEFT_OUT is also left out if it has its default.
     """
     data: dict[str, Any] = {}
     for field in dataclasses.fields(value):
-        held = getattr(value, field.name)
-        if held is None or held == () or (field.metadata == LEFT_OUT and held == field.default):
+        item = getattr(value, field.name)
+        if item is None or item == () or (field.metadata == LEFT_OUT and item == field.default):
             continue
-        named = len(_parts(type(value))[field.name]) > 1
-        data[field.name] = _plain(held, named)
+        needs_kind = len(_parts(type(value))[field.name]) > 1
+        data[field.name] = _to_plain(item, needs_kind)
     return data
 
 
 def from_data(kind: type[T], name: str, data: object, *, top: bool = False) -> T:
-    """The dataclass of `to_data`; sentences speak of it as `name`.
+    """Return the dataclass that `to_data` has made plain; errors call it `name`.
 
-    Of the `top` table of a file they name the fields alone.
+    Errors about the `top` table of a file name only the fields.
 
     Raises
     ------
     ValueError
-        that names the table and field, what stands there and what is allowed.
+        naming the table and field, its value and what is allowed.
     """
     entries = table(name, data)
     fields = {field.name: field for field in dataclasses.fields(kind)}  # type: ignore[arg-type]
-    for asked in entries:
-        if asked not in fields:
-            raise checks.refuse(f"field of {name}", asked, ", ".join(sorted(fields)))
+    for entry in entries:
+        if entry not in fields:
+            raise checks.refuse(f"field of {name}", entry, ", ".join(sorted(fields)))
     parts = _parts(kind)
     values = {}
     for field in sorted(fields.values(), key=lambda field: not parts[field.name]):
-        called = field.name if top else f"{field.name} of {name}"
+        field_name = field.name if top else f"{field.name} of {name}"
         if field.name in entries:
-            values[field.name] = _held(parts[field.name], called, entries[field.name])
+            values[field.name] = _from_plain(parts[field.name], field_name, entries[field.name])
         elif field.default is dataclasses.MISSING:
             raise checks.refuse(f"{field.name} of {name}", "missing", "a value")
     try:
@@ -109,14 +109,14 @@ def from_data(kind: type[T], name: str, data: object, *, top: bool = False) -> T
 
 
 def to_toml(data: Mapping[str, Any]) -> str:
-    """Plain data as TOML text; floats keep all their digits."""
+    """Return plain data as TOML text; floats keep all their digits."""
     import tomli_w  # imported late: only files need it
 
     return tomli_w.dumps(dict(data))
 
 
 def from_toml(text: str) -> dict[str, Any]:
-    """The plain data of a TOML text.
+    """Return the plain data of a TOML text.
 
     Raises
     ------
@@ -139,12 +139,12 @@ def from_toml(text: str) -> dict[str, Any]:
         return tomllib.loads(text)
     except (tomllib.TOMLDecodeError, RecursionError) as error:
         raise checks.refuse("text", " ".join(text.split()), f"TOML ({error})") from None
-    except ValueError:  # the interpreter's own limit, inside a list
+    except ValueError:  # Python's own limit of digits, which a number inside a list can reach
         raise digits from None
 
 
 def table(name: str, data: object, allowed: str = "a table") -> dict[str, Any]:
-    """`data` if it is a table, a copy; else ValueError."""
+    """Return a copy of `data` if it is a table, else raise ValueError."""
     if not isinstance(data, Mapping):
         raise checks.refuse(name, "missing" if data is None else data, allowed)
     return dict(data)
@@ -164,18 +164,18 @@ def _parts(kind: type) -> dict[str, tuple[type, ...]]:
     return {field.name: inside(hints[field.name]) for field in dataclasses.fields(kind)}
 
 
-def _plain(held: Any, named: bool) -> Any:
-    if dataclasses.is_dataclass(held):
-        head = {"kind": type(held).kind} if named else {}  # type: ignore[union-attr]
-        return {**head, **to_data(held)}
-    return [_plain(item, named) for item in held] if isinstance(held, tuple) else held
+def _to_plain(value: Any, needs_kind: bool) -> Any:
+    if dataclasses.is_dataclass(value):
+        head = {"kind": type(value).kind} if needs_kind else {}  # type: ignore[union-attr]
+        return {**head, **to_data(value)}
+    return [_to_plain(item, needs_kind) for item in value] if isinstance(value, tuple) else value
 
 
-def _held(kinds: tuple[type, ...], name: str, value: Any) -> Any:
+def _from_plain(kinds: tuple[type, ...], name: str, value: Any) -> Any:
     if kinds and isinstance(value, list):
         if len(value) > MOST_TABLES:
             raise checks.refuse(name, value, f"at most {MOST_TABLES} tables")
-        return tuple(_held(kinds, f"{name} {i + 1}", item) for i, item in enumerate(value))
+        return tuple(_from_plain(kinds, f"{name} {i + 1}", item) for i, item in enumerate(value))
     if not kinds or dataclasses.is_dataclass(value):
         return tuple(value) if isinstance(value, list) else value
     values = table(name, value)

@@ -1,8 +1,8 @@
 """A result as a table: names, units and numbers in columns.
 
-Every result of the core has `.table()`. What is shown or saved of it comes from there: CSV files,
-tables on the page, lines of Python, labels of axes. Numbers are SI and radians; `in_units` turns
-them into what people read, and puts the unit into the name (`extent_deg`).
+Every result of the core has `.table()`. CSV files, tables on the page, lines of Python and labels
+of axes are made from it. Numbers are in SI units and radians. `in_units` converts them to the units
+that people read; names with units, such as `extent_deg`, then follow them.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ MOST_ROWS, MOST_COLUMNS = 10, 8
 """Size of a printed table; the middle of a larger one is left out."""
 
 LONGEST_VALUE, LONGEST_REPR = 24, 120
-"""Most letters of a value beside its meaning, and of a result in a line."""
+"""Most letters of a value beside its meaning, and of a result on one line."""
 
 
 @dataclass(frozen=True)
@@ -70,7 +70,7 @@ class Column:
         Raises
         ------
         ValueError
-            for a unit that it has no factor to.
+            for a unit of another kind.
         """
         if unit == self.unit:
             return self
@@ -94,15 +94,15 @@ class ResultTable(Mapping[str, NDArray[Any]]):
             raise checks.refuse("names of columns", names, "each once")
 
     def __getitem__(self, name: str) -> NDArray[Any]:
-        """The numbers (n,) of a column."""
+        """Return the numbers (n,) of a column."""
         return self._by_name[name].values
 
     def __iter__(self) -> Iterator[str]:
-        """Names of the columns."""
+        """Iterate over the names of the columns."""
         return iter(self._by_name)
 
     def __len__(self) -> int:
-        """Number of columns."""
+        """Return the number of columns."""
         return len(self.columns)
 
     def unit(self, name: str) -> str:
@@ -130,7 +130,7 @@ class ResultTable(Mapping[str, NDArray[Any]]):
         return ResultTable(self._by_name[name] for name in names)
 
     def __or__(self, other: ResultTable) -> ResultTable:
-        """Both tables side by side."""
+        """Return both tables side by side."""
         return ResultTable([*self.columns, *other.columns])
 
     def named(self) -> dict[str, NDArray[Any]]:
@@ -152,39 +152,41 @@ class ResultTable(Mapping[str, NDArray[Any]]):
         return all(column.values.size == 1 for column in self.columns)
 
     def _lines(self) -> list[tuple[str, str, str]]:
-        """Lines of a single row, one for each column: name, value with unit, meaning."""
+        """Return a line for each column of a single row: name, value with unit, meaning."""
         return [
             (column.name, f"{_digits(column.values[0])} {_unit(column)}".rstrip(), column.meaning)
             for column in self.columns
         ]
 
-    def _headed(self) -> DataFrame:
+    def _first_rows(self) -> DataFrame:
         size = self.columns[0].values.size  # columns as long as the first one share its rows
-        alike = [column for column in self.columns if column.values.size == size]
-        heads = [f"{column.name} [{_unit(column)}]".removesuffix(" []") for column in alike]
-        return self.only(*(column.name for column in alike)).frame().set_axis(heads, axis=1)
+        columns = [column for column in self.columns if column.values.size == size]
+        heads = [f"{column.name} [{_unit(column)}]".removesuffix(" []") for column in columns]
+        return self.only(*(column.name for column in columns)).frame().set_axis(heads, axis=1)
 
     def __str__(self) -> str:
-        """The table as text: the first and last rows; or for a single row, a line for each column.
+        """Return the first and last rows as text; for a single row, a line for each column.
 
-        Without pandas, which leaves out the middle, a table of several rows is complete CSV.
+        pandas leaves out the middle. Without pandas a table of several rows is complete CSV.
         """
         if not self._is_one_row and find_spec("pandas") is None:
             return self.csv()
         if not self._is_one_row:
-            return str(self._headed().to_string(max_cols=MOST_COLUMNS, max_colwidth=60, **_PRINTED))
+            frame = self._first_rows()
+            return str(frame.to_string(max_cols=MOST_COLUMNS, max_colwidth=60, **_PRINTED))
         lines = self._lines()
-        name, value = (max(len(line[i]) for line in lines) for i in (0, 1))
-        value = min(value, LONGEST_VALUE)
-        rows = (f"{title:<{name}}  {of:<{value}}  {what}".rstrip() for title, of, what in lines)
-        return "\n".join(textwrap.fill(row, 100, subsequent_indent=" " * 4) for row in rows)
+        wide, value_wide = (max(len(line[i]) for line in lines) for i in (0, 1))
+        value_wide = min(value_wide, LONGEST_VALUE)
+        rows = (f"{name:<{wide}}  {value:<{value_wide}}  {text}" for name, value, text in lines)
+        filled = (textwrap.fill(row.rstrip(), 100, subsequent_indent=" " * 4) for row in rows)
+        return "\n".join(filled)
 
     def _repr_html_(self) -> str:
-        """The table in a notebook, turned like the text."""
+        """Return the table as HTML for a notebook, with the rows of the text."""
         if find_spec("pandas") is None:
             return f"<pre>{escape(str(self))}</pre>"
         if not self._is_one_row:
-            return str(self._headed().to_html(max_cols=2 * MOST_COLUMNS, border=0, **_PRINTED))
+            return str(self._first_rows().to_html(max_cols=2 * MOST_COLUMNS, border=0, **_PRINTED))
         import pandas as pd
 
         frame = pd.DataFrame(self._lines(), columns=["", "value", "meaning"])
@@ -192,27 +194,27 @@ class ResultTable(Mapping[str, NDArray[Any]]):
             return str(frame.to_html(index=False, border=0, justify="left"))
 
     def __repr__(self) -> str:
-        """The columns by name."""
+        """Return the names of the columns."""
         return _cut(f"ResultTable({', '.join(self)})")
 
 
 def table_of(
     *columns: tuple[str, str, ArrayLike] | tuple[str, str, ArrayLike, str], of: Sequence[Any] = ()
 ) -> ResultTable:
-    """A table of (name, unit, numbers) or (name, unit, numbers, meaning).
+    """Return a table of columns (name, unit, numbers) or (name, unit, numbers, meaning).
 
-    Instead of numbers a column may have the name of an attribute, which each value in `of` has.
+    Instead of numbers a column may have the name of an attribute of the objects in `of`.
     """
-    named = []
+    made = []
     for name, unit, values, *meaning in columns:
         if isinstance(values, str):
-            values = [getattr(column, values) for column in of]
-        named.append(Column(name, unit, np.asarray(values).ravel(), meaning[0] if meaning else ""))
-    return ResultTable(named)
+            values = [getattr(item, values) for item in of]
+        made.append(Column(name, unit, np.asarray(values).ravel(), meaning[0] if meaning else ""))
+    return ResultTable(made)
 
 
 def shown_as_table(result: type[T]) -> type[T]:
-    """A class with `.table()` that is printed as its table, in notebooks too.
+    """Return a class with `.table()`, which is then printed as its table, also in notebooks.
 
     Its `repr` is one line: the first fields, and the shapes of arrays.
     """
@@ -235,15 +237,15 @@ def shown_as_table(result: type[T]) -> type[T]:
 
 
 def short_repr(value: Any) -> str:
-    """Class and first fields of a dataclass or named tuple in a line, and the shapes of arrays."""
+    """Return class and first fields of a dataclass or named tuple, and the shapes of arrays."""
     fields = dataclasses.fields(value) if dataclasses.is_dataclass(value) else ()
     names = [field.name for field in fields if field.repr] or value._fields
-    parts = [f"{name}{of}" for name in names if (of := _short(getattr(value, name)))]
+    parts = [f"{name}{text}" for name in names if (text := _short(getattr(value, name)))]
     return _cut(f"{type(value).__name__}({', '.join(parts or names)})")
 
 
 def _short(value: Any) -> str:
-    """A field in short; empty for None, and for a value that has fields itself."""
+    """Return a short text for a field; empty for None and for a value with its own fields."""
     if isinstance(value, np.ndarray) and value.ndim:
         return f" {value.shape}"
     if value is None or (isinstance(value, str) and not value):
@@ -264,12 +266,12 @@ def _unit(column: Column) -> str:
 
 
 def _digits(value: Any) -> str:
-    """A number with six digits, anything else by `str`."""
+    """Return a float with six digits, and anything else by `str`."""
     return f"{value:.6g}" if isinstance(value, float | np.floating) else str(value)
 
 
 def as_csv(columns: Mapping[str, NDArray[Any]]) -> str:
-    """Columns as comma-separated text; shorter columns end in empty cells."""
+    """Return columns as comma-separated text; shorter columns end with empty cells."""
     rows = [np.asarray(column).ravel() for column in columns.values()]
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
@@ -284,7 +286,7 @@ _FORMULA = ("=", "+", "-", "@", "\t", "\r", "\n")
 
 
 def _cell(value: Any) -> str:
-    """A number with nine digits, or words that no spreadsheet takes for a formula."""
+    """Return a float with nine digits, or words that no spreadsheet takes for a formula."""
     if isinstance(value, float | np.floating):
         return f"{value:.9g}"
     text = str(value)

@@ -1,4 +1,4 @@
 """Measured signals: reading them from files, analysing them, and naming the damaged part.
 
-It knows no model of motion and no compiled code.
+This package uses neither a model of motion nor compiled code.
 """

@@ -13,7 +13,7 @@ from bearingcore.common import Array, _checks as checks, count
 DIRECTIONS = ("x", "y")
 
 SWINGS = (1e-12, 1e12)
-"""Least and greatest swing, in any unit: squares of squares outside are no numbers any more."""
+"""Least and greatest swing, in any unit: outside, fourth powers underflow or overflow."""
 
 FEWEST_SAMPLES = 256
 
@@ -37,8 +37,9 @@ class Recording:
     notes
         sentences on changes of the signal, and on omissions.
     shaft_angle : (n,) [rad]
-        angle of the shaft at each sample, if it was measured beside the signal; the speed may then
-        change. For a tachometer with several pulses a turn, one turn from pulse to pulse.
+        angle of the shaft at each sample, if it was measured with the signal; the speed may then
+        change. For a tachometer with several pulses a turn it advances one turn from pulse to
+        pulse.
     recorded
         date and time of the measurement; None if they are not known.
 
@@ -93,7 +94,7 @@ class Recording:
         signal.setflags(write=False)
         checks.keep(self, acceleration=signal)
         if self.shaft_angle is not None:
-            checks.keep(self, shaft_angle=_rising(self.shaft_angle, len(signal)))
+            checks.keep(self, shaft_angle=_check_shaft_angle(self.shaft_angle, len(signal)))
 
     @property
     def duration(self) -> float:
@@ -101,7 +102,7 @@ class Recording:
         return len(self.acceleration) / self.sample_rate
 
     def scale_shaft(self, ratio: float) -> Recording:
-        """Return the recording with the shaft behind a gear, which turns `ratio` times as fast."""
+        """Return the recording for a shaft behind a gear that turns `ratio` times as fast."""
         speed, angle = self.shaft_speed, self.shaft_angle
         return replace(
             self,
@@ -110,20 +111,20 @@ class Recording:
         )
 
 
-def _rising(angle: Array, samples: int) -> Array:
-    """The angle of the shaft (samples,), which never falls; `FieldError` for any other."""
-    kept = np.array(angle, dtype=float)
-    if kept.shape != (samples,) or not (np.isfinite(kept).all() and np.ptp(kept) > 0.0):
+def _check_shaft_angle(angle: Array, samples: int) -> Array:
+    """Return the angle of the shaft (samples,) as a copy; `FieldError` if it ever falls."""
+    checked = np.array(angle, dtype=float)
+    if checked.shape != (samples,) or not (np.isfinite(checked).all() and np.ptp(checked) > 0.0):
         allowed = f"a finite number for each of {samples} samples, rising"
-        raise checks.refuse("shaft_angle", f"of shape {kept.shape}", allowed)
-    if (np.diff(kept) < 0.0).any():
+        raise checks.refuse("shaft_angle", f"of shape {checked.shape}", allowed)
+    if (np.diff(checked) < 0.0).any():
         raise checks.refuse("shaft_angle", "falling", "an angle that never falls")
-    kept.setflags(write=False)
-    return kept
+    checked.setflags(write=False)
+    return checked
 
 
 def check_directions(directions: Sequence[str]) -> tuple[str, ...]:
-    """`directions` as a tuple; ValueError unless they are different ones of x and y."""
+    """Return `directions` as a tuple; ValueError unless they are x, y, or both."""
     names = (directions,) if isinstance(directions, str) else tuple(directions)
     if not names or len(set(names)) != len(names) or not set(names) <= set(DIRECTIONS):
         raise checks.refuse("directions", directions, "x, y or both")

@@ -9,13 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from bearingcore.common import (
-    Array,
-    ResultTable,
-    _checks as checks,
-    shown_as_table,
-    table_of,
-)
+from bearingcore.common import Array, ResultTable, _checks as checks, shown_as_table, table_of
 
 
 @shown_as_table
@@ -43,10 +37,10 @@ class Spectrum(NamedTuple):
         return np.array(sums) * (self.frequency[1] - self.frequency[0])
 
     def table(self, directions: Sequence[str] = (), unit: str = "(m/s²)²/Hz") -> ResultTable:
-        """Return a row for each frequency, with densities named by `directions` or counted."""
+        """Return a row for each frequency, with densities named by `directions` or by numbers."""
         columns = self.density.reshape(len(self.frequency), -1).T
-        named = directions or [str(k + 1) for k in range(len(columns))]
-        names = [f"density_{direction}" for direction in named]
+        suffixes = directions or [str(k + 1) for k in range(len(columns))]
+        names = [f"density_{suffix}" for suffix in suffixes]
         if not directions and len(columns) == 1:
             names = ["density"]
         if len(names) != len(columns):
@@ -84,7 +78,7 @@ def spectrum(
     step = checks.real_number("resolution", resolution, above=0.0, at_most=0.5 * rate, unit="Hz")
     segment = round(rate / step)
     samples = checks.samples_of(signal, segment, "one segment")
-    # one signal after another in memory: a third faster than along the first axis
+    # contiguous signals are a third faster than signals along the first axis
     rows = np.ascontiguousarray(samples.T)
     frequency, density = welch(rows, fs=rate, nperseg=segment)
     return Spectrum(frequency, density.T)
@@ -131,7 +125,7 @@ def envelope_spectrum(
     samples = checks.samples_of(signal, 64, "a filter's length")
     sections = butter(4, (low, high), "bandpass", fs=rate, output="sos")
     inside = sosfiltfilt(sections, samples, axis=0)
-    size = next_fast_len(len(inside))  # a length with a great prime factor would take for ever
+    size = next_fast_len(len(inside))  # a length with a large prime factor would take far longer
     envelope = np.abs(hilbert(inside, size, axis=0))[: len(inside)]
     if resolution is None:
         resolution = rate / len(samples)

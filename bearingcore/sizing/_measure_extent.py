@@ -27,17 +27,17 @@ from bearingcore.recordings import Recording
 from bearingcore.sizing._release import plausible_offset
 
 SLIP_OF_LINES = 0.004
-"""Fraction by which balls may pass faster or slower than the lines of a diagnosis."""
+"""Greatest relative difference between the rate of ball passes and the lines of a diagnosis."""
 
 SAMPLES_A_DEGREE = 1.0
-"""Samples for a degree of the race below which knocks cannot be located."""
+"""Fewest samples for a degree of the race with which knocks can be located."""
 
 NO_ANSWER = "no clear result"
 
 TURN = 2.0 * math.pi
 
 LONGEST_BOUND = 1.0 / 3.0
-"""Share of a ball spacing from which a bound would say nothing."""
+"""Greatest bound that is worth stating, over a ball spacing."""
 
 
 @shown_as_table
@@ -50,14 +50,14 @@ class MeasuredExtent:
     race
         "outer" or "inner"; "" where no race is named.
     extent, low, high
-        [rad], with its 95 % interval. NaN if there is none or two are as likely: see
+        [rad], with its 95 % interval. NaN if there is none or two are equally likely: see
         `alternatives`. If there is only a bound, `extent` is NaN and `high` is the bound.
     separation, deviation
         [rad] of the race between the peaks of entry and exit, the shorter way round, and its
         standard deviation.
     offset, offset_low, offset_high
-        [rad] added to it, with its 95 % interval: the angle beside the edges over which a ball
-        carries no load, see `release`.
+        [rad] added to the separation, with its 95 % interval: the angle beside the edges over which
+        a ball carries no load.
     ball_spacing
         [rad]. A spall longer by whole ball spacings gives the same passes.
     passes
@@ -103,12 +103,12 @@ class MeasuredExtent:
         """Possible extents [rad] for the two peaks, each with its interval, the likelier first.
 
         These are the shorter and the longer way round; the longer one is rare if the shorter one
-        was `measured`. Empty without two peaks. Whole ball spacings more are as possible.
+        was `measured`. Empty without two peaks. Whole ball spacings may be added to both.
         """
         if not math.isfinite(self.separation):
             return ()
         spread = 1.96 * self.deviation
-        below = math.hypot(self.offset - self.offset_low, spread)  # offsets lean towards long ones
+        below = math.hypot(self.offset - self.offset_low, spread)  # offsets are not symmetric
         above = math.hypot(self.offset_high - self.offset, spread)
         return tuple(
             (extent, max(extent - below, 0.0), extent + above)
@@ -137,31 +137,31 @@ class MeasuredExtent:
 
     @property
     def sentence(self) -> str:
-        """The answer in a sentence, or why there is none."""
+        """The answer in a sentence, or the reason why there is none."""
         if self.answer == NO_ANSWER:
             return self.status.sentence
         spacing = math.degrees(self.ball_spacing)
         if self.status == ExtentStatus.SHORTER:
             return f"{self.answer} ({spacing:.1f}° each). {self.status.sentence}"
-        words = f"{self.answer}; or about that and whole ball spacings of {spacing:.1f}°."
+        words = f"{self.answer}; or about that plus whole ball spacings of {spacing:.1f}°."
         if not self.measured:
             return f"{words} {self.status.sentence}"
         other = math.degrees(self.alternatives[1][0])
-        return f"{words} {other:.0f}° would show alike, but spalls so near the next ball are rare."
+        return f"{words} {other:.0f}° would look the same, but spalls so long are rare."
 
     def table(self) -> ResultTable:
-        """One row with the answer; below it the mean ball pass of the best band over angle."""
+        """Return one row with the answer, and the mean ball pass of the best band over angle."""
         rows = table_of(
             ("race", "", [self.race]),
             ("status", "", [str(self.status)]),
             ("extent", "rad", [self.extent]),
-            ("low", "rad", [self.low], "of the interval with 95 %"),
-            ("high", "rad", [self.high], "of the interval with 95 %"),
+            ("low", "rad", [self.low], "of the 95 % interval"),
+            ("high", "rad", [self.high], "of the 95 % interval"),
             ("separation", "rad", [self.separation], "from the entry's peak to the exit's"),
             ("separation_deviation", "rad", [self.deviation]),
             ("offset", "rad", [self.offset], "over which a ball is not loaded at the edges"),
-            ("offset_low", "rad", [self.offset_low], "of the interval with 95 %"),
-            ("offset_high", "rad", [self.offset_high], "of the interval with 95 %"),
+            ("offset_low", "rad", [self.offset_low], "of the 95 % interval"),
+            ("offset_high", "rad", [self.offset_high], "of the 95 % interval"),
             ("length", "m", [self.length], "along the race"),
             ("frequency", "Hz", [self.frequency], "of ball passes"),
             ("ball_passes", "", [self.n_passes]),
@@ -172,7 +172,7 @@ class MeasuredExtent:
         angle = self.ball_spacing * np.arange(len(best.envelope)) / len(best.envelope)
         return rows | table_of(
             ("angle", "rad", angle, "of the race, from an arbitrary start"),
-            ("envelope", "1", best.envelope, "mean over the ball passes, of its mean"),
+            ("envelope", "1", best.envelope, "mean over the ball passes, divided by its mean"),
             ("envelope_error", "1", np.full(len(angle), best.error), "standard error"),
         )
 
@@ -194,8 +194,8 @@ def measure_extent(
     that show them best. Two peaks on which bands agree are entry and exit. The extent is their
     separation plus the angle beside the edges over which, by statics, a ball carries no load. It is
     known up to whole ball spacings, which do not change the mean pass. A changing speed that was
-    measured with the signal is followed as in `diagnose`. The pass does not show which
-    peak is the entry: if one way round is not much longer than the other, both are given.
+    measured with the signal is followed as in `diagnose`. The pass does not show which peak is the
+    entry: if one way round is not much longer than the other, both are returned.
 
     Parameters
     ----------
@@ -209,12 +209,12 @@ def measure_extent(
         "outer" or "inner" if the damaged race is known; None: the race that `diagnose` names. With
         a rough or unknown speed `diagnose` is always called.
     load, clearance
-        radial load on the bearing [N] and radial clearance [m] if they are known: they narrow the
-        interval. Without a load, 0.1 to 5 % of the dynamic rating is assumed.
+        radial load on the bearing [N] and radial clearance [m], if known; they narrow the interval.
+        Without a load, 0.1 to 5 % of the dynamic rating is assumed.
     edge
         model of the edges, see `Defect`, if it is known, as for a simulated signal; None: the
-        offsets of measured spalls. Those of "published" are larger, so that extents and bounds of a
-        signal simulated with it come out too small.
+        offsets of measured spalls. The offsets of "published" are larger: with None, extents and
+        bounds of a signal simulated with "published" are too small.
     diagnosis
         the result of `diagnose`, if it is known.
 
@@ -251,7 +251,7 @@ def measure_extent(
         recording, turns, _, _ = resample_to_steady_speed(recording, turns, turns, "")
         passing = bearing.bpfo if race == "outer" else bearing.bpfi
         nominal, slip = passing(TURN * turns), SLIP
-    # a pass of envelopes is averaged from its own frequency on
+    # the lowest line of an averaged envelope is the ball-pass frequency itself
     if recording.duration * nominal * (1.0 - slip) < least_passes(nominal, nominal):
         return MeasuredExtent(race, ball_spacing=spacing, status=ExtentStatus.TOO_SHORT)
     if recording.sample_rate < SAMPLES_A_DEGREE * nominal * math.degrees(spacing):

@@ -15,7 +15,7 @@ from bearingcore.units import INCH
 
 _ANGLES = {"rad": 1.0, "radians": 1.0}
 _LENGTHS = {"m": 1.0, "mm": 1e-3, "nm": 1e-9, "in": INCH}
-"""Units [rad, m] that a heading may give; others are degrees and micrometres."""
+"""Units [rad, m] that a heading may name; otherwise degrees and micrometres are read."""
 
 
 def read_floor(text: str) -> tuple[MeasuredFloor, float, float, float]:
@@ -50,6 +50,6 @@ def read_floor(text: str) -> tuple[MeasuredFloor, float, float, float]:
 
 
 def _unit_in(heading: str, units: Mapping[str, float], usual: float) -> float:
-    """The unit [rad or m] at the end of a heading."""
+    """Return the unit [rad or m] at the end of a heading, or else the usual one."""
     last = re.search(r"([^\s_,;:/\[\](){}]+)[\s\])}]*$", heading.strip().lower())
     return units.get(last[1].replace("μ", "µ"), usual) if last else usual

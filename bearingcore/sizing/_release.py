@@ -1,8 +1,8 @@
 """Release and pressing of a ball inside the edges of a spall, by statics.
 
-A ball does not let go at the edge. It sinks along the corner until it has sunk by its compression
-and by what the rings follow, and before the far edge it is pressed again the same way. So a sensor
-measures less than the extent:
+A ball keeps some load behind the edge. It sinks along the corner until it has lost its compression
+and the rings follow no further; before the far edge it is pressed again in the same way. So a
+sensor measures less than the extent:
 
     extent = separation + offset
 
@@ -29,19 +29,19 @@ RELEASE_PLACES = 241
 """Ball positions across the spall at which the load is computed."""
 
 TYPICAL_LOAD, LOAD_SPREAD = 0.007, 1.0
-"""Radial load as a share of the dynamic load rating where none is given, and the standard deviation
-of its logarithm: nineteen of twenty bearings carry 0.1 % to 5 %. Balls roll well from 1 % on, and
+"""Radial load as a share of the dynamic load rating if no load is given, and the standard deviation
+of its logarithm: nineteen of twenty bearings carry 0.1 % to 5 %. Balls roll well above 1 %, but
 test rigs and idle machines carry less."""
 
 GIVEN_LOAD_SPREAD = 0.2
-"""Deviation of the logarithm of the load on the spall where the load on the bearing is given: a
-spall seldom lies exactly under the load."""
+"""Standard deviation of the logarithm of the load on the spall if the load on the bearing is given:
+a spall seldom lies exactly under the load."""
 
 CLEARANCE_SPREAD = 0.25
-"""Deviation of a given clearance as a share of it."""
+"""Relative standard deviation of a given clearance."""
 
 LEAST_CLEARANCE = 3e-4
-"""Share of a ball diameter: the typical radial clearance where a bearing gives none."""
+"""Typical radial clearance over the ball diameter, for a bearing without a clearance."""
 
 EDGE_WEIGHTS = {"exact": 0.48, "chord": 0.48, "published": 0.04}
 """Probability of each edge model. The first two are geometry and nearly agree. `published` halves
@@ -49,9 +49,9 @@ the arc; the offsets measured on a rig agree with it at a load only that the rig
 it stays in the tail of the interval."""
 
 SEEN_SHARES = {1.0: 0.5, 0.75: 0.25, 0.5: 0.15, 0.25: 0.1}
-"""Probability that a sensor sees this share of the offset. Load falls from the edge on and
-is gone an offset later; a ball with mass strikes between there and the far edge. So the peaks lie
-somewhere on the way, and mostly where the load is gone."""
+"""Probability that a sensor shows this share of the offset. The load falls from the edge on and is
+gone one offset later; a ball with mass strikes between that place and the far edge. So the peaks
+lie somewhere on this way, and mostly where the load is gone."""
 
 _NORMAL = (-1.96, -1.2816, -0.6745, 0.0, 0.6745, 1.2816, 1.96)
 _WEIGHTS = (0.05, 0.125, 0.2, 0.25, 0.2, 0.125, 0.05)
@@ -61,7 +61,7 @@ _WEIGHTS = (0.05, 0.125, 0.2, 0.25, 0.2, 0.125, 0.05)
 def release_offset(
     bearing: Bearing, race: str, load: float, clearance: float, edge: str = "exact"
 ) -> float:
-    """The angle [rad] by which the unloaded stretch of a long, deep spall is shorter than it.
+    """Return the angle [rad] by which a long, deep spall exceeds the stretch without load.
 
     Parameters
     ----------
@@ -90,7 +90,7 @@ def release_offset(
     place = np.linspace(-0.5 * extent, 0.5 * extent, RELEASE_PLACES)  # of the ball, from the middle
     scene = Scene(bearing, spall, Load(fy=-load), 0.0, FAN_RIG_SUPPORT, dofs=("x", "y"))
     state = equilibrium(scene, under + place / (1.0 - turn))
-    compression = np.asarray(state.ball_load[:, 0]) ** (2.0 / 3.0)  # falls straight to 0
+    compression = np.asarray(state.ball_load[:, 0]) ** (2.0 / 3.0)  # falls to 0 along a line
     free = np.flatnonzero(compression <= 0.0)
     if free.size < 2 or free[0] < 2 or free[-1] > RELEASE_PLACES - 3:
         return math.nan
@@ -100,7 +100,7 @@ def release_offset(
 
 
 def _falls_to_zero(place: Array, compression: Array, last: int, away: int) -> float:
-    """Return the place after the `last` value where a compression reaches 0, straight on."""
+    """Extrapolate a compression beyond its `last` value; return the place where it reaches 0."""
     slope = (compression[last + away] - compression[last]) / (place[last + away] - place[last])
     step = abs(compression[last] / slope) if slope else math.inf
     return float(place[last] - away * min(step, abs(place[last + away] - place[last])))
@@ -113,20 +113,20 @@ def plausible_offset(
     clearance: float | None,
     edge: str | None = None,
 ) -> tuple[float, float, float]:
-    """Offset [rad] over plausible loads, clearances and edges: its median between its 95 % limits.
+    """Compute the offset [rad] over plausible loads, clearances and edges.
 
     Parameters
     ----------
     load
-        radial load on the bearing [N], or None where it is not known.
+        radial load on the bearing [N], or None if it is not known.
     clearance
-        radial clearance [m], or None: that of the bearing, known to its half.
+        radial clearance [m], or None: that of the bearing, with a deviation of half its value.
     edge
         the edge model, or None: all, by `EDGE_WEIGHTS`.
 
     Returns
     -------
-    Lower limit, median and upper limit; NaN where no ball loses its load.
+    Lower 95 % limit, median and upper limit; NaN where no ball loses its load.
     """
     steel = bearing.with_balls_of(BALL_MATERIALS["steel"]) if bearing.is_hybrid else bearing
     middle = TYPICAL_LOAD * dynamic_load_rating(steel) if load is None else load
@@ -138,18 +138,18 @@ def plausible_offset(
         typical, clearance_spread = clearance, CLEARANCE_SPREAD
     values, weights = [], []
     edges = EDGE_WEIGHTS if edge is None else {edge: 1.0}
-    for (model, edge_weight), (deviation, weight), (other, other_weight) in product(
+    for (model, edge_weight), (load_step, load_weight), (gap_step, gap_weight) in product(
         edges.items(),
         zip(_NORMAL, _WEIGHTS, strict=True),
         zip(_NORMAL[1:-1:2], (0.3, 0.4, 0.3), strict=True),
     ):
-        force = middle * math.exp(spread * deviation)
-        gap = max(typical * (1.0 + clearance_spread * other), 0.0)
+        force = middle * math.exp(spread * load_step)
+        gap = max(typical * (1.0 + clearance_spread * gap_step), 0.0)
         offset = release_offset(bearing, race, force, gap, model)
         if math.isfinite(offset):
-            chance = edge_weight * weight * other_weight
+            weight = edge_weight * load_weight * gap_weight
             values += [share * offset for share in SEEN_SHARES]
-            weights += [chance * share for share in SEEN_SHARES.values()]
+            weights += [weight * chance for chance in SEEN_SHARES.values()]
     low, middle, high = (
         weighted_quantile(np.array(values), np.array(weights), share)
         for share in (0.025, 0.5, 0.975)

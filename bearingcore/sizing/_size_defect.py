@@ -1,9 +1,9 @@
-"""The length of a spall of the outer race: each candidate is simulated and held against the signal.
+"""Length of a spall of the outer race: each candidate is simulated and compared with the signal.
 
-Entry and exit give the length up to whole ball spacings; the frequencies at which the machine rings
-decide (Petersen, Howard & Prime 2014, Section 4). Signal and simulation are averaged over ball
-passes. The complex Fourier lines D and S of the two mean passes, all directions together and each
-divided by its measured size, are laid over each other under the delay τ that fits best:
+Entry and exit give the length up to whole ball spacings. The frequencies at which the machine rings
+say which of these it is (Petersen, Howard & Prime 2014, Section 4). Signal and simulation are
+averaged over ball passes. D and S are the complex Fourier lines of both mean passes, in all
+directions, each divided by its measured size. They are compared under the delay τ that fits best:
 
     misfit = 1 − max_τ Re Σ conj(D_n) S_n exp(inτ) / (|D| |S|)
 """
@@ -34,32 +34,32 @@ from bearingcore.model.scene import MASSLESS, Scene
 from bearingcore.recordings import Recording
 
 BAND, FEWEST_LINES = (0.25, 1.35), 6.0
-"""Compared band, over the lowest and the highest natural frequency without the defect; fewest
-lines of the mean ball pass up to there."""
+"""Ends of the compared band, over the lowest and the highest natural frequency without the defect;
+fewest lines of the mean ball pass up to the upper end."""
 
 STEP = math.radians(0.5)
 SHORTEST, LONGEST = math.radians(0.5), math.radians(90.0)
-"""Step [rad] between simulated extents, for a steep misfit; the first extent and the last."""
+"""Step [rad] between simulated extents, small as the misfit is steep; first and last extent."""
 
 APART = 0.16
-"""Share of a ball spacing: extents closer than this are one candidate."""
+"""Extents closer than this share of a ball spacing are one candidate."""
 
 EXPLAINED, AHEAD = 0.25, 1.5
 """Misfit below which an extent explains the pass, and least ratio of the next misfit to it."""
 
 NEARLY = 0.1
-"""Excess of the misfit up to which lengths are in the interval of the best. The interval holds the
-truth where the scene is that of the machine."""
+"""Excess of the misfit up to which lengths are in the interval of the best. The interval contains
+the true length if the scene is that of the machine."""
 
 AVERAGED, STEPS_A_CYCLE, MOST_STEPS = 0.12, 10.0, 200_000
 """Time [s] of a simulation that is averaged; steps in a cycle of the highest frequency, and in a
-spall, which leave an error near 0.2 dB; most steps of one simulation."""
+spall, for an error near 0.2 dB; most steps of one simulation."""
 
 FINEST = math.radians(0.02)
 """Step [rad] to which an extent is refined."""
 
 DELAYS = 4096
-"""Number of delays in a ball pass under which a simulated pass is laid over the measured one."""
+"""Number of delays in a ball pass under which simulated and measured pass are compared."""
 
 
 class SizingStatus(Status):
@@ -75,12 +75,12 @@ class SizingStatus(Status):
     SEVERAL_DEFECTS = "several defects", "The scene has several defects; only one can be sized."
     SUPPORT_UNKNOWN = (
         "support unknown",
-        "Whole ball spacings are counted by the frequencies at which the machine rings: that needs "
+        "The frequencies at which the machine rings decide between whole ball spacings: this needs "
         "the mass and the stiffness of its support.",
     )
     INNER_RACE = (
         "inner race",
-        "An inner-race defect turns through the load zone, so no ball pass is like the next.",
+        "An inner-race defect turns through the load zone, so ball passes differ.",
     )
 
 
@@ -93,7 +93,7 @@ class Candidate:
     extent, low, high
         [rad], with the interval of lengths that explain the signal nearly as well.
     misfit
-        difference between measured and simulated lines, from 0 (alike) to 1 (unlike).
+        difference between measured and simulated lines, from 0 (equal) to 1 (unrelated).
     ratio
         its misfit over the least misfit; 1 for the best candidate.
     lines : (N, d) complex [m/s²]
@@ -166,20 +166,20 @@ class Sizing:
             near = [f"{math.degrees(c.extent):.1f}°" for c in others if c.ratio < AHEAD]
             return f"{words} or {' or '.join(near)}. {self.status.sentence}"
         spacing = best.scene.bearing.ball_spacing
-        alike = [c for c in others if abs(abs(c.extent - best.extent) - spacing) < APART * spacing]
-        other = (alike or others)[0]
-        falls = {mode: (band[0], other.bands[mode][0]) for mode, band in best.bands.items()}
-        mode = max(falls, key=lambda name: np.nan_to_num(abs(falls[name][0] - falls[name][1])))
-        here, there = falls[mode]
+        beside = [c for c in others if abs(abs(c.extent - best.extent) - spacing) < APART * spacing]
+        other = (beside or others)[0]  # a ball spacing away, where entry and exit are the same
+        lowest = {mode: (band[0], other.bands[mode][0]) for mode, band in best.bands.items()}
+        mode = max(lowest, key=lambda name: np.nan_to_num(abs(np.subtract(*lowest[name]))))
+        frequency, other_frequency = lowest[mode]
         return (
-            f"{words}. As balls pass, mode {mode} falls to {here:.0f} Hz; with "
-            f"{math.degrees(other.extent):.1f}° it would fall to {there:.0f} Hz. Misfit "
+            f"{words}. As balls pass, mode {mode} falls to {frequency:.0f} Hz; with "
+            f"{math.degrees(other.extent):.1f}° it would fall to {other_frequency:.0f} Hz. Misfit "
             f"{best.misfit:.2f}; the next, {math.degrees(others[0].extent):.1f}°, has "
             f"{others[0].misfit:.2f}."
         )
 
     def table(self) -> ResultTable:
-        """A row for each candidate, the best first."""
+        """Return a row for each candidate, the best first."""
         return table_of(
             ("extent", "rad", "extent"),
             ("low", "rad", "low", "of the interval"),
@@ -199,19 +199,19 @@ def size_defect(
 ) -> Sizing:
     """Find the length of an outer-race spall by simulating every possible length.
 
-    The damaged race is taken as known: call `diagnose` first. All lengths are simulated, not only
-    those that entry and exit allow (`measure_extent`), because these can be misread. A changing
-    speed that was measured with the signal is followed as in `diagnose`. If it was not measured,
-    passes are unlike, and the length is mostly left open.
+    The damaged race is assumed to be known: call `diagnose` first. All lengths are simulated, not
+    only those that entry and exit allow (`measure_extent`), because these can be misread. A
+    changing speed that was measured with the signal is followed as in `diagnose`. If it was not
+    measured, ball passes differ, and there is usually no single answer.
 
     Parameters
     ----------
     recording
-        acceleration of the housing along y, or along x and y, which says more.
+        acceleration of the housing along y, or better along x and y.
     scene
-        bearing, load, support and shaft speed of the machine, and a defect whose centre, depth and
-        edges are taken as known; its extent is ignored. Balls are taken to be massless, because
-        the compared frequencies are far below their resonances.
+        bearing, load, support and shaft speed of the machine, and a defect with the true centre,
+        depth and edges; its extent is ignored. Balls are assumed to be massless, because the
+        compared frequencies are far below their resonances.
     support_known
         True if mass and stiffness of the support were measured, or the signal was simulated with
         the scene. Otherwise there is no length, and the status says why.
@@ -234,9 +234,7 @@ def size_defect(
     if not set(recording.directions) <= set(scene.active_dofs):
         raise checks.refuse("dofs", scene.active_dofs, f"with {', '.join(recording.directions)}")
     if not scene.bearing.rows_are_alike:
-        raise ValueError(
-            "rows are not alike, so no ball pass is like the next; allowed: rows alike"
-        )
+        raise ValueError("rows are not alike, so ball passes differ; allowed: rows that are alike")
     nominal = scene.bearing.bpfo(scene.shaft_speed)
     if len(scene.defects) > 1:
         return Sizing(SizingStatus.SEVERAL_DEFECTS)
@@ -274,7 +272,10 @@ def size_defect(
 
 
 class _Search:
-    """Mean ball passes of a scene with any extent, held in a band [Hz] against the measured one."""
+    """Search over extents: mean ball passes of a scene, compared with the measured one in a band.
+
+    `band` in Hz. `misfits` has the misfit of each extent [rad] that was simulated.
+    """
 
     def __init__(
         self,
@@ -293,13 +294,13 @@ class _Search:
         kept = np.flatnonzero((frequency >= band[0]) & (frequency <= band[1]))
         self.order, self.frequency = kept + 1, frequency[kept]
         self.measured = passes.harmonics[kept]
-        # of power 1 in each direction: the weaker one distinguishes lengths as well
+        # power 1 in each direction, because the weaker one distinguishes lengths equally well
         self.scale = 1.0 / np.maximum(np.linalg.norm(self.measured, axis=0), 1e-300)
         self.steps = max(STEPS_A_CYCLE * band[1] / self.passing, 4.0 * len(frequency))
         self.misfits: dict[float, float] = {}
 
-    def simulated(self, extent: float) -> NDArray[np.complex128]:
-        """Lines (N, d) of the mean ball pass with an extent [rad]; NaN where there is no motion."""
+    def simulate_lines(self, extent: float) -> NDArray[np.complex128]:
+        """Return the lines (N, d) of the mean ball pass with an extent [rad]; NaN if it failed."""
         spacing = self.scene.bearing.ball_spacing
         steps = math.ceil(max(self.steps, STEPS_A_CYCLE * spacing / extent))
         averaged = math.ceil(max(AVERAGED * self.passing, 4.0))
@@ -315,42 +316,43 @@ class _Search:
         return np.asarray(each.mean(axis=0)[self.order - 1])
 
     def _report(self, extent: float) -> None:
-        """Report the part of the lengths that were tried; the last ones refine the best."""
+        """Report the part of the lengths that were tried; 0.95 while the best are refined."""
         if self.progress is not None:
             part = min(len(self.misfits) * STEP / (LONGEST - SHORTEST), 0.95)
             self.progress(part, f"{math.degrees(extent):.1f}°")
 
-    def overlaid(self, extent: float) -> tuple[float, NDArray[np.complex128]]:
-        """Misfit of an extent, and its lines under the delay that fits best."""
-        lines, measured = self.simulated(extent), self.measured * self.scale**2
+    def compare(self, extent: float) -> tuple[float, NDArray[np.complex128]]:
+        """Return the misfit of an extent, and its lines under the delay that fits best."""
+        lines, measured = self.simulate_lines(extent), self.measured * self.scale**2
         sizes = float(np.linalg.norm(lines * self.scale)) * math.sqrt(measured.shape[1])
         if not sizes > 0.0:
             return math.inf, lines
-        padded = np.zeros(DELAYS // 2 + 1, dtype=complex)
-        padded[self.order] = (measured.conj() * lines).sum(axis=1)
-        likeness = np.fft.irfft(padded, DELAYS)
-        place = int(likeness.argmax())
-        delay = place + float(summit(*(likeness[(place + k) % DELAYS] for k in (-1, 0, 1))))
+        # the correlation at all delays at once is the inverse transform of conj(D_n) S_n
+        products = np.zeros(DELAYS // 2 + 1, dtype=complex)
+        products[self.order] = (measured.conj() * lines).sum(axis=1)
+        correlation = np.fft.irfft(products, DELAYS)
+        place = int(correlation.argmax())
+        delay = place + float(summit(*(correlation[(place + k) % DELAYS] for k in (-1, 0, 1))))
         lines = np.exp(2j * math.pi * delay / DELAYS * self.order)[:, None] * lines
         return 1.0 - float(np.vdot(measured, lines).real) / sizes, lines
 
     def misfit(self, extent: float) -> float:
-        """Misfit of an extent [rad], simulated once."""
+        """Return the misfit of an extent [rad], which is simulated once."""
         if extent not in self.misfits:
-            self.misfits[extent] = self.overlaid(extent)[0]
+            self.misfits[extent] = self.compare(extent)[0]
         return self.misfits[extent]
 
     def candidates(self) -> tuple[Candidate, ...]:
-        """The best extent, the next one, and those a ball spacing from the best, all refined."""
+        """Return the best extent, the next, and those a ball spacing from the best, all refined."""
         from scipy.optimize import minimize_scalar  # imported late: slow to import
 
         spacing = self.scene.bearing.ball_spacing
         ranked = sorted(self.misfits, key=self.misfit)
         first, starts = ranked[0], ranked[:1]
         for away, room in ((0.0, LONGEST), (-spacing, 2.0 * STEP), (spacing, 2.0 * STEP)):
-            others = [e for e in ranked if abs(e - first - away) <= room]
-            clear = [e for e in others if min(abs(e - s) for s in starts) > APART * spacing]
-            starts += clear[:1]
+            near = [e for e in ranked if abs(e - first - away) <= room]
+            separate = [e for e in near if min(abs(e - s) for s in starts) > APART * spacing]
+            starts += separate[:1]
         for extent in starts:
             ends = (max(extent - STEP, 0.5 * SHORTEST), extent + STEP)
             minimize_scalar(
@@ -358,8 +360,8 @@ class _Search:
             )
         tried = np.array(sorted(self.misfits))
         misfits = np.array([self.misfits[extent] for extent in tried.tolist()])
-        near = [np.flatnonzero(np.abs(tried - extent) <= STEP) for extent in starts]
-        places = sorted((int(n[misfits[n].argmin()]) for n in near), key=misfits.__getitem__)
+        groups = [np.flatnonzero(np.abs(tried - extent) <= STEP) for extent in starts]
+        places = sorted((int(n[misfits[n].argmin()]) for n in groups), key=misfits.__getitem__)
         return tuple(self._candidate(place, misfits[places[0]], tried, misfits) for place in places)
 
     def _candidate(self, place: int, least: float, tried: Array, misfits: Array) -> Candidate:
@@ -368,5 +370,5 @@ class _Search:
         run = int(np.searchsorted(begins, place, "right")) - 1
         low, high = tried[max(begins[run] - 1, 0)], tried[min(ends[run], len(tried) - 1)]
         scene, ratio = self.scene.replace(extent=extent), misfit / max(float(least), 1e-12)
-        lines, bands = self.overlaid(extent)[1], modes(scene).bands()
+        lines, bands = self.compare(extent)[1], modes(scene).bands()
         return Candidate(extent, float(low), float(high), misfit, ratio, lines, bands, scene)

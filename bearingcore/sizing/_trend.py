@@ -1,4 +1,4 @@
-"""A machine over time: what is computed of one recording, of many, in their order."""
+"""Trend of a machine: the numbers of one recording, and of many in their order."""
 
 from __future__ import annotations
 
@@ -24,23 +24,23 @@ LINES_A_TURN = 16.0
 """Resolution of the envelope spectrum in parts of the shaft speed, if the signal is so long."""
 
 LOWEST_LINE = 3.0
-"""Times the resolution from which a line is looked for."""
+"""Lowest frequency of a line that is searched, over the resolution."""
 
 SURROUNDINGS, FEWEST_AROUND = 2.0, 9
-"""Width, in shaft speeds, over which the median is a line's background, and its fewest lines."""
+"""Width over which the median is the background, in shaft frequencies; fewest lines in it."""
 
 CHANCE = 1e-3
-"""Probability that noise alone reaches the level from which a line counts."""
+"""Probability that noise alone reaches the level above which a line counts."""
 
 OF_THE_SHAFT = 0.6
-"""Lines of the finest spectrum from a multiple of the shaft speed within which a peak is a tone of
-it: a steady one shows half a line away at most."""
+"""Greatest distance of a shaft's tone from a multiple of the shaft speed, in lines of the finest
+spectrum: a steady tone shows at most half a line away."""
 
 HANN_WIDTH = 1.5
 """Noise bandwidth of Hann's window, in lines."""
 
 FIRST_BAND = 5.0
-"""Times BPFO from which the band of the envelope is looked for."""
+"""Lowest frequency at which the band of the envelope is searched, over BPFO."""
 
 HIGHEST_SHARE = 0.49
 """Share of the sample rate that a band may reach."""
@@ -62,8 +62,8 @@ class TrendPoint:
         see `indicators`.
     lines, noise : (4,) [m/s²]
         amplitude of each of `LINES` in the envelope, and the level that noise reaches there in one
-        of a thousand recordings. NaN if the recording is too short or does not hold the band, if
-        bearing or speed are unknown, or if the highest line is one of the shaft's own.
+        of a thousand recordings. NaN if the recording is too short or does not cover the band, if
+        bearing or speed are unknown, or if the highest line is a multiple of the shaft's.
     fault, probability
         see `Diagnosis`; "cannot tell" and NaN for an unknown bearing.
     extent
@@ -155,7 +155,7 @@ class Trend:
         return first if first < len(self.points) else None
 
     def table(self) -> ResultTable:
-        """A row for each recording."""
+        """Return a row for each recording."""
         points, clear = self.points, self.clear_lines
         extents = [point.extent for point in points]
         return table_of(
@@ -168,7 +168,7 @@ class Trend:
             ("crest_factor", "1", self.column("crest_factor")),
             ("kurtosis", "1", self.column("kurtosis")),
             *(
-                (f"{name}_line", "m/s²", clear[:, k], "in the envelope; NaN: none that is seen")
+                (f"{name}_line", "m/s²", clear[:, k], "in the envelope; NaN: below noise")
                 for k, name in enumerate(LINES)
             ),
             ("fault", "", [point.fault for point in points]),
@@ -208,7 +208,7 @@ def trend(
     baseline
         number of the recording with which the others are compared.
     goes_on
-        called with the trend so far and the number of recordings; False ends it there.
+        called with the trend so far and the number of recordings; False ends the work.
 
     Raises
     ------
@@ -226,7 +226,7 @@ def trend(
         checks.choice(f"direction of {recording.name}", along, recording.directions)
     last = recordings[-1]
     if band is None:
-        band = _impulsive(last, bearing, _known_speed(last.shaft_speed or shaft_speed), along)
+        band = _impulsive_band(last, bearing, _known_speed(last.shaft_speed or shaft_speed), along)
     low = checks.real_number("lower end of the band", band[0], above=0.0, unit="Hz")
     high = checks.real_number("upper end of the band", band[1], above=low, unit="Hz")
     done: tuple[TrendPoint, ...] = ()
@@ -258,18 +258,18 @@ def trend_point(
         fault, probability = answer.fault, answer.probability
         extent = measure_extent(recording, bearing, shaft_speed, diagnosis=answer)
         steady = answer.steady_recording or recording
-        turning = answer.shaft_speed or speed  # as the shaft's own lines have it
-        speed = speed or turning
-        if turning is not None:
-            lines, noise = _line_amplitudes(steady, bearing, turning, column, band)
-    seen = indicators(recording, speed)
+        exact_speed = answer.shaft_speed or speed  # by the lines of the shaft, if they show it
+        speed = speed or exact_speed
+        if exact_speed is not None:
+            lines, noise = _line_amplitudes(steady, bearing, exact_speed, column, band)
+    values = indicators(recording, speed)
     return TrendPoint(
         recording.name,
         math.nan if speed is None else speed,
-        float(seen.rms[column]),
-        float(seen.peak[column]),
-        float(seen.crest_factor[column]),
-        float(seen.kurtosis[column]),
+        float(values.rms[column]),
+        float(values.peak[column]),
+        float(values.crest_factor[column]),
+        float(values.kurtosis[column]),
         lines,
         noise,
         fault,
@@ -280,16 +280,16 @@ def trend_point(
 
 
 def _known_speed(shaft_speed: float | tuple[float, float] | None) -> float | None:
-    """A shaft speed [rad/s] that is known; None where it is rough or unknown."""
+    """Return a known shaft speed [rad/s]; None where it is rough or unknown."""
     if shaft_speed is None or isinstance(shaft_speed, tuple):
         return None
     return checks.real_number("shaft_speed", shaft_speed, above=0.0, unit="rad/s")
 
 
-def _impulsive(
+def _impulsive_band(
     recording: Recording, bearing: Bearing | None, shaft_speed: float | None, direction: str
 ) -> tuple[float, float]:
-    """The band [Hz] where the kurtogram of a recording is highest."""
+    """Return the band [Hz] where the kurtogram of a recording is highest."""
     signal = recording.acceleration[:, recording.directions.index(direction)]
     highest = HIGHEST_SHARE * recording.sample_rate
     speed = shaft_speed or 0.0
@@ -307,7 +307,7 @@ def _line_amplitudes(
     column: int,
     band: tuple[float, float],
 ) -> tuple[Array, Array]:
-    """Amplitudes (4,) of `LINES` in the envelope, and what noise reaches there [m/s²]."""
+    """Return amplitudes (4,) of `LINES` in the envelope, and the levels of noise there [m/s²]."""
     from scipy.special import gammaincinv  # imported late: see `spectrum`
 
     turn = shaft_speed / (2.0 * math.pi)
@@ -323,6 +323,7 @@ def _line_amplitudes(
     around = max(round(SURROUNDINGS * turn / step), FEWEST_AROUND) | 1
     if len(frequency) < around:
         return unknown, unknown
+    # means of so many spectra of noise have a gamma distribution, whose median is not its mean
     background = local_median(density, around) / float(gammaincinv(averages, 0.5))
     finest = envelope_spectrum(signal, recording.sample_rate, band)
     lines, noise = unknown.copy(), unknown.copy()
@@ -335,7 +336,7 @@ def _line_amplitudes(
             continue
         limit = float(gammaincinv(averages, 1.0 - CHANCE / (last - first)))
         peak = first + int(density[first:last].argmax())
-        # of a tone between two lines the peak alone shows 0.72; three lines hold 0.98 to 1
+        # the peak alone has 0.72 of the power of a tone between two lines, three lines 0.98 to 1
         near = slice(max(peak - 1, 0), peak + 2)
         whole = float((density[near] - background[near]).sum()) / HANN_WIDTH
         power = max(density[peak], whole), limit * background[first:last].max()
@@ -346,7 +347,7 @@ def _line_amplitudes(
 def _is_shaft_line(finest: Spectrum, line: float, turn: float) -> bool:
     """Return True if the highest line near one of the bearing [Hz] is a multiple of the shaft's.
 
-    Of gears, vanes and loose parts: what repeats with the shaft is no damage of the bearing.
+    Such lines come from gears, vanes and loose parts, not from damage of the bearing.
     """
     first, last = np.searchsorted(finest.frequency, line * np.array([1.0 - SLIP, 1.0 + SLIP]))
     peak = finest.frequency[first + int(finest.density[first : last + 1].argmax())]

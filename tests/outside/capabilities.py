@@ -39,10 +39,10 @@ LISTED_BY_RESULT = {
 """Functions whose numbers have rows of their own: outputs of sweeps, charts, signals."""
 
 PARTS = {
-    *("check_directions", "hann", "split", "thinned", "coefficients"),
-    *("least_passes", "lines_that_count", "third_octave_edges", "smooth_lag", "oversampled"),
+    *("check_directions", "hann", "split", "downsample", "coefficients"),
+    *("least_passes", "lines_that_count", "third_octave_edges", "smooth_lag", "oversample"),
     "resample_over_turns",
-    *("followed", "load_zone_weights", "local_median", "line_levels", "squared_envelopes"),
+    *("follow_lags", "load_zone_weights", "local_median", "line_levels", "squared_envelopes"),
     *("whiten", "density_difference", "resample_over_turns"),
 }
 """Functions of `signals` whose results are shown nowhere by themselves: they serve others there and

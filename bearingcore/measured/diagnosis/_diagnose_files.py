@@ -34,7 +34,7 @@ class FolderDiagnosis:
     answers
         a `Diagnosis` each; None for a file that cannot be read.
     sentences
-        of the answers, or why a file cannot be read.
+        of the answers, or the reason why a file cannot be read.
     """
 
     names: tuple[str, ...]
@@ -42,7 +42,7 @@ class FolderDiagnosis:
     sentences: tuple[str, ...]
 
     def __str__(self) -> str:
-        """A paragraph a file, whole."""
+        """Return a complete paragraph for each file."""
         named = zip(self.names, self.sentences, strict=True)
         lines = (
             fill(f"{name}: {words.removeprefix(f'{name}: ')}", 100, subsequent_indent="    ")
@@ -51,7 +51,7 @@ class FolderDiagnosis:
         return "\n".join(lines)
 
     def table(self) -> ResultTable:
-        """A row for each file: part, probability, shaft speed and the answer in words."""
+        """Return a row for each file: part, probability, shaft speed and the answer in words."""
         answers = self.answers
         faults = ["not read" if answer is None else answer.fault for answer in answers]
         odds = [math.nan if answer is None else answer.probability for answer in answers]
@@ -80,7 +80,7 @@ def diagnose(
     bearing: BearingLike | None = None,
     shaft_speed: float | tuple[float, float] | None = None,
     **more: Any,
-) -> Diagnosis | Any: ...  # of a folder a FolderDiagnosis, which the type of a path does not say
+) -> Diagnosis | Any: ...  # a FolderDiagnosis for a folder, whose path has the same type
 def diagnose(
     recording: Recording | str | os.PathLike[str],
     bearing: BearingLike | None = None,
@@ -113,8 +113,8 @@ def diagnose(
         matter here.
     **more
         `slip` (0.02): largest relative difference between the true passing rate of the balls and
-        that by the shaft speed. `shaft_ratio` (1): turns of the bearing's shaft for each turn of
-        the shaft whose speed is given, such as 0.657 or 23/47, behind a gear or a belt.
+        the one from the shaft speed. `shaft_ratio` (1): turns of the bearing's shaft for each turn
+        of the shaft whose speed is given, such as 0.657 or 23/47, behind a gear or a belt.
         `speed_source`, `bearing_source`: "given", "from the file" or "assumed", with more words
         after a colon.
 
@@ -149,8 +149,8 @@ def diagnose(
 def _diagnose_folder(
     folder: Path, bearing: BearingLike | None, shaft_speed: Any, choices: Any, more: Any
 ) -> FolderDiagnosis:
-    named = [path for path in sorted(folder.iterdir()) if path.name[0] != "." and path.is_file()]
-    files = [path for path in named if not DOCUMENT.search(path.name)]
+    visible = [path for path in sorted(folder.iterdir()) if path.name[0] != "." and path.is_file()]
+    files = [path for path in visible if not DOCUMENT.search(path.name)]
     if not files:
         raise checks.refuse("recording", str(folder), "a folder with records in it")
     answers: list[Diagnosis | None] = []
@@ -170,18 +170,18 @@ def _diagnose_file(
     path: Path, bearing: BearingLike | None, shaft_speed: Any, choices: Any, more: Any
 ) -> Diagnosis:
     table = table_at(path)
-    says = table.contents
-    named = says.bearing
-    if named is None and says.designation is not None:
-        with suppress(ValueError):  # a number of no bearing
-            read_designation(says.designation.value)
-            named = says.designation
-    if bearing is None and named is not None and named.taken:
-        bearing = named.value
-        more = {"bearing_source": _source(named, f"{bearing}, ")} | more
-    if shaft_speed is None and says.shaft_speed is not None and says.shaft_speed.taken:
-        shaft_speed = says.shaft_speed.value
-        more = {"speed_source": _source(says.shaft_speed)} | more
+    contents = table.contents
+    finding, speed = contents.bearing, contents.shaft_speed
+    if finding is None and contents.designation is not None:
+        with suppress(ValueError):  # the number may be that of no bearing
+            read_designation(contents.designation.value)
+            finding = contents.designation
+    if bearing is None and finding is not None and finding.taken:
+        bearing = finding.value
+        more = {"bearing_source": _source(finding, f"{bearing}, ")} | more
+    if shaft_speed is None and speed is not None and speed.taken:
+        shaft_speed = speed.value
+        more = {"speed_source": _source(speed)} | more
     recording = recording_of(table, with_guesses=True, **choices)
     return diagnose_recording(recording, bearing, shaft_speed, **more)
 

@@ -13,10 +13,7 @@ from bearingcore.measured.files._child import read_file as read_file
 from bearingcore.measured.files._contents import FileContents as FileContents
 from bearingcore.measured.files._dates import time_in as time_in
 from bearingcore.measured.files._facts import Finding as Finding
-from bearingcore.measured.files._sampling import (
-    Sampling as Sampling,
-    longest_run as longest_run,
-)
+from bearingcore.measured.files._sampling import Sampling as Sampling, longest_run as longest_run
 from bearingcore.measured.files._table import (
     Table as Table,
     files_inside as files_inside,

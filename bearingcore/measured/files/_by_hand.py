@@ -1,4 +1,4 @@
-"""A recording out of a file in one call, with facts that a person gives."""
+"""A recording from a file in one call, with facts that a person gives."""
 
 from __future__ import annotations
 
@@ -41,13 +41,13 @@ def read_recording(
         the bytes of the file.
     columns
         the signals, by number from 0 or by name; or roles "signal" (one or more), "time", "speed"
-        and "nothing", each with its columns. Roles that are left out follow the file; None under
-        "time" or "speed" means that no column has it.
+        and "nothing", each with its columns. Roles that are left out follow the file; None for
+        "time" or "speed" means that no column has this role.
     directions
         "x" or "y" of each signal; "xy" is both.
     time_unit, unit, speed_unit
-        of these columns: one of `units.TIMES`, `units.UNITS`, `units.SPEEDS`; a speed may be in
-        "pulses" too, those of a tachometer or an encoder.
+        units of these columns: one of `TIMES`, `UNITS` or `SPEEDS`; a speed may also be in
+        "pulses", those of a tachometer or an encoder.
     sample_rate
         [Hz]
     shaft_speed
@@ -92,7 +92,7 @@ def table_at(file: str | os.PathLike[str]) -> Table:
     Raises
     ------
     FieldError
-        for a file that is not there, or that `read_table` refuses.
+        for a file that does not exist, or that `read_table` refuses.
     """
     path = os.fspath(file)
     try:
@@ -104,7 +104,7 @@ def table_at(file: str | os.PathLike[str]) -> Table:
     return read_table(path if ".zip/" in path else Path(path).name, content)
 
 
-def _listed(columns: OneOrMore) -> list[int | str]:
+def _as_list(columns: OneOrMore) -> list[int | str]:
     return [columns] if isinstance(columns, int | str) else list(columns or ())
 
 
@@ -115,27 +115,27 @@ def _assign_roles(
     unit: str | None,
     speed_unit: str | None,
 ) -> Table:
-    """The table with the roles that are given."""
+    """Return the table with the given roles; a role replaces the file's guesses."""
     for role in columns:
         checks.choice("columns", role, (SIGNAL, TIME, SPEED, "nothing"))
     if columns.get("speed") is not None and speed_unit is None:
         raise checks.missing("speed_unit", "one of " + ", ".join((*SPEEDS, PULSE_TRAIN)))
     guessed = table.contents.columns
-    known_as: dict[int | str, Column] = {}
+    assigned: dict[int | str, Column] = {}
     units = {SIGNAL: unit, TIME: time_unit, SPEED: speed_unit, "nothing": None}
     for key in (name for name in units if name in columns):
         role = OTHER if key == "nothing" else key
-        if role in (TIME, SPEED):  # it is this one, or none
-            known_as |= {i: Column("", OTHER) for i, c in enumerate(guessed) if c.role == role}
-        for index in map(table.index_of, _listed(columns[key])):
+        if role in (TIME, SPEED):  # no other column keeps this role
+            assigned |= {i: Column("", OTHER) for i, c in enumerate(guessed) if c.role == role}
+        for index in map(table.index_of, _as_list(columns[key])):
             column = guessed[index]
-            of_file = column.unit if column.role == role else None
+            file_unit = column.unit if column.role == role else None
             direction = column.direction if role == SIGNAL else ""
-            known_as[index] = Column("", role, units[key] or of_file, direction)
+            assigned[index] = Column("", role, units[key] or file_unit, direction)
     if time_unit is not None and "time" not in columns:
         timed = [index for index, column in enumerate(guessed) if column.role == TIME]
-        known_as |= {index: Column("", TIME, time_unit) for index in timed[:1]}
-    return table.with_columns(known_as)
+        assigned |= {index: Column("", TIME, time_unit) for index in timed[:1]}
+    return table.with_columns(assigned)
 
 
 def recording_of(
@@ -149,43 +149,43 @@ def recording_of(
     with_guesses: bool = False,
     **more: Any,
 ) -> Recording:
-    """Return the recording of the signals in some columns, or of those that the file speaks for.
+    """Return the recording of the signals in some columns, or in those that the file chooses.
 
     Parameters
     ----------
     columns, directions, unit, sample_rate, sensitivity, more
         see `Table.recording`.
     with_guesses
-        True where the scale of the signal does not matter: units and directions that are not known
-        are made up, and likely rates are taken.
+        True if the scale of the signal does not matter: missing units and directions are assumed,
+        and likely rates are used.
 
     Raises
     ------
     FieldError
-        for a fact that is missing, naming the argument.
+        for a missing fact, naming the argument.
     """
     contents = table.contents
     choice, rate = contents.choice, contents.sample_rate
-    picked = [table.index_of(column) for column in _listed(columns)]
+    picked = [table.index_of(column) for column in _as_list(columns)]
     picked = picked or list(choice.columns.values())
     if not picked:
         options = choice.options or range(len(table.names))
         names = ", ".join(f"{index} (“{table.names[index]}”)" for index in options)
         words = f"{table.name}: {choice.question or choice.reason}"
-        if not choice.options:  # no vibration, as far as it is seen
-            raise ValueError(f"{words} If one is a signal all the same, pass columns=...: {names}.")
+        if not choice.options:  # no column looks like a vibration
+            raise ValueError(f"{words} If one is a signal nevertheless, pass columns=...: {names}.")
         raise checks.missing("columns", f"one or two signals of {names}. {words}")
     if directions is None:
         by_choice = {index: axis for axis, index in choice.columns.items()}
         known = [by_choice.get(index) or contents.columns[index].direction for index in picked]
-        made_up = len(picked) == 1 or (with_guesses and not all(known))
-        directions = ("x", "y")[-len(picked) :] if made_up else known
+        is_assumed = len(picked) == 1 or (with_guesses and not all(known))
+        directions = ("x", "y")[-len(picked) :] if is_assumed else known
     if with_guesses:
         if unit is None and not all(contents.columns[index].unit for index in picked):
             unit = contents.unit.value if contents.unit.taken else "m/s²"
         units = [unit or contents.columns[index].unit or "" for index in picked]
         if (sensitivity or contents.sensitivity) is None and "voltage" in map(kind_of, units):
-            unit = "m/s²"  # without the sensor's sensitivity, as they are
+            unit = "m/s²"  # without the sensor's sensitivity, volts are used as they are
         if sample_rate is None and rate is not None and rate.taken:
             sample_rate = rate.value
     return table.recording(

@@ -1,4 +1,4 @@
-"""Channels of a file: its columns that are signals, where and along what they were measured."""
+"""Channels of a file: the columns that are signals, with places and directions of their sensors."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from bearingcore.measured.files._units import SPEEDS, TIMES, UNITS, VOLTAGES, un
 SIGNAL, TIME, SPEED, OTHER = "signal", "time", "speed", "other"
 ROLES = (SIGNAL, TIME, SPEED, OTHER)
 
-_SAYS = {
+_DIRECTION_WORDS = {
     "x": {"x", "ax", "accx", "xacc", "hor", "horiz", "horizontal", "h", "lateral"},
     "y": {"y", "ay", "accy", "yacc", "ver", "vert", "vertical", "vertikal", "v"},
     "z": {"z", "az", "accz", "zacc", "axial"},
@@ -28,7 +28,7 @@ _PLACES = {
     "gearbox": "gearbox",
 }
 PLACES = tuple(dict.fromkeys(_PLACES.values()))
-"""Places of sensors that names of columns may say."""
+"""Places of sensors that the names of columns may state."""
 
 _PHRASES = (
     ("nondriveend", "non-drive end"),
@@ -62,7 +62,7 @@ _NOT_SIGNALS = {word for _, words in QUANTITIES.values() for word in words.split
     "power", "humidity", "flow", "load", "magnetic", "magnetometer", "quat", "quaternion",
 }  # fmt: skip
 _COUNTS = {"index", "sample", "samples", "row", "no"}
-"""Words for a number of rows; in a name's last part alone: "samples.x" is a signal."""
+"""Words for a number of rows. Only the last part of a name counts: "samples.x" is a signal."""
 
 _TIMES = {
     "t", "time", "times", "zeit", "temps", "tiempo", "tempo", "timestamp", "timestamps", "clock",
@@ -87,11 +87,11 @@ class Column:
     role
         one of `ROLES`: "signal", "time", "speed" or "other".
     unit
-        that the heading gives, one of `UNITS` for a signal; None where it gives none.
+        unit in the heading, one of `UNITS` for a signal; None if there is none.
     direction
-        "x", "y" or "z" as the heading says, else empty.
+        "x", "y" or "z" by the heading, else empty.
     place
-        of the sensor as the heading says, else empty.
+        place of the sensor by the heading, else empty.
     """
 
     name: str
@@ -105,9 +105,9 @@ class Column:
 class Choice:
     """The columns of this bearing by direction, and the reason.
 
-    Where there is a question nothing is chosen, and `options` are the indices of the columns that
-    may be the answer: one of them, or two that are directions of one place. A `note` says that the
-    only signal was chosen in spite of its name.
+    With a question nothing is chosen. `options` are then the indices of possible answers: one
+    column, or two that are directions of one place. A `note` says that the only signal was chosen
+    in spite of its name.
     """
 
     columns: Mapping[str, int]
@@ -118,37 +118,37 @@ class Choice:
 
 
 def column_of(name: str) -> Column:
-    """Meaning of a column by its heading."""
+    """Return the meaning of a column by its heading."""
     words = words_of(name) | words_of(re.sub(r"(?<=[a-z])(?=[XYZ]\b)", " ", name))
     unit = unit_in(name)
-    leaf = re.sub(r"^[\w.{}()]*\.(?=[A-Za-z])", "", name.strip())  # of a struct
+    leaf = re.sub(r"^[\w.{}()]*\.(?=[A-Za-z])", "", name.strip())  # a field of a struct
     bare = re.sub(r"(?<=[a-z])(?=[A-Z])", " ", leaf)
     first, *more = [word for word in re.split(r"[\W_]+", bare.lower()) if word] or [""]
     if unit is None and len(first) > 1 and more in ([], ["elapsed"]):
-        unit = written if (written := unit_named(first)) in TIMES else None  # "seconds_elapsed"
+        unit = named if (named := unit_named(first)) in TIMES else None  # "seconds_elapsed"
     if unit in TIMES or (unit is None and _names_a_time(first, more)):
         return Column(name, TIME, unit)
     if unit in SPEEDS:
         is_an_axis = names_a_frequency(name) and "rpm" not in name.lower()
         return Column(name, OTHER if is_an_axis else SPEED, unit)
     other = words & _NOT_SIGNALS or {first, *more} & _COUNTS or first == "mag"
-    if unit not in (None, *UNITS) or (other and unit in (None, *VOLTAGES)):  # of a sensor for it
+    if unit not in (None, *UNITS) or (other and unit in (None, *VOLTAGES)):  # another quantity
         return Column(name, OTHER, unit)
     if place_in(name) and re.search(r"[\s_.]V$", name):
-        unit, words = None, {"v"}  # the vertical one at a place, no voltage
-    direction = next((axis for axis, said in _SAYS.items() if words & said), "")
+        unit, words = None, {"v"}  # the vertical direction at a place, no voltage
+    direction = next((axis for axis, known in _DIRECTION_WORDS.items() if words & known), "")
     return Column(name, SIGNAL, unit, direction, place_in(name))
 
 
 def _names_a_time(first: str, more: Sequence[str]) -> bool:
     """Return True if a heading with this first word and these others is that of times."""
     before = first in _BEFORE_TIME and bool(more) and more[0] in _TIMES | {"stamp"}
-    of_labview = first == "x" and more in (["value"], ["values"])  # of each row
-    return first in _TIMES or before or of_labview
+    is_labview = first == "x" and more in (["value"], ["values"])
+    return first in _TIMES or before or is_labview
 
 
 def names_a_frequency(name: str) -> bool:
-    """Return True if a heading is that of frequencies, and not of those of a shaft."""
+    """Return True if a heading is that of frequencies other than those of a shaft."""
     words = words_of(name)
     return bool(words & _OF_A_FREQUENCY) and not words & _OF_A_SHAFT
 
@@ -163,7 +163,7 @@ _OF_A_SHAFT = {
 
 
 def place_in(name: str) -> str:
-    """Return the place of the sensor by a heading or a variable's name.
+    """Return the place of the sensor by a heading or the name of a variable.
 
     >>> place_in("X105_DE_time"), place_in("Bearing 3 y"), place_in("vertical")
     ('drive end', 'bearing 3', '')
@@ -172,7 +172,7 @@ def place_in(name: str) -> str:
 
 
 def places_in(name: str) -> list[str]:
-    """All places that a name says, those of a motor's ends first.
+    """Return all places in a name, those of a motor's ends first.
 
     >>> places_in("pump_DE_NDE.csv"), places_in("non drive end, bearing 1")
     (['drive end', 'non-drive end'], ['non-drive end', 'bearing 1'])
@@ -193,7 +193,7 @@ def places_in(name: str) -> list[str]:
 
 
 def words_of(heading: str) -> set[str]:
-    """The words of a heading, without units in brackets and the numbers of "temp1" or "tacho2"."""
+    """Return the words of a heading without units in brackets and numbers, as in "tacho2"."""
     bare = re.sub(r"[\[(].*?[\])]|(?<=[a-z]{4})\d{1,2}(?![a-z0-9])", " ", heading.lower())
     return {word for word in re.split(r"[^a-z0-9]+", bare) if word}
 
@@ -205,22 +205,22 @@ def choose(
     file_name: str = "",
     place: str = "",
 ) -> Choice:
-    """The columns that are likely this bearing's, or the question which they are.
+    """Return the columns that are likely this bearing's, or a question about them.
 
-    Sensors at several places are never taken for several directions.
+    Sensors at several places never count as several directions.
 
     Parameters
     ----------
     columns
-        of the table.
+        columns of the table.
     moving
-        true for each column that holds a signal at all.
+        True for each column whose numbers vary.
     why
-        the directions of the columns are known.
+        reason why the directions of the columns are known.
     file_name
         name of the file, which may name the place.
     place
-        place of the bearing, where it is known.
+        place of the bearing, if it is known.
     """
     signals = [
         index
@@ -245,14 +245,15 @@ def choose(
 def _choose_by_place(
     columns: Sequence[Column], signals: Sequence[int], why: str, file_name: str, place: str
 ) -> Choice:
-    """Signals of the one place that the file's name says, or that is known."""
+    """Choose the signals of the place that the file's name states, or that is known."""
     places = {columns[index].place for index in signals} - {""}
     named = [place for place in places_in(file_name) if place in places]
-    said = named[0] if len(named) == 1 else ""  # two of them name what is in the file
-    place = said or place
-    there = [index for index in signals if place and columns[index].place == place]
-    if there:
-        return _choose_by_direction(columns, there, f"the file's name says {said}" if said else why)
+    stated = named[0] if len(named) == 1 else ""  # two places describe all of the file
+    place = stated or place
+    at_place = [index for index in signals if place and columns[index].place == place]
+    if at_place:
+        reason = f"the file's name says {stated}" if stated else why
+        return _choose_by_direction(columns, at_place, reason)
     known = ", ".join(sorted(places))
     question = f"The file holds signals of several places ({known}). Which is at this bearing?"
     return Choice({}, "", question, tuple(signals))
@@ -266,12 +267,12 @@ def only_signal(name: str, index: int, why: str) -> Choice:
 
 
 def _choose_by_direction(columns: Sequence[Column], signals: Sequence[int], why: str) -> Choice:
-    """Signals of one place by their directions."""
+    """Choose the signals of one place by their directions."""
     named = {axis: [i for i in signals if columns[i].direction == axis] for axis in ("x", "y")}
-    if any(len(there) > 1 for there in named.values()):
+    if any(len(indices) > 1 for indices in named.values()):
         question = "The file holds several signals of one direction. Which is at this bearing?"
         return Choice({}, "", question, tuple(signals))
-    by_name = {axis: there[0] for axis, there in named.items() if there}
+    by_name = {axis: indices[0] for axis, indices in named.items() if indices}
     if by_name:
         return Choice(by_name, why)
     if len(signals) == 1:

@@ -1,8 +1,8 @@
-"""Files from outside are read in a process of their own, with limits of time and memory.
+"""Reading of foreign files in a separate process, with limits of time and memory.
 
-Libraries read every format; on damaged or crafted files they may crash, unpack without end or need
-hours. Such a process ends, and a sentence says so. It gives plain arrays and words back: a line of
-JSON and one matrix, nothing that could run here.
+Libraries read every format. On damaged or crafted files they may crash, unpack without end or need
+hours. The process is then ended, and a sentence says so. It returns only a line of JSON and one
+matrix of numbers, which cannot run any code here.
 """
 
 from __future__ import annotations
@@ -25,19 +25,19 @@ from bearingcore.common import Array, _checks as checks
 from bearingcore.measured.files._variables import MOST_NUMBERS
 
 PROCESSOR_SECONDS = 10
-"""Processor time [s] that reading a file may take."""
+"""Greatest processor time [s] for reading a file."""
 
 WALL_SECONDS = 20.0
-"""Time by the clock [s] that reading a file may take."""
+"""Greatest time by the clock [s] for reading a file."""
 
 MEMORY = 500 * 10**6
-"""Memory [bytes] that the process may take in addition to its libraries."""
+"""Greatest memory [bytes] of the process in addition to its libraries."""
 
 LONGEST_ANSWER = 2**22
-"""Longest line of words [bytes] that is read back."""
+"""Longest line of JSON [bytes] that is read back."""
 
 _TICK = 0.1
-"""Time [s] between two looks at the process."""
+"""Time [s] between two checks of the process."""
 
 _PROGRAM = Path(__file__).with_name("_child_program.py")
 _ENVIRONMENT = {
@@ -50,7 +50,7 @@ _ENVIRONMENT = {
 def read_file(
     name: str, content: bytes, give_up: Callable[[], bool] | None = None
 ) -> tuple[dict[str, Any], Array]:
-    """Words and numbers of a file: text (CSV), WAV, MATLAB or HDF5, as its first bytes show.
+    """Read words and numbers of a file: text (CSV), WAV, MATLAB or HDF5, by its first bytes.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ def read_file(
     content
         the whole file.
     give_up
-        asked every tenth of a second: True ends the process.
+        called every tenth of a second; True ends the process.
 
     Returns
     -------
@@ -92,8 +92,8 @@ def read_file(
     sender.start()
     watch.start()
     try:
-        answer = _received(child.stdout)
-        late = not watch.is_alive()
+        answer = _receive(child.stdout)
+        is_late = not watch.is_alive()
     finally:
         ended.set()
         child.kill()
@@ -102,7 +102,7 @@ def read_file(
         sender.join()
     if answer is None:
         allowed = "one without a damaged or unknown part"
-        if late or code == -getattr(signal, "SIGXCPU", 0):
+        if is_late or code == -getattr(signal, "SIGXCPU", 0):
             allowed = f"one that can be read within {PROCESSOR_SECONDS} s"
         raise checks.refuse("file", name, allowed)
     about, columns = answer
@@ -114,7 +114,7 @@ def read_file(
 def _watch(
     child: subprocess.Popen[bytes], ended: Event, give_up: Callable[[], bool] | None
 ) -> None:
-    """End the process once it is late or its answer is no longer wanted."""
+    """End the process if it is late or its answer is no longer wanted."""
     latest = time.monotonic() + WALL_SECONDS
     while not ended.wait(_TICK):
         if time.monotonic() > latest or (give_up is not None and give_up()):
@@ -128,8 +128,8 @@ def _send(pipe: IO[bytes], head: bytes, content: bytes) -> None:
         pipe.write(content)
 
 
-def _received(pipe: IO[bytes]) -> tuple[dict[str, Any], Array] | None:
-    """Output of the process, limited in size; None where it ended early."""
+def _receive(pipe: IO[bytes]) -> tuple[dict[str, Any], Array] | None:
+    """Receive the output of the process, limited in size; None if it ended early."""
     line = pipe.readline(LONGEST_ANSWER)
     if not line.endswith(b"\n"):
         return None

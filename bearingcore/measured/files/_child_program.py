@@ -1,4 +1,4 @@
-"""The process that reads one file, see `_child`. It runs as a script, without the front."""
+"""The process that reads one file, see `_child`. It runs as a script, without package fronts."""
 
 from __future__ import annotations
 
@@ -12,27 +12,27 @@ from typing import Any
 
 
 def limit(seconds: int, memory: int) -> None:
-    """Bound computing [s] and memory [bytes] of this process; it writes no files."""
+    """Limit processor time [s] and memory [bytes] of this process, and let it write no files."""
     try:
         import resource
     except ImportError:
-        return  # not on Windows: there the parent bounds the time
+        return  # Windows has no such limits: the parent limits the time
     bounds = {
-        resource.RLIMIT_AS: (2 * memory, 2 * memory),  # libraries take about as much of it again
+        resource.RLIMIT_AS: (2 * memory, 2 * memory),  # libraries map about as much again
         resource.RLIMIT_DATA: (memory, memory),
-        resource.RLIMIT_CPU: (seconds, seconds + 2),  # first the signal that says why
+        resource.RLIMIT_CPU: (seconds, seconds + 2),  # the soft limit sends the signal SIGXCPU
         resource.RLIMIT_CORE: (0, 0),
         resource.RLIMIT_FSIZE: (0, 0),
     }
     for kind, soft_and_hard in bounds.items():
-        with suppress(ValueError, OSError):  # bounded more tightly already, or not on this system
+        with suppress(ValueError, OSError):  # a tighter limit exists, or the system has none
             resource.setrlimit(kind, soft_and_hard)
 
 
 def find_core() -> None:
     """Make the packages of the core importable from this folder, although -I hides the path.
 
-    An empty root serves: Python would look for the real one on the path.
+    The root is an empty module, because Python would search the path for the real one.
     """
     root = ModuleType("bearingcore")
     root.__path__ = [str(Path(__file__).parents[2])]
@@ -40,7 +40,7 @@ def find_core() -> None:
 
 
 def main() -> None:
-    """Read the file on the standard input and write what it holds to the standard output."""
+    """Read the file on the standard input, and write its contents to the standard output."""
     name, seconds, memory = json.loads(sys.stdin.buffer.readline())
     limit(seconds, memory)
     find_core()
@@ -65,7 +65,7 @@ def main() -> None:
     for part in parts:
         out.write(part.tobytes())
     out.flush()
-    os._exit(0)  # without cleaning up, as a damaged file may have broken a library
+    os._exit(0)  # without clean-up, because a damaged file may have broken a library
 
 
 if __name__ == "__main__":

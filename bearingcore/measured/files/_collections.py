@@ -1,8 +1,8 @@
-"""Public collections of bearing signals: how their files look, and what is known of them.
+"""Public collections of bearing signals: marks of their files, and facts from their documents.
 
-Their files leave out what their documents say. What follows from a look is a guess with its
-reason: taken at once, as it is a good one, and open to change. A collection is one row or several
-of COLLECTIONS; the first row whose marks all fit is taken.
+Their files lack facts that are in their documents. A fact of a recognised collection is a good
+guess with a reason: it is used at once and can be changed. A collection is one row or several of
+COLLECTIONS; the first row whose marks all fit is taken.
 """
 
 from __future__ import annotations
@@ -17,28 +17,28 @@ from bearingcore.measured.files._facts import Finding, Named
 
 @dataclass(frozen=True)
 class Collection:
-    """A row: marks by which files are recognised, and what is known of them.
+    """A row: marks by which files are recognised, and facts about them.
 
     Attributes
     ----------
     name
-        of the collection.
+        name of the collection.
     clue
-        the clue that is named as the reason.
+        the mark that is named as the reason.
     variable
         regular expression of the whole name of a column.
     scalars
-        last parts of names of single numbers that must be there.
+        last parts of the names of required single numbers.
     width, clock
-        count of columns, and of those of them that are hours, minutes, seconds and their parts.
+        number of columns, and of those that are hours, minutes, seconds and their parts.
     unit, sample_rate, rpm
-        of acceleration; [Hz]; of the shaft.
+        unit of the acceleration, sample rate [Hz], shaft speed [turns a minute].
     bearing
         a name of the catalogue, or a designation.
     place
-        place of the sensor at the bearing, where there are several.
+        place of the sensor at the bearing, if there are several.
     directions
-        of the last columns.
+        directions of the last columns.
     """
 
     name: str
@@ -56,11 +56,11 @@ class Collection:
 
     @property
     def why(self) -> str:
-        """The reason for what follows, in a few words; empty without a collection."""
+        """The reason for facts of the collection, in a few words; empty without a collection."""
         return f"{self.clue} as in the {self.name} collection" if self.name else ""
 
     def guess(self, fact: str, words: str = "", factor: float = 1.0, unit: str = "") -> Any:
-        """Return a fact as a `Finding`, `factor` times as large and with more words; else None."""
+        """Return a fact times `factor` as a `Finding` with further words; None if it is missing."""
         value = getattr(self, fact)
         if not value:
             return None
@@ -70,7 +70,7 @@ class Collection:
 
 _CASE_WESTERN = "Case Western Reserve"
 _ALL_OF_CASE_WESTERN: Any = {"unit": "g", "clue": "variables named", "rpm": 1764.0}
-"""Speeds are from 1730 to 1797 rpm, by the load; most files say it."""
+"""Speeds are from 1730 to 1797 rpm, depending on the load; most files state them."""
 _ENDS = "_(DE|FE|BA)_time"
 _DRIVE_END: Any = {"bearing": "6205-2RS, CWRU drive end", "place": "drive end"}
 _AT_48_KHZ = (
@@ -100,17 +100,16 @@ COLLECTIONS = (
         bearing="6804RS, FEMTO-ST", directions=("x", "y"),
     ),
 )  # fmt: skip
-"""Descriptions of the files are those of the collections' own documents, and of programs that read
-them."""
+"""The facts are from the collections' own documents, and from programs that read their files."""
 
 
 def recognize(names: Sequence[str], clock: int, named: Sequence[Named]) -> Collection:
-    """The collection that a file looks like; one without a name where it looks like none.
+    """Return the collection of a file with such marks; one without a name if there is none.
 
     Parameters
     ----------
     names
-        of all columns.
+        names of all columns.
     clock
         number of first columns that are hours, minutes, seconds and their parts.
     named

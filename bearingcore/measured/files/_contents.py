@@ -41,47 +41,47 @@ from bearingcore.recordings import FEWEST_SAMPLES
 from bearingcore.units import STANDARD_GRAVITY
 
 LIKELY_IN_G, LIKELY_IN_SI = 0.299, 3.07
-"""Root mean square up to which one of g and m/s² is called likely, and from which the other: there
-it is nine times as probable. The level in the middle of 88 public records that say their unit is 3
-m/s², and the standard deviation of its logarithm 1.1."""
+"""Root mean squares below which g is likely, and above which m/s² is: nine times as probable as the
+other. In 88 public records with a stated unit the median level is 3 m/s², and the standard
+deviation of its logarithm 1.1."""
 
 TWO_RATES = 0.01
-"""Relative difference from which on a column of times and a remark give two sample rates."""
+"""Relative difference above which a column of times and a remark give two sample rates."""
 
 GRAVITY_SHARE = 0.1
-"""Relative difference to gravity up to which a mean is taken for it."""
+"""Largest relative difference from gravity of a mean that counts as gravity."""
 
 
 @dataclass(frozen=True)
 class FileColumns:
-    """Columns of numbers out of a file.
+    """Columns of numbers from a file.
 
     Attributes
     ----------
     names
-        of the columns.
+        names of the columns.
     columns : (n, c)
-        their numbers; gaps are NaN, as is the rest after the end of a shorter column.
+        their numbers; NaN for gaps, and after the end of a shorter column.
     sample_rate
-        [Hz] where the file's format has it (WAV), else None.
+        [Hz] if the file's format has it (WAV), else None.
     scalars
-        single numbers that the file names, such as a speed or a rate.
+        single numbers with a name in the file, such as a speed or a rate.
     name
-        of the file.
+        name of the file.
     texts
-        words that the file names.
+        words with a name in the file.
     remarks
         lines above the numbers.
     headed
-        whether the file itself names its columns.
+        True if the file itself names its columns.
     stamps
         columns of dates or times of day, in seconds since the first.
     full_scale_known
-        whether the numbers are in a unit; False for parts of full scale (WAV).
+        True if the numbers are in a unit; False for parts of full scale (WAV).
     notes
         sentences on parts that were not read.
     given
-        facts that a person gives of columns, by index; they go before all guesses.
+        facts on columns that a person gives, by index; they precede all guesses.
 
     Raises
     ------
@@ -123,25 +123,25 @@ class FileContents:
     choice
         the columns of this bearing by direction, or an open question.
     unit
-        of the chosen columns, or of all signals where none are chosen.
+        unit of the chosen columns, or of all signals if none are chosen.
     sample_rate
-        [Hz]; None where there is not even a guess.
+        [Hz]; None if there is not even a guess.
     shaft_speed
         [rad/s]
     load
         [N]
     sampling
-        sampling by the column of times, where there is one.
+        sampling by the column of times, if there is one.
     said
-        everything else that the file names, in its own words.
+        all other facts with a name, in the words of the file.
     frequencies
-        [Hz] of the bearing's parts that the file names, by `facts.BEARING_FREQUENCIES`.
+        frequencies [Hz] of the bearing's parts in the file, by `BEARING_FREQUENCIES`.
     sensitivity
         [V/(m/s²)] of the sensor.
     collection
-        public collection to which it seems to belong; empty for none.
+        public collection to which the file seems to belong; empty for none.
     bearing
-        that of the collection, by its name in the catalogue or its designation.
+        bearing of the collection, by its name in the catalogue or its designation.
     designation
         designation of the bearing in a line of the file; such a bearing may not exist.
     recorded
@@ -169,7 +169,7 @@ class FileContents:
 
 
 def contents_of(table: FileColumns) -> FileContents:
-    """Statements of a table about itself, and guesses at the rest."""
+    """Return the statements of a table about itself, and guesses at the rest."""
     texts = [f"{name}: {text}" for name, text in table.texts.items()]
     lines = [*table.remarks, *texts]
     named = [
@@ -191,7 +191,7 @@ def contents_of(table: FileColumns) -> FileContents:
     rate = _rate(table, sampling, named, known)
     speed = _speed(table, columns, named) or known.guess("rpm", factor=SPEEDS["rpm"], unit="rpm")
     said = {item.name: f"{number(item.value, 6)} {item.unit or ''}".rstrip() for item in named}
-    said |= {**dates.dates_said(lines), **table.texts}
+    said |= {**dates.named_dates(lines), **table.texts}
     return FileContents(
         columns,
         choice,
@@ -234,23 +234,23 @@ def _choose(
             return tuple(columns), Choice({}, "", words)
     choice = choose(columns, moving, why, table.name, known.place)
     swings = np.any(table.columns < 0.0, axis=0) & np.any(table.columns > 0.0, axis=0)
-    left = [
+    swinging = [
         index
         for index, column in enumerate(columns)
         if column.role == OTHER and column.unit is None and index != axis and swings[index]
     ]
-    if len(left) != 1 or choice.columns or choice.options or known.why:
+    if len(swinging) != 1 or choice.columns or choice.options or known.why:
         return tuple(columns), choice
-    # no name means a signal: the only column that swings about zero is it
-    columns = list(columns)
-    columns[left[0]] = dataclasses.replace(columns[left[0]], role=SIGNAL)
-    return tuple(columns), only_signal(columns[left[0]].name, left[0], why)
+    # no heading is that of a signal: take the only column that swings about zero
+    columns, index = list(columns), swinging[0]
+    columns[index] = dataclasses.replace(columns[index], role=SIGNAL)
+    return tuple(columns), only_signal(columns[index].name, index, why)
 
 
 def _columns(
     table: FileColumns, clock: int, known: Collection
 ) -> tuple[tuple[Column, ...], Sampling | None]:
-    """The columns, and the sampling by their times, if some are times."""
+    """Return the columns, and the sampling by their times, if some are times."""
     columns = [_describe(column_of(name), table.texts) for name in table.names]
     columns = _add_units(table, columns)
     axes = known.directions
@@ -280,8 +280,8 @@ def _columns(
 
 
 def _add_units(table: FileColumns, columns: list[Column]) -> list[Column]:
-    """The columns with the units of lines, one for each; a unit can show that it is no signal."""
-    units = facts.units_said(table.remarks, table.texts)
+    """Add the units in lines of the file to columns; one whose unit is another is no signal."""
+    units = facts.stated_units(table.remarks, table.texts)
     signals = [index for index, column in enumerate(columns) if column.role == SIGNAL]
     if len(units) == 1:
         signals = [index for index in signals if columns[index].unit is None]
@@ -295,7 +295,7 @@ def _add_units(table: FileColumns, columns: list[Column]) -> list[Column]:
 def _read_times(
     table: FileColumns, columns: list[Column], stamped: Sequence[int]
 ) -> tuple[tuple[Column, ...], Sampling | None]:
-    """The columns, and the sampling by those that are times by their names or because they rise."""
+    """Return the columns, and the sampling by those that are times by name or by rising evenly."""
     samplings: dict[int, Sampling] = {}
     for index, column in enumerate(columns):
         timed, values = column.role == TIME, table.columns[:, index]
@@ -312,17 +312,17 @@ def _read_times(
             if (dated or not sampling.trouble) and not names_a_frequency(column.name):
                 columns[index] = Column(column.name, TIME)
                 sampling = times_of(values)
-                reason, clear = f"{sampling.reason} “{column.name}”", True
+                reason, is_clear = f"{sampling.reason} “{column.name}”", True
                 ends = f"{number(values[0], 4)} to {number(values[-1], 4)}"
                 if not dated and ((index and not table.headed) or values[0] > np.ptp(values)):
-                    reason, clear = f"{reason}, if it is no speed: it rises from {ends}", False
-                stated = sampling.stated and clear
+                    reason, is_clear = f"{reason}, if it is no speed: it rises from {ends}", False
+                stated = sampling.stated and is_clear
                 samplings[index] = dataclasses.replace(sampling, stated=stated, reason=reason)
     return tuple(columns), _most_certain(samplings, [column.name for column in columns])
 
 
 def _most_certain(samplings: Mapping[int, Sampling], names: Sequence[str]) -> Sampling | None:
-    """Return the surest sampling of columns of times; not stated where two disagree."""
+    """Return the most certain sampling of columns of times; not stated if two disagree."""
     if not samplings:
         return None
     time = max(samplings, key=lambda i: (samplings[i].stated, samplings[i].sample_rate is not None))
@@ -330,8 +330,8 @@ def _most_certain(samplings: Mapping[int, Sampling], names: Sequence[str]) -> Sa
     for index, other in samplings.items():
         rate = other.sample_rate if other.stated else None
         if rate and first.sample_rate and abs(rate / first.sample_rate - 1.0) > TWO_RATES:
-            said = f"“{names[time]}”, where “{names[index]}” says {number(rate, 6)} Hz"
-            return dataclasses.replace(first, stated=False, reason=said)
+            reason = f"“{names[time]}”, but “{names[index]}” says {number(rate, 6)} Hz"
+            return dataclasses.replace(first, stated=False, reason=reason)
     return first
 
 
@@ -339,12 +339,12 @@ _DESCRIBES = ("name", "label", "channel", "position", "location", "place", "sens
 
 
 def _describe(column: Column, texts: Mapping[str, str]) -> Column:
-    """Add to a column the place and direction from words beside it in its struct."""
-    of = column.name.rpartition(".")[0].lower()
+    """Add to a column the unit, place and direction in words beside it in its struct."""
+    struct = column.name.rpartition(".")[0].lower()
     for name, text in texts.items():
         parent, _, end = name.lower().rpartition(".")
         unit = facts.unit_of(end, text)
-        if not parent or parent not in (of, column.name.lower()):
+        if not parent or parent not in (struct, column.name.lower()):
             continue
         if unit in TIMES and column.role == TIME:
             column = dataclasses.replace(column, unit=column.unit or unit)
@@ -352,19 +352,19 @@ def _describe(column: Column, texts: Mapping[str, str]) -> Column:
             role = SIGNAL if unit in UNITS else OTHER
             column = dataclasses.replace(column, unit=unit, role=role)
         if end in _DESCRIBES:
-            said = column_of(text)
-            place, direction = column.place or said.place, column.direction or said.direction
+            words = column_of(text)
+            place, direction = column.place or words.place, column.direction or words.direction
             column = dataclasses.replace(column, place=place, direction=direction)
     return column
 
 
 def _frequencies(table: FileColumns, columns: Sequence[Column], *, timed: bool) -> int | None:
-    """Column of the frequencies of a spectrum; beside times its name need not say so."""
+    """Return the column of the frequencies of a spectrum; with times its name does not matter."""
     for index, column in enumerate(columns):
         if index in table.given or column.role not in (OTHER, SPEED):
             continue
-        named = names_a_frequency(column.name) or column.role == SPEED
-        if (named or timed) and sampling_of(table.columns[:, index]).stated:
+        is_named = names_a_frequency(column.name) or column.role == SPEED
+        if (is_named or timed) and sampling_of(table.columns[:, index]).stated:
             return index
     return None
 
@@ -379,52 +379,52 @@ def _rate(
 ) -> Finding[float] | None:
     if table.sample_rate is not None:
         return Finding(table.sample_rate, "the head of the file")
-    said = facts.sample_rate_in([*named, *_constants(table)], table.name)
+    fact = facts.sample_rate_in([*named, *_constants(table)], table.name)
     if sampling is None or sampling.sample_rate is None:
-        return said or known.guess("sample_rate", ", which was sampled so")
+        return fact or known.guess("sample_rate", ", which has this rate")
     timed = Finding(sampling.sample_rate, sampling.reason, sampling.stated)
-    if said is None or timed.stated > said.stated:
+    if fact is None or timed.stated > fact.stated:
         return timed
-    alike = abs(timed.value / said.value - 1.0) <= TWO_RATES
-    if alike or not said.taken or timed.stated < said.stated:
-        return timed if timed.stated else said
-    reason = f"{timed.reason}, where {said.reason} is {number(said.value, 6)} Hz"
+    agree = abs(timed.value / fact.value - 1.0) <= TWO_RATES
+    if agree or not fact.taken or timed.stated < fact.stated:
+        return timed if timed.stated else fact
+    reason = f"{timed.reason}, but {fact.reason} is {number(fact.value, 6)} Hz"
     return dataclasses.replace(timed, reason=reason, stated=False)
 
 
 def _unit(
     table: FileColumns, columns: Sequence[Column], picked: Sequence[int], known: Collection
 ) -> Finding[str]:
-    named = [columns[index] for index in picked if columns[index].unit]
-    if len({column.unit for column in named}) == 1:
-        return Finding(named[0].unit or "", f"the name “{named[0].name}”")
-    said = facts.units_said(table.remarks, table.texts)
-    if len(said) == 1 and said[0] is not None and said[0] in UNITS:
-        return Finding(said[0], "a line of the file")
-    if of_collection := known.guess("unit", f", which is in {known.unit}"):
-        return of_collection
+    with_unit = [columns[index] for index in picked if columns[index].unit]
+    if len({column.unit for column in with_unit}) == 1:
+        return Finding(with_unit[0].unit or "", f"the name “{with_unit[0].name}”")
+    stated = facts.stated_units(table.remarks, table.texts)
+    if len(stated) == 1 and stated[0] is not None and stated[0] in UNITS:
+        return Finding(stated[0], "a line of the file")
+    if guess := known.guess("unit", f", which is in {known.unit}"):
+        return guess
     if not picked:
-        return Finding("m/s²", "nothing says it", False, supported=False)
+        return Finding("m/s²", "nothing states it", False, supported=False)
     if table.full_scale_known is False:
-        return Finding("m/s²", "nothing says what full scale is", False, supported=False)
+        return Finding("m/s²", "nothing states the full scale", False, supported=False)
     signals = [index for index, column in enumerate(columns) if column.role == SIGNAL]
     return _unit_by_level(table.columns[:, list(picked)], table.columns[:, signals])
 
 
 def _unit_by_level(signals: Array, all_signals: Array) -> Finding[str]:
-    """Guess the unit in which signals look most like bearings; any signal may show gravity."""
+    """Guess the unit with the most usual level, or with the mean of any signal as gravity."""
     finite = np.where(np.isfinite(signals), signals, 0.0)
     with np.errstate(over="ignore", invalid="ignore"):  # numbers of damaged files
         level = float(np.sqrt(np.mean((finite - finite.mean(axis=0)) ** 2)))
         means = np.abs(np.where(np.isfinite(all_signals), all_signals, 0.0).mean(axis=0))
     for unit in ("g", "m/s²", "mm/s²"):
         gravity = STANDARD_GRAVITY / ACCELERATIONS[unit]
-        standing = means[np.abs(means / gravity - 1.0) < GRAVITY_SHARE]
-        if standing.size and level < gravity:
-            words = f"a mean of {number(float(standing[0]))} is gravity in {unit}"
+        near_gravity = means[np.abs(means / gravity - 1.0) < GRAVITY_SHARE]
+        if near_gravity.size and level < gravity:
+            words = f"a mean of {number(float(near_gravity[0]))} is gravity in {unit}"
             return Finding(unit, words, False)
     if not 0.0 < level < np.inf:
-        return Finding("m/s²", "nothing says it", False, supported=False)
+        return Finding("m/s²", "nothing states it", False, supported=False)
     words = f"a root mean square of {number(level, 2)} is"
     if LIKELY_IN_G < level < LIKELY_IN_SI:
         return Finding("m/s²", f"{words} usual in g and in m/s²", False, supported=False)
@@ -456,7 +456,7 @@ def _speed_of_pulses(
     sampling: Sampling | None,
     a_turn: float | None,
 ) -> Finding[float] | None:
-    """The shaft speed by a tachometer's pulses `a_turn`; a guess as if each were a turn."""
+    """Return the shaft speed by a tachometer's pulses `a_turn`; if unknown, guess one a turn."""
     for index in shafts.angle_columns(columns):
         column = columns[index]
         if rate is None or column.unit in SPEEDS:
@@ -468,16 +468,16 @@ def _speed_of_pulses(
         pulses = rate.value * (len(begins) - 1) / float(begins[-1] - begins[0])
         words = f"{number(pulses, 4)} pulses a second in “{column.name}”, "
         words += f"{number(a_turn)} a turn" if a_turn else "if one is a turn"
-        known, speed = bool(a_turn), pulses / (a_turn or 1.0) * SPEEDS["Hz"]
-        return Finding(speed, words, known, known, file_unit="Hz")
+        is_known, speed = bool(a_turn), pulses / (a_turn or 1.0) * SPEEDS["Hz"]
+        return Finding(speed, words, is_known, is_known, file_unit="Hz")
     return None
 
 
 def _constants(table: FileColumns) -> list[Named]:
-    """Numbers from columns that hold the same one in every row, or a single one."""
-    made = []
+    """Return the numbers of columns with the same number in every row, or with a single one."""
+    constants = []
     for name, column in zip(table.names, table.columns.T, strict=True):
         values = column[np.isfinite(column)]
         if is_steady(values):
-            made.append(Named(name, float(values.mean()), column_of(name).unit))
-    return made
+            constants.append(Named(name, float(values.mean()), column_of(name).unit))
+    return constants

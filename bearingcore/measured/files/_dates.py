@@ -45,13 +45,13 @@ _POINTS = {
 }  # fmt: skip
 _TAG = re.compile(r"(?<![A-Za-z0-9])[A-Z]{1,4}-\d{2,4}[A-Z]?(?![A-Za-z0-9])")
 _POINT_TAG = re.compile(r"(?<![A-Za-z0-9])(?:[MPF]?N?DE|M\d|P\d)-?[HVA]?(?![A-Za-z0-9])")
-"""Usual ways to write a machine's tag and a measuring point in the name of a file."""
+"""Usual forms of a machine's tag and of a measuring point in the name of a file."""
 
 
 def time_in(text: str) -> datetime | None:
-    """Return the date in a text, with its time of day if that is there; None of several dates.
+    """Return the date in a text, with its time of day if it has one; None for several dates.
 
-    A date such as 03/04/2024, whose month nobody can tell, is none.
+    A date with an ambiguous month, such as 03/04/2024, does not count.
 
     >>> str(time_in("pump_2026-06-01.csv")), str(time_in("12-Mar-24  09:14:55"))
     ('2026-06-01 00:00:00', '2024-03-12 09:14:55')
@@ -72,7 +72,7 @@ def _date(match: re.Match[str]) -> datetime | None:
         year = int(part["last_year"])
         month, day = _month_and_day(part, is_american=bool(half))
         if part["two"].isdigit() and year < 100 and not (part["between"] == "." and part["minute"]):
-            return None  # the number of a version, or who knows
+            return None  # it may be the number of a version
         year += 2000 * (year < 100)
     try:
         return datetime(year, month, day, hour, int(part["minute"] or 0), int(part["second"] or 0))
@@ -81,29 +81,29 @@ def _date(match: re.Match[str]) -> datetime | None:
 
 
 def _month_and_day(part: Mapping[str, str], *, is_american: bool) -> tuple[int, int]:
-    """Month and day before a year; month 0 of what nobody can tell."""
+    """Return month and day before a year; month 0 if it is ambiguous."""
     day, word = int(part["one"]), part["two"]
     if not word.isdigit():
         return _MONTHS.get(word[:3].lower(), 0), day
     month = int(word)
     if part["between"] == "/" and (is_american or month > 12):
         return day, month
-    unclear = part["between"] == "/" and max(day, month) <= 12 and day != month
-    return 0 if unclear else month, day
+    is_ambiguous = part["between"] == "/" and max(day, month) <= 12 and day != month
+    return 0 if is_ambiguous else month, day
 
 
 def remove_dates(line: str) -> str:
-    """Return a line without its dates, whose numbers are no facts of the recording."""
+    """Return a line without its dates, because their numbers are no facts of the recording."""
     return _DATE.sub(lambda match: "" if _is_date(match) else match[0], line)
 
 
 def _is_date(match: re.Match[str]) -> bool:
-    """Return True if numbers are a date; its month may be one that nobody can tell."""
+    """Return True if numbers are a date; its month may be ambiguous."""
     return bool(_date(match)) or len(match["year"] or match["last_year"]) == 4
 
 
-def dates_said(lines: Iterable[str]) -> dict[str, str]:
-    """Return dates as lines give them, by what stands before each."""
+def named_dates(lines: Iterable[str]) -> dict[str, str]:
+    """Return the text of dates in lines, by the words before each."""
     dates = {}
     for line in lines:
         for match in _DATE.finditer(line):
@@ -114,13 +114,13 @@ def dates_said(lines: Iterable[str]) -> dict[str, str]:
 
 
 def recorded_in(lines: Iterable[str], file_name: str) -> Finding[datetime] | None:
-    """Find out when a file was recorded, by its remarks, else by its name.
+    """Return the time of a recording by remarks of its file, else by the file's name.
 
-    Where several remarks give dates, they are of one recording only within a day.
+    Several dates in remarks count only if they are within a day.
     """
     lines = list(lines)
-    said = {name: time_in(text) for name, text in dates_said(lines).items()}
-    dates = {date: name for name, date in said.items() if date and not _OTHER_DATE.search(name)}
+    times = {name: time_in(text) for name, text in named_dates(lines).items()}
+    dates = {date: name for name, date in times.items() if date and not _OTHER_DATE.search(name)}
     if dates and (max(dates) - min(dates)).days < 1:
         first = min(dates)
         clock = [re.match(r"\W*(?:time|zeit)\W+(\d\d?):(\d\d)(?!\d)", ln, re.I) for ln in lines]
@@ -132,9 +132,9 @@ def recorded_in(lines: Iterable[str], file_name: str) -> Finding[datetime] | Non
 
 
 def named_in(thing: str, lines: Iterable[str], file_name: str) -> Finding[str] | None:
-    """Name of a "machine" or measuring "point" by remarks, else a tag in the file's name.
+    """Return the name of a "machine" or measuring "point" by remarks, else by the file's name.
 
-    Tags are such as P-101 for a machine, MDE-H for a point.
+    The file's name may have a tag, such as P-101 for a machine or MDE-H for a point.
     """
     labels, tag = (_MACHINES, _TAG) if thing == "machine" else (_POINTS, _POINT_TAG)
     for line in lines:

@@ -1,4 +1,4 @@
-"""Facts in a file apart from its signals: sample rate, shaft speed, load.
+"""Facts of a file other than its signals: sample rate, shaft speed, load.
 
 They are in single numbers of MATLAB files, in lines above a table, and in the file's name.
 """
@@ -24,22 +24,22 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class Finding(Generic[T]):
-    """Something that a file says, or that is guessed.
+    """A fact that a file states, or a guess.
 
     Attributes
     ----------
     value
-        in SI units: Hz of a sample rate, rad/s of a shaft speed, N of a load; words of a name.
+        value in SI units (a sample rate in Hz, a shaft speed in rad/s, a load in N), or a name.
     reason
-        its place, or why it is likely, in a few words.
+        place of the fact, or the reason why it is likely, in a few words.
     stated
-        whether the file says so; else it is a guess to be confirmed.
+        True if the file states it; False for a guess to be confirmed.
     supported
-        whether anything speaks for a guess; else the value is a default.
+        True if there is evidence for a guess; False for a default.
     file_unit
-        the unit in which the file gives it, where that is known; `value` is in SI all the same.
+        the unit in the file, if it is known; `value` is in SI units nevertheless.
     strong
-        whether a guess is good enough to be taken before it is confirmed, as those that follow
+        True if a guess is good enough to be used before it is confirmed, such as one that follows
         from a known collection.
     """
 
@@ -52,20 +52,20 @@ class Finding(Generic[T]):
 
     @property
     def in_file_unit(self) -> float:
-        """The number of a shaft speed as the file gives it [file_unit]; in SI where no unit is."""
+        """The number of a shaft speed in the file's unit [file_unit]; in SI without a unit."""
         return float(self.value) / SPEEDS[self.file_unit or "rad/s"]  # type: ignore[arg-type]
 
     @property
     def taken(self) -> bool:
-        """Return True if it is taken without a question."""
+        """True if it is used without a question."""
         return self.stated or self.strong
 
 
 @dataclass(frozen=True)
 class Named:
-    """A number that a file names, with its unit where that is said.
+    """A number with a name in a file, and with its unit if the file states it.
 
-    `thousands` is whether its point may stand between thousands: "12.000".
+    `thousands` is True if its point may separate thousands: "12.000".
     """
 
     name: str
@@ -78,12 +78,12 @@ _STEADY = 0.02
 
 
 def is_steady(values: Array) -> bool:
-    """Return True if numbers, such as those of a speed, vary so little that they count as one."""
+    """Return True if numbers, such as speeds, vary so little that they count as constant."""
     return values.size > 0 and float(np.ptp(values)) <= _STEADY * float(values.mean())
 
 
 MOST_REMARKS = 100
-"""Lines above the numbers."""
+"""Greatest number of lines above the numbers."""
 
 _NUMBER = r"[-+]?\.?\d(?:[\d.,]| (?=\d{3}\b))*(?:[eE][-+]?\d+)?"
 _REMARK = re.compile(
@@ -101,7 +101,7 @@ _WITH_UNIT = re.compile(
     re.IGNORECASE,
 )
 _OF_A_RATE = re.compile(r"k?hz|[km]?s(?:a|amples)?/s(?:ec)?|k?sps|rpm|1/min", re.IGNORECASE)
-"""A number with a unit, with no mark before it or no name; the units of a rate or a speed."""
+"""A number with a unit but without a mark or name before it; the units of a rate or a speed."""
 
 _RATES = {
     "fs", "datarate", "acquisitionrate", "samplingrate", "odr", "samplespersec", "samplerate",
@@ -130,25 +130,24 @@ _LOADS = {"load", "radialload", "last", "radiallast", "force", "radialforce", "l
 _FACTS = _RATES | _INTERVALS | _FREQUENCIES | _SPEEDS | _LOADS | {"rpm"}
 
 LEAST_STATED, GREATEST_STATED = 90.0, 5e6
-"""Rates [Hz] of recordings of vibration, from the inexact 100 Hz of phones on; another
-"sample rate" is asked about."""
+"""Least and greatest sample rate [Hz] that needs no question; phones have inexact 100 Hz."""
 
 LEAST_RATE = 500.0
-"""Rate [Hz] below which a "rate" is the shaft's, not that of the samples."""
+"""Least "rate" [Hz] that is a sample rate; a lower one is that of the shaft."""
 
 FASTEST_IN_HZ = 150.0
-"""A "speed" without a unit is in Hz up to here, in rpm above."""
+"""Greatest "speed" without a unit that is in Hz; a greater one is in rpm."""
 
 
 def named_in(lines: Iterable[str]) -> list[Named]:
-    """The numbers that lines above a table name, such as "Sample rate: 25.6 kHz"."""
+    """Return the numbers with a name in lines above a table, as in "Sample rate: 25.6 kHz"."""
     kept = [line.replace('"', "").strip() for line in islice(lines, MOST_REMARKS)]
-    under = [item for pair in pairwise(kept) for item in _read_below(*pair)]
-    return [*(item for line in kept for item in _read_line(line)), *under]
+    below = [item for pair in pairwise(kept) for item in _read_below(*pair)]
+    return [*(item for line in kept for item in _read_line(line)), *below]
 
 
 def _read_below(names: str, values: str) -> Iterator[Named]:
-    """A rate or an interval under its name, in a cell of an oscilloscope's headings."""
+    """Yield a rate or an interval below its name, in a cell of an oscilloscope's headings."""
     above, below = ([c.strip(' "') for c in re.split(r"[\t;,]", line)] for line in (names, values))
     for name, text in zip(above, below, strict=False) if min(len(above), len(below)) > 1 else ():
         value = _number(text) if re.fullmatch(_NUMBER, text) else None
@@ -157,14 +156,14 @@ def _read_below(names: str, values: str) -> Iterator[Named]:
 
 
 def _read_line(line: str) -> Iterator[Named]:
-    alone = _REMARK.fullmatch(line)
+    single = _REMARK.fullmatch(line)
     cells = [cell.strip(' "') for cell in re.split("\t" if "\t" in line else "[;,]", line)]
     several = len(cells) > 2 and re.match(r"[^\W\d]", cells[0]) and _number(cells[1]) is not None
-    # of each channel the same, or the settings of an instrument beside its numbers
+    # the same number for each channel, or the setting of an instrument beside its numbers
     if several and (len({cell for cell in cells[1:] if cell}) == 1 or not cells[2]):
         named: list[tuple[Any, ...]] = [(cells[0], cells[1], None)]
     else:
-        matches = [alone] if alone else [] if several else _SEVERAL.finditer(line)
+        matches = [single] if single else [] if several else _SEVERAL.finditer(line)
         named = [match.groups() for match in matches]
     for name, text, unit in named or _read_unmarked(line):
         value = _number(text)
@@ -175,7 +174,7 @@ def _read_line(line: str) -> Iterator[Named]:
 
 
 def _read_unmarked(line: str) -> Iterator[tuple[str, str, str | None]]:
-    """Names, numbers and units of a line without a mark between them, such as "1500 rpm"."""
+    """Yield names, numbers and units of a line without marks between them, as in "1500 rpm"."""
     for part in dict.fromkeys((line, *re.split(r"[,;]\s", line))):
         match = _WITH_UNIT.fullmatch(part.strip())
         if match is not None and match[3] and _OF_A_RATE.fullmatch(match[3]):
@@ -186,19 +185,19 @@ def _read_unmarked(line: str) -> Iterator[tuple[str, str, str | None]]:
 
 
 def named_at(scalars: Mapping[str, float], texts: Mapping[str, str]) -> list[Named]:
-    """Single numbers with their units, in their names or in words that are kept beside them."""
+    """Return single numbers with their units, which are in their names or in words beside them."""
     beside = {name: texts.get(f"{name.removesuffix('.value')}.unit", "") for name in scalars}
     return [Named(n, value, unit_in(n) or unit_named(beside[n])) for n, value in scalars.items()]
 
 
 def names_a_fact(line: str) -> bool:
-    """Return True if a line says a rate, a speed or a load."""
+    """Return True if a line states a rate, a speed, a load, or anything after a mark."""
     keys = {_rate_key(item.name) for item in named_in([line])}
     return bool(keys & _FACTS) or any("rpm" in key for key in keys) or ":" in line or "=" in line
 
 
 def _number(text: str) -> float | None:
-    """A number as a person writes it, with a point or a comma."""
+    """Return a number that a person has written, with a point or a comma; None if it is none."""
     text = re.sub(r"(?<=\d) (?=\d{3}\b)", "", text.rstrip(".,"))
     if re.fullmatch(r"\d{1,3}(,\d{3})+(\.\d+)?", text):
         text = text.replace(",", "")
@@ -210,13 +209,13 @@ def _number(text: str) -> float | None:
 
 
 def _key(name: str) -> str:
-    """The last part of a name, letters and digits only: "bearing.sr" and "Sample rate" as keys."""
+    """Return letters and digits of a name's last part: "sr" of "bearing.sr", "samplerate"."""
     bare = re.sub(r"[\[(].*?[\])]|\.value$", "", name).rstrip(" _").rsplit(".", 1)[-1]
     return re.sub(r"[\W_]+", "", re.sub(r"_\d{1,2}$", "", bare)).lower()  # "Unit_1" of a channel
 
 
 def _rate_key(name: str) -> str:
-    """The key of a rate without its unit ("fs_hz") and its owner ("NI_CM_Dt")."""
+    """Return the key of a rate without its unit ("fs_hz") and its owner ("NI_CM_Dt")."""
     key = re.sub(r"(?<=\w\w)(in)?[km]?hz$", "", _key(name))
     bare, last = _OWNERS.sub("", key), re.sub(r".*[\s_]", "", name).lower()
     if last in ("odr", "fs", "dt") and not _OTHER_RATE.search(name):  # "LIS2DH12 ODR"
@@ -236,7 +235,7 @@ _OTHER_RATE = re.compile(
 
 
 def sample_rate_in(named: Sequence[Named], file_name: str) -> Finding[float] | None:
-    """Sample rate [Hz] that facts or the file's name say."""
+    """Return the sample rate [Hz] in facts or in the file's name."""
     rates: list[Finding[float]] = []
     in_hz = False
     for item in named:
@@ -248,7 +247,7 @@ def sample_rate_in(named: Sequence[Named], file_name: str) -> Finding[float] | N
             in_hz |= item.unit == "Hz" and not item.thousands
             rates.append(Finding(rate, f"“{item.name}” in the file"))
         step = value * TIMES.get(item.unit or "s", 1.0)
-        # one without "sample" may be that of recordings
+        # an interval without "sample" in its name may be that between recordings
         longest = 1.0 / LEAST_STATED if key.startswith("interval") else 1.0
         if key in _INTERVALS and step < longest:
             rates.append(Finding(1.0 / step, f"“{item.name}” in the file"))
@@ -263,7 +262,7 @@ def sample_rate_in(named: Sequence[Named], file_name: str) -> Finding[float] | N
 
 
 def _likely_rate(named: Sequence[Named], file_name: str) -> Finding[float] | None:
-    """Rate [Hz] from a number in Hz that may be that of the samples, or from the file's name."""
+    """Return a likely sample rate [Hz]: from a number in Hz, or from the file's name."""
     for item in named:
         value = item.value * (1e3 if item.unit == "kHz" else 1.0)
         likely = _key(item.name).endswith("rate") or item.unit in ("Hz", "kHz")
@@ -279,7 +278,7 @@ def _likely_rate(named: Sequence[Named], file_name: str) -> Finding[float] | Non
 
 
 SLOWEST_RPM = 10.0
-"""Below it a point before three digits of a speed may well stand between thousands."""
+"""Speed below which a point before three digits probably separates thousands: 1.480."""
 
 _OTHER_SPEED = re.compile(
     r"max|(?<![\dur])min|limit|rated|nominal|nenn|range|critical|full|set|soll|ref|target|command|cmd"
@@ -287,14 +286,14 @@ _OTHER_SPEED = re.compile(
 
 
 def names_a_limit(name: str) -> bool:
-    """Return True if a speed with this name is one that is set or allowed, not measured."""
+    """Return True if a speed with this name is set or allowed, but not measured."""
     return _OTHER_SPEED.search(_key(name)) is not None
 
 
 def shaft_speed_in(named: Sequence[Named], file_name: str) -> Finding[float] | None:
-    """Shaft speed [rad/s] that facts or the file's name say."""
-    rated = bool({_key(item.name) for item in named} & (_RATES | _INTERVALS))
-    speeds = [speed for item in named if (speed := _speed_of(item, rated)) is not None]
+    """Return the shaft speed [rad/s] in facts or in the file's name."""
+    has_rate = bool({_key(item.name) for item in named} & (_RATES | _INTERVALS))
+    speeds = [speed for item in named if (speed := _speed_of(item, has_rate)) is not None]
     match = re.search(
         r"(?:(?<![a-z0-9])|(?<=[a-z])(?=\d{3}))(\d+(?:\.\d+)?)[ _-]?rpm(?![a-z])", file_name.lower()
     )
@@ -308,8 +307,8 @@ def shaft_speed_in(named: Sequence[Named], file_name: str) -> Finding[float] | N
     return _doubt_if_others(first, filter(lambda other: other.taken, speeds))
 
 
-def _speed_of(named: Named, rated: bool) -> Finding[float] | None:
-    """Speed [rad/s] of one number; `rated` is true where another one is the rate of the samples."""
+def _speed_of(named: Named, has_rate: bool) -> Finding[float] | None:
+    """Return the speed [rad/s] by one number; `has_rate` if another one is the sample rate."""
     key, value, unit = _key(named.name), named.value, named.unit
     words = f"“{named.name}” in the file"
     if not (math.isfinite(value) and value > 0.0):
@@ -326,16 +325,16 @@ def _speed_of(named: Named, rated: bool) -> Finding[float] | None:
         return Finding(value * SPEEDS["Hz"], words, file_unit="Hz")
     if key in _SPEEDS and unit is None:
         unit = "Hz" if value <= FASTEST_IN_HZ else "rpm"
-        taken = f"{words}, taken as {unit}"
-        return Finding(value * SPEEDS[unit], taken, stated=False, file_unit=unit)
+        reason = f"{words}, taken as {unit}"
+        return Finding(value * SPEEDS[unit], reason, stated=False, file_unit=unit)
     if key == "rate" and value < LEAST_RATE and unit != "kHz":
-        # of two rates one is that of the samples, the other the shaft's
-        return Finding(value * SPEEDS["Hz"], f"{words}, taken as Hz", stated=rated)
+        # one of two rates is that of the samples, the other that of the shaft
+        return Finding(value * SPEEDS["Hz"], f"{words}, taken as Hz", stated=has_rate)
     return None
 
 
 def _doubt_if_others(first: Finding[float], others: Iterable[Finding[float]]) -> Finding[float]:
-    """The first of several findings; where the file names another number too, it is not sure."""
+    """Return the first of several findings; it is not stated if the file has another number."""
     if all(abs(other.value / first.value - 1.0) <= 0.005 for other in others):
         return first
     reason = f"{first.reason}, which names another one too"
@@ -343,7 +342,7 @@ def _doubt_if_others(first: Finding[float], others: Iterable[Finding[float]]) ->
 
 
 def pulses_a_turn_in(named: Sequence[Named]) -> float | None:
-    """Pulses of a tachometer in a turn, where the file says them."""
+    """Return the pulses of a tachometer in a turn, if the file states them."""
     return next((item.value for item in named if _PULSES.search(_key(item.name))), None)
 
 
@@ -351,7 +350,7 @@ _PULSES = re.compile(r"^ppr$|(puls\w*|teeth|marks|impulse)(per|pro|a)(rev|turn|u
 
 
 def load_in(named: Sequence[Named]) -> Finding[float] | None:
-    """Load [N], where its unit is said."""
+    """Return the load [N], if its unit is stated."""
     for item in named:
         key = _key(item.name)
         unit = item.unit or {"loadn": "N", "loadlb": "lb"}.get(key)
@@ -361,7 +360,7 @@ def load_in(named: Sequence[Named]) -> Finding[float] | None:
 
 
 def bearing_frequencies_in(named: Sequence[Named]) -> dict[str, float]:
-    """Frequencies [Hz] that are said, by the names of BEARING_FREQUENCIES."""
+    """Return the stated frequencies [Hz] of a bearing, by the names of BEARING_FREQUENCIES."""
     return {
         key: item.value
         for item in named
@@ -371,11 +370,11 @@ def bearing_frequencies_in(named: Sequence[Named]) -> dict[str, float]:
 
 
 _SENSITIVITY = re.compile(rf"(?i)({_NUMBER})\s*(mV|V)\s?(?:/|per)\s?(g\b|\(?m/?s\S{{0,3}}[2²])")
-"""Sensitivity in whatever words: nothing else has this unit."""
+"""A sensitivity, with any words around it: nothing else has this unit."""
 
 
 def sensitivity_in(lines: Iterable[str]) -> Finding[float] | None:
-    """Sensitivity [V/(m/s²)], where all lines that say one say the same."""
+    """Return the sensitivity [V/(m/s²)], if all lines with one agree."""
     values: dict[float, str] = {}
     for match in filter(None, map(_SENSITIVITY.search, lines)):
         per = STANDARD_GRAVITY if match[3].lower() == "g" else 1.0
@@ -393,9 +392,9 @@ _DESIGNATION = re.compile(
 
 
 def designation_in(lines: Iterable[str]) -> Finding[str] | None:
-    """The number of the bearing that lines such as "Bearing: SKF 6205-2RS C3" give, if it is one.
+    """Return the number of the bearing in lines such as "Bearing: SKF 6205-2RS C3".
 
-    It is as the file has it: whether there is such a bearing is not looked at.
+    It is the text in the file; such a bearing may not exist. None for several numbers.
     """
     names = {match[1]: match[0] for line in lines for match in _DESIGNATION.finditer(line)}
     (text, words), *others = [*names.items()] or [("", "")]
@@ -412,21 +411,21 @@ _OF_A_UNIT = re.compile(
 
 
 def unit_of(name: str, text: str) -> str | None:
-    """The unit that words with a name such as "unit" or "quantity" give, or None."""
+    """Return the unit in a text whose name is such as "unit" or "quantity", or None."""
     bare = text.strip(" ;,\t\"'[]()")
-    said = _OF_A_UNIT.fullmatch(_key(name))
-    return unit_named(bare) or unit_in(text.strip(' "')) if said else None
+    is_unit = _OF_A_UNIT.fullmatch(_key(name))
+    return unit_named(bare) or unit_in(text.strip(' "')) if is_unit else None
 
 
-def units_said(lines: Iterable[str], texts: Mapping[str, str]) -> list[str | None]:
-    """Units that lines such as "Unit: g" give: one for all columns, or one a channel."""
+def stated_units(lines: Iterable[str], texts: Mapping[str, str]) -> list[str | None]:
+    """Return units in lines such as "Unit: g": one for all columns, or one for each channel."""
     for line in lines:
         name, _, text = re.sub(r"[:=\t;,]", "\0", line, count=1).partition("\0")
         cells = re.split(r"[\t;,]", text.strip(" \t;,"))
-        said = [(cell.strip(), unit_of(name, cell)) for cell in takewhile(str.strip, cells)]
-        # words are the quantity of the unit that follows, numbers that of its column
-        units = [unit for cell, unit in said if unit or not re.search(r"\w", cell)]
+        pairs = [(cell.strip(), unit_of(name, cell)) for cell in takewhile(str.strip, cells)]
+        # skip words and numbers, such as a quantity or the number of a column before its unit
+        units = [unit for cell, unit in pairs if unit or not re.search(r"\w", cell)]
         if any(units):
             return units if len(set(units)) > 1 else units[:1]
-    of_all = {unit_of(name, text) for name, text in texts.items()} - {None, *TIMES, *SPEEDS}
-    return list(of_all) if len(of_all) == 1 else []
+    shared = {unit_of(name, text) for name, text in texts.items()} - {None, *TIMES, *SPEEDS}
+    return list(shared) if len(shared) == 1 else []

@@ -1,6 +1,6 @@
-"""Contents of text, WAV, MATLAB and HDF5 files. Runs in the process of `_child` alone.
+"""Contents of text, WAV, MATLAB and HDF5 files. This code runs only in the process of `_child`.
 
-Each reader gives the fields of `_contents.FileColumns`: words and single numbers, and a matrix.
+Each reader returns the fields of `_contents.FileColumns`: words and single numbers, and a matrix.
 Fields of structs are named as in MATLAB: "bearing.gs", "runs(2).gs", "parts{3}".
 """
 
@@ -32,7 +32,7 @@ from bearingcore.measured.files._variables import (
 
 
 def read(name: str, content: bytes) -> Answer:
-    """The contents of a file, by its first bytes; see `_child.read_file`.
+    """Read the contents of a file, whose first bytes show its format; see `_child.read_file`.
 
     Raises
     ------
@@ -47,21 +47,21 @@ def read(name: str, content: bytes) -> Answer:
             sheet, notes = libraries.longest_sheet(name, content)
             about, columns = read_text(name, sheet)
             return about | {"notes": notes + about.get("notes", [])}, columns
-        names, content = libraries.unzipped(name, content)
+        names, content = libraries.unzip(name, content)
         if len(names) > 1:
             return {"inside": names}, np.empty((0, 0))
         about, columns = read(names[0], content)
         return {"name": f"{name.removesuffix('/' + names[0])}/{names[0]}", **about}, columns
     if content[:2] == b"\x1f\x8b":
         name = re.sub(r"(?i)\.gz$", "", name)
-        return read(name, _gunzipped(name, content))
+        return read(name, _gunzip(name, content))
     if content[:4] in (b"RIFF", b"RIFX", b"RF64"):
         return _wav(name, content)
     variables = Variables()
-    known = _format_of(name, content)
-    if known is None:
+    file_format = _format_of(name, content)
+    if file_format is None:
         return read_text(name, content)
-    kind, walk = known
+    kind, walk = file_format
     wanted = f"a whole {kind}; this has a damaged or unknown part"
     with libraries.damage_refused(name, wanted), warnings.catch_warnings():
         warnings.simplefilter("ignore")
@@ -74,12 +74,12 @@ Walk = Callable[[bytes, "Variables"], None]
 
 
 def _format_of(name: str, content: bytes) -> tuple[str, Walk] | None:
-    """Name and reader of a format, by the first bytes; None for text with numbers.
+    """Return name and reader of a format, by the first bytes; None for text with numbers.
 
     Raises
     ------
     FieldError
-        where the format's library is not installed.
+        if the format's library is not installed.
     """
     for mark, kind, walk, package in _FORMATS:
         if re.match(mark, content, re.DOTALL):
@@ -93,8 +93,8 @@ def _format_of(name: str, content: bytes) -> tuple[str, Walk] | None:
         raise checks.refuse("file", name, "a number in each cell, not a whole signal in one")
     if content[:6] == b"Octave" or content[:19] == b"# Created by Octave":
         raise checks.refuse("file", name, "no format of Octave's own: save -v7 in its place")
-    marked = content[:6] == b"MATLAB" or content[126:128] in (b"IM", b"MI")
-    return ("MATLAB file", _walk_matlab) if marked or name.lower().endswith(".mat") else None
+    is_matlab = content[:6] == b"MATLAB" or content[126:128] in (b"IM", b"MI")
+    return ("MATLAB file", _walk_matlab) if is_matlab or name.lower().endswith(".mat") else None
 
 
 def _need(package: str, name: str, kind: str) -> None:
@@ -108,8 +108,8 @@ def _need(package: str, name: str, kind: str) -> None:
         raise checks.refuse("file", name, wanted)
 
 
-def _gunzipped(name: str, content: bytes) -> bytes:
-    """Unpack what gzip packed, as far as it may be read."""
+def _gunzip(name: str, content: bytes) -> bytes:
+    """Unpack a file of gzip, up to the largest size."""
     with libraries.damage_refused(name, "a whole file of gzip"):
         unpacked = gzip.GzipFile(fileobj=io.BytesIO(content)).read(libraries.MOST_UNPACKED + 1)
     libraries.check_unpacked(name, "a file", len(unpacked))
@@ -122,7 +122,7 @@ def _wav(name: str, content: bytes) -> Answer:
 
     try:
         with warnings.catch_warnings(record=True) as warned:
-            warnings.simplefilter("always")  # also those on chunks that SciPy does not know
+            warnings.simplefilter("always")  # to notice a file that is cut off
             rate, data = wavfile.read(io.BytesIO(content))
     except MemoryError:
         raise
@@ -187,7 +187,7 @@ def _label(element: Any, fields: Sequence[str]) -> str:
     return str(element["Name"].ravel()[0]).strip() if element["Name"].size else ""
 
 
-# -- HDF5, MATLAB's version 7.3 among them ---------------------------------------------------------
+# -- HDF5, including MATLAB's version 7.3 ----------------------------------------------------------
 
 
 def _walk_hdf5(content: bytes, variables: Variables) -> None:
@@ -200,15 +200,15 @@ def _walk_hdf5(content: bytes, variables: Variables) -> None:
 def _hdf5(item: Any, path: str, variables: Variables, depth: int) -> None:
     """Add a group (a struct) or a data set, with its words and numbers.
 
-    Only data of the file itself are added: links to other files, data kept elsewhere and views of
-    other data sets could name files of this machine.
+    Only data of the file itself are added: external links, external data and views of other data
+    sets could name files of this machine.
     """
     import h5py
 
     check_depth(depth)
     if isinstance(item, h5py.Group):
         for name in item:
-            # MATLAB keeps in #refs# what cells point at
+            # MATLAB keeps the contents of cells in #refs#
             is_inside = isinstance(item.get(name, getlink=True), h5py.HardLink)
             if is_inside and not (depth == 0 and name.startswith("#")):
                 _hdf5(item[name], f"{path}.{name}" if path else name, variables, depth + 1)
@@ -227,17 +227,17 @@ def _hdf5(item: Any, path: str, variables: Variables, depth: int) -> None:
     elif item.shape is not None and "MATLAB_empty" not in item.attrs:
         variables.add(path, _matlab_values(item))
     for name, value in item.attrs.items():
-        word = np.size(value) == 1 or np.asarray(value).dtype.kind in "OSU"
-        if word and not name.startswith(_OF_THE_FORMAT):
+        is_fact = np.size(value) == 1 or np.asarray(value).dtype.kind in "OSU"
+        if is_fact and not name.startswith(_OF_THE_FORMAT):
             variables.add(f"{path}.{name}" if path else name, np.asarray(value))
 
 
 _OF_THE_FORMAT = ("MATLAB_", "H5PATH", "CLASS", "DIMENSION")
-"""Attributes that say how a thing is stored."""
+"""Beginnings of attributes that describe the storage."""
 
 
 def _matlab_values(data: Any) -> NDArray[Any]:
-    """The values of a data set; MATLAB keeps letters and truth values as numbers."""
+    """Return the values of a data set; MATLAB stores letters and truth values as numbers."""
     kind = data.attrs.get("MATLAB_class", b"")
     values = np.asarray(data[()])
     if kind == b"char" and values.dtype.kind in "iu":

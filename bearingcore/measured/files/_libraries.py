@@ -1,6 +1,6 @@
 """Formats that other libraries read: UFF, TDMS, Parquet, Excel, NumPy's own; a zip of one file.
 
-It runs only in the process of `_child`. The libraries come with the extra `files`.
+This code runs only in the process of `_child`. The libraries come with the extra `files`.
 """
 
 from __future__ import annotations
@@ -26,16 +26,16 @@ MOST_UNPACKED = 2**28
 """Size [bytes] of the largest file in a zip."""
 
 MOST_TOGETHER = 2**30
-"""Size [bytes] of all files in a zip that are to be read."""
+"""Greatest size [bytes] of all files in a zip that are to be read."""
 
 MOST_INSIDE = 1000
-"""Files in a zip that are named."""
+"""Greatest number of files in a zip that are named."""
 
 DOCUMENT = re.compile(
     r"(?i)(^|/)(readme|licen[cs]e)(\.(txt|rst))?$"
     r"|\.(md|rst|pdf|docx?|pptx?|html?|py|ipynb|png|jpe?g|svg)$"
 )
-"""Documents and pictures that come with signals in a zip or a folder."""
+"""Names of documents and pictures beside signals in a zip or a folder."""
 
 MOST_FACTS = 100
 """Most rows of a sheet, or of a data frame with signals in its cells, that describe signals."""
@@ -52,7 +52,7 @@ _FREQUENCY = 18
 
 @contextmanager
 def damage_refused(name: str, wanted: str) -> Iterator[None]:
-    """Refuse a damaged file: it raises almost anything in the library that reads it."""
+    """Refuse a damaged file, for which a library may raise almost any exception."""
     try:
         yield
     except (FieldError, MemoryError, ImportError):
@@ -61,8 +61,8 @@ def damage_refused(name: str, wanted: str) -> Iterator[None]:
         raise checks.refuse("file", name, wanted) from None
 
 
-def unzipped(name: str, content: bytes) -> tuple[list[str], bytes]:
-    """The names of the files in a zip, and the content of the one that is to be read.
+def unzip(name: str, content: bytes) -> tuple[list[str], bytes]:
+    """Return the names of the files in a zip, and the content of the one that is to be read.
 
     That file is the only one, or the one at the end of `name`. For several files without such a
     name the content is empty.
@@ -86,9 +86,9 @@ def unzipped(name: str, content: bytes) -> tuple[list[str], bytes]:
 
 
 def _readable_files(name: str, packed: list[zipfile.ZipInfo]) -> list[zipfile.ZipInfo]:
-    """The file in a zip that `name` ends with, else all that may hold a table.
+    """Return the file in a zip that `name` ends with, else all that may hold a table.
 
-    FieldError where there is none, or where they are too large.
+    FieldError if there is none, or if they are too large.
     """
     files = [file for file in packed if not _NO_FILE.search(file.filename)]
     if any(file.filename == "[Content_Types].xml" for file in files):
@@ -103,13 +103,13 @@ def _readable_files(name: str, packed: list[zipfile.ZipInfo]) -> list[zipfile.Zi
 
 
 def check_unpacked(name: str, kind: str, size: int, most: int = MOST_UNPACKED) -> None:
-    """Refuse what is too large [bytes] once it is unpacked: a small file may hold terabytes."""
+    """Refuse a file that is too large [bytes] when unpacked: a small zip may hold terabytes."""
     if size > most:
         raise checks.refuse("file", name, f"{kind} of at most {most >> 20} MB unpacked")
 
 
 def is_npz(content: bytes) -> bool:
-    """Return True if a zip is of NumPy's arrays."""
+    """Return True if a zip holds NumPy's arrays."""
     names = names_in(content)
     return bool(names) and all(name.endswith(".npy") for name in names)
 
@@ -119,12 +119,12 @@ def names_in(content: bytes) -> list[str]:
     try:
         with zipfile.ZipFile(io.BytesIO(content)) as packed:
             return packed.namelist()
-    except Exception:  # a damaged zip raises almost anything in there
+    except Exception:  # a damaged zip may raise almost any exception
         return []
 
 
 def longest_sheet(name: str, content: bytes) -> tuple[bytes, list[str]]:
-    """The sheet with the most cells as CSV under the facts of the others, and which one it is."""
+    """Return the sheet with the most cells as CSV, below facts of the others; and a note on it."""
     import pandas as pd
 
     with damage_refused(name, "a whole Excel file; save its sheet as CSV"):
@@ -133,14 +133,14 @@ def longest_sheet(name: str, content: bytes) -> tuple[bytes, list[str]]:
         sheets = pd.read_excel(io.BytesIO(content), sheet_name=None, header=None, engine="openpyxl")
     longest = max(sheets, key=lambda name: int(sheets[name].count().sum()))
     table = sheets[longest].dropna(how="all").dropna(how="all", axis=1)
-    notes = [f"Read is its longest sheet, “{longest}”."] if len(sheets) > 1 else []
+    notes = [f"Its longest sheet, “{longest}”, is read."] if len(sheets) > 1 else []
     facts = [line for name in sheets if name != longest for line in _facts_in(sheets[name])]
     head = "".join(f"# {line}\n" for line in facts[:MOST_FACTS])
     return (head + table.to_csv(index=False, header=False)).encode(), notes
 
 
 def _facts_in(sheet: Any) -> list[str]:
-    """Names with their values on a short sheet, side by side or one row above the other."""
+    """Return names with their values on a short sheet, in two columns or in two rows."""
     if len(sheet) > MOST_FACTS:
         return []
     sheet = sheet.dropna(how="all")
@@ -151,17 +151,17 @@ def _facts_in(sheet: Any) -> list[str]:
 
 
 def arrays(content: bytes, variables: Variables) -> None:
-    """The array of NumPy's `save`, or all arrays of its `savez`."""
+    """Add the array of NumPy's `save`, or all arrays of its `savez`."""
     loaded = np.load(io.BytesIO(content), allow_pickle=False)
     if isinstance(loaded, np.ndarray):
         return variables.add("" if loaded.dtype.names else "array", loaded)
     for name in loaded.files:
-        with suppress(ValueError):  # of Python's own objects, which are not unpacked
+        with suppress(ValueError):  # raised for pickled objects, which are not unpacked
             variables.add(name, loaded[name])
 
 
 def data_frame(content: bytes, variables: Variables) -> None:
-    """Columns of numbers, dates and durations of a data frame, and signals in its cells."""
+    """Add columns of numbers, dates and durations of a data frame, and signals in its cells."""
     import pandas as pd
 
     frame = pd.read_parquet(io.BytesIO(content), engine="pyarrow", use_threads=False)
@@ -172,23 +172,23 @@ def data_frame(content: bytes, variables: Variables) -> None:
         first = values.iloc[0] if len(values) else None
         if isinstance(first, list | np.ndarray):
             for index, cell in enumerate(values):
-                of = f"{name}({index + 1})" if len(values) > 1 else str(name)
-                variables.add(of, np.asarray(cell, dtype=float))
+                path = f"{name}({index + 1})" if len(values) > 1 else str(name)
+                variables.add(path, np.asarray(cell, dtype=float))
         elif isinstance(first, str) and len(values) <= MOST_FACTS:
             variables.add(str(name), np.unique(values.to_numpy(dtype=str)))
         elif isinstance(first, str):
             numbers = frame.select_dtypes("number").to_numpy(dtype=float)
             refuse_mixed_rows(str(name), values.to_numpy(dtype=str), numbers.T)
-        dated = values.dtype.kind in "Mm"
-        if dated or values.dtype.kind in "iuf":
+        is_time = values.dtype.kind in "Mm"
+        if is_time or values.dtype.kind in "iuf":
             column = values.to_numpy().astype(
-                values.dtype.str.replace("tz", "") if dated else float
+                values.dtype.str.replace("tz", "") if is_time else float
             )
-            variables.add(f"{name} [s]" if dated else str(name), column)
+            variables.add(f"{name} [s]" if is_time else str(name), column)
 
 
 def tdms(content: bytes, variables: Variables) -> None:
-    """Channels of all groups, and what the file says of each."""
+    """Add the channels of all groups, and the properties of each."""
     from nptdms import TdmsFile
 
     with TdmsFile.read(io.BytesIO(content)) as file:
@@ -204,10 +204,10 @@ def tdms(content: bytes, variables: Variables) -> None:
 
 
 def uff(content: bytes, variables: Variables) -> None:
-    """Signals over time, data set 58."""
+    """Add signals over time, data set 58."""
     import pyuff
 
-    # it takes names of files alone, and this process writes none
+    # pyuff only takes names of files, and this process writes none
     with patch.object(pyuff.pyuff, "open", lambda *_: io.BytesIO(content), create=True):
         sets = pyuff.UFF(os.devnull).read_sets()
     sets = [part for part in (sets if isinstance(sets, list) else [sets]) if part.get("type") == 58]
@@ -218,9 +218,9 @@ def uff(content: bytes, variables: Variables) -> None:
     sets = [record for record in sets if record["func_type"] in _TIME_RESPONSE]
     points = {record.get("rsp_node") for record in sets}
     for index, signal in enumerate(sets):
-        said = [_word(signal, "id1"), _AXES.get(abs(int(signal.get("rsp_dir", 0))), "")]
-        said += [f"point {signal['rsp_node']}"] if len(points) > 1 else []
-        path = " ".join(filter(None, said))
+        parts = [_word(signal, "id1"), _AXES.get(abs(int(signal.get("rsp_dir", 0))), "")]
+        parts += [f"point {signal['rsp_node']}"] if len(points) > 1 else []
+        path = " ".join(filter(None, parts))
         if not path or path in variables.numbers:
             path = f"{path} signal {index + 1}".strip()
         variables.add(path, np.asarray(signal["data"]))

@@ -1,7 +1,7 @@
 """Recognition of tables that hold no vibration over time, and sentences that ask for one.
 
-Tables of spectra, envelopes, currents and displacements look like tables of signals. A diagnosis
-that took one for the acceleration of a housing would be a guess.
+Tables of spectra, envelopes, currents and displacements look like tables of signals. A diagnosis of
+them as the acceleration of a housing would be a guess.
 """
 
 from __future__ import annotations
@@ -23,20 +23,20 @@ _OFF = re.compile(r"(?i)\b(off|none|no|false|disabled|0|aus)\W*$")
 
 BRING = "bring the acceleration of the bearing's housing over time"
 ENVELOPE = (
-    f"{{}} an envelope already: {BRING} (the waveform before demodulation), or look for "
+    f"{{}} an envelope: {BRING} (the waveform before demodulation), or look for "
     "the lines of the bearing's parts in the spectrum of this envelope."
 )
 SPECTRUM = f"{{}} a spectrum{{}}, not a signal over time: export the waveform, or {BRING}."
 
 NEAR_ZERO, LOPSIDED = 0.5, 0.3
-"""Limits for numbers of one sign: below both they are no vibration about a mean. The first is for
-the least size in medians, the second for the median's place between least and greatest size."""
+"""Limits for numbers of one sign, which are no vibration about a mean if they are below both. The
+first is for the least size over the median, the second for the median between both extremes."""
 
 
 def is_lopsided(values: Array) -> bool:
-    """Return True if numbers never change their sign and crowd near zero.
+    """Return True if numbers never change their sign and are mostly near zero.
 
-    Spectra, envelopes and trends do. A vibration swings about its mean, even with an offset.
+    So are spectra, envelopes and trends. A vibration swings about its mean, even with an offset.
     """
     finite = values[np.isfinite(values)]
     if finite.size < FEWEST_SAMPLES or finite.min() < 0.0 < finite.max():
@@ -75,13 +75,13 @@ def kind_in_words(
     Parameters
     ----------
     columns
-        of the table; lopsided ones are not marked as signals.
+        columns of the table; lopsided ones are not marked as signals.
     values : (n, c)
         their numbers.
     lines
         remarks and texts of the file.
     file_name
-        is considered only if no column is a signal.
+        name of the file; it counts only if no column is a signal.
     frequencies
         name of a column that rises like the axis of a spectrum; empty if there is none or the table
         has times.
@@ -89,30 +89,30 @@ def kind_in_words(
     signals, others = (
         [column.name for column in columns if column.role == role] for role in (SIGNAL, OTHER)
     )
-    said = [line for line in lines if not _OFF.search(line)]
-    if signals:  # a line on another column says nothing of the signals
-        said = [line for line in said if not any(name in line for name in others)]
+    remarks = [line for line in lines if not _OFF.search(line)]
+    if signals:  # without lines about another column
+        remarks = [line for line in remarks if not any(name in line for name in others)]
     else:
-        said.append(file_name)
+        remarks.append(file_name)
     named = list(filter(_ENVELOPE.search, signals or others))
-    enveloped = [f"“{name}” is" for name in named if len(named) >= len(signals)]
-    enveloped += [f"“{line[:60]}”: this is" for line in filter(_ENVELOPE.search, said)]
+    envelopes = [f"“{name}” is" for name in named if len(named) >= len(signals)]
+    envelopes += [f"“{line[:60]}”: this is" for line in filter(_ENVELOPE.search, remarks)]
     if frequencies:
-        axis = f"“{frequencies}” rises as the axis of a spectrum does: this is"
-        return SPECTRUM.format(axis, " of an envelope" if enveloped else "")
-    if enveloped:
-        return ENVELOPE.format(enveloped[0])
+        axis = f"“{frequencies}” rises like the axis of a spectrum: this is"
+        return SPECTRUM.format(axis, " of an envelope" if envelopes else "")
+    if envelopes:
+        return ENVELOPE.format(envelopes[0])
     if signals:
         return ""
-    for line in filter(_SPECTRUM.search, said):
+    for line in filter(_SPECTRUM.search, remarks):
         return SPECTRUM.format(f"“{line[:60]}”: this is", "")
-    left = [index for index, column in enumerate(columns) if column.role == OTHER]
-    for column in (columns[index] for index in left):
+    other_columns = [index for index, column in enumerate(columns) if column.role == OTHER]
+    for column in (columns[index] for index in other_columns):
         for quantity, (units, names) in QUANTITIES.items():
-            of_name = column.unit is None and words_of(column.name) & {*names.split()}
-            if of_name or column.unit in units.split():
+            by_name = column.unit is None and words_of(column.name) & {*names.split()}
+            if by_name or column.unit in units.split():
                 return f"“{column.name}” is {quantity}, not a vibration: {BRING}."
-    for index in left:
+    for index in other_columns:
         if is_lopsided(values[:, index]):
             words = "never changes its sign, like a spectrum, an envelope or a trend"
             return f"“{columns[index].name}” {words}: {BRING}."

@@ -1,6 +1,6 @@
-"""Sample rate from a time column, and its faults.
+"""Sample rate from a time column, and faults of the column.
 
-Printed times are rounded, clocks jump, loggers leave rows out. A rate that is still known is
+Printed times are rounded, clocks jump, loggers leave rows out. If a rate can still be known, it is
 proposed; rows after a jump are not joined to those before it.
 """
 
@@ -20,21 +20,21 @@ from bearingcore.measured.files._units import TIMES
 from bearingcore.recordings import FEWEST_SAMPLES
 
 UNEVEN = 0.5
-"""Greatest deviation of times from even steps, in steps: printed ones are rounded, but do not
+"""Greatest deviation of times from even steps, in steps: printed times are rounded, but do not
 wander."""
 
 SHORTEST_PART = 0.1
-"""Share of the longest part without a jump from which on a part is a recording by itself."""
+"""Least length of a part that is a recording by itself, over the longest part without a jump."""
 
 JUMP = 1.5
-"""Steps longer than this many usual ones leave samples out."""
+"""Longest step without missing samples, over the usual step."""
 
 PARTS, DRIFT = 10, 5e-3
-"""Parts of a recording, and how much their mean rates may differ relatively where a clock drifts
-or is read a little early and late: that is less than bearings slip."""
+"""Number of parts of a recording, and the largest relative difference of their mean rates if a
+clock drifts or is read slightly early and late; bearings slip by more."""
 
 SHARED = 0.2
-"""Share of rows with the time of the row before, from which on times are rounded to over a step."""
+"""Least share of rows with the time of the row before if times are rounded to more than a step."""
 
 _CUSTOMARY = (
     *(base * 10.0**power for base in (1.0, 2.0, 2.5, 4.0, 5.0, 8.0) for power in range(1, 6)),
@@ -42,7 +42,7 @@ _CUSTOMARY = (
     *(11_025.0 * factor for factor in (1, 2, 4, 8)),
     12e3, 24e3, 48e3, 96e3, 192e3, 384e3, 97_656.25, 48_828.125, 50e3, 65_536.0,
 )  # fmt: skip
-"""Rates [Hz] that recorders have."""
+"""Usual sample rates [Hz] of recorders."""
 
 
 @dataclass(frozen=True)
@@ -52,17 +52,17 @@ class Sampling:
     Attributes
     ----------
     sample_rate
-        [Hz], None where there is none.
+        [Hz]; None if there is none.
     stated
-        whether the times say so themselves; else it is a proposal.
+        True if the times themselves give the rate; False for a proposal.
     first, last
-        the rows (last excluded) of the longest part without a jump.
+        rows (last excluded) of the longest part without a jump.
     trouble
-        a sentence on what is wrong with the times; empty where nothing is.
+        a sentence on a fault of the times; empty without one.
     reason
         the origin of the rate, in a few words.
     parts
-        rows (last excluded) of each long part without a jump, where there are several.
+        rows (last excluded) of each long part without a jump, if there are several.
     """
 
     sample_rate: float | None
@@ -75,21 +75,21 @@ class Sampling:
 
 
 SLOWEST = 2.0
-"""[Hz] below which rows are those of a trend."""
+"""Least rate [Hz] of a signal; slower rows are those of a trend."""
 
 _SINCE_1970 = 1e9, 2.6e9
-"""Seconds as computers count them, from 2001 to 2052."""
+"""Seconds since 1970, as computers count them: from 2001 to 2052."""
 
 _SINCE_1900 = 3e4
-"""Days as sheets count them, to 1982."""
+"""Days since 1900, as spreadsheets count them: 1982."""
 
 
 def times_of(time: Array, unit: str | None = None, *, sure: bool = False) -> Sampling:
-    """Sample rate and faults of a column of times whose unit may not be known.
+    """Return sample rate and faults of a column of times whose unit may not be known.
 
-    Dates that count from 1970 say their unit by their size. A rate that no recorder of vibration
-    has is a proposal, where no unit is given in the one that would make it a likely one; there is
-    none where the unit is `sure`.
+    The size of dates since 1970 shows their unit. A rate that no recorder of vibration has is a
+    proposal; without a unit, it is in the unit that makes it likely. If the unit is `sure`, there
+    is no rate.
     """
     finite = time[np.isfinite(time)]
     first = float(finite[0]) if finite.size else 0.0
@@ -110,8 +110,8 @@ def times_of(time: Array, unit: str | None = None, *, sure: bool = False) -> Sam
             f"A row each {with_prefix(1.0 / rate, 's', 2)} is no signal of vibration: a trend?"
         )
         return dataclasses.replace(sampling, sample_rate=None, stated=False, trouble=trouble)
-    why = f", if it is in {likely};" if likely else "; no recording of vibration is so:"
-    reason = f"{sampling.reason}{why} in {in_unit} it would be {number(rate, 6)} Hz"
+    doubt = f", if it is in {likely};" if likely else "; no recorder of vibration has such a rate:"
+    reason = f"{sampling.reason}{doubt} in {in_unit} it would be {number(rate, 6)} Hz"
     rate = rates[likely] if likely else rate
     return dataclasses.replace(sampling, sample_rate=rate, stated=False, reason=reason)
 
@@ -120,7 +120,7 @@ _PARTS = ("s", "ms", "µs", "ns", "d")
 
 
 def since_1970(time: Array) -> str | None:
-    """The unit in which numbers count from 1970, None where they do not."""
+    """Return the unit in which numbers count from 1970; None if they do not."""
     finite = time[np.isfinite(time)]
     least, most = (finite.min(), finite.max()) if finite.size else (0.0, 0.0)
     low, high = _SINCE_1970
@@ -130,7 +130,7 @@ def since_1970(time: Array) -> str | None:
 
 
 def longest_run(good: NDArray[np.bool_]) -> tuple[int, int]:
-    """First and last (excluded) of the longest stretch that is true all along."""
+    """Return first and last (excluded) of the longest stretch that is True everywhere."""
     starts, ends = runs(good)
     if not starts.size:
         return 0, 0
@@ -139,17 +139,17 @@ def longest_run(good: NDArray[np.bool_]) -> tuple[int, int]:
 
 
 MOST_SINGLE = 0.01
-"""Share of all rows that may be bridged."""
+"""Greatest share of rows that are bridged."""
 
 
 def single_gaps(whole: NDArray[np.bool_]) -> NDArray[np.intp]:
-    """Rows that are missing between two that are there, unless they are many."""
+    """Return single missing rows between two complete ones, unless they are many."""
     single = np.flatnonzero(~whole[1:-1] & whole[:-2] & whole[2:]) + 1
     return single if single.size <= MOST_SINGLE * whole.size else single[:0]
 
 
 def sampling_of(time: Array, unit: float = 1.0) -> Sampling:
-    """Sample rate and faults of a column of times in `unit` [s]."""
+    """Return sample rate and faults of a column of times in `unit` [s]."""
     n = len(time)
     if not np.isfinite(time).all():
         first, last = longest_run(np.isfinite(time))
@@ -166,21 +166,21 @@ def sampling_of(time: Array, unit: float = 1.0) -> Sampling:
     with np.errstate(over="ignore"):
         steps = np.diff(time)
     if not np.isfinite(steps).all():
-        return Sampling(None, False, 0, n, "The time column is out of all bounds.")
+        return Sampling(None, False, 0, n, "The times are too large.")
     if n < 3 or not (steps > 0.0).any():
         return Sampling(None, False, 0, n, "The time column does not rise.")
     return _sample_even(time, unit) or _sample_jumps(time, steps, unit)
 
 
 EXACT = 1e-6
-"""Relative error that counts as none: no recorder's clock is this exact."""
+"""Relative error that does not count: no recorder's clock is this exact."""
 
 
 def _customary(rate: float, error: float, unit: float, n: int) -> float:
-    """The customary rate [Hz] within the error that rounding makes, else the rate itself.
+    """Return the customary rate [Hz] within the error of rounding, else the rate itself.
 
-    Times that are printed exactly stay as they are, but for what their last digits may leave of a
-    whole number: clocks may well be off.
+    Exactly printed times are only rounded to a whole rate within their last digits, because clocks
+    may be inexact.
     """
     rate, error = rate / unit, error / unit
     if error * n <= 0.024 * rate:  # rounding moves no time by as much as a fiftieth of a step
@@ -191,14 +191,14 @@ def _customary(rate: float, error: float, unit: float, n: int) -> float:
 
 
 def _sample_even(time: Array, unit: float) -> Sampling | None:
-    """Times in even steps, or rounded to a grain of more than a step; None for any others."""
+    """Return the sampling of even times, or of times rounded to more than a step; else None."""
     n, span = len(time), float(time[-1] - time[0])
     if span <= 0.0:
         return None
     step = span / (n - 1)
     stray = float(np.abs(time - np.linspace(time[0], time[-1], n)).max())
     if stray <= UNEVEN * step:
-        # the ends are rounded by hardly more than what strays in between
+        # the rounding of both ends is hardly larger than the deviations in between
         return Sampling(_customary(1.0 / step, 2.4 * stray / (step * span), unit, n), True, 0, n)
     steps = np.diff(time)
     if steps.min() < 0.0 or np.mean(steps == 0.0) < SHARED:
@@ -209,17 +209,17 @@ def _sample_even(time: Array, unit: float) -> Sampling | None:
     error = 2.0 * grain / (step * span)
     rate = _customary(1.0 / step, error, unit, n)
     shared = round(grain / step)
-    so = f"about {shared} rows share one" if shared > 1 else "some rows share one"
+    rows = f"about {shared} rows share one" if shared > 1 else "some rows share one"
     trouble = (
-        f"The times are rounded to {with_prefix(grain * unit, 's', 2)}, so that {so}: over all "
-        f"rows it is {number(rate, 6)} Hz, give or take {number(error / unit, 2)} Hz, and shorter "
-        "gaps than that would not show."
+        f"The times are rounded to {with_prefix(grain * unit, 's', 2)}, so that {rows}. Over all "
+        f"rows the rate is {number(rate, 6)} Hz within {number(error / unit, 2)} Hz. Gaps shorter "
+        "than the rounding would not show."
     )
     return Sampling(rate, False, 0, n, trouble, "the rounded time column")
 
 
 def _sample_jumps(time: Array, steps: Array, unit: float) -> Sampling:
-    """Times that jump: the longest part between two jumps."""
+    """Return the sampling of times that jump, from the longest part between two jumps."""
     n = len(time)
     usual = float(np.median(steps[steps > 0.0]))
     shared = np.mean(steps == 0.0) >= SHARED
@@ -229,18 +229,19 @@ def _sample_jumps(time: Array, steps: Array, unit: float) -> Sampling:
     first, last = int(edges[longest]), int(edges[longest + 1])
     if jumps.size and last - first >= FEWEST_SAMPLES:
         parts = long_parts(pairwise(edges.tolist()))
-        said, used = _jumps(steps, jumps, usual, shared), f"rows {first + 1} to {last} of {n}"
+        words, used = _jump_words(steps, jumps, usual, shared), f"rows {first + 1} to {last} of {n}"
         if parts:
-            said = (
+            words = (
                 f"The file holds {len(parts)} recordings, or parts of one; number "
                 f"{parts.index((first, last)) + 1}, {used}, is read unless another is chosen. "
-                f"{said}."
+                f"{words}."
             )
         else:
-            said += f". Only the longest part without a jump is used: {used}."
+            words += f". Only the longest part without a jump is used: {used}."
         if (part := _sample_even(time[first:last], unit)) is not None:
-            said = f"{said} {part.trouble}".rstrip()
-            return dataclasses.replace(part, first=first, last=last, trouble=said, parts=parts)
+            words = f"{words} {part.trouble}".rstrip()
+            return dataclasses.replace(part, first=first, last=last, trouble=words, parts=parts)
+    # a clock that drifts has nearly equal mean rates in all parts; other times give no rate
     low, high = (float(np.quantile(steps, share)) for share in (0.01, 0.99))
     mean = (n - 1) / float(time[-1] - time[0]) if time[-1] > time[0] else 1.0 / usual
     ends = np.linspace(0, n - 1, PARTS + 1).astype(int)
@@ -251,14 +252,14 @@ def _sample_jumps(time: Array, steps: Array, unit: float) -> Sampling:
         return Sampling(mean / unit, True, 0, n, trouble)
     trouble = (
         f"The times do not rise evenly (steps of {with_prefix(low * unit, 's')} to "
-        f"{with_prefix(high * unit, 's')}), so frequencies cannot be known from them; in the mean "
-        f"it would be {number(mean / unit, 6)} Hz."
+        f"{with_prefix(high * unit, 's')}), so they give no frequencies; the mean rate would be "
+        f"{number(mean / unit, 6)} Hz."
     )
     return Sampling(mean / unit, False, 0, n, trouble, "the mean step of an uneven time column")
 
 
 def long_parts(parts: Iterable[Sequence[int]]) -> tuple[tuple[int, int], ...]:
-    """Parts (first row, last excluded) that are recordings; none for a single recording."""
+    """Return the parts (first row, last excluded) that are recordings; none for a single one."""
     all_parts = [(first, last) for first, last in parts]
     longest = max((last - first for first, last in all_parts), default=0)
     least = max(FEWEST_SAMPLES, SHORTEST_PART * longest)
@@ -266,10 +267,10 @@ def long_parts(parts: Iterable[Sequence[int]]) -> tuple[tuple[int, int], ...]:
     return kept if len(kept) > 1 else ()
 
 
-def _jumps(steps: Array, jumps: NDArray[np.intp], usual: float, shared: bool) -> str:
-    """Say where times jump; where rows share times the number of missing samples is not known."""
+def _jump_words(steps: Array, jumps: NDArray[np.intp], usual: float, shared: bool) -> str:
+    """Return words on jumps of times; with `shared` times the missing samples are unknown."""
     back = bool((steps[jumps] <= 0.0).any())
-    # rounded times have rounded steps: only their mean is as long as a step is
+    # rounded times have rounded steps: only their mean is exact
     step = float(np.delete(steps, jumps).mean()) if len(steps) > len(jumps) else usual
     with np.errstate(over="ignore"):
         missing = float(np.maximum(np.round(steps[jumps] / step) - 1.0, 0.0).sum())
@@ -279,10 +280,10 @@ def _jumps(steps: Array, jumps: NDArray[np.intp], usual: float, shared: bool) ->
 
 
 def clock_columns(columns: Array) -> int:
-    """Number of columns, from the first on, that are hours, minutes, seconds (and parts of them).
+    """Return the number of first columns that are hours, minutes, seconds (and parts of them).
 
-    4 with microseconds, or milliseconds, in a column of their own, 3 with seconds in decimals,
-    0 where the first columns are something else.
+    4 with a separate column of microseconds or milliseconds, 3 with decimal seconds, 0 if the first
+    columns are something else.
     """
     if columns.shape[1] < 4:
         return 0
@@ -298,7 +299,7 @@ def clock_columns(columns: Array) -> int:
 
 
 def clock_time(columns: Array, count: int) -> Array:
-    """Seconds since the first row, of the `count` columns of `clock_columns`."""
+    """Return the seconds since the first row, from the `count` columns of `clock_columns`."""
     hour, minute, second = columns[:, :3].T
     time = 3600.0 * hour + 60.0 * minute + second
     midnights = np.cumsum(np.diff(time, prepend=time[0]) < -43_200.0)

@@ -1,4 +1,4 @@
-"""The angle of the shaft, out of a column of its speed or of a tachometer's pulses."""
+"""The angle of the shaft, from a column of its speed or of a tachometer's pulses."""
 
 from __future__ import annotations
 
@@ -16,32 +16,32 @@ FEWEST_PULSES = 8
 """Least number of a tachometer's pulses that give a speed."""
 
 LEAST_SHARE = 0.9
-"""Share of the rows that speeds must cover; shorter columns have another sample rate."""
+"""Least share of the rows that speeds cover; shorter columns have another sample rate."""
 
 STEP = 0.2
-"""Share of its length by which a turn may differ from the one before; a missed pulse doubles it.
-Noise on a tachometer's signal breaks it too."""
+"""Largest relative difference of a turn from the one before. A missed pulse doubles a turn, and
+noise on a tachometer's signal makes short ones."""
 
 MOST_MEDIANS = 8.0
-"""Times the speeds around it from which on one is a counter's overflow or a mark of what lacks."""
+"""Greatest speed over those around it; above, it is an overflow or marks a missing number."""
 
 LOW, HIGH = 0.35, 0.65
-"""Shares of its range that a tachometer's signal passes from pulse to pulse."""
+"""Shares of its range that a tachometer's signal crosses from pulse to pulse."""
 
 
 def angle_columns(columns: Sequence[Column]) -> list[int]:
-    """Columns that may hold the shaft's angle: those of speeds, then those of a tachometer."""
+    """Return columns that may give the shaft's angle: first speeds, then those of a tachometer."""
     numbered = list(enumerate(columns))
     speeds = [i for i, column in numbered if column.role == SPEED and column.unit is not None]
-    speeds.sort(key=lambda i: names_a_limit(columns[i].name))  # what is set comes last
+    speeds.sort(key=lambda i: names_a_limit(columns[i].name))  # set or allowed speeds come last
     others = [i for i, column in numbered if column.role == OTHER]
     return speeds + [i for i in others if words_of(columns[i].name) & PULSES]
 
 
 def shaft_angle(values: Array, unit: str | None, sample_rate: float) -> Array | None:
-    """Angle (n,) [rad] of the shaft at each row, from the first one on.
+    """Return the angle (n,) [rad] of the shaft at each row, from 0 at the first.
 
-    None where numbers (n,) are no speed that goes one way all along, or no regular pulses.
+    None if the numbers (n,) are neither a speed in one direction nor regular pulses.
 
     Parameters
     ----------
@@ -68,9 +68,9 @@ def shaft_angle(values: Array, unit: str | None, sample_rate: float) -> Array | 
 
 
 def measured_speeds(values: Array) -> Array:
-    """Speeds (n,) of a shaft, positive in the way that it turns; NaN where they were not measured.
+    """Return the speeds (n,) of a shaft, positive as it turns; NaN where they were not measured.
 
-    A sensor that loses its mark gives zeros. A shaft that stops passes all speeds on its way.
+    A sensor that loses its mark gives zeros. A shaft that stops passes through all lower speeds.
     """
     from scipy.ndimage import median_filter  # imported late: see `spectrum`
 
@@ -88,18 +88,18 @@ def measured_speeds(values: Array) -> Array:
 
 
 def pulse_begins(values: Array) -> Array:
-    """Rows, in parts of one, at which pulses of a tachometer begin; none where they are irregular.
+    """Return the fractional rows at which pulses of a tachometer begin; none for irregular ones.
 
-    A turn that is a fifth longer or shorter than the one before is none of a shaft's.
+    A turn of a shaft is not a fifth longer or shorter than the one before.
     """
     if not np.isfinite(values).all():
         return np.zeros(0)
     low, high = np.quantile(values, (0.0005, 0.9995))
     level = (values - low) / max(high - low, 1e-300)
-    passed = np.flatnonzero((level <= LOW) | (level >= HIGH))
-    up = level[passed] >= HIGH
-    rises = np.flatnonzero(up[1:] & ~up[:-1])
-    before, after = passed[rises], passed[rises + 1]
+    outside = np.flatnonzero((level <= LOW) | (level >= HIGH))
+    is_high = level[outside] >= HIGH
+    rises = np.flatnonzero(is_high[1:] & ~is_high[:-1])
+    before, after = outside[rises], outside[rises + 1]
     share = (0.5 - level[before]) / np.maximum(level[after] - level[before], 1e-300)
     begins = before + share * (after - before)
     turns = np.diff(begins)

@@ -1,9 +1,9 @@
-"""Columns of numbers out of a file, and the recording that is made of some of them.
+"""Columns of numbers from a file, and the recording that is made from some of them.
 
-A file is read in two steps, as it seldom says all that is needed. `read_table` finds its columns
-of numbers, and `Table.contents` what the file says about them; `Table.recording` makes a
-`Recording` of the columns that are the housing's acceleration, once what is missing is given.
-What is said by hand, with `Table.with_columns` or in `read_recording`, goes before every guess.
+A file is read in two steps, because it seldom states all that is needed. `read_table` returns its
+columns of numbers; `Table.contents` are its statements about them. `Table.recording` makes a
+`Recording` from the columns that are the housing's acceleration, with the missing facts as
+arguments. Facts by hand, in `Table.with_columns` or `read_recording`, precede every guess.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from bearingcore.measured.files._units import (
     UNITS,
     VELOCITIES,
     VOLTAGES,
-    differentiated,
+    differentiate,
     level_doubt,
 )
 from bearingcore.measured.files._variables import MOST_NUMBERS
@@ -37,15 +37,15 @@ from bearingcore.measured.signals._dropouts import cut_off
 from bearingcore.recordings import FEWEST_SAMPLES, Recording
 
 MOST_BYTES = 64 * 2**20
-"""Size of the largest file."""
+"""Greatest size of a file."""
 
 SHOWN_ROWS = 8
 
 MOST_NAMED = 4
-"""Columns that are not used which are named."""
+"""Most unused columns that a sentence names."""
 
 RATE_DOUBT = 0.005
-"""Fraction by which a typed rate may differ from that of the times before this is said."""
+"""Largest relative difference between a typed rate and that of the times without a remark."""
 
 
 _UNITS_OF: Mapping[str, Mapping[str, float]] = {
@@ -55,9 +55,9 @@ _UNITS_OF: Mapping[str, Mapping[str, float]] = {
 
 @dataclass(frozen=True)
 class Table(FileColumns):
-    """Columns of numbers out of a file, with their meaning, for making a recording.
+    """Columns of numbers from a file, with their meaning, from which a recording is made.
 
-    `chosen` names, in words, the one of several recordings in the file.
+    `chosen` names the chosen one of several recordings in the file, in words.
     """
 
     chosen: str = ""
@@ -110,7 +110,7 @@ class Table(FileColumns):
 
     @property
     def first_rows(self) -> list[list[float]]:
-        """Return the first rows of numbers, to show under the columns' names."""
+        """The first rows of numbers, to show below the columns' names."""
         return self.columns[:SHOWN_ROWS].tolist()
 
     def with_columns(self, given: Mapping[int | str, Column]) -> Table:
@@ -119,15 +119,15 @@ class Table(FileColumns):
         Parameters
         ----------
         given
-            role, unit, direction and place, by number from 0 or by the file's name. The unit of a
-            time is guessed by its rate if it is missing, that of a signal by its size.
+            role, unit, direction and place, by number from 0 or by name. A missing unit is guessed:
+            that of a time by its rate, that of a signal by its level.
 
         Raises
         ------
         FieldError
             for an unknown column, role, unit or direction, or a second column of times.
         """
-        said = dict(self.given)
+        columns = dict(self.given)
         for key, column in given.items():
             index = self.index_of(key)
             checks.choice("role", column.role, ROLES)
@@ -136,11 +136,11 @@ class Table(FileColumns):
                 checks.choice("unit", column.unit, tuple(units))
             if column.direction:
                 checks.choice("direction", column.direction, ("x", "y", "z"))
-            said[index] = dataclasses.replace(column, name=self.names[index])
-        timed = [self.names[i] for i, column in said.items() if column.role == TIME]
+            columns[index] = dataclasses.replace(column, name=self.names[index])
+        timed = [self.names[i] for i, column in columns.items() if column.role == TIME]
         if len(timed) > 1:
             raise checks.refuse("columns", " and ".join(timed), "one column of times")
-        return dataclasses.replace(self, given=said)
+        return dataclasses.replace(self, given=columns)
 
     def recording(
         self,
@@ -160,10 +160,10 @@ class Table(FileColumns):
         columns
             the columns, by number from 0 or by name.
         directions
-            of those columns.
+            directions of those columns.
         unit
-            one of `bearingcore.measured.files._units.UNITS`; None takes that of the headings.
-            Velocities are differentiated, voltages divided by `sensitivity`.
+            one of `UNITS`; None takes that of the headings. Velocities are differentiated, voltages
+            divided by `sensitivity`.
         sample_rate
             [Hz]; None takes that of the file.
         full_scale
@@ -198,13 +198,13 @@ class Table(FileColumns):
         rate, notes = self._rate(sample_rate)
         signal, begin, gaps = self._longest_part(picked)
         cut = dict.fromkeys(cut_off(column[np.isfinite(column)]) for column in signal.T)
-        only = contents.choice.note if picked == [*contents.choice.columns.values()] else ""
-        angle, angle_from = self._angle(slice(begin, begin + len(signal)), rate)
-        notes += [gaps, *cut, self._not_used(picked, angle_from), only]
+        chosen = contents.choice.note if picked == [*contents.choice.columns.values()] else ""
+        angle, angle_column = self._angle(slice(begin, begin + len(signal)), rate)
+        notes += [gaps, *cut, self._not_used(picked, angle_column), chosen]
         notes, signal = [*self.notes, *notes], signal * scale
         if sensitivity is None and contents.sensitivity is not None:
             sensitivity = contents.sensitivity.value
-        with np.errstate(over="ignore", invalid="ignore"):  # the recording refuses what comes out
+        with np.errstate(over="ignore", invalid="ignore"):  # the recording refuses infinite numbers
             notes += self._make_acceleration(signal, units, rate, sensitivity)
             notes += [*filter(None, map(level_doubt, signal.std(axis=0).tolist()))][:1]
         speed = contents.shaft_speed
@@ -216,7 +216,7 @@ class Table(FileColumns):
         )  # fmt: skip
 
     def _angle(self, rows: slice, rate: float) -> tuple[Array | None, int | None]:
-        """The shaft's angle (n,) [rad] in some rows, and the column it is from, where there is."""
+        """Return the shaft's angle (n,) [rad] in some rows and its column, or None for both."""
         columns = self.contents.columns
         for index in angle_columns(columns):
             angle = shaft_angle(self.columns[rows, index], columns[index].unit, rate)
@@ -224,33 +224,33 @@ class Table(FileColumns):
                 return angle, index
         return None, None
 
-    def _not_used(self, picked: Sequence[int], angle_from: int | None) -> str:
-        """Sentence on the columns that hold something that is not read, and why."""
-        speed, left = self.contents.shaft_speed, []
+    def _not_used(self, picked: Sequence[int], angle_column: int | None) -> str:
+        """Return a sentence on columns that are not read although their numbers vary."""
+        speed, unused = self.contents.shaft_speed, []
         for index, column in enumerate(self.contents.columns):
             steps = np.diff(self.columns[:, index])
             steps = steps[np.isfinite(steps)]
-            used = index in (*picked, *self.given, angle_from) or column.role in (TIME, SPEED)
-            if used or not steps.size or np.ptp(steps) == 0.0:  # it counts rows
+            is_used = index in (*picked, *self.given, angle_column) or column.role in (TIME, SPEED)
+            if is_used or not steps.size or np.ptp(steps) == 0.0:  # constant, or counts rows
                 continue
-            why = "along the shaft" if column.direction == "z" else "another signal"
+            reason = "along the shaft" if column.direction == "z" else "another signal"
             if speed is not None and f"“{column.name}”" in speed.reason:
-                why = f"a guess at the shaft speed: {speed.reason}"
+                reason = f"a guess at the shaft speed: {speed.reason}"
             elif column.role == OTHER:
-                why = "no signal of acceleration"
+                reason = "no signal of acceleration"
             elif column.place:
-                why = column.place
-            left.append(f"“{column.name}” ({why})")
-        more = f" and {len(left) - MOST_NAMED} more" if len(left) > MOST_NAMED else ""
-        words = f"Not used: {', '.join(left[:MOST_NAMED])}{more}." if left else ""
-        if angle_from is not None and self.contents.columns[angle_from].role != SPEED:
-            words += f" The shaft's angle is taken from the pulses in “{self.names[angle_from]}”."
+                reason = column.place
+            unused.append(f"“{column.name}” ({reason})")
+        more = f" and {len(unused) - MOST_NAMED} more" if len(unused) > MOST_NAMED else ""
+        words = f"Not used: {', '.join(unused[:MOST_NAMED])}{more}." if unused else ""
+        if angle_column is not None and self.contents.columns[angle_column].role != SPEED:
+            words += f" The pulses in “{self.names[angle_column]}” give the shaft's angle."
         return words.strip()
 
     def _make_acceleration(
         self, signal: Array, units: Sequence[str], rate: float, sensitivity: float | None
     ) -> list[str]:
-        """Make columns in `units` accelerations [m/s²], in place; sentences on how."""
+        """Convert columns in `units` to accelerations [m/s²] in place; return sentences on it."""
         notes = []
         for index, unit in enumerate(units):
             signal[:, index] *= UNITS[unit]
@@ -263,39 +263,36 @@ class Table(FileColumns):
                 )
             elif unit in VELOCITIES and len(signal) >= FEWEST_SAMPLES:
                 if np.isfinite(signal[:, index]).all():
-                    signal[:, [index]] = differentiated(signal[:, [index]], rate)
+                    signal[:, [index]] = differentiate(signal[:, [index]], rate)
                 notes = [
-                    "A velocity was differentiated. What its recorder left out (often all above "
-                    "1 kHz) is not in it."
+                    "A velocity was differentiated. It lacks the frequencies that its recorder "
+                    "left out, often all above 1 kHz."
                 ]
         return notes
 
     def _unit(self, index: int, unit: str | None) -> str:
-        of_file = self.contents.unit
+        shared = self.contents.unit
         if unit is None:
-            unit = self.contents.columns[index].unit or (of_file.value if of_file.stated else None)
+            unit = self.contents.columns[index].unit or (shared.value if shared.stated else None)
         if unit is None:
-            raise checks.missing("unit", f"one of {', '.join(UNITS)}: the file does not say it")
+            raise checks.missing("unit", f"one of {', '.join(UNITS)}: the file does not state it")
         return checks.choice("unit", unit, tuple(UNITS))
 
     def _rate(self, typed: float | None) -> tuple[float, list[str]]:
-        """The sample rate [Hz], and what is to be said about it."""
+        """Return the sample rate [Hz], and sentences about it."""
         sampling, known = self.contents.sampling, self.contents.sample_rate
         trouble = sampling.trouble if sampling is not None else ""
         if typed is None:
             if known is not None and known.stated:
                 return known.value, [trouble]
-            words = "a number [Hz]: the file does not say it"
+            words = "a number [Hz]: the file does not state it"
             if known is not None:
                 words += f"; {number(known.value, 6)} is likely ({known.reason})"
             raise checks.missing("sample_rate", f"{words}. {trouble}".strip())
         rate = checks.real_number("sample_rate", typed, above=0.0, unit="Hz")
         words = f"The sample rate was typed as {number(rate, 6)} Hz"
         if known is None:
-            words += (
-                ". Nothing in the file shows whether it was: every frequency, and so the part, "
-                "rests on it."
-            )
+            words += ". Nothing in the file confirms it, but every frequency depends on it."
         elif abs(rate / known.value - 1.0) > RATE_DOUBT:
             says = "says" if known.stated else "suggests"
             words += f"; {known.reason} {says} {number(known.value, 6)} Hz."
@@ -304,34 +301,35 @@ class Table(FileColumns):
         return rate, [trouble, words]
 
     def _longest_part(self, picked: Sequence[int]) -> tuple[Array, int, str]:
-        """The longest part without a jump or gap, its first row; what is bridged and left out."""
+        """Return the longest part without a jump or gap, its first row, and words on gaps."""
         sampling = self.contents.sampling or Sampling(None, False, 0, len(self.columns))
         first, last = sampling.first, sampling.last
         signal = self.columns[first:last, picked]
         whole = np.isfinite(signal).all(axis=1)
-        filled = np.flatnonzero(whole)
-        # gaps at the end are where a column is shorter than the longest
-        signal, whole = np.split(signal, filled[-1:] + 1)[0], np.split(whole, filled[-1:] + 1)[0]
-        said = []
+        complete = np.flatnonzero(whole)
+        # rows behind the last complete one belong to longer columns
+        rest = complete[-1:] + 1
+        signal, whole = np.split(signal, rest)[0], np.split(whole, rest)[0]
+        words = []
         single = single_gaps(whole)
-        single = single[~np.isinf(signal[single]).any(axis=1)]  # no gap, but an overflow
+        single = single[~np.isinf(signal[single]).any(axis=1)]  # infinity is an overflow, no gap
         if single.size:
             between = 0.5 * (signal[single - 1] + signal[single + 1])
             signal[single] = np.where(np.isfinite(signal[single]), signal[single], between)
             whole[single] = True
-            said.append(
+            words.append(
                 f"Single numbers are missing in {count(single.size, 'row')}. Each is bridged by "
                 "the mean of its neighbours."
             )
         missing = int((~whole).sum())
         begin, end = longest_run(whole)
-        if missing and end - begin >= FEWEST_SAMPLES:  # else the recording says which is no number
-            said.append(
+        if missing and end - begin >= FEWEST_SAMPLES:  # else `Recording` refuses the numbers
+            words.append(
                 f"Numbers are missing in {count(missing, 'row')}. Only the longest whole part is "
                 f"used: rows {first + begin + 1} to {first + end} of {len(self.columns)}."
             )
             signal, first = signal[begin:end], first + begin
-        return signal, first, " ".join(said)
+        return signal, first, " ".join(words)
 
     def index_of(self, column: int | str) -> int:
         """Return the number from 0 of a column, by number or name; `FieldError` if missing."""
@@ -344,7 +342,7 @@ class Table(FileColumns):
 
 
 def files_inside(name: str, content: bytes, give_up: Callable[[], bool] | None = None) -> list[str]:
-    """Names for `read_table` of all files in a zip of several, in their order; else `name` alone.
+    """Return names for `read_table` of all files in a zip of several, in order; else only `name`.
 
     `give_up`: see `read_table`.
 
@@ -365,7 +363,7 @@ def files_inside(name: str, content: bytes, give_up: Callable[[], bool] | None =
 
 
 def path_in(name: str) -> str:
-    """The path of the file to read for a name such as "rig.zip/run1.csv"."""
+    """Return the path of the file to open for a name such as "rig.zip/run1.csv"."""
     before, mark, _ = name.partition(".zip/")
     return before + mark.rstrip("/")
 
@@ -373,10 +371,9 @@ def path_in(name: str) -> str:
 def read_table(name: str, content: bytes, give_up: Callable[[], bool] | None = None) -> Table:
     """Read the columns of numbers in a file: text (CSV), WAV, MATLAB, HDF5, and others.
 
-    NumPy's files are read too, and with the packages of the extra `files` UFF, TDMS, Parquet and
-    Excel's .xlsx; also a zip or gzip of one of them. The first bytes decide the format. The file
-    is read in its own process with limits of time and memory: see
-    `bearingcore.measured.files._child`.
+    NumPy's files are read too; with the packages of the extra `files` also UFF, TDMS, Parquet and
+    Excel's .xlsx; and a zip or gzip of one of them. The first bytes decide the format. A separate
+    process with limits of time and memory reads the file: see `bearingcore.measured.files._child`.
 
     Parameters
     ----------
@@ -420,8 +417,8 @@ def check_bytes(name: str, size: int) -> None:
 def join_tables(tables: Sequence[Table]) -> Table:
     """Join the files of one signal, in their order, into a table of all rows.
 
-    Times that continue from file to file show gaps between files. If they begin anew in each file,
-    or there are none, the files are joined without gaps, and a note says so.
+    Times that continue from file to file show gaps between files. If times restart in each file, or
+    there are none, the files are joined without gaps, and a note says so.
 
     Raises
     ------
@@ -447,18 +444,18 @@ def join_tables(tables: Sequence[Table]) -> Table:
     columns = np.concatenate([table.columns for table in tables])
     ends = np.cumsum([len(table.columns) for table in tables])
     timed = [i for i, column in enumerate(first.contents.columns) if column.role == TIME]
-    anew = len(timed) != 1
+    restarts = len(timed) != 1
     for start, end in pairwise(ends) if len(timed) == 1 else ():
         time = columns[:, timed[0]]
         step = float(np.nanmedian(np.diff(time[:start])))
         if abs(time[start] - time[0]) < 0.5 * step or timed[0] in first.stamps:
             time[start:end] += time[start - 1] + step - time[start]
-            anew = True
+            restarts = True
         elif time[start] <= time[start - 1]:
             raise checks.refuse("tables", "not in their order", "files in the order of their times")
     notes = [note for table in tables for note in table.notes]
     if len(tables) > 1:
-        gap = " as if nothing were missing between them" if anew else ""
+        gap = " as if nothing were missing between them" if restarts else ""
         notes.append(f"{len(tables)} files are joined{gap}.")
     name = first.name if len(tables) == 1 else f"{first.name} to {tables[-1].name}"
     return dataclasses.replace(first, columns=columns, name=name, notes=tuple(notes))

@@ -1,8 +1,8 @@
-"""Tables of numbers written as text, in the many habits of those who write them.
+"""Tables of numbers written as text, in the many styles of different programs.
 
 Commas, semicolons, tabs or blanks separate columns; numbers have points or commas; there are
-headings, remarks, gaps, quotation marks, dates and times of day. Which of these a text has is seen
-in its first lines; pandas reads the rest. Runs in the process of `child` alone.
+headings, remarks, gaps, quotation marks, dates and times of day. The first lines show the style of
+a text; pandas reads the rest. This code runs only in the process of `_child`.
 """
 
 from __future__ import annotations
@@ -26,55 +26,50 @@ from bearingcore.common import Array, _checks as checks, thousands
 from bearingcore.measured.files import _facts as facts
 from bearingcore.measured.files._channels import TIME, column_of
 from bearingcore.measured.files._units import UNITS, unit_in, unit_named
-from bearingcore.measured.files._variables import (
-    MOST_COLUMNS,
-    MOST_NUMBERS,
-    Answer,
-    check_size,
-)
+from bearingcore.measured.files._variables import MOST_COLUMNS, MOST_NUMBERS, Answer, check_size
 from bearingcore.recordings import FEWEST_SAMPLES
 
 LONGEST_REMARK = 200
-"""Longest line above the numbers [characters] that is kept."""
+"""Greatest length [characters] of a kept line above the numbers."""
 
 LONGEST_LINE = 2**15
-"""Longest such line [characters] in which the names of columns are looked for."""
+"""Greatest length [characters] of such a line that may have the names of columns."""
 
 SAMPLE = 30
-"""Lines of numbers by which the way of writing is judged."""
+"""Number of lines of numbers from which the style is determined."""
 
 READABLE = (
     "text with numbers (CSV, TXT, LVM), WAV, MATLAB, HDF5, NumPy, UFF, TDMS, "
     "Parquet, Excel (.xlsx), or a zip of one of these; export it as CSV where it is none of them"
 )
-"""Formats of files."""
+"""The readable formats of files, in words."""
 
 LONG_ROW = 64
-"""Numbers in a row from which on fewer rows than this are signals written in a row each; of rows
-longer than columns may be many, fewer than the numbers in each are."""
+"""Rows with more numbers than this may be signals, one in each row, if there are at most this many
+rows; if a table could not have so many columns, there may be as many rows as numbers in each."""
 
 MOST_WRONG = 0.01
-"""Share of lines without numbers, from which on a text is no table."""
+"""Greatest share of lines without numbers in a table."""
 
 MOST_MISSING, MOST_MISSING_WORDS = 0.5, 8
-"""Share of lines with words in place of numbers, and how many different ones those may be."""
+"""Greatest share of lines with words in place of numbers, and most different words."""
 
 MOST_CHANGES = 0.1
-"""Share of rows with another word than the row before, from which on these mix several signals."""
+"""Greatest share of rows with another word than the row before; above, rows mix several signals."""
 
 MOST_SIGNALS_MIXED = 32
-"""Different words of such a column."""
+"""Most different words in such a column."""
 
 
 def read_text(
     name: str, content: bytes, most_numbers: int = MOST_NUMBERS, most_columns: int = MOST_COLUMNS
 ) -> Answer:
-    """The table in a text of UTF-8, UTF-16 with its mark, or one byte a character.
+    """Read the table in a text of UTF-8, UTF-16 with its mark, or one byte a character.
 
     Returns
     -------
     about
-        the fields of `contents.FileColumns` about names, remarks, times and lines not read.
+        the fields of `_contents.FileColumns` about names, remarks, times and lines not read.
     columns : (n, c)
         the numbers; gaps are NaN, dates and times of day are seconds since the first of them.
         Columns of words, and empty ones, are left out.
@@ -82,63 +77,66 @@ def read_text(
     Raises
     ------
     FieldError
-        saying what is wrong, and in which line.
+        naming the fault and its line.
     """
     content = _decode_to_utf8(name, content)
-    # the first lines that are numbers tell how all are written: delimiter, decimal sign, width
+    # the first lines of numbers show the style of all: delimiter, decimal sign, width
     style, begin, remarks = _beginning(name, content)
     if style.width > min(LONG_ROW, most_columns):
         # few long rows are signals, not columns
-        turned = _signals_in_rows(name, content[begin:], style, remarks, most_numbers, most_columns)
-        if turned is not None:
-            return turned
+        answer = _signals_in_rows(name, content[begin:], style, remarks, most_numbers, most_columns)
+        if answer is not None:
+            return answer
         check_size(name, 1, style.width, most_numbers, most_columns)
-    read, said, notes = _read_numbers(name, content, begin, style, remarks, most_numbers)
-    headings = _headings(remarks, style, read)  # of the remarks above, the line that names columns
+    columns, words, notes = _read_numbers(name, content, begin, style, remarks, most_numbers)
+    headings = _headings(remarks, style, columns)
     if not headings:
-        read = _one_after_another(read, remarks)
+        columns = _one_after_another(columns, remarks)
     elif any(column_of(name).role == TIME for name in headings):
-        read = read[~np.isnan(read).all(axis=1)]  # what is missing there shows in the times
-    # columns of words were read as gaps; a date is one that the style knows, and stays
-    kept = [i for i in range(read.shape[1]) if i in style.stamps or not np.isnan(read[:, i]).all()]
+        columns = columns[~np.isnan(columns).all(axis=1)]  # the times still show the missing rows
+    # leave out columns of words, which were read as gaps, but keep dates
+    filled = ~np.isnan(columns).all(axis=0)
+    kept = [i for i in range(columns.shape[1]) if i in style.stamps or filled[i]]
     if kept:
-        read, headings = read[:, kept], headings and [headings[i] for i in kept]
+        columns, headings = columns[:, kept], headings and [headings[i] for i in kept]
     stamps = [kept.index(i) for i in style.stamps]
     for index, heading in enumerate(headings or ()):
         if _SENSOR.fullmatch(heading.strip()):
-            refuse_mixed_rows(name, read[:, index])
-    return _text_fields(read, headings, remarks + said, stamps=stamps, notes=notes)
+            refuse_mixed_rows(name, columns[:, index])
+    return _text_fields(columns, headings, remarks + words, stamps=stamps, notes=notes)
 
 
 _COUNT = re.compile(r"(?i)\W*(number|no|nr|n|count|anzahl)?\W*(of|der)?\W*(points|samples)\b")
 
 
 def _one_after_another(columns: Array, remarks: Sequence[str]) -> Array:
-    """The samples of a signal in several columns, row by row, if their number says that it is."""
+    """Join columns row by row to one signal, if a remark states this number of samples."""
     width, samples = columns.shape[1], columns.ravel()
     counts = [item.value for item in facts.named_in(remarks) if _COUNT.match(item.name)]
-    written = int(np.isfinite(samples).sum())
-    said = any(written <= count < written + width for count in counts)  # a short row may be lost
-    return samples[:written, None] if width > 1 and said else columns
+    present = int(np.isfinite(samples).sum())
+    is_one = any(
+        present <= count < present + width for count in counts
+    )  # the last row may lack some
+    return samples[:present, None] if width > 1 and is_one else columns
 
 
 def _read_numbers(
     name: str, content: bytes, begin: int, style: _Style, remarks: list[str], most_numbers: int
 ) -> tuple[Array, list[str], list[str]]:
-    """Read the numbers from a byte on, words among them, and notes on these."""
+    """Read the numbers from a byte on; return them, lines of words between them, and notes."""
     body = content[begin:]
-    said: list[str] = []
+    words: list[str] = []
     notes: list[str] = []
     most_rows = most_numbers // style.width + 1
-    read = _numbers(name, body, style, most_rows)
-    if read is None:  # some lines hold something else
+    columns = _numbers(name, body, style, most_rows)
+    if columns is None:  # some lines are no numbers
         above = content.count(b"\n", 0, begin) + 1
-        body, notes, said = _mended(name, body, style, above, remarks)
-        read = _numbers(name, body, style, most_rows)
-    if read is None:
+        body, notes, words = _mend(name, body, style, above, remarks)
+        columns = _numbers(name, body, style, most_rows)
+    if columns is None:
         raise checks.refuse("file", name, READABLE)
-    check_size(name, len(read), read.shape[1], most_numbers, MOST_COLUMNS)
-    return read, said, notes
+    check_size(name, len(columns), columns.shape[1], most_numbers, MOST_COLUMNS)
+    return columns, words, notes
 
 
 _SENSOR = re.compile(r"(?i)(sensor|channel|axis|device|node)([ _.-]?(id|no|nr|num|number|index))?")
@@ -147,8 +145,8 @@ _SENSOR = re.compile(r"(?i)(sensor|channel|axis|device|node)([ _.-]?(id|no|nr|nu
 def refuse_mixed_rows(name: str, labels: NDArray[Any], columns: Iterable[Array] = ()) -> None:
     """Refuse rows whose labels (n,) are those of several sensors, in turn or as equal blocks.
 
-    Read as one signal they would be a vibration that no sensor has measured. Where times, in one of
-    the `columns` of numbers, rise through all blocks, they are labels along one signal.
+    As one signal they would be a vibration that no sensor has measured. If times, in one of the
+    `columns` of numbers, rise through all blocks, these are labels along one signal.
     """
     names, counts = np.unique(labels, return_counts=True)
     if not 1 < len(names) <= MOST_SIGNALS_MIXED or len(labels) < FEWEST_SAMPLES:
@@ -169,7 +167,7 @@ _BASIC_DATE = re.compile(rb"\b(\d{4})([01]\d)([0-3]\d)[T_]([0-2]\d)([0-5]\d)([0-
 
 
 def _decode_to_utf8(name: str, content: bytes) -> bytes:
-    """A text without marks and with ends of lines, in UTF-8 if it had two bytes a character."""
+    """Return a text without byte marks, with ends of lines, and not in two bytes a character."""
     if content[:2] in (b"\xff\xfe", b"\xfe\xff"):
         content = content.decode("utf-16", "replace").encode()
     if b"\x00" in content[:4096]:
@@ -178,7 +176,7 @@ def _decode_to_utf8(name: str, content: bytes) -> bytes:
     if _BASIC_DATE.search(content[:4096]):
         content = _BASIC_DATE.sub(rb"\1-\2-\3T\4:\5:\6", content)
     if re.match(rb"\s*\[", content) and b"\n" not in content.strip():
-        content = content.translate(None, b"[]")  # one array as NumPy and MATLAB show it
+        content = content.translate(None, b"[]")  # one array as NumPy and MATLAB print it
     return content if b"\n" in content else content.replace(b"\r", b"\n")
 
 
@@ -197,18 +195,18 @@ _DATE = rf"(?:{_DAY})[T _;,\t]+"
 _SECOND = rf"(?:{_DATE}|\d+ days? \+?)?\d\d?:\d\d?:\d\d?"
 _ZONE = r"(\s?Z|{space}[+-]\d\d:?\d\d|\s?[AaPp]\.?[Mm]\b\.?)?"
 _POINT_STAMP, _COMMA_STAMP = (
-    # minutes and seconds alone are known by the part of a second behind them
+    # minutes and seconds alone are recognised by a part of a second behind them
     re.compile(
         rf"(?<![\w.:-])({_SECOND}|\d\d?:[0-5]\d(?={point}\d))({point}\d+|:\d{{3}}(?!\d))?"
         + _ZONE.format(space=space)
     )
-    # between blanks a number may come next
+    # where blanks separate columns, a number may follow
     for point, space in ((r"\.", r"\s?"), ("[.,]", ""))
 )
 
 
 class _Clock:
-    """Writes dates and times of day as seconds since the first one."""
+    """Replacement of dates and times of day by seconds since the first one."""
 
     def __init__(self) -> None:
         self._first: int | None = None
@@ -220,13 +218,13 @@ class _Clock:
         try:
             whole = self._whole(second, (zone or "").strip().lower()[:1])
         except ValueError:
-            return stamp[0]  # a day that is in no calendar is no number either
+            return stamp[0]  # a day that does not exist stays text
         if part and whole < 0:
             return repr(whole + float(f"0.{part[1:]}"))
         return f"{whole}.{part[1:]}" if part else str(whole)
 
     def _whole(self, text: str, half: str) -> int:
-        """Whole seconds since the first stamp; `half` is "a" or "p" of a clock of 12 hours."""
+        """Return whole seconds since the first stamp; `half` is "a" or "p" of a 12-hour clock."""
         parts = [int(number) for number in re.split(r"[T _;,\t+]", text)[-1].split(":")]
         if half in ("a", "p"):
             parts[0] = parts[0] % 12 + 12 * (half == "p")
@@ -246,7 +244,7 @@ class _Clock:
 
 @lru_cache(maxsize=64)
 def _day(text: str) -> int:
-    """Number of a day; ValueError for one that is in no calendar."""
+    """Return the number of a day; ValueError for one that does not exist."""
     import pandas as pd
 
     return int(pd.to_datetime(text, dayfirst=bool(re.match(r"\d\d?[.-]", text))).toordinal())
@@ -254,7 +252,7 @@ def _day(text: str) -> int:
 
 @dataclass(frozen=True)
 class _Style:
-    """Style of lines of numbers, `width` in each; None as delimiter: blanks."""
+    """Style of lines with `width` numbers each; blanks if the delimiter is None."""
 
     delimiter: str | None
     decimal_comma: bool
@@ -265,11 +263,11 @@ class _Style:
 
     @property
     def stamp(self) -> re.Pattern[str]:
-        """Regular expression of a date or time of day."""
+        """The regular expression of a date or time of day."""
         return _POINT_STAMP if self.delimiter == "," else _COMMA_STAMP
 
     def plain(self, text: str) -> str:
-        """Text with points in its numbers, without quotation marks, times as seconds."""
+        """Return a text with decimal points, without quotation marks, and with times in seconds."""
         if self.delimiter == "," and _QUOTED_DECIMALS.search(text):
             text = re.sub(r'("[-+]?\d*),(\d+(?:[eE][-+]?\d+)?")', r"\1.\2", text)
         if '"' in text:
@@ -282,14 +280,14 @@ class _Style:
             text = re.sub(r"(?<=\d)['\xa0 ](?=\d{3}(?!\d))", "", text)
         if not self.decimal_comma:
             return text
-        if re.search(r"\.\d{3},\d", text):  # 1.234,5: no such point is a decimal one, anywhere
+        if re.search(r"\.\d{3},\d", text):  # 1.234,5: points before three digits are not decimal
             text = re.sub(r"(?<=\d)\.(?=\d{3}(?!\d))", "", text)
         return text.replace(",", "" if re.search(r",\d{3}\.\d", text) else ".")
 
 
 _QUOTED = re.compile(r'"-?\d{1,3}(?:,\d{3})+(?:\.\d*)?"')
 _QUOTED_DECIMALS = re.compile(r'"[-+]?\d*,(?:\d{1,2}|\d{4,})(?:[eE][-+]?\d+)?"')
-"""A number with commas between thousands, and one with a comma that can only be a decimal one."""
+"""A number with commas between thousands, and one whose comma can only be decimal."""
 
 _STYLES = (
     _Style(";", True),
@@ -310,21 +308,21 @@ def _cells(line: str, delimiter: str | None) -> list[str]:
 MISSING = {
     "", "na", "n/a", "#n/a", "null", "none", "-", "--", "---", "...", "<na>", "nat", "?", "*",
 }  # fmt: skip
-"""Cells that hold no number, in lower case, apart from "nan" itself."""
+"""Cells of missing numbers, in lower case, in addition to "nan"."""
 
 
 def _number(cell: str) -> float | None:
-    """The number in a cell, NaN in an empty one; None for anything else."""
+    """Return the number in a cell, NaN for a missing one; None for anything else."""
     if cell.lower() in MISSING:
         return math.nan
     try:
-        return None if "_" in cell else float(cell)  # Python takes 1_000 for a number
+        return None if "_" in cell else float(cell)  # for Python 1_000 is a number
     except ValueError:
         return None
 
 
 def _row(line: str, delimiter: str | None, words: Sequence[int] = ()) -> list[float] | None:
-    """The numbers of a plain line, or None where there is anything else, or nothing.
+    """Return the numbers of a plain line; None if it has anything else, or nothing.
 
     Cells of columns of `words` are NaN.
     """
@@ -337,23 +335,23 @@ def _row(line: str, delimiter: str | None, words: Sequence[int] = ()) -> list[fl
 
 
 def _style(lines: Sequence[str], above: str) -> _Style | None:
-    """Style of the first line; None where it holds anything but numbers.
+    """Return the style of the first line; None if it has anything but numbers.
 
-    The lines that follow, and the headings `above`, decide where more than one way would do.
+    If several styles fit, the following lines and the headings `above` decide.
     """
-    fitted = [pair for style in _STYLES if (pair := _fitted(style, lines, above)) is not None]
-    return max(fitted, key=itemgetter(0))[1] if fitted else None
+    fits = [pair for style in _STYLES if (pair := _fit_style(style, lines, above)) is not None]
+    return max(fits, key=itemgetter(0))[1] if fits else None
 
 
-def _fitted(style: _Style, lines: Sequence[str], above: str) -> tuple[int, _Style] | None:
-    """Number of lines that a style reads, and the style in full, as wide as the first.
+def _fit_style(style: _Style, lines: Sequence[str], above: str) -> tuple[int, _Style] | None:
+    """Return the number of lines that a style reads, and the style with the first line's width.
 
-    All lines count a second time where as many headings are `above` them as there are columns.
+    All lines count twice if there are as many headings `above` them as columns.
     """
     if style.delimiter is not None and style.delimiter not in lines[0]:
         return None
-    clocked = style.stamp.search(lines[0]) is not None
-    trial = dataclasses.replace(style, clock=_Clock() if clocked else None)
+    has_stamp = style.stamp.search(lines[0]) is not None
+    trial = dataclasses.replace(style, clock=_Clock() if has_stamp else None)
     plain = trial.plain("\n".join(lines)).split("\n")
     if style.delimiter is None and not style.decimal_comma and any("," in p for p in plain):
         return None
@@ -362,9 +360,10 @@ def _fitted(style: _Style, lines: Sequence[str], above: str) -> tuple[int, _Styl
     if first is None:
         return None
     rows = [_row(line, style.delimiter, words) for line in plain]
-    closed = style.delimiter is not None and plain[0].rstrip(" ").endswith(style.delimiter)
-    closed &= not any(row and len(row) == len(first) and row[-1] == row[-1] for row in rows)
-    width = len(first) - (closed and len(first) > 1)
+    # a delimiter at the end of each line makes an empty last column, which is NaN in all rows
+    is_closed = style.delimiter is not None and plain[0].rstrip(" ").endswith(style.delimiter)
+    is_closed &= not any(row and len(row) == len(first) and row[-1] == row[-1] for row in rows)
+    width = len(first) - (is_closed and len(first) > 1)
     fits = sum(len(row or ()) in (width, width + 1) for row in rows)
     if style.delimiter == "," and _looks_decimal(plain, above):
         fits = 0
@@ -372,12 +371,12 @@ def _fitted(style: _Style, lines: Sequence[str], above: str) -> tuple[int, _Styl
     marked = style.stamp.sub("?", lines[0]).replace('"', "")
     cells = _cells(marked, style.delimiter)[:width]
     stamps = tuple(i for i, cell in enumerate(cells) if cell == "?")
-    clock = _Clock() if clocked else None
+    clock = _Clock() if has_stamp else None
     return fits, _Style(style.delimiter, style.decimal_comma, width, stamps, words, clock)
 
 
 def _row_of_labview(lines: Sequence[str], delimiter: str | None) -> list[float] | None:
-    """The numbers of the first line, if a comment ends it alone."""
+    """Return the numbers of the first line, if only this line ends with a comment."""
     if len(lines) < SAMPLE or delimiter is None:
         return None
     second = _row(lines[1].rstrip(f"{delimiter} "), delimiter) or []
@@ -386,36 +385,36 @@ def _row_of_labview(lines: Sequence[str], delimiter: str | None) -> list[float] 
 
 
 def _columns_of_words(lines: Sequence[str], delimiter: str | None) -> tuple[int, ...]:
-    """Columns in which every one of many lines, or of long ones, has a word beside numbers."""
+    """Return the columns with a word in every line, if there are many lines or long ones."""
     rows = [_cells(line, delimiter) for line in lines]
     if len(rows) < SAMPLE and len(rows[0]) <= FEWEST_SAMPLES:
         return ()
-    placed = {tuple(i for i, cell in enumerate(row) if _number(cell) is None) for row in rows}
-    words = placed.pop()
-    if placed or len(words) == len(rows[0]) or len({len(row) for row in rows}) > 1:
+    places = {tuple(i for i, cell in enumerate(row) if _number(cell) is None) for row in rows}
+    words = places.pop()
+    if places or len(words) == len(rows[0]) or len({len(row) for row in rows}) > 1:
         return ()
-    # "000125 −0" between two commas of decimals is no word
-    numbers = any(" " in rows[0][i] and not re.search(r"[^\W\d]", rows[0][i]) for i in words)
-    return () if numbers else words
+    # "000125 −0" between two decimal commas is no word
+    has_numbers = any(" " in rows[0][i] and not re.search(r"[^\W\d]", rows[0][i]) for i in words)
+    return () if has_numbers else words
 
 
 _TWO_WHOLE = re.compile(r"\s*(-?\d+),(\d+)\s*")
 
 
 def _looks_decimal(lines: Sequence[str], above: str) -> bool:
-    """Return True if "0,051" is one number: no one writes 051 or −0 as a number of its own.
+    """Return True if "0,051" is one number, because 051 and −0 are not written as numbers.
 
-    Under a heading of one word, so are pairs of which several begin with the same number.
+    Below a heading of one word, pairs that begin with the same number are also one number each.
     """
     pairs = [pair.groups() for line in lines if (pair := _TWO_WHOLE.fullmatch(line)) is not None]
     if len(pairs) < len(lines):
         return False
-    alone = (
+    one_heading = (
         above
         and not re.search(r"[,;\t]", above)
         and len({whole for whole, _ in pairs}) < len(pairs)
     )
-    return bool(alone) or any(
+    return bool(one_heading) or any(
         whole == "-0" or (len(part) > 1 and part[0] == "0") for whole, part in pairs
     )
 
@@ -423,8 +422,8 @@ def _looks_decimal(lines: Sequence[str], above: str) -> bool:
 # -- lines above the numbers -----------------------------------------------------------------------
 
 
-def _decoded(line: bytes) -> str:
-    """A line; an old encoding of one byte a character where it is not UTF-8."""
+def _decode(line: bytes) -> str:
+    """Decode a line, from an old encoding of one byte a character if it is not UTF-8."""
     try:
         return line.decode().rstrip("\r\n")
     except UnicodeDecodeError:
@@ -432,11 +431,11 @@ def _decoded(line: bytes) -> str:
 
 
 def _beginning(name: str, content: bytes) -> tuple[_Style, int, list[str]]:
-    """Style of numbers, the first byte of them, and the lines above."""
+    """Return the style of the numbers, the place of their first byte, and the lines above."""
     remarks: list[str] = []
     words, begin, place = 0, "", 0
     for line in io.BytesIO(content):
-        bare = _decoded(line).strip()
+        bare = _decode(line).strip()
         if bare[:1] in ("#", "%"):
             if len(remarks) < facts.MOST_REMARKS:
                 remarks.append(bare.lstrip("#% ")[:LONGEST_LINE])
@@ -445,15 +444,15 @@ def _beginning(name: str, content: bytes) -> tuple[_Style, int, list[str]]:
             rest = io.BytesIO(content)
             rest.seek(place)
             sample = [text for _, text in islice(_lines_of_numbers(rest), SAMPLE)]
-            numbered = _is_numbered(sample)
-            style = None if numbered else _style(sample, remarks[-1] if remarks else "")
-            follows = _style(sample[1:], "") if style and style.width == 1 < len(sample) else None
-            if follows is not None and follows.width > 2:
-                style = None  # how many lines follow
+            is_heading = _is_numbered(sample)
+            style = None if is_heading else _style(sample, remarks[-1] if remarks else "")
+            second = _style(sample[1:], "") if style and style.width == 1 < len(sample) else None
+            if second is not None and second.width > 2:
+                style = None  # a single number above a wide table is the number of its lines
             if style is not None:
                 return style, place, remarks
             words += 1
-            remarks.append(_decoded(line) if numbered else bare[:LONGEST_LINE])
+            remarks.append(_decode(line) if is_heading else bare[:LONGEST_LINE])
             if words > facts.MOST_REMARKS:
                 break
         place += len(line)
@@ -463,31 +462,30 @@ def _beginning(name: str, content: bytes) -> tuple[_Style, int, list[str]]:
 
 
 def _is_numbered(lines: Sequence[str]) -> bool:
-    """Return True if the first line has the headings of a data frame that are numbers: 0, 1, 2."""
+    """Return True if the first line has the headings 0, 1, 2, ... of a data frame."""
     match = re.fullmatch(r'(?:"")?([,;\t]?)"?0"?(?:[,;\t]"?\d+"?)*', lines[0])
     names = re.findall(r"\d+", lines[0])
-    counted = names == [str(index) for index in range(len(names))]
-    named = match is not None and (match[1] or ("." in "".join(lines[1:2]) and len(names) > 1))
-    return bool(named and counted)
+    are_counted = names == [str(index) for index in range(len(names))]
+    are_names = match is not None and (match[1] or ("." in "".join(lines[1:2]) and len(names) > 1))
+    return bool(are_names and are_counted)
 
 
 def _lines_of_numbers(lines: Iterable[bytes]) -> Iterator[tuple[int, str]]:
-    """Lines that are neither empty nor remarks, with their numbers from 0."""
+    """Yield lines that are neither empty nor remarks, with their numbers from 0."""
     for index, line in enumerate(lines):
-        text = _decoded(line)
+        text = _decode(line)
         if text.strip() and text[0] not in "#%":
             yield index, text
 
 
 def _headings(remarks: Sequence[str], style: _Style, columns: Array) -> list[str] | None:
-    """The names of the columns, out of the last line above them that fits; each with its unit.
+    """Return the names of the columns with units, from the last line above them that fits.
 
-    A line of units alone may be between the names and the numbers. Columns without a name are
-    called by their number.
+    A line of units alone may be between names and numbers. Columns without a name get their number.
     """
     width = columns.shape[1]
-    remarks = [re.sub(r"Unnamed: \d+", "", line) for line in remarks]  # as pandas calls an index
-    # a rate or a speed is no name; the place of a line that names two columns is the last
+    remarks = [re.sub(r"Unnamed: \d+", "", line) for line in remarks]  # pandas' name of an index
+    # leave out facts, such as a rate; names and units are in the last three of the other lines
     lines = [
         line
         for line in remarks
@@ -500,7 +498,7 @@ def _headings(remarks: Sequence[str], style: _Style, columns: Array) -> list[str
         names = _join_units(names, _names(line, style, columns))
     headings = [name for name in names if name]
     if any(re.fullmatch(r"-?\d*[.,]\d+", name) for name in headings):
-        return None  # numbers beside the settings of an instrument
+        return None  # the line has numbers beside the settings of an instrument
     if not headings or all(_row(cell, None) for cell in headings):
         return None
     return [
@@ -510,7 +508,7 @@ def _headings(remarks: Sequence[str], style: _Style, columns: Array) -> list[str
 
 
 def _join_units(names: list[str], above: list[str] | None) -> list[str]:
-    """The names of a line, or those of the line above with the units, or ends, of this one."""
+    """Return the names of a line; if it has units or ends of names, joined to the line above."""
     units = [_unit_alone(cell) for cell in names]
     like_units = (
         unit or _UNIT_LIKE.fullmatch(cell) for unit, cell in zip(units, names, strict=True)
@@ -526,30 +524,30 @@ def _join_units(names: list[str], above: list[str] | None) -> list[str]:
 
 
 def _is_remark(line: str, style: _Style, width: int) -> bool:
-    """Return True if a line says something else than the names of columns."""
-    said, unit_said = ":" in line or "=" in line, bool(facts.units_said([line], {}))
+    """Return True if a line has other words than the names of columns."""
+    has_mark, has_unit = ":" in line or "=" in line, bool(facts.stated_units([line], {}))
     if width == 1:
         return not (unit_in(line) in UNITS and re.search(r"[\[(]", line)) and (
-            unit_said
-            or said
-            # a name and what it is
+            has_unit
+            or has_mark
+            # a name and its value
             or re.search(r"[;\t]\s*[^;\t\s]|(^|\s)-?\d[\d.,]*\d", line) is not None
             or len(line.split()) > LONGEST_HEADING
             or bool(facts.named_in([line]))
         )
     cells = [cell for cell in _cells(line, style.delimiter) if cell]
-    if said and len(cells) == width and all(re.search(r"[:=]", cell) for cell in cells):
+    if has_mark and len(cells) == width and all(re.search(r"[:=]", cell) for cell in cells):
         return False  # "Ch 1: acc [g], Ch 2: acc [g]"
-    if unit_said or (len(cells) > 1 and _is_a_value(cells)):
+    if has_unit or (len(cells) > 1 and _is_a_value(cells)):
         return True
-    return (said or any(re.match(_VALUE, cell) for cell in cells)) and facts.names_a_fact(line)
+    return (has_mark or any(re.match(_VALUE, cell) for cell in cells)) and facts.names_a_fact(line)
 
 
 _VALUE = r"[-+]?\d[\d.,]*([eE][-+]?\d+)?(\s*[^\W\d]\S{0,9})?$"
 """A number with or without a unit."""
 
 LONGEST_HEADING = 4
-"""Most words in the name of the only column; more are a remark."""
+"""Most words in the name of a single column; a longer line is a remark."""
 
 _WORDS_OF_A_ROW = {
     "comment", "comments", "kommentar", "bemerkung", "remark", "remarks", "note", "notes",
@@ -560,7 +558,7 @@ _UNIT_LIKE = re.compile(r"[\[(]?(?:[a-zA-Zµμ°%]{0,5}(?:[/·*]s(?:\^?2|²|\*\*
 
 
 def _unit_alone(cell: str) -> str | None:
-    """The unit that a cell is; a letter without brackets is one as it is written alone."""
+    """Return the unit of a cell without other words; a single letter must have its usual case."""
     bare = cell.strip("[]() ")
     unit = unit_named(bare)
     return unit if len(bare) > 1 or bare in ("g", "s", unit) or bare != cell else None
@@ -570,9 +568,9 @@ _BLANKS = (r"\s{2,}", r"\s+(?![\[(])")
 
 
 def _names(line: str, style: _Style, columns: Array) -> list[str] | None:
-    """The cells of a heading, by any delimiter, if there are as many as columns.
+    """Return the cells of a heading, by any delimiter, if there are as many as columns.
 
-    Names of columns of words, and of rows, need not be there.
+    The names of columns of words, and of a column that counts rows, may be missing.
     """
     width = columns.shape[1]
     if width == 1:
@@ -585,36 +583,36 @@ def _names(line: str, style: _Style, columns: Array) -> list[str] | None:
         if not _is_a_value(names) and len(fitting := _fit_width(names, style, columns)) == width:
             return fitting
     names = [cell.strip(' "') for cell in line.split(style.delimiter or "\n")]
-    said = [column_of(name) for name in names]
-    known = [bool(c.unit or c.direction or c.place or c.role == TIME) for c in said]
+    meanings = [column_of(name) for name in names]
+    known = [bool(c.unit or c.direction or c.place or c.role == TIME) for c in meanings]
     if len(names) > width and any(known[:width]) and not any(known[width:]):
         return names[:width]  # columns of words at the end, empty and not delimited
     return None
 
 
 def _fit_width(names: list[str], style: _Style, columns: Array) -> list[str]:
-    """The names of a heading without those of no column, and with those that need not be there."""
+    """Return the names of a heading without surplus ones, and with those that may be missing."""
     width = columns.shape[1]
     while len(names) > width and (
         _number(names[-1]) is not None or names[-1].lower() in _WORDS_OF_A_ROW
     ):
-        names.pop()  # LabVIEW names a column of words, which is empty; scopes have settings
+        names.pop()  # LabVIEW names an empty column of words; oscilloscopes have settings
     if len(names) == width + 1 and re.fullmatch(r"\W*(headers|columns|fields)", names[0].lower()):
         names.pop(0)
     if 1 < len(names) < width and np.isnan(columns[:, len(names) :]).all():
         names += [""] * (width - len(names))  # rows with empty cells at their ends
     if len(names) == width - 1 and _counts_rows(columns[:, 0]):
-        names.insert(0, "")  # R names no column of the rows' names
+        names.insert(0, "")  # R has no heading above the names of rows
     if len(names) == width + 1 and style.stamps and re.search("date|dat", names[0].lower()):
-        names[:2] = [f"{names[0]} {names[1]}"]  # date and time in a column each
+        names[:2] = [f"{names[0]} {names[1]}"]  # date and time have separate columns
     return names
 
 
 def _is_a_value(cells: Sequence[str]) -> bool:
     """Return True if cells are a name and its number, such as "block 3", not names of columns."""
     values = set(cells[1:])
-    same = len(values) == 1 and "" not in values and _number(*values) is not None
-    return same and _number(cells[0]) is None and column_of(cells[0]).role != TIME
+    is_number = len(values) == 1 and "" not in values and _number(*values) is not None
+    return is_number and _number(cells[0]) is None and column_of(cells[0]).role != TIME
 
 
 def _counts_rows(column: Array) -> bool:
@@ -625,7 +623,7 @@ def _counts_rows(column: Array) -> bool:
 
 
 def _numbers(name: str, body: bytes, style: _Style, most_rows: int) -> Array | None:
-    """The numbers (n, width) of lines; None where one of them is not `width` numbers and gaps."""
+    """Return the numbers (n, width) of lines; None if one is not `width` numbers and gaps."""
     import pandas as pd
 
     width = style.width
@@ -648,24 +646,24 @@ def _numbers(name: str, body: bytes, style: _Style, most_rows: int) -> Array | N
             encoding="latin-1",
             nrows=most_rows,
         )
-    except ValueError:  # of what is no number; pandas' own errors of lines that are too long too
+    except ValueError:  # text in place of a number, or a line that is too long
         return None
     words = [frame[index].fillna("").to_numpy(dtype=str) for index in style.words]
     frame[list(style.words)] = np.nan
     columns = frame.to_numpy(dtype=float)
     for labels in words:
         refuse_mixed_rows(name, labels, columns.T)
-    unsure = not np.isnan(columns[:, width]).all() or np.isnan(columns[:, width - 1]).any()
-    lines = io.BytesIO(body)
-    if unsure and next(_wrong_lines(lines, style), None) is not None:
-        return None  # pandas fills short lines
+    # pandas fills short lines with gaps: then check each line
+    doubtful = not np.isnan(columns[:, width]).all() or np.isnan(columns[:, width - 1]).any()
+    if doubtful and next(_wrong_lines(io.BytesIO(body), style), None) is not None:
+        return None
     return columns[:, :width]
 
 
 def _wrong_lines(
     lines: Iterable[bytes], style: _Style
 ) -> Iterator[tuple[int, str, list[str], str]]:
-    """Lines that are not `width` numbers and gaps: number from 0, text, cells, what they lack."""
+    """Yield lines that are not `width` numbers and gaps: number from 0, text, cells, fault."""
     width = style.width
     for index, text in _lines_of_numbers(lines):
         cells = _cells(style.plain(text).partition("#")[0], style.delimiter)
@@ -680,13 +678,13 @@ def _wrong_lines(
             yield index, short, cells, "" if comment else f"{width} columns as in the first"
 
 
-def _mended(
+def _mend(
     name: str, body: bytes, style: _Style, above: int, remarks: Sequence[str]
 ) -> tuple[bytes, list[str], list[str]]:
-    """Lines with gaps in place of a few that hold no numbers, sentences on them, and their words.
+    """Replace words by gaps in a few lines; return the lines, sentences on them, and the words.
 
-    The first line has the number `above`. An oscilloscope's settings are beside its first numbers.
-    The last of many lines may be cut off.
+    The first line has the number `above`. Settings of an oscilloscope beside its first numbers are
+    cut off. The last of many lines may be incomplete, and is then left out.
     """
     lines, width = body.rstrip().splitlines(keepends=True), style.width
     many_lines = len(lines) > FEWEST_SAMPLES
@@ -694,8 +692,8 @@ def _mended(
         int(share * len(lines)) + 1 if many_lines else 0 for share in (MOST_WRONG, MOST_MISSING)
     )
     wrong: list[tuple[int, str, str]] = []
-    words: set[str] = set()  # in place of numbers in lines that are whole
-    torn = 0
+    words: set[str] = set()  # in place of numbers in lines of the right width
+    n_torn = 0  # lines of another width
     notes: list[str] = []
     for index, text, cells, allowed in _wrong_lines(lines, style):
         if allowed and index == len(lines) - 1 and many_lines:
@@ -709,15 +707,15 @@ def _mended(
                 words |= {cells[i] for i in bad}
                 cells = ["nan" if i in bad else cell for i, cell in enumerate(cells)]
             else:
-                torn, cells = torn + 1, ["nan"] * width
+                n_torn, cells = n_torn + 1, ["nan"] * width
             most = many if len(words) <= MOST_MISSING_WORDS else few
-            if torn > few or len(wrong) > most:
+            if n_torn > few or len(wrong) > most:
                 raise checks.refuse(f"line {above + wrong[0][0]} of {name}", *wrong[0][1:])
         text = (style.delimiter or " ").join(cells[:width])
         text = text.replace(".", ",") if style.decimal_comma else text
         lines[index] = text.encode("latin-1", "replace") + b"\n"
-    again = {line[:40] for line in remarks}  # headings of a second recording are no news
-    lacking = [(above + index, text) for index, text, _ in wrong if text not in again]
+    repeated = {line[:40] for line in remarks}  # headings of a further recording need no note
+    lacking = [(above + index, text) for index, text, _ in wrong if text not in repeated]
     if lacking:
         lack = "One line lacks" if len(lacking) == 1 else f"{thousands(len(lacking))} lines lack"
         number, text = lacking[0]
@@ -741,5 +739,5 @@ def _signals_in_rows(
         raise checks.refuse("file", name, allowed)
     columns = np.delete(np.array(whole).T, style.words, axis=0)
     check_size(name, len(columns), columns.shape[1], most_numbers, MOST_COLUMNS)
-    named = [_cells(line, style.delimiter)[0] for line in lines] if style.words == (0,) else None
-    return _text_fields(columns, named or _headings(remarks, style, columns), remarks)
+    names = [_cells(line, style.delimiter)[0] for line in lines] if style.words == (0,) else None
+    return _text_fields(columns, names or _headings(remarks, style, columns), remarks)

@@ -1,8 +1,8 @@
-"""Units of measured signals: how they are written in headings, and what they are in SI.
+"""Units of measured signals: spellings in headings, and factors to SI units.
 
-Kind         | SI unit | What is made of it
+Kind         | SI unit | Conversion to acceleration
 ------------ | ------- | ------------------
-acceleration | m/s²    | taken as it is
+acceleration | m/s²    | none
 velocity     | m/s     | differentiated
 voltage      | V       | divided by the sensor's sensitivity
 """
@@ -40,7 +40,7 @@ VOLTAGES: Mapping[str, float] = MappingProxyType({"V": 1.0, "mV": 1e-3})
 """[V]"""
 
 UNITS: Mapping[str, float] = MappingProxyType({**ACCELERATIONS, **VELOCITIES, **VOLTAGES})
-"""All that can be made an acceleration, in the SI unit of their kind."""
+"""All units that can be converted to acceleration, in the SI unit of their kind."""
 
 _TIMES = {"s": 1.0, "ms": 1e-3, "µs": 1e-6, "ns": 1e-9, "min": 60.0, "h": 3600.0, "d": 86_400.0}
 TIMES: Mapping[str, float] = MappingProxyType(_TIMES)
@@ -117,12 +117,12 @@ _DETECTOR = re.compile(r"[-_(]*(?:pk-?pk|p-?p|0-?pk?|rms|peak|pk|eff)\)?$")
 """A way to take the size of a signal, at the end of its unit: "g-pk", "mm/s RMS"."""
 
 LEAST_LEVEL, GREATEST_LEVEL = 3e-3, 2e3
-"""Root mean squares [m/s²] that housings of running bearings have: from a shaft that turns a few
-times a second (0.3 mg) to a machine that comes apart (200 g)."""
+"""Least and greatest root mean square [m/s²] on housings of running bearings: from a shaft that
+turns a few times a second (0.3 mg) to a machine that breaks apart (200 g)."""
 
 
 def unit_named(text: str) -> str | None:
-    """The unit that a text names, as this module writes it; None if it names none.
+    """Return the unit that a text names, in the spelling of this module; None if it names none.
 
     >>> unit_named("m/s^2"), unit_named("in/sec²"), unit_named("furlongs")
     ('m/s²', 'in/s²', None)
@@ -133,7 +133,7 @@ def unit_named(text: str) -> str | None:
 
 
 def unit_in(heading: str) -> str | None:
-    """The unit that a heading gives to its column, or None.
+    """Return the unit in the heading of a column, or None.
 
     >>> unit_in("acc x [mm/s^2]"), unit_in("sensor_g"), unit_in("acceleration_y_m_per_s2")
     ('mm/s²', 'g', 'm/s²')
@@ -144,7 +144,7 @@ def unit_in(heading: str) -> str | None:
 
 
 def _parts_like_units(heading: str) -> Iterator[str]:
-    """The parts of a heading that may be a unit, the surest first."""
+    """Yield the parts of a heading that may be a unit, the most certain first."""
     heading = re.sub(r"(?i)[\[(](pk-?pk|peak|pk|rms)[\])]", "", heading)
     yield from _IN_BRACKETS.findall(heading)
     bare = heading.strip().lower()
@@ -168,33 +168,33 @@ def _parts_like_units(heading: str) -> Iterator[str]:
 
 
 def kind_of(unit: str) -> str:
-    """Quantity that a unit measures: "acceleration", "velocity", "voltage", "time" or "other"."""
+    """Return the quantity of a unit: "acceleration", "velocity", "voltage", "time" or "other"."""
     kinds = {"acceleration": ACCELERATIONS, "velocity": VELOCITIES}
     kinds |= {"voltage": VOLTAGES, "time": TIMES}
     return next((kind for kind, units in kinds.items() if unit in units), "other")
 
 
-def differentiated(signal: Array, sample_rate: float) -> Array:
-    """The rate of change of columns (n, d) at `sample_rate` [Hz], exact for what is sampled well.
+def differentiate(signal: Array, sample_rate: float) -> Array:
+    """Return the rate of change of columns (n, d) at `sample_rate` [Hz], below half of it.
 
-    Multiplies the spectrum by i·2πf; the signal is continued by turning it about its ends, so that
-    no step appears there.
+    The spectrum is multiplied by i·2πf. Before that the signal is extended by its point reflection
+    at the last sample, so that no step appears at its ends.
     """
     n = len(signal)
     first, last = signal[:1], signal[-1:]
-    turned = np.concatenate([signal, 2.0 * last - signal[-2:0:-1]])
-    # what remains between the ends of one period is a straight line
-    slope = 2.0 * (last - first) / len(turned)
-    line = slope * np.arange(len(turned))[:, None]
-    frequency = np.fft.rfftfreq(len(turned), 1.0 / sample_rate)
-    lines = np.fft.rfft(turned - line, axis=0) * (2j * np.pi * frequency)[:, None]
-    if len(turned) % 2 == 0:
-        lines[-1] = 0.0  # at half the rate a slope has no sign
-    return np.fft.irfft(lines, len(turned), axis=0)[:n] + slope * sample_rate
+    extended = np.concatenate([signal, 2.0 * last - signal[-2:0:-1]])
+    # without a straight line, both ends of the extended signal are equal
+    slope = 2.0 * (last - first) / len(extended)
+    line = slope * np.arange(len(extended))[:, None]
+    frequency = np.fft.rfftfreq(len(extended), 1.0 / sample_rate)
+    spectrum = np.fft.rfft(extended - line, axis=0) * (2j * np.pi * frequency)[:, None]
+    if len(extended) % 2 == 0:
+        spectrum[-1] = 0.0  # at half the rate the sign of a slope is unknown
+    return np.fft.irfft(spectrum, len(extended), axis=0)[:n] + slope * sample_rate
 
 
 def level_doubt(level: float) -> str:
-    """A sentence where a root mean square [m/s²] is not what a running bearing gives, else "".
+    """Return a sentence if a root mean square [m/s²] is unusual for a running bearing, else "".
 
     >>> level_doubt(3.0)
     ''

@@ -1,4 +1,4 @@
-"""Variables of a file: matrices of numbers and words by their names, and the table they make."""
+"""Variables of a file: matrices of numbers and words by name, and a table made of them."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from bearingcore.measured.files._facts import is_steady
 from bearingcore.recordings import FEWEST_SAMPLES
 
 DEEPEST = 8
-"""Structs, cells and groups inside one another."""
+"""Greatest depth of structs, cells and groups inside one another."""
 
 MOST_NUMBERS = 16_000_000
-"""Numbers in a file, all columns together."""
+"""Greatest count of numbers in all columns of a file."""
 
 MOST_COLUMNS = 1024
 
 MOST_SCALARS = 200
-"""Single numbers and words of a file that are kept."""
+"""Most single numbers, and most words, of a file that are kept."""
 
 LONGEST_TEXT = 1000
 """Longest text [characters] that is kept."""
@@ -31,11 +31,10 @@ Answer = tuple[dict[str, Any], Array]
 
 @dataclass
 class Variables:
-    """Variables of a file: matrices in the kind of number they are stored in, and words.
+    """Variables of a file: matrices in their stored number type, and words.
 
-    `scalars` are those of the matrices that hold, or repeat, a single number.
-
-    `instead` says what is wanted in place of a file that holds no signal.
+    `scalars` are the matrices with a single number, or with one number that repeats. `instead` are
+    words for what to use in place of a file without a signal.
     """
 
     numbers: dict[str, NDArray[Any]] = field(default_factory=dict)
@@ -50,9 +49,9 @@ class Variables:
             self.add(f"{path}.{part}" if path else part, value[part].ravel())
         if value.dtype.kind == "M" and value.size:
             value = value - value.ravel()[0]
-        if value.dtype.kind == "m":  # durations, and dates since the first
+        if value.dtype.kind == "m":  # durations, also those since the first date
             value = value / np.timedelta64(1, "s")
-        if value.ndim > 2:  # the longest direction is that of the samples
+        if value.ndim > 2:  # samples follow each other along the longest axis
             longest = int(np.argmax(value.shape))
             value = np.moveaxis(value, longest, 0).reshape(value.shape[longest], -1)
         if value.dtype.kind in "iuf" and value.ndim <= 2:
@@ -61,11 +60,11 @@ class Variables:
             words = value.ravel()[: MOST_SCALARS - len(self.texts)].tolist()
             for index, word in enumerate(words):
                 text = word.decode("utf-8", "replace") if isinstance(word, bytes) else str(word)
-                of = f"{path}{{{index + 1}}}" if len(words) > 1 else path
-                self.texts[of] = text[:LONGEST_TEXT].strip()
+                name = f"{path}{{{index + 1}}}" if len(words) > 1 else path
+                self.texts[name] = text[:LONGEST_TEXT].strip()
 
     def table(self, name: str, kind: str) -> Answer:
-        """Make columns of vectors and matrices about as long as the longest; the rest are facts."""
+        """Return vectors and matrices about as long as the longest as columns; others as facts."""
         parts: dict[str, NDArray[Any]] = {}
         for variable, matrix in self.numbers.items():
             if matrix.size > 1:
@@ -82,7 +81,7 @@ class Variables:
             wanted = self.instead or f"a {kind} with a vector or matrix of real numbers"
             raise checks.refuse("file", name, wanted)
         rows = max(len(part) for part in parts.values())
-        self._take_out_short(parts, rows)
+        self._remove_short(parts, rows)
         width = sum(part.shape[1] for part in parts.values())
         check_size(name, rows, width, MOST_NUMBERS, MOST_COLUMNS)
         columns = np.full((rows, width), np.nan, order="F")
@@ -95,15 +94,16 @@ class Variables:
                           for i in range(part.shape[1])]  # fmt: skip
         return {"names": names, "scalars": self.scalars, "texts": self.texts}, columns
 
-    def _take_out_short(self, parts: dict[str, NDArray[Any]], rows: int) -> None:
-        """Take out the parts that are much shorter than the longest, of so many rows."""
-        # a much shorter part was measured otherwise, or is not a signal
+    def _remove_short(self, parts: dict[str, NDArray[Any]], rows: int) -> None:
+        """Remove the parts that are much shorter than the longest, which has so many rows.
+
+        A much shorter part is no signal, or was measured in another way.
+        """
         least = max(FEWEST_SAMPLES, rows // 2) if rows >= FEWEST_SAMPLES else rows
         for variable in [variable for variable, part in parts.items() if len(part) < least]:
             part = parts.pop(variable)
-            # facts on it, such as its rate, do not hold for the signals
-            of = f"{variable}."
-            for name in [name for name in self.scalars if name.startswith(of)]:
+            # its facts, such as its rate, do not hold for the signals
+            for name in [name for name in self.scalars if name.startswith(f"{variable}.")]:
                 del self.scalars[name]
             if is_steady(part) and len(self.scalars) < MOST_SCALARS:
                 self.scalars[variable] = float(part.mean())
@@ -112,7 +112,7 @@ class Variables:
 
 
 def check_size(name: str, rows: int, width: int, most_numbers: int, most_columns: int) -> None:
-    """Refuse a table of too many columns or numbers; of the latter those over the limit count."""
+    """Refuse a table with too many columns or numbers."""
     if width > most_columns:
         most = f"at most {most_columns}: save those of one bearing, or write each signal in a row"
         raise checks.refuse(f"number of columns in {name}", width, most)

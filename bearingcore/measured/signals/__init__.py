@@ -16,10 +16,7 @@ from bearingcore.measured.signals._indicators import (
     severity_zone as severity_zone,
     shaft_share as shaft_share,
 )
-from bearingcore.measured.signals._kurtogram import (
-    Kurtogram as Kurtogram,
-    kurtogram as kurtogram,
-)
+from bearingcore.measured.signals._kurtogram import Kurtogram as Kurtogram, kurtogram as kurtogram
 from bearingcore.measured.signals._spectrograms import (
     Spectrogram as Spectrogram,
     order_map as order_map,

@@ -11,37 +11,37 @@ from numpy.typing import NDArray
 from bearingcore.common import Array, count, number, runs
 
 LEAST_RUN = 16
-"""Equal samples in a row from which a sensor is taken to have dropped out, however coarse its
-numbers."""
+"""Fewest equal samples in a row that count as a dropout of the sensor, however coarse its numbers.
+"""
 
 LEAST_RUN_AT_RAIL = 256
-"""Equal samples in a row at the greatest or least value, where a clipped swing stays too."""
+"""The same at the greatest or least value, where a clipped swing also stays."""
 
 BY_CHANCE = 1e-5
-"""Share of the samples at which numbers as coarse as a signal's may look held, on a straight line
-or repeated. A recorder that loses samples fills the gaps with such, often at a steady rate."""
+"""Greatest share of the samples at which coarse numbers may look held, interpolated or repeated by
+chance. A recorder that loses samples fills the gaps with such numbers, often at a steady rate."""
 
 THROUGHOUT = 0.95
-"""Share of a signal that is filled, or next to what is, from which the whole of it was resampled
-and these are no gaps."""
+"""Share of filled samples and their neighbours above which a whole signal was resampled: then they
+are no gaps."""
 
 LOST_REACH = 8
-"""Samples over which the edge of a gap rings in the widest band, see `squared_envelopes`."""
+"""Number of samples over which the edge of a gap rings in the widest band, see
+`squared_envelopes`."""
 
 STRAIGHT = 1e-12
-"""Share of the greatest swing by which a straight line may bend: rounding bends it as much."""
+"""Greatest bend of a straight line, over the greatest swing: rounding bends it as much."""
 
 LONGEST_WORD = 64
-"""Samples that are looked at for repeats at most: the numbers of a signal that needs more are so
-few that its repeats are its own."""
+"""Most samples that are compared to find repeats. A signal that needs more has so few different
+numbers that it repeats by itself."""
 
 RAIL = 1e-6
-"""Share of the greatest swing: samples this close to an extreme are at it."""
+"""Greatest distance of a sample at an extreme, over the greatest swing."""
 
 FEWEST_CUT, CUT_PILE = 10, 5
-"""Samples at one limit, and times as many as at the next value, from which on peaks are cut off.
-
-Of a sine, which stays longest at its peaks, it is 2.4 times.
+"""Peaks are cut off if at least this many samples are at one limit, and this many times as many as
+at the next value. For a sine, which stays longest at its peaks, the ratio is 2.4.
 """
 
 
@@ -52,12 +52,12 @@ class SignalFaults:
     Attributes
     ----------
     dropped : (n,) bool
-        samples that were not measured: inside a run of equal numbers or of numbers on a straight
-        line, or the same as a stretch before.
+        samples that were not measured: in a run of equal numbers, on a straight line, or repeating
+        an earlier stretch.
     dropped_share
-        of the samples, 0 to 1.
+        share of dropped samples, 0 to 1.
     clipped_share
-        of the samples at the greatest or least value, where several in a row do.
+        share of the samples in runs at the greatest or least value.
     """
 
     dropped: NDArray[np.bool_] = field(repr=False)
@@ -66,22 +66,22 @@ class SignalFaults:
 
     @property
     def lost_share(self) -> float:
-        """Share of the samples that are dropped or so near to one that no band can show them."""
-        return _spread(self.dropped)
+        """Share of the samples that are dropped or too near a dropped one to show in any band."""
+        return _share_near(self.dropped)
 
 
 def signal_faults(samples: Array) -> SignalFaults:
-    """Dropouts and clipping of a signal (n,)."""
+    """Return the dropouts and the clipping of a signal (n,)."""
     steps = np.diff(samples)
     begins, ends = runs(steps == 0.0)  # of equal neighbours: samples begin .. end
     dropped = np.zeros(len(samples), dtype=bool)
     low, high = float(samples.min()), float(samples.max())
     near = RAIL * (high - low)
     levels, times = np.unique(samples, return_counts=True)
-    if times[times > 1].sum() > 0.5 * times.sum():  # numbers drawn into gaps are no levels
+    if times[times > 1].sum() > 0.5 * times.sum():  # interpolated numbers are no levels
         levels = levels[times > 1]
     step = float(np.quantile(np.diff(levels), 0.05)) if len(levels) > 1 else 0.0
-    short = 1 + _fewest(step, steps)
+    short = 1 + _fewest_zeros(step, steps)
     held = np.zeros(len(samples), dtype=bool)
     clipped = 0
     for begin, end in zip(begins.tolist(), ends.tolist(), strict=True):
@@ -92,63 +92,65 @@ def signal_faults(samples: Array) -> SignalFaults:
             clipped += end - begin + 1
         elif end - begin + 1 >= short:
             held[begin : end + 1] = True
-    for filled in (held, _drawn(steps, step, high - low)):
-        if _spread(filled) < THROUGHOUT:
+    for filled in (held, _mark_straight(steps, step, high - low)):
+        if _share_near(filled) < THROUGHOUT:
             dropped |= filled
-    repeated = _repeated(samples, steps, times)
-    if repeated.mean() < 0.5:  # more repeats where a signal was computed, with a period
+    repeated = _mark_repeated(samples, steps, times)
+    if repeated.mean() < 0.5:  # a computed, periodic signal repeats more
         dropped |= repeated
     return SignalFaults(dropped, float(dropped.mean()), clipped / len(samples))
 
 
-def _spread(dropped: NDArray[np.bool_]) -> float:
-    """Share of samples within LOST_REACH of some (n,)."""
+def _share_near(dropped: NDArray[np.bool_]) -> float:
+    """Return the share of samples within LOST_REACH of a dropped one (n,)."""
     return float((np.convolve(dropped, np.ones(2 * LOST_REACH + 1), "same") > 0.5).mean())
 
 
-def _fewest(step: float, differences: Array) -> int:
-    """Differences of zero in a row that rounding to steps makes at fewer than BY_CHANCE places."""
+def _fewest_zeros(step: float, differences: Array) -> int:
+    """Return the fewest zeros in a row that rounding to steps makes more rarely than BY_CHANCE."""
     chance = max(step / max(float(np.median(np.abs(differences))), 1e-300), 1e-12)
     return LEAST_RUN if chance >= 0.5 else max(1, math.ceil(math.log(BY_CHANCE) / math.log(chance)))
 
 
-def _drawn(steps: Array, step: float, swing: float) -> NDArray[np.bool_]:
-    """Samples (n,) on straight lines between those that were measured."""
-    drawn = np.zeros(len(steps) + 1, dtype=bool)
+def _mark_straight(steps: Array, step: float, swing: float) -> NDArray[np.bool_]:
+    """Mark samples (n,) on straight lines between those that were measured."""
+    marked = np.zeros(len(steps) + 1, dtype=bool)
     bends = np.diff(steps)
-    fewest = _fewest(step, bends)
+    fewest = _fewest_zeros(step, bends)
     straight = (np.abs(bends) <= STRAIGHT * swing) & (steps[1:] != 0.0)
     for begin, end in zip(*runs(straight), strict=True):
         if end - begin >= fewest:
-            drawn[begin + 1 : end + 1] = True
-    return drawn
+            marked[begin + 1 : end + 1] = True
+    return marked
 
 
-def _repeated(samples: Array, steps: Array, times: NDArray[np.int64]) -> NDArray[np.bool_]:
-    """Samples (n,) that repeat a stretch before them, number by number.
+def _mark_repeated(samples: Array, steps: Array, times: NDArray[np.int64]) -> NDArray[np.bool_]:
+    """Mark samples (n,) that repeat an earlier stretch, number by number.
 
-    `times` is how many times each number occurs.
+    `times` are the numbers of occurrences of each value.
     """
     repeated = np.zeros(len(samples), dtype=bool)
-    moves_alike = np.unique(steps, return_counts=True)[1]
-    # the chance that two samples, or two of the steps between them, are equal
-    alike = max(float(np.square(many / many.sum()).sum()) for many in (times, moves_alike))
-    if alike >= 0.5:
+    step_times = np.unique(steps, return_counts=True)[1]
+    # probability that two samples, or two of the steps between them, are equal
+    equal = max(float(np.square(many / many.sum()).sum()) for many in (times, step_times))
+    if equal >= 0.5:
         return repeated
+    # length of a word that repeats by chance less often than BY_CHANCE; 2 for fine numbers
     word = 2
-    if alike * len(samples) > 2.0:  # not as fine as if no two were equal by chance
-        word *= math.ceil(math.log(BY_CHANCE / len(samples)) / math.log(alike))
+    if equal * len(samples) > 2.0:
+        word *= math.ceil(math.log(BY_CHANCE / len(samples)) / math.log(equal))
     if word > LONGEST_WORD:
         return repeated
+    # hash the word that begins at each sample
     bits = np.ascontiguousarray(samples + 0.0).view(np.uint64)
     hashed = np.zeros(len(samples) - word + 1, dtype=np.uint64)
-    moves = np.zeros(len(hashed), dtype=bool)  # a sensor that rests repeats itself
+    moves = np.zeros(len(hashed), dtype=bool)  # words of one number do not count
     for place in range(word):
         factor = np.uint64(0x9E3779B97F4A7C15 ** (place + 1) % 2**64)
-        there = bits[place : place + len(hashed)]
-        hashed += (there ^ (there >> np.uint64(29))) * factor
-        moves |= there != bits[: len(hashed)]
-    ordered = np.sort(hashed)  # a tenth of the time that the places of equal ones take
+        shifted = bits[place : place + len(hashed)]
+        hashed += (shifted ^ (shifted >> np.uint64(29))) * factor
+        moves |= shifted != bits[: len(hashed)]
+    ordered = np.sort(hashed)  # ten times as fast as np.unique with indices
     if not (ordered[1:] == ordered[:-1]).any():
         return repeated
     again = np.ones(len(hashed), dtype=bool)
@@ -159,7 +161,7 @@ def _repeated(samples: Array, steps: Array, times: NDArray[np.int64]) -> NDArray
 
 
 def cut_off(signal: Array) -> str:
-    """A sentence where the peaks of a signal (n,) are cut off by its recorder, else ""."""
+    """Return a sentence if the recorder has cut off the peaks of a signal (n,), else ""."""
     reaching = 0
     limits: list[str] = []
     for sign in (1.0, -1.0):
@@ -169,9 +171,9 @@ def cut_off(signal: Array) -> str:
         at = side.size - inside.size
         if not inside.size or at < FEWEST_CUT:
             continue
-        next_to = np.count_nonzero(inside == inside.max())
-        # a signal that rests there, as between pulses, is not cut off
-        if at >= CUT_PILE * next_to and limit - np.median(side) > 0.2 * (limit - inside.min()):
+        at_next = np.count_nonzero(inside == inside.max())
+        # a signal that rests at its limit, as between pulses, is not cut off
+        if at >= CUT_PILE * at_next and limit - np.median(side) > 0.2 * (limit - inside.min()):
             reaching += at
             limits.append(number(sign * limit, 4))
     if not reaching:

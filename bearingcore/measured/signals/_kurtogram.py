@@ -1,7 +1,7 @@
-"""Kurtogram: how impulsive a signal is in bands of many widths, and the band for its envelope.
+"""Kurtogram: impulsiveness of a signal in bands of many widths, and the band for its envelope.
 
-Knocks that repeat make something ring, and there the envelope rises and falls by more than noise or
-a steady tone lets it. The bands are those of the fast kurtogram (Antoni, Mechanical Systems and
+Repeated knocks excite resonances. In their bands the envelope rises and falls more than that of
+noise or of a steady tone. The bands are those of the fast kurtogram (Antoni, Mechanical Systems and
 Signal Processing 21, 2007), each filtered without delay.
 """
 
@@ -17,24 +17,24 @@ from bearingcore.common import Array, ResultTable, _checks as checks, shown_as_t
 from bearingcore.measured.signals._filter_bank import BAND_COUNTS, Band, split, squared_envelopes
 
 MOST_JUDGED = 2**18
-"""Number of samples that are looked at: the first ones of a signal."""
+"""Greatest number of samples that are used: the first ones of a signal."""
 
 PIECES = 8
-"""Number of pieces that are judged, so that a single mishap does not decide."""
+"""Number of pieces that are judged, so that a single disturbance does not decide."""
 
 FEWEST = 24.0
-"""Independent values of the envelope that a piece has at least, or the band is too narrow."""
+"""Fewest independent values of the envelope in a piece; narrower bands are left out."""
 
 DYNAMIC_RANGE = 1e-4
-"""Bands whose density is this far below the strongest one's are not chosen (40 dB)."""
+"""Least density of a band that may be chosen, over that of the strongest one (40 dB)."""
 
 CHANCE = 7.0
-"""Standard deviations of the kurtosis of noise by which a band must surpass it for the choice: of
-many bands one is that lucky now and then, and a narrow one more than a Gaussian would be."""
+"""Standard deviations that are subtracted from the kurtosis of a band before the choice. Among many
+bands one is high by chance, and a narrow one more often than a Gaussian would be."""
 
 SCATTER = 3.6
-"""Variance of that kurtosis times duration and width: 4 ∫ sinc⁴ = 8/3 of a band of noise, and a
-third more of the median of eight pieces."""
+"""Variance of the kurtosis of noise, times duration and width: 4 ∫ sinc⁴ = 8/3 for a band of noise,
+and a third more for the median of eight pieces."""
 
 
 @shown_as_table
@@ -64,17 +64,17 @@ class Kurtogram(NamedTuple):
     def best(self, lowest: float = 0.0) -> Band:
         """Return the band for the envelope: the most impulsive one that is not too faint.
 
-        From each band the kurtosis that chance may add is subtracted; for narrow bands it is large.
+        The kurtosis that chance may add is subtracted; for narrow bands it is large.
         Bands that begin below `lowest` [Hz] are left out, unless there is no other.
         """
         loud = self.density >= DYNAMIC_RANGE * self.density.max()
         high = np.array([band.low >= lowest for band in self.bands])
         known = loud & high if (loud & high).any() else loud
-        certain = np.where(known, self.kurtosis - CHANCE * self.deviation, -math.inf)
-        return self.bands[int(certain.argmax())]
+        surplus = np.where(known, self.kurtosis - CHANCE * self.deviation, -math.inf)
+        return self.bands[int(surplus.argmax())]
 
     def table(self) -> ResultTable:
-        """A row for each band."""
+        """Return a row for each band."""
         low, high = np.array(self.bands).T
         return table_of(
             ("band_low", "Hz", low),
@@ -112,20 +112,20 @@ def kurtogram(signal: ArrayLike, sample_rate: float, narrowest: float = 0.0) -> 
     least = max(least, FEWEST * PIECES / duration)
     numbers = {band: parts for parts in BAND_COUNTS for band in split(rate, least, (parts,))}
     envelopes = squared_envelopes(samples, rate, list(numbers), math.inf, loudest=math.inf)
-    whole, density = periodogram(samples, rate, detrend="constant")
+    frequency, density = periodogram(samples, rate, detrend="constant")
     kept = tuple(envelope.band for envelope in envelopes)
     widths = np.array([band.high - band.low for band in kept])
     return Kurtogram(
         kept,
         np.array([numbers[band] for band in kept]),
         np.array([_kurtosis(envelope.values) for envelope in envelopes]),
-        np.array([density[(whole >= b.low) & (whole < b.high)].mean() for b in kept]),
+        np.array([density[(frequency >= b.low) & (frequency < b.high)].mean() for b in kept]),
         np.sqrt(SCATTER / (duration * widths)),
     )
 
 
 def _kurtosis(squared: Array) -> float:
-    """Unevenness of a squared envelope, its ends left out: 0 for noise, -1 for a tone."""
+    """Return the kurtosis of a squared envelope without its ends: 0 for noise, -1 for a tone."""
     cut = len(squared) // 20
     pieces = np.array_split(squared[cut : len(squared) - cut], PIECES)
     values = [float((piece**2).mean()) / max(float(piece.mean()), 1e-300) ** 2 for piece in pieces]

@@ -12,7 +12,7 @@ from bearingcore.measured.signals._whitening import local_median
 
 
 class LineLevels(NamedTuple):
-    """The spectrum of an envelope against its surroundings.
+    """The spectrum of an envelope, over the level of its surroundings.
 
     Attributes
     ----------
@@ -21,9 +21,9 @@ class LineLevels(NamedTuple):
     level : (m,) [dB]
         over the surroundings' mean.
     depth : (m,)
-        by how much the envelope swings at a frequency, as a share of its mean.
+        swing of the envelope at a frequency, over its mean.
     averages
-        independent spectra that the mean is worth.
+        equivalent number of independent spectra in the mean.
     floor : (m,)
         the depth of the surroundings.
     """
@@ -38,7 +38,7 @@ class LineLevels(NamedTuple):
 def line_levels(
     values: Array, rate: float, segment: float, highest: float, surroundings: float
 ) -> LineLevels:
-    """Levels of the lines in a signal (n,), by Welch's method with half-overlapping Hann windows.
+    """Compute the levels of lines in a signal (n,) by Welch's method, Hann windows, half overlap.
 
     Parameters
     ----------
@@ -49,9 +49,9 @@ def line_levels(
     segment
         [s]; the whole signal if it is shorter.
     highest
-        [Hz] up to which lines are wanted.
+        [Hz] of the last line.
     surroundings
-        [Hz] over which a line's background is the median.
+        width [Hz] over which the median is the background of a line.
     """
     from scipy.fft import next_fast_len, rfft  # imported late: see `spectrum`
     from scipy.special import gammaincinv
@@ -71,7 +71,7 @@ def line_levels(
     apart = (count - length) / ((pieces - 1) * length) if pieces > 1 else 1.0
     shared = 2.0 * _correlation(round(1.0 - apart, 3)) * (1.0 - 1.0 / pieces)
     averages = pieces / (1.0 + shared)
-    # what the median of such a mean of noise is, over its mean
+    # a mean of n spectra of noise has a gamma distribution: its median over its mean
     median = float(gammaincinv(averages, 0.5)) / averages
     background = local_median(power, round(surroundings / step) | 1) / median
     level = 10.0 * np.log10(np.maximum(power, 1e-300) / np.maximum(background, 1e-300))
@@ -82,7 +82,7 @@ def line_levels(
 
 @lru_cache(maxsize=64)
 def hann(length: int) -> Array:
-    """Hann's window (length,), periodic."""
+    """Return the periodic Hann window (length,)."""
     window = 0.5 - 0.5 * np.cos(2.0 * np.pi / length * np.arange(length))
     window.setflags(write=False)
     return np.asarray(window)
@@ -90,7 +90,7 @@ def hann(length: int) -> Array:
 
 @lru_cache(maxsize=256)
 def _correlation(overlap: float) -> float:
-    """Squared correlation of the spectra of noise in two Hann windows that overlap by a share."""
+    """Return the squared correlation of spectra of noise in two Hann windows with an overlap."""
     if overlap <= 0.0:
         return 0.0
     n = 256

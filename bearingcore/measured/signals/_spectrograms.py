@@ -18,7 +18,7 @@ FEWEST_SEGMENTS = 4
 """Least number of segments that must fit into a signal one after the other."""
 
 MOST_IN_ANGLE = 20_000_000
-"""Samples equally far apart in angle that are made at most: some gigabytes."""
+"""Greatest number of samples at equal steps of angle: some gigabytes."""
 
 
 class Spectrogram(NamedTuple):
@@ -106,13 +106,14 @@ def order_map(
     if len(times) != len(speeds) or (np.diff(times) <= 0.0).any():
         raise checks.refuse("time", "not rising with the speeds", "a later time for each speed")
     samples = checks.samples_of(signal, 1, "in a row", (1,))
-    at = np.arange(len(samples)) / rate
-    each = np.interp(at, times, speeds)
-    turns = np.concatenate([[0.0], np.cumsum(0.5 * (each[1:] + each[:-1]))]) / rate
-    # as fine as the slowest turn was sampled, so that nothing folds back
-    slowest, least = float(each.min()), float(turns[-1]) * rate / MOST_IN_ANGLE
+    sample_times = np.arange(len(samples)) / rate
+    sample_speeds = np.interp(sample_times, times, speeds)
+    middles = 0.5 * (sample_speeds[1:] + sample_speeds[:-1])
+    turns = np.concatenate([[0.0], np.cumsum(middles)]) / rate
+    # as many samples a turn as the slowest turn has, so that nothing is aliased
+    slowest, least = float(sample_speeds.min()), float(turns[-1]) * rate / MOST_IN_ANGLE
     if slowest < least:
-        allowed = f"at least {least:.2g} Hz in so long a signal: leave out where it turns slower"
+        allowed = f"at least {least:.2g} Hz in such a long signal: leave out its slower parts"
         raise checks.refuse("speed", f"{slowest:.2g} Hz", allowed)
     per_turn = next_fast_len(math.ceil(rate / slowest), real=True)
     return spectrogram(resample_over_turns(samples, turns, per_turn), per_turn, resolution)

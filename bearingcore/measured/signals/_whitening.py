@@ -1,7 +1,7 @@
-"""Whitening: every frequency equally loud, and no tone louder than what surrounds it.
+"""Whitening: every frequency becomes equally loud, and no tone is louder than its surroundings.
 
-Knocks spread over all frequencies, shaft lines, mesh and mains tones sit in single ones. What is
-left after whitening is what varies in time, which is where knocks show.
+Knocks spread over all frequencies, while lines of shaft, gear mesh and mains are at single ones.
+Whitening leaves the part of a signal that varies in time, in which knocks show.
 """
 
 from __future__ import annotations
@@ -14,17 +14,17 @@ from numpy.typing import NDArray
 from bearingcore.common import Array
 
 LOUDEST = 3.0
-"""Times the surroundings' root mean square that a single frequency may keep."""
+"""Greatest level of a single frequency, over the root mean square of its surroundings."""
 
 
 def local_median(values: Array, width: int) -> Array:
-    """Running median (n,) of positive values, over `width` of them, smooth in between."""
+    """Return the running median (n,) of positive values over `width` of them, interpolated."""
     count = len(values)
     width = max(3, min(width, count))
     half = width // 2
     places = np.unique(np.linspace(0, count - 1, max(2, 2 * count // width)).round().astype(int))
     begins = np.clip(places - half, 0, count - width)
-    # all windows at once: they are few, as they overlap by half only
+    # all windows at once: they are few, because they overlap only by half
     windows = np.lib.stride_tricks.sliding_window_view(values, width)[begins]
     middle = np.maximum(np.median(windows, axis=1), np.finfo(float).tiny)
     return np.exp(np.interp(np.arange(count), places, np.log(middle)))
@@ -33,7 +33,7 @@ def local_median(values: Array, width: int) -> Array:
 def whiten(
     transform: NDArray[np.complex128], resolution: float, width: float
 ) -> NDArray[np.complex128]:
-    """The discrete Fourier transform (m,) of a signal, divided by its surroundings' level.
+    """Divide the discrete Fourier transform (m,) of a signal by the level of its surroundings.
 
     Parameters
     ----------
@@ -42,11 +42,11 @@ def whiten(
     resolution
         [Hz] between its frequencies.
     width
-        [Hz] over which the surroundings' level is the median.
+        width [Hz] over which the median is the level of the surroundings.
 
     Returns
     -------
-    (m,) with a root mean square of about 1 everywhere, tones cut to LOUDEST.
+    (m,) with a root mean square of about 1 everywhere, and tones limited to LOUDEST.
     """
     power = np.abs(transform) ** 2
     # the median of a noise's power is ln 2 of its mean

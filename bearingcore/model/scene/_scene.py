@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from bearingcore.bearings import Bearing, BearingLike, bearing_of
 from bearingcore.bearings._kind import DIRECTIONS
-from bearingcore.bearings._kinds import recognized
-from bearingcore.bearings._line_contact import mended_factor
+from bearingcore.bearings._kinds import recognize_kind
+from bearingcore.bearings._line_contact import mend_factor
 from bearingcore.bearings._preload import ROW_CHANGES
 from bearingcore.common import _checks as checks, _scene_file as scene_file
 from bearingcore.fields import FIELDS
@@ -274,7 +274,7 @@ class Scene:
         elif self.dofs == TILT_FREE and self.replace(dofs=None).holds_tilt_unasked:
             del data["dofs"]
         kind = data["bearing"].pop("kind")
-        if kind is not recognized(self.bearing):
+        if kind is not recognize_kind(self.bearing):
             data["bearing"]["kind"] = kind.name
         return data
 
@@ -299,7 +299,7 @@ class Scene:
         if isinstance(table.get("bearing"), dict):
             bearing = {"groove_center_distance": None} | table["bearing"]  # rollers have none
             if "load_deflection_factor" in bearing:
-                bearing["load_deflection_factor"] = mended_factor(
+                bearing["load_deflection_factor"] = mend_factor(
                     bearing["load_deflection_factor"], bearing.get("roller_length")
                 )
             table["bearing"] = bearing

@@ -91,7 +91,7 @@ def test_ways_to_write_a_table(table: str | bytes) -> None:
         (f"{HEAD}\na;9;x;39", ["line 2, column ball_diameter_mm", "'x'", "a number"]),
         (f"{HEAD}\n\na;8.5;7;39", ["line 3, column balls", "8.5", "whole number"]),
         (f"{HEAD}\na;12;12;39", ["line 2, column balls", "do not overlap"]),
-        (f"{HEAD}\na;9;7;39\na;9;7;39", ["line 3, column name", "a name of its own"]),
+        (f"{HEAD}\na;9;7;39\na;9;7;39", ["line 3, column name", "a different name"]),
         (f"{HEAD}\na;9;7;39;1", ["cells in table of bearings: line 2 is 5", "4"]),
         ("name,balls,ball_diameter_mm,pitch_diameter_mm\na,9,7,94,39", ["decimal comma"]),
         (f'{HEAD}\n"a;9;7;39', ["cells that csv can read"]),

@@ -427,5 +427,5 @@ def test_what_is_not_known_is_refused_with_its_frequencies_as_the_way(text: str)
     with pytest.raises(FieldError, match="allowed: a bearing of the series 60, 62, 63") as refused:
         read_designation(text)
     assert refused.value.field == "designation"
-    assert "say its own (BPFO, BPFI, BSF, FTF)" in str(refused.value)
+    assert "enter its own (BPFO, BPFI, BSF, FTF)" in str(refused.value)
     assert "nearest" not in str(refused.value)

@@ -296,7 +296,7 @@ REFUSED: dict[str, list[tuple[Callable[[], object], str]]] = {
         (lambda: order_map(TIME, 6000.0, [8.0, 0.0], [30.0, 20.0]), "a later time for each speed"),
         (lambda: order_map(TIME, 6000.0, [0.0, 4.0, 8.0], [20.0, 30.0]), "a later time for each"),
         (lambda: order_map(TIME, 6000.0, [0.0, NAN], [20.0, 30.0]), "time"),
-        (lambda: order_map(TIME, 6000.0, [0.0, 8.0], [1e-4, 30.0]), "leave out where it turns slo"),
+        (lambda: order_map(TIME, 6000.0, [0.0, 8.0], [1e-4, 30.0]), "leave out its slower parts"),
         (lambda: order_map(TIME[:, None], 6000.0, [0.0], [20.0]), "a row"),
         (lambda: order_map(TIME[:0], 6000.0, [0.0], [20.0]), "a row"),
         (lambda: order_map(TIME * NAN, 6000.0, [0.0], [20.0]), "finite"),

@@ -85,7 +85,7 @@ def test_the_time_between_knocks_and_the_offset_are_the_extent(race):
     assert f"{math.degrees(extent.extent):.1f}°" in extent.sentence
     assert extent.alternatives[0] == (extent.extent, extent.low, extent.high)
     other = math.degrees(extent.ball_spacing - extent.separation + extent.offset)
-    assert f"{other:.0f}° would show alike" in extent.sentence
+    assert f"{other:.0f}° would look the same" in extent.sentence
     table = extent.table()
     assert table["extent"][0] == extent.extent
     assert len(table["envelope"]) == len(table["angle"])

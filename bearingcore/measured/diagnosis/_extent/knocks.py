@@ -1,10 +1,10 @@
 """Entry and exit of a ball in the mean ball pass of envelopes.
 
-A linear prediction takes out what rings. The envelope of each frequency band of what it leaves is
-cut into ball passes, which are aligned against slip and averaged. A ball that enters a spall and
-one that leaves it each give a peak. What rings after a single knock swells too, where two
-resonances beat; but that differs from band to band. So two peaks count only where bands that have
-no frequency in common agree on their separation.
+A linear prediction removes the ringing. The envelope of each frequency band of the rest is cut into
+ball passes, which are aligned against slip and averaged. A ball that enters a spall gives a peak,
+and so does a ball that leaves it. Ringing after a single knock also has a second peak where two
+resonances beat, but that differs from band to band. So two peaks count only if bands without a
+common frequency agree on their separation.
 
 Quantity                                            | Name        | Unit
 --------------------------------------------------- | ----------- | --------------
@@ -32,81 +32,83 @@ HARMONICS = 100
 """Harmonics of the ball-pass frequency in a mean pass, which resolve a hundredth of a pass."""
 
 NARROWEST = 20.0
-"""Ball-pass frequencies that a band is wide at least: narrower ones ring for longer."""
+"""Least width of a band, in ball-pass frequencies: narrower bands ring for longer."""
 
 LOWEST = 3.0
-"""Ball-pass frequencies from which bands are looked at: below lie shaft, cage and rigid bodies."""
+"""Lower end of the bands, in ball-pass frequencies: below are shaft, cage and rigid bodies."""
 
 PARTS = (1, 2, 3, 4, 6)
 """Numbers of equal bands into which the range is split: in narrower ones knocks are not compact."""
 
 LOW_PARTS = (12, 24)
-"""Numbers of bands of which only the lowest two are taken: a release is soft, and fades upwards."""
+"""Numbers of bands of which only the lowest two are used: a release is soft, and fades upwards."""
 
 PREDICTED_FROM = 50
-"""Samples before each from which it is predicted. What rings can be predicted, knocks cannot: what
-is left after the prediction is compact knocks, see `remove_ringing`. Two for each of 25
-resonances; from further back one knock would predict the next."""
+"""Samples from which the next one is predicted: two for each of 25 resonances. Ringing can be
+predicted and knocks cannot, so compact knocks remain, see `remove_ringing`. From further back one
+knock would predict the next."""
 
 MOST_PASSES_HEARD = 440.0
-"""Ball passes of a recording that are looked at: `averaging` leaves out later ones."""
+"""Greatest number of ball passes of a recording that are used; the average takes no more."""
 
 PLACES = 2048
 """Number of places in a mean ball pass."""
 
 LEAST_CONTRAST = 8.0
-"""Height of a peak, in standard errors of the mean pass, below which nothing is seen."""
+"""Least height of a visible peak, in standard errors of the mean pass."""
 
 FAINTEST = 0.1
-"""Height of the second peak as a share of the first: below, prediction and filter leave ripples."""
+"""Least height of the second peak over the first: prediction and filter leave smaller ripples."""
 
 LEAST_SEEN = 4.0
-"""Standard errors that so faint a peak must be high for its absence to count."""
+"""Least height, in standard errors, of such a faint peak if its absence is to count."""
 
 THIRD = 0.6
-"""Height of a third peak, as a share of the second, from which it is a train of peaks: ringing."""
+"""Height of a third peak over the second above which the peaks are a train: ringing."""
 
 LEAST_DIP = 0.25
-"""Fall of the envelope between two peaks that count as two, as a share of the lower one."""
+"""Least fall of the envelope between two separate peaks, over the lower one."""
 
 SIDE_LOBES, LEAST_NEAR = 3.0, 0.3
-"""A filter answers a knock with ripples of a fifth of its height for a few times one over its band
-width [s]: so near, a second peak must be so high."""
+"""A filter responds to a knock with ripples of a fifth of its height. They last a few times the
+inverse of its band width [s]: the first number. A second peak within that time must have at least
+the second number of the first one's height."""
 
 SMOOTHING = (0.015, 0.007, 0.001)
-"""Shares of a ball pass over which a mean pass is smoothed before its peaks are looked for."""
+"""Shares of a ball pass over which a mean pass is smoothed before its peaks are searched."""
 
 AGREE = (0.06, 0.002)
 """Greatest difference of separations between bands: a share of it, and of a ball pass. A release is
 gradual: its peak moves a little with frequency, and peaks are no sharper than the mean pass."""
 
 AGREEING, SHOWING = 0.6, 0.4
-"""Share of the second peaks, by their heights, that must agree, and of the bands that must show
-them. Bands above those that show them are not asked."""
+"""Least share of the second peaks, by their heights, that agree, and of the bands that show them.
+Bands above the highest of these do not count."""
 
 ONLY_ONE = 0.3
-"""Share of the bands that may have a second peak where there is one knock."""
+"""Greatest share of the bands with a second peak if there is only one knock."""
 
 ALIKE, UNLIKE = 0.3, 0.22
 """A ball is released softly and strikes hard: entry and exit differ in their spectra. Two knocks
-whose ratio of heights hardly changes over the bands (four fifths of its natural logarithms lie
-within the first number), and that are not equally high (the logarithm of their ratio is more than
-the second), are a blow and its echo: a ball that bounces."""
+are a blow and its echo, from a ball that bounces, if the ratio of their heights hardly changes over
+the bands (four fifths of its natural logarithms lie within the first number) and they are not
+equally high (the logarithm of their ratio is above the second)."""
 
 RARE = 5.0
-"""Times the shorter way from one peak to the other that the longer one is, from which the shorter
-is taken: spalls that nearly reach the next ball are rare. Below, either way may be from entry to
-exit. Spectra do not decide it: struck structures ring higher as a ball leaves, but in the model
-without mass the entry is mostly the sharper of the two, and with mass now one, now the other."""
+"""Least ratio of the longer way between both peaks to the shorter one with which the shorter is
+taken: spalls that nearly reach the next ball are rare. Below, either way may be from entry to exit.
+Spectra do not decide it: real structures ring higher as a ball leaves. In the model without mass
+the entry is mostly the sharper peak, and with mass it may be either."""
 
 FADES = 0.75
-"""Power of frequency with which the later peak fades against the earlier, from which the two are no
-entry and exit: blows whose echo or rebound is duller are not rare."""
+"""Power of frequency with which the later peak fades against the earlier. Above it the two are not
+entry and exit, but a blow with a duller echo or rebound."""
 
 STEADY, LEAST_LEFT, MOST_CUTS = 0.05, 0.3, 4
 """Share of a ball pass by which one may be longer than the mean: a cage has inertia. Where passes
-seem to jump by more, some were laid over the wrong knock, and one knock looks like two. Then the
-longer part beside the jump is averaged alone, if it is this share of all; at most so often."""
+seem to jump by more, some were aligned with the wrong knock, and one knock looks like two. Then the
+longer part beside the jump is averaged alone, if it has at least this share of the signal; at most
+this many times."""
 
 
 @dataclass(frozen=True)
@@ -120,7 +122,7 @@ class MeanPass:
     direction
         of the recording.
     envelope : (PLACES,)
-        over one ball pass, its least value 0 and its mean over the whole signal 1.
+        over one ball pass, less its 10 % quantile; in units of the mean over the whole signal.
     error
         standard error of `envelope`.
     """
@@ -147,7 +149,7 @@ class Pair:
     ratio
         height of the second over that of the first.
     third
-        height of a third peak over that of the lower one of both; 0 without.
+        height of a third peak over that of the lower one of both; 0 without a third peak.
     """
 
     first: float
@@ -205,7 +207,7 @@ class Knocks:
     n_passes
         number of averaged passes.
     status
-        verdict of all bands together.
+        the result of all bands together.
     separation, deviation
         from entry to exit as a share of a ball pass, the shorter way round, and its standard
         deviation; NaN where there are no two knocks.
@@ -213,7 +215,7 @@ class Knocks:
         places of the two peaks in the first of `passes`, as shares of a ball pass, the shorter way
         round; NaN without.
     hidden
-        share of a ball pass within which a second knock may hide in what the first makes ring; NaN
+        share of a ball pass within which a second knock may hide in the ringing of the first; NaN
         where it may be anywhere, or where there are two.
     """
 
@@ -229,53 +231,52 @@ class Knocks:
 
 
 def find_knocks(recording: Recording, nominal: float, slip: float, turns: float = 0.0) -> Knocks:
-    """The mean ball passes of a recording and the knocks in them.
+    """Compute the mean ball passes of a recording and find the knocks in them.
 
     Parameters
     ----------
     nominal, slip
-        ball passes a second [Hz] over the damaged race, and by how much they may differ, as a
-        fraction.
+        ball passes a second [Hz] over the damaged race, and their largest relative deviation.
     turns
-        of the damage through the load zone in a ball pass: 0 on a race that stands still.
+        turns of the damage through the load zone in a ball pass: 0 on a race that stands still.
 
     Raises
     ------
     ValueError
-        where the recording holds too few ball passes.
+        for a recording with too few ball passes.
     """
     names, envelopes, rate = _envelopes(recording, nominal)
     if not names:
         return Knocks((), nominal, 0, ExtentStatus.NOT_VISIBLE)
     widest = min(0.9 * HARMONICS * nominal, 0.38 * rate)
     highest = min(20.0 * nominal, widest)
-    left = envelopes
+    part = envelopes
     for _ in range(MOST_CUTS):
         ball_passes = average_passes(
-            left, rate, nominal, slip, nominal, highest, widest, follow=True, turns=turns
+            part, rate, nominal, slip, nominal, highest, widest, follow=True, turns=turns
         )
         passes = _mean_passes(ball_passes, names)
         jump = _jump(ball_passes)
         if jump is None:
-            return judged(passes, ball_passes.frequency, ball_passes.n_passes)
+            return compare_bands(passes, ball_passes.frequency, ball_passes.n_passes)
         place = round(jump * rate)
-        left = left[:place] if place > len(left) // 2 else left[place:]
-        if len(left) < LEAST_LEFT * len(envelopes):
+        part = part[:place] if place > len(part) // 2 else part[place:]
+        if len(part) < LEAST_LEFT * len(envelopes):
             break
     return Knocks(tuple(passes), ball_passes.frequency, ball_passes.n_passes, ExtentStatus.UNCLEAR)
 
 
 def _jump(passes: BallPasses) -> float | None:
-    """Return the time [s] at which passes jump most; None if they are steady."""
+    """Return the time [s] of the greatest jump between passes; None if they are steady."""
     if passes.begins is None:
         return None
-    away = np.abs(np.diff(passes.begins) * passes.frequency - 1.0)
-    worst = int(away.argmax())
-    return float(passes.begins[worst]) if away[worst] > STEADY else None
+    excess = np.abs(np.diff(passes.begins) * passes.frequency - 1.0)
+    worst = int(excess.argmax())
+    return float(passes.begins[worst]) if excess[worst] > STEADY else None
 
 
 def _envelopes(recording: Recording, nominal: float) -> tuple[list[tuple[Band, str]], Array, float]:
-    """Bands with their directions, envelopes (n, bands) of mean 1, and their sample rate [Hz]."""
+    """Return bands with directions, envelopes (n, bands) of mean 1, and their sample rate [Hz]."""
     sample_rate = recording.sample_rate
     rate = min(3.0 * HARMONICS * nominal, sample_rate)
     kept = min(
@@ -288,7 +289,7 @@ def _envelopes(recording: Recording, nominal: float) -> tuple[list[tuple[Band, s
         if band.high > 2.0 * LOWEST * nominal
         and (
             band.high - band.low > 0.45 * sample_rate / PARTS[-1]
-            or band.low < 1.01 * (band.high - band.low)  # of equal ones the first or the second
+            or band.low < 1.01 * (band.high - band.low)  # the first or second of LOW_PARTS
         )
     ]
     names, columns = [], []
@@ -299,9 +300,9 @@ def _envelopes(recording: Recording, nominal: float) -> tuple[list[tuple[Band, s
         if faults.lost_share > MOST_DROPPED:
             continue
         dropped = faults.dropped
-        left = remove_ringing(np.where(dropped, 0.0, samples), PREDICTED_FROM)
+        residual = remove_ringing(np.where(dropped, 0.0, samples), PREDICTED_FROM)
         for envelope in squared_envelopes(
-            left, sample_rate, bands, HARMONICS * nominal, dropped, loudest=math.inf
+            residual, sample_rate, bands, HARMONICS * nominal, dropped, loudest=math.inf
         ):
             values = np.sqrt(np.maximum(envelope.values, 0.0))
             values = np.interp(time, np.arange(len(values)) / envelope.rate, values)
@@ -311,10 +312,10 @@ def _envelopes(recording: Recording, nominal: float) -> tuple[list[tuple[Band, s
 
 
 def remove_ringing(samples: Array, order: int) -> Array:
-    """The error of a linear prediction of a signal (n,) from the `order` samples before.
+    """Return the error of a linear prediction of a signal (n,) from the `order` samples before.
 
-    The prediction with the least squared error (Yule and Walker) follows tones and resonances that
-    ring; what excites them is left, with a flat spectrum.
+    The prediction with the least squared error (Yule and Walker) follows tones and ringing. Its
+    error is what excites them, with a flat spectrum.
     """
     from scipy.fft import irfft, next_fast_len, rfft
     from scipy.linalg import solve_toeplitz
@@ -322,11 +323,11 @@ def remove_ringing(samples: Array, order: int) -> Array:
 
     samples = samples - samples.mean()
     size = next_fast_len(len(samples) + order + 1, real=True)
-    likeness = irfft(np.abs(rfft(samples, size)) ** 2, size)[: order + 1]
-    if not likeness[0] > 0.0:
+    correlation = irfft(np.abs(rfft(samples, size)) ** 2, size)[: order + 1]
+    if not correlation[0] > 0.0:
         return samples
-    likeness[0] *= 1.0 + 1e-6
-    weights = solve_toeplitz(likeness[:-1], likeness[1:])
+    correlation[0] *= 1.0 + 1e-6  # keeps the equations regular
+    weights = solve_toeplitz(correlation[:-1], correlation[1:])
     return np.asarray(lfilter(np.concatenate(([1.0], -weights)), [1.0], samples))
 
 
@@ -339,8 +340,8 @@ def _mean_passes(passes: BallPasses, names: list[tuple[Band, str]]) -> list[Mean
     ]
 
 
-def judged(passes: Sequence[MeanPass], frequency: float, n_passes: int) -> Knocks:
-    """The finding on which mean passes of several bands agree.
+def compare_bands(passes: Sequence[MeanPass], frequency: float, n_passes: int) -> Knocks:
+    """Return the knocks on which the mean passes of several bands agree.
 
     Parameters
     ----------
@@ -354,32 +355,32 @@ def judged(passes: Sequence[MeanPass], frequency: float, n_passes: int) -> Knock
     passes = tuple(sorted(passes, key=lambda mean_pass: -mean_pass.contrast))
     if not passes or passes[0].contrast < LEAST_CONTRAST:
         return Knocks(passes, frequency, n_passes, ExtentStatus.NOT_VISIBLE)
-    shown = [(m, pair) for m in passes if (pair := two_peaks(m, frequency)) is not None]
-    agreeing = _agreeing(shown)
+    pairs = [(m, pair) for m in passes if (pair := two_peaks(m, frequency)) is not None]
+    agreeing = _agreeing(pairs)
     if not agreeing:
-        several = len(shown) > ONLY_ONE * len(passes)
+        several = len(pairs) > ONLY_ONE * len(passes)
         status = ExtentStatus.UNCLEAR if several else ExtentStatus.ONE_KNOCK
         return Knocks(passes, frequency, n_passes, status, hidden=_hidden(passes))
     height = np.array([pair.height for _, pair in agreeing])
     ratios = np.log([pair.ratio for _, pair in agreeing])
-    # a release is soft: above the bands that show it only the exit may be left
-    reached = max(mean_pass.band.low for mean_pass, _ in agreeing)
-    counted = sum(mean_pass.band.low <= reached for mean_pass in passes)
-    showing = sum(pair.height for mean_pass, pair in shown if mean_pass.band.low <= reached)
-    if len(agreeing) < SHOWING * counted or height.sum() < AGREEING * showing:
+    # most bands must agree, up to the highest that does: above it a soft release may not show
+    highest = max(mean_pass.band.low for mean_pass, _ in agreeing)
+    counted = sum(mean_pass.band.low <= highest for mean_pass in passes)
+    heights = sum(pair.height for mean_pass, pair in pairs if mean_pass.band.low <= highest)
+    if len(agreeing) < SHOWING * counted or height.sum() < AGREEING * heights:
         return Knocks(passes, frequency, n_passes, ExtentStatus.UNCLEAR, hidden=_hidden(passes))
     if np.ptp(np.quantile(ratios, (0.1, 0.9))) < ALIKE and abs(np.median(ratios)) > UNLIKE:
         return Knocks(passes, frequency, n_passes, ExtentStatus.BOUNCES)
-    # as far apart as the bands have them that agree, weighted by their heights
+    # the mean separation in the agreeing bands, weighted by heights
     apart = np.array([pair.apart for _, pair in agreeing])
     separation = float(np.average(apart, weights=height))
     spread = math.sqrt(float(np.average((apart - separation) ** 2, weights=height)))
     trend = _trend([mean_pass.band for mean_pass, _ in agreeing], ratios, height)
     rare = 1.0 - separation > RARE * separation
-    # a later one that fades with frequency is an echo, not an exit
-    if rare and (trend < -FADES or (trend < 0.0 and _fades(passes, reached, ratios))):
+    # a later peak that fades with frequency is an echo, not an exit
+    if rare and (trend < -FADES or (trend < 0.0 and _fades(passes, highest, ratios))):
         return Knocks(passes, frequency, n_passes, ExtentStatus.BOUNCES)
-    best, pair = max(agreeing, key=lambda shown_pair: shown_pair[1].height)
+    best, pair = max(agreeing, key=lambda agreeing_pair: agreeing_pair[1].height)
     return Knocks(
         (best, *(mean_pass for mean_pass in passes if mean_pass is not best)),
         frequency,
@@ -393,48 +394,48 @@ def judged(passes: Sequence[MeanPass], frequency: float, n_passes: int) -> Knock
 
 
 def _hidden(passes: Sequence[MeanPass]) -> float:
-    """Share of a ball pass around the highest peak beyond which every band has fallen.
+    """Return the share of a ball pass around the highest peak in which a second may hide.
 
-    To less than `FAINTEST` of it, so that a second knock would show; a release is seen best in the
-    lowest bands, so these have to stand out of the noise. NaN where they do not.
+    Beyond it every band has fallen below `FAINTEST` of the peak, so that a second knock would show.
+    A release shows best in the lowest bands: NaN if these do not stand out of the noise.
     """
     from scipy.ndimage import gaussian_filter1d
 
     clear = [mean_pass for mean_pass in passes if _is_clear(mean_pass)]
     if not clear or min(m.band.low for m in clear) > min(m.band.low for m in passes):
         return math.nan
-    reached = 0.0
+    farthest = 0.0
     for mean_pass in clear:
         smooth = gaussian_filter1d(mean_pass.envelope, SMOOTHING[1] * PLACES, mode="wrap")
         above = np.flatnonzero(smooth > FAINTEST * smooth.max()) - int(smooth.argmax())
-        away = np.abs((above + PLACES // 2) % PLACES - PLACES // 2)
-        reached = max(reached, float(away.max()) / PLACES)
-    return reached
+        distance = np.abs((above + PLACES // 2) % PLACES - PLACES // 2)
+        farthest = max(farthest, float(distance.max()) / PLACES)
+    return farthest
 
 
-def _fades(passes: Sequence[MeanPass], reached: float, ratios: Array) -> bool:
-    """Return True if the later peak is fainter and gone in a clear band above those that show both.
+def _fades(passes: Sequence[MeanPass], highest: float, ratios: Array) -> bool:
+    """Return True if the later peak is fainter, and missing in a clear band above `highest` [Hz].
 
-    An exit is the sharper of the two. A ball that bounces and an echo fade so with frequency.
+    An exit is the sharper of the two. Echoes and rebounds fade with frequency.
     """
-    above = any(mean_pass.band.low > reached and _is_clear(mean_pass) for mean_pass in passes)
+    above = any(mean_pass.band.low > highest and _is_clear(mean_pass) for mean_pass in passes)
     return above and float(np.median(ratios)) < 0.0
 
 
 def _is_clear(mean_pass: MeanPass) -> bool:
-    """Return True if a second peak of the faintest kind would stand out of a band's noise."""
+    """Return True if even the faintest second peak would stand out of a band's noise."""
     return FAINTEST * mean_pass.contrast > LEAST_SEEN
 
 
 def _trend(bands: list[Band], ratios: Array, weights: Array) -> float:
-    """Slope of logarithms of ratios over the logarithm of frequency, by weighted least squares."""
+    """Return the weighted slope of logarithms of ratios over the logarithm of frequency."""
     octave = np.log([0.5 * (band.low + band.high) for band in bands])
     octave -= np.average(octave, weights=weights)
     return float((weights * octave * ratios).sum() / max((weights * octave**2).sum(), 1e-12))
 
 
 def two_peaks(mean_pass: MeanPass, frequency: float) -> Pair | None:
-    """The two highest peaks of a mean pass; None where there are no two.
+    """Return the two highest peaks of a mean pass; None if there are fewer.
 
     Parameters
     ----------
@@ -445,7 +446,7 @@ def two_peaks(mean_pass: MeanPass, frequency: float) -> Pair | None:
     from scipy.ndimage import gaussian_filter1d  # imported late: see `spectrum`
 
     lobes = SIDE_LOBES * frequency / (mean_pass.band.high - mean_pass.band.low)
-    # knocks far apart before the structure of a single one
+    # smooth less and less: separate knocks show before the structure of a single one
     train = None
     for width in SMOOTHING:
         smooth = gaussian_filter1d(mean_pass.envelope, width * PLACES, mode="wrap")
@@ -465,8 +466,8 @@ def _two_peaks(envelope: Array, error: float, lobes: float) -> Pair | None:
     places, _ = find_peaks(turned)
     prominence = peak_prominences(turned, places)[0]
     height = turned[places]
-    away = np.abs(places - highest) / PLACES
-    near = np.minimum(away, 1.0 - away) < lobes
+    distance = np.abs(places - highest) / PLACES
+    near = np.minimum(distance, 1.0 - distance) < lobes
     enough = (
         (height >= np.where(near, LEAST_NEAR, FAINTEST) * turned[highest])
         & (prominence >= LEAST_DIP * height)
@@ -486,24 +487,24 @@ def _two_peaks(envelope: Array, error: float, lobes: float) -> Pair | None:
     return Pair((first + shift) % PLACES / PLACES, (second + shift) % PLACES / PLACES, ratio, third)
 
 
-def _away(pair: Pair, other: Pair) -> float:
-    """Greatest distance of a peak from its place in the other pair, as a share of a ball pass."""
+def _distance(pair: Pair, other: Pair) -> float:
+    """Return the greatest distance of a peak from the other pair's, as a share of a ball pass."""
     return max(
-        abs((here - there + 0.5) % 1.0 - 0.5)
-        for here, there in ((pair.first, other.first), (pair.second, other.second))
+        abs((place - other_place + 0.5) % 1.0 - 0.5)
+        for place, other_place in ((pair.first, other.first), (pair.second, other.second))
     )
 
 
-def _agreeing(shown: list[tuple[MeanPass, Pair]]) -> list[tuple[MeanPass, Pair]]:
-    """Most of the mean passes, by height, that show two peaks at the same places.
+def _agreeing(pairs: list[tuple[MeanPass, Pair]]) -> list[tuple[MeanPass, Pair]]:
+    """Return the largest group, by height, of mean passes with two peaks at the same places.
 
-    None where all their bands have a frequency in common: it may be one resonance that beats.
+    Empty if all their bands have a frequency in common, because one resonance may beat.
     """
     best: list[tuple[MeanPass, Pair]] = []
-    two = [(m, pair) for m, pair in shown if pair.third <= THIRD]
-    for _, other in two:
+    only_two = [(m, pair) for m, pair in pairs if pair.third <= THIRD]
+    for _, other in only_two:
         reach = AGREE[0] * other.apart + AGREE[1]
-        near = [(m, pair) for m, pair in two if _away(pair, other) <= reach]
+        near = [(m, pair) for m, pair in only_two if _distance(pair, other) <= reach]
         if sum(pair.height for _, pair in near) > sum(pair.height for _, pair in best):
             best = near
     bands = [m.band for m, _ in best]

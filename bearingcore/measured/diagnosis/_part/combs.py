@@ -1,8 +1,8 @@
 """Combs: a line and its harmonics in the spectrum of an envelope.
 
-A comb's level is the mean of the decibels of its first HARMONICS lines without the loudest one:
-knocks that repeat show in several harmonics, so no single line may carry an answer, be it a tone,
-a shaft line or chance.
+The level of a comb is the mean level [dB] of its first HARMONICS lines without the loudest one.
+Repeated knocks show in several harmonics, so no single line may decide: it may be a tone, a line of
+the shaft, or chance.
 """
 
 from __future__ import annotations
@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 from bearingcore.measured.signals._line_levels import LineLevels
 
 HARMONICS = 6
-"""Lines of a comb."""
+"""Number of lines of a comb."""
 
 FAINTEST, LOUDEST = -3.0, 40.0
-"""Least and greatest level [dB] of a line: others are cut to them."""
+"""Least and greatest level [dB] of a line: others are limited to them."""
 
 _DRAWS = 40_000
 _TAIL = 0.005
@@ -26,9 +26,9 @@ _TAIL = 0.005
 
 def lines_at(values: NDArray[np.float64], step: float, frequency: NDArray[np.float64],
              count: int = HARMONICS, away: float = 0.0) -> NDArray[np.float64]:  # fmt: skip
-    """The greatest value within one step of places `away` [Hz] from each harmonic.
+    """Return the greatest values within one step of the places `away` [Hz] from each harmonic.
 
-    (count, len(frequency)); zero where a place is above the values' last frequency or below 0.
+    The shape is (count, len(frequency)); 0 where a place is above the last frequency or below 0.
     """
     peak = values.copy()
     np.maximum(peak[1:], values[:-1], out=peak[1:])
@@ -41,8 +41,8 @@ def lines_at(values: NDArray[np.float64], step: float, frequency: NDArray[np.flo
     return np.asarray(level)
 
 
-def cut(levels: LineLevels, hidden: NDArray[np.bool_]) -> NDArray[np.float64]:
-    """Levels (m,) [dB] between FAINTEST and LOUDEST, and no more than 0 where hidden."""
+def limit_levels(levels: LineLevels, hidden: NDArray[np.bool_]) -> NDArray[np.float64]:
+    """Limit levels (m,) [dB] to FAINTEST and LOUDEST, and to at most 0 where `hidden`."""
     level = np.clip(levels.level, FAINTEST, LOUDEST)
     return np.asarray(np.where(hidden, np.minimum(level, 0.0), level))
 
@@ -59,12 +59,12 @@ def mark_multiples(
 
 
 def comb_level(lines: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Level [dB] of combs, the mean without the loudest line, from their lines (HARMONICS, n)."""
+    """Return the level [dB] of combs from their lines (HARMONICS, n): the mean but the loudest."""
     return np.asarray((lines.sum(axis=0) - lines.max(axis=0)) / (len(lines) - 1))
 
 
 def noise_level(chance: float, averages: float, lines: int = HARMONICS) -> float:
-    """The level [dB] that noise reaches with a small chance in a comb of some lines."""
+    """Return the level [dB] that noise reaches with a small chance in a comb of some lines."""
     sorted_levels, edge, scale = _noise(max(1, round(4.0 * averages)), lines)
     if chance <= _TAIL:
         return float(edge + scale * np.log(_TAIL / chance))
@@ -73,10 +73,10 @@ def noise_level(chance: float, averages: float, lines: int = HARMONICS) -> float
 
 @lru_cache(maxsize=256)
 def _noise(quarters: int, count: int) -> tuple[NDArray[np.float64], float, float]:
-    """Sorted comb levels of noise, and the tail: its edge and the decibels in which it falls by e.
+    """Simulate comb levels of noise: sorted, the edge of their tail, and its scale by e [dB].
 
-    A line's power is a mean of so many quarters of independent spectra, the greatest of three
-    neighbours at half the resolution, which is that of 1.8 independent ones.
+    The power of a line is the mean of `quarters`/4 independent spectra. It is the greatest of three
+    neighbours at half the resolution, which equals the greatest of 1.8 independent ones.
     """
     averages = 0.25 * quarters
     rng = np.random.default_rng(quarters)

@@ -23,41 +23,41 @@ from bearingcore.measured.diagnosis._part.probability import LEAD
 from bearingcore.measured.diagnosis._part.status import DiagnosisStatus, Reason
 
 NAMED = 0.5
-"""Probability from which a part is named."""
+"""Least probability of a part that is named."""
 
 LEAST_SWING = 0.03
-"""Share of its mean by which lines that count swing the envelope. Healthy bearings show their lines
-too, by 1 or 2 %."""
+"""Least swing of the envelope, over its mean, at lines that count. Lines of healthy bearings swing
+it by 1 or 2 %."""
 
 ENOUGH_SWING = 0.06
-"""The swing that must be visible before the absence of lines means anything."""
+"""Greatest detectable swing with which the absence of lines means that there is no damage."""
 
 SURELY = 2.0
-"""Times the swing whose lines reach the level that counts, from which on nine of ten signals show
-it: lines of noise scatter, and the loudest of a comb does not count. Measured with noise whose
-power swings at six harmonics, of 2 to 20 s."""
+"""Swing that nine of ten signals show, over the swing whose lines just reach the level that counts:
+lines of noise scatter, and the loudest of a comb does not count. Measured with noise of 2 to 20 s
+whose power swings at six harmonics."""
 
 SILENT = 0.25
-"""Share of bearings without any sign that are damaged all the same: of 55 damaged bearings of a
-motor 5 showed nothing at a sensor away from them, and of bearings measured most are suspected."""
+"""Share of damaged bearings among those without any sign. Of 55 damaged bearings of a motor 5
+showed nothing at a distant sensor, and most bearings that are measured are suspected."""
 
 SMOOTH = 2.4
-"""Kurtosis of a band (2 for noise) above which something knocks, of any kind: no bearing is
-called healthy then. Noise whose power swings by more than six tenths of its mean has as much."""
+"""Kurtosis of a band (2 for noise) above which there are knocks of any kind: no bearing is called
+healthy then. Noise whose power swings by more than six tenths of its mean has the same kurtosis."""
 
 MUCH_DROPPED, MUCH_CLIPPED = 0.1, 0.02
-"""Shares from which the absence of lines means nothing."""
+"""Shares above which the absence of lines means nothing."""
 
 SOME_DROPPED = 1e-3
-"""Share from which it is said that samples do not count."""
+"""Share of dropped samples above which a remark mentions them."""
 
 FAINT, FAINT_RACE = 2.5, 4.0
-"""Deviations from which lines of a ball or a race, too faint to name it, forbid to call the bearing
-healthy."""
+"""Deviations of lines of a ball or a race from which on a bearing is not called healthy, although
+they are too faint to name the part."""
 
 
 def decide(signal: ListenedSignal, judged: Judged, shaft: float | None, source: str) -> Diagnosis:
-    """The answer, and its sentence; `shaft` [Hz] is None where no speed is known."""
+    """Return the answer with its sentence; `shaft` [Hz] is None where no speed is known."""
     part = judged.leading
     fault, probability = CANNOT_TELL, part.probability
     others_stand_out = judged.other_above_noise >= NOISE_MARGIN
@@ -77,7 +77,7 @@ def decide(signal: ListenedSignal, judged: Judged, shaft: float | None, source: 
         status, detail = reason
     elif others_stand_out and judged.other_swing >= LEAST_SWING:
         status, detail = DiagnosisStatus.OTHER_SOURCE, say.unexplained(judged.other)
-    elif (reason := _nothing_and_why(signal, judged)) is not None:
+    elif (reason := _doubt_of_silence(signal, judged)) is not None:
         status, detail = reason
     else:
         fault, probability = NONE_SEEN, (1.0 - SILENT) * (1.0 - judged.detectable)
@@ -99,14 +99,14 @@ def decide(signal: ListenedSignal, judged: Judged, shaft: float | None, source: 
 
 
 def _spectrum(judged: Judged) -> EnvelopeLines:
-    """The envelope's spectrum in the band of the best evidence, at the finest resolution."""
+    """Return the envelope's spectrum in the band of the best evidence, at the finest resolution."""
     envelope = judged.resolutions[-1].envelope_of(judged.leading)
     frequency = envelope.levels.step * np.arange(len(envelope.levels.level), dtype=float)
     return EnvelopeLines(frequency, envelope.levels.level, envelope.band, envelope.direction)
 
 
 def _cause_outside(judged: Judged) -> Reason | None:
-    """Mains, another shaft or another bearing, to which lines of a part belong."""
+    """Return the source outside the bearing that may make the lines: mains, shaft, bearing."""
     doubtful = max(judged.evidence, key=lambda part: part.without_magnetic)
     if doubtful.magnetic > 0.0 and doubtful.without_magnetic >= NAMED:
         return DiagnosisStatus.MAGNETIC, say.magnetic(doubtful)
@@ -114,23 +114,23 @@ def _cause_outside(judged: Judged) -> Reason | None:
     for part in leading:
         if not math.isnan(part.foreign_spacing):
             return DiagnosisStatus.OTHER_SHAFT, say.other_shaft(part, judged.shaft)
-    # damage under a load that stands still is modulated once a turn of its part: blows of one size
+    # under a load that stands still the part's turning modulates its blows: equally strong blows
     # may come from elsewhere
-    even = [
+    unmodulated = [
         part
         for part in leading
         if _is_seen(part) and part.modulation < 0.0 and part.level > judged.other.level
     ]
-    if not even:
+    if not unmodulated:
         return None
-    loudest = max(even, key=lambda part: part.line_lead)
+    loudest = max(unmodulated, key=lambda part: part.line_lead)
     if loudest.magnetic > 0.0:
         return DiagnosisStatus.MAGNETIC, say.magnetic(loudest)
     return DiagnosisStatus.UNMODULATED, say.unmodulated(loudest)
 
 
 def _parts_in_doubt(judged: Judged) -> Reason | None:
-    """Lines of the bearing's own that fit several parts, or none well enough."""
+    """Return the doubt if lines of this bearing fit several parts, or none well enough."""
     clear = [part for part in judged.evidence if part.part != BALL and _is_seen(part)]
     leading = max(judged.evidence, key=lambda part: (part in clear, part.lead))
     needed = LEAST_SWING if leading.lead >= LEAD else ENOUGH_SWING
@@ -149,12 +149,12 @@ def _parts_in_doubt(judged: Judged) -> Reason | None:
 
 
 def _is_seen(part: PartEvidence) -> bool:
-    """True where the lines of a part stand out of noise and move the envelope enough."""
+    """Return True if the lines of a part stand out of noise and swing the envelope enough."""
     return part.level - part.noise >= NOISE_MARGIN and part.swing >= LEAST_SWING
 
 
 def _hidden(signal: ListenedSignal) -> Reason | None:
-    """The fault of the signal that may hide damage, if it has one."""
+    """Return the fault of the signal that may hide damage, or None."""
     if signal.dropped > MUCH_DROPPED:
         words = say.nothing_but("parts of the signal dropped out", signal.dropped)
         return DiagnosisStatus.DROPPED_OUT, words
@@ -163,8 +163,8 @@ def _hidden(signal: ListenedSignal) -> Reason | None:
     return None
 
 
-def _nothing_and_why(signal: ListenedSignal, judged: Judged) -> Reason | None:
-    """The reason why the absence of lines means nothing, if there is one."""
+def _doubt_of_silence(signal: ListenedSignal, judged: Judged) -> Reason | None:
+    """Return the reason why the absence of lines means nothing, or None."""
     blows = _impulsiveness(judged, signal)
     if blows > SMOOTH:
         return DiagnosisStatus.IRREGULAR, say.blows(blows, signal.duration)
@@ -172,17 +172,17 @@ def _nothing_and_why(signal: ListenedSignal, judged: Judged) -> Reason | None:
         return DiagnosisStatus.ROUNDED, say.ROUNDED
     if judged.detectable > ENOUGH_SWING:
         return DiagnosisStatus.INSENSITIVE, say.weak(SURELY * judged.detectable, signal.duration)
-    broadest = max(judged.evidence, key=lambda part: part.deviations)
-    if broadest.deviations >= FAINT_RACE:
-        return DiagnosisStatus.FAINT, say.faint(broadest)
+    clearest = max(judged.evidence, key=lambda part: part.deviations)
+    if clearest.deviations >= FAINT_RACE:
+        return DiagnosisStatus.FAINT, say.faint(clearest)
     return None
 
 
 def _impulsiveness(judged: Judged, signal: ListenedSignal) -> float:
-    """The greatest kurtosis of broad bands below the recorder's own filter.
+    """Return the greatest kurtosis of broad bands below the filter of the recorder.
 
-    Above five sixths of the range there is often nothing but that filter's rest. What chance adds
-    in a short signal is taken off: five deviations of the kurtosis of noise, sqrt(20/N).
+    Above five sixths of the range a recorder often filters out everything. Five deviations of the
+    kurtosis of noise, sqrt(20/N), are subtracted, because chance adds as much in a short signal.
     """
     sixth, envelopes = signal.rate / 12.0, judged.resolutions[0].envelopes
     broad = [
@@ -195,10 +195,10 @@ def _impulsiveness(judged: Judged, signal: ListenedSignal) -> float:
     return max(broad or [envelope.kurtosis for envelope in envelopes])
 
 
-def silent(
+def no_diagnosis(
     status: DiagnosisStatus, detail: str, source: str, shaft: float | None = None
 ) -> Diagnosis:
-    """The diagnosis where nothing can be looked at."""
+    """Return the diagnosis of a signal that cannot be analysed, with the reason."""
     return Diagnosis(
         fault=CANNOT_TELL,
         probability=0.0,

@@ -1,11 +1,11 @@
 """Diagnosis of the damaged part of a bearing from a signal, the geometry and the speed.
 
-Knocks of a damaged part repeat at a frequency that the geometry gives. The signal is whitened, so
-that tones of shaft, mesh and mains lose their weight (Sawalhi & Randall's pre-whitening, smoothed);
-squared envelopes are taken in the bands of the fast kurtogram; in their spectra combs of lines are
-looked for, with one common slip (see `combs`, `judged`, `spin`). What they are worth is a
-probability for each part (`probability`), and a part is named if it is more probable than not.
-The numbers in it are few, and the same for every machine.
+Knocks of a damaged part repeat at a frequency that follows from the geometry. The signal is
+whitened, so that tones of shaft, mesh and mains lose their weight (Sawalhi & Randall's
+pre-whitening, smoothed). Squared envelopes are computed in the bands of the fast kurtogram. Their
+spectra are searched for combs of lines with one common slip (see `combs`, `judged`, `spin`). The
+evidence gives a probability for each part (`probability`), and a part is named if it is more
+probable than not. The few constants are the same for every machine.
 """
 
 from __future__ import annotations
@@ -19,37 +19,34 @@ import numpy as np
 from bearingcore.bearings import Bearing, BearingLike, bearing_of
 from bearingcore.common import _checks as checks
 from bearingcore.measured.diagnosis._part import say
-from bearingcore.measured.diagnosis._part.decide import ENOUGH_SWING, decide, silent
+from bearingcore.measured.diagnosis._part.decide import ENOUGH_SWING, decide, no_diagnosis
 from bearingcore.measured.diagnosis._part.evidence import CANNOT_TELL, NONE_SEEN, Diagnosis
 from bearingcore.measured.diagnosis._part.judged import judge
 from bearingcore.measured.diagnosis._part.listened_signal import ListenedSignal, unfit
-from bearingcore.measured.diagnosis._part.over_turns import (
-    followed_change,
-    resample_to_steady_speed,
-)
+from bearingcore.measured.diagnosis._part.over_turns import resample_to_steady_speed, speed_change
 from bearingcore.measured.diagnosis._part.parts import BALL, INNER, OUTER, PartLines, part_lines
 from bearingcore.measured.diagnosis._part.status import DiagnosisStatus
 from bearingcore.measured.diagnosis._part.unknown_speed import NARROW, diagnose_in_range
 from bearingcore.recordings import Recording
 
 SLIP = 0.02
-"""Fraction by which balls may pass faster or slower than the shaft speed says."""
+"""Largest relative difference between the passing rate of balls and that by the shaft speed."""
 
 SPEEDS = (2.0 * math.pi * 5.0, 2.0 * math.pi * 100.0)
-"""Least and greatest speed [rad/s] at which an unknown shaft is looked for."""
+"""Least and greatest speed [rad/s] in the search for an unknown one."""
 
 TONES_COUNT = 0.6
-"""Share of a swing that counts where tones are not whitened away."""
+"""Factor of a swing that was measured without whitening, which leaves tones in it."""
 
 ELSEWHERE = (0.5, 1.9)
-"""Times the stated speed between which the shaft's own lines are looked for, where it has none.
-Twice the speed, and half of it, are multiples and parts of its own lines."""
+"""Range in which the shaft's lines are searched if none are at the stated speed, over that speed.
+Lines at twice the speed and below half of it may be multiples and parts of the shaft's own."""
 
 CONTRADICTED = 0.5
-"""Share of a probability that is left where the shaft's lines contradict the stated speed."""
+"""Factor of a probability if the lines of the shaft contradict the stated speed."""
 
 SOURCES = ("given", "from the file", "assumed")
-"""Origins of a speed and a bearing; "given" is what a person has said of this measurement."""
+"""Origins of a speed and a bearing; "given" means by a person, for this measurement."""
 
 
 def diagnose_recording(
@@ -65,8 +62,8 @@ def diagnose_recording(
     """Diagnose a recording; `diagnose` describes the arguments."""
     checks.instance("recording", recording, Recording)
     bearing = None if bearing is None else bearing_of(bearing)
-    for name, said in (("speed_source", speed_source), ("bearing_source", bearing_source)):
-        checks.choice(name, said.partition(":")[0], SOURCES)
+    for name, source in (("speed_source", speed_source), ("bearing_source", bearing_source)):
+        checks.choice(name, source.partition(":")[0], SOURCES)
     ratio = checks.real_number("shaft_ratio", shaft_ratio, at_least=0.01, at_most=100.0)
     speeds = _speeds(recording, shaft_speed, speed_source, ratio)
     slip = checks.real_number("slip", slip, at_least=0.0, at_most=0.1)
@@ -94,26 +91,26 @@ def _diagnose(
     low, high, source = speeds
     signal = ListenedSignal(recording)
     if signal.unusable is not None:
-        return silent(*signal.unusable, source)
+        return no_diagnosis(*signal.unusable, source)
     if bearing is None:
-        return silent(DiagnosisStatus.BEARING_OPEN, say.WHICH_BEARING, source)
+        return no_diagnosis(DiagnosisStatus.BEARING_OPEN, say.WHICH_BEARING, source)
     answer = _diagnose_between(signal, bearing, low, high, slip, source, speed_source)
-    # sidebands of an inner race or a ball confirm the speed, an outer race has none
+    # sidebands of an inner race or a ball confirm the speed; an outer race has none
     if high > NARROW * low or answer.fault in (INNER, BALL):
         return answer
     speed, reach = 0.5 * (low + high), (high - low) / (high + low) + slip
-    held = _held_against_the_shaft(signal, answer, speed, reach, speed / ratio)
-    if measured or held.names_a_part or not held.evidence:
-        return held
-    change = followed_change(signal.columns, signal.rate, speed)
+    checked = _check_against_shaft(signal, answer, speed, reach, speed / ratio)
+    if measured or checked.names_a_part or not checked.evidence:
+        return checked
+    change = speed_change(signal.columns, signal.rate, speed)
     if not change:
-        return held
+        return checked
     return replace(
-        held,
+        checked,
         fault=CANNOT_TELL,
         status=DiagnosisStatus.SPEED_CHANGES,
         detail=say.speed_changes(change),
-        probability=max(part.probability for part in held.evidence),
+        probability=max(part.probability for part in checked.evidence),
     )
 
 
@@ -126,10 +123,10 @@ def _diagnose_between(
     source: str,
     speed_source: str,
 ) -> Diagnosis:
-    """The diagnosis at a speed between two [Hz], which may be one and the same."""
+    """Return the diagnosis at a speed between two [Hz], which may be equal."""
     if high <= low * (1.0 + 1e-9):
         return _diagnose_at(signal, bearing, low * (1.0 - slip), low * (1.0 + slip), slip, source)
-    if high <= low * (1.0 + 2.0 * slip):  # lines of a part, which slips, give a speed no better
+    if high <= low * (1.0 + 2.0 * slip):  # as slip is as large, lines of a part give none better
         source = f"{speed_source} as a range"
         return _diagnose_at(signal, bearing, low, high, slip, source, 0.5 * (high / low - 1.0))
     answer = diagnose_in_range(signal, bearing, low, high, slip, source)
@@ -139,15 +136,15 @@ def _diagnose_between(
     return _second_opinion(signal, part_lines(bearing), answer, shaft, shaft, slip)
 
 
-def _held_against_the_shaft(
+def _check_against_shaft(
     signal: ListenedSignal, answer: Diagnosis, speed: float, reach: float, driving: float
 ) -> Diagnosis:
-    """The answer, held against lines of the shaft at another speed than the stated one [Hz].
+    """Check an answer against lines of the shaft at another speed than the stated one [Hz].
 
-    Lines of the shaft elsewhere, and none at the stated speed, mean that speed or sample rate are
-    wrong: no part is named then, and the answer says which speed the lines show. At 60 times the
-    speed or a 60th of it, Hz and rpm are confused most likely. Lines of the shaft that is `driving`
-    [Hz] the bearing's by a gear contradict nothing.
+    If the lines of the shaft are elsewhere and none at the stated speed, speed or sample rate are
+    wrong: no part is named, and the answer says which speed the lines show. At 60 times the speed
+    or a 60th of it, Hz and rpm were probably confused. Lines of the shaft that drives this one by a
+    gear, at `driving` [Hz], contradict nothing.
     """
     stated = signal.shaft(speed * (1.0 - reach), speed * (1.0 + reach))
     if stated.clear:
@@ -179,17 +176,17 @@ def _held_against_the_shaft(
 
 
 def _speeds(
-    recording: Recording, shaft_speed: float | tuple[float, float] | None, said: str, ratio: float
+    recording: Recording, shaft_speed: float | tuple[float, float] | None, source: str, ratio: float
 ) -> tuple[float, float, str]:
-    """The speed of the bearing's shaft from, to [Hz], and where it is from."""
+    """Return the range (from, to) [Hz] of the speed of the bearing's shaft, and its source."""
     turn = 2.0 * math.pi / ratio
     if shaft_speed is None:
         if recording.shaft_speed is None:
             return SPEEDS[0] / (2.0 * math.pi), SPEEDS[1] / (2.0 * math.pi), "looked for"
-        shaft_speed, said = recording.shaft_speed, "given by the recording"
+        shaft_speed, source = recording.shaft_speed, "given by the recording"
     if np.ndim(shaft_speed) == 0:
         speed = checks.real_number("shaft_speed", shaft_speed, above=0.0, unit="rad/s") / turn  # type: ignore[arg-type]
-        return speed, speed, said
+        return speed, speed, source
     try:
         first, last = shaft_speed  # type: ignore[misc]
     except (TypeError, ValueError):
@@ -210,19 +207,19 @@ def _diagnose_at(
     source: str,
     reach: float = 0.0,
 ) -> Diagnosis:
-    """The diagnosis at the middle of two speeds [Hz], or where the shaft's own lines are between.
+    """Return the diagnosis at the speed of the shaft's lines between two [Hz], or at the middle.
 
-    `reach` is by how much the middle may be off, as a fraction.
+    `reach` is the largest relative error of the middle.
     """
     parts = part_lines(bearing)
     shaft = 0.5 * (low + high)
-    refused = unfit(signal, parts, shaft)
-    if refused is not None:
-        return silent(*refused, source, shaft)
-    stated, turning = shaft, signal.shaft(low, high)
-    # lines broader than the window that they are looked for in make nothing finer
-    if turning.clear and signal.duration * (high - low) > 1.0:
-        shaft = turning.frequency
+    reason = unfit(signal, parts, shaft)
+    if reason is not None:
+        return no_diagnosis(*reason, source, shaft)
+    stated, lines = shaft, signal.shaft(low, high)
+    # lines that are broader than their window give no finer speed
+    if lines.clear and signal.duration * (high - low) > 1.0:
+        shaft = lines.frequency
         stated = shaft if reach else stated
         source += ", refined from the shaft lines in the signal"
     else:
@@ -251,7 +248,7 @@ _INSTEAD_OF = {
         ),
     ),
 }
-"""Outcomes of a second opinion that take the place of one that has seen no lines."""
+"""Outcomes of a second opinion that replace one without lines."""
 
 
 def _second_opinion(
@@ -262,21 +259,21 @@ def _second_opinion(
     stated: float,
     slip: float,
 ) -> Diagnosis:
-    """Diagnosis of the signal without whitening, where the whitened one names no race.
+    """Diagnose the signal without whitening, if the whitened one names no race.
 
-    A cage that keeps its speed makes lines as sharp as tones, and whitening cuts those. Tones that
-    are none of the bearing's show too, so that lines count by a part of their swing; where they do
-    not name a part, they keep a bearing from being called healthy.
+    A steady cage makes lines as sharp as tones, and whitening weakens those. Without whitening
+    foreign tones show too, so that lines count with a part of their swing. If they do not name a
+    part, they keep a bearing from being called healthy.
     """
     if answer.fault in (OUTER, INNER) or answer.status == DiagnosisStatus.OTHER_SHAFT:
         return answer
-    judged = judge(signal.unwhitened(), parts, shaft, slip, stated).counting(TONES_COUNT)
-    again = decide(signal, judged, shaft, answer.speed_source)
-    if answer.fault == BALL:  # whitening hides how sharp lines are which nothing modulates
-        alone = again.status == DiagnosisStatus.UNMODULATED and not again.of(BALL).modulated
-        return again if alone else answer
-    if again.fault in (OUTER, INNER):
-        return again
-    faint = answer.fault == NONE_SEEN and judged.leading.swing < ENOUGH_SWING
-    seen = again.status in _INSTEAD_OF.get(answer.status, ())
-    return again if seen and not faint else answer
+    judged = judge(signal.unwhitened(), parts, shaft, slip, stated).scale_swings(TONES_COUNT)
+    second = decide(signal, judged, shaft, answer.speed_source)
+    if answer.fault == BALL:  # sharp lines without modulation are not a ball's
+        foreign = second.status == DiagnosisStatus.UNMODULATED and not second.of(BALL).modulated
+        return second if foreign else answer
+    if second.fault in (OUTER, INNER):
+        return second
+    is_faint = answer.fault == NONE_SEEN and judged.leading.swing < ENOUGH_SWING
+    replaces = second.status in _INSTEAD_OF.get(answer.status, ())
+    return second if replaces and not is_faint else answer

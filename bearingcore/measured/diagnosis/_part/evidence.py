@@ -17,10 +17,10 @@ from bearingcore.recordings import Recording
 
 NONE_SEEN, CANNOT_TELL = "none seen", "cannot tell"
 BESIDE = 0.5
-"""Probability of a race from which the other one is judged as damaged beside it."""
+"""Least probability of a race with which the other race may count as damaged too."""
 
 LIKELY = 0.9
-"""Probability from which a part is called damaged without a "probably"."""
+"""Least probability of a part that is called damaged without a "probably"."""
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ class PartEvidence:
     part
         "outer race", "inner race" or "ball".
     nominal_frequency, nominal_order
-        of its line by the geometry [Hz], [turns of the shaft]; for a ball twice its spin.
+        of its line by the geometry [Hz], [turns of the shaft]; for a ball twice its spin frequency.
     frequency, order
         of its strongest lines [Hz], [turns of the shaft].
     slip
@@ -45,8 +45,8 @@ class PartEvidence:
         [dB] level that noise alone reaches in one of a thousand signals.
     lead
         [dB] least of four margins: above noise, above all other lines in the band, above the lines
-        of the other race, and of the sidebands that the part should make. Below 0 the lines are
-        absent.
+        of the other race, and of the sidebands that the part should make. Below 0 the part's lines
+        are absent.
     line_lead
         [dB] the same for the lines alone, without sidebands.
     modulation
@@ -57,9 +57,9 @@ class PartEvidence:
         [Hz] of sidebands that neither the shaft nor the cage makes; NaN if there are none. They are
         searched at the outer race, which makes no sidebands of its own.
     depth
-        swing of the envelope at these lines, as a share of its mean.
+        swing of the envelope at these lines, over its mean.
     swing
-        the same with the first sidebands.
+        the swing including the first sidebands.
     deviations
         height of these lines above all others, over all bands and in short segments, in standard
         deviations; for a ball also above races and sidebands of the shaft.
@@ -114,12 +114,12 @@ class PartEvidence:
 
     @property
     def without_magnetic(self) -> float:
-        """Its probability without the possibility of magnetic noise."""
+        """Probability of damage if magnetic noise were impossible."""
         return self.probability / (1.0 - self.magnetic)
 
 
-def leading_by(part: PartEvidence) -> tuple[float, float]:
-    """The order of parts: by probability, then by lead."""
+def rank(part: PartEvidence) -> tuple[float, float]:
+    """Return the rank of a part: by probability, then by lead."""
     return part.probability, part.lead
 
 
@@ -257,7 +257,7 @@ class Diagnosis:
     @property
     def leading(self) -> PartEvidence | None:
         """Evidence of the most probable part, named or not; None without evidence."""
-        return max(self.evidence, key=leading_by, default=None)
+        return max(self.evidence, key=rank, default=None)
 
     def of(self, part: str) -> PartEvidence:
         """Return the evidence of a part by its name; KeyError if there is no evidence."""
@@ -267,7 +267,7 @@ class Diagnosis:
         raise KeyError(part)
 
     def table(self) -> ResultTable:
-        """A row for each part with its evidence, and the spectrum of the envelope, if any.
+        """Return a row for each part with its evidence, and the spectrum of the envelope, if any.
 
         Without a shaft speed, numbers that depend on it are NaN.
         """

@@ -1,15 +1,15 @@
-"""Evidence of each part in all bands and at all resolutions, and how probable its damage is.
+"""Evidence of each part in all bands and at all resolutions, and the probability of its damage.
 
 A comb of lines at a race's frequency is judged in the band that shows it best, by two numbers:
 
-- its lead: how far it stands above noise, above every other comb in that band but those that
-  follow from it (multiples, sidebands), above the other race's comb, and, on a part that turns,
-  how far its sidebands do. It says whether the race's lines are in the signal at all.
-- its swing: by how much lines and first sidebands swing the envelope. Balls of a sound bearing and
-  marks that a damaged ball has pressed into a race make faint lines too; a race that every ball
-  strikes makes strong ones.
+- its lead: the height above noise, above every other comb in that band except those that follow
+  from it (multiples, sidebands), and above the other race's comb; on a part that turns, also the
+  height of its sidebands. It shows if the race's lines are in the signal at all.
+- its swing: the swing of the envelope at the lines and first sidebands. Balls of a healthy bearing,
+  and marks that a damaged ball has pressed into a race, also make faint lines; a race that every
+  ball strikes makes strong ones.
 
-Balls wander and slip, so their lines are broad: see `spin`.
+The axes of balls wander and balls slip, so their lines are broad: see `spin`.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from bearingcore.measured.diagnosis._part.evidence import (
     BESIDE,
     OtherLines,
     PartEvidence,
-    leading_by,
+    rank,
 )
 from bearingcore.measured.diagnosis._part.listened_signal import ListenedSignal
 from bearingcore.measured.diagnosis._part.mains import magnetic_share
@@ -42,96 +42,96 @@ from bearingcore.measured.diagnosis._part.search import (
     FINENESS,
     RARE,
     TURNS,
+    BandLines,
     Combs,
-    Listened,
     listen,
     mark_near,
     mark_window,
     tolerance,
 )
-from bearingcore.measured.diagnosis._part.spin import AHEAD, LAG, may_be, spin
+from bearingcore.measured.diagnosis._part.spin import AHEAD, LAG, find_spin, may_be_ball
 
 NOISE_MARGIN = 2.0
 """Distance [dB] of clear lines from the level that noise reaches in one of a thousand signals."""
 
 SIDEBAND_MARGIN = 2.0
-"""Amount [dB] by which sidebands may miss what is asked before the lead becomes negative."""
+"""Amount [dB] by which sidebands may fall short before the lead becomes negative."""
 
 SIDEBAND_LEAD = 6.0
 """Amount [dB] by which sidebands that the part does not make may exceed those it makes."""
 
 SIDEBAND_REACH = 10.0
-"""Depth [dB] below the lines down to which the sidebands of a load zone lie: the squared
-envelope of impacts that swing by a third of their mean has them there."""
+"""Greatest depth [dB] of the sidebands of a load zone below the lines: that of impacts whose
+squared envelope swings by a third of its mean."""
 
 SIDEBAND_CHANCE = 0.01
-"""Probability with which noise reaches the level at which sidebands are there as probably as not:
-one in a hundred, as the band is chosen by the lines and not by these."""
+"""Probability that noise reaches the level at which sidebands are as likely there as not: one in a
+hundred, because the band is chosen by the lines and not by the sidebands."""
 
 SIDEBAND_SCALE = 0.77
-"""Scale [dB] on which that probability falls by e in a single spectrum: at a line of noise it is
-1 % at 6.6 dB and 0.1 % at 8.4 dB. The scatter of noise falls with the root of the averages."""
+"""Scale [dB] on which that probability falls by e in a single spectrum: a line of noise has 1 % at
+6.6 dB and 0.1 % at 8.4 dB. The scatter of noise falls with the root of the averages."""
 
 SIDEBAND_EXCESS = 2.5
-"""Amount [dB] by which a comb at a sideband may be above the lines that it follows from."""
+"""Greatest height [dB] of a comb at a sideband above the lines that it follows from."""
 
 BALL_MARGIN = 3.0
-"""Lead [dB] of a ball's comb over those of the races that lets it count as the ball's."""
+"""Least lead [dB] over the combs of the races with which a comb counts as a ball's."""
 
 WEAK_SIDEBANDS = 14.0
-"""Depth [dB] below the lines: cage sidebands of a race's line are fainter, a ball's are not."""
+"""Depth [dB] below the lines: cage sidebands of a race are fainter, those of a ball are not."""
 
 SLOWER, FAINTER = (2, 3), 0.7
-"""Parts of a comb's frequency at which it may be seen too, and how much fainter the lines between
-its own are then."""
+"""Divisors of a comb's frequency at which the comb may also show, and the greatest height of the
+lines in between, over its own, if it does."""
 
 GAPS = 0.25
-"""Share of a comb's height that the lines in between reach where they belong to that comb."""
+"""Least height of the lines in between that belong to a comb, over its own."""
 
 ALIKE = 7.0
-"""Amount [dB] by which lines of a second damaged race may be below those of the first. Of 51
-measured records whose race was named rightly the other race comes to at most 15 %."""
+"""Amount [dB] by which lines of a second damaged race may be below those of the first. In 51
+measured records with a rightly named race, the other race has a probability of at most 15 %."""
 
 FOREIGN = (0.2, 0.95)
-"""Turns of the shaft between which sidebands of another shaft are looked for: lines of an outer
-race that are an inner race's or a ball's of a slower shaft have theirs there. Above it, real outer
-races have sidebands of the load zone that mix shaft and cage."""
+"""Range, in turns of the shaft, in which sidebands of another shaft are searched. Lines of an inner
+race or a ball on a slower shaft, which look like those of an outer race, have theirs there. Above,
+real outer races have sidebands of the load zone that mix shaft and cage."""
 
 FOREIGN_LEAD = 2.0
 """Lead [dB] over sidebands of another shaft at which half of such lines are an outer race's. All 29
-measured outer races are 7.8 dB or more above the strongest; lines of inner races of a slower
-shaft are about as strong as their sidebands."""
+measured outer races are 7.8 dB or more above the strongest sideband; lines of inner races of a
+slower shaft are about as strong as their sidebands."""
 
 SELDOM, SLIPS = 0.26, 0.25
-"""Damaged balls for each damaged race (15 and 57 of the records measured), and the share of the
-slip by which e times fewer races are off: beyond the slip are 2 %. See `_race_or_ball`."""
+"""Damaged balls for each damaged race (15 and 57 of the measured records), and the share of the
+slip on which the number of races falls by e: 2 % are beyond the slip. See `_race_or_ball`."""
 
 CARRIED_REACH = 15.0
-"""Depth [dB] below a ball's lines down to which the cage's sidebands are expected: a load zone of
-half a turn makes the first three of each side 5 to 8 dB fainter than the line, on average."""
+"""Greatest depth [dB] below a ball's lines at which the cage's sidebands are expected: a load zone
+of half a turn makes the first three on each side 5 to 8 dB fainter than the line, on average."""
 
 MOST_BANDS = 12
-"""Bands of a resolution, the loudest at a part's line, in which its lead is looked for."""
+"""Number of bands of a resolution, the loudest at a part's line, in which its lead is computed."""
 
 
 @dataclass(frozen=True)
 class Judged:
-    """The evidence of each part, and what else is in the signal.
+    """The evidence of each part, and the other lines in the signal.
 
     Attributes
     ----------
     shaft
         turns a second [Hz].
     evidence
-        of outer race, inner race and ball.
+        evidence of outer race, inner race and ball.
     other
-        the strongest lines that are none of the bearing's.
+        the strongest lines that do not belong to the bearing.
     other_above_noise, other_swing
-        [dB] of these, and by how much they swing the envelope.
+        height [dB] of these lines above noise, and their swing of the envelope.
     detectable
-        the least swing of the envelope, as a share of its mean, that would have been seen.
+        the least detectable swing of the envelope, over its mean.
     resolutions
-        resolutions that the evidence rests on.
+        the combs at all resolutions on which the evidence rests.
     """
 
     shaft: float
@@ -145,25 +145,25 @@ class Judged:
     @property
     def leading(self) -> PartEvidence:
         """Evidence of the part that leads."""
-        return max(self.evidence, key=leading_by)
+        return max(self.evidence, key=rank)
 
-    def counting(self, share: float) -> Judged:
-        """Judge anew with a share of each swing."""
-        counted = [replace(part, swing=share * part.swing) for part in self.evidence]
-        return replace(self, evidence=_weighed(counted))
+    def scale_swings(self, factor: float) -> Judged:
+        """Return the evidence with each swing times a factor."""
+        scaled = [replace(part, swing=factor * part.swing) for part in self.evidence]
+        return replace(self, evidence=_with_probabilities(scaled))
 
-    def discounted(self, speeds: float) -> Judged:
-        """Judge anew where several `speeds` were open: another source fits one more often.
+    def divide_odds(self, speeds: float) -> Judged:
+        """Return the evidence with odds divided by the number of possible `speeds`.
 
-        The odds that lines are those of the bearing fall by that number.
+        With more possible speeds, lines of another source fit one of them more often.
         """
-        tried = (
+        divided = (
             replace(
                 part, probability=part.probability / (speeds + (1.0 - speeds) * part.probability)
             )
             for part in self.evidence
         )
-        return replace(self, evidence=tuple(tried))
+        return replace(self, evidence=tuple(divided))
 
 
 def judge(
@@ -173,11 +173,11 @@ def judge(
     slip: float,
     stated: float | None = None,
 ) -> Judged:
-    """The evidence of the parts at a speed [Hz]."""
-    return compare(listened(signal, parts, shaft, slip, True, stated), parts, slip, stated)
+    """Return the evidence of the parts at a speed [Hz]."""
+    return compare(all_combs(signal, parts, shaft, slip, True, stated), parts, slip, stated)
 
 
-def listened(
+def all_combs(
     signal: ListenedSignal,
     parts: Sequence[PartLines],
     shaft: float,
@@ -185,14 +185,14 @@ def listened(
     known_speed: bool,
     stated: float | None = None,
 ) -> tuple[Combs, ...]:
-    """The combs at all resolutions, the coarsest first."""
+    """Compute the combs at all resolutions, the coarsest first."""
     top = max(lines.order for lines in parts) * (1.0 + slip)
     envelopes = signal.envelopes(shaft, (HARMONICS * top + 2.0) * shaft)
     resolutions: list[Combs] = []
     for turns in TURNS:
         resolutions.append(listen(envelopes, parts, shaft, known_speed, slip, turns, stated))
         if turns / shaft >= signal.duration:
-            break  # longer segments than the signal are the same again
+            break  # longer segments would be the whole signal again
     return tuple(resolutions)
 
 
@@ -202,30 +202,29 @@ def compare(
     slip: float,
     stated: float | None = None,
 ) -> Judged:
-    """The evidence of the parts in combs at all resolutions."""
+    """Return the evidence of the parts in combs at all resolutions."""
     shaft = resolutions[0].shaft
     compared = [_Comparison(combs, parts, slip, stated or shaft) for combs in resolutions]
     first, ball = compared[0], compared[0].lines_of(BALL)
-    spinning, deviations = spin(first.combs, parts, lambda at: first.explained(at, ball))
-    if _carried(compared, spinning) < 0.0:
+    # where a ball's broad lines are, in the short segments of the first resolution
+    spin, deviations = find_spin(first.combs, parts, lambda at: first.explained(at, ball))
+    if _cage_lead(compared, spin) < 0.0:
         deviations[BALL] = min(deviations[BALL], 0.0)
     evidence = []
     for lines in parts:
         if lines.part == BALL:
-            best = _clearest(compared, lines, spinning)
-            carried = _carried(compared, best.frequency)
-            best = replace(
-                best, lead=min(best.lead, carried), modulation=min(best.modulation, carried)
-            )
+            best = _clearest(compared, lines, spin)
+            lead = _cage_lead(compared, best.frequency)
+            best = replace(best, lead=min(best.lead, lead), modulation=min(best.modulation, lead))
         else:
-            best = _race(compared, lines)
+            best = _race_evidence(compared, lines)
         evidence.append(replace(best, deviations=deviations[lines.part]))
     other, above, swing = max(
         (comparison.others(evidence) for comparison in compared), key=lambda rival: rival[1]
     )
     return Judged(
         shaft=shaft,
-        evidence=_judge_other_race(compared, _weighed(evidence)),
+        evidence=_judge_other_race(compared, _with_probabilities(evidence)),
         other=other,
         other_above_noise=above,
         other_swing=swing,
@@ -240,22 +239,22 @@ def _clearest(
     around: float | None = None,
     beside: PartEvidence | None = None,
 ) -> PartEvidence:
-    """The evidence of a part at the resolution that speaks most for it."""
-    # the band is chosen by the lines alone: chosen by the sidebands, it is where noise has some
+    """Return the evidence of a part at the resolution that makes it most probable."""
+    # the lines alone choose the band: sidebands would choose one where noise looks like them
     best = max((c.clearest(lines, around, beside) for c in compared), key=log_probability)
     return max((comparison.weigh_sidebands(best) for comparison in compared), key=log_probability)
 
 
-def _race(
+def _race_evidence(
     compared: Sequence[_Comparison], lines: PartLines, beside: PartEvidence | None = None
 ) -> PartEvidence:
-    """The evidence of a race; `beside` another race that is damaged, which is no rival then."""
+    """Return the evidence of a race; `beside` is a damaged other race, which is no rival."""
     best = _clearest(compared, lines, beside=beside)
     source = compared[-1].lead_over_source(best.frequency)
     best = replace(best, lead=min(best.lead, source), line_lead=min(best.line_lead, source))
     if lines.part == INNER:
         return best
-    # short segments do not resolve what lies beside the cage's lines
+    # short segments do not separate foreign sidebands from those of the cage
     foreign, spacing = min(c.lead_over_foreign(best) for c in compared[1:] or compared)
     spacing = spacing if foreign < LEAD else math.nan
     return replace(best, lead=min(best.lead, foreign), foreign_spacing=spacing)
@@ -264,30 +263,30 @@ def _race(
 def _judge_other_race(
     compared: Sequence[_Comparison], evidence: tuple[PartEvidence, ...]
 ) -> tuple[PartEvidence, ...]:
-    """The evidence, where one race is damaged with the other judged as damaged beside it.
+    """If one race is damaged, judge the other one again without the first as a rival.
 
-    Both races wear together often. The lines of the first, which are louder, are then no reason
-    against a second whose lines are about as loud. It is no more probable than the first.
+    Both races often wear together. The louder lines of the first race are then no reason against a
+    second whose lines are about as loud. The second is no more probable than the first.
     """
-    first = max(evidence, key=leading_by)
+    first = max(evidence, key=rank)
     if first.part == BALL or first.probability < BESIDE:
         return evidence
     lines = next(part for part in compared[0].parts if part.part not in (first.part, BALL))
-    second = _race(compared, lines, first)
+    second = _race_evidence(compared, lines, first)
     second = replace(second, lead=min(second.lead, first.lead))
-    told = _weighed(second if part.part == second.part else part for part in evidence)
-    return tuple(replace(p, probability=min(p.probability, first.probability)) for p in told)
+    parts = _with_probabilities(second if p.part == second.part else p for p in evidence)
+    return tuple(replace(p, probability=min(p.probability, first.probability)) for p in parts)
 
 
-def _weighed(evidence: Iterable[PartEvidence]) -> tuple[PartEvidence, ...]:
-    """The evidence with the probabilities that follow."""
+def _with_probabilities(evidence: Iterable[PartEvidence]) -> tuple[PartEvidence, ...]:
+    """Return the evidence with the probabilities that follow from it."""
     parts = tuple(evidence)
-    told = probabilities(parts, CALIBRATION)
-    return tuple(replace(part, probability=told[part.part]) for part in parts)
+    chances = probabilities(parts, CALIBRATION)
+    return tuple(replace(part, probability=chances[part.part]) for part in parts)
 
 
 def _detectable(combs: Combs) -> float:
-    """The least swing of the envelope in the widest band that would have been seen."""
+    """Return the least detectable swing of the envelope in the widest band."""
     widest = max(combs.envelopes, key=lambda envelope: envelope.band.high - envelope.band.low)
     needed = 10.0 ** (0.1 * (combs.noise + NOISE_MARGIN)) - 1.0
     return float(np.median(widest.levels.floor)) * math.sqrt(max(needed, 0.0))
@@ -295,7 +294,7 @@ def _detectable(combs: Combs) -> float:
 
 @dataclass(frozen=True)
 class _Comparison:
-    """The combs of one resolution against each other."""
+    """Comparison of the combs of one resolution with each other."""
 
     combs: Combs
     parts: Sequence[PartLines]
@@ -308,30 +307,31 @@ class _Comparison:
         return self.combs.shaft * self.lines_of(BALL).sidebands
 
     def lines_of(self, part: str) -> PartLines:
-        """The lines of a part, by its name."""
+        """Return the lines of a part by its name."""
         return next(lines for lines in self.parts if lines.part == part)
 
     def clearest(
         self, lines: PartLines, around: float | None, beside: PartEvidence | None
     ) -> PartEvidence:
-        """The lines of a part in the band that speaks most for it, perhaps around a place [Hz].
+        """Return the lines of a part in the band that makes them most probable.
 
-        `beside` is a race that is damaged too: what follows from its lines, and these themselves,
-        are no rivals.
+        `around` is the frequency [Hz] of a ball's broad lines. `beside` is a race that is damaged
+        too: its lines, and combs that follow from them, are no rivals.
         """
         combs = self.combs
-        near_it = mark_window(combs, lines, self.slip, self.stated)
-        if around is not None:  # a race's own lines are none of a ball's
-            near_it |= np.abs(combs.frequency - around) <= combs.shaft / TURNS[0]
-            near_it &= ~self._windows_of(OUTER, INNER)
-            near_it[np.abs(combs.frequency - around).argmin()] = True
-        inside = np.flatnonzero(near_it)
+        window = mark_window(combs, lines, self.slip, self.stated)
+        if around is not None:  # without the lines of races, which are not a ball's
+            window |= np.abs(combs.frequency - around) <= combs.shaft / TURNS[0]
+            window &= ~self._windows_of(OUTER, INNER)
+            window[np.abs(combs.frequency - around).argmin()] = True
+        inside = np.flatnonzero(window)
         level = combs.level[:, inside]
         if lines.part == BALL:
             at, away = combs.frequency[inside], self.cage
             level = np.stack([comb_level(_or_sidebands(e, at, away)) for e in combs.envelopes])
+        # in each of the loudest bands, compare the highest comb with those that it does not explain
         explained: dict[float, NDArray[np.float64]] = {}
-        directions = []
+        candidates = []
         for place in np.argsort(-level.max(axis=1))[:MOST_BANDS].tolist():
             frequency = float(combs.frequency[inside[level[place].argmax()]])
             if frequency not in explained:
@@ -341,15 +341,15 @@ class _Comparison:
                     explained[frequency] = np.maximum(explained[frequency], also)
             others = float((combs.level[place] - explained[frequency]).max())
             evidence = self._evidence(lines, combs.envelopes[place], frequency, others)
-            directions.append(self._limit_to_rivals(evidence, 0.0 if beside is None else ALIKE))
-        return max(directions, key=log_probability)
+            candidates.append(self._limit_to_rivals(evidence, 0.0 if beside is None else ALIKE))
+        return max(candidates, key=log_probability)
 
     def explained(self, frequency: float, lines: PartLines) -> NDArray[np.float64]:
-        """Return how much higher [dB] combs (n,) may be because they follow from a part's lines.
+        """Return the heights [dB] by which combs (n,) that a part's lines explain may exceed them.
 
-        Infinity for multiples of its frequency [Hz] and for what another part may have.
+        They are infinite for multiples of its frequency [Hz] and in the windows of other parts.
         """
-        # a ball's spin itself is half its line
+        # the spin frequency of a ball is half that of its line
         firsts = (1.0, 0.5) if lines.part == BALL else (1.0,)
         factors = (1.0, 2.0, 3.0, 0.5, 1.5) if lines.part == BALL else (1.0, 2.0, 3.0)
         free = mark_near(self.combs, (factor * frequency for factor in factors))
@@ -364,45 +364,45 @@ class _Comparison:
         return np.where(free, np.inf, np.where(follows, SIDEBAND_EXCESS, 0.0))
 
     def _windows_of(self, *names: str) -> NDArray[np.bool_]:
-        """Mark the combs (n,) that some parts may have."""
+        """Mark the combs (n,) in the windows of some parts."""
         combs, slip = self.combs, self.slip + 0.005
         windows = [mark_window(combs, self.lines_of(name), slip, self.stated) for name in names]
         return np.asarray(np.any(windows, axis=0))
 
     def _slower(self, frequency: float) -> NDArray[np.bool_]:
-        """Mark the combs (n,) of a frequency [Hz] that are seen at a half or a third of it.
+        """Mark the combs (n,) of a frequency [Hz] that show at a half or a third of it.
 
-        A motion may repeat every second or third knock only, and then lines are between the knocks'
-        own; they are the fainter ones. Of a source that itself knocks that seldom all are alike.
+        A motion may repeat only every second or third knock. It then has fainter lines between
+        those of the knocks. A source that itself knocks so seldom has equal lines.
         """
         combs = self.combs
         slower = np.zeros(len(combs.frequency), dtype=bool)
         for part in SLOWER:
-            near_it = np.flatnonzero(mark_near(combs, (frequency / part,)))
-            if not len(near_it):
+            near = np.flatnonzero(mark_near(combs, (frequency / part,)))
+            if not len(near):
                 continue
-            column = int(near_it[combs.level[:, near_it].max(axis=0).argmax()])
+            column = int(near[combs.level[:, near].max(axis=0).argmax()])
             loudest = combs.envelopes[int(combs.level[:, column].argmax())]
             at = np.array([combs.frequency[column]])
             count = part * (HARMONICS // part)
             depth = lines_at(loudest.levels.depth, loudest.levels.step, at, count)[:, 0]
             shared = np.arange(1, len(depth) + 1) % part == 0
             if depth[~shared].mean() < FAINTER * depth[shared].mean():
-                slower[near_it] = True
+                slower[near] = True
         return slower
 
     def _limit_to_rivals(self, part: PartEvidence, margin: float) -> PartEvidence:
-        """The evidence, its lead no more than the [dB] by which a part's comb is above the races'.
+        """Limit the lead of a part to the height [dB] of its comb above those of the races.
 
-        A race has the lines of one that is its multiple for free, and sidebands decide where both
-        have the same. A damaged ball marks races, so its lines are no rivals of theirs, see
-        `probabilities`; its own must be clearly stronger, as races have sidebands and halves of
-        their lines where a ball's may be.
+        Races at the same frequency or at a multiple are no rivals: where both have the same lines,
+        sidebands decide. A damaged ball marks races, so its lines are no rivals of theirs, see
+        `probabilities`. A ball's own lines must be clearly stronger, because sidebands and halves
+        of a race's lines may be at the same places.
         """
-        ball = part.part == BALL
-        same = part.frequency * np.array([1.0] if ball else [1.0, 2.0, 3.0])
+        is_ball = part.part == BALL
+        same = part.frequency * np.array([1.0] if is_ball else [1.0, 2.0, 3.0])
         above = [
-            part.level - level - (BALL_MARGIN if ball else 0.0)
+            part.level - level - (BALL_MARGIN if is_ball else 0.0)
             for lines, (frequency, level) in self.combs.best.items()
             if lines.part not in (part.part, BALL)
             and not (np.abs(frequency - same) <= tolerance(self.combs, same)).any()
@@ -411,23 +411,23 @@ class _Comparison:
         return replace(part, lead=lead, line_lead=lead)
 
     def weigh_sidebands(self, part: PartEvidence) -> PartEvidence:
-        """The evidence with what its sidebands say: those that the part's own turning makes.
+        """Limit the lead by the sidebands that the part's own turning makes.
 
-        An outer race stands still and needs none. Where a line may be a race's or a ball's, cage
-        sidebands speak for the ball.
+        An outer race stands still and needs none. If a line may belong to a race or a ball, cage
+        sidebands are evidence for the ball.
         """
         combs = self.combs
         envelope = combs.envelope_of(part)
         level = float(comb_level(_lines(envelope, envelope.cleared, part.frequency)[:, None])[0])
 
-        def sides(spacing: float) -> float:
+        def sideband_level(spacing: float) -> float:
             lines = [
                 _lines(envelope, envelope.cleared, part.frequency, away)[: HARMONICS // 2]
                 for away in (-spacing, spacing)
             ]
             return float(comb_level(np.concatenate(lines)[:, None])[0])
 
-        shaft, cage = sides(combs.shaft), sides(self.cage)
+        shaft, cage = sideband_level(combs.shaft), sideband_level(self.cage)
         above = modulation = math.inf
         if part.part in (INNER, BALL):
             turning, other = (shaft, cage) if part.part == INNER else (cage, shaft)
@@ -435,31 +435,33 @@ class _Comparison:
             modulation = turning - _sidebands_of_noise(level, averages)
             modulation *= math.sqrt(averages) / SIDEBAND_SCALE
             above = turning - other + SIDEBAND_LEAD + SIDEBAND_MARGIN
+        # a line in the windows of a race and of a ball: cage sidebands decide
         place = int(np.abs(combs.frequency - part.frequency).argmin())
         race = max(level - WEAK_SIDEBANDS, shaft - SIDEBAND_LEAD) - cage
-        if part.part != BALL and may_be(part.frequency, self.lines_of(BALL).order * combs.shaft):
+        ball = self.lines_of(BALL).order * combs.shaft
+        if part.part != BALL and may_be_ball(part.frequency, ball):
             above = min(above, race, LEAD + LEAD_SCALE * _race_or_ball(part.slip, self.slip))
         if part.part == BALL and self._windows_of(OUTER, INNER)[place]:
             above = min(above, -race)
         return replace(part, modulation=modulation, lead=min(part.lead, above, modulation + LEAD))
 
     def lead_over_foreign(self, part: PartEvidence) -> tuple[float, float]:
-        """Lead [dB] of an outer race's lines over sidebands of another shaft; their spacing [Hz].
+        """Return the lead [dB] of an outer race over sidebands of another shaft; and their spacing.
 
         An outer race stands still: only this shaft and its cage change the size of its blows.
-        Sidebands at another distance on both sides of its lines mean that the lines are those of a
-        part that turns with another shaft, or at another speed than the one stated. Infinity where
-        noise reaches as far.
+        Sidebands at another distance on both sides of its lines come from a part that turns with
+        another shaft, or at another speed than the stated one. The lead is infinite if noise may
+        make these sidebands.
         """
         combs = self.combs
         envelope = combs.envelope_of(part)
         resolution = (combs.frequency[1] - combs.frequency[0]) * FINENESS
         low, high = (turns * combs.shaft for turns in FOREIGN)
         spacing = np.arange(low, high, resolution / FINENESS)
-        # a coarse resolution may show the lines a little beside their place
-        near_it = np.abs(combs.frequency - part.frequency) <= 0.5 * combs.shaft / TURNS[0]
+        # a coarse resolution may show the lines slightly off their place
+        near = np.abs(combs.frequency - part.frequency) <= 0.5 * combs.shaft / TURNS[0]
         row = next(k for k, other in enumerate(combs.envelopes) if other is envelope)
-        levels = np.where(near_it, combs.level[row], -np.inf)
+        levels = np.where(near, combs.level[row], -np.inf)
         place = int(levels.argmax())
         frequency = float(combs.frequency[place])
         lines = frequency * np.arange(1, HARMONICS // 2 + 1)
@@ -468,23 +470,23 @@ class _Comparison:
              for away in (-spacing, spacing)]
             for line in lines.tolist()
         ]  # fmt: skip
-        level = np.min(sides, axis=1).mean(axis=0)  # both sidebands of a line, or none
-        made = [k * self.cage for k in (1, 2)] + [k * combs.shaft for k in (0.5, 1.0)]
-        made += [frequency / k for k in (2, 3, 4)]  # halves of the lines lie between them
-        for known in made:
-            level[np.abs(spacing - known) <= 1.5 * resolution + 0.005 * known] = -np.inf
+        level = np.min(sides, axis=1).mean(axis=0)  # both sidebands of a line must show
+        # spacings of this bearing's own sidebands, and of parts of the lines
+        known = [k * self.cage for k in (1, 2)] + [k * combs.shaft for k in (0.5, 1.0)]
+        known += [frequency / k for k in (2, 3, 4)]
+        for own in known:
+            level[np.abs(spacing - own) <= 1.5 * resolution + 0.005 * own] = -np.inf
         best = int(level.argmax())
         if level[best] < noise_level(RARE / len(spacing), envelope.levels.averages):
             return math.inf, math.nan
         return float(levels[place] - level[best]) - FOREIGN_LEAD + LEAD, float(spacing[best])
 
-    def carried(self, around: float) -> float:
-        """Return by how much [dB] lines around a frequency [Hz] have a ball's kind of sidebands.
+    def cage_lead(self, around: float) -> float:
+        """Return the lead [dB] of cage sidebands of lines around a frequency [Hz].
 
-        The cage carries a ball through the load zone: its sidebands are above those of the shaft,
-        which the inner race of another bearing has, and not far below the lines themselves.
-        Infinity where no lines are clear: those of a ball that slips are broad, and show nothing
-        of their sidebands.
+        The cage carries a ball through the load zone. Its sidebands are therefore above those of
+        the shaft, which the inner race of another bearing has, and not far below the lines. The
+        lead is infinite without clear lines: broad lines of a ball that slips hide their sidebands.
         """
         combs = self.combs
         place, column = self._loudest(around)
@@ -492,27 +494,26 @@ class _Comparison:
         level = float(combs.level[place, column])
         if self.clearness(around) < NOISE_MARGIN:
             return math.inf
-        seen = np.where(envelope.hidden, np.nan, envelope.cleared)
+        visible = np.where(envelope.hidden, np.nan, envelope.cleared)
 
-        def mean(spacing: float) -> float:
+        def mean_level(spacing: float) -> float:
             sides = np.array([
-                _lines(envelope, seen, frequency, order * spacing)[: HARMONICS // 2]
+                _lines(envelope, visible, frequency, order * spacing)[: HARMONICS // 2]
                 for order in (-3, -2, -1, 1, 2, 3)
             ])  # fmt: skip
             return float(np.nanmean(sides)) if np.isfinite(sides).any() else math.nan
 
-        shaft, cage = mean(combs.shaft), mean(self.cage)
-        if math.isnan(shaft + cage):  # lines of the shaft hide them
+        shaft, cage = mean_level(combs.shaft), mean_level(self.cage)
+        if math.isnan(shaft + cage):  # lines of the shaft hide the sidebands
             return -math.inf
         noise = noise_level(SIDEBAND_CHANCE, envelope.levels.averages)
         return min(cage - shaft, cage - level + CARRIED_REACH, cage - noise)
 
     def lead_over_source(self, frequency: float) -> float:
-        """Return by how much [dB] lines of a race are too loud to be sidebands of others.
+        """Return the lead [dB] of a race's lines over lines whose sidebands they may be.
 
-        In whatever band shows them best, lines that are whole turns of the shaft away are at most a
-        little louder; where they are more, they are the race of another bearing, with its sidebands
-        where this one has its lines.
+        Lines whole turns of the shaft away are at most a little louder. Louder ones are those of a
+        race of another bearing, whose sidebands are at the lines of this one.
         """
         combs = self.combs
         sources = mark_near(
@@ -525,11 +526,11 @@ class _Comparison:
         return level - float(combs.level[:, sources].max()) + SIDEBAND_EXCESS
 
     def clearness(self, around: float) -> float:
-        """Level [dB] of the loudest comb around a frequency [Hz] above noise."""
+        """Return the level [dB] above noise of the loudest comb around a frequency [Hz]."""
         return float(self.combs.level[self._loudest(around)]) - self.combs.noise
 
     def _loudest(self, around: float) -> tuple[int, int]:
-        """Band and column of the loudest comb around a frequency [Hz]."""
+        """Return band and column of the loudest comb around a frequency [Hz]."""
         level = np.where(
             np.abs(self.combs.frequency - around) <= self.combs.shaft / TURNS[0],
             self.combs.level,
@@ -539,7 +540,7 @@ class _Comparison:
         return int(place), int(column)
 
     def _evidence(
-        self, lines: PartLines, envelope: Listened, frequency: float, others: float
+        self, lines: PartLines, envelope: BandLines, frequency: float, others: float
     ) -> PartEvidence:
         combs = self.combs
         spacing = self.cage if lines.part == BALL else combs.shaft
@@ -570,7 +571,7 @@ class _Comparison:
             line_lead=lead,
             depth=_trimmed_mean(swings[0]),
             swing=_trimmed_mean(np.sqrt(np.square(swings).sum(axis=0))),
-            # the highest line of a comb resolves the most
+            # the frequency is as exact as its highest harmonic gives it
             magnetic=magnetic_share(frequency, tolerance(combs, 0.0).item() / HARMONICS, self.slip),
             sidebands=np.stack(sidebands, axis=1),
             sideband_spacing=spacing,
@@ -581,7 +582,7 @@ class _Comparison:
         )
 
     def others(self, evidence: Sequence[PartEvidence]) -> tuple[OtherLines, float, float]:
-        """The strongest comb of no part, how far above noise it is [dB], and its swing."""
+        """Return the strongest comb of no part, its height [dB] above noise, and its swing."""
         combs = self.combs
         explained = np.where(self._windows_of(*PARTS), np.inf, 0.0)
         for lines, part in zip(self.parts, evidence, strict=True):
@@ -595,49 +596,50 @@ class _Comparison:
         return rival, rival.level - combs.noise, _trimmed_mean(depths)
 
 
-def _carried(compared: Iterable[_Comparison], frequency: float) -> float:
-    """`carried` at the resolution that shows the lines around a frequency [Hz] best."""
-    return max(compared, key=lambda comparison: comparison.clearness(frequency)).carried(frequency)
+def _cage_lead(compared: Iterable[_Comparison], frequency: float) -> float:
+    """Return `cage_lead` at the resolution that shows lines around a frequency [Hz] best."""
+    clearest = max(compared, key=lambda comparison: comparison.clearness(frequency))
+    return clearest.cage_lead(frequency)
 
 
 def _lines(
-    envelope: Listened, values: NDArray[np.float64], frequency: float, away: float = 0.0
+    envelope: BandLines, values: NDArray[np.float64], frequency: float, away: float = 0.0
 ) -> NDArray[np.float64]:
-    """Values [dB] or shares at some distance [Hz] from the harmonics of a frequency."""
+    """Return levels [dB] or shares `away` [Hz] from the harmonics of a frequency [Hz]."""
     return lines_at(values, envelope.levels.step, np.array([frequency]), away=away)[:, 0]
 
 
 def _sidebands_of_noise(level: float, averages: float) -> float:
-    """The level [dB] at which sidebands of lines of a level [dB] are no longer chance.
+    """Return the level [dB] at which sidebands of lines of a level [dB] are no longer chance.
 
-    Noise that the lines hardly stand out of has other chances at each of the sidebands. Beside loud
-    lines it is the noise at the impacts that counts, which changes their sizes and so has the same
-    chance at all sidebands at once; there they need be no higher than a load zone makes them.
+    Beside faint lines, noise is independent at each of the sidebands. Beside loud lines, noise
+    changes the sizes of the impacts, and so has the same chance at all sidebands at once; they need
+    not be higher there than a load zone makes them.
     """
     from scipy.special import gammainccinv  # imported late: see `spectrum`
 
-    apart = noise_level(SIDEBAND_CHANCE, averages)
-    together = 10.0 * math.log10(float(gammainccinv(averages, SIDEBAND_CHANCE)) / averages)
-    return max(apart, min(together, level - SIDEBAND_REACH))
+    independent = noise_level(SIDEBAND_CHANCE, averages)
+    common = 10.0 * math.log10(float(gammainccinv(averages, SIDEBAND_CHANCE)) / averages)
+    return max(independent, min(common, level - SIDEBAND_REACH))
 
 
-def _race_or_ball(away: float, slip: float) -> float:
-    """Logarithm of the odds that lines which may be either's are a race's, not a ball's.
+def _race_or_ball(deviation: float, slip: float) -> float:
+    """Return the logarithm of the odds that lines in both windows are a race's, not a ball's.
 
-    Bayes' rule: those of a race are the rarer the farther they are `away` from rolling, as a
-    fraction; those of a ball, which need not be carried through a load zone where the thrust is
-    great, are anywhere in its window.
+    Bayes' rule: lines of a race are rarer the larger their relative `deviation` from rolling. Lines
+    of a ball are equally likely anywhere in its window; without cage sidebands, if a large thrust
+    leaves no load zone.
     """
     reach = SLIPS * slip
-    race = math.exp(-abs(away) / reach) / (2.0 * reach)
+    race = math.exp(-abs(deviation) / reach) / (2.0 * reach)
     return math.log(race * (LAG + AHEAD) / SELDOM)
 
 
 def _lead_over_gaps(depth: NDArray[np.float64]) -> float:
-    """Level [dB] of lines (HARMONICS,) above the gaps between those of a multiple's comb.
+    """Return the level [dB] of lines (HARMONICS,) between those of a comb at a multiple, over GAPS.
 
-    Blows show in their first line; beats of tones, as of an inverter, at twice or three times it
-    are lines that leave others out.
+    Blows show in all lines. Beats of tones, as of an inverter, at twice or three times the
+    frequency have lines with gaps between them.
     """
     number = np.arange(1, len(depth) + 1)
     above = [
@@ -649,11 +651,11 @@ def _lead_over_gaps(depth: NDArray[np.float64]) -> float:
 
 
 def _or_sidebands(
-    envelope: Listened, frequency: NDArray[np.float64], spacing: float
+    envelope: BandLines, frequency: NDArray[np.float64], spacing: float
 ) -> NDArray[np.float64]:
-    """Lines of a ball (HARMONICS, n): each itself, or its two sidebands if both are louder.
+    """Return the lines (HARMONICS, n) of a ball, or their sidebands where both are louder.
 
-    A line may lie on one of the shaft, or be fainter than what the cage makes of it.
+    A line may coincide with one of the shaft, or be fainter than its sidebands of the cage.
     """
     line, below, above = (
         lines_at(envelope.cleared, envelope.levels.step, frequency, away=away)
@@ -663,5 +665,5 @@ def _or_sidebands(
 
 
 def _trimmed_mean(values: NDArray[np.float64]) -> float:
-    """Mean of all values but the greatest: no single line decides."""
+    """Return the mean of all values but the greatest, so that no single line decides."""
     return float(np.sort(values)[:-1].mean())

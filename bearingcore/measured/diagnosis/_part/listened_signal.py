@@ -1,4 +1,4 @@
-"""The signal that a diagnosis listens to: its directions, and what is wrong with each."""
+"""The signal of a diagnosis: its usable directions, their faults, and their envelopes."""
 
 from __future__ import annotations
 
@@ -17,29 +17,29 @@ from bearingcore.measured.signals._filter_bank import Envelope, split, squared_e
 from bearingcore.recordings import Recording
 
 FEWEST_PASSES = 12
-"""Knocks in a recording below which nothing is said."""
+"""Fewest knocks of a part in a recording that is analysed."""
 
 MOST_DROPPED = 0.5
-"""Share of a recording without signal from which nothing is said."""
+"""Greatest share of dropped samples in a direction that is analysed."""
 
 NOISE_FLOOR = 1e-4
-"""Share of a signal's deviation that is added as noise (-80 dB)."""
+"""Deviation of the noise that is added to a signal, over its own (-80 dB)."""
 
 ABOVE_ROUNDING = 4.0
-"""Times the power of rounding that a tenth of all frequencies hold where a bearing runs."""
+"""Density that a tenth of all frequencies exceed while a bearing runs, over that of rounding."""
 
 NARROWEST = 16.0
-"""Turns of the shaft a second that a band is wide at least."""
+"""Least width of a band, in shaft frequencies."""
 
 NEAR = 0.01
-"""Fraction of a speed, taken from a wide range, within which a finer search follows."""
+"""Relative half-width of the finer search around a speed from a wide range."""
 
 WHITENING = 3.0
-"""Turns of the shaft a second over which a signal is whitened."""
+"""Width over which a signal is whitened, in shaft frequencies."""
 
 
 class ListenedSignal:
-    """The directions of a recording, and what is wrong with each."""
+    """The usable directions of a recording, with their faults."""
 
     def __init__(self, recording: Recording) -> None:
         self.rate = recording.sample_rate
@@ -58,7 +58,7 @@ class ListenedSignal:
             self.unusable = DiagnosisStatus.DROPPED_OUT, say.dropout_message(share)
 
     def unwhitened(self) -> ListenedSignal:
-        """The same signal, not whitened: resonances and tones keep their level."""
+        """Return the same signal without whitening: resonances and tones keep their level."""
         other = copy.copy(self)
         other.whitening = None
         return other
@@ -75,9 +75,9 @@ class ListenedSignal:
 
     @property
     def only_rounding(self) -> bool:
-        """True if between its tones no direction holds more than steps of numbers and our noise.
+        """True if all directions hold only tones, rounding, and the noise that was added.
 
-        Rounding to steps Δ has the power Δ²/12, alike at all frequencies.
+        Rounding to steps Δ has the power Δ²/12, equal at all frequencies.
         """
         from scipy.signal import welch  # imported late: see `spectrum`
 
@@ -90,7 +90,7 @@ class ListenedSignal:
         return True
 
     def envelopes(self, shaft: float, highest: float) -> list[tuple[str, Envelope]]:
-        """Envelopes in all bands, with their directions."""
+        """Return the envelopes in all bands, with their directions."""
         bands = split(self.rate, NARROWEST * shaft)
         return [
             (name, envelope)
@@ -106,13 +106,13 @@ class ListenedSignal:
         ]
 
     def shaft(self, low: float, high: float) -> ShaftLines:
-        """The shaft's own lines between two frequencies [Hz]."""
+        """Find the shaft's own lines between two frequencies [Hz]."""
         return shaft_lines(self.columns, self.rate, low, high)
 
     def shaft_tones(self, low: float, high: float) -> ShaftLines:
-        """The shaft's own lines between two frequencies [Hz], in the vibration alone.
+        """Find the shaft's own lines between two frequencies [Hz], in the vibration alone.
 
-        Damaged balls make combs of the cage in the envelope, which are none of the shaft's.
+        Damaged balls make combs of the cage in the envelope, which do not belong to the shaft.
         """
         wide = shaft_lines(self.columns, self.rate, low, high, envelopes=False)
         near = wide.frequency * (1.0 - NEAR), wide.frequency * (1.0 + NEAR)
@@ -120,16 +120,16 @@ class ListenedSignal:
 
 
 def _add_noise(samples: np.ndarray) -> np.ndarray:
-    """The samples with the noise that any recorder has.
+    """Return the samples with the noise that any recorder has.
 
-    A computed signal may have none: then the remains of rounding and leakage would show.
+    A computed signal may have none, and would then show rounding and leakage.
     """
     noise = np.random.default_rng(0).standard_normal(len(samples))
     return np.asarray(samples + NOISE_FLOOR * float(samples.std()) * noise)
 
 
 def unfit(signal: ListenedSignal, parts: Sequence[PartLines], shaft: float) -> Reason | None:
-    """Return the reason why nothing can be said, or None."""
+    """Return the reason why a signal cannot be analysed at a shaft speed [Hz], or None."""
     slowest = min(lines.order for lines in parts) * shaft
     top = max(lines.order for lines in parts) * shaft
     if signal.duration * slowest < FEWEST_PASSES:

@@ -1,7 +1,7 @@
-"""Signals of a changing speed, made steady by the shaft angle that was measured beside them.
+"""Signals of a changing speed, made steady by the shaft angle that was measured with them.
 
-A signal is resampled at equal steps of that angle instead of time. The passages of balls are then
-equally far apart, as in a record of a shaft that turns steadily at the mean speed.
+A signal is resampled at equal steps of that angle instead of time. Ball passes are then equally
+long, as in a record of a shaft that turns steadily at the mean speed.
 """
 
 from __future__ import annotations
@@ -14,42 +14,42 @@ import numpy as np
 
 from bearingcore.common import Array, number, runs, span
 from bearingcore.measured.diagnosis._part.unknown_speed import NARROW
-from bearingcore.measured.signals._filter_bank import thinned
+from bearingcore.measured.signals._filter_bank import downsample
 from bearingcore.measured.signals._resampling import resample_over_turns
 from bearingcore.recordings import FEWEST_SAMPLES, Recording
 
 STEADY = 0.05
-"""Turns by which the shaft may be off the angle of a steady one: up to here lines stay sharp, and
-the noise of a column of speeds adds up to as much."""
+"""Greatest deviation of a steady shaft's angle, in turns: within it lines stay sharp, and the noise
+of a column of speeds adds up to as much."""
 
 SLOWEST = 0.5
-"""Share of the highest speed below which the signal is left out: each turn gets as many samples as
-the slowest one has, and they may be no more than twice those that were measured."""
+"""Least speed that is kept, over the highest one. Each turn gets as many samples as the slowest one
+has, which are then at most twice those that were measured."""
 
 KEPT_OF = 64
-"""Denominator of the ratio by which the finely sampled turns return to about the measured rate."""
+"""Denominator of the ratio by which the resampled turns return to about the measured rate."""
 
 USUAL = 5.0, 100.0
-"""Speeds [Hz] of a shaft between which a tachometer counts as giving one pulse a turn."""
+"""Range of shaft speeds [Hz] in which a tachometer is assumed to give one pulse a turn."""
 
 LEAST_CHANGE = 0.05
-"""Least change of an unmeasured speed that is said: resonances and short spectra move the
+"""Least change of an unmeasured speed that is reported: resonances and short spectra move the
 lines of a steady shaft by up to 0.03."""
 
 WINDOW, NEAR = 8.0, (0.7, 1.4)
-"""Turns in a spectrum in which the shaft's lines are followed, and times the speed between which
-they are looked for."""
+"""Turns in a spectrum in which the shaft's lines are followed; range of the search, over the speed.
+"""
 
 JUMP, FOLLOWED = 0.03, 0.9
-"""Fraction by which a speed may be off the mean of its neighbours, and share of the spectra where
-it must not be off: lines of a shaft reach 0.95, those of noise 0.4, of single tones 0.8."""
+"""Largest relative deviation of a speed from the mean of its neighbours, and least share of the
+spectra within it: lines of a shaft reach 0.95, those of noise 0.4, of single tones 0.8."""
 
 FEWEST_PIECES, TOGETHER, LEAST_SHARED_CHANGE = 12, 0.75, 0.02
-"""Pieces of a signal in which the shaft's lines are followed by their phase; the rank correlation
-of the speeds by three lines, which noise and single blows bring to 0.6; and a change so shown."""
+"""Fewest pieces of a signal whose lines are followed by phase; least rank correlation of the speeds
+by three lines, which is up to 0.6 for noise and single blows; and least change that they show."""
 
 BESIDE = 0.02
-"""Fraction by which a given speed may lie outside those that were measured."""
+"""Largest relative distance of a given speed from the range of the measured ones."""
 
 
 def resample_to_steady_speed(
@@ -57,7 +57,7 @@ def resample_to_steady_speed(
 ) -> tuple[Recording, float, float, str]:
     """Resample a record to its mean speed; also return the speed (low, high) [Hz] and its source.
 
-    A record stays as it is where the shaft is steady, or its angle was not measured.
+    A record stays as it is if the shaft is steady or its angle was not measured.
 
     Parameters
     ----------
@@ -74,12 +74,13 @@ def resample_to_steady_speed(
         return recording, low, high, source
     from scipy.signal import resample_poly  # imported late: see `spectrum`
 
-    rate, looked_for = recording.sample_rate, high > NARROW * low
+    rate, is_unknown = recording.sample_rate, high > NARROW * low
     turns = recording.shaft_angle / (2.0 * math.pi)
     mean = _mean_speed(turns, rate)
-    turns /= 1.0 if looked_for else max(1.0, round(mean / math.sqrt(low * high)))
-    if looked_for and USUAL[0] <= mean <= USUAL[1]:
-        low, high, source, looked_for = mean, mean, "assumed: a pulse is a turn", False
+    turns /= 1.0 if is_unknown else max(1.0, round(mean / math.sqrt(low * high)))
+    if is_unknown and USUAL[0] <= mean <= USUAL[1]:
+        low, high, source, is_unknown = mean, mean, "assumed: a pulse is a turn", False
+    # keep the longest stretch that is not too slow
     speed = _smooth_speed(turns, rate)
     begins, ends = runs(speed >= SLOWEST * speed.max())
     longest = int((ends - begins).argmax())
@@ -92,7 +93,7 @@ def resample_to_steady_speed(
         resample_over_turns(column, turns[part], per_turn)
         for column in recording.acceleration[part].T
     ]
-    # above half of the measured rate, at the mean speed, only the slow part holds anything
+    # return to the measured rate: at the mean speed, nothing was measured above half of it
     kept = math.floor(KEPT_OF * rate / (per_turn * mean))
     steady = replace(
         recording,
@@ -100,22 +101,22 @@ def resample_to_steady_speed(
         sample_rate=per_turn * mean * kept / KEPT_OF,
         shaft_angle=None,
     )
-    near = low <= (1.0 + BESIDE) * speed.max() and high >= (1.0 - BESIDE) * speed.min()
-    if near and not looked_for:
+    agrees = low <= (1.0 + BESIDE) * speed.max() and high >= (1.0 - BESIDE) * speed.min()
+    if agrees and not is_unknown:
         low = high = mean
     least, most = (100.0 * float(end) / mean for end in (speed[part].min(), speed[part].max()))
     words = (
         f"it changes by {number(most - least, 2)} % as measured, "
-        f"{span(least, most, '% of its mean')}, so the signal is taken over the shaft's angle"
+        f"{span(least, most, '% of its mean')}, so the signal is analysed over the shaft's angle"
     )
     return steady, low, high, f"{source}; {words}"
 
 
 def speed_over_time(recording: Recording, shaft_speed: float | None = None) -> Array | None:
-    """Return the shaft speed (n,) [rad/s] that was measured beside a signal; None without.
+    """Return the shaft speed (n,) [rad/s] that was measured with a signal; None without one.
 
-    It is the mean of two turns around each sample. A `shaft_speed` [rad/s] that is known gives the
-    pulses a turn of a tachometer.
+    It is the mean of two turns around each sample. A known `shaft_speed` [rad/s] gives the number
+    of pulses a turn of a tachometer.
     """
     if recording.shaft_angle is None:
         return None
@@ -125,14 +126,14 @@ def speed_over_time(recording: Recording, shaft_speed: float | None = None) -> A
 
 
 def _mean_speed(turns: Array, rate: float) -> float:
-    """Mean number of turns per second [Hz]."""
+    """Return the mean number of turns per second [Hz]."""
     return float(turns[-1] - turns[0]) / (len(turns) - 1) * rate
 
 
 def _smooth_speed(turns: Array, rate: float) -> Array:
-    """Turns per second (n,) [Hz], as the mean of two turns around each sample.
+    """Return turns per second (n,) [Hz], the mean of two turns around each sample.
 
-    In the first and the last turn the speed continues the trend beside them.
+    In the first and in the last turn the speed continues its trend.
     """
     last = len(turns) - 1
     reach = min(max(1, math.ceil(rate / _mean_speed(turns, rate))), last // 4)
@@ -143,11 +144,11 @@ def _smooth_speed(turns: Array, rate: float) -> Array:
     return np.concatenate([begin, inside, end])
 
 
-def followed_change(columns: Sequence[Array], rate: float, shaft: float) -> float:
-    """Change of a speed that was not measured, as a fraction of it; 0 where no change is sure.
+def speed_change(columns: Sequence[Array], rate: float, shaft: float) -> float:
+    """Return the relative change of a speed that was not measured; 0 without a certain change.
 
     In each short spectrum the first three lines of the shaft together show its speed. Lines of
-    noise leap from one spectrum to the next, those of a shaft do not. A small change hides in the
+    noise jump from one spectrum to the next, those of a shaft do not. A small change hides in the
     width of such lines, but not in their phase.
 
     Parameters
@@ -158,13 +159,13 @@ def followed_change(columns: Sequence[Array], rate: float, shaft: float) -> floa
         given speed [Hz].
     """
     speeds = np.linspace(NEAR[0] * shaft, NEAR[1] * shaft, 141)
-    slow = [thinned(column, rate, 6.0 * shaft) for column in columns]
+    slow = [downsample(column, rate, 6.0 * shaft) for column in columns]
     change = max(_change(values, rate, shaft, speeds) for values, rate in slow)
     return change or max(_small_change(values, rate, shaft) for values, rate in slow)
 
 
 def _small_change(values: Array, rate: float, shaft: float) -> float:
-    """Change of a nearly steady speed, where the shaft's first three lines speed up together.
+    """Return the change of a nearly steady speed, if the shaft's first three lines agree on it.
 
     The phase of each line over its order is the shaft's angle; lines of noise do not agree on it.
     """
@@ -172,19 +173,19 @@ def _small_change(values: Array, rate: float, shaft: float) -> float:
     order = np.arange(len(spectrum)) * rate / len(values) / shaft
     speeds = []
     for line in (1, 2, 3):
-        off = np.minimum(np.abs(order - line) / (1.0 - NEAR[0]), 1.0)
-        alone = np.fft.ifft(spectrum * np.cos(0.5 * math.pi * off) ** 2, len(values))
-        speeds.append(np.diff(np.unwrap(np.angle(alone))[step:-step:step]) / line)
+        distance = np.minimum(np.abs(order - line) / (1.0 - NEAR[0]), 1.0)
+        filtered = np.fft.ifft(spectrum * np.cos(0.5 * math.pi * distance) ** 2, len(values))
+        speeds.append(np.diff(np.unwrap(np.angle(filtered))[step:-step:step]) / line)
     if len(speeds[0]) < FEWEST_PIECES or not np.ptp(values):
         return 0.0
     ranks = np.argsort(np.argsort(speeds, axis=1), axis=1)
     change = float(np.ptp(np.median(speeds, axis=0)) / np.mean(speeds))
-    shared = np.corrcoef(ranks).min() >= TOGETHER and change >= LEAST_SHARED_CHANGE
-    return change if shared else 0.0
+    is_shared = np.corrcoef(ranks).min() >= TOGETHER and change >= LEAST_SHARED_CHANGE
+    return change if is_shared else 0.0
 
 
 def _change(values: Array, rate: float, shaft: float, speeds: Array) -> float:
-    """Change by one signal, whose lines are compared with all speeds (k,) [Hz]."""
+    """Return the change of the speed out of `speeds` (k,) [Hz] that fits short spectra best."""
     length = round(WINDOW / shaft * rate)
     if len(values) < 4 * length:
         return 0.0
@@ -195,23 +196,23 @@ def _change(values: Array, rate: float, shaft: float, speeds: Array) -> float:
     lines = np.zeros((len(pieces), len(speeds)))
     for order in (1, 2, 3):
         around = slice(round(0.5 * order * shaft / step), round(2.0 * order * shaft / step))
-        usual = np.median(spectra[:, around], axis=1, keepdims=True)
+        background = np.median(spectra[:, around], axis=1, keepdims=True)
         place = np.round(order * speeds / step).astype(int)
-        lines += np.log(np.maximum(spectra[:, place] / np.maximum(usual, 1e-300), 1.0))
-    shown = speeds[lines.argmax(axis=1)]
-    near = np.abs(2.0 * shown[1:-1] / (shown[2:] + shown[:-2]) - 1.0) < JUMP
-    middle = np.median(np.lib.stride_tricks.sliding_window_view(shown, 3), axis=1)
-    change = float(np.ptp(middle) / middle.mean())
+        lines += np.log(np.maximum(spectra[:, place] / np.maximum(background, 1e-300), 1.0))
+    best = speeds[lines.argmax(axis=1)]
+    near = np.abs(2.0 * best[1:-1] / (best[2:] + best[:-2]) - 1.0) < JUMP
+    smooth = np.median(np.lib.stride_tricks.sliding_window_view(best, 3), axis=1)
+    change = float(np.ptp(smooth) / smooth.mean())
     if near.mean() < FOLLOWED or change < LEAST_CHANGE or _is_steady(values, rate, shaft, change):
         return 0.0
     return change
 
 
 def _is_steady(values: Array, rate: float, shaft: float, change: float) -> bool:
-    """True if the whole record has a line too sharp for a shaft whose speed changes this much.
+    """Return True if the whole record has a line too sharp for a shaft that changes this much.
 
-    Short spectra place a single tone only roughly, and noise at the other orders shifts it. A
-    speed that sweeps over its change leaves half of the power at most in a tenth of that width.
+    Short spectra locate a single tone only roughly, and noise at the other orders shifts it. A
+    speed that sweeps over its change has at most half of its power in a tenth of that width.
     """
     power = np.abs(np.fft.rfft((values - values.mean()) * np.hanning(len(values)))) ** 2
     step = rate / len(values)

@@ -1,6 +1,6 @@
-"""The parts of a bearing and the lines by which each announces its damage.
+"""The parts of a bearing, and the lines that their damage makes.
 
-Part       | Line, in turns of the shaft                    | Sidebands, because
+Part       | Line, in turns of the shaft                    | Sidebands, and their reason
 ---------- | ---------------------------------------------- | ------------------------------------
 outer race | BPFO = N_b f_c                                  | none: it stands still in the load
 inner race | BPFI = N_b (f_s − f_c)                          | shaft: it turns through the load
@@ -38,14 +38,14 @@ class PartLines:
 
 
 def part_lines(bearing: Bearing) -> tuple[PartLines, ...]:
-    """The lines of outer race, inner race and ball at one turn of the shaft a second.
+    """Return the lines of outer race, inner race and ball at one turn of the shaft a second.
 
-    ValueError for rows that are not alike, each of which has lines of its own.
+    ValueError for rows that are not alike, because each has its own lines.
     """
     if not bearing.rows_are_alike:
         raise ValueError(
-            "rows are not alike; allowed: rows alike, or one row at a time, as each has "
-            "frequencies of its own"
+            "rows are not alike; allowed: rows that are alike, or one row at a time, as each has "
+            "its own frequencies"
         )
     turn = 2.0 * math.pi  # one turn a second [rad/s]
     return (

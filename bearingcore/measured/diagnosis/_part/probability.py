@@ -1,11 +1,11 @@
 """Probabilities of the parts, from their evidence.
 
-Two doubts make up that of a race: whether its lines are there, which its lead answers, and whether
-the race makes them, which their swing answers: sound bearings and the marks of a damaged ball make
-faint ones. The lines of a ball that rolls steadily are judged likewise; those of one that slips, by
-how far they stand out of all others in all bands. Each doubt is a logistic curve. Lines where
-magnetic noise has its own are shared with it; a cause that none of this knows of is always
-possible.
+The probability of a race has two factors. The first, from the lead, is that its lines are there.
+The second, from their swing, is that damage of the race makes them: healthy bearings and the marks
+of a damaged ball make faint lines too. The lines of a ball that rolls steadily are judged in the
+same way; those of a ball that slips, by their height above all others in all bands. Each factor is
+a logistic curve. Magnetic noise takes its share of lines at its frequency. An unknown cause is
+always possible.
 """
 
 from __future__ import annotations
@@ -21,24 +21,24 @@ SURE = 0.99
 """The greatest probability: a cause outside the model is always possible."""
 
 LEAD, LEAD_SCALE = 1.2, 1.0
-"""Lead [dB] at which lines are as probably there as not; scale [dB] on which the odds grow by e.
-A lead counts from the level that chance reaches once in a thousand signals."""
+"""Lead [dB] at which the odds that lines are there are even; scale [dB] on which they grow by e.
+A lead is 0 at the level that chance reaches once in a thousand signals."""
 
 
 DEVIATIONS, DEVIATIONS_SCALE = 2.8, 0.6
-"""Lead and scale of a ball's broad lines, in deviations: by chance the greatest of their dozen
-places is above 2.8 in one signal of thirty, and damaged balls are rarer than damaged races."""
+"""The same for a ball's broad lines, in deviations: by chance the greatest of their dozen places
+is above 2.8 in one signal of thirty, and damaged balls are rarer than damaged races."""
 
 
 class Calibration(NamedTuple):
-    """The numbers that measured records have set.
+    """The numbers that were fitted to measured records.
 
     Attributes
     ----------
     swing
-        of the envelope at which a race's lines are its own damage's as probably as not.
+        swing of the envelope at which the odds that damage of a race makes its lines are even.
     swing_scale
-        [dB] in which these odds grow by e.
+        scale [dB] on which these odds grow by e.
     """
 
     swing: float
@@ -50,30 +50,30 @@ CALIBRATION = Calibration(0.136, 1.51)
 
 
 def probabilities(evidence: Iterable[PartEvidence], chosen: Calibration) -> dict[str, float]:
-    """Probability that each part is the damaged one; what is left is that none of them is.
+    """Return the probability of each part that it is damaged; the rest is that none is.
 
-    A damaged ball marks races, a damaged race makes no ball's lines: where a ball's stand out, it
-    is the ball, and races share the rest.
+    A damaged ball marks races, but a damaged race makes no lines of a ball. So the ball comes
+    first, and the races share the rest.
     """
     chances = {}
-    for seen in evidence:
-        chances[seen.part] = math.exp(log_probability(seen, chosen))
-        if seen.part == BALL:
-            above = (seen.deviations - DEVIATIONS) / DEVIATIONS_SCALE
+    for part in evidence:
+        chances[part.part] = math.exp(log_probability(part, chosen))
+        if part.part == BALL:
+            above = (part.deviations - DEVIATIONS) / DEVIATIONS_SCALE
             chances[BALL] = 1.0 - (1.0 - chances[BALL]) * (1.0 - math.exp(-_doubt(above)))
-        chances[seen.part] *= 1.0 - seen.magnetic
+        chances[part.part] *= 1.0 - part.magnetic
     no_ball = 1.0 - chances[BALL]
     return {
-        part: SURE * (value if part == BALL else no_ball * value) for part, value in chances.items()
+        name: SURE * (value if name == BALL else no_ball * value) for name, value in chances.items()
     }
 
 
 def log_probability(part: PartEvidence, chosen: Calibration = CALIBRATION) -> float:
-    """Logarithm of the probability that a part's lines are there and its own damage makes them."""
+    """Return the log probability that a part's lines are there and its own damage makes them."""
     decibels = 20.0 * math.log10(max(part.swing, 1e-9) / chosen.swing)
     return -_doubt((part.lead - LEAD) / LEAD_SCALE) - _doubt(decibels / chosen.swing_scale)
 
 
 def _doubt(above: float) -> float:
-    """Minus the logarithm of a logistic curve."""
+    """Return minus the logarithm of a logistic curve."""
     return math.log1p(math.exp(-above)) if above > -30.0 else -above

@@ -1,4 +1,4 @@
-"""The sentences of a diagnosis; remarks follow another sentence and begin with a space."""
+"""The sentences of a diagnosis. Remarks follow another sentence and begin with a space."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def too_far(known: str, end: str, speed: float, why: str) -> str:
 
 
 def other_unit(speed: float, other: float) -> str:
-    """Sentence for a speed [Hz] 60 times too high or too low, as lines of the shaft show."""
+    """Sentence for a speed [Hz] that is 60 times too high or too low by the lines of the shaft."""
     return (
         f"Lines of the shaft do not show at {number(60.0 * speed, 4)} rpm, but clearly at "
         f"{number(60.0 * other, 4)} rpm: check whether the speed is in Hz or in rpm."

@@ -1,4 +1,4 @@
-"""Looking for combs: in every band, every direction and at several resolutions."""
+"""Search for combs in every band and direction, at several resolutions."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from bearingcore.measured.diagnosis._part.combs import (
     HARMONICS,
     comb_level,
-    cut,
+    limit_levels,
     lines_at,
     mark_multiples,
     noise_level,
@@ -22,31 +22,31 @@ from bearingcore.measured.signals._filter_bank import Band, Envelope
 from bearingcore.measured.signals._line_levels import LineLevels, line_levels
 
 TURNS = (15.0, 60.0, 240.0)
-"""Turns of the shaft in a spectrum's segment: long ones show faint lines of a steady cage, short
-ones the lines of a cage that wanders."""
+"""Turns of the shaft in a segment of the spectrum: long segments show faint lines of a steady cage,
+short ones the lines of a cage that wanders."""
 
 FINENESS = 4
-"""Steps of frequency in which a comb is looked for, in the resolution of its first line."""
+"""Number of frequencies of the search in the resolution of a comb's first line."""
 
 LOWEST_ORDER = 1.05
-"""Combs below a line each turn are the shaft's or the cage's own."""
+"""Lowest order of a comb: lower ones are those of shaft and cage."""
 
 INDEPENDENT_BANDS = 0.5
 """Share of the bands that counts as independent, because bands overlap."""
 
 SURROUNDINGS = 2.0
-"""Turns of the shaft a second over which a line's background is taken."""
+"""Width over which the median is the background of a line, in shaft frequencies."""
 
 WANDER = 0.003
-"""Fraction by which a cage's speed may wander while it is measured."""
+"""Largest relative change of a cage's speed during a measurement."""
 
 RARE = 1e-3
-"""Probability with which noise reaches the level of noise anywhere."""
+"""Probability that noise reaches its level anywhere in a signal."""
 
 
 @dataclass(frozen=True)
-class Listened:
-    """An envelope, the direction it comes from, and its lines at one resolution."""
+class BandLines:
+    """The lines of an envelope in one band and direction, at one resolution."""
 
     direction: str
     band: Band
@@ -79,7 +79,7 @@ class Combs:
 
     turns: float
     shaft: float
-    envelopes: tuple[Listened, ...]
+    envelopes: tuple[BandLines, ...]
     frequency: NDArray[np.float64] = field(repr=False)
     level: NDArray[np.float64] = field(repr=False)
     best: dict[PartLines, tuple[float, float]]
@@ -95,8 +95,8 @@ class Combs:
         )
         return noise_level(RARE / cells, self.envelopes[0].levels.averages)
 
-    def envelope_of(self, part: PartEvidence) -> Listened:
-        """Return the envelope in which the lines of a part were seen."""
+    def envelope_of(self, part: PartEvidence) -> BandLines:
+        """Return the envelope that shows the lines of a part."""
         place = part.band, part.direction
         return next(e for e in self.envelopes if (e.band, e.direction) == place)
 
@@ -110,54 +110,54 @@ def listen(
     turns: float,
     stated: float | None = None,
 ) -> Combs:
-    """The combs at one resolution.
+    """Compute the combs at one resolution.
 
     Parameters
     ----------
     envelopes
-        with the name of the direction of each.
+        each with the name of its direction.
     shaft
         turns of the shaft a second [Hz].
     known_speed
-        whether the shaft's own lines are known well enough to be left out.
+        True if the speed is known well enough to leave out the shaft's own lines.
     stated
-        [Hz] the stated speed, from which lines may not be farther than the slip either.
+        stated speed [Hz], from which lines may also be no farther than the slip.
     """
     segment = turns / shaft
     duration = max(len(envelope.values) / envelope.rate for _, envelope in envelopes)
     resolution = 1.0 / min(segment, duration)
     top = max(lines.order for lines in parts) * (1.0 + slip)
     highest = (HARMONICS * top + 1.5) * shaft
-    listened = []
+    band_lines = []
     for direction, envelope in envelopes:
         levels = line_levels(envelope.values, envelope.rate, segment, highest, SURROUNDINGS * shaft)
         width = 1.5 * resolution + 5e-4 * shaft
-        # the speed is known to a tenth of what the highest of its lines resolves
+        # the speed is known to a tenth of the resolution of its highest line
         error = 0.1 / HARMONICS / min(TURNS[-1] / shaft, duration)
         hidden = mark_multiples(levels, shaft if known_speed else 0.0, width, error)
-        cleared = cut(levels, hidden)
-        listened.append(
-            Listened(direction, envelope.band, envelope.kurtosis, levels, cleared, hidden)
+        cleared = limit_levels(levels, hidden)
+        band_lines.append(
+            BandLines(direction, envelope.band, envelope.kurtosis, levels, cleared, hidden)
         )
     slowest = 0.9 * min(lines.order for lines in parts) * (1.0 - slip)
     frequency = np.arange(
         min(LOWEST_ORDER, slowest) * shaft, 1.25 * top * shaft, resolution / FINENESS
     )
-    level = np.stack([comb_level(lines_at(e.cleared, e.levels.step, frequency)) for e in listened])
-    combs = Combs(turns, shaft, tuple(listened), frequency, level, {})
+    levels_of = [comb_level(lines_at(e.cleared, e.levels.step, frequency)) for e in band_lines]
+    combs = Combs(turns, shaft, tuple(band_lines), frequency, np.stack(levels_of), {})
     for lines in parts:
         inside = np.flatnonzero(mark_window(combs, lines, slip, stated or shaft))
-        highest_of = level[:, inside].max(axis=0)
-        column = int(highest_of.argmax())
-        combs.best[lines] = float(frequency[inside[column]]), float(highest_of[column])
+        level = combs.level[:, inside].max(axis=0)
+        column = int(level.argmax())
+        combs.best[lines] = float(frequency[inside[column]]), float(level[column])
     return combs
 
 
 def mark_window(combs: Combs, lines: PartLines, slip: float, stated: float) -> NDArray[np.bool_]:
-    """Mark the combs (n,) that may be a part's.
+    """Mark the combs (n,) that may belong to a part.
 
-    Within the slip of the speed that the shaft's lines show and of the stated speed: otherwise a
-    shaft mistaken for another would open the window to twice the slip.
+    They are within the slip of both the speed by the shaft's lines and the stated speed. Otherwise
+    lines of another shaft would widen the window to twice the slip.
     """
     middle = 0.5 * (combs.shaft + stated) * lines.order
     reach = slip * middle - 0.5 * abs(combs.shaft - stated) * lines.order
@@ -166,12 +166,12 @@ def mark_window(combs: Combs, lines: PartLines, slip: float, stated: float) -> N
 
 
 def tolerance(combs: Combs, frequency: NDArray[np.float64] | float) -> NDArray[np.float64]:
-    """Distance [Hz] below which frequencies are the same: segments end, cages wander."""
+    """Return the distance [Hz] below which frequencies count as equal: resolution and wander."""
     resolution = (combs.frequency[1] - combs.frequency[0]) * FINENESS
     return np.asarray(resolution + WANDER * np.asarray(frequency))
 
 
 def mark_near(combs: Combs, frequencies: Iterable[float]) -> NDArray[np.bool_]:
-    """Mark the combs (n,) that cannot be distinguished from one at a frequency [Hz]."""
+    """Mark the combs (n,) that cannot be distinguished from those at some frequencies [Hz]."""
     lines = np.array(list(frequencies))[:, None]
     return np.asarray((np.abs(combs.frequency - lines) <= tolerance(combs, lines)).any(axis=0))

@@ -1,8 +1,9 @@
-"""Finding the shaft's own lines, which give its speed better than a nameplate.
+"""Search for the shaft's own lines, which give its speed more exactly than a nameplate.
 
-A comb of lines is the shaft's only where nothing else makes it: neither the mains, whose multiples
-are next to those of a motor's shaft, nor something two or three times as fast. The lines that each
-of these leaves must stand out by themselves. A speed is as good as `ERROR`, or not taken.
+A comb of lines belongs to the shaft only if nothing else can make it: neither the mains, whose
+multiples are next to those of a motor's shaft, nor a source two or three times as fast. The lines
+that are not explained by these must stand out by themselves. A speed with a larger error than
+`ERROR` is not used.
 """
 
 from __future__ import annotations
@@ -16,35 +17,35 @@ from numpy.typing import NDArray
 from bearingcore.measured.diagnosis._part.combs import FAINTEST, HARMONICS, lines_at, noise_level
 from bearingcore.measured.diagnosis._part.mains import MAINS, mains_lines
 from bearingcore.measured.diagnosis._part.search import RARE
-from bearingcore.measured.signals._filter_bank import LOWEST, Band, squared_envelopes, thinned
+from bearingcore.measured.signals._filter_bank import LOWEST, Band, downsample, squared_envelopes
 from bearingcore.measured.signals._line_levels import LineLevels, line_levels
 
 SEGMENT_TURNS = 240.0
 """Number of turns of the shaft in a segment of the spectrum."""
 
 SHAFT_WHITENING = 3.0
-"""Turns of the shaft a second over which a signal is whitened before its envelope is taken: tones
-of the mains would beat with those of the shaft, at lines beside the shaft's."""
+"""Width, in shaft frequencies, over which a signal is whitened before its envelope is computed:
+otherwise tones of the mains would beat with those of the shaft, at lines beside the shaft's."""
 
 GREATEST_SHAFT_LEVEL = 80.0
-"""Greatest level [dB] of a line: higher ones are cut to it."""
+"""Greatest level [dB] of a line: higher ones are limited to it."""
 
 SUBMULTIPLES = (5, 4, 3, 2)
-"""Parts of a frequency that may be the shaft's instead."""
+"""Divisors of a frequency that may give that of the shaft."""
 
 CLEAR = 3.0
-"""Lead [dB] over what noise reaches from which the shaft's lines count."""
+"""Least lead [dB] of the shaft's lines over noise."""
 
 FEWEST = 3
-"""Lines that must be left where others may be of another source: the loudest of them counts for
-nothing, and no single one decides."""
+"""Fewest lines of the shaft that no other source may have made: without the loudest, no single line
+decides."""
 
 ERROR = 1e-3
-"""Error of a speed taken from the shaft's lines, as a fraction: two standard errors at most."""
+"""Greatest relative error of a speed from the shaft's lines, in two standard errors."""
 
 DISAGREE = 9.0
-"""Mean square, in squared standard errors, by which lines may be off one comb: beyond three
-standard errors each they are lines of several sources."""
+"""Greatest mean square deviation of lines from one comb, in squared standard errors: beyond three
+standard errors they belong to several sources."""
 
 
 class ShaftLines(NamedTuple):
@@ -66,7 +67,7 @@ class ShaftLines(NamedTuple):
 
     @property
     def clear(self) -> bool:
-        """Return True if the lines count, and give the speed."""
+        """True if the lines stand out and give the speed exactly enough."""
         return self.excess >= CLEAR and 2.0 * self.error <= ERROR
 
 
@@ -78,16 +79,18 @@ def shaft_lines(
     *,
     envelopes: bool = True,
 ) -> ShaftLines:
-    """The strongest comb between two frequencies [Hz], in vibration and, if wanted, envelope.
+    """Find the strongest comb between two frequencies [Hz], in the vibration and its envelope.
 
     Parameters
     ----------
     columns
-        signals (n,), one a direction.
+        signals (n,), one for each direction.
+    envelopes
+        False searches the vibration alone.
     """
     segment, top = SEGMENT_TURNS / low, (2 * HARMONICS + 1) * high
     best = ShaftLines(0.5 * (low + high), -np.inf, np.inf)
-    series = [thinned(samples - samples.mean(), sample_rate, top) for samples in columns]
+    series = [downsample(samples - samples.mean(), sample_rate, top) for samples in columns]
     whole, width = [Band(LOWEST, 0.5 * sample_rate)], SHAFT_WHITENING * low
     for samples in columns if envelopes else ():
         whitened = squared_envelopes(samples, sample_rate, whole, top, None, width)
@@ -106,13 +109,13 @@ def shaft_lines(
         if excess[index] <= best.excess:
             continue
         noise = noise_level(RARE / cells, levels.averages)
-        turn = _slowest(levels, float(frequency[index]), low, noise)
-        # without the lines of both mains, where enough are left, as there is but one
+        turn = _slowest_comb(levels, float(frequency[index]), low, noise)
+        # fit without the lines of both mains if enough remain, else without those of one of them
         either = hidden[0] | hidden[1]
-        fits = [_fine(levels, lines, turn, resolution, noise) for lines in (either, *hidden)]
-        turn, error = fits[0] if np.isfinite(fits[0][1]) else _finest(fits[1:])
+        fits = [_fit_comb(levels, mains, turn, resolution, noise) for mains in (either, *hidden)]
+        turn, error = fits[0] if np.isfinite(fits[0][1]) else _better_fit(fits[1:])
         inside = min(max(turn, low), high)
-        if abs(turn - inside) > 2.0 * error:  # lines of something beyond
+        if abs(turn - inside) > 2.0 * error:  # the lines belong to a frequency outside the range
             error = np.inf
         best = ShaftLines(inside, float(excess[index]), error / inside)
     return best
@@ -124,47 +127,47 @@ def _excess(
     frequency: NDArray[np.float64],
     chance: float,
 ) -> NDArray[np.float64]:
-    """Level [dB] of combs (n,) above noise, without what each other source may make."""
+    """Return the least level [dB] of combs (n,) above noise without the lines of another source."""
     lines = _lines(levels, frequency, HARMONICS)
     order = np.arange(1, HARMONICS + 1)[:, None]
-    left = [np.broadcast_to(order % part != 0, lines.shape) for part in (2, 3)]
-    left += [lines_at(hidden.astype(float), levels.step, frequency) == 0.0 for hidden in mains]
+    masks = [np.broadcast_to(order % part != 0, lines.shape) for part in (2, 3)]
+    masks += [lines_at(hidden.astype(float), levels.step, frequency) == 0.0 for hidden in mains]
     noise = [
         noise_level(chance, levels.averages, count) if count >= FEWEST else np.inf
         for count in range(HARMONICS + 1)
     ]
     above = np.full(len(frequency), np.inf)
-    for seen in left:
-        count = seen.sum(axis=0)
-        kept = np.where(seen, lines, 0.0)
-        loudest = np.where(seen, lines, -np.inf).max(axis=0)
+    for mask in masks:
+        count = mask.sum(axis=0)
+        kept = np.where(mask, lines, 0.0)
+        loudest = np.where(mask, lines, -np.inf).max(axis=0)
         mean = (kept.sum(axis=0) - np.where(count > 0, loudest, 0.0)) / np.maximum(count - 1, 1)
         above = np.minimum(above, mean - np.array(noise)[count])
     return above
 
 
 def _lines(levels: LineLevels, frequency: NDArray[np.float64], count: int) -> NDArray[np.float64]:
-    """Levels (count, n) [dB] of the lines of combs."""
+    """Return the levels (count, n) [dB] of the lines of combs."""
     return lines_at(
         np.clip(levels.level, FAINTEST, GREATEST_SHAFT_LEVEL), levels.step, frequency, count
     )
 
 
-def _finest(fits: Sequence[tuple[float, float]]) -> tuple[float, float]:
-    """The frequency [Hz] of two that has the less error, infinite where they disagree by more."""
-    (best, error), (other, wider) = sorted(fits, key=lambda fit: fit[1])
-    apart = abs(best - other) > 2.0 * (error + wider)
-    return best, np.inf if apart else error
+def _better_fit(fits: Sequence[tuple[float, float]]) -> tuple[float, float]:
+    """Return the fit [Hz] of two with the smaller error, which is infinite if they disagree."""
+    (best, error), (other, larger) = sorted(fits, key=lambda fit: fit[1])
+    disagree = abs(best - other) > 2.0 * (error + larger)
+    return best, np.inf if disagree else error
 
 
-def _fine(
+def _fit_comb(
     levels: LineLevels,
     mains: NDArray[np.bool_],
     frequency: float,
     resolution: float,
     noise: float,
 ) -> tuple[float, float]:
-    """The frequency [Hz] by the peaks of all lines that are the shaft's alone, and its error."""
+    """Fit a frequency [Hz] to peaks that are not of the mains; return it and its error."""
     order = np.arange(1, 2 * HARMONICS + 1)
     hidden = lines_at(mains.astype(float), levels.step, np.array([frequency]), len(order))[:, 0]
     places, heights = [], []
@@ -176,15 +179,15 @@ def _fine(
         if not inside or near.max() < noise + CLEAR:
             continue
         peak = middle - reach + int(near.argmax())
-        below, at, above = levels.level[peak - 1 : peak + 2].tolist()
-        bend = below - 2.0 * at + above
+        below, top, above = levels.level[peak - 1 : peak + 2].tolist()
+        bend = below - 2.0 * top + above
         place = peak + (0.5 * (below - above) / bend if bend < 0.0 else 0.0)
         places.append((k, place * levels.step))
-        heights.append(at)
+        heights.append(top)
     if len(places) < FEWEST:
         return frequency, np.inf
     k, place = np.array(places).T
-    # a peak's place is as good as its height over the noise, at most a tenth of the resolution
+    # the error of a peak's place falls with its height over noise, down to a tenth of a resolution
     spread = resolution * np.maximum(0.1, 0.5 * 10.0 ** (-0.05 * np.array(heights)))
     weight = spread**-2.0
     fitted = float((weight * k * place).sum() / (weight * k * k).sum())
@@ -194,8 +197,8 @@ def _fine(
     return fitted, float(np.sqrt(max(1.0, scatter) / (weight * k * k).sum()))
 
 
-def _slowest(levels: LineLevels, frequency: float, low: float, noise: float) -> float:
-    """The part of a frequency [Hz] of which all lines show: three turns are no turn."""
+def _slowest_comb(levels: LineLevels, frequency: float, low: float, noise: float) -> float:
+    """Return the lowest part of a frequency [Hz] whose lines all show, as one turn of the shaft."""
     for parts in SUBMULTIPLES:
         part = frequency / parts
         if part < low:

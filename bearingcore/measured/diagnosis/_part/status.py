@@ -31,4 +31,4 @@ class DiagnosisStatus(Status):
 
 
 Reason = tuple[DiagnosisStatus, str]
-"""A status, and why in a sentence."""
+"""A status, and its reason in a sentence."""

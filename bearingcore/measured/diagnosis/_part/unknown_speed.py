@@ -1,4 +1,4 @@
-"""The diagnosis where the speed is known roughly or not at all: it is looked for."""
+"""Diagnosis and search for a speed that is known only roughly or not at all."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from dataclasses import dataclass, replace
 
 from bearingcore.bearings import Bearing
 from bearingcore.measured.diagnosis._part import say
-from bearingcore.measured.diagnosis._part.decide import NAMED, decide, silent
+from bearingcore.measured.diagnosis._part.decide import NAMED, decide, no_diagnosis
 from bearingcore.measured.diagnosis._part.evidence import CANNOT_TELL, Diagnosis
 from bearingcore.measured.diagnosis._part.judged import (
     NOISE_MARGIN,
     Judged,
+    all_combs,
     compare,
     judge,
-    listened,
 )
 from bearingcore.measured.diagnosis._part.listened_signal import ListenedSignal, unfit
 from bearingcore.measured.diagnosis._part.parts import PartLines, part_lines
@@ -24,29 +24,29 @@ from bearingcore.measured.diagnosis._part.shaft import ERROR, ShaftLines
 from bearingcore.measured.diagnosis._part.status import DiagnosisStatus
 
 NARROW = 1.3
-"""A range of speeds whose ends differ by this factor at most is believed without shaft lines."""
+"""Greatest ratio of the ends of a range of speeds that needs no lines of the shaft."""
 
 SHAFT_MARGIN = 6.0
-"""Lead [dB] that the shaft's lines at one speed must have over those at another."""
+"""Least lead [dB] of the shaft's lines at one speed over those at another."""
 
 
 def diagnose_in_range(
     signal: ListenedSignal, bearing: Bearing, low: float, high: float, slip: float, source: str
 ) -> Diagnosis:
-    """The diagnosis at a speed between two [Hz], which is looked for.
+    """Search for the speed between two [Hz], and return the diagnosis.
 
-    The strongest comb in the signal may be of each part that has its line there at some speed of
-    the range. Which it is, the shaft's own lines at that speed decide.
+    The strongest comb in the signal may belong to any part that has its line there at a speed in
+    the range. The shaft's own lines at these speeds decide between them.
     """
     parts = part_lines(bearing)
-    if (refusal := _unfit_in_range(signal, parts, low, high)) is not None:
-        return silent(*refusal, source)
+    if (reason := _unfit_in_range(signal, parts, low, high)) is not None:
+        return no_diagnosis(*reason, source)
     shaft = signal.shaft(low, high)
     hypotheses = []
     if shaft.clear:
         hypotheses.append(_Hypothesis(shaft, judge(signal, parts, shaft.frequency, slip)))
     middle, reach = 0.5 * (low + high), (high - low) / (high + low) + slip
-    resolutions = listened(signal, parts, middle, reach, known_speed=False)
+    resolutions = all_combs(signal, parts, middle, reach, known_speed=False)
     strongest, above = max(
         (
             (frequency, level - combs.noise)
@@ -60,23 +60,23 @@ def diagnose_in_range(
             speed = strongest / lines.order
             if low * (1.0 - slip) <= speed <= high * (1.0 + slip):
                 ends = max(low, speed * (1.0 - slip)), min(high, speed * (1.0 + slip))
-                turning, speed = signal.shaft(*ends), min(max(speed, low), high)
-                speed = turning.frequency if turning.clear else speed
-                hypotheses.append(_Hypothesis(turning, judge(signal, parts, speed, slip)))
-    holding = [guess for guess in hypotheses if guess.judged.leading.probability >= NAMED]
-    if holding:
-        holding.sort(key=lambda guess: -guess.shaft.excess)
-        return _choose(signal, holding, slip, low, high, source)
+                near, speed = signal.shaft(*ends), min(max(speed, low), high)
+                speed = near.frequency if near.clear else speed
+                hypotheses.append(_Hypothesis(near, judge(signal, parts, speed, slip)))
+    probable = [guess for guess in hypotheses if guess.judged.leading.probability >= NAMED]
+    if probable:
+        probable.sort(key=lambda guess: -guess.shaft.excess)
+        return _choose(signal, probable, slip, low, high, source)
     if shaft.clear:
         return decide(signal, hypotheses[0].judged, shaft.frequency, _BY_SHAFT_LINES)
     if hypotheses:
         return _undecided_speed(signal, hypotheses, strongest, source)
-    # no lines, or such as no part has at any of these speeds
+    # there are no lines, or no part has them at any of these speeds
     judged = compare(resolutions, parts, reach)
     answer = decide(signal, judged, None, f"{source}, not found")
     if not answer.names_a_part:
         return answer
-    # of a part only at a speed outside the range, or too faint to find one
+    # lines that fit a part only outside the range, or that are too faint to give a speed
     best = judged.leading
     beyond = replace(judged, shaft=best.frequency / best.nominal_order)
     return _undecided_speed(signal, [_Hypothesis(shaft, beyond)], best.frequency, source)
@@ -85,9 +85,9 @@ def diagnose_in_range(
 def _unfit_in_range(
     signal: ListenedSignal, parts: Sequence[PartLines], low: float, high: float
 ) -> tuple[DiagnosisStatus, str] | None:
-    """Return the reason why a signal does not serve at some speed [Hz] of a range, or None."""
+    """Return the reason why a signal cannot be analysed at some speed [Hz] of a range, or None."""
     slow, fast = unfit(signal, parts, low), unfit(signal, parts, high)
-    if slow is not None and fast is not None and slow[0] == fast[0]:  # at any speed between
+    if slow is not None and fast is not None and slow[0] == fast[0]:  # so at all speeds between
         return fast if slow[0] == DiagnosisStatus.TOO_SHORT else slow
     known = "is known only roughly" if high <= NARROW * low else "is not known"
     if slow is not None:
@@ -99,25 +99,25 @@ def _unfit_in_range(
 
 def _choose(
     signal: ListenedSignal,
-    holding: Sequence[_Hypothesis],
+    probable: Sequence[_Hypothesis],
     slip: float,
     low: float,
     high: float,
     source: str,
 ) -> Diagnosis:
-    """The diagnosis of the speed at which the shaft shows best, if no other is nearly as good."""
-    first = holding[0]
-    rival = next((guess for guess in holding[1:] if not guess.agrees(first, slip)), None)
-    alone = high <= NARROW * low and rival is None
-    if not (first.shaft.clear or alone):
-        return _undecided_speed(signal, holding, first.judged.leading.frequency, source)
+    """Return the diagnosis at the speed with the clearest shaft, if no other is nearly as clear."""
+    first = probable[0]
+    rival = next((guess for guess in probable[1:] if not guess.agrees(first, slip)), None)
+    is_only_one = high <= NARROW * low and rival is None
+    if not (first.shaft.clear or is_only_one):
+        return _undecided_speed(signal, probable, first.judged.leading.frequency, source)
     if rival is not None and first.shaft.excess < rival.shaft.excess + SHAFT_MARGIN:
         return _undecided_speed(signal, [first, rival], first.judged.leading.frequency, source)
     if first.shaft.clear:
         return decide(signal, first.judged, first.judged.shaft, _BY_SHAFT_LINES)
-    # any source with lines somewhere in the range would have been taken for the part's
+    # lines of another source anywhere in the range would look like the part's
     width = 2.0 * math.atanh(max(slip, ERROR))
-    judged = first.judged.discounted(1.0 + math.log(high / low) / width)
+    judged = first.judged.divide_odds(1.0 + math.log(high / low) / width)
     part = first.judged.leading.part
     return decide(signal, judged, judged.shaft, f"taken from the lines of the {part}")
 
@@ -128,12 +128,12 @@ _BY_SHAFT_LINES = "found by the shaft's own lines"
 def _undecided_speed(
     signal: ListenedSignal, hypotheses: Sequence[_Hypothesis], frequency: float, source: str
 ) -> Diagnosis:
-    """Knocks that may be of one part or another, as the speed may be."""
+    """Return the diagnosis of knocks whose part depends on the unknown speed."""
     readings: dict[str, float] = {}
     for guess in hypotheses:
         readings.setdefault(guess.judged.leading.part, guess.judged.shaft)
     decided = decide(signal, hypotheses[0].judged, None, source)
-    # each reading is as probable as the others: what holds at one speed counts by its share
+    # all readings are equally probable, so the evidence of each counts with an equal share
     share = SURE / max(2, len(readings))
     evidence = [replace(part, probability=share * part.probability) for part in decided.evidence]
     return replace(
@@ -154,7 +154,7 @@ class _Hypothesis:
     judged: Judged
 
     def agrees(self, other: _Hypothesis, slip: float) -> bool:
-        """Return True if another speed is the same, and the part."""
+        """Return True if speed and leading part of another hypothesis are the same."""
         ratio = self.judged.shaft / other.judged.shaft
         same = self.judged.leading.part == other.judged.leading.part
         return same and abs(ratio - 1.0) <= 2.0 * slip

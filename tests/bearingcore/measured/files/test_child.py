@@ -130,8 +130,8 @@ def test_a_zip_is_bounded_as_a_whole(monkeypatch) -> None:
     content = zipped(a_csv=b"1\n" * 600, b_csv=b"1\n" * 600)
     monkeypatch.setattr(libraries, "MOST_TOGETHER", 2_000)
     with pytest.raises(ValueError, match="a zip of at most"):
-        libraries.unzipped("rig.zip", content)
-    assert libraries.unzipped("rig.zip/a.csv", content)[0] == ["a.csv"]
+        libraries.unzip("rig.zip", content)
+    assert libraries.unzip("rig.zip/a.csv", content)[0] == ["a.csv"]
 
 
 def hdf5(fill) -> bytes:

@@ -317,7 +317,7 @@ def test_the_longest_sheet_of_excel_is_read() -> None:
     table = read(made.getvalue(), "a.xlsx")
     np.testing.assert_allclose(table.columns, FRAME[:500], atol=1e-9)
     assert table.contents.sample_rate.value == pytest.approx(RATE)
-    assert table.notes == ("Read is its longest sheet, “Data”.",)
+    assert table.notes == ("Its longest sheet, “Data”, is read.",)
     assert (FACTS["rpm"](table), FACTS["machine"](table)) == (1490.0, "pump")
 
 
@@ -443,7 +443,7 @@ def test_the_hand_wins_over_what_headings_say() -> None:
 def test_a_typed_rate_that_nothing_shows_or_the_times_contradict_is_said() -> None:
     alone = rows(SIGNAL[:, 0])
     got = read_recording("x.csv", alone, unit="g", sample_rate=RATE)
-    assert "Nothing in the file shows whether it was" in got.notes[0]
+    assert "Nothing in the file confirms it" in got.notes[0]
     likely = read_recording("12k.csv", alone, unit="g", sample_rate=RATE)
     assert "“12k” in the file's name suggests 12000 Hz" in likely.notes[0]
     timed = rows(TIME, SIGNAL[:, 0], heading="t [s],a")

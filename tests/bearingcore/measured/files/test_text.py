@@ -8,7 +8,7 @@ from bearingcore.errors import FieldError
 from bearingcore.measured.files import UNITS, Table, unit_in
 from bearingcore.measured.files._sampling import clock_columns, sampling_of
 from bearingcore.measured.files._text import read_text
-from bearingcore.measured.files._units import differentiated
+from bearingcore.measured.files._units import differentiate
 from bearingcore.units import STANDARD_GRAVITY
 
 
@@ -100,7 +100,7 @@ def test_a_velocity_is_differentiated_far_from_its_ends(frequency: float) -> Non
     """A tenth of the error that differences of neighbours make, even near half the rate."""
     rate, time = 1000.0, np.arange(3000) / 1000.0
     omega = 2.0 * np.pi * frequency
-    actual = differentiated(np.sin(omega * time + 1.0)[:, None], rate)[:, 0]
+    actual = differentiate(np.sin(omega * time + 1.0)[:, None], rate)[:, 0]
     exact = omega * np.cos(omega * time + 1.0)
     np.testing.assert_allclose(actual[100:-100], exact[100:-100], atol=1e-3 * omega)
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from bearingcore.measured.diagnosis import ExtentStatus, MeanPass
-from bearingcore.measured.diagnosis._extent.knocks import PLACES, judged, two_peaks
+from bearingcore.measured.diagnosis._extent.knocks import PLACES, compare_bands, two_peaks
 from bearingcore.measured.signals._filter_bank import Band
 
 FREQUENCY = 50.0
@@ -23,7 +23,7 @@ def mean_pass(band: Band, *bumps: tuple[float, float], error: float = 0.002) -> 
 
 
 def seen(*passes: MeanPass):
-    return judged(passes, FREQUENCY, 200)
+    return compare_bands(passes, FREQUENCY, 200)
 
 
 def test_two_knocks_are_where_bands_show_them_at_the_same_places():

@@ -1,7 +1,7 @@
-"""The machine of a measurement: which bearing, how fast the shaft turned, and who said so.
+"""The machine of a measurement: its bearing, its shaft speed, and the source of each.
 
 A fact that neither the file nor a person states stays unknown. The scene's bearing and speed are
-taken only where a person chose them, by `scene_machine`: nothing else here looks at a scene.
+taken only where a person chose them. Only `scene_machine` reads a scene.
 """
 
 from __future__ import annotations
@@ -183,37 +183,37 @@ def guess(contents: FileContents) -> dict[str, str]:
 
 
 def kept_answers(first: Mapping[str, str], given: Mapping[str, str]) -> dict[str, str]:
-    """Answers that were `given` for the file before, where `first`, those of this file, lack them.
+    """Return the answers `given` for the file before that the `first` ones of this file lack.
 
     >>> kept_answers({"bearing": "", "speed": "file"}, {"speed": "given", "shaft_speed": "25"})
     {}
     """
-    silent = [name for name in GROUPS if first[name] == NOT_KNOWN and name in given]
-    return {field: given[field] for name in silent for field in GROUPS[name]}
+    missing = [name for name in GROUPS if first[name] == NOT_KNOWN and name in given]
+    return {field: given[field] for name in missing for field in GROUPS[name]}
 
 
 def _bearing(contents: FileContents) -> dict[str, str]:
-    """The first values of the bearing and of its frequencies.
+    """Return the first values of the bearing and of its frequencies.
 
-    Frequencies that the file states go before those of the collection that it belongs to.
+    Frequencies that the file states take precedence over those of the file's collection.
     """
     texts = dict.fromkeys(FREQUENCIES, "")
     stated, speed, listed = contents.frequencies, contents.shaft_speed, contents.bearing
     if {"bpfo", "bpfi"} <= set(stated):
         texts |= {name: f"{value:.6g} Hz" for name, value in stated.items()}
-        if listed is None or speed is None or not _agree(listed.value, stated, speed.value):
+        if listed is None or speed is None or not _matches(listed.value, stated, speed.value):
             return {"bearing": BY_FREQUENCIES, **texts}
     named = contents.designation
     if listed is None and named is not None:
         try:
             find_bearing(named.value)
-        except ValueError:  # a number of another thing, or a bearing that is not in the table
+        except ValueError:  # it does not name a bearing, or none that the table has
             return {"bearing": NOT_KNOWN, **texts}
         return {"bearing": BY_DESIGNATION, "designation": named.value, **texts}
     return {"bearing": NOT_KNOWN if listed is None else listed.value, **texts}
 
 
-def _agree(name: str, stated: Mapping[str, float], speed: float) -> bool:
+def _matches(name: str, stated: Mapping[str, float], speed: float) -> bool:
     """True where a listed bearing has the `stated` frequencies [Hz] at a speed [rad/s]."""
     bearing = find_bearing(name).bearing
     computed = {"bpfo": bearing.bpfo(speed), "bpfi": bearing.bpfi(speed)}
@@ -233,7 +233,7 @@ def read_machine(
     contents: FileContents,
     scene: Machine,
 ) -> Machine:
-    """The machine that a form describes; `FormError` with sentences where it describes none.
+    """Return the machine that a form describes; `FormError` with sentences where it cannot.
 
     Parameters
     ----------
@@ -244,7 +244,7 @@ def read_machine(
     contents
         contents of the file.
     scene
-        bearing and speed of the scene, see `scene_machine`: used only where the form says so.
+        bearing and speed of the scene, see `scene_machine`: used only where the form chooses them.
     """
     speed, ratio = _speed_in(texts, contents, scene), _ratio_in(texts)
     speed = None if speed is None else ratio * speed
@@ -264,7 +264,7 @@ def read_machine(
 
 
 def _speed_in(texts: Mapping[str, str], contents: FileContents, scene: Machine) -> float | None:
-    """The shaft speed [rad/s] of a form; None where it is not known, or not typed yet."""
+    """Return the shaft speed [rad/s] of a form; None where it is not known, or not typed yet."""
     source, text = texts["speed"], texts["shaft_speed"]
     if source == FILE and contents.shaft_speed is not None:
         return contents.shaft_speed.value
@@ -295,8 +295,8 @@ def read_ratio(text: str) -> float:
     (0.657, 0.5, 2.0)
     """
     words, (least, most) = "The gear ratio", RATIOS
-    over, _, under = text.replace(":", "/").partition("/")
-    ratio = number_of(over, words, "", 1e-3, 1e6) / number_of(under or "1", words, "", 1e-3, 1e6)
+    top, _, bottom = text.replace(":", "/").partition("/")
+    ratio = number_of(top, words, "", 1e-3, 1e6) / number_of(bottom or "1", words, "", 1e-3, 1e6)
     if not least <= ratio <= most:
         raise ValueError(f"{words} is {number(ratio, 4)}; possible: {span(least, most, 'times')}.")
     return ratio
@@ -305,7 +305,7 @@ def read_ratio(text: str) -> float:
 def _bearing_in(
     texts: Mapping[str, str], speed: float | None, scene: Machine
 ) -> tuple[Bearing | None, str, str, str]:
-    """The bearing of a form, its name, its source, and the letters of the name with no meaning."""
+    """The bearing of a form, its name, its source, and letters of the name that are not read."""
     name = texts["bearing"]
     try:
         if name == SCENE:
@@ -328,7 +328,7 @@ def _bearing_in(
 
 
 def _bearing_by_frequencies(texts: Mapping[str, str], turns: float | None) -> Bearing | None:
-    """The bearing with the typed frequencies; `turns` are those of the shaft per second, or None.
+    """Return the bearing with the typed frequencies; `turns` of the shaft per second, or None.
 
     None until two frequencies are typed. ValueError where no bearing can have them.
     """
@@ -340,7 +340,7 @@ def _bearing_by_frequencies(texts: Mapping[str, str], turns: float | None) -> Be
 
 
 def _order(name: str, text: str, turns: float | None) -> float:
-    """Order of a frequency, in turns of the shaft, out of "81.1 Hz" or "3.245 x"."""
+    """Return the order of a frequency, in turns of the shaft, from "81.1 Hz" or "3.245 x"."""
     bare = re.sub(r"\s*(x|×|orders?)$", "", text.lower())
     least, most = 1e-3, 1e5
     if bare != text.lower():

@@ -20,7 +20,7 @@ from bearing_explorer.diagnosis.views.frequency_lines import (
     FAMILIES,
     fundamentals,
     row_frequencies,
-    thinned_to_peaks,
+    thin_to_peaks,
 )
 from bearing_explorer.diagnosis.views.measured_view import MEASURED, MeasuredView, shown_unit
 from bearing_explorer.kit.assets import asset_text
@@ -45,7 +45,7 @@ HANN_WIDTH = 1.5
 
 
 SIDEBANDS = ("Harmonics", "and ± shaft", "and ± cage")
-"""Lines that go with the cursor, to choose from."""
+"""Choices of the lines that go with the cursor."""
 HINT = "Click on a line for its harmonics, sidebands, order and amplitude."
 COLOR = "#0072B2"
 _TURNING = ("shaft", "cage", "hertz")
@@ -144,7 +144,7 @@ class FrequencyCursor:
         )
 
     def columns(self, shaft: float, cage: float, per: float) -> dict[str, dict[str, np.ndarray]]:
-        """The source: turns a second of shaft and cage, and the hertz that a 1 on the axis is."""
+        """Return the source: frequencies of shaft and cage on the axis, and its hertz per unit."""
         values = (shaft / per, cage / per, per)
         return {self._name: {n: np.array([v]) for n, v in zip(_TURNING, values, strict=True)}}
 
@@ -175,7 +175,7 @@ class FrequencyView(LookView, MeasuredView):
         return self.hidden
 
     def shown(self, model: Model, measured: Measured) -> Shown:
-        """Return the spectrum that the choices of the look ask for."""
+        """Return the spectrum that the choices above the figure ask for."""
         raise NotImplementedError
 
     # The look
@@ -235,7 +235,7 @@ class FrequencyView(LookView, MeasuredView):
             greatest = float(np.nanmax(height, initial=0.0)) / (1.0 - room)
             ends = self._heights.fit(np.array([0.0, greatest]))
         turn = math.nan if speed is None else speed / (2.0 * math.pi)
-        per = turn if self._axis == "orders" else 1.0  # [Hz] of a 1 on the axis
+        per = turn if self._axis == "orders" else 1.0  # hertz per unit of the axis
         ranges = {f"{p}_frequency": (0.0, top / per), f"{p}_amplitude": ends}
         sources |= frequency_lines.columns(p, lines, look["lines"], top, FRAME)
         for columns in sources.values():
@@ -267,7 +267,7 @@ def shown_curve(
 ) -> dict[str, NDArray[np.float64]]:
     """Amplitudes up to `top` [Hz] in a scale; a very fine spectrum is thinned to its peaks."""
     kept = spectrum.frequency <= top
-    frequency, amplitude = thinned_to_peaks(
+    frequency, amplitude = thin_to_peaks(
         spectrum.frequency[kept], factor * amplitudes(spectrum)[kept]
     )
     if scale == "dB":

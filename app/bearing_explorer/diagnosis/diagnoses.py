@@ -44,7 +44,7 @@ class Question:
     Attributes
     ----------
     measured
-        the signal with what is known of its machine.
+        the signal, with the known facts on its machine.
     speed
         [rad/s] as `diagnose` takes it: a pair where it is rough, None where it is not known.
     geometry
@@ -173,7 +173,7 @@ class Answers(Generic[Result]):
         return self.wanted is not None and self.wanted not in self._known
 
     def latest(self, about: Question) -> Result | str | None:
-        """The newest answer about a recording, its bearing and speed, whatever else was asked."""
+        """Return the newest answer about a recording with its bearing and speed, if any."""
         known = reversed(self._known.items())
         alike = (answer for question, answer in known if about.is_like(question))
         return next(alike, None)

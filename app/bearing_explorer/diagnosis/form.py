@@ -113,7 +113,7 @@ def guess(table: Table) -> dict[str, str]:
 def fill(table: Table, changed: Mapping[str, str]) -> tuple[Table, dict[str, str]]:
     """Return the table with the roles that a person gave its columns, and its form.
 
-    What was `changed` by a person stays; everything else follows from the roles.
+    Answers that a person `changed` stay; all others follow from the roles.
 
     Raises
     ------
@@ -156,16 +156,16 @@ def give_roles(table: Table, text: str) -> Table:
     columns = table.contents.columns
     if len(roles) != len(guessed) or not known.issuperset(roles):
         raise FormError({"columns": f"{table.name} has other columns."})
-    given: dict[int | str, Column] = {}
+    by_hand: dict[int | str, Column] = {}
     for index, (role, before) in enumerate(zip(roles, guessed, strict=True)):
         column, (kind, _, unit) = columns[index], role.partition(" ")
         if kind in DIRECTIONS:
             headed = column.unit if column.unit in UNITS else None
-            given[index] = Column("", SIGNAL, unit or headed, kind, column.place)
+            by_hand[index] = Column("", SIGNAL, unit or headed, kind, column.place)
         elif role != before:
-            given[index] = Column("", kind if kind in (TIME, SPEED) else OTHER, unit or None)
+            by_hand[index] = Column("", kind if kind in (TIME, SPEED) else OTHER, unit or None)
     try:
-        return table.with_columns(given)
+        return table.with_columns(by_hand)
     except FieldError as error:
         raise FormError({"columns": sentence_of(error)}) from None
 
@@ -388,7 +388,7 @@ class ShownColumns:
 
 
 def columns_of(table: Table) -> ShownColumns:
-    """The columns of a file as they are shown."""
+    """Describe the columns of a file for the page."""
     return ShownColumns(
         [_short(name) for name in table.names],
         [column.place for column in table.contents.columns],

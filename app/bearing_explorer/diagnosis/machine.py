@@ -24,11 +24,11 @@ NOT_KNOWN = ""
 FILE, GIVEN, ROUGH, SCENE, SIMULATED = "file", "given", "rough", "scene", "simulated"
 """Sources of a shaft speed. A person types GIVEN and ROUGH ones; ROUGH is good to `TOLERANCE`."""
 BY_DESIGNATION, BY_FREQUENCIES = "designation", "frequencies"
-"""Ways to say which bearing it is, besides SCENE and the name of a listed one."""
+"""Ways to name the bearing, in addition to SCENE and the name of a listed one."""
 TOLERANCE = 0.1
 """Fraction by which a rough shaft speed may be off."""
 SAME_ORDERS = 0.01
-"""Relative difference up to which a bearing's frequencies are those of a file."""
+"""Relative difference up to which a bearing's frequencies count as those of a file."""
 PITCH_DIAMETER = 39e-3
 """Diameter [m] for the picture of a bearing known by its frequencies: no answer depends on it."""
 SPEEDS = (1e-3, 1e4)
@@ -49,8 +49,8 @@ GROUPS = {
 }
 """Fields of each question, by the name of the first field."""
 
-KNOWN = (GIVEN, ROUGH)
-MEASURED = (FILE, *KNOWN)
+TYPED = (GIVEN, ROUGH)
+MEASURED = (FILE, *TYPED)
 """Sources of a speed that may be that of another shaft, which drives the bearing's."""
 SPEED_SOURCES = {
     FILE: "from the file", GIVEN: "given", ROUGH: "given, good to 10 %",
@@ -91,9 +91,9 @@ class Machine:
     bearing_name
         name of the bearing on the page; empty for that of the scene.
     guessed
-        those of "bearing" and "speed" that a file only suggests.
+        "bearing" and "speed", if a file only suggests them.
     kept
-        those of "bearing" and "speed" that a person gave for the file before.
+        "bearing" and "speed", if a person gave them for the file before.
     by_frequencies
         True where only the frequencies of the bearing's parts are known; it then has no size.
     unread
@@ -124,7 +124,7 @@ class Machine:
         if speed in ("unknown", NOT_KNOWN):
             return dataclasses.replace(self, shaft_speed=None)
         if isinstance(speed, str):
-            return dataclasses.replace(self, speed_source=choice("speed", speed, KNOWN))
+            return dataclasses.replace(self, speed_source=choice("speed", speed, TYPED))
         return dataclasses.replace(self, shaft_speed=speed)
 
     @property
@@ -158,7 +158,7 @@ class Machine:
 
 
 def scene_machine(scene: Scene, source: str = SCENE) -> Machine:
-    """The bearing and the shaft speed of a scene: all that a measurement takes from there."""
+    """Return the bearing and the shaft speed of a scene: all that a measurement takes from it."""
     return Machine(scene.shaft_speed, scene.bearing, source, source)
 
 
@@ -171,7 +171,7 @@ class FormError(ValueError):
 
 
 def guess(contents: FileContents) -> dict[str, str]:
-    """Return the first values of the form: the facts of the file; the rest is not known."""
+    """Return the first values of the form: facts of the file, and NOT_KNOWN for all others."""
     speed = contents.shaft_speed
     return {
         "speed": FILE if speed is not None and speed.taken else NOT_KNOWN,
@@ -182,14 +182,14 @@ def guess(contents: FileContents) -> dict[str, str]:
     }
 
 
-def kept_answers(first: Mapping[str, str], given: Mapping[str, str]) -> dict[str, str]:
-    """Return the answers `given` for the file before that the `first` ones of this file lack.
+def kept_answers(first: Mapping[str, str], before: Mapping[str, str]) -> dict[str, str]:
+    """Return the answers for the file `before` that the `first` ones of this file lack.
 
     >>> kept_answers({"bearing": "", "speed": "file"}, {"speed": "given", "shaft_speed": "25"})
     {}
     """
-    missing = [name for name in GROUPS if first[name] == NOT_KNOWN and name in given]
-    return {field: given[field] for name in missing for field in GROUPS[name]}
+    missing = [name for name in GROUPS if first[name] == NOT_KNOWN and name in before]
+    return {field: before[field] for name in missing for field in GROUPS[name]}
 
 
 def _bearing(contents: FileContents) -> dict[str, str]:
@@ -207,7 +207,7 @@ def _bearing(contents: FileContents) -> dict[str, str]:
     if listed is None and named is not None:
         try:
             find_bearing(named.value)
-        except ValueError:  # it does not name a bearing, or none that the table has
+        except ValueError:  # the text names no bearing, or one that is not in the table
             return {"bearing": NOT_KNOWN, **texts}
         return {"bearing": BY_DESIGNATION, "designation": named.value, **texts}
     return {"bearing": NOT_KNOWN if listed is None else listed.value, **texts}
@@ -221,7 +221,7 @@ def _matches(name: str, stated: Mapping[str, float], speed: float) -> bool:
 
 
 def speed_text(speed: Finding[float]) -> str:
-    """Text of a speed: in rpm where the file has it so, else in Hz."""
+    """Write a speed in rpm if the file has it in rpm, otherwise in Hz."""
     if speed.file_unit == "rpm":
         return f"{speed.in_file_unit:.6g} rpm"
     return f"{speed.value / (2.0 * math.pi):.6g} Hz"
@@ -233,7 +233,7 @@ def read_machine(
     contents: FileContents,
     scene: Machine,
 ) -> Machine:
-    """Return the machine that a form describes; `FormError` with sentences where it cannot.
+    """Return the machine that a form describes; `FormError` with sentences if it describes none.
 
     Parameters
     ----------
@@ -256,7 +256,7 @@ def read_machine(
     if source == GIVEN and all(texts[field] == first[field] for field in GROUPS["bearing"]):
         source = FILE
         if not contents.frequencies and not texts["designation"]:
-            guessed.add("bearing")  # that of the collection to which the file seems to belong
+            guessed.add("bearing")  # the collection to which the file seems to belong has it
     return Machine(
         speed, bearing, texts["speed"], source, name, frozenset(guessed),
         by_frequencies=texts["bearing"] == BY_FREQUENCIES, unread=unread, ratio=ratio,
@@ -279,7 +279,7 @@ def _speed_in(texts: Mapping[str, str], contents: FileContents, scene: Machine) 
 
 
 def _ratio_in(texts: Mapping[str, str]) -> float:
-    """The gear ratio of a form; 1 where none is typed, or the speed is that of the bearing."""
+    """Return the gear ratio of a form; 1 if none is typed, or none applies to the speed."""
     if not texts["ratio"] or texts["speed"] not in MEASURED:
         return 1.0
     try:
@@ -289,7 +289,7 @@ def _ratio_in(texts: Mapping[str, str]) -> float:
 
 
 def read_ratio(text: str) -> float:
-    """Turns of the bearing's shaft for each turn of the measured one.
+    """Read the turns of the bearing's shaft for each turn of the measured shaft.
 
     >>> read_ratio("0.657"), read_ratio("23/46"), read_ratio("2 : 1")
     (0.657, 0.5, 2.0)

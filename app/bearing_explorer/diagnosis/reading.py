@@ -94,7 +94,7 @@ class Read:
     first
         the form as the file alone fills it in.
     form
-        the form as it is answered.
+        the form with the answers.
     signal
         None where the form describes none.
     refused

@@ -228,13 +228,13 @@ def assumptions(
     measured, bearing = question.measured, question.bearing
     machine, recording = measured.machine, measured.recording
     values = measurement.state.values
-    given = dict(part_words.facts(answer, question))
+    facts = dict(part_words.facts(answer, question))
     for name, source in (
         ("Shaft", machine.source_of("speed")), ("Bearing", machine.source_of("bearing")),
         ("Slip", "assumed"), ("Demodulation band", "chosen"),
     ):  # fmt: skip
-        if source and name in given:  # the source has a column of its own
-            given[name] = given[name].replace(f", {source}", "", 1)
+        if source and name in facts:  # the source has a column of its own
+            facts[name] = facts[name].replace(f", {source}", "", 1)
     load = measured.true_load or measurement.state.load
     typed = [f"{name.upper()} {values[name]}" for name in FREQUENCIES if values.get(name)]
     clearance = with_prefix(bearing.radial_clearance, "m")
@@ -247,10 +247,10 @@ def assumptions(
         ("Sampling rate", with_prefix(recording.sample_rate, "Hz", 4),
          origin_of(measurement, "sample_rate")),
         ("Unit", values.get("unit", "m/s²") or "not known", origin_of(measurement, "unit")),
-        ("Shaft", given["Shaft"],
+        ("Shaft", facts["Shaft"],
          "Found" if unknown else machine.source_of("speed").capitalize()),
-        ("Slip", given["Slip"], "Assumed"),
-        ("Bearing", given["Bearing"], machine.source_of("bearing").capitalize()),
+        ("Slip", facts["Slip"], "Assumed"),
+        ("Bearing", facts["Bearing"], machine.source_of("bearing").capitalize()),
         ("Its frequencies", ", ".join(typed) or "from its dimensions",
          machine.source_of("bearing").capitalize() if typed
          else "Estimated" if machine.bearing and machine.bearing.estimated else "Computed"),
@@ -260,7 +260,7 @@ def assumptions(
          "Assumed" if load is None else made if measured.true_load else "From the file"),
         ("Radial clearance", f"{clearance}, used for the extent",
          made if measured.true_edge else "Assumed: usual of the bearing"),
-        ("Demodulation band", given.get("Demodulation band", "none"), "Chosen"),
+        ("Demodulation band", facts.get("Demodulation band", "none"), "Chosen"),
     ]  # fmt: skip
 
 

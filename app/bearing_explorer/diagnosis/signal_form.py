@@ -115,10 +115,10 @@ class SignalForm:
         #: the newest trend of files, and the kind of the machine for the zone of its vibration
         self.trend: ComputedTrend | None = None
         self.machine_kind = ""
-        #: the newest choice between lengths of the spall, of whichever signal
+        #: the newest choice between lengths of the spall, for this signal or one before
         self.sized: SizedDefect | None = None
         self._scene = scene_machine(scene())
-        self._table: Table | None = None  # with the roles of its columns as they are given
+        self._table: Table | None = None  # with the current roles of its columns
         self._ended = False
 
     def stop(self) -> None:

@@ -46,7 +46,7 @@ def picture_of(
     warnings: bool = False,
     on_screen: Sequence[View] = (),
 ) -> Picture:
-    """Draw `views`, and look for `warnings`.
+    """Draw `views`, and compute warnings if `warnings` is True.
 
     `on_screen`: the views to which the status applies, if they are more than those drawn.
     """

@@ -83,7 +83,7 @@ class Half:
         raise NotImplementedError
 
     def draw(self) -> None:
-        """Bring what is on screen up to date."""
+        """Draw the views on screen anew."""
         self.page.draw()
 
     def attach(self, view: View) -> None:
@@ -184,7 +184,7 @@ class Session:
             view.end()
 
     def draw(self) -> None:
-        """Bring what is on screen up to date."""
+        """Draw the views on screen anew."""
         content = self.content
         self._loop.submit(content.at_rest(self._refined == (self._shown, *content.fine_key)))
 

@@ -155,7 +155,7 @@ class MeasuredView(View[Model]):
         return Demodulation((low, min(high, highest)), reason)
 
     def python(self) -> str:
-        """Lines of Python that read the file and make what is drawn."""
+        """Return lines of Python that read the file and make the figure."""
         measured, model = self.measured, self._results
         if measured is None or model is None:
             return f"# {NOTHING}\n"

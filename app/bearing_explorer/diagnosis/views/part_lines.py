@@ -117,7 +117,7 @@ class PartLines:
         shaft = shaft_frequency(diagnosis)
         kept = spectrum.frequency <= high
         frequency, level = thin_to_peaks(spectrum.frequency[kept], spectrum.level[kept])
-        # between lines a level may be endlessly low: it is drawn at the foot of the frame
+        # between lines a level may be arbitrarily low: it is drawn at the foot of the frame
         drawn = {"frequency": frequency, "level": np.maximum(level, LOWEST)}
         sources: Sources = {"diagnosis_spectrum": drawn}
         lead = leading(diagnosis)

@@ -341,7 +341,7 @@ def last_words(shown: Trend) -> str:
     ]
     seen = f"Lines above noise: {style.list_words(clear)}." if clear else "No line is above noise."
     if not np.isfinite(shown.column("shaft_speed")).any():
-        seen = "The part's lines are not looked for: no shaft speed is known."
+        seen = "The part's lines are not searched for: no shaft speed is known."
     if last.extent.race and math.isfinite(last.extent.high):
         return f"{seen} In the last: {last.extent.sentence}"
     named = last.fault if last.fault not in (CANNOT_TELL, NONE_SEEN) else ""

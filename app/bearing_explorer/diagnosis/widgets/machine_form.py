@@ -15,8 +15,8 @@ from bearing_explorer.diagnosis.machine import (
     FIELDS,
     FILE,
     GROUPS,
-    KNOWN,
     MEASURED,
+    TYPED,
 )
 from bearing_explorer.diagnosis.measurement_state import MeasurementState
 from bearing_explorer.diagnosis.signal_form import SignalForm
@@ -51,7 +51,7 @@ def kept_html(state: MeasurementState) -> str:
         return ""
     of_file = dict(state.speeds).get(FILE, "")
     doubt = f"<p>Its file has another speed, {html.escape(of_file)}: choose it if it is right.</p>"
-    kept_speed = of_file and state.values["speed"] in KNOWN
+    kept_speed = of_file and state.values["speed"] in TYPED
     return KEPT_WORDS.format(html.escape(state.kept_from)) + (doubt if kept_speed else "")
 
 
@@ -108,7 +108,7 @@ class MachineForm(pn.Column):
             "bearing": bool(state.bearings),
             "designation": bearing == BY_DESIGNATION,
             "speed": bool(state.speeds),
-            "shaft_speed": speed in KNOWN and bool(state.bearings),
+            "shaft_speed": speed in TYPED and bool(state.bearings),
             "ratio": speed in MEASURED and bool(state.bearings),
         } | dict.fromkeys(FREQUENCIES, bearing == BY_FREQUENCIES)
         missing = {name for name in ("bearing", "designation", "shaft_speed") if not values[name]}

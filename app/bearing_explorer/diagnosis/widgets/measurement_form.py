@@ -136,10 +136,10 @@ class MeasurementForm(pn.Column):
         else:
             self._measurement.take_piece(message.content, message.of)
 
-    def _answer(self, given: Mapping[str, str], sure: bool = False) -> None:
-        """Send the shown answers, with those that are `given` in their place."""
+    def _answer(self, answers: Mapping[str, str], sure: bool = False) -> None:
+        """Send the shown answers, with new `answers` in their place."""
         self._agreed = sure
-        self._measurement.take_form({**self._shown.values, **given}, sure)
+        self._measurement.take_form({**self._shown.values, **answers}, sure)
 
     # Display
 
@@ -252,7 +252,7 @@ def units(state: MeasurementState) -> list[list[str]]:
 def columns_as_said(state: MeasurementState) -> tuple[list[str], list[str]]:
     """Return the role of each column, and the unit that it has, or would have as a signal."""
     assert state.columns is not None
-    roles, given = roles_and_units(state.values["columns"])
+    roles, typed = roles_and_units(state.values["columns"])
     unit = state.values["unit"]
     headed = state.columns.headed if unit == AS_HEADED else [unit] * len(roles)
-    return roles, [unit or other for unit, other in zip(given, headed, strict=False)]
+    return roles, [unit or other for unit, other in zip(typed, headed, strict=False)]

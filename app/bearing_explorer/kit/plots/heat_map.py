@@ -112,7 +112,7 @@ def let_point(
         all quantities that a side may have; without `stands`, the first lies to the right and the
         second upwards.
     renderers
-        pictures of which the pointer reads values.
+        pictures from which the pointer reads values.
     say
         JavaScript: body of a function of `cell`, the number there, and `at`, the place; it returns
         its meaning as text.

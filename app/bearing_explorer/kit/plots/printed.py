@@ -123,6 +123,7 @@ class _Printed:
         self._put_annotations()
 
     def _put_axis(self, side: str, axis: Any) -> None:
+        """Give an axis its label, ticks and numbers."""
         from matplotlib.ticker import FixedLocator, LogLocator, MaxNLocator, NullLocator
 
         axes, name = self.axes, getattr(axis, f"{side}_range_name")
@@ -132,20 +133,20 @@ class _Printed:
             main, other = getattr(self.plot, f"{side}_range"), self.plot.extra_x_ranges[name]
             ratio = other.end / main.end
             axes = axes.secondary_xaxis("top", functions=(lambda x: x * ratio, lambda x: x / ratio))
-        paper = getattr(axes, f"{side}axis")
+        target = getattr(axes, f"{side}axis")
         axes.tick_params(length=2.5, width=0.6, labelsize=11 * POINT, colors="#20262D")
-        paper.set_label_text(axis.axis_label or "", fontsize=12 * POINT)
+        target.set_label_text(axis.axis_label or "", fontsize=12 * POINT)
         if isinstance(axis.ticker, models.FixedTicker):
-            paper.set_major_locator(FixedLocator(axis.ticker.ticks))
+            target.set_major_locator(FixedLocator(axis.ticker.ticks))
         elif isinstance(axis, models.LogAxis):
-            paper.set_major_locator(LogLocator(numticks=7))
+            target.set_major_locator(LogLocator(numticks=7))
         else:
-            paper.set_major_locator(MaxNLocator(6, steps=[1, 2, 5, 10]))
-        paper.set_minor_locator(NullLocator())
+            target.set_major_locator(MaxNLocator(6, steps=[1, 2, 5, 10]))
+        target.set_minor_locator(NullLocator())
         if (write := self._writer(axis)) is not None:
-            paper.set_major_formatter(write)
+            target.set_major_formatter(write)
         if names := axis.major_label_overrides:
-            paper.set_major_formatter(lambda tick, _: str(names.get(tick, "")))
+            target.set_major_formatter(lambda tick, _: str(names.get(tick, "")))
 
     def _writer(self, axis: Any) -> Callable[[float, int], str] | None:
         """Return the formatter of an axis or a colour bar; None for Matplotlib's own."""

@@ -248,7 +248,7 @@ def style_axis(axis: Axis) -> None:
 
 
 def write_units(axis: LinearAxis | ColorBar, quantity: AxisQuantity, shown: Range1d) -> None:
-    """Label an axis or colour bar; numbers and label follow the prefix that `shown` asks for."""
+    """Label an axis or colour bar; numbers and label follow the prefix that fits `shown`."""
     field = "title" if isinstance(axis, ColorBar) else "axis_label"
     setattr(axis, field, quantity.label(max(abs(shown.start), abs(shown.end))))
     axis.formatter = tick_formatter(quantity, shown)

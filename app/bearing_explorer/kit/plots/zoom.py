@@ -20,7 +20,7 @@ MOVES = "moves"
 _STAY = "if (cb_obj.start != start || cb_obj.end != end) cb_obj.setv({start, end})"
 
 
-def zoomable(plot: Plot) -> None:
+def make_zoomable(plot: Plot) -> None:
     """Give a figure the tools to zoom. Its ranges for places of words do not zoom.
 
     With `active_drag` None, as in a drawing with handles, no drag zooms or pans the figure.
@@ -41,9 +41,9 @@ def zoomable(plot: Plot) -> None:
     for shown in (plot.x_range, plot.y_range):
         if shown.reset_start is None:  # otherwise a reset would fail before the first numbers
             shown.update(reset_start=shown.start, reset_end=shown.end)
-    for words in (*plot.extra_x_ranges.values(), *plot.extra_y_ranges.values()):
-        if MOVES in words.tags:
+    for fixed in (*plot.extra_x_ranges.values(), *plot.extra_y_ranges.values()):
+        if MOVES in fixed.tags:
             continue
-        stay = CustomJS(args={"start": words.start, "end": words.end}, code=_STAY)
-        words.js_on_change("start", stay)
-        words.js_on_change("end", stay)
+        stay = CustomJS(args={"start": fixed.start, "end": fixed.end}, code=_STAY)
+        fixed.js_on_change("start", stay)
+        fixed.js_on_change("end", stay)

@@ -33,7 +33,7 @@ from bokeh.models import LayoutDOM, Plot
 
 from bearing_explorer.kit.assets import asset_path, asset_text, scripts
 from bearing_explorer.kit.compute.jobs import Jobs
-from bearing_explorer.kit.plots.zoom import zoomable
+from bearing_explorer.kit.plots.zoom import make_zoomable
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.serve.panel_internals import LiveComponent
 from bearing_explorer.kit.views.content import Content
@@ -102,7 +102,7 @@ class SessionParts(Protocol):
     """The background jobs of the session."""
 
     def draw(self) -> None:
-        """Bring what is on screen up to date."""
+        """Draw the views on screen anew."""
 
 
 C = TypeVar("C", bound=Content)
@@ -188,7 +188,7 @@ class View(Generic[C]):
         self._put_words(self.caption())
         self._caption.on_msg(self._answer)
         for plot in self.figures:
-            zoomable(plot)
+            make_zoomable(plot)
             plot.syncable = False  # the server does not need the size of a figure
         self.panel: pn.viewable.Viewable = stack(
             self._caption,
@@ -204,7 +204,7 @@ class View(Generic[C]):
         self.parts = parts
 
     def build(self, packed: PackedSource) -> Any:
-        """Make the figures, once; return one of them, a layout, or a list of what is stacked."""
+        """Make the figures, once; return one of them, a layout, or a list of parts to stack."""
         raise NotImplementedError
 
     def only_with_numbers(self, *parts: Any, **params: Any) -> pn.Column:
@@ -367,7 +367,7 @@ class View(Generic[C]):
         """Take `choices`, and compute as the page does when they are made."""
 
     def lines_before(self) -> list[str]:
-        """Lines of Python between those of the scene and of the figure."""
+        """Return lines of Python to put between the scene and the figure."""
         return []
 
     def more_arguments(self) -> dict[str, str]:

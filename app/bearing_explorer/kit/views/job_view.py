@@ -141,7 +141,7 @@ class JobForm(pn.Column):
 class JobView(View[C], Generic[C, Result, E]):
     """A view of the result of a job.
 
-    A subclass puts `self.job` among what it builds, and provides `form` and `prepare`;
+    A subclass puts `self.job` into its layout, and provides `form` and `prepare`;
     `job_result` is the newest result. `data`, `sentence` and `table` read it beside the results
     of the scene.
     """

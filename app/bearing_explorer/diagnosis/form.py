@@ -97,14 +97,13 @@ def guess(table: Table) -> dict[str, str]:
     """Return the first values of the form: facts of the file, and good guesses."""
     contents = table.contents
     rate, sensor = contents.sample_rate, contents.sensitivity
+    sensitivity = NOT_KNOWN if sensor is None else f"{1e3 * STANDARD_GRAVITY * sensor.value:.6g}"
     return {
         "columns": SEPARATOR.join(roles_of(table)),
         "part": "",
         "unit": _unit(table),
         "full_scale": "1",
-        "sensitivity": NOT_KNOWN
-        if sensor is None
-        else f"{1e3 * STANDARD_GRAVITY * sensor.value:.6g}",
+        "sensitivity": sensitivity,
         "sample_rate": "" if rate is None else f"{rate.value:.8g}",
         **machine.guess(contents),
     }
@@ -430,6 +429,7 @@ def read_form(
     table = give_roles(table, texts["columns"])
     stated = table.contents.unit.stated
     in_si = not size_questions(table, texts) or (texts["unit"] == NOT_KNOWN and stated)
+    # collect all refusals, so that the form shows them together
     numbers, refused = _numbers_of(table, texts, in_si and is_voltage(table, texts))
     chosen, trouble = _signal_columns(table, texts)
     if trouble:
@@ -445,10 +445,8 @@ def read_form(
     directions = sorted(chosen)
     columns = tuple(chosen[direction] for direction in directions)
     unit = None if texts["unit"] == AS_HEADED else texts["unit"]
-    # [V/(m/s²)], of a number in mV/g
-    sensitivity = None
-    if "sensitivity" in numbers:
-        sensitivity = 1e-3 * numbers["sensitivity"] / STANDARD_GRAVITY
+    typed = numbers.get("sensitivity")  # [mV/g]
+    sensitivity = None if typed is None else 1e-3 * typed / STANDARD_GRAVITY  # [V/(m/s²)]
     try:
         recording = table.recording(
             columns,
@@ -469,11 +467,12 @@ def read_form(
         machine="" if contents.machine is None else contents.machine.value,
     )  # fmt: skip
     notes = (*recording.notes, *_doubts(table, columns, unit))
-    turned = recording.scale_shaft(measured_machine.ratio)
-    sized = dataclasses.replace(turned, shaft_speed=None, notes=notes)
-    return Measured(
-        sized if in_si else _without_size(sized), measured_machine, origin=origin, in_si=in_si
-    )
+    # turns of a measured shaft become those of the bearing's; the machine holds the speed
+    recording = recording.scale_shaft(measured_machine.ratio)
+    recording = dataclasses.replace(recording, shaft_speed=None, notes=notes)
+    if not in_si:
+        recording = _without_size(recording)
+    return Measured(recording, measured_machine, origin=origin, in_si=in_si)
 
 
 def _signal_columns(table: Table, texts: Mapping[str, str]) -> tuple[dict[str, int], str]:

@@ -311,10 +311,11 @@ class Session:
         views = [view for view in self._views[self._on_screen] if not view.at_rest]
         slow = [view for view in views if view.needs & content.slow]
         quick = [view for view in views if view not in slow]
-        # slow views delay nothing if they are alone
+        # slow views are heavy if they would delay quick ones; others are drawn together with them
         heavy = self._slow_cost > _HEAVY and any(view.needs for view in quick)
         if slow and not heavy and math.isfinite(self._slow_cost) and content.moving:
             quick, slow = [], views
+        # while newer content waits, heavy views are skipped, but not for too long
         if heavy and self._loop.waiting:
             slow = slow if started - self._slow_at > _PATIENCE else []
         return quick, slow

@@ -57,7 +57,7 @@ if (row.order == 1) {
   let room = Infinity  // letters up to the next name
   try { room = %(room)s*plot.inner_width/(5.8*larger) } catch {}
   const longer = [`${name} ${first}${give} Hz`, `${name} ${first} Hz`]
-  return longer.find(one => one.length < room) ?? name
+  return longer.find(text => text.length < room) ?? name
 }
 return `${row.order}×`
 """
@@ -75,7 +75,7 @@ def fundamentals(scene: Scene | Turning, row: int = 0) -> dict[str, float]:
 
 
 def spreads(scene: Scene | Turning, row: int = 0) -> dict[str, float]:
-    """Errors [Hz] that an estimated inside may give each family, by its name and "_spread"."""
+    """Errors [Hz] of each family, by its name and "_spread", if the bearing is an estimate."""
     bearing, first = scene.bearing.of_row(row), fundamentals(scene, row)
     return {
         f"{name}_spread": value * bearing.frequency_spread(name) for name, value in first.items()
@@ -100,12 +100,14 @@ def labelled(multiples: NDArray[np.float64], first: float, top: float) -> NDArra
     """Return the multiples of a family whose names do not overlap: the first, then every nth."""
     if not multiples.size:
         return multiples
+    # the smallest step of 1, 2, 5, 10, ... with room for the names of harmonics
     step = next(
         step * 10**power
         for power in range(9)
         for step in (1, 2, 5)
         if step * 10**power * first >= ORDER_WIDTH * top
     )
+    # none is cut off at the right end, or covered by the first name, which is longer
     from_end = multiples * first <= (1.0 - 0.6 * ORDER_WIDTH) * top
     clear = multiples * first >= multiples[0] * first + NAME_WIDTH * top
     kept = ((multiples % step == 0.0) & clear & from_end) | (multiples == 1.0)

@@ -221,7 +221,7 @@ class FrequencyView(LookView, MeasuredView):
         lines = [] if turning is None else row_frequencies(turning)
         top, resolution = shown.top, shown.resolution
         rows = len(lines) * len(look["lines"])
-        room = frequency_lines.ROW_PIXELS / FRAME * (rows + 0.6)  # share that the names take
+        room = frequency_lines.ROW_PIXELS / FRAME * (rows + 0.6)  # share of the height for names
         drawn = shown_curve(shown.measured, top, 1.0 / shown_unit(measured)[1], look["scale"])
         sources: Sources = {f"{p}_measured": drawn}
         # a slow drift at the lowest lines must not set the scale
@@ -238,6 +238,7 @@ class FrequencyView(LookView, MeasuredView):
         per = turn if self._axis == "orders" else 1.0  # hertz per unit of the axis
         ranges = {f"{p}_frequency": (0.0, top / per), f"{p}_amplitude": ends}
         sources |= frequency_lines.columns(p, lines, look["lines"], top, FRAME)
+        # on an axis of orders, divide frequencies by that of the shaft
         for columns in sources.values():
             for name in {"frequency", "low", "high", "label_at"} & set(columns):
                 columns[name] = columns[name] / per

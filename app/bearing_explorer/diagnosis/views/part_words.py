@@ -205,13 +205,8 @@ def facts(answer: Diagnosis, question: Question) -> list[list[str]]:
     if not question.measured.in_si:
         rows.append(["Unit", "not known; the part does not depend on it"])
     if answer.spectrum is not None:
-        low, high = answer.spectrum.band
-        rows.append(
-            [
-                "Demodulation band",
-                f"{band(low, high)}{question.measured.along(answer.spectrum.direction)}, chosen",
-            ]
-        )
+        words = band(*answer.spectrum.band) + question.measured.along(answer.spectrum.direction)
+        rows.append(["Demodulation band", f"{words}, chosen"])
     return rows
 
 

@@ -64,13 +64,14 @@ def print_figures(document: Document, note: str, path: Path, width: float | None
     if width is None:
         width = TWO_COLUMNS if any(WIDE in plot.tags for plot in plots) else COLUMN
     pixels = width / 25.4 * 72.0 / POINT
+    # drawings with circles are to scale: higher than wide, they would have empty margins
     limits = [0.9 * pixels if _has_circles(plot) else math.inf for plot in plots]
     heights = [min(plot.min_height, limit) for plot, limit in zip(plots, limits, strict=True)]
     frame_sizes = {
         plot.id: (pixels - (plot.min_border_left or 0) - (plot.min_border_right or 0), height - 40)
         for plot, height in zip(plots, heights, strict=True)
     }
-    for k, plot in enumerate(plots):
+    for k, plot in enumerate(plots):  # each entry of a key takes a line above its figure
         heights[k] += LINE * sum(item.visible for item in plot.select(models.LegendItem))
     lines = wrap(note, int(pixels / (0.52 * 10)))
     scripts = Scripts(document.models, frame_sizes)

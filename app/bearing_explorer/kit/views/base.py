@@ -270,6 +270,7 @@ class View(Generic[C]):
             # hidden figures are not to be saved
             shown = [plot.id for plot in self.figures] if self._has_drawn else []
             self._caption.put(figures=shown)
+        # the first sentence on a figure is seen, and all others open on a click
         brief = self.is_brief and self._has_drawn and results is not None and self.figures
         first, *others = _sentences(sentence) if brief else [sentence]
         self._sentence.put(text=sentence_html(first))
@@ -347,7 +348,7 @@ class View(Generic[C]):
         return results.arguments(self.needs)
 
     def lines_of_python(self, results: C) -> str:
-        """Lines of Python that make the scene, the figure of these results and its numbers."""
+        """Write lines of Python that make the scene, its figure, and the numbers of the figure."""
         choices = self.choices()
         chosen = {"choices": code_of(choices)} if choices else {}
         return figure_lines(
@@ -371,7 +372,7 @@ class View(Generic[C]):
         return []
 
     def more_arguments(self) -> dict[str, str]:
-        """Return further arguments of the figure, as expressions that use these lines."""
+        """Return further arguments of the figure, as expressions that use `lines_before`."""
         return {}
 
     def still_figures(self) -> Sequence[LayoutDOM]:

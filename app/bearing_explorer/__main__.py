@@ -14,8 +14,8 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any, NoReturn
 
-# Before numpy is loaded. The page has threads of its own; those of the linear algebra would fight
-# with them over matrices of ten rows, and cost four times what they save.
+# Set before numpy is loaded. The page has threads of its own. Threads of the linear algebra would
+# compete with them over matrices of ten rows, and cost four times the time that they save.
 for _library in ("OPENBLAS", "MKL", "OMP"):
     os.environ.setdefault(f"{_library}_NUM_THREADS", "1")
 
@@ -28,9 +28,9 @@ NOT_KEPT = (
 
 
 READ_FROM_DISK = 5.0
-"""Time [s] after which machine code on disk has turned out to be of no use."""
+"""Longest wait [s] at the start for machine code that is read from disk."""
 LOADS_HOLOVIEWS = 10.0
-"""Time [s] after the start when the first picture is drawn; then no tab waits for HoloViews."""
+"""Delay [s] after which HoloViews is loaded: the first picture is drawn, and no tab waits later."""
 
 
 def options(arguments: Sequence[str] | None = None) -> argparse.Namespace:
@@ -112,7 +112,7 @@ def options(arguments: Sequence[str] | None = None) -> argparse.Namespace:
 
 
 def _number(at_least: int, at_most: int) -> Callable[[str], int]:
-    """Return a reader of whole numbers."""
+    """Return a function that reads a whole number between two limits."""
 
     def read(text: str) -> int:
         if not (text.isascii() and text.isdecimal() and at_least <= int(text[:9]) <= at_most):
@@ -123,7 +123,7 @@ def _number(at_least: int, at_most: int) -> Callable[[str], int]:
 
 
 def _matching(pattern: str, allowed: str) -> Callable[[str], str]:
-    """Return a reader of texts that match all of a pattern."""
+    """Return a function that takes a text only if all of it matches a pattern."""
     return lambda text: text if re.fullmatch(pattern, text, re.ASCII) else _refuse(text, allowed)
 
 
@@ -148,7 +148,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     started = time.perf_counter()
     _say("Bearing explorer starts.")
     _say("Loading the page ...")
-    gc.disable()  # nothing of what is loaded is garbage, and looking takes an eighth of the time
+    gc.disable()  # imports leave no garbage, and looking for it takes an eighth of the time
     try:
         from bearing_explorer.kit.compute import compiling
         from bearing_explorer.kit.serve.serving import Limits, freeze_startup_objects, make_server
@@ -156,7 +156,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except ModuleNotFoundError as error:
         _say(f"The page needs {error.name}, which is not installed: pip install .")
         return 1
-    for lesson in lessons_of(chosen.lessons):  # kept: the first page need not read them
+    for lesson in lessons_of(chosen.lessons):  # cached, so the first page need not read them
         if isinstance(lesson, scene.Fault):
             _say(f"Lessons: {lesson.sentence}")
     from bearingcore import model, warm
@@ -168,10 +168,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         _say(NOT_KEPT)
     if not compiled:
         _say("Compiling the kernels, once; pages show the default scene meanwhile ...")
-    if scene is not None and chosen.num_procs > 1:  # a thread would stay with one of them
+    if scene is not None and chosen.num_procs > 1:  # compile before the fork: no thread survives it
         warm(report=_say)
 
-    # With several processes this one only waits for them, inside `serve`.
+    # With several processes, this one only waits inside `make_server` until the others end.
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(0))
     try:
         server = make_server(
@@ -213,7 +213,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             report=_say if chosen.num_procs == 1 else str,
             done=lambda: loop.add_callback(freeze_startup_objects),
         )
-        # a later start reads machine code from disk, and need not begin with pages of no use
+        # a later start reads machine code from disk: wait for it, so that all pages can compute
         compiling.wait(READ_FROM_DISK if compiled else 0.0)
     server.start()
     _say(f"Ready after {time.perf_counter() - started:.1f} s: {url} (Ctrl+C ends)")
@@ -228,11 +228,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
         server.stop()
     _say("Stopped.")
     sys.stderr.flush()
-    os._exit(0)  # at once: Python would wait for what threads still compute, for minutes
+    os._exit(0)  # Python would wait, perhaps for minutes, until all threads have computed
 
 
 def _end_with_parent(loop: Any) -> None:
-    """Stop when the process that started this one is gone: it cannot say good-bye if killed."""
+    """Stop this process when its parent is gone: a killed parent cannot stop its children."""
     from tornado.ioloop import PeriodicCallback
 
     parent = os.getppid()
@@ -246,7 +246,7 @@ def _end_with_parent(loop: Any) -> None:
 
 def _say(text: str) -> None:
     encoding = sys.stdout.encoding or "utf-8"
-    print(text.encode(encoding, "backslashreplace").decode(encoding), flush=True)  # names of files
+    print(text.encode(encoding, "backslashreplace").decode(encoding), flush=True)  # odd file names
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""``python -m bearing_explorer.default_results``: compute what comes with the package."""
+"""``python -m bearing_explorer.default_results``: store results of the default scene."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ TABS = ("overview", "load", "stiffness", "modes", "vibration")
 
 
 def draw_all() -> list[Picture]:
-    """Pictures of the default scene on these tabs, as a slider moves and at rest."""
+    """Draw the default scene on `TABS`, while a slider moves and at rest."""
     moving = Halves().session.content
     pictures = []
     for section in SECTIONS:

@@ -33,13 +33,13 @@ _VIEWS: dict[str, type[View]] = {
 }
 
 names = tuple(_VIEWS)
-"""The functions that there are."""
+"""Names of the functions."""
 
 
 def of_sweep(swept: DataArray | Dataset) -> hv.Layout:
     """Return an output of a sweep over two fields as HoloViews: a map, and curves across it.
 
-    They are those that Explore shows; on a server (`panel.panel(...).show()`) and in a live
+    Explore shows the same figures. On a server (`panel.panel(...).show()`) and in a live
     notebook the curves follow the pointer. Angles are in degrees.
 
     Raises

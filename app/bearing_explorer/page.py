@@ -90,19 +90,19 @@ def half_of(view: type[View]) -> Any:
 
 
 def address() -> str:
-    """Query of this page's address: the part behind the question mark."""
+    """Return the query of this page's address: the part behind the question mark."""
     query = pn.state.session_args or {}
     return urlencode([(name, value) for name, values in query.items() for value in values])
 
 
 @cache
 def _frame() -> Any:
-    """The frame of all pages, read once per process."""
+    """Read the frame of all pages, once per process."""
     return PageTemplate(asset_text("page.html")).template
 
 
 def lessons_of(folder: Path | None = None) -> Any:
-    """Lessons of a folder, or the program's own."""
+    """Return the lessons of a folder, or the program's own."""
     if scene is None:
         return ()
     return scene.lessons_in(folder, TABS) if folder else scene.shipped_lessons(TABS)

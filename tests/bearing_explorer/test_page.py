@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from bearing_explorer.diagnosis.diagnoses import Question, answered, extent_of
+from bearing_explorer.diagnosis.diagnoses import Question, diagnosis_of, extent_of
 from bearing_explorer.diagnosis.views.diagnosis import PartDiagnosis
 from bearing_explorer.diagnosis.views.extent import SpallExtent
 from bearing_explorer.diagnosis.views.frequency_lines import FAMILIES
@@ -54,7 +54,7 @@ SCENES = {
     "all around": presets["fan-rig"].replace(extent=2.0 * math.pi),
 }
 
-diagnosed, measured_extent = cache(answered), cache(extent_of)
+diagnosed, measured_extent = cache(diagnosis_of), cache(extent_of)
 """Answers about a bearing, which several scenes have."""
 
 

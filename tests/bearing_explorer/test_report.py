@@ -7,7 +7,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from bearing_explorer.diagnosis.diagnoses import ExtentQuestion, Question, answered, extent_of
+from bearing_explorer.diagnosis.diagnoses import ExtentQuestion, Question, diagnosis_of, extent_of
 from bearing_explorer.diagnosis.measurement_state import AboutMeasurement
 from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.report import NOT_FORESEEN, NOT_JUDGED, measured_report
@@ -86,7 +86,7 @@ def test_a_measured_signal_has_its_answer_pictures_and_assumptions_on_one_page()
     own = dataclasses.replace(about(), machine="Pump 3")
     with pytest.raises(ValueError, match="is being analysed"):
         measured_report(Model(scene), session.snapshot(), {}, own)
-    answer = answered(question)
+    answer = diagnosis_of(question)
     asked = ExtentQuestion.about(measured, whole=scene.bearing)
     extent = extent_of(dataclasses.replace(asked, diagnosis=answer))
     session.diagnoses.keep(question, answer)
@@ -145,7 +145,7 @@ def test_the_next_step_rests_on_part_zone_and_growth(
     fault: str, zone: str, change: float | None, begins: str, says: str
 ) -> None:
     question = Question.about(simulated(presets["6205"], 20.0, 1))
-    diagnosis = dataclasses.replace(answered(question), fault=fault, probability=0.99)
+    diagnosis = dataclasses.replace(diagnosis_of(question), fault=fault, probability=0.99)
     grown = None
     if change is not None:
         points = [

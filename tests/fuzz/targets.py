@@ -150,13 +150,13 @@ def _table(content: bytes) -> object:
     table = read_table("a file", content)
     form = forms.guess(table)
     asked, reasons = forms.questions(table), forms.reasons(table)
-    for words in (*asked.values(), *reasons.values(), forms.said(table)):
+    for words in (*asked.values(), *reasons.values(), forms.other_facts(table)):
         if words and (wrong := unclear(words)) is not None:
             raise AssertionError(f"{wrong}: {words[:200]!r}")
-    roles = form["columns"].split(forms.APART)
+    roles = form["columns"].split(forms.SEPARATOR)
     if not {"x", "y"} & set(roles):
         roles[-1] = "y"
-    told, form = forms.fill(table, {"columns": forms.APART.join(roles)})
+    told, form = forms.fill(table, {"columns": forms.SEPARATOR.join(roles)})
     form["sample_rate"] = form["sample_rate"] or "12000"
     return forms.read_form(told, form, Machine())
 

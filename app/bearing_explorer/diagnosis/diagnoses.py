@@ -1,8 +1,8 @@
 """Diagnoses of the damaged part, and extents of spalls, in the background.
 
-Holds no Panel. An answer takes from tenths of a second to seconds; pictures do not wait for it.
-A view calls `of` for an answer that is there, and `want` for one that is not; when it has come,
-everything is drawn again. Only the newest question is worked on.
+Nothing here uses Panel. An answer takes from tenths of a second to seconds, and pictures do not
+wait for it. A view calls `Answers.of` for an answer that is known, and `want` for one that is not.
+When an answer arrives, everything is drawn again. Only the newest question is worked on.
 """
 
 from __future__ import annotations
@@ -38,15 +38,15 @@ MOST_KNOWN = 12
 class Question:
     """A recording to diagnose, its bearing, and the knowledge of its shaft speed.
 
-    Two are the same where recording, speed and the bearing's balls, diameters and contact angle
-    are: nothing else counts.
+    Two questions are equal if the recording, the speed, and the bearing's balls, diameters and
+    contact angle are the same.
 
     Attributes
     ----------
     measured
-        the signal with what is known of its machine.
+        the signal, with the known facts on its machine.
     speed
-        [rad/s] as `diagnose` wants it: a pair where it is rough, None where it is not known.
+        [rad/s] as `diagnose` takes it: a pair where it is rough, None where it is not known.
     geometry
         numbers of the bearing; empty where it is not known.
     """
@@ -87,7 +87,7 @@ class Question:
 
 @dataclass(frozen=True)
 class ExtentQuestion(Question):
-    """A diagnosed recording whose spall is to be measured; here all of the bearing counts.
+    """A diagnosed recording whose spall is to be measured; equal ones have equal bearings.
 
     `race`: "outer" or "inner" where it is known to be damaged, "" for what the diagnosis names;
     `load`: radial load on the bearing [N], where it is known.
@@ -99,14 +99,14 @@ class ExtentQuestion(Question):
     diagnosis: Diagnosis | None = field(default=None, compare=False)
 
 
-def answered(question: Question) -> Diagnosis | str:
-    """The diagnosis, or a sentence where there can be none. For any thread."""
+def diagnosis_of(question: Question) -> Diagnosis | str:
+    """Return the diagnosis, or a sentence why there is none. For any thread."""
     recording = question.measured.recording
-    return _or_why_not(lambda: diagnose(recording, question.bearing, question.speed))
+    return _result_or_reason(lambda: diagnose(recording, question.bearing, question.speed))
 
 
 def extent_of(question: ExtentQuestion) -> MeasuredExtent | str:
-    """The extent, or a sentence where there can be none. For any thread."""
+    """Return the extent, or a sentence why there is none. For any thread."""
 
     def measure() -> MeasuredExtent:
         measured, bearing = question.measured, question.bearing
@@ -123,10 +123,11 @@ def extent_of(question: ExtentQuestion) -> MeasuredExtent | str:
         unsized = measured.machine.by_frequencies
         return dataclasses.replace(extent, length=math.nan) if unsized else extent
 
-    return _or_why_not(measure)
+    return _result_or_reason(measure)
 
 
-def _or_why_not(compute: Callable[[], Result]) -> Result | str:
+def _result_or_reason(compute: Callable[[], Result]) -> Result | str:
+    """Return the result; after a failure, a sentence with its reason."""
     try:
         return compute()
     except ValueError as error:
@@ -137,16 +138,16 @@ def _or_why_not(compute: Callable[[], Result]) -> Result | str:
 
 
 class Answers(Generic[Result]):
-    """The answers of one session. `want` and `stop` belong on its event loop.
+    """The answers of one session. Call `want` and `stop` on its event loop.
 
     Parameters
     ----------
     jobs, kind
-        the background of the session, and what these answers are in it.
+        the background jobs of the session, and the kind of these answers among them.
     draw
         requests a drawing.
     compute
-        answers a question, in a thread.
+        answers a question, in a thread of its own.
     """
 
     def __init__(
@@ -163,7 +164,7 @@ class Answers(Generic[Result]):
         self.wanted: Question | None = None
 
     def of(self, question: Question) -> Result | str | None:
-        """The answer, a sentence where there can be none, or None: not yet. For any thread."""
+        """Return the answer, a sentence why there is none, or None: not yet. For any thread."""
         return self._known.get(question)
 
     @property
@@ -172,13 +173,13 @@ class Answers(Generic[Result]):
         return self.wanted is not None and self.wanted not in self._known
 
     def latest(self, about: Question) -> Result | str | None:
-        """The newest answer about a recording, its bearing and speed, whatever else was asked."""
+        """Return the newest answer about a recording with its bearing and speed, if any."""
         known = reversed(self._known.items())
         alike = (answer for question, answer in known if about.is_like(question))
         return next(alike, None)
 
     def keep(self, question: Question, answer: Result | str) -> None:
-        """Keep an answer; those about other recordings leave, and the oldest."""
+        """Keep an answer; drop the oldest beyond `MOST_KNOWN`, and all about other recordings."""
         recording = question.measured.recording
         kept = {q: a for q, a in self._known.items() if q.measured.recording is recording}
         while len(kept) >= MOST_KNOWN:
@@ -186,7 +187,7 @@ class Answers(Generic[Result]):
         self._known = kept | {question: answer}
 
     def want(self, question: Question) -> None:
-        """Have it answered, in place of what was wanted before; without a loop nothing is."""
+        """Have a question answered in place of the one before; needs a running event loop."""
         before, self.wanted = self.wanted, question
         if question in self._known or (question == before and self._jobs.busy(self._kind)):
             return
@@ -200,15 +201,13 @@ class Answers(Generic[Result]):
         self._draw()  # the status says that something is under way
 
     def _take(self, question: Question, answer: Result | str) -> None:
-        if (
-            self.wanted is not None
-            and self.wanted.measured.recording is question.measured.recording
-        ):
+        wanted = self.wanted
+        if wanted is not None and wanted.measured.recording is question.measured.recording:
             self.keep(question, answer)
         self._draw()
 
     def stop(self) -> None:
-        """The session is over."""
+        """Forget all answers: the session is over."""
         self.wanted = None
         self._known = {}
         self._jobs.drop(self._kind)

@@ -1,13 +1,13 @@
 """The questions that make a table of numbers a measurement, and guesses at their answers.
 
-What each column is: the time, the housing's acceleration along x or y, the shaft speed, or nothing;
-in what unit, how often it was sampled; which bearing and shaft speed it was, see `machine`. The
-form holds text, as a person types it. What a person chooses goes before what the file says: where
-they differ a note of the recording says so.
+They ask for the role of each column (the time, the housing's acceleration along x or y, the shaft
+speed, or nothing), for its unit and sample rate, and for the bearing and shaft speed, see
+`machine`. The form holds text, as a person types it. An answer of a person takes precedence over
+the file; where they differ, a note of the recording says so.
 
 `questions` have to be answered before anything is drawn. `size_questions` are about the size of the
-numbers, which is never guessed; until they are answered the numbers are taken as they are, for what
-does not depend on it.
+numbers, which is never guessed. Until they are answered, only results that do not depend on the
+size are computed, from the numbers as they are in the file.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ SIGNAL_FIELDS = ("columns", "part", "unit", "full_scale", "sensitivity", "sample
 FIELDS = (*SIGNAL_FIELDS, *machine.FIELDS)
 LONGEST_TEXT = 40
 LONGEST_ROLES = 20_000
-"""Longest text [characters] of a field, and of that with the roles of all columns."""
+"""Longest text [characters] of a field, and of the field with the roles of all columns."""
 NOTHING = ""
 """The role of a column that is not used."""
 ROLES = (
@@ -66,18 +66,18 @@ ROLES = (
 """Possible roles of a column, as the form has them and in words."""
 DIRECTIONS = ("x", "y")
 """Roles that are signals; each may have its unit behind it: "x g"."""
-APART = ";"
+SEPARATOR = ";"
 """Sign between the roles of the columns in their field."""
 NOT_KNOWN = ""
 """A unit or a sensitivity that has not been answered."""
 AS_HEADED = "units of their own"
-"""The unit where two signals have two, by their headings or as a person says."""
+"""The unit of two signals with different units, stated by their headings or by a person."""
 WAYS, LIKELY = "Say it", "Likely"
 """Headings in the list of bearings."""
 SIZES = ("unit", "sensitivity")
 """Fields that say how large the numbers of a file are."""
 
-MOST_COLUMNS_NAMED = 24  # characters of a heading in a list
+LONGEST_HEADING = 24  # characters
 
 SHOWN_LINES = 5
 
@@ -94,31 +94,30 @@ USUAL_SENSITIVITY = 100
 
 
 def guess(table: Table) -> dict[str, str]:
-    """The first values of the form: what the file says, and good guesses."""
+    """Return the first values of the form: facts of the file, and good guesses."""
     contents = table.contents
     rate, sensor = contents.sample_rate, contents.sensitivity
+    sensitivity = NOT_KNOWN if sensor is None else f"{1e3 * STANDARD_GRAVITY * sensor.value:.6g}"
     return {
-        "columns": APART.join(roles_of(table)),
+        "columns": SEPARATOR.join(roles_of(table)),
         "part": "",
         "unit": _unit(table),
         "full_scale": "1",
-        "sensitivity": NOT_KNOWN
-        if sensor is None
-        else f"{1e3 * STANDARD_GRAVITY * sensor.value:.6g}",
+        "sensitivity": sensitivity,
         "sample_rate": "" if rate is None else f"{rate.value:.8g}",
         **machine.guess(contents),
     }
 
 
 def fill(table: Table, changed: Mapping[str, str]) -> tuple[Table, dict[str, str]]:
-    """The table with the roles that a person gave its columns, and its form.
+    """Return the table with the roles that a person gave its columns, and its form.
 
-    What was `changed` by a person stays; everything else follows from the roles.
+    Answers that a person `changed` stay; all others follow from the roles.
 
     Raises
     ------
     FormError
-        for roles or a recording that cannot be.
+        for impossible roles, and for a recording that does not exist.
     """
     if "columns" in changed:
         table = give_roles(table, changed["columns"])
@@ -146,8 +145,8 @@ def roles_of(table: Table) -> list[str]:
 
 
 def give_roles(table: Table, text: str) -> Table:
-    """The table with other roles of its columns; `FormError` for roles that cannot be."""
-    roles, guessed = text.split(APART), roles_of(table)
+    """Return the table with the roles in `text`; raise `FormError` for impossible ones."""
+    roles, guessed = text.split(SEPARATOR), roles_of(table)
     if roles == guessed:
         return table
     known = {role for role, _ in ROLES} | {
@@ -156,16 +155,16 @@ def give_roles(table: Table, text: str) -> Table:
     columns = table.contents.columns
     if len(roles) != len(guessed) or not known.issuperset(roles):
         raise FormError({"columns": f"{table.name} has other columns."})
-    given: dict[int | str, Column] = {}
-    for index, (role, was) in enumerate(zip(roles, guessed, strict=True)):
+    by_hand: dict[int | str, Column] = {}
+    for index, (role, before) in enumerate(zip(roles, guessed, strict=True)):
         column, (kind, _, unit) = columns[index], role.partition(" ")
         if kind in DIRECTIONS:
             headed = column.unit if column.unit in UNITS else None
-            given[index] = Column("", SIGNAL, unit or headed, kind, column.place)
-        elif role != was:
-            given[index] = Column("", kind if kind in (TIME, SPEED) else OTHER, unit or None)
+            by_hand[index] = Column("", SIGNAL, unit or headed, kind, column.place)
+        elif role != before:
+            by_hand[index] = Column("", kind if kind in (TIME, SPEED) else OTHER, unit or None)
     try:
-        return table.with_columns(given)
+        return table.with_columns(by_hand)
     except FieldError as error:
         raise FormError({"columns": sentence_of(error)}) from None
 
@@ -177,9 +176,9 @@ def change_role(
     role: str,
     unit: str,
 ) -> dict[str, str]:
-    """The fields "columns" and "unit" with another role or unit of a column.
+    """Return the fields "columns" and "unit" with another role or unit of a column.
 
-    No other column keeps that role. Signals have one unit together until they are given two.
+    No other column keeps that role. Signals share one unit until a person gives them two.
     """
     kind = role.partition(" ")[0]
     roles = [NOTHING if kind and r.partition(" ")[0] == kind else r for r in roles]
@@ -188,21 +187,21 @@ def change_role(
     known = set(units_of.values()) - {NOT_KNOWN}
     if len(known) > 1:
         roles = [f"{r} {units_of.get(i, '')}".strip() for i, r in enumerate(roles)]
-    said = {"unit": AS_HEADED if len(known) > 1 else known.pop()} if known else {}
-    return {"columns": APART.join(roles), **said}
+    unit_field = {"unit": AS_HEADED if len(known) > 1 else known.pop()} if known else {}
+    return {"columns": SEPARATOR.join(roles), **unit_field}
 
 
 def roles_and_units(text: str) -> tuple[list[str], list[str]]:
-    """The roles out of their field, and the units that a person gave signals there."""
-    roles = text.split(APART)
+    """Split the field of roles into the roles and the units that a person gave signals."""
+    roles = text.split(SEPARATOR)
     signals = [r.partition(" ") if r[:2] in ("x ", "y ") else (r, "", "") for r in roles]
     return [role for role, _, _ in signals], [unit for _, _, unit in signals]
 
 
-def says_the_same(name: str, text: str, first: str) -> bool:
-    """True where a field still says what the file alone does.
+def is_unchanged(name: str, text: str, first: str) -> bool:
+    """True where a field has the value that the file alone gave it.
 
-    The field of columns holds units too, which are a question of their own.
+    The field of columns also holds units. They do not count here.
     """
     if name != "columns":
         return text == first
@@ -210,7 +209,7 @@ def says_the_same(name: str, text: str, first: str) -> bool:
 
 
 def _unit(table: Table) -> str:
-    """The unit of the signals as the file says it, or `NOT_KNOWN`."""
+    """Return the unit of the signals that the file states, or `NOT_KNOWN`."""
     contents = table.contents
     roles = zip(roles_of(table), contents.columns, strict=True)
     units = {column.unit for role, column in roles if role in DIRECTIONS}
@@ -222,7 +221,7 @@ def _unit(table: Table) -> str:
 def bearings_of(table: Table) -> list[list[str]]:
     """Rows [value, words, heading] of the bearings to choose from.
 
-    The one of the file's collection comes first.
+    The bearing of the file's collection comes before the other listed ones.
     """
     listed = table.contents.bearing
     likely = [] if listed is None else [listed.value]
@@ -251,7 +250,7 @@ def speeds_of(table: Table) -> list[list[str]]:
     if speed is not None:
         rpm = 30.0 / math.pi * speed.value
         words = f"{'from the file' if speed.stated else 'a guess from the file'}: {rpm:.4g} rpm"
-        if not speed.supported:  # of pulses, which are as many as turns only if each is one
+        if not speed.supported:  # a tachometer may give several pulses a turn
             words = f"from the tachometer: about {float(f'{rpm:.3g}'):g} rpm"
         of_file = [[machine.FILE, words]]
     return [
@@ -268,26 +267,26 @@ def reasons(table: Table) -> dict[str, str]:
     contents = table.contents
     rate, speed, choice = contents.sample_rate, contents.shaft_speed, contents.choice
     texts = {"columns": choice.reason} if choice.reason else {}
-    texts["unit"] = _because(contents.unit) if contents.unit.taken else "The file does not say it."
+    texts["unit"] = _reason(contents.unit) if contents.unit.taken else "The file does not say it."
     if _unit(table) == AS_HEADED:
         texts["unit"] = "From the heading of each column, or from the list above it."
     if not table.full_scale_known:
         texts["full_scale"] = "Full scale of the recorder, in the unit."
     sensor = contents.sensitivity
-    texts["sensitivity"] = "See the label of the sensor." if sensor is None else _because(sensor)
-    texts["sample_rate"] = "The file does not say it." if rate is None else _because(rate)
+    texts["sensitivity"] = "See the label of the sensor." if sensor is None else _reason(sensor)
+    texts["sample_rate"] = "The file does not say it." if rate is None else _reason(rate)
     if contents.frequencies:
         texts["bearing"] = "Its frequencies are in the file."
     elif contents.bearing is not None:
-        texts["bearing"] = _because(contents.bearing)
+        texts["bearing"] = _reason(contents.bearing)
     elif contents.designation is not None and machine.guess(contents)["designation"]:
-        texts["designation"] = _because(contents.designation)
+        texts["designation"] = _reason(contents.designation)
     if speed is not None:
-        texts["speed"] = _because(speed)
+        texts["speed"] = _reason(speed)
     return {name: words[:1].upper() + words[1:] for name, words in texts.items()}
 
 
-def _because(finding: Finding[Any]) -> str:
+def _reason(finding: Finding[Any]) -> str:
     return f"{'Said by' if finding.stated else 'A guess:'} {finding.reason}"
 
 
@@ -299,13 +298,13 @@ def questions(table: Table) -> dict[str, str]:
         asked["columns"] = _which_column(table)
     rate = contents.sample_rate
     if rate is not None and not rate.taken:
-        trouble = _trouble(table)
+        trouble = _faults(table)
         question = f"Is {rate.value:.6g} Hz the sample rate? A guess: {rate.reason}."
         asked["sample_rate"] = f"{trouble} {question}".strip()
     return asked
 
 
-def _trouble(table: Table) -> str:
+def _faults(table: Table) -> str:
     """Faults of the times of the file."""
     sampling = table.contents.sampling
     return "" if sampling is None else sampling.trouble
@@ -320,7 +319,7 @@ def _which_column(table: Table) -> str:
 
 
 def proposed_unit(table: Table) -> str | None:
-    """The unit that is likely where the file does not say it, "" where none is; None if it does."""
+    """Return the likely unit, "" where none is likely; None if the file states the unit."""
     unit = table.contents.unit
     if unit.stated:
         return None
@@ -329,8 +328,8 @@ def proposed_unit(table: Table) -> str | None:
 
 def size_questions(table: Table, form: Mapping[str, str]) -> dict[str, str]:
     """Questions to answer before the signal has a size, by field."""
-    headed = [unit for _, unit in _signals(table, form)] if form["unit"] == AS_HEADED else []
-    if form["unit"] == NOT_KNOWN or None in headed:
+    units = [unit for _, unit in _signals(table, form)] if form["unit"] == AS_HEADED else []
+    if form["unit"] == NOT_KNOWN or None in units:
         likely = proposed_unit(table)
         why = f" {likely} is likely: {table.contents.unit.reason}." if likely else ""
         return {"unit": f"In what unit is it? The file does not say.{why}"}
@@ -355,8 +354,8 @@ def _signals(table: Table, form: Mapping[str, str]) -> list[tuple[str, str | Non
     return [(role, column.unit) for role, column in roles if role in DIRECTIONS]
 
 
-def said(table: Table) -> str:
-    """Other numbers and words of a file, in a line; its load in newtons."""
+def other_facts(table: Table) -> str:
+    """Other numbers and words of a file in a line, with its load in newtons."""
     contents = table.contents
     stated = [
         f"{_short(name)} {_short(text)}" for name, text in list(contents.said.items())[:MOST_SAID]
@@ -388,7 +387,7 @@ class ShownColumns:
 
 
 def columns_of(table: Table) -> ShownColumns:
-    """The columns of a file as they are shown."""
+    """Describe the columns of a file for the page."""
     return ShownColumns(
         [_short(name) for name in table.names],
         [column.place for column in table.contents.columns],
@@ -419,17 +418,18 @@ def read_form(
     form: Mapping[str, Any],
     scene: Machine,
 ) -> Measured:
-    """The signal that a form describes; `FormError` with sentences where it describes none.
+    """Return the signal that a form describes; `FormError` with sentences where it describes none.
 
-    Where its unit is not known the recording holds the numbers of the file. It carries no shaft
-    speed: that is the machine's, where it is known.
+    Where its unit is not known the recording holds the numbers of the file. The shaft speed is in
+    the machine, not in the recording.
 
-    `scene` has the bearing and the speed of the scene, for a form that says so.
+    `scene` has the bearing and the speed of the scene, for a form that chooses them.
     """
     texts = bounded_texts(form, FIELDS)
     table = give_roles(table, texts["columns"])
     stated = table.contents.unit.stated
     in_si = not size_questions(table, texts) or (texts["unit"] == NOT_KNOWN and stated)
+    # collect all refusals, so that the form shows them together
     numbers, refused = _numbers_of(table, texts, in_si and is_voltage(table, texts))
     chosen, trouble = _signal_columns(table, texts)
     if trouble:
@@ -445,21 +445,19 @@ def read_form(
     directions = sorted(chosen)
     columns = tuple(chosen[direction] for direction in directions)
     unit = None if texts["unit"] == AS_HEADED else texts["unit"]
-    # [V/(m/s²)], of a number in mV/g
-    sensitivity = None
-    if "sensitivity" in numbers:
-        sensitivity = 1e-3 * numbers["sensitivity"] / STANDARD_GRAVITY
+    typed = numbers.get("sensitivity")  # [mV/g]
+    sensitivity = None if typed is None else 1e-3 * typed / STANDARD_GRAVITY  # [V/(m/s²)]
     try:
         recording = table.recording(
             columns,
             directions,
-            unit if in_si else "m/s²",  # as they are
+            unit if in_si else "m/s²",  # so that the numbers stay as they are
             numbers["sample_rate"],
             numbers["full_scale"],
             sensitivity=sensitivity,
         )
     except ValueError as error:
-        raise FormError({"columns": f"These columns are not signals: {_said_by(error)}."}) from None
+        raise FormError({"columns": f"These columns are not signals: {_refusal(error)}."}) from None
     contents = table.contents
     places = sorted({contents.columns[i].place for i in columns} - {""})
     point = "" if contents.point is None else contents.point.value
@@ -469,11 +467,12 @@ def read_form(
         machine="" if contents.machine is None else contents.machine.value,
     )  # fmt: skip
     notes = (*recording.notes, *_doubts(table, columns, unit))
-    turned = recording.scale_shaft(measured_machine.ratio)
-    sized = dataclasses.replace(turned, shaft_speed=None, notes=notes)
-    return Measured(
-        sized if in_si else _without_size(sized), measured_machine, origin=origin, in_si=in_si
-    )
+    # turns of a measured shaft become those of the bearing's; the machine holds the speed
+    recording = recording.scale_shaft(measured_machine.ratio)
+    recording = dataclasses.replace(recording, shaft_speed=None, notes=notes)
+    if not in_si:
+        recording = _without_size(recording)
+    return Measured(recording, measured_machine, origin=origin, in_si=in_si)
 
 
 def _signal_columns(table: Table, texts: Mapping[str, str]) -> tuple[dict[str, int], str]:
@@ -490,7 +489,7 @@ def _signal_columns(table: Table, texts: Mapping[str, str]) -> tuple[dict[str, i
 def _numbers_of(
     table: Table, texts: Mapping[str, str], by_sensitivity: bool
 ) -> tuple[dict[str, float], dict[str, str]]:
-    """Numbers that were typed, by field, and sentences on those that are none."""
+    """Numbers that were typed, by field, and sentences on texts that are no numbers."""
     numbers: dict[str, float] = {}
     refused: dict[str, str] = {}
     for name in _WORDS:
@@ -499,7 +498,7 @@ def _numbers_of(
         try:
             numbers[name] = _read(name, texts)
         except ValueError as error:
-            refused[name] = f"{_trouble(table) if name == 'sample_rate' else ''} {error}".strip()
+            refused[name] = f"{_faults(table) if name == 'sample_rate' else ''} {error}".strip()
     return numbers, refused
 
 
@@ -528,7 +527,7 @@ def _without_size(recording: Recording) -> Recording:
 
 
 def _doubts(table: Table, chosen: Sequence[int], unit: str | None) -> list[str]:
-    """Notes where the headings say otherwise than the answers."""
+    """Notes on headings that contradict the answers."""
     columns = [table.contents.columns[index] for index in chosen]
     places = sorted({column.place for column in columns} - {""})
     doubts = []
@@ -544,8 +543,8 @@ def _doubts(table: Table, chosen: Sequence[int], unit: str | None) -> list[str]:
     return doubts
 
 
-def _said_by(error: ValueError) -> str:
-    """The refusal of a signal in words."""
+def _refusal(error: ValueError) -> str:
+    """Word the refusal of a signal."""
     if isinstance(error, FieldError) and error.field == "acceleration":
         return f"the acceleration is {error.value}; allowed: {error.allowed_text}"
     return str(error)
@@ -559,4 +558,4 @@ def _read(name: str, texts: Mapping[str, str]) -> float:
 
 
 def _short(name: str) -> str:
-    return name if len(name) <= MOST_COLUMNS_NAMED else name[: MOST_COLUMNS_NAMED - 1] + "…"
+    return name if len(name) <= LONGEST_HEADING else name[: LONGEST_HEADING - 1] + "…"

@@ -14,14 +14,14 @@ from bearingcore import Scene
 
 
 class DiagnosisOfSignal(Half):
-    """The measurement of a session, and what its views draw of it.
+    """The measurement of a session, and the content of its views.
 
     Parameters
     ----------
     sections
         its tabs.
     scene
-        gives the scene with which a signal is compared, as it is now.
+        returns the current scene, with which a signal is compared.
     """
 
     def __init__(self, sections: Sequence[Section], scene: Callable[[], Scene]) -> None:
@@ -51,7 +51,7 @@ class DiagnosisOfSignal(Half):
         self.measurement.simulate(noise)
 
     def report(self, about: About) -> Callable[[], dict[str, Any]] | str:
-        """A function that makes the report on the signal, in any thread; or why there is none."""
+        """Return a function that makes the report in any thread, or why there is none."""
         measurement = self.measurement.snapshot()
         if why := measurement.out_of_date:
             return why

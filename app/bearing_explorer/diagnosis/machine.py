@@ -1,7 +1,7 @@
-"""The machine of a measurement: which bearing, how fast the shaft turned, and who said so.
+"""The machine of a measurement: its bearing, its shaft speed, and the source of each.
 
 A fact that neither the file nor a person states stays unknown. The scene's bearing and speed are
-taken only where a person chose them, by `scene_machine`: nothing else here looks at a scene.
+taken only where a person chose them. Only `scene_machine` reads a scene.
 """
 
 from __future__ import annotations
@@ -24,11 +24,11 @@ NOT_KNOWN = ""
 FILE, GIVEN, ROUGH, SCENE, SIMULATED = "file", "given", "rough", "scene", "simulated"
 """Sources of a shaft speed. A person types GIVEN and ROUGH ones; ROUGH is good to `TOLERANCE`."""
 BY_DESIGNATION, BY_FREQUENCIES = "designation", "frequencies"
-"""Ways to say which bearing it is, besides SCENE and the name of a listed one."""
+"""Ways to name the bearing, in addition to SCENE and the name of a listed one."""
 TOLERANCE = 0.1
 """Fraction by which a rough shaft speed may be off."""
 SAME_ORDERS = 0.01
-"""Relative difference up to which a bearing's frequencies are those of a file."""
+"""Relative difference up to which a bearing's frequencies count as those of a file."""
 PITCH_DIAMETER = 39e-3
 """Diameter [m] for the picture of a bearing known by its frequencies: no answer depends on it."""
 SPEEDS = (1e-3, 1e4)
@@ -49,8 +49,8 @@ GROUPS = {
 }
 """Fields of each question, by the name of the first field."""
 
-KNOWN = (GIVEN, ROUGH)
-MEASURED = (FILE, *KNOWN)
+TYPED = (GIVEN, ROUGH)
+MEASURED = (FILE, *TYPED)
 """Sources of a speed that may be that of another shaft, which drives the bearing's."""
 SPEED_SOURCES = {
     FILE: "from the file", GIVEN: "given", ROUGH: "given, good to 10 %",
@@ -91,9 +91,9 @@ class Machine:
     bearing_name
         name of the bearing on the page; empty for that of the scene.
     guessed
-        those of "bearing" and "speed" that a file only suggests.
+        "bearing" and "speed", if a file only suggests them.
     kept
-        those of "bearing" and "speed" that a person gave for the file before.
+        "bearing" and "speed", if a person gave them for the file before.
     by_frequencies
         True where only the frequencies of the bearing's parts are known; it then has no size.
     unread
@@ -124,7 +124,7 @@ class Machine:
         if speed in ("unknown", NOT_KNOWN):
             return dataclasses.replace(self, shaft_speed=None)
         if isinstance(speed, str):
-            return dataclasses.replace(self, speed_source=choice("speed", speed, KNOWN))
+            return dataclasses.replace(self, speed_source=choice("speed", speed, TYPED))
         return dataclasses.replace(self, shaft_speed=speed)
 
     @property
@@ -158,7 +158,7 @@ class Machine:
 
 
 def scene_machine(scene: Scene, source: str = SCENE) -> Machine:
-    """The bearing and the shaft speed of a scene: all that a measurement takes from there."""
+    """Return the bearing and the shaft speed of a scene: all that a measurement takes from it."""
     return Machine(scene.shaft_speed, scene.bearing, source, source)
 
 
@@ -171,7 +171,7 @@ class FormError(ValueError):
 
 
 def guess(contents: FileContents) -> dict[str, str]:
-    """Return the first values of the form: the facts of the file; the rest is not known."""
+    """Return the first values of the form: facts of the file, and NOT_KNOWN for all others."""
     speed = contents.shaft_speed
     return {
         "speed": FILE if speed is not None and speed.taken else NOT_KNOWN,
@@ -182,38 +182,38 @@ def guess(contents: FileContents) -> dict[str, str]:
     }
 
 
-def kept_answers(first: Mapping[str, str], given: Mapping[str, str]) -> dict[str, str]:
-    """Answers that were `given` for the file before, where `first`, those of this file, lack them.
+def kept_answers(first: Mapping[str, str], before: Mapping[str, str]) -> dict[str, str]:
+    """Return the answers for the file `before` that the `first` ones of this file lack.
 
     >>> kept_answers({"bearing": "", "speed": "file"}, {"speed": "given", "shaft_speed": "25"})
     {}
     """
-    silent = [name for name in GROUPS if first[name] == NOT_KNOWN and name in given]
-    return {field: given[field] for name in silent for field in GROUPS[name]}
+    missing = [name for name in GROUPS if first[name] == NOT_KNOWN and name in before]
+    return {field: before[field] for name in missing for field in GROUPS[name]}
 
 
 def _bearing(contents: FileContents) -> dict[str, str]:
-    """The first values of the bearing and of its frequencies.
+    """Return the first values of the bearing and of its frequencies.
 
-    Frequencies that the file states go before those of the collection that it belongs to.
+    Frequencies that the file states take precedence over those of the file's collection.
     """
     texts = dict.fromkeys(FREQUENCIES, "")
     stated, speed, listed = contents.frequencies, contents.shaft_speed, contents.bearing
     if {"bpfo", "bpfi"} <= set(stated):
         texts |= {name: f"{value:.6g} Hz" for name, value in stated.items()}
-        if listed is None or speed is None or not _agree(listed.value, stated, speed.value):
+        if listed is None or speed is None or not _matches(listed.value, stated, speed.value):
             return {"bearing": BY_FREQUENCIES, **texts}
     named = contents.designation
     if listed is None and named is not None:
         try:
             find_bearing(named.value)
-        except ValueError:  # a number of another thing, or a bearing that is not in the table
+        except ValueError:  # the text names no bearing, or one that is not in the table
             return {"bearing": NOT_KNOWN, **texts}
         return {"bearing": BY_DESIGNATION, "designation": named.value, **texts}
     return {"bearing": NOT_KNOWN if listed is None else listed.value, **texts}
 
 
-def _agree(name: str, stated: Mapping[str, float], speed: float) -> bool:
+def _matches(name: str, stated: Mapping[str, float], speed: float) -> bool:
     """True where a listed bearing has the `stated` frequencies [Hz] at a speed [rad/s]."""
     bearing = find_bearing(name).bearing
     computed = {"bpfo": bearing.bpfo(speed), "bpfi": bearing.bpfi(speed)}
@@ -221,7 +221,7 @@ def _agree(name: str, stated: Mapping[str, float], speed: float) -> bool:
 
 
 def speed_text(speed: Finding[float]) -> str:
-    """Text of a speed: in rpm where the file has it so, else in Hz."""
+    """Write a speed in rpm if the file has it in rpm, otherwise in Hz."""
     if speed.file_unit == "rpm":
         return f"{speed.in_file_unit:.6g} rpm"
     return f"{speed.value / (2.0 * math.pi):.6g} Hz"
@@ -233,7 +233,7 @@ def read_machine(
     contents: FileContents,
     scene: Machine,
 ) -> Machine:
-    """The machine that a form describes; `FormError` with sentences where it describes none.
+    """Return the machine that a form describes; `FormError` with sentences if it describes none.
 
     Parameters
     ----------
@@ -244,7 +244,7 @@ def read_machine(
     contents
         contents of the file.
     scene
-        bearing and speed of the scene, see `scene_machine`: used only where the form says so.
+        bearing and speed of the scene, see `scene_machine`: used only where the form chooses them.
     """
     speed, ratio = _speed_in(texts, contents, scene), _ratio_in(texts)
     speed = None if speed is None else ratio * speed
@@ -256,7 +256,7 @@ def read_machine(
     if source == GIVEN and all(texts[field] == first[field] for field in GROUPS["bearing"]):
         source = FILE
         if not contents.frequencies and not texts["designation"]:
-            guessed.add("bearing")  # that of the collection to which the file seems to belong
+            guessed.add("bearing")  # the collection to which the file seems to belong has it
     return Machine(
         speed, bearing, texts["speed"], source, name, frozenset(guessed),
         by_frequencies=texts["bearing"] == BY_FREQUENCIES, unread=unread, ratio=ratio,
@@ -264,7 +264,7 @@ def read_machine(
 
 
 def _speed_in(texts: Mapping[str, str], contents: FileContents, scene: Machine) -> float | None:
-    """The shaft speed [rad/s] of a form; None where it is not known, or not typed yet."""
+    """Return the shaft speed [rad/s] of a form; None where it is not known, or not typed yet."""
     source, text = texts["speed"], texts["shaft_speed"]
     if source == FILE and contents.shaft_speed is not None:
         return contents.shaft_speed.value
@@ -279,7 +279,7 @@ def _speed_in(texts: Mapping[str, str], contents: FileContents, scene: Machine) 
 
 
 def _ratio_in(texts: Mapping[str, str]) -> float:
-    """The gear ratio of a form; 1 where none is typed, or the speed is that of the bearing."""
+    """Return the gear ratio of a form; 1 if none is typed, or none applies to the speed."""
     if not texts["ratio"] or texts["speed"] not in MEASURED:
         return 1.0
     try:
@@ -289,14 +289,14 @@ def _ratio_in(texts: Mapping[str, str]) -> float:
 
 
 def read_ratio(text: str) -> float:
-    """Turns of the bearing's shaft for each turn of the measured one.
+    """Read the turns of the bearing's shaft for each turn of the measured shaft.
 
     >>> read_ratio("0.657"), read_ratio("23/46"), read_ratio("2 : 1")
     (0.657, 0.5, 2.0)
     """
     words, (least, most) = "The gear ratio", RATIOS
-    over, _, under = text.replace(":", "/").partition("/")
-    ratio = number_of(over, words, "", 1e-3, 1e6) / number_of(under or "1", words, "", 1e-3, 1e6)
+    top, _, bottom = text.replace(":", "/").partition("/")
+    ratio = number_of(top, words, "", 1e-3, 1e6) / number_of(bottom or "1", words, "", 1e-3, 1e6)
     if not least <= ratio <= most:
         raise ValueError(f"{words} is {number(ratio, 4)}; possible: {span(least, most, 'times')}.")
     return ratio
@@ -305,7 +305,7 @@ def read_ratio(text: str) -> float:
 def _bearing_in(
     texts: Mapping[str, str], speed: float | None, scene: Machine
 ) -> tuple[Bearing | None, str, str, str]:
-    """The bearing of a form, its name, its source, and the letters of the name with no meaning."""
+    """The bearing of a form, its name, its source, and letters of the name that are not read."""
     name = texts["bearing"]
     try:
         if name == SCENE:
@@ -328,7 +328,7 @@ def _bearing_in(
 
 
 def _bearing_by_frequencies(texts: Mapping[str, str], turns: float | None) -> Bearing | None:
-    """The bearing with the typed frequencies; `turns` are those of the shaft per second, or None.
+    """Return the bearing with the typed frequencies; `turns` of the shaft per second, or None.
 
     None until two frequencies are typed. ValueError where no bearing can have them.
     """
@@ -340,7 +340,7 @@ def _bearing_by_frequencies(texts: Mapping[str, str], turns: float | None) -> Be
 
 
 def _order(name: str, text: str, turns: float | None) -> float:
-    """Order of a frequency, in turns of the shaft, out of "81.1 Hz" or "3.245 x"."""
+    """Return the order of a frequency, in turns of the shaft, from "81.1 Hz" or "3.245 x"."""
     bare = re.sub(r"\s*(x|×|orders?)$", "", text.lower())
     least, most = 1e-3, 1e5
     if bare != text.lower():

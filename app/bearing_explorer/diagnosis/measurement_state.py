@@ -40,33 +40,33 @@ class MeasurementState:
     columns: ShownColumns | None = None
     values: dict[str, str] = field(default_factory=dict)
     refused: dict[str, str] = field(default_factory=dict)
-    #: why the fields are filled in as they are
+    #: reasons for the values of the fields
     reasons: dict[str, str] = field(default_factory=dict)
     #: fields that a person has to answer: before the signal is taken, or before it has a size
     open: list[str] = field(default_factory=list)
-    #: the unit that is likely where the file does not say it, "" where none is; None if it does
+    #: the likely unit, "" where none is likely; None if the file states the unit
     proposed: str | None = None
     #: other numbers and words of the file
-    said: str = ""
+    facts: str = ""
     #: [N] in the file, None where it has none
     load: float | None = None
     scaled: bool = False
-    #: whether the sensitivity of a sensor is needed
+    #: True if the signal is in volts, so that the sensitivity of the sensor is needed
     voltage: bool = False
     #: bearings to choose from, as [value, words, heading], and answers on the speed
     bearings: list[list[str]] = field(default_factory=list)
     #: recordings in the file, as [value, words], where there are several
     recordings: list[list[str]] = field(default_factory=list)
     speeds: list[list[str]] = field(default_factory=list)
-    #: whether changed answers are still being read
+    #: True while changed answers are being read
     settling: bool = False
-    #: the file before, where bearing or speed are those that a person gave for that
+    #: name of the file before, if bearing or speed are kept from it
     kept_from: str = ""
-    #: the signal in a line, as it is drawn; a guess has a question mark. Empty without a signal
+    #: the drawn signal in a line; a guess has a question mark. Empty without a signal
     line: str = ""
-    #: the whole name of its file, where the line has less of it
+    #: the whole name of its file, if the line shortens it
     whole_name: str = ""
-    #: what is odd about the signal; empty where nothing is
+    #: sentences on oddities of the signal
     remarks: str = ""
     #: number of the file or simulation that is shown
     arrival: int = 0
@@ -89,13 +89,13 @@ def about_size(sizes: Mapping[str, str]) -> str:
 def _known_fields(table: Table, form: Mapping[str, str], first: Mapping[str, str]) -> set[str]:
     """Fields that the file says itself, or that a person has answered."""
     contents = table.contents
-    said = {"unit": contents.unit, "sample_rate": contents.sample_rate}
-    sure = {name for name, finding in said.items() if finding is not None and finding.stated}
+    findings = {"unit": contents.unit, "sample_rate": contents.sample_rate}
+    sure = {name for name, finding in findings.items() if finding is not None and finding.stated}
     return sure | {name for name in form if form[name] != first.get(name)}
 
 
 def name_of(measured: Measured, name: str = "") -> str:
-    """The recording's name, or a shorter `name`, and which it is of several in the file."""
+    """The recording's name, or a shorter `name`, and its place among several in the file."""
     which = "" if measured.origin is None else measured.origin.which
     return ", ".join(filter(None, (name or measured.recording.name, which)))
 
@@ -113,8 +113,8 @@ def summary(measured: Measured | None) -> str:
     if machine.bearing is None or machine.shaft_speed is None:
         return f"{words}."
     passes = recording.duration * machine.bearing.bpfo(machine.shaft_speed)
-    pass_ = "ball passes" if round(passes) == 1 else "balls pass"
-    return f"{words}, {thousands(passes)} {pass_} a point of the outer race."
+    verb = "ball passes" if round(passes) == 1 else "balls pass"
+    return f"{words}, {thousands(passes)} {verb} a point of the outer race."
 
 
 def line_and_remarks(
@@ -124,10 +124,10 @@ def line_and_remarks(
     first: Mapping[str, str],
     cut: str,
 ) -> dict[str, str]:
-    """The signal in a line, and what is odd about it.
+    """The signal in a line, and its oddities in sentences.
 
-    `form` is as answered, `first` as the file filled it in; `cut` says what was left out of the
-    file.
+    `form` has the answers, `first` the values from the file; `cut` is the sentence on rows that
+    were left out.
     """
     if measured is None:
         return {"line": "", "whole_name": "", "remarks": ""}
@@ -149,11 +149,7 @@ def line_and_remarks(
         "bearing": machine.bearing_name
         or ("bearing" if machine.bearing is None else "the scene's bearing"),
     }
-    asked = (
-        {name for name in ("unit", "sample_rate") if name not in sure}
-        | machine.guessed
-        | machine.kept
-    )
+    asked = machine.guessed | machine.kept | ({"unit", "sample_rate"} - sure)
     asked |= {"speed"} if machine.shaft_speed is None else set()
     asked |= {"bearing"} if machine.bearing is None else set()
     words = [text + "?" * (name in asked) for name, text in facts.items()]

@@ -1,4 +1,4 @@
-"""The scene as the model of a measured machine: what views of a signal draw besides the signal."""
+"""The scene as the model of a measured machine, which views draw besides the signal."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ WANTED = "An answer is missing: see step 1"
 
 @dataclass(frozen=True)
 class Model(SceneContent):
-    """All that views of a signal draw at one moment: the scene, and whether a slider moves it.
+    """Content of the views of a signal at one moment: the scene, and whether a slider moves it.
 
     `at_work` says what is under way with the signal; `mark` is the number of the newest change.
     """

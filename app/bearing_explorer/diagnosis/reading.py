@@ -1,4 +1,4 @@
-"""A file read as a signal: with guesses at what it holds, or with the answers of a person.
+"""Reading a file as a signal, with guesses at its contents or with the answers of a person.
 
 For any thread: nothing here knows a session.
 """
@@ -58,7 +58,7 @@ class Arrival:
 
     @property
     def which(self) -> str:
-        """Sentences on left-out rows; for several files also on the shown and the left-out ones."""
+        """Sentences on left-out rows; for several files, also on the shown and on left-out ones."""
         if self.newest is None:
             return ""
         words, count = [self.newest.cut], len(self.series.tables)
@@ -73,10 +73,10 @@ class Arrival:
     def take(self, name: str, read: Read | str, inside: int = 1) -> None:
         """Take a file that was read, or the reason why not; a zip has several files `inside`."""
         if inside > 1 and self.count == 1 and not self.series.together:
-            self.series = Series(together=True)  # of the files in a zip
+            self.series = Series(together=True)  # the files of a zip
         if isinstance(read, str):
             sentence = read if name in read else f"{name}: {read}"
-            self.series, self.why = self.series.without(sentence), self.why or sentence
+            self.series, self.why = self.series.leave_out(sentence), self.why or sentence
         else:
             self.series = self.series.with_table(read.table, self.count * inside)
             if self.newest is None or read.recorded >= self.newest.recorded:
@@ -94,15 +94,15 @@ class Read:
     first
         the form as the file alone fills it in.
     form
-        the form as it is answered.
+        the form with the answers.
     signal
         None where the form describes none.
     refused
         sentences on answers that cannot be, by field.
     cut
-        a sentence on rows that were left out.
+        sentence on rows that were left out.
     kept
-        answers for the file before that the form has besides.
+        answers for the file before that the form takes over.
     """
 
     table: Table
@@ -137,16 +137,16 @@ def read_files(
     kept: Mapping[str, str],
     give_up: Callable[[], bool],
 ) -> Iterator[tuple[str, Read | str, int]]:
-    """All files in a zip, or the one that it is: each as `read_file` has it, or why not.
+    """Read all files of a zip, or a single file.
 
-    With each comes how many they are.
-
-    Once `give_up` says so the rest is not read, and the process that reads ends.
+    Yields for each file its name, what `read_file` returns or a sentence why it cannot be read, and
+    the number of files. Once `give_up()` is True, the rest is not read, and the reading process
+    ends.
     """
     try:
         names = files_inside(name, content, give_up)[:MOST_FILES]
     except ValueError:
-        names = [name]  # which says why
+        names = [name]  # reading it gives the reason
     for file in names:
         if give_up():
             why = f"{file} was not read: there is a minute for all files of an upload."
@@ -170,9 +170,9 @@ def read_file(
     kept: Mapping[str, str] = MappingProxyType({}),
     give_up: Callable[[], bool] | None = None,
 ) -> Read:
-    """A file with guesses at what it holds. For any thread; ValueError with a sentence.
+    """Read a file and guess at its contents. For any thread; ValueError with a sentence.
 
-    `kept`: answers on the machine for the file before, used where this one says nothing.
+    `kept`: answers on the machine for the file before, used where this file states nothing.
     """
     try:
         whole = read_table(name, content, give_up)
@@ -181,25 +181,25 @@ def read_file(
             count, of = (thousands(len(rows.columns)) for rows in (table, whole))
             words = f"Only the first {count} of {of} rows are used."
     except FieldError as error:
-        about = error.field == "file" and error.value == name
-        why = f"needed is {error.allowed_text}" if about else str(error)
+        names_file = error.field == "file" and error.value == name
+        why = f"needed is {error.allowed_text}" if names_file else str(error)
         raise ValueError(f"{name} cannot be used: {why}.") from None
     except ValueError as error:
         raise ValueError(f"{name} cannot be used: {error}.") from None
     except MemoryError:
         raise ValueError(f"{name} is too large for this server.") from None
-    return _proposed(table, words, scene, kept)
+    return _propose(table, words, scene, kept)
 
 
-def _proposed(table: Table, rows_cut: str, scene: Machine, kept: Mapping[str, str]) -> Read:
-    """A table with guesses at what it holds; `rows_cut` says which rows were left out."""
+def _propose(table: Table, rows_cut: str, scene: Machine, kept: Mapping[str, str]) -> Read:
+    """Read a table with guesses at its contents; `rows_cut` says which rows were left out."""
     _, first = fill(table, {})
     kept = kept_answers(first, kept)
     form = {**first, **kept}
-    signal, refused = _described(table, form, scene)
+    signal, refused = _signal_or_reasons(table, form, scene)
     if refused and set(refused) <= set(MACHINE_FIELDS):
-        # the signal is one, whatever the file says of its bearing
-        signal, more = _described(table, {**form, "bearing": NOT_KNOWN}, scene)
+        # the file is a signal even if its statement on the bearing cannot be used
+        signal, more = _signal_or_reasons(table, {**form, "bearing": NOT_KNOWN}, scene)
         refused = refused | more
     if signal is None and not usable(table):
         raise ValueError(f"{table.name} cannot be used. {' '.join(refused.values())}")
@@ -207,19 +207,19 @@ def _proposed(table: Table, rows_cut: str, scene: Machine, kept: Mapping[str, st
 
 
 def read_answers(table: Table, changed: Mapping[str, str], scene: Machine) -> Read:
-    """A table with answers of a person in place of guesses."""
+    """Read a table with answers of a person in place of guesses."""
     _, first = fill(table, {})
     try:
         table, form = fill(table, changed)
     except FormError as error:
         return Read(table, first, {**first, **changed}, None, error.sentences)
-    return Read(table, fill(table, {})[1], form, *_described(table, form, scene))
+    return Read(table, fill(table, {})[1], form, *_signal_or_reasons(table, form, scene))
 
 
-def _described(
+def _signal_or_reasons(
     table: Table, form: Mapping[str, str], scene: Machine
 ) -> tuple[Measured | None, dict[str, str]]:
-    """The signal that a form describes, or None and the sentences why it describes none."""
+    """The signal that a form describes; or None, with the sentences why it describes none."""
     try:
         return read_form(table, form, scene), {}
     except FormError as error:

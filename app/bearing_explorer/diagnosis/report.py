@@ -1,6 +1,6 @@
 """One A4 page on a measured signal: the answer, the pictures behind it, all assumptions.
 
-Finished by the browser as a report of a scene is, see `report`.
+The browser finishes it, as it finishes the report of a scene; see `report`.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from bearing_explorer.diagnosis.views.measured_kurtogram import MeasuredKurtogra
 from bearing_explorer.diagnosis.views.measured_spectrum import MeasuredSpectrum
 from bearing_explorer.diagnosis.views.measurement import MeasuredSignal
 from bearing_explorer.diagnosis.views.next_steps import steps_now
-from bearing_explorer.diagnosis.views.trend import TrendOfFiles, words_on
+from bearing_explorer.diagnosis.views.trend import TrendOfFiles, trend_words
 from bearing_explorer.diagnosis.views.which_length import WhichLength
 from bearing_explorer.diagnosis.widgets.part_panel import part_html
 from bearing_explorer.kit.assets import asset_text
@@ -69,7 +69,7 @@ NO_SIZE = "The level of the vibration is not known, as the unit of the signal is
 def _drawings(
     model: Model, measurement: Measurement, job_results: Mapping[str, Any], with_extent: bool
 ) -> tuple[list[str], list[Any], list[str]]:
-    """Figures that show something: names in the page, what the browser draws, and HTML."""
+    """Draw the figures that show something: their ids, their Bokeh items, and their HTML."""
     drawn: list[str] = []
     items: list[Any] = []
     figures: list[str] = []
@@ -87,7 +87,7 @@ def _drawings(
             continue
         if not any(column.size for columns in data.values() for column in columns.values()):
             continue
-        # the trend is in words above
+        # the report words the trend above
         caption = "" if view is TrendOfFiles else html_text(figure.sentence)
         drawn.append(first.id)
         items.append(json_item(figure.layout))
@@ -101,7 +101,7 @@ def _drawings(
 
 
 def _prepare(view: Any, measurement: Measurement) -> None:
-    """Have a view draw the signal, as high as in the report: places of names follow from that."""
+    """Have a view draw the signal with the report's height, on which the places of names depend."""
     view.measure(measurement)
     for plot in view.figures:
         plot.height = plot.min_height = plot.max_height = HEIGHT
@@ -113,12 +113,12 @@ def measured_report(
     job_results: Mapping[str, Any],
     about: About,
 ) -> dict[str, Any]:
-    """The page for the browser to finish. For any thread: it touches no models of the page.
+    """Return the report for the browser to finish. For any thread: no model of the page is touched.
 
     Parameters
     ----------
     measurement
-        a copy, see `Measurement.snapshot`.
+        copy of the session's measurement, see `Measurement.snapshot`.
     job_results
         results of jobs, by view.
 
@@ -149,7 +149,7 @@ def measured_report(
         SCENE not in (machine.bearing_source, machine.speed_source)
         and not question.measured.true_part
     ):
-        about = replace(about, link="")  # of a scene that has nothing to do with the signal
+        about = replace(about, link="")  # its scene has nothing to do with the signal
     steps = steps_now(measurement, question, answer, question.measured.shaft_share)
     body = [
         *heading(about, title),
@@ -189,11 +189,11 @@ def findings(
     level = "not known: " + why
     if not why:
         low, high = measured.indicators.band
-        most = 1e3 * float(measured.indicators.velocity_rms.max())
-        moved = 1e6 * float(measured.indicators.displacement_rms.max())
+        velocity = 1e3 * float(measured.indicators.velocity_rms.max())
+        displacement = 1e6 * float(measured.indicators.displacement_rms.max())
         level = (
-            f"velocity {number(most, 3)} mm/s and displacement {number(moved, 3)} µm RMS, "
-            f"{low:.0f} to {high:.0f} Hz"
+            f"velocity {number(velocity, 3)} mm/s and displacement {number(displacement, 3)} µm "
+            f"RMS, {low:.0f} to {high:.0f} Hz"
         )
         if math.isfinite(share := measured.shaft_share):
             level += f", {percent(share, 2)} of the velocity's power at 1 to 3 turns of the shaft"
@@ -206,7 +206,7 @@ def findings(
     grown = "one record shows none"
     whole = measurement.whole_trend
     if whole is not None and len(whole.points) > 1:
-        grown = words_on(whole, measured.in_si, measured.along(whole.direction))
+        grown = trend_words(whole, measured.in_si, measured.along(whole.direction))
     elif files > 1 and measurement.series.together:
         done = 0 if trend is None else len(trend.trend.points)
         grown = f"not finished: {done} of {files} files are done; make the report again then"
@@ -224,17 +224,17 @@ def _escaped(rows: Iterable[Iterable[str]]) -> Iterable[list[str]]:
 def assumptions(
     question: Question, answer: Diagnosis, measurement: Measurement, kind: str = ""
 ) -> list[tuple[str, str, str]]:
-    """Assumptions of the answer: name, value, and whether that is given, from the file, ..."""
+    """Assumptions of the answer: name, value and source (given, from the file, ...)."""
     measured, bearing = question.measured, question.bearing
     machine, recording = measured.machine, measured.recording
     values = measurement.state.values
-    given = dict(part_words.facts(answer, question))
+    facts = dict(part_words.facts(answer, question))
     for name, source in (
         ("Shaft", machine.source_of("speed")), ("Bearing", machine.source_of("bearing")),
         ("Slip", "assumed"), ("Demodulation band", "chosen"),
     ):  # fmt: skip
-        if source and name in given:  # it stands in a column of its own
-            given[name] = given[name].replace(f", {source}", "", 1)
+        if source and name in facts:  # the source has a column of its own
+            facts[name] = facts[name].replace(f", {source}", "", 1)
     load = measured.true_load or measurement.state.load
     typed = [f"{name.upper()} {values[name]}" for name in FREQUENCIES if values.get(name)]
     clearance = with_prefix(bearing.radial_clearance, "m")
@@ -247,10 +247,10 @@ def assumptions(
         ("Sampling rate", with_prefix(recording.sample_rate, "Hz", 4),
          origin_of(measurement, "sample_rate")),
         ("Unit", values.get("unit", "m/s²") or "not known", origin_of(measurement, "unit")),
-        ("Shaft", given["Shaft"],
+        ("Shaft", facts["Shaft"],
          "Found" if unknown else machine.source_of("speed").capitalize()),
-        ("Slip", given["Slip"], "Assumed"),
-        ("Bearing", given["Bearing"], machine.source_of("bearing").capitalize()),
+        ("Slip", facts["Slip"], "Assumed"),
+        ("Bearing", facts["Bearing"], machine.source_of("bearing").capitalize()),
         ("Its frequencies", ", ".join(typed) or "from its dimensions",
          machine.source_of("bearing").capitalize() if typed
          else "Estimated" if machine.bearing and machine.bearing.estimated else "Computed"),
@@ -260,7 +260,7 @@ def assumptions(
          "Assumed" if load is None else made if measured.true_load else "From the file"),
         ("Radial clearance", f"{clearance}, used for the extent",
          made if measured.true_edge else "Assumed: usual of the bearing"),
-        ("Demodulation band", given.get("Demodulation band", "none"), "Chosen"),
+        ("Demodulation band", facts.get("Demodulation band", "none"), "Chosen"),
     ]  # fmt: skip
 
 

@@ -24,7 +24,7 @@ ROOM_FOR = 8
 
 
 def cut(table: Table, most: int) -> Table:
-    """Return a table whose last rows are left out where it holds more numbers than that."""
+    """Return the table with at most `most` numbers; its last rows are left out."""
     rows = most // table.columns.shape[1]
     if len(table.columns) <= rows:
         return table
@@ -58,7 +58,7 @@ class Series:
             tables.pop(0)
         return dataclasses.replace(self, tables=tuple(tables))
 
-    def without(self, sentence: str) -> Series:
+    def leave_out(self, sentence: str) -> Series:
         """Return the series with a sentence on a file that could not be read."""
         return dataclasses.replace(self, left_out=(*self.left_out, sentence))
 
@@ -73,7 +73,7 @@ class SeriesRecordings:
 
 
 @dataclass(frozen=True, eq=False)
-class FoundTrend:
+class ComputedTrend:
     """A trend, and the files and the shown signal that it was computed from."""
 
     trend: Trend
@@ -105,13 +105,13 @@ def recordings_of(
     """
     if not series.tables:
         return SeriesRecordings((shown.recording,), (shown.origin,), ())
-    read: list[tuple[Recording, Origin | None]] = []
+    pairs: list[tuple[Recording, Origin | None]] = []
     left_out = list(series.left_out)
     families = {table.name: (Path(table.name).suffix, *table.names) for table in series.tables}
     family = families.get(shown.recording.name)
-    for_others = {name: text for name, text in changed.items() if name not in ("unit", "columns")}
+    general = {name: text for name, text in changed.items() if name not in ("unit", "columns")}
     for table in series.tables:
-        answers = dict(changed if families[table.name] == family else for_others)
+        answers = dict(changed if families[table.name] == family else general)
         if table.name != shown.recording.name:
             answers.pop("part", None)
         try:
@@ -128,9 +128,9 @@ def recordings_of(
         else:
             speed = answer.machine.exact_speed
             recording = dataclasses.replace(answer.recording, shaft_speed=speed)
-            read.append((recording, answer.origin))
-    dates = {id(recording): recording.recorded for recording, _ in read}
+            pairs.append((recording, answer.origin))
+    dates = {id(recording): recording.recorded for recording, _ in pairs}
     if None not in dates.values():
-        read.sort(key=lambda pair: dates[id(pair[0])] or datetime.min)
-    recordings, origins = zip(*read, strict=True) if read else ((), ())
+        pairs.sort(key=lambda pair: dates[id(pair[0])] or datetime.min)
+    recordings, origins = zip(*pairs, strict=True) if pairs else ((), ())
     return SeriesRecordings(recordings, origins, tuple(left_out))

@@ -1,10 +1,10 @@
 """The measured signal of a session: an uploaded file, or a simulated measurement.
 
-`signal_form` holds the signal, takes the answers of a person and computes in the background;
-`session` lets files in. Beside them `reading` reads a file, `simulated` makes one, and
-`measurement_state` has the words that are shown. None holds a Panel, none draws. A file comes in
-pieces, is read in a thread of its own, and opens a form with questions; its faults are sentences,
-and the signal before it stays.
+`SignalForm` holds the signal and the answers of a person, and computes in the background;
+`Measurement` here adds uploads and simulations. `reading` reads a file, `simulated` makes a signal,
+and `measurement_state` has the words that are shown. None of them uses Panel or draws. A file
+arrives in pieces, is read in a thread of its own, and opens a form with questions. If it cannot be
+read, a sentence says why, and the signal before it stays.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from bearing_explorer.kit.simulated_signals import NOISES
 from bearingcore import Scene
 
 RECORDS = {"motor-a.csv": "Motor A", "motor-b.csv": "Motor B"}
-"""Records that come along, and their names. Another program made them, by closed forms."""
+"""Records that come with the program, and their names; another program made them in closed form."""
 
 
 class Measurement(SignalForm):
@@ -34,8 +34,8 @@ class Measurement(SignalForm):
     Call its methods on the event loop of the session. See `SignalForm` for the parameters.
     """
 
-    #: called with the first byte of the next piece of a file; the number `of` comes back with the
-    #: piece, by which files are kept apart
+    #: asks the browser for the piece of a file that begins at a byte; the number of the upload
+    #: comes back with the piece
     want: Callable[[int, int], None] = staticmethod(lambda begin, of: None)
     #: called when the next of several files may come
     more: Callable[[], None] = staticmethod(lambda: None)
@@ -56,21 +56,21 @@ class Measurement(SignalForm):
         count: int = 1,
         chosen: int = 1,
     ) -> None:
-        """A file is about to come, so long [bytes]; the `number`th of `count`, see `UploadBegins`.
+        """Begin an upload of `size` bytes, the `number`th of `count`; see `UploadBegins`.
 
-        The last of several that can be read is the one that is shown.
+        Of several files, the newest that can be read is shown.
         """
         if self._ended:
             return
         if number == 1:
             self._jobs.drop(READING)
-            # a file that comes alone is a series with those before it
+            # a single file joins the series of the files before it
             several = 1 < count <= MOST_FILES
             series = Series(together=True) if several else replace(self.series, together=False)
             self._arrival = Arrival(count if several else 1, chosen, series)
         arrival = self._arrival
         if arrival is None or number not in (1, arrival.number + 1):
-            return  # of files that were given up
+            return  # it belongs to an upload that was cancelled
         self._uploads += 1
         arrival.number = number
         try:
@@ -81,7 +81,7 @@ class Measurement(SignalForm):
             self._take_next(arrival)
         else:
             words = f"Uploading {arrival.words}{self._upload.name} …"
-            self._tell(words=words, bad=False, busy=True)
+            self._update(words=words, bad=False, busy=True)
             self.want(0, self._uploads)
 
     def cancel(self) -> None:
@@ -89,10 +89,10 @@ class Measurement(SignalForm):
         self._jobs.drop(READING)
         self._uploads += 1
         self._upload = self._arrival = None
-        self._tell(words=f"Cancelled.{self._what_stays()}", bad=False, busy=False)
+        self._update(words=f"Cancelled.{self._what_stays()}", bad=False, busy=False)
 
     def take_piece(self, content: bytes, of: int) -> None:
-        """A piece of the file of the upload with the number `of`."""
+        """Take a piece of the upload with the number `of`."""
         upload, arrival = self._upload, self._arrival
         if upload is None or arrival is None or of != self._uploads:
             return
@@ -118,7 +118,7 @@ class Measurement(SignalForm):
         self._read_content(name, asset_path(f"samples/{name}").read_bytes(), self._arrival)
 
     def _read_content(self, file: str, content: bytes, arrival: Arrival) -> None:
-        self._tell(words=f"Reading {arrival.words}{file} …", bad=False, busy=True)
+        self._update(words=f"Reading {arrival.words}{file} …", bad=False, busy=True)
         scene, kept = self._scene, self._given_machine
         arrival.lines = first_lines(content) if arrival.count == 1 else ""
 
@@ -132,7 +132,7 @@ class Measurement(SignalForm):
         self._read(read, self._take_next)
 
     def _take_next(self, arrival: Arrival) -> None:
-        """Ask for the next file, or take what came of all of them."""
+        """Ask for the next file; after the last one, show the newest file that could be read."""
         if arrival.number < arrival.count:
             self.more()
             return
@@ -145,11 +145,11 @@ class Measurement(SignalForm):
         self._take_read(replace(arrival.newest, cut=arrival.which))
 
     def recordings(self, shown: Measured, direction: str) -> SeriesRecordings:
-        """The recordings of the series; for any thread."""
+        """Return the recordings of the series. For any thread."""
         changed = {name: text for name, text in self._changed.items() if name not in self._kept}
         return recordings_of(self.series, shown, changed, self._kept, direction, self._scene)
 
-    # Simulated ones
+    # Simulated signals
 
     def simulate(self, noise: str) -> None:
         """Simulate a measurement of the scene; `noise` is a key of NOISES."""
@@ -158,7 +158,7 @@ class Measurement(SignalForm):
         self._upload = self._arrival = None
         self._simulations += 1
         seed, scene = self._simulations, self._scene_now()
-        self._tell(words="Simulating a measurement.", bad=False, busy=True)
+        self._update(words="Simulating a measurement.", bad=False, busy=True)
 
         def make(work: Work) -> str:
             work.show(simulated(scene, NOISES[noise], seed))
@@ -169,16 +169,16 @@ class Measurement(SignalForm):
     def _take_simulated(self, measured: Measured) -> None:
         self._table, self._cut, self.measured = None, "", measured
         self.state = MeasurementState(arrival=self.state.arrival + 1)
-        self._tell(words=self._summary(), **self._in_short({}))
+        self._update(words=self._summary(), **self._in_short({}))
         self._draw()
 
 
 def measurement_of(measured: Measured | None, scene: Scene) -> Measurement:
-    """A measurement outside of a session: of a signal that is there already, or of nothing."""
+    """Return a measurement outside of a session, with a signal or without one."""
 
     async def assign(change: Change) -> None:
         change()
 
-    made = Measurement(lambda: scene, Jobs(assign), lambda: None)
-    made.measured = measured
-    return made
+    measurement = Measurement(lambda: scene, Jobs(assign), lambda: None)
+    measurement.measured = measured
+    return measurement

@@ -1,6 +1,7 @@
 """A measured signal: its spectra and envelopes, computed when first used.
 
-All drawings of a measurement take their numbers here, as those of a scene do in `results.results`.
+All drawings of a measurement take their numbers from here, as drawings of a scene take theirs from
+`results.results`.
 """
 
 from __future__ import annotations
@@ -151,7 +152,7 @@ class Measured:
         )
 
     def once(self, key: tuple[Any, ...], compute: Callable[[], Any]) -> Any:
-        """Compute a result that is not kept yet; of more than `MOST_KEPT` the oldest goes."""
+        """Return a kept result, or compute and keep it; beyond `MOST_KEPT` the oldest goes."""
         result = self._known.get(key)
         if result is None:
             result = compute()

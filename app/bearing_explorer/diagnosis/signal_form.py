@@ -1,6 +1,6 @@
 """The current signal of a session, the answers of a person, and the known facts on it.
 
-Holds no Panel and draws nothing.
+Nothing here uses Panel or draws.
 """
 
 from __future__ import annotations
@@ -11,21 +11,21 @@ from dataclasses import replace
 from types import MappingProxyType
 from typing import Any, Self
 
-from bearing_explorer.diagnosis.diagnoses import Answers, Question, answered, extent_of
+from bearing_explorer.diagnosis.diagnoses import Answers, Question, diagnosis_of, extent_of
 from bearing_explorer.diagnosis.form import (
     SIGNAL_FIELDS,
     SIZES,
     bearings_of,
     bounded_texts,
     columns_of,
+    is_unchanged,
     is_voltage,
     load_of,
     machine_of,
+    other_facts,
     proposed_unit,
     reasons,
     recordings_of,
-    said,
-    says_the_same,
     size_questions,
     speeds_of,
 )
@@ -52,7 +52,7 @@ from bearing_explorer.diagnosis.measurement_state import (
 )
 from bearing_explorer.diagnosis.model import NOT_TAKEN, WANTED
 from bearing_explorer.diagnosis.reading import Arrival, Read, read_answers
-from bearing_explorer.diagnosis.series import FoundTrend, Series
+from bearing_explorer.diagnosis.series import ComputedTrend, Series
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.sized_defect import SizedDefect
 from bearing_explorer.kit.compute.jobs import EXTENT, PART, READING, Compute, Jobs, JobState, Work
@@ -69,9 +69,9 @@ class SignalForm:
     Parameters
     ----------
     scene
-        gives the scene that may be measured, as it is now.
+        returns the current scene, which may be measured.
     jobs
-        the background of the session.
+        the background jobs of the session.
     draw
         requests a drawing.
     """
@@ -80,12 +80,12 @@ class SignalForm:
     series = Series()
     #: words for reports
     about = AboutMeasurement()
-    #: whether there is a scene that could be simulated
+    #: True if there is a scene that can be simulated
     can_simulate = False
     _arrival: Arrival | None = None
     _as_read: Table | None = None
-    # the form as it was filled in, guesses that a person agreed to, answers that were given for the
-    # file before, and the form of the signal as it is drawn
+    # the form as the file filled it in, guesses that a person agreed to, answers that are kept from
+    # the file before, and the form of the drawn signal
     _first: Mapping[str, str] = MappingProxyType({})
     _agreed: Mapping[str, str] = MappingProxyType({})
     _kept: Mapping[str, str] = MappingProxyType({})
@@ -108,21 +108,21 @@ class SignalForm:
         self._scene_now = scene
         self._jobs = jobs
         self._draw = draw
-        #: which part is damaged, looked for in the background
-        self.diagnoses: Answers[Diagnosis] = Answers(jobs, PART, draw, answered)
-        #: how long the spall is, when that is known
+        #: diagnoses of the damaged part, computed in the background
+        self.diagnoses: Answers[Diagnosis] = Answers(jobs, PART, draw, diagnosis_of)
+        #: extents of the spall, computed in the background
         self.extents: Answers[MeasuredExtent] = Answers(jobs, EXTENT, draw, extent_of)
         #: the newest trend of files, and the kind of the machine for the zone of its vibration
-        self.trend: FoundTrend | None = None
+        self.trend: ComputedTrend | None = None
         self.machine_kind = ""
-        #: the newest choice between lengths of the spall, of whichever signal
+        #: the newest choice between lengths of the spall, for this signal or one before
         self.sized: SizedDefect | None = None
         self._scene = scene_machine(scene())
-        self._table: Table | None = None  # with the roles of its columns as they are given
+        self._table: Table | None = None  # with the current roles of its columns
         self._ended = False
 
     def stop(self) -> None:
-        """The session is over."""
+        """Drop the signal and all jobs: the session is over."""
         self._ended = True
         self._table = self.sized = self.trend = None
         self._as_read = self._arrival = None
@@ -134,9 +134,9 @@ class SignalForm:
     # What is known
 
     def question(self) -> Question | None:
-        """The newest question of which part is damaged.
+        """Return the question about the damaged part of the current signal.
 
-        None where nothing is measured, or nothing says on which bearing.
+        None without a signal, and while its bearing is not known.
         """
         measured = self.measured
         if measured is None or measured.bearing is None:
@@ -144,19 +144,19 @@ class SignalForm:
         return Question.about(measured)
 
     def diagnosis(self) -> Diagnosis | None:
-        """The answer to it, where there is one already."""
+        """Return the answer to `question`, if there is one already."""
         question = self.question()
         answer = None if question is None else self.diagnoses.of(question)
         return answer if isinstance(answer, Diagnosis) else None
 
     def extent(self) -> MeasuredExtent | None:
-        """The newest answer to how long the spall is, where there is one already."""
+        """Return the newest measured extent of the spall, if there is one already."""
         question = self.question()
         answer = None if question is None else self.extents.latest(question)
         return answer if isinstance(answer, MeasuredExtent) else None
 
     def sizing(self) -> Sizing | None:
-        """The choice between lengths of the spall, for this signal on the current machine."""
+        """Return the choice between lengths of the spall for this signal on the current machine."""
         sized = self.sized
         if sized is None or self.measured is None:
             return None
@@ -164,10 +164,10 @@ class SignalForm:
 
     @property
     def shaft_speed(self) -> float | None:
-        """Shaft speed [rad/s] that is given, or that the diagnosis shows; None without either.
+        """Shaft speed [rad/s] that is given or that the diagnosis shows; None without either.
 
-        It is not looked for without the bearing: knocks of a race repeat more clearly than turns of
-        the shaft, and would be taken for them.
+        It is not searched for without the bearing: knocks of a race repeat more clearly than turns
+        of the shaft, and would be mistaken for them.
         """
         measured = self.measured
         if measured is None:
@@ -199,32 +199,30 @@ class SignalForm:
         missing = not any(state.values.get(name) for name in state.refused)
         if not drawn and missing and (state.refused or not state.bad):
             return WANTED
-        if state.bad:  # what the form on the machine refuses stands in it
+        if state.bad:  # step 2 shows the refusals of the machine's form, step 1 all others
             return NOT_TAKEN.format(2 if state.line and set(state.refused) & set(FIELDS) else 1)
         return ""
 
     def snapshot(self) -> Self:
-        """A copy for another thread, of the signal and the answers that there are now."""
-        made = copy.copy(self)
-        made.diagnoses, made.extents = copy.copy(self.diagnoses), copy.copy(self.extents)
-        return made
+        """Return a copy of the current signal and answers for another thread."""
+        copied = copy.copy(self)
+        copied.diagnoses, copied.extents = copy.copy(self.diagnoses), copy.copy(self.extents)
+        return copied
 
-    # Saying and doing
+    # States and jobs
 
     def _refuse(self, sentence: str, lines: str = "") -> None:
-        """Say what is wrong with a file, above its first lines; the signal before it stays."""
-        self._tell(words=f"{sentence}{self._what_stays()}", bad=True, busy=False, lines=lines)
+        """Show what is wrong with a file, above its first lines; the signal before it stays."""
+        self._update(words=f"{sentence}{self._what_stays()}", bad=True, busy=False, lines=lines)
 
     def _what_stays(self) -> str:
         if self.measured is not None:
             return f" {self.measured.recording.name} stays."
-        return (
-            ""
-            if self._table is None
-            else f" The questions are still those about {self._table.name}."
-        )
+        if self._table is not None:
+            return f" The questions are still those about {self._table.name}."
+        return ""
 
-    def _tell(self, **news: Any) -> None:
+    def _update(self, **news: Any) -> None:
         before, self.state = self.at_work, replace(self.state, **{"lines": "", **news})
         self.show(self.state)
         self.show_machine(self.state)
@@ -232,7 +230,7 @@ class SignalForm:
             self._draw()
 
     def _read(self, compute: Compute, take: Callable[[Any], None]) -> None:
-        """Read something in place of what is being read; its refusal is a sentence."""
+        """Start a job that reads, in place of the current one; a failure is shown as a sentence."""
 
         def report(state: JobState) -> None:
             if state.mood == "failed":
@@ -249,25 +247,25 @@ class SignalForm:
         if now != self._scene:
             self._scene = now
             self._follow()
-        true = None if self.measured is None else self.measured.true_scene
-        remarks = EARLIER_SCENE if true not in (None, scene) else ""
-        if true is not None and self.state.remarks != remarks:
-            self._tell(remarks=remarks)
+        true_scene = None if self.measured is None else self.measured.true_scene
+        remarks = EARLIER_SCENE if true_scene not in (None, scene) else ""
+        if true_scene is not None and self.state.remarks != remarks:
+            self._update(remarks=remarks)
 
     @property
-    def trend_now(self) -> FoundTrend | None:
-        """The newest trend, where it is of the files there are now."""
+    def trend_now(self) -> ComputedTrend | None:
+        """The newest trend, if it belongs to the current files."""
         return self.trend if self.trend is not None and self.trend.series is self.series else None
 
     @property
     def whole_trend(self) -> Trend | None:
-        """The trend once all files are in it."""
+        """The trend, once it has a point for each file."""
         trend = self.trend_now
         return trend.trend if trend is not None and trend.complete else None
 
     @property
     def known_about(self) -> AboutMeasurement:
-        """Machine, point and date of the signal, as typed or as its file says them."""
+        """Machine, point and date of the signal, as typed or as its file states them."""
         typed, measured = self.about, self.measured
         if measured is None or measured.origin is None:
             return typed
@@ -282,7 +280,7 @@ class SignalForm:
         )
 
     def _follow(self) -> None:
-        """Have the machine of the signal be as the form and the scene say it now."""
+        """Update the machine of the signal from the form and the scene."""
         table, measured, values = self._table, self.measured, self.state.values
         if table is None or measured is None or self.state.settling:
             return
@@ -290,19 +288,19 @@ class SignalForm:
             return
         try:
             machine = machine_of(table, values, self._scene)
-        except FormError as error:  # frequencies in Hz that are those of no bearing at this speed
-            self._tell(words=str(error), bad=True, refused=error.sentences)
+        except FormError as error:  # no bearing has the typed frequencies [Hz] at this speed
+            self._update(words=str(error), bad=True, refused=error.sentences)
             return
         machine = self._confirmed(machine)
         if machine != measured.machine or self.state.refused:
             self.measured = replace(measured, machine=machine)
             words = self._summary(about_size(size_questions(table, values)))
-            self._tell(words=words, bad=False, refused={}, **self._in_short(values))
+            self._update(words=words, bad=False, refused={}, **self._in_short(values))
 
     def source_of(self, name: str) -> str:
         """Origin of the value of a field, in words; empty where there is no such field."""
         value = self.state.values.get(name, "")
-        if not says_the_same(name, value, self._first.get(name, "")):
+        if not is_unchanged(name, value, self._first.get(name, "")):
             kept = self.state.kept_from if self._kept.get(name) == value else ""
             return f"Assumed, kept from the file before, {kept}" if kept else "Given"
         return "" if name in self.state.open else self.state.reasons.get(name, "")
@@ -322,7 +320,7 @@ class SignalForm:
         return {field: values[field] for name in answered for field in GROUPS[name]}
 
     def _confirmed(self, machine: Machine) -> Machine:
-        """The machine, marked with what is kept from the file before and what is given."""
+        """Return the machine, marked with what is kept from the file before and what is given."""
         answered, by = self._answered, machine.bearing_source
         return replace(
             machine,
@@ -332,13 +330,13 @@ class SignalForm:
         )
 
     def _take_as_given(self, *names: str) -> None:
-        """Take the answers "bearing" or "speed", as they stand, as given for this file."""
+        """Mark the current answers "bearing" or "speed" as given for this file."""
         self._answered |= {*names}
         fields = {field for name in names for field in GROUPS[name]}
         self._kept = {name: text for name, text in self._kept.items() if name not in fields}
 
     def confirm(self, *names: str) -> None:
-        """Take the answers "bearing" or "speed" as given for this file, as a person says."""
+        """Take the answers "bearing" or "speed" for this file, because a person confirms them."""
         self._take_as_given(*names)
         self.take_form(self.state.values)
 
@@ -349,13 +347,13 @@ class SignalForm:
         """
         self.series = Series() if self._table is None else Series().with_table(self._table)
         names = [name for name in GROUPS if name in self._kept]
-        self._kept = {}  # what is typed now is given for this file, be it the same
+        self._kept = {}  # whatever is typed from now on is given for this file
         self.take_form({**self.state.values, **dict.fromkeys(names, NOT_KNOWN)})
 
     def _take_read(self, read: Read) -> None:
-        """Take a file that was read in place of the one before.
+        """Show a file that was read in place of the one before.
 
-        The figures of the one before leave with it, so that none is shown under another's name.
+        Its figures leave with the file before, so that none is shown under the name of another.
         """
         table, before = read.table, "" if self._table is None else self._table.name
         self._table = self._as_read = table
@@ -373,13 +371,13 @@ class SignalForm:
             words = f"{table.name} is read. {_WAITS} {' '.join(wanted.values())}"
             bad = bool(read.refused) and not read.asks
         kept_from = (self.state.kept_from or before) if read.kept else ""
-        self._tell(
+        self._update(
             **self._news(read, list(read.asks)) | {"kept_from": kept_from},
             words=words,
             bad=bad,
             busy=False,
             columns=columns_of(table),
-            said=said(table),
+            facts=other_facts(table),
             load=load_of(table),
             scaled=not table.full_scale_known,
             bearings=bearings_of(table),
@@ -390,10 +388,10 @@ class SignalForm:
         self._draw()
 
     def _news(self, read: Read, left: Sequence[str]) -> dict[str, Any]:
-        """The state of the form after answers; questions on the fields `left` are open."""
+        """Return the state of the form after answers; questions on the fields `left` stay open."""
         table, form = read.table, read.form
         origins = {
-            name: words if says_the_same(name, form[name], self._first[name]) else AS_GIVEN
+            name: words if is_unchanged(name, form[name], self._first[name]) else AS_GIVEN
             for name, words in reasons(table).items()
         }
         return {
@@ -410,14 +408,11 @@ class SignalForm:
         }
 
     def take_form(self, form: Mapping[str, str], sure: bool = False) -> None:
-        """An answer has changed, or a person is `sure` of the guesses.
+        """Take changed answers; with `sure`, a person also agrees to the guesses.
 
-        Open questions are settled by an answer or by agreement.
+        An answer or an agreement settles an open question.
         """
-        table = self._table
-        if self._ended or self._arrival is not None:
-            return
-        if table is None:
+        if self._ended or self._arrival is not None or self._table is None:
             return
         texts = bounded_texts(form, tuple(self.state.values))
         changed = {name: text for name, text in texts.items() if text != self._first[name]}
@@ -428,7 +423,7 @@ class SignalForm:
         self._take_as_given(
             *(name for name, fields in GROUPS.items() if any(texts[f] != before[f] for f in fields))
         )
-        self._tell(values=texts, settling=True)
+        self._update(values=texts, settling=True)
         scene, as_read = self._scene, self._as_read
         assert as_read is not None
 
@@ -443,27 +438,27 @@ class SignalForm:
         if self._table is None:
             return
         if "columns" not in read.refused:
-            # what follows from the roles of the columns follows from those of now
+            # later answers start from the current roles of the columns
             self._table, self._first = read.table, {**read.first, "columns": self._first["columns"]}
         left = [name for name in read.asks if self._is_left(name, read.form[name])]
         news = self._news(read, left)
         if read.signal is None:
             stays = " The figures still show the signal as it was before." if before else ""
-            self._tell(words=f"{' '.join(read.refused.values())}{stays}", bad=True, **news)
+            self._update(words=f"{' '.join(read.refused.values())}{stays}", bad=True, **news)
             return
         if left:
             words = " ".join(read.asks[name] for name in left)
-            self._tell(words=f"{_WAITS} {words}", bad=False, **news)
+            self._update(words=f"{_WAITS} {words}", bad=False, **news)
             return
-        same = all(read.form[name] == self._taken[name] for name in SIGNAL_FIELDS)
+        same_signal = all(read.form[name] == self._taken[name] for name in SIGNAL_FIELDS)
         self._taken = read.form
         signal = self._measured(read.signal)
-        if before is not None and same and before.machine.ratio == signal.machine.ratio:
-            # what was computed of the signal stays
+        if before is not None and same_signal and before.machine.ratio == signal.machine.ratio:
+            # keep the results that were computed from the signal
             signal = replace(before, machine=signal.machine)
         self.measured = signal
         words = self._summary(about_size(read.sizes))
-        self._tell(words=words, bad=False, busy=False, **news, **self._in_short(read.form))
+        self._update(words=words, bad=False, busy=False, **news, **self._in_short(read.form))
         self._follow()  # the scene may have changed while the form was read
         self._draw()
 
@@ -471,8 +466,8 @@ class SignalForm:
         """True where a question still has its first answer, and nobody has agreed to that."""
         return text == self._first[name] and text != self._agreed.get(name)
 
-    def _measured(self, asked: Measured) -> Measured:
-        return replace(asked, machine=self._confirmed(asked.machine))
+    def _measured(self, signal: Measured) -> Measured:
+        return replace(signal, machine=self._confirmed(signal.machine))
 
     def _summary(self, *more: str) -> str:
         notes = self.measured.recording.notes if self.measured is not None else ()

@@ -29,23 +29,23 @@ RATE = 25_600.0
 """Sample rate [Hz] of simulated measurements."""
 
 PASSES = 200.0
-"""Ball passes in one, where that is neither very short nor very long: enough to separate lines that
-are one shaft frequency apart."""
+"""Ball passes in a measurement, unless it would be too short or too long: enough to separate lines
+that are one shaft frequency apart."""
 
 SHORTEST, LONGEST = 1.0, 5.0  # [s]
 MOST_STEPS, MOST_STEPS_WITH_MASS = 400_000, 1_600_000
-"""Steps of a simulated motion: where it takes more, it is shorter."""
+"""Largest number of steps of a simulated motion; one that needs more is shortened."""
 SETTLING = 0.3  # [s] before a simulated measurement begins
 
 
 @cached
 def motion(scene: Scene, duration: float, sample_rate: float) -> Motion:
-    """A simulated motion [s], [Hz]; ValueError where there is none, or it does not end."""
+    """Simulate a motion of a duration [s] at a rate [Hz]; ValueError where there is none."""
     compiling.need(compiling.MOTION, scene)
     most = MOST_STEPS_WITH_MASS if scene.balls == WITH_MASS else MOST_STEPS
-    rate = simulate(scene, 2.0 / sample_rate, sample_rate).step_rate
-    if math.isfinite(rate) and rate > 0.0:
-        duration = min(duration, max(most / rate, 0.1))
+    step_rate = simulate(scene, 2.0 / sample_rate, sample_rate).step_rate  # of two samples
+    if math.isfinite(step_rate) and step_rate > 0.0:
+        duration = min(duration, max(most / step_rate, 0.1))
     return simulate(scene, duration, sample_rate, most_steps=MOST_STEPS_WITH_MASS)
 
 
@@ -68,7 +68,7 @@ def noise_level(
     scene
         scene that is measured.
     signal : (n, d) [m/s²]
-        what its housing does.
+        acceleration of its housing.
     columns
         columns of the scene's motion that are measured.
     noise_db
@@ -89,9 +89,9 @@ def noise_level(
 
 
 def load_on_defect(scene: Scene) -> float | None:
-    """Radial load [N] of a scene towards its defect; None where it has several, or presses none.
+    """Radial load [N] of a scene towards its defect; None with several defects, or without load.
 
-    A defect of the inner race turns through the load zone, and is met where that is loaded most.
+    A defect of the inner race turns through the load zone. There, the full load counts.
     """
     if len(scene.defects) != 1:
         return None
@@ -102,12 +102,12 @@ def load_on_defect(scene: Scene) -> float | None:
 
 
 def simulated(scene: Scene, noise_db: float, seed: int) -> Measured:
-    """A measurement of a scene as a sensor with noise would make it, its extent known.
+    """Return a measurement of a scene, as a sensor with noise would make it.
 
     Parameters
     ----------
     noise_db
-        signal over noise [dB], each direction against its own.
+        signal over noise [dB], in each direction.
 
     Raises
     ------
@@ -123,7 +123,7 @@ def simulated(scene: Scene, noise_db: float, seed: int) -> Measured:
     except ValueError as error:
         raise ValueError(sentence_of(error)) from None
     columns = [index for index, dof in enumerate(moved.dofs) if dof in ("x", "y")]
-    # not a whole number of anything: the page must find where the ball passes begin
+    # begin at a random time: the diagnosis must find out itself where the ball passes begin
     first = round((SETTLING - rng.uniform(0.0, 0.1)) * RATE)
     signal = moved.outer_acceleration[first:, columns]
     if not columns or len(signal) < 0.5 * SHORTEST * RATE or not np.isfinite(signal).all():

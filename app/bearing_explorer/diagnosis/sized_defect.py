@@ -21,7 +21,7 @@ WITHOUT_DEFECT = (
     "are needed."
 )
 CLEARLY = 1.5
-"""Times the misfit of the best length that an unlikelier one has."""
+"""Ratio of two misfits from which the length with the smaller one is likelier."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,8 +48,8 @@ class SizedDefect:
     def is_of(self, measured: Measured, scene: Scene) -> bool:
         """True for the signal that was compared, on the machine that was simulated.
 
-        A simulated signal keeps its machine. That of a file is the scene of the controls, whose
-        length of the defect does not count.
+        A simulated signal keeps its machine. The machine of a file is the scene of the controls,
+        where the length of the defect does not count.
         """
         if measured is not self.measured:
             return False
@@ -61,16 +61,16 @@ class SizedDefect:
 
 
 def machine_of(measured: Measured, scene: Scene, race: str, shaft_speed: float | None) -> Scene:
-    """The machine of a signal: its bearing, speed and damaged race, all else of a scene.
+    """The machine of a signal: its bearing, speed and damaged race; all else is from a scene.
 
     Parameters
     ----------
     scene
         with the load and the support of the machine; a simulated signal has its own.
     race
-        damaged race; empty where nothing says it, which means the race of the scene.
+        damaged race; empty where it is not known, for the race of the scene.
     shaft_speed
-        [rad/s] that is given or that the diagnosis shows; None: that of the scene.
+        [rad/s] that is given or that the diagnosis shows; None for the speed of the scene.
 
     Raises
     ------
@@ -101,7 +101,7 @@ def size_in_words(sizing: Sizing) -> str:
 
 
 def nearest_way_round(length: float, extent: MeasuredExtent) -> int | None:
-    """Index of the one alternative of entry and exit that a length [rad] fits; None: not one.
+    """Index of the alternative of entry and exit that a length [rad] fits; None without just one.
 
     An alternative stands for itself and the lengths that are whole ball spacings longer.
     """

@@ -1,4 +1,4 @@
-"""A file from a browser, in pieces, as a message may hold no more than a few MB.
+"""A file from a browser, in pieces, because a message may hold only a few MB.
 
 Name, size and pieces are checked here, because any program can send them.
 """
@@ -18,7 +18,7 @@ FIRST_LINES, LONGEST_LINE = 5, 120
 
 LONGEST_NAME = 60
 NAME_IN_LINE = 24
-"""Characters of a name where it stands in a line with other facts."""
+"""Longest name [characters] in a line with other facts."""
 
 
 class Upload:

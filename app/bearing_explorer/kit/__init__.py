@@ -1,1 +1,1 @@
-"""The ground that both halves of the page stand on: neither is known here."""
+"""Modules that both halves of the page share; they import neither half."""

@@ -1,4 +1,4 @@
-"""Files the page is made of: styles, scripts, the logo."""
+"""Asset files of the page: styles, scripts, the logo."""
 
 from __future__ import annotations
 
@@ -28,10 +28,10 @@ def asset_text(name: str) -> str:
 
 
 def scripts(*names: str) -> str:
-    """The assets of these names as one script: what a component runs, after what it calls.
+    """Join assets to the script of a component; its own script comes after those that it calls.
 
-    Without their comments, as each component brings its script to each page. HTML that a script
-    fills is a constant for it: ``caption.html`` is ``CAPTION``.
+    Comments are left out, because each page loads the script of each component. An HTML file
+    becomes a constant that the script fills: ``caption.html`` is ``CAPTION``.
     """
     text = "".join(
         f"const {Path(name).stem.upper()} = {json.dumps(asset_text(name))}\n"

@@ -20,53 +20,54 @@ from bearingcore.bearings import designations, is_known, series_words
 from bearingcore.common import number
 from bearingcore.model.scene import preset_labels
 
-MOST_FOUND = 60
-"""Entries that a search lists."""
+MOST_ENTRIES = 60
+"""Largest number of entries that a search lists."""
 MOST_NUMBERS = 12
-"""Designations that it lists of those that begin with what was typed."""
+"""Largest number of listed designations that begin with the typed text."""
 LONGEST_SEARCH = 60
 
 
 def find_bearing(name: str) -> CatalogueBearing:
-    """The published bearing of a name, or the one of a designation; ValueError without one."""
+    """Return the published bearing of a name, or that of a designation; ValueError without one."""
     return catalogue().get(name) or read_designation(name).entry
 
 
 def search_bearings(text: str) -> dict[str, Any]:
-    """Bearings that a text finds, for the browser; an empty one finds all but designations.
+    """Search bearings for the browser; an empty text matches all but designations.
 
-    Entries are {choose, label, words, mark}: what the browser sends to take one, its name, its
-    dimensions, and "estimated" or nothing. `words` say why there are none.
+    Entries are {choose, label, words, mark}: the message that chooses the bearing, its name, its
+    dimensions, and "estimated" or nothing. Without entries, `words` say why.
     """
     text = " ".join(text[:LONGEST_SEARCH].split())
-    entries = list(islice(_found(text), MOST_FOUND))
+    entries = list(islice(_matches(text), MOST_ENTRIES))
     words = "" if entries else _no_match(text)
     return {"text": text, "entries": entries, "words": words}
 
 
-def _found(text: str) -> Iterator[dict[str, Any]]:
+def _matches(text: str) -> Iterator[dict[str, Any]]:
+    """Yield the entries that match a text, the best first."""
     by_number = _designation(text)
     wanted = text.lower() if by_number is None else by_number.basic.lower()
     ranked = _ranked(wanted)
     best = [entry for rank, entry in ranked if rank == 0]
-    # the first one is taken by Enter: the bearing of that very name, then the designation,
-    # which may be the first word of longer names; what only has its number comes last
+    # Enter takes the first entry: the bearing of exactly this name, or else the designation, which
+    # may be the first word of longer names; entries that only share its number come last
     named = [entry for entry in best if _rank(text.lower(), entry["label"], "") == 0]
     named.sort(key=lambda option: option["label"].lower() != text.lower())
     exact = sum(option["label"].lower() == text.lower() for option in named)
     yield from named[:exact]
     if by_number is not None:
-        yield _estimated(by_number)
+        yield _estimated_entry(by_number)
     yield from named[exact:]
     yield from (entry for entry in best if entry not in named)
     if by_number is None and len(text) > 1:
         for basic in islice(designations(text), MOST_NUMBERS):
-            yield _estimated(read_designation(basic))
+            yield _estimated_entry(read_designation(basic))
     yield from (entry for rank, entry in ranked if rank == 1)
 
 
 def _ranked(wanted: str) -> list[tuple[int, dict[str, Any]]]:
-    """Presets and bearings of the catalogue, each with its rank; 0 is the best."""
+    """Rank presets and bearings of the catalogue; 0 is the best."""
     ranked: list[tuple[int, dict[str, Any]]] = []
     for name, label in preset_labels.items():
         rank = _rank(wanted, label, preset_notes[name])
@@ -79,7 +80,7 @@ def _ranked(wanted: str) -> list[tuple[int, dict[str, Any]]]:
 
 
 def _no_match(text: str) -> str:
-    """Say why a search finds nothing; of an unknown suffix what may be written."""
+    """Say why nothing matches; for an unknown suffix, say what may be written."""
     if is_known(text):
         try:
             read_designation(text)
@@ -90,7 +91,7 @@ def _no_match(text: str) -> str:
 
 
 def _designation(text: str) -> Designation | None:
-    """The bearing whose designation a text is; None if it is no designation."""
+    """Read a text as a designation; None if it is none."""
     try:
         return read_designation(text)
     except ValueError:
@@ -98,10 +99,10 @@ def _designation(text: str) -> Designation | None:
 
 
 def _rank(wanted: str, name: str, note: str) -> int:
-    """0 where all words begin words of the name, 1 where some are in the note, else 2.
+    """Return 0 if all words begin words of the name, 1 if some are in the note, else 2.
 
-    Words also match together in a name without its spaces: "nu208" in "NU 208". Short ones are
-    not looked for in notes.
+    Words also match together in a name without its spaces: "nu208" in "NU 208". Notes are searched
+    for long words only.
     """
     words, low = wanted.split(), f" {name} ".lower()
     if "".join(words) in "".join(low.split()) and len(wanted) > 3:
@@ -111,7 +112,7 @@ def _rank(wanted: str, name: str, note: str) -> int:
         return 0
     noted = note.lower()
     inside = (
-        len(word) > 2 and word in noted for word, own in zip(words, begun, strict=True) if not own
+        len(word) > 2 and word in noted for word, hit in zip(words, begun, strict=True) if not hit
     )
     return 1 if all(inside) else 2
 
@@ -120,14 +121,14 @@ def _entry(choose: dict[str, str], label: str, words: str, mark: str) -> dict[st
     return {"choose": choose, "label": label, "words": words, "mark": mark}
 
 
-def _estimated(designation: Designation) -> dict[str, Any]:
+def _estimated_entry(designation: Designation) -> dict[str, Any]:
     return _entry(
         {"bearing": designation.name}, designation.name, entry_words(designation.entry), "estimated"
     )
 
 
 def entry_words(entry: CatalogueBearing) -> str:
-    """A bearing of the list in a line: balls, diameters, angle or clearance, rating."""
+    """Describe a bearing in a line: balls, diameters, angle or clearance, rating."""
     bearing = entry.bearing
     rough = bearing.estimated and bearing.kind.estimate_spread is not None
     diameter = number(1e3 * bearing.ball_diameter, 3 if rough else 5)
@@ -145,6 +146,6 @@ def entry_words(entry: CatalogueBearing) -> str:
 
 
 def origin_words(entry: CatalogueBearing) -> str:
-    """Sources of the numbers of a bearing, and assumptions."""
+    """Name the sources of the numbers of a bearing, and the assumptions."""
     assumed = f" Assumed here: {', '.join(entry.assumed)}." if entry.assumed else ""
     return f"{entry.note}{assumed}".strip()

@@ -18,7 +18,7 @@ Kind = TypeVar("Kind")
 
 
 def read(kind: type[Kind], data: Any) -> Kind | None:
-    """A message of a kind out of what a browser sent; None, with a line of the log, if it fails."""
+    """Make a message of a kind from a browser's data; None, with a line in the log, if it fails."""
     try:
         return msgspec.convert(data, kind, builtin_types=(bytes,))
     except (msgspec.ValidationError, UnicodeError) as error:

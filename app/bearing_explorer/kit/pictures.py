@@ -1,4 +1,4 @@
-"""A picture of what is on screen: computed off the event loop, failures as sentences."""
+"""A picture of the views on screen, computed off the event loop; failures become sentences."""
 
 from __future__ import annotations
 
@@ -46,11 +46,11 @@ def picture_of(
     warnings: bool = False,
     on_screen: Sequence[View] = (),
 ) -> Picture:
-    """Draw `views`, and look for `warnings`.
+    """Draw `views`, and compute warnings if `warnings` is True.
 
-    `on_screen`: the views that the status is of, where these are more than those drawn.
+    `on_screen`: the views to which the status applies, if they are more than those drawn.
     """
-    started, worked = time.perf_counter(), time.thread_time()  # of this thread: waiting is no cost
+    started, worked = time.perf_counter(), time.thread_time()  # waiting does not count
     shown = frozenset[str]().union(*(view.needs for view in on_screen or views))
     content.prefetch(shown)
     drawings = [drawing_of(content, view) for view in views]
@@ -67,7 +67,7 @@ def picture_of(
 
 
 def drawing_of(content: Content, view: View) -> Drawing:
-    """The drawing of a view, or a sentence with the reason why there is none."""
+    """Draw a view; without a drawing, its sentence gives the reason."""
     try:
         return Drawing(view, view.all_data(content), view.sentence(content))
     except compiling.StillCompiling as wait:

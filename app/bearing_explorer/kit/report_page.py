@@ -1,4 +1,4 @@
-"""Frame of a report: a page of HTML that needs no other file, and its head."""
+"""Frame of a report: an HTML page that needs no other file, and its head."""
 
 from __future__ import annotations
 
@@ -29,12 +29,12 @@ class About:
 
 
 def mark_of(figure_id: str) -> str:
-    """Placeholder of a figure in the page."""
+    """Return the placeholder of a figure in the page."""
     return f"<!--figure {figure_id}-->"
 
 
 def heading(about: About, title: str) -> list[str]:
-    """The head of a report, as HTML: title, machine, remarks, day, version and link."""
+    """Return the head of a report as HTML: title, machine, remarks, day, version and link."""
     when = about.date.strftime("%d %B %Y, %H:%M UTC")
     link = _link(about.link)
     return [
@@ -47,7 +47,7 @@ def heading(about: About, title: str) -> list[str]:
 
 
 def document(about: About, title: str, body: Iterable[str], style_sheet: str) -> str:
-    """A whole page of HTML that fetches and runs nothing."""
+    """Return a whole HTML page that fetches and runs nothing."""
     return (
         "<!DOCTYPE html>\n<html lang='en'><head><meta charset='utf-8'>"
         f'<meta http-equiv="Content-Security-Policy" content="{_POLICY}">'
@@ -58,7 +58,7 @@ def document(about: About, title: str, body: Iterable[str], style_sheet: str) ->
 
 
 def _link(address: str) -> str:
-    """Link to an address; empty where it is no address of the web."""
+    """Return a link to an address; empty if that is no web address."""
     try:
         parts = urlsplit(address)
     except ValueError:

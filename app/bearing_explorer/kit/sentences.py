@@ -1,6 +1,6 @@
 """Refusals as sentences of the page, and numbers as a person types them.
 
-Fields go by their labels, numbers are in the units of the page.
+Fields are named by their labels, and numbers are in the units of the page.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ _GROOVES = ("inner_groove_radius", "outer_groove_radius")
 
 
 def sentence_of(error: ValueError) -> str:
-    """The sentence of a refusal. What the page itself refuses is one already."""
+    """Word a refusal as a sentence. A refusal of the page itself is a sentence already."""
     words = words_of(error)
     whole = str(error) == f"{words}."
     return str(error) if whole else f"Not possible: {words}."
@@ -30,8 +30,8 @@ def words_of(error: ValueError) -> str:
     """A refusal in the words of the page, without a full stop, to stand inside a sentence.
 
     "shaft_speed is -1; allowed: a finite number at least 0" is "shaft speed is −0.15915 Hz;
-    allowed: a finite number at least 0 Hz". A shaft may stand still: where it has to turn, that is
-    the reason, and no number is wrong.
+    allowed: a finite number at least 0 Hz". A shaft may stand still, so a speed of 0 is refused
+    only where the shaft has to turn; the words then say that.
     """
     if not isinstance(error, FieldError):
         return str(error).removesuffix(".")
@@ -53,7 +53,7 @@ def words_of(error: ValueError) -> str:
 
 
 def field_of(error: ValueError) -> Field | None:
-    """The field that a refusal is about; None where the page has no such field."""
+    """Return the field that a refusal is about; None if the page has no such field."""
     if not isinstance(error, FieldError):
         return None
     second = FIELD_OF.get(f"second_{error.field}") if "row 2" in error.where else None
@@ -73,7 +73,7 @@ def label_inside(field: Field) -> str:
 
 
 def one_line(text: str, longest: int) -> str:
-    """Untrusted text on one line: printable characters, at most `longest` of them."""
+    """Put untrusted text on one line: printable characters, at most `longest` of them."""
     clean = "".join(sign if sign.isprintable() else " " for sign in text[: 4 * longest])
     return " ".join(clean.split())[:longest].rstrip()
 
@@ -84,7 +84,7 @@ def with_unit(value: float, unit: str, digits: int = 6) -> str:
 
 
 def _amount(value: float, si: str, field: Field | None) -> str:
-    """A number in SI with the unit that the page has for the field, or for such numbers."""
+    """Write an SI number in the page's unit for the field, or for numbers of that SI unit."""
     unit = _READ_UNITS.get(si, si)
     if field is not None and field.unit == si:
         unit = field.shown_unit
@@ -94,7 +94,7 @@ def _amount(value: float, si: str, field: Field | None) -> str:
 
 
 def number_of(text: str, words: str, unit: str, least: float, most: float) -> float:
-    """The number that a person typed, in `unit` or another of its kind; ValueError otherwise."""
+    """Read a typed number, in `unit` or another unit of its kind; ValueError otherwise."""
     bare = re.sub(r"(?<=\d)[\s'](?=\d{3}\b)", "", text.strip()).replace("−", "-")
     if unit:
         bare = re.sub(rf"(?<=[\d.,\s]){re.escape(unit)}$", "", bare, flags=re.IGNORECASE).rstrip()

@@ -72,18 +72,18 @@ class Half:
     """Type of its content; the other half has another one."""
     page: Session
     jobs: Jobs
-    """The background of the session."""
+    """The background jobs of the session."""
 
     def join(self, page: Session) -> None:
-        """Become a half of this session, once, before anything else."""
+        """Join a session as one of its halves; called once, before anything else."""
         self.page, self.jobs = page, page.jobs
 
     def content(self) -> Content:
-        """The content of the next picture, while a slider moves."""
+        """Return the content of the next picture, while a slider moves."""
         raise NotImplementedError
 
     def draw(self) -> None:
-        """Bring what is on screen up to date."""
+        """Draw the views on screen anew."""
         self.page.draw()
 
     def attach(self, view: View) -> None:
@@ -94,7 +94,7 @@ class Half:
         """Note that a tab of either half was opened."""
 
     def stop(self) -> None:
-        """End what the half has begun: the session is over."""
+        """End all work of the half: the session is over."""
 
 
 class Session:
@@ -103,9 +103,9 @@ class Session:
     Parameters
     ----------
     halves
-        of the program, by the tabs of each; the page has the tabs in this order.
+        half of the program for each tab; the page has the tabs in this order.
     tab
-        tab that is open at first; the first one where there is no such tab.
+        tab that is open at first; if there is no such tab, the first one is.
     """
 
     def __init__(self, halves: Mapping[Section, Half], tab: str = "") -> None:
@@ -119,24 +119,24 @@ class Session:
         self._slow_cost = self._quick_cost = math.inf
         self._slow_at = self._warnings_at = self._moved_at = -math.inf
         self._warnings = Warnings()
-        self._pictures = 0  # since warnings were looked for
+        self._pictures = 0  # drawn since warnings were last computed
         self._doc = pn.state.curdoc
         self._compiling: asyncio.Task[None] | None = None
         self._loop: DrawingLoop[Content, Picture] = DrawingLoop(
             self._draw_newest, self._fine_picture, self._draw_fine, self._failed
         )
-        self._refined: tuple[object, ...] = ()  # what is drawn as finely as can be
+        self._refined: tuple[object, ...] = ()  # tab and key of the content that is drawn finely
         self.jobs = Jobs(self.assign)
         self._shown = tab if tab in self._sections else next(iter(self._sections))
         self.status = StatusLine(folded=True, css_classes=["one-line"])
         self.limits = LimitsStrip()
-        self._on_screen = self._attached = ""  # on the server, and in the browser
+        self._on_screen = self._attached = ""  # tab on the server, and in the browser
         self.tabs = Tabs(
             self.show_tab,
-            names=[[half.name, half.title, half.tab or half.title] for half in halves],
+            names=[[part.name, part.title, part.tab or part.title] for part in halves],
             active=self._shown,
         )
-        # a place for each tab, or the browser would go through all of them whenever one comes
+        # one place for each tab: otherwise the browser would go through all tabs for each new one
         self._containers = {name: _place(name) for name in self._sections}
         places = self._containers.values()
         self.main = pn.Column(*places, sizing_mode="stretch_both", margin=0)  # the page's height
@@ -161,7 +161,7 @@ class Session:
         await one_message(self._doc, change)
 
     def views_made(self) -> list[View]:
-        """All views that have been on screen."""
+        """Return all views that have been on screen."""
         return [view for views in self._views.values() for view in views]
 
     def start(self) -> None:
@@ -184,7 +184,7 @@ class Session:
             view.end()
 
     def draw(self) -> None:
-        """Bring what is on screen up to date."""
+        """Draw the views on screen anew."""
         content = self.content
         self._loop.submit(content.at_rest(self._refined == (self._shown, *content.fine_key)))
 
@@ -212,9 +212,9 @@ class Session:
     async def _make_tab(self, name: str) -> None:
         """Make the figures of a section when it is first opened.
 
-        All of this holds the interpreter, and is done on the event loop, one session after the
-        other. In threads, which take the interpreter from each other, the last picture of 30 people
-        who come at once is a sixth later.
+        This holds the interpreter, so it is done on the event loop, one session after the other. If
+        30 people come at once, threads that take the interpreter from each other would make the
+        last picture a sixth later.
         """
         if name not in self._views:
             kinds = self._sections[name].views
@@ -224,9 +224,9 @@ class Session:
         self._on_screen = name
 
     async def _send(self, change: Callable[[], None]) -> None:
-        """Change models of the page, in one message with the section that is to be on screen.
+        """Change models of the page, and put the open tab on screen in the same message.
 
-        The browser must know a figure before its numbers arrive.
+        The browser must have a figure before its numbers arrive.
         """
         name = self._on_screen
 
@@ -238,8 +238,9 @@ class Session:
         await one_message(self._doc, act)
 
     def _attach_tab(self, name: str) -> None:
+        """Put the views of a tab on screen, and hide those of the others."""
         new = not self._containers[name].objects and self._doc is not None
-        # Bokeh counts the models of the document once, and before numbers bring more of them
+        # frozen, Bokeh counts the models of the document once, before numbers bring more of them
         with self._doc.models.freeze() if new else nullcontext():
             if not self._containers[name].objects:
                 self._containers[name].objects = [view.panel for view in self._views[name]]
@@ -251,10 +252,10 @@ class Session:
             self.packed.introduce()
         self.tabs.active = self._attached = name
 
-    async def _opens_finely(self, content: Content) -> bool:
+    async def _open_finely(self, content: Content) -> bool:
         """Open the tab with its fine picture and return True, if that is ready soon; else empty.
 
-        Otherwise it would be laid out and painted three times: empty, coarsely and finely.
+        A tab that opens empty is laid out and painted three times: empty, coarsely and finely.
         """
         fine, views = content.at_rest(), self._views[self._on_screen]
         drawing = asyncio.ensure_future(run_in_thread(picture_of, fine, views, True))
@@ -274,9 +275,9 @@ class Session:
         if opens:
             await self._make_tab(self._shown)
             self._slow_cost = self._quick_cost = math.inf  # not known yet
-        if not self._is_for_screen(content):  # older than the tab of the other half
+        if not self._is_for_screen(content):  # a tab of the other half was opened meanwhile
             content = self._halves[self._on_screen].content()
-        if opens and await self._opens_finely(content):
+        if opens and await self._open_finely(content):
             content = content.at_rest()
         else:
             content = await self._draw_following(content.at_rest(False) if opens else content)
@@ -305,31 +306,32 @@ class Session:
         return content
 
     def _quick_and_slow(self, content: Content) -> tuple[list[View], list[View]]:
-        """Views that follow a slider, and slow ones to draw after them, unless they are skipped."""
+        """Return the views that follow a slider, and slow ones to draw after them, if any."""
         started = time.perf_counter()
         views = [view for view in self._views[self._on_screen] if not view.at_rest]
         slow = [view for view in views if view.needs & content.slow]
         quick = [view for view in views if view not in slow]
-        # slow views alone delay nothing
+        # slow views are heavy if they would delay quick ones; others are drawn together with them
         heavy = self._slow_cost > _HEAVY and any(view.needs for view in quick)
         if slow and not heavy and math.isfinite(self._slow_cost) and content.moving:
             quick, slow = [], views
+        # while newer content waits, heavy views are skipped, but not for too long
         if heavy and self._loop.waiting:
             slow = slow if started - self._slow_at > _PATIENCE else []
         return quick, slow
 
     def _is_for_screen(self, content: Content) -> bool:
-        """True if this is content of the half whose tab is on screen."""
+        """Return True if this is content of the half whose tab is on screen."""
         return isinstance(content, self._halves[self._on_screen].kind_of_content)
 
     def _newest_picture(self, content: Content, views: Sequence[View]) -> tuple[Content, Picture]:
-        """A picture of the newest content: others may have waited for a thread too."""
+        """Draw the newest content: it may have changed while this waited for a thread."""
         newest = self._loop.newest(content)
         content = newest if self._is_for_screen(newest) else content
         return content, picture_of(content, views, self._warnings_due(content))
 
     def _fine_picture(self, content: Content) -> Picture | None:
-        """Views that are finer at rest, with warnings; None where all is drawn finely already."""
+        """Draw the views that are finer at rest, with warnings; None if all are drawn finely."""
         if not content.moving or not self._is_for_screen(content):
             return None
         on_screen = self._views[self._on_screen]
@@ -346,6 +348,7 @@ class Session:
         self._refined = self._on_screen, *content.fine_key
 
     def _warnings_due(self, content: Content) -> bool:
+        """Return True if warnings are to be computed with this picture; count pictures."""
         now = time.perf_counter()
         self._pictures += 1
         long_ago = now - self._warnings_at > _WARNINGS_EVERY
@@ -357,7 +360,7 @@ class Session:
         return due
 
     async def _assign(self, picture: Picture, mark: int | None) -> None:
-        """Send a picture; `mark` where with it all of this content is drawn."""
+        """Send a picture; `mark` is that of its content if all of that is drawn with it."""
         sources: Sources = {}
         ranges: Ranges = {}
         for drawing in picture.drawings:
@@ -380,7 +383,7 @@ class Session:
         await self._send(change)
 
     async def _failed(self, error: Exception) -> None:
-        """An unexpected error: show a sentence, answer the mark, keep the last good picture."""
+        """After an unexpected error, show a sentence, answer the mark, keep the last picture."""
         name = self.content.log_name()
         write.log_warning("failed", self._doc, scene=name, view=self._shown)
         self._drawn_mark = self.mark
@@ -393,10 +396,10 @@ class Session:
 
 
 def _classes(name: str, *, shown: bool) -> list[str]:
-    """Classes of the place of a tab, for styles and scripts."""
+    """Return the classes of the place of a tab, for styles and scripts."""
     return ["section", f"section-{name}", "on-screen" if shown else "off-screen"]
 
 
 def _place(name: str) -> pn.Column:
-    """The layout of a tab that is not open yet."""
+    """Make the layout of a tab that is not open yet."""
     return stack(css_classes=_classes(name, shown=False), stylesheets=[asset_text("section.css")])

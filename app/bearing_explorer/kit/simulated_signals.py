@@ -6,4 +6,4 @@ import math
 from collections.abc import Mapping
 
 NOISES: Mapping[str, float] = {"40": 40.0, "20": 20.0, "10": 10.0, "none": math.inf}
-"""Signal over noise [dB] of simulated measurements."""
+"""Signal-to-noise ratio [dB] of simulated measurements, by name."""

@@ -6,7 +6,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from bearing_explorer.diagnosis.diagnoses import Question, answered
+from bearing_explorer.diagnosis.diagnoses import Question, diagnosis_of
 from bearing_explorer.diagnosis.measurement_state import CHANGED, NOT_YET, REFUSED
 from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.report import measured_report
@@ -68,7 +68,7 @@ def diagnosed(made: Measurement) -> Diagnosis:
     """The answer of now, which the session then has."""
     question = made.question()
     assert question is not None
-    diagnosis = answered(question)
+    diagnosis = diagnosis_of(question)
     assert isinstance(diagnosis, Diagnosis)
     made.diagnoses.keep(question, diagnosis)
     return diagnosis
@@ -270,7 +270,7 @@ def test_a_trend_without_bearing_and_speed_has_levels_and_no_part() -> None:
     view.measure(made)
     work = Work()
     view.prepare({}, MODEL)(work)
-    (view.job_result,) = work.taken()
+    (view.job_result,) = work.take_results()
     assert view.drawn
     table = view.table(MODEL)
     assert table["rms_m_per_s2"][0] > 0.0

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import panel as pn
 
-from bearing_explorer.diagnosis.diagnoses import BUSY, Question, answered
+from bearing_explorer.diagnosis.diagnoses import BUSY, Question, diagnosis_of
 from bearing_explorer.diagnosis.measurement_state import AboutMeasurement, MeasurementState
 from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.session import Measurement
@@ -41,7 +41,7 @@ NOTHING_NAMED = "No part is named before the bearing is."
 
 
 def on_records() -> str:
-    """Worth of the answers on measured records of real machines, as the tests wrote it."""
+    """Say how often answers on measured records were right, from the files of the tests."""
     board = json.loads(asset_text("scoreboard.json"))
     records, (low, high) = board["records"], board["share_right"]
     answered = [row for row in records if row["verdict"] in ("right", "wrong")]
@@ -79,7 +79,7 @@ class PartDiagnosis(MeasuredView):
     about = (
         "Envelope spectrum of the signal. Each pass over a damaged spot makes the machine ring; "
         "the envelope shows how often. Strong: lines of the part that stands out. Faint: of the "
-        "other parts. The strong ones are where they were measured, the faint ones follow from the "
+        "other parts. The strong lines were measured in the signal, the faint ones follow from the "
         f"geometry. {on_records()}"
     )
     computes = True
@@ -88,7 +88,7 @@ class PartDiagnosis(MeasuredView):
     def build(self, packed: PackedSource) -> Any:
         self.machine = MachineForm(lambda: self.measurement)
         self.part = PartPanel(self._report_on)
-        self._shown_of: Recording | None = None  # of which the panel has an answer
+        self._shown_of: Recording | None = None  # recording whose answer the panel shows
         self._work_order = ""
         self.lines = PartLines(packed)
         self.evidence = pn.pane.HTML(
@@ -108,7 +108,7 @@ class PartDiagnosis(MeasuredView):
         self.machine.show(measurement.state)
 
     def _machine_changed(self, state: MeasurementState) -> None:
-        """Show the answers, and mark what is on screen if it is not that of these."""
+        """Show the answers on the machine; mark the diagnosis on screen if it is out of date."""
         self.machine.show(state)
         if why := self.measurement.out_of_date:
             self.part.outdate(why)
@@ -117,7 +117,7 @@ class PartDiagnosis(MeasuredView):
         self.measurement.about = AboutMeasurement(**words)
 
     def answer(self) -> Diagnosis | str | None:
-        """The diagnosis, a sentence why there is none, or None: not yet."""
+        """Return the diagnosis, a sentence why there is none, or None: not yet."""
         question = self.measurement.question()
         return None if question is None else self.measurement.diagnoses.of(question)
 
@@ -125,12 +125,12 @@ class PartDiagnosis(MeasuredView):
         measurement, measured = self.measurement, self.measured
         if measured is None:
             return
-        if "speed" in choices:  # as lines of Python said it once
+        if "speed" in choices:  # exported Python of earlier versions has it
             machine = measured.machine.replace_speed(choices["speed"])
             measurement.measured = dataclasses.replace(measured, machine=machine)
         question = measurement.question()
         if question is not None:
-            measurement.diagnoses.keep(question, answered(question))
+            measurement.diagnoses.keep(question, diagnosis_of(question))
 
     # The picture
 
@@ -149,7 +149,7 @@ class PartDiagnosis(MeasuredView):
         super().say(model, sentence)
 
     def _show(self) -> None:
-        """Bring the panels up to date, and have the question answered if it is not."""
+        """Bring the panels up to date, and have an open question answered."""
         measurement, measured = self.measurement, self.measured
         if measured is None:
             self._seen.visible = False
@@ -178,7 +178,7 @@ class PartDiagnosis(MeasuredView):
             self.evidence.object = part_words.evidence_html(diagnosis, len(measured.directions) > 1)
 
     def _with_length(self, state: dict[str, Any], diagnosis: Diagnosis | None) -> dict[str, Any]:
-        """The length of the spall in an answer, once it is known; of a race alone."""
+        """Add the length of the spall on a race to an answer, once it is known."""
         if diagnosis is None or diagnosis.fault not in RACES_NAMED:
             return state
         extent = self.measurement.extent()
@@ -199,7 +199,7 @@ class PartDiagnosis(MeasuredView):
         extent = measurement.extent() if answer.fault in RACES_NAMED else None
         if extent is not None and extent.size:
             length = part_words.length(extent, measurement.sizing())
-        # what it says of the severity takes too long for the loop of the session
+        # made here, in a thread: the severity takes too long for the loop of the session
         self._work_order = work_order(measurement, question, answer, length)
         return part_words.sentence(answer, question)
 

@@ -80,7 +80,7 @@ class SpallExtent(LookView, MeasuredView):
     first_look: ClassVar[dict[str, Any]] = {"race": ""}
 
     def build(self, packed: PackedSource) -> Any:
-        self._given: MeasuredExtent | None = None
+        self._stored: MeasuredExtent | None = None
         self._size = StickyRange(0.0, 1.0)
         self.plot = self._plot(packed)
         self._seen = stack(self.plot, visible=False, stylesheets=[AS_HIGH_AS_SHOWN])
@@ -102,7 +102,7 @@ class SpallExtent(LookView, MeasuredView):
     # What it is about
 
     def question(self) -> ExtentQuestion | None:
-        """The question; None before the damaged part of the bearing has been looked for."""
+        """Return the question; None before the damaged part of the bearing is diagnosed."""
         measurement = self.measurement
         about = measurement.question()
         if about is None or measurement.diagnoses.of(about) is None:
@@ -121,9 +121,9 @@ class SpallExtent(LookView, MeasuredView):
         )
 
     def answer(self) -> MeasuredExtent | str | None:
-        """The extent, a sentence why there is none, or None: not yet."""
-        if self._given is not None:
-            return self._given
+        """Return the extent, a sentence why there is none, or None: not yet."""
+        if self._stored is not None:
+            return self._stored
         question = self.question()
         return None if question is None else self.measurement.extents.of(question)
 
@@ -135,14 +135,14 @@ class SpallExtent(LookView, MeasuredView):
 
     @job_result.setter
     def job_result(self, extent: MeasuredExtent) -> None:
-        self._given = extent
+        self._stored = extent
 
     def choose(self, choices: Mapping[str, Any], model: Model) -> None:
         super().choose(choices, model)
         about = self.measurement.question()
         if about is not None:
             answer = extent_of(self._question(about))
-            self._given = answer if isinstance(answer, MeasuredExtent) else None
+            self._stored = answer if isinstance(answer, MeasuredExtent) else None
 
     # The picture
 
@@ -173,7 +173,7 @@ class SpallExtent(LookView, MeasuredView):
         }
 
     def _way_round(self, extent: MeasuredExtent) -> int | None:
-        """0 where the first peak is the entry, 1 where it is the exit, None: not known."""
+        """Return 0 where the first peak is the entry, 1 where it is the exit, None if unknown."""
         sizing = self.measurement.sizing()
         if sizing is None or not sizing.conclusive or sizing.best is None:
             return 0 if extent.measured else None
@@ -227,7 +227,7 @@ def _by_entry_and_exit(extent: MeasuredExtent) -> str:
 
 
 def grounds(extent: MeasuredExtent) -> str:
-    """The angles and the ball passes on which an extent rests, in a sentence."""
+    """Say in a sentence from which angles and ball passes an extent was measured."""
     if not extent.n_passes:
         return ""
     words = f" Mean of {extent.n_passes} ball passes"

@@ -1,7 +1,7 @@
 """The frequencies of a bearing drawn into a spectrum: lines with names that do not overlap.
 
-Each family of lines has a row for its names at the top of the frame, and names only so many of its
-lines as have room.
+Each family of lines has a row for its names at the top of the frame. Only as many lines are named
+as have room.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ if (row.order == 1) {
   let room = Infinity  // letters up to the next name
   try { room = %(room)s*plot.inner_width/(5.8*larger) } catch {}
   const longer = [`${name} ${first}${give} Hz`, `${name} ${first} Hz`]
-  return longer.find(one => one.length < room) ?? name
+  return longer.find(text => text.length < room) ?? name
 }
 return `${row.order}×`
 """
@@ -75,7 +75,7 @@ def fundamentals(scene: Scene | Turning, row: int = 0) -> dict[str, float]:
 
 
 def spreads(scene: Scene | Turning, row: int = 0) -> dict[str, float]:
-    """Errors [Hz] that an estimated inside may give each family, by its name and "_spread"."""
+    """Errors [Hz] of each family, by its name and "_spread", if the bearing is an estimate."""
     bearing, first = scene.bearing.of_row(row), fundamentals(scene, row)
     return {
         f"{name}_spread": value * bearing.frequency_spread(name) for name, value in first.items()
@@ -83,7 +83,7 @@ def spreads(scene: Scene | Turning, row: int = 0) -> dict[str, float]:
 
 
 def row_frequencies(scene: Scene | Turning) -> list[dict[str, float]]:
-    """`fundamentals` and `spreads` of each row that is unlike; one where all are alike."""
+    """`fundamentals` and `spreads` of each unlike row; one entry if all rows are alike."""
     rows = range(len(scene.bearing.unlike_rows))
     return [fundamentals(scene, row) | spreads(scene, row) for row in rows]
 
@@ -96,26 +96,28 @@ def orders(family: Family, first: float, top: float) -> NDArray[np.float64]:
     return 1.0 + np.arange(max(count, 0), dtype=float)
 
 
-def named(multiples: NDArray[np.float64], first: float, top: float) -> NDArray[np.float64]:
-    """Those of a family's multiples whose names stand clear of each other."""
+def labelled(multiples: NDArray[np.float64], first: float, top: float) -> NDArray[np.float64]:
+    """Return the multiples of a family whose names do not overlap: the first, then every nth."""
     if not multiples.size:
         return multiples
+    # the smallest step of 1, 2, 5, 10, ... with room for the names of harmonics
     step = next(
         step * 10**power
         for power in range(9)
         for step in (1, 2, 5)
         if step * 10**power * first >= ORDER_WIDTH * top
     )
+    # none is cut off at the right end, or covered by the first name, which is longer
     from_end = multiples * first <= (1.0 - 0.6 * ORDER_WIDTH) * top
     clear = multiples * first >= multiples[0] * first + NAME_WIDTH * top
     kept = ((multiples % step == 0.0) & clear & from_end) | (multiples == 1.0)
     return multiples[kept]
 
 
-def thinned_to_peaks(
+def thin_to_peaks(
     frequency: NDArray[np.float64], height: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """A spectrum with at most `MOST_LINES` lines: of neighbours the highest one stays."""
+    """Return a spectrum of at most `MOST_LINES` lines: the highest of each group of neighbours."""
     size = max(math.ceil(frequency.size / MOST_LINES), 1)
     count = frequency.size // size * size
     highest = height[:count].reshape(-1, size).argmax(axis=1) + np.arange(0, count, size)
@@ -123,7 +125,7 @@ def thinned_to_peaks(
 
 
 def layers(prefix: str) -> list[Layer]:
-    """The lines of all families and their names, of sources with that prefix."""
+    """Return the lines of all families and their names, from sources with a prefix."""
     drawn: list[Layer] = []
     for family in FAMILIES:
         source = f"{prefix}_{family.name}"
@@ -139,10 +141,10 @@ def layers(prefix: str) -> list[Layer]:
 def columns(
     prefix: str, sets: Sequence[dict[str, float]], shown: Sequence[str], top: float, height: float
 ) -> dict[str, dict[str, NDArray[np.float64]]]:
-    """Sources with the lines of the families `shown` up to `top` [Hz], and their names.
+    """Return sources with the lines of the families `shown` up to `top` [Hz], and their names.
 
-    `sets` are those of `row_frequencies`: of several each has names of its own. `height` is that of
-    the frame [px].
+    `sets` come from `row_frequencies`; each of several sets has names of its own. `height` is the
+    height of the frame [px].
     """
     sources: dict[str, dict[str, NDArray[np.float64]]] = {}
     row = 0
@@ -152,13 +154,13 @@ def columns(
             fundamental = first[family.name]
             multiples = orders(family, fundamental, top)
             row += 1
-            labels = named(multiples, fundamental, top)
+            labels = labelled(multiples, fundamental, top)
             lines.append(multiples * fundamental)
-            at = np.full(labels.size, 1.0 - ROW_PIXELS / height * (row - 0.2))
-            of = np.full(labels.size, number + 1.0 if len(sets) > 1 else 0.0)
+            place = np.full(labels.size, 1.0 - ROW_PIXELS / height * (row - 0.2))
+            set_number = np.full(labels.size, number + 1.0 if len(sets) > 1 else 0.0)
             spread = np.full(labels.size, first.get(f"{family.name}_spread", 0.0))
-            where = labels * fundamental
-            names.append(np.stack([where, labels, where, at, of, spread]))
+            frequency = labels * fundamental
+            names.append(np.stack([frequency, labels, frequency, place, set_number, spread]))
         sources[f"{prefix}_{family.name}"] = {"frequency": np.concatenate(lines)}
         sources[f"{prefix}_{family.name}_names"] = dict(
             zip(NAME_COLUMNS, np.concatenate(names, axis=1), strict=True)

@@ -20,7 +20,7 @@ from bearing_explorer.diagnosis.views.frequency_lines import (
     FAMILIES,
     fundamentals,
     row_frequencies,
-    thinned_to_peaks,
+    thin_to_peaks,
 )
 from bearing_explorer.diagnosis.views.measured_view import MEASURED, MeasuredView, shown_unit
 from bearing_explorer.kit.assets import asset_text
@@ -45,7 +45,7 @@ HANN_WIDTH = 1.5
 
 
 SIDEBANDS = ("Harmonics", "and ± shaft", "and ± cage")
-"""Lines that go with the cursor, to choose from."""
+"""Choices of the lines that go with the cursor."""
 HINT = "Click on a line for its harmonics, sidebands, order and amplitude."
 COLOR = "#0072B2"
 _TURNING = ("shaft", "cage", "hertz")
@@ -144,7 +144,7 @@ class FrequencyCursor:
         )
 
     def columns(self, shaft: float, cage: float, per: float) -> dict[str, dict[str, np.ndarray]]:
-        """The source: turns a second of shaft and cage, and the hertz that a 1 on the axis is."""
+        """Return the source: frequencies of shaft and cage on the axis, and its hertz per unit."""
         values = (shaft / per, cage / per, per)
         return {self._name: {n: np.array([v]) for n, v in zip(_TURNING, values, strict=True)}}
 
@@ -175,7 +175,7 @@ class FrequencyView(LookView, MeasuredView):
         return self.hidden
 
     def shown(self, model: Model, measured: Measured) -> Shown:
-        """Return the spectrum that the choices of the look ask for."""
+        """Return the spectrum that the choices above the figure ask for."""
         raise NotImplementedError
 
     # The look
@@ -221,7 +221,7 @@ class FrequencyView(LookView, MeasuredView):
         lines = [] if turning is None else row_frequencies(turning)
         top, resolution = shown.top, shown.resolution
         rows = len(lines) * len(look["lines"])
-        room = frequency_lines.ROW_PIXELS / FRAME * (rows + 0.6)  # share that the names take
+        room = frequency_lines.ROW_PIXELS / FRAME * (rows + 0.6)  # share of the height for names
         drawn = shown_curve(shown.measured, top, 1.0 / shown_unit(measured)[1], look["scale"])
         sources: Sources = {f"{p}_measured": drawn}
         # a slow drift at the lowest lines must not set the scale
@@ -235,9 +235,10 @@ class FrequencyView(LookView, MeasuredView):
             greatest = float(np.nanmax(height, initial=0.0)) / (1.0 - room)
             ends = self._heights.fit(np.array([0.0, greatest]))
         turn = math.nan if speed is None else speed / (2.0 * math.pi)
-        per = turn if self._axis == "orders" else 1.0  # [Hz] of a 1 on the axis
+        per = turn if self._axis == "orders" else 1.0  # hertz per unit of the axis
         ranges = {f"{p}_frequency": (0.0, top / per), f"{p}_amplitude": ends}
         sources |= frequency_lines.columns(p, lines, look["lines"], top, FRAME)
+        # on an axis of orders, divide frequencies by that of the shaft
         for columns in sources.values():
             for name in {"frequency", "low", "high", "label_at"} & set(columns):
                 columns[name] = columns[name] / per
@@ -267,7 +268,7 @@ def shown_curve(
 ) -> dict[str, NDArray[np.float64]]:
     """Amplitudes up to `top` [Hz] in a scale; a very fine spectrum is thinned to its peaks."""
     kept = spectrum.frequency <= top
-    frequency, amplitude = thinned_to_peaks(
+    frequency, amplitude = thin_to_peaks(
         spectrum.frequency[kept], factor * amplitudes(spectrum)[kept]
     )
     if scale == "dB":

@@ -90,7 +90,7 @@ class MeasuredEnvelope(FrequencyView):
         return Shown(direction, top, spectrum, measured.envelope_resolution(top), band)
 
     def band(self, measured: Measured, direction: str) -> Demodulation:
-        """The demodulation band [Hz] as chosen; an end that is not given follows."""
+        """Return the chosen demodulation band; a missing end is half or twice the given one."""
         low, high = (float(self.look[end] or math.nan) for end in ("low", "high"))
         if measured.recording.name != self._band_of:
             low = high = math.nan
@@ -156,15 +156,15 @@ _CLEAR = 4.0
 
 
 def _lines_near(
-    at: float, sets: Sequence[Mapping[str, float]], resolution: float
+    peak: float, sets: Sequence[Mapping[str, float]], resolution: float
 ) -> list[tuple[float, float, float, str]]:
-    """Lines of the bearing about a frequency [Hz], the nearest first.
+    """Return the lines of the bearing near a frequency [Hz], the nearest first.
 
     A line has its distance, its frequency, the error of the geometry (as fractions), and its name.
     """
     lines = sorted(
         (
-            abs(at / (multiple * first[name]) - 1.0),
+            abs(peak / (multiple * first[name]) - 1.0),
             multiple * first[name],
             first.get(f"{name}_spread", 0.0) / first[name],
             ("" if multiple == 1 else f"{multiple}×")
@@ -176,7 +176,9 @@ def _lines_near(
         if first[name] > 0.0
     )
     return [
-        line for line in lines if abs(at - line[1]) <= max((_NEAR + line[2]) * line[1], resolution)
+        line
+        for line in lines
+        if abs(peak - line[1]) <= max((_NEAR + line[2]) * line[1], resolution)
     ]
 
 
@@ -189,8 +191,8 @@ def highest_line(
 ) -> str:
     """Describe the highest line of the envelope, and its source.
 
-    `sets` are the frequencies [Hz] of each row and the shaft. If slip allows several of them, the
-    one of the part that the diagnosis names is taken.
+    `sets` are the frequencies [Hz] of each row and the shaft. If slip allows several lines, the
+    line of the part that the diagnosis names (`fault`) is taken.
     """
     frequency, density = shown.measured
     slowest = min((first["ftf"] for first in sets), default=0.0)
@@ -198,29 +200,29 @@ def highest_line(
     seen = (frequency > lowest) & (frequency < shown.top)
     if not seen.any():
         return "It holds no lines."
-    at, height = float(frequency[seen][density[seen].argmax()]), amplitudes(shown.measured)[seen]
-    most = float(height.max())
-    place = f"{style.number(most / size, 3)} {unit} at {style.number(at, 4)} Hz,"
-    if most < _CLEAR * float(np.median(height)):
+    peak, height = float(frequency[seen][density[seen].argmax()]), amplitudes(shown.measured)[seen]
+    highest = float(height.max())
+    place = f"{style.number(highest / size, 3)} {unit} at {style.number(peak, 4)} Hz,"
+    if highest < _CLEAR * float(np.median(height)):
         return f"No line stands out: the highest, {place} is as high as noise gives."
     words = f"Its highest line, {place}"
     if not sets:
         return f"{words[:-1]}. Which part that is follows from bearing and shaft speed."
-    near = _lines_near(at, sets, shown.resolution)
+    near = _lines_near(peak, sets, shown.resolution)
     near = [line for line in near if fault and _TITLES[fault] in line[3]] or near
     if not near:
         return (
             f"{words} is at none of the bearing's frequencies: it comes from another part of the "
             "machine, or the bearing or the shaft speed is not the given one."
         )
-    same = [line[3] for line in near if abs(line[1] - near[0][1]) < shown.resolution]
-    if len(same) > 1:
+    unresolved = [line[3] for line in near if abs(line[1] - near[0][1]) < shown.resolution]
+    if len(unresolved) > 1:
         apart = f"{style.number(shown.resolution, 2)} Hz apart"
-        return f"{words} may be {' or '.join(same[:3])}: lines here are {apart}."
+        return f"{words} may be {' or '.join(unresolved[:3])}: lines here are {apart}."
     _, line, _, title = near[0]
     words += f" is {title}"
-    if abs(at - line) > 1.5 * shown.resolution:
-        off = 100.0 * (at / line - 1.0)
+    if abs(peak - line) > 1.5 * shown.resolution:
+        off = 100.0 * (peak / line - 1.0)
         side = "above" if off > 0.0 else "below"
         words += f", {style.number(abs(off), 2)} % {side} the frequency by the geometry"
     return f"{words}."

@@ -139,22 +139,23 @@ def no_zone(measured: Measured, machine: str) -> str:
 
 
 def severity(measured: Measured, machine: str) -> str:
-    """The zone of the greatest velocity, or why there is none."""
+    """Word the zone of the greatest velocity, or the reason why there is none."""
     if why := no_zone(measured, machine):
         return f"No zone of ISO 20816-3: {why}."
-    most, zone = float(measured.indicators.velocity_rms.max()), zone_of(measured, machine)
+    velocity, zone = float(measured.indicators.velocity_rms.max()), zone_of(measured, machine)
     if not machine:
         return (
-            f"Zone D of ISO 20816-3 for every machine, with {style.number(1e3 * most, 3)} mm/s: "
-            f"{MEANING[zone]}. The highest boundary is {style.number(1e3 * HIGHEST, 3)} mm/s of "
+            "Zone D of ISO 20816-3 for every machine, with "
+            f"{style.number(1e3 * velocity, 3)} mm/s: {MEANING[zone]}. "
+            f"The highest boundary is {style.number(1e3 * HIGHEST, 3)} mm/s of "
             "ISO 10816-3:2009, which it replaced; check it there before you act on it."
         )
     power, support = (_WORDS[part] for part in machine.split(", "))
-    size = f"{style.number(1e3 * most, 3)} mm/s"
+    size = f"{style.number(1e3 * velocity, 3)} mm/s"
     ends = f"{style.list_words([style.number(1e3 * end, 3) for end in ZONES[machine]])} mm/s"
-    moved = 1e6 * float(measured.indicators.displacement_rms.max())
-    if zone != severity_zone(most, machine):
-        size += f" and {style.number(moved, 3)} µm"
+    displacement = 1e6 * float(measured.indicators.displacement_rms.max())
+    if zone != severity_zone(velocity, machine):
+        size += f" and {style.number(displacement, 3)} µm"
         limits = [style.number(1e6 * end, 3) for end in DISPLACEMENT_ZONES[machine]]
         ends += f" and {style.list_words(limits)} µm, the worse of which counts,"
     return (

@@ -21,9 +21,9 @@ from bearingcore import Kurtogram
 from bearingcore.measured.signals import BAND_COUNTS
 
 CELLS = 48
-"""Across the picture: the least common multiple of the parts into which the range is split."""
+"""Cells across the picture: the least common multiple of `BAND_COUNTS`."""
 _SIDES = (Side("", "Frequency", "f", "kHz"), Side("", "Bands in the range", "", ""))
-_SAY = "return isNaN(cell) ? 'too narrow for this signal' : `kurtosis ${rounded(cell, 3)}`"
+_WORDS = "return isNaN(cell) ? 'too narrow for this signal' : `kurtosis ${rounded(cell, 3)}`"
 _BAND = strips(
     "kurtogram_band", style.LIGHT, 0.0, line_color=style.LIGHT, line_width=2.0, line_dash="dashed"
 )
@@ -54,7 +54,7 @@ class MeasuredKurtogram(MeasuredView):
         plot.yaxis[0].ticker = FixedTicker(ticks=list(range(len(BAND_COUNTS))), minor_ticks=[])
         plot.yaxis[0].major_label_overrides = {k: str(parts) for k, parts in enumerate(BAND_COUNTS)}
         shown = packed.range("kurtogram_kurtosis", 0.0, 1.0)
-        self._image = GridImage(plot, packed, "kurtogram_cells", shown, _SIDES, _SAY, "Kurtosis")
+        self._image = GridImage(plot, packed, "kurtogram_cells", shown, _SIDES, _WORDS, "Kurtosis")
         draw(plot, packed, [_BAND])
         self.hidden = stack(plot, visible=False)
         return self.hidden
@@ -81,13 +81,13 @@ class MeasuredKurtogram(MeasuredView):
     def words_of(self, model: Model, measured: Measured) -> str:
         direction = self.direction_of(measured)
         chart = measured.kurtogram(direction)
-        most = int(chart.kurtosis.argmax())
-        band, chosen = chart.bands[most], self.demodulation(measured, direction)
+        highest = int(chart.kurtosis.argmax())
+        band, chosen = chart.bands[highest], self.demodulation(measured, direction)
         words = (
             f"The kurtosis{measured.along(direction)} is highest, "
-            f"{style.number(chart.kurtosis[most], 3)}, from {band.low:.0f} to {band.high:.0f} Hz. "
-            f"Envelopes are taken from {chosen.band[0]:.0f} to {chosen.band[1]:.0f} Hz, "
-            f"{chosen.reason}"
+            f"{style.number(chart.kurtosis[highest], 3)}, from {band.low:.0f} to "
+            f"{band.high:.0f} Hz. Envelopes are taken from {chosen.band[0]:.0f} to "
+            f"{chosen.band[1]:.0f} Hz, {chosen.reason}"
         )
         if self.diagnosed() is None or chosen.band == (band.low, band.high):
             return f"{words}."
@@ -98,9 +98,9 @@ class MeasuredKurtogram(MeasuredView):
 
 
 def picture(chart: Kurtogram, nyquist: float) -> NDArray[np.float64]:
-    """The kurtosis (levels, CELLS) over frequency up to `nyquist` [Hz]; NaN where no band is.
+    """Return the kurtosis (levels, CELLS) up to `nyquist` [Hz]; NaN where there is no band.
 
-    Of the levels that the signal is long enough for, two at least.
+    The picture has the levels for which the signal is long enough, but at least two.
     """
     count = max(BAND_COUNTS.index(int(chart.parts.max())) + 1, 2)
     cells = np.full((count, CELLS), np.nan)

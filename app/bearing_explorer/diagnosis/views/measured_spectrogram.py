@@ -1,4 +1,4 @@
-"""Spectrogram of a measured signal: whether its speed and its lines stay the same."""
+"""Spectrogram of a measured signal: it shows changes of the speed and of the lines."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ SEGMENTS = 60.0
 """Number of segments of a spectrogram, counted without their overlap."""
 SEGMENT_LENGTHS = (64, 8192)
 _SIDES = (Side("", "Time", "t", "s"), Side("", "Frequency", "f", "Hz"))
-_SAY = "return `${rounded(cell, 3)} dB`"
+_WORDS = "return `${rounded(cell, 3)} dB`"
 
 
 class MeasuredSpectrogram(MeasuredView):
@@ -52,12 +52,12 @@ class MeasuredSpectrogram(MeasuredView):
         )
         level = packed.range("spectrogram_level", -DEPTH_OF_VIEW, 0.0)
         title = "dB below the highest"
-        self._image = GridImage(plot, packed, "spectrogram_cells", level, _SIDES, _SAY, title)
+        self._image = GridImage(plot, packed, "spectrogram_cells", level, _SIDES, _WORDS, title)
         self.hidden = stack(plot, visible=False)
         return self.hidden
 
     def shown(self, measured: Measured) -> tuple[Array, Array, Array]:
-        """Times [s], frequencies [Hz], and levels (times, frequencies) [dB below the highest]."""
+        """Return times [s], frequencies [Hz], and levels (times, frequencies) [dB, highest 0]."""
         direction = self.direction_of(measured)
 
         def compute() -> tuple[Array, Array, Array]:
@@ -65,7 +65,7 @@ class MeasuredSpectrogram(MeasuredView):
             least, most = SEGMENT_LENGTHS
             length = 2 ** round(math.log2(min(max(len(signal) / SEGMENTS, least), most)))
             levels = spectrogram(signal, rate, rate / length)
-            level = thinned(decibels(levels.density))
+            level = thin_to_peaks(decibels(levels.density))
             time, frequency = (
                 np.linspace(values[0], values[-1], count)
                 for values, count in zip((levels.time, levels.frequency), level.shape, strict=True)
@@ -86,10 +86,10 @@ class MeasuredSpectrogram(MeasuredView):
     def words_of(self, model: Model, measured: Measured) -> str:
         time, frequency, level = self.shown(measured)
         above = min(2, level.shape[1] - 1)  # an offset of the sensor is no vibration
-        when, most = np.unravel_index(int(level[:, above:].argmax()), level[:, above:].shape)
-        most += above
-        where = f"at {frequency[most]:.0f} Hz, {style.with_prefix(float(time[when]), 's')} in"
-        return f"It is loudest{measured.along(self.direction_of(measured))} {where}."
+        column, row = np.unravel_index(int(level[:, above:].argmax()), level[:, above:].shape)
+        row += above
+        place = f"at {frequency[row]:.0f} Hz, {style.with_prefix(float(time[column]), 's')} in"
+        return f"It is loudest{measured.along(self.direction_of(measured))} {place}."
 
     def columns_of(self, model: Model, measured: Measured) -> dict[str, np.ndarray]:
         time, frequency, level = self.shown(measured)
@@ -97,8 +97,8 @@ class MeasuredSpectrogram(MeasuredView):
         return {"time_s": x.ravel(), "frequency_hz": y.ravel(), "level_db": level.ravel()}
 
 
-def thinned(level: Array) -> Array:
-    """Levels (columns, rows) with no more than can be seen; each peak stays."""
+def thin_to_peaks(level: Array) -> Array:
+    """Reduce levels (columns, rows) to the points that can be seen; each peak stays."""
     for axis, most in enumerate((MOST_COLUMNS, MOST_ROWS)):
         size = math.ceil(level.shape[axis] / most)
         level = np.maximum.reduceat(level, np.arange(0, level.shape[axis], size), axis=axis)

@@ -106,6 +106,6 @@ class MeasuredSpectrum(FrequencyView):
 
 def _highest(spectrum: Spectrum, unit: str, size: float) -> str:
     amplitude = np.where(spectrum.frequency >= 100.0, amplitudes(spectrum), 0.0)
-    most = int(amplitude.argmax())
-    height = f"{style.number(float(amplitude[most]) / size, 3)} {unit}"
-    return f"at {spectrum.frequency[most]:.0f} Hz ({height})"
+    highest = int(amplitude.argmax())
+    height = f"{style.number(float(amplitude[highest]) / size, 3)} {unit}"
+    return f"at {spectrum.frequency[highest]:.0f} Hz ({height})"

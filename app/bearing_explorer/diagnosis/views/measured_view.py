@@ -29,9 +29,9 @@ MEASURED = style.INK
 
 
 def shown_unit(measured: Measured) -> tuple[str, float]:
-    """The unit in which amplitudes are shown, that of the file, and what it is [m/s²].
+    """Return the unit in which amplitudes are shown, and its size [m/s²].
 
-    g where the file holds voltages or velocities; "units of the file" where its unit is not known.
+    It is the unit of the file; g for voltages or velocities; "units of the file" if not known.
     """
     if not measured.in_si:
         return "units of the file", 1.0
@@ -49,26 +49,26 @@ class Demodulation:
 
 
 NO_MEASUREMENT = measurement_of(None, next(iter(presets.values())))
-"""A measurement of nothing, for views that are given none."""
+"""An empty measurement, for views without a session."""
 NOTHING = "There is no signal yet: choose a file or simulate one above."
 WITHOUT_BEARING = "Say in step 2 which bearing it is to see this."
 
 
 class MeasuredView(View[Model]):
-    """A view of the session's measurement. What `build` puts in `self.hidden` waits for one.
+    """A view of the session's measurement; `self.hidden` is shown once there is a signal.
 
     A subclass provides `data_of`, `words_of` and `columns_of` of a signal, or `data`, `sentence`
-    and `table` themselves. Until there is a signal only the first view, which has the form for it,
-    is on the page.
+    and `table` themselves. Until there is a signal, only the first view, which has the form, is on
+    the page.
     """
 
     needs = frozenset()
     hidden: Any = None
-    #: whether what it computes looks for a speed that is not known
+    #: True if its computation estimates an unknown shaft speed
     finds_speed: ClassVar[bool] = False
-    #: whether its card comes with a signal
+    #: True if its card appears only with a signal
     waits: ClassVar[bool] = True
-    is_brief = False  # what a result of a signal rests on is seen with it
+    is_brief = False  # a result is always seen with its assumptions
     measurement: Measurement = NO_MEASUREMENT
 
     def __init__(self, packed: PackedSource) -> None:
@@ -116,30 +116,30 @@ class MeasuredView(View[Model]):
 
     @property
     def shaft_speed(self) -> float | None:
-        """Shaft speed [rad/s] that is given, or that the diagnosis shows."""
+        """Shaft speed [rad/s] that is given or that the diagnosis shows."""
         return self.measurement.shaft_speed
 
     @property
     def turning(self) -> Turning | None:
-        """The bearing that was measured at its speed; None where either is not known."""
+        """The measured bearing at its shaft speed; None where either is not known."""
         measured, speed = self.measured, self.shaft_speed
         if measured is None or measured.bearing is None or speed is None:
             return None
         return Turning(measured.bearing, speed)
 
     def diagnosed(self) -> EnvelopeLines | None:
-        """The envelope on which the diagnosis rests, once there is one."""
+        """Return the envelope on which the diagnosis rests, once there is one."""
         diagnosis = self.measurement.diagnosis()
         return None if diagnosis is None else diagnosis.spectrum
 
     def direction_of(self, measured: Measured, chosen: str = "") -> str:
-        """The direction to show: the one chosen, or that of the diagnosis, or y."""
+        """Return the direction to show: the chosen one, or that of the diagnosis, or y."""
         diagnosed = self.diagnosed()
         wanted = (chosen, diagnosed.direction if diagnosed else "", "y", *measured.directions)
         return next(direction for direction in wanted if direction in measured.directions)
 
     def demodulation(self, measured: Measured, direction: str) -> Demodulation:
-        """The one band for envelopes: that of the diagnosis, or the kurtogram's best."""
+        """Return the band for envelopes: that of the diagnosis, or the kurtogram's best."""
         highest = HIGHEST_SHARE * measured.recording.sample_rate
         diagnosed = self.diagnosed()
         if diagnosed is not None:
@@ -155,7 +155,7 @@ class MeasuredView(View[Model]):
         return Demodulation((low, min(high, highest)), reason)
 
     def python(self) -> str:
-        """Lines of Python that read the file and make what is drawn."""
+        """Return lines of Python that read the file and make the figure."""
         measured, model = self.measured, self._results
         if measured is None or model is None:
             return f"# {NOTHING}\n"
@@ -177,7 +177,7 @@ class MeasuredView(View[Model]):
         known = {"in_si": "True" if measured.in_si else "False"}
         known["speed"] = {ROUGH: '"rough"', NOT_KNOWN: '"unknown"'}.get(machine.speed_source, "")
         if machine.exact_speed is None and not self.finds_speed and self.shaft_speed is not None:
-            known["speed"] = short(self.shaft_speed)  # which elsewhere is not looked for
+            known["speed"] = short(self.shaft_speed)  # exported lines do not estimate it
         known["bearing"] = '"frequencies"' if machine.by_frequencies else ""
         if machine.bearing is None:
             known["bearing"] = '"unknown"'
@@ -188,15 +188,15 @@ class MeasuredView(View[Model]):
 
     def say(self, model: Model | None, sentence: str) -> None:
         super().say(model, sentence)
-        there = self.measured is not None
-        self.panel.visible = there or not self.waits
-        if there:
+        measured = self.measured
+        has_signal = measured is not None
+        self.panel.visible = has_signal or not self.waits
+        if has_signal:
             self.bring()
         if self.hidden is not None:
-            self.hidden.visible = there
-        measured = self.measured
+            self.hidden.visible = has_signal
         file = measured.recording.name if measured is not None and measured.origin else ""
-        self._caption.put(nothing=not there, subject=file)
+        self._caption.put(nothing=not has_signal, subject=file)
         # hidden figures are not saved as pictures
         self._caption.figures = [plot.id for plot in self.figures] if self.drawn else []
 
@@ -212,12 +212,12 @@ class MeasuredView(View[Model]):
 
 
 def column_name(direction: str, in_si: bool) -> str:
-    """Column name of the signal along a direction; it has no unit where that is not known."""
+    """Column name of the signal along a direction, with its unit if that is known."""
     return f"acceleration_{direction}_m_per_s2" if in_si else f"signal_{direction}"
 
 
 def named_columns(table: ResultTable, in_si: bool) -> dict[str, np.ndarray]:
-    """Columns of a table of a signal; without units, and velocities, where that is not known."""
+    """Columns of a signal's table; without units and velocities if its unit is not known."""
     columns = table.in_units().named()
     if in_si:
         return columns
@@ -229,7 +229,7 @@ def named_columns(table: ResultTable, in_si: bool) -> dict[str, np.ndarray]:
 
 
 def recording_lines(measured: Measured) -> list[str]:
-    """Lines of Python that make `recording`: read from the file, or simulated without noise."""
+    """Write Python that reads `recording` from its file, or simulates it without noise."""
     recording, origin = measured.recording, measured.origin
     along, rate = code_of(list(recording.directions)), short(recording.sample_rate)
     if origin is None:

@@ -28,7 +28,7 @@ ACCELERATION = style.AxisQuantity("Acceleration", "a", "")
 AS_IN_FILE = style.AxisQuantity("Value", "", "")
 HEIGHT = 230
 DRAWN_PARTS = 700
-"""Stretches of which the least and the greatest number are drawn."""
+"""Number of stretches of a curve; of each, the least and the greatest value are drawn."""
 PASSES = 4.0
 """Ball passes of the close view."""
 CLOSE = 0.05
@@ -44,7 +44,7 @@ class MeasuredSignal(MeasuredView):
     title = "1  Your measurement"
     about = (
         "The vibration a sensor on the housing measures. The bearing and the speed of the scene "
-        "count only if you choose them; the questions stand with the answer."
+        "count only if you choose them; step 2 asks for both."
     )
     waits = False
 
@@ -80,7 +80,7 @@ class MeasuredSignal(MeasuredView):
     # The picture
 
     def _show_or_hide(self) -> None:
-        """Figures and sentence are behind the line to which the form folds."""
+        """Show the figures and the sentence unless the form is folded to a line."""
         self.hidden.visible = self.drawn
         self._sentence.visible = self.drawn or self.measured is None
         self._caption.figures = [plot.id for plot in self.figures] if self.drawn else []
@@ -111,8 +111,8 @@ class MeasuredSignal(MeasuredView):
         first, last = close_view(measured, self.turning)
         rate = measured.recording.sample_rate
         signal = measured.recording.acceleration
-        whole = drawn(measured, 0, len(signal))
-        part = drawn(measured, first, last)
+        whole = stretch(measured, 0, len(signal))
+        part = stretch(measured, first, last)
         return {"measurement_all": whole, "measurement_close": part}, {
             "measurement_all_time": (0.0, measured.recording.duration),
             "measurement_all_size": self._all.fit(*(whole[dof] for dof in SHOWN)),
@@ -131,8 +131,8 @@ class MeasuredSignal(MeasuredView):
             root = math.sqrt(float(np.mean((signal - middle) ** 2)))
             level, mean = style.number(root / size, 3), style.number(middle / size, 2)
             sizes.append(f"{level}{unit}{measured.along(dof)} about a mean of {mean}{unit}")
-        of = "the acceleration" if measured.in_si else "the numbers of the file"
-        return f"Root mean square of {of}: {style.list_words(sizes)}."
+        values = "the acceleration" if measured.in_si else "the numbers of the file"
+        return f"Root mean square of {values}: {style.list_words(sizes)}."
 
     def columns_of(self, model: Model, measured: Measured) -> dict[str, np.ndarray]:
         recording = measured.recording
@@ -144,9 +144,9 @@ class MeasuredSignal(MeasuredView):
 
 
 def close_view(measured: Measured, turning: Turning | None) -> tuple[int, int]:
-    """First and last sample of a few ball passes, from a quarter of the signal on.
+    """First and last sample of the close view, which begins at a quarter of the signal.
 
-    Of an unknown bearing or speed of `CLOSE` seconds.
+    It has a few ball passes, or `CLOSE` seconds if bearing or speed are not known.
     """
     recording = measured.recording
     n = len(recording.acceleration)
@@ -159,10 +159,10 @@ def close_view(measured: Measured, turning: Turning | None) -> tuple[int, int]:
     return first, first + count
 
 
-def drawn(measured: Measured, first: int, last: int) -> dict[str, NDArray[np.float64]]:
-    """A stretch of the signal as `shown_unit` has it, no more numbers than can be seen.
+def stretch(measured: Measured, first: int, last: int) -> dict[str, NDArray[np.float64]]:
+    """A stretch of the signal in `shown_unit`, reduced to the numbers that can be seen.
 
-    NaN where not measured.
+    Directions that were not measured are NaN.
     """
     recording = measured.recording
     rows, values = least_and_greatest(recording.acceleration[first:last], DRAWN_PARTS)
@@ -175,7 +175,7 @@ def drawn(measured: Measured, first: int, last: int) -> dict[str, NDArray[np.flo
 def fit_with_head(
     sticky: StickyRange, values: list[NDArray[np.float64]], head: float = 0.22
 ) -> tuple[float, float]:
-    """A range for the values with room for names above them."""
+    """Return a range for the values, with room for names above them."""
     finite = np.concatenate([part[np.isfinite(part)] for part in values])
     low, high = float(finite.min(initial=0.0)), float(finite.max(initial=0.0))
     return sticky.fit(np.array([low, high + head * (high - low)]))

@@ -1,7 +1,7 @@
 """The next step after a diagnosis, and how soon, in sentences for planners.
 
-How soon rests on the zone of the vibration's velocity and on whether it grew. The intervals are a
-rule of thumb, and say so.
+The urgency follows from the zone of the vibration's velocity and from its growth. The intervals are
+a rule of thumb, and the sentences say so.
 """
 
 from __future__ import annotations
@@ -11,18 +11,18 @@ import math
 from bearing_explorer.diagnosis.diagnoses import Question
 from bearing_explorer.diagnosis.session import Measurement
 from bearing_explorer.diagnosis.views.measured_indicators import severity, zone_of
-from bearing_explorer.diagnosis.views.part_words import finding, the
+from bearing_explorer.diagnosis.views.part_words import finding, with_article
 from bearing_explorer.diagnosis.views.trend import growth, line_growth
 from bearingcore import Diagnosis, Trend
 from bearingcore.common import number, percent
 from bearingcore.measured.diagnosis import LIKELY, NONE_SEEN, DiagnosisStatus
 
 GROWN = 2.0
-"""Times the baseline from which on the vibration, or the line of the part that is named, has
-clearly grown."""
+"""Ratio to the baseline from which the vibration, or the line of the named part, has clearly
+grown."""
 
-MOST = 0.5
-"""Share of the velocity's power from which on it is the shaft's own."""
+MOSTLY_SHAFT = 0.5
+"""Share of the shaft's own lines in the velocity's power from which the shaft is its cause."""
 
 ONE_RECORD = "How fast the damage grows is not known: a trend of several records shows it."
 PRACTICE = (
@@ -65,7 +65,7 @@ def next_steps(
     trend: Trend | None = None,
     shaft_share: float = math.nan,
 ) -> str:
-    """The next step, and how soon, in sentences.
+    """Say in sentences what to do next, and how soon.
 
     Parameters
     ----------
@@ -82,11 +82,11 @@ def next_steps(
         return _without_a_part(diagnosis, zone, change)
     if trend is not None and compared and line_growth(trend):
         change = max(change, float(trend.line_change(diagnosis.fault)[-1]))
-    of_the_shaft = shaft_share >= MOST
-    part = the(diagnosis.fault)
+    of_the_shaft = shaft_share >= MOSTLY_SHAFT
+    part = with_article(diagnosis.fault)
     words = [_how_soon(part, zone, change, diagnosis.probability < LIKELY, of_the_shaft)]
     if diagnosis.other_race is not None:
-        words.append(f"Inspect {the(diagnosis.other_race.part)} too.")
+        words.append(f"Inspect {with_article(diagnosis.other_race.part)} too.")
     if of_the_shaft:
         words.append(
             f"Most of the velocity ({percent(shaft_share, 2)} of its power) is the shaft's own, 1 "
@@ -107,7 +107,7 @@ def steps_now(
     diagnosis: Diagnosis,
     shaft_share: float = math.nan,
 ) -> str:
-    """The next step by all that a session knows of the machine."""
+    """Say what to do next, from all that the session knows of the machine."""
     zone = zone_of(question.measured, measurement.machine_kind)
     return next_steps(diagnosis, question, zone, measurement.whole_trend, shaft_share)
 
@@ -115,7 +115,7 @@ def steps_now(
 def work_order(
     measurement: Measurement, question: Question, diagnosis: Diagnosis, length: str = ""
 ) -> str:
-    """The text of a work order, a fact in each line; `length` is that of the spall in words."""
+    """Write a work order, one fact a line; `length` is the length of the spall in words."""
     about, measured, trend = measurement.known_about, question.measured, measurement.whole_trend
     spall = f" Its spall is {length}." if length else ""
     compared = trend is not None and len(trend.points) > 1 and measured.in_si
@@ -132,6 +132,7 @@ def work_order(
 
 
 def _how_soon(part: str, zone: str, change: float, unsure: bool, of_the_shaft: bool) -> str:
+    """Say how soon to act on a named part, by the zone and growth of the vibration."""
     if zone == "D":
         cause = "find out why the shaft vibrates so, " if of_the_shaft else ""
         return (
@@ -153,6 +154,7 @@ def _how_soon(part: str, zone: str, change: float, unsure: bool, of_the_shaft: b
 
 
 def _without_a_part(diagnosis: Diagnosis, zone: str, change: float) -> str:
+    """Say what to do where the diagnosis names no part."""
     if diagnosis.fault == NONE_SEEN:
         words = "Measure again at the usual interval."
     else:

@@ -1,8 +1,8 @@
 """The spectrum of an envelope with the lines of each part of the bearing in it.
 
 The lines of the part that stands out most are drawn strong where they were measured, with its
-sidebands and a mark on each harmonic; those of the other parts are drawn faint, where geometry has
-them. Below are frequencies, above the same in turns of the shaft (orders).
+sidebands and a mark on each harmonic. The lines of the other parts are drawn faint where the
+geometry puts them. The lower axis has frequencies, the upper one turns of the shaft (orders).
 """
 
 from __future__ import annotations
@@ -14,8 +14,8 @@ from bokeh.plotting import figure
 from bearing_explorer.diagnosis.views.frequency_lines import (
     FAMILIES,
     ROW_PIXELS,
-    named,
-    thinned_to_peaks,
+    labelled,
+    thin_to_peaks,
 )
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.layers import Glyph, Layer, curve, draw, names_over
@@ -33,30 +33,30 @@ FRAME, HEIGHT = 236.0, 330  # [px]
 LOWEST = -6.0  # [dB] drawn
 
 STRONG, FAINT, EVEN = 0.95, 0.32, 0.6
-"""Opacity of lines: of the leading part, of the others, of all where none leads."""
+"""Opacity of the lines of the leading part, of the other parts, and of all where none leads."""
 
 NAMES = {"outer race": "BPFO", "inner race": "BPFI", "ball": "2 BSF"}
 COLORS = {part: family.color for part, family in zip(PARTS, FAMILIES, strict=False)}
-"""Colours of the parts: those that their lines have on all figures."""
+"""Colours of the parts and of their lines, the same in all figures."""
 
 _WORDS = "return row.order == 1 ? '%s' : `${row.order}×`"
 
 
 def leading(diagnosis: Diagnosis) -> PartEvidence | None:
-    """The part that stands out, be it enough to be named or not; None where none is seen."""
+    """Return the part that stands out, even if too little to be named; None without such a part."""
     lead = diagnosis.leading
     seen = lead is not None and diagnosis.fault != NONE_SEEN and lead.level > lead.noise
     return lead if seen or diagnosis.names_a_part else None
 
 
 def shaft_frequency(diagnosis: Diagnosis) -> float:
-    """Turns of the shaft a second [Hz] on which the lines rest."""
+    """Return the frequency of the shaft [Hz] from which the lines are computed."""
     part = diagnosis.evidence[0]
     return part.nominal_frequency / part.nominal_order
 
 
 def fundamental(diagnosis: Diagnosis, part: PartEvidence) -> float:
-    """The frequency [Hz] at which the first line of a part is drawn."""
+    """Return the frequency [Hz] at which the first line of a part is drawn."""
     return part.frequency if part is leading(diagnosis) else part.nominal_frequency
 
 
@@ -82,7 +82,7 @@ def layers() -> list[Layer]:
 
 
 class PartLines:
-    """The figure, and what it shows."""
+    """The figure and its data."""
 
     def __init__(self, packed: PackedSource) -> None:
         self._levels = StickyRange(LOWEST, 30.0, least_span=12.0)
@@ -103,11 +103,11 @@ class PartLines:
         self._order_axis = axis
 
     def show_orders(self, known: bool) -> None:
-        """The axis of orders, where the shaft's speed is known."""
+        """Show the axis of orders if the shaft speed is known."""
         self._order_axis.visible = known
 
     def data(self, diagnosis: Diagnosis) -> tuple[Sources, Ranges]:
-        """The sources of a diagnosis with a spectrum."""
+        """Return sources and ranges of a diagnosis that has a spectrum."""
         spectrum = diagnosis.spectrum
         assert spectrum is not None
         greatest = max(
@@ -116,8 +116,8 @@ class PartLines:
         high = min(1.04 * greatest, float(spectrum.frequency[-1]))
         shaft = shaft_frequency(diagnosis)
         kept = spectrum.frequency <= high
-        frequency, level = thinned_to_peaks(spectrum.frequency[kept], spectrum.level[kept])
-        # between lines a level may be endlessly low: what is below the frame is at its foot
+        frequency, level = thin_to_peaks(spectrum.frequency[kept], spectrum.level[kept])
+        # between lines a level may be arbitrarily low: it is drawn at the foot of the frame
         drawn = {"frequency": frequency, "level": np.maximum(level, LOWEST)}
         sources: Sources = {"diagnosis_spectrum": drawn}
         lead = leading(diagnosis)
@@ -127,7 +127,7 @@ class PartLines:
             alpha = EVEN if lead is None else STRONG if part is lead else FAINT
             multiples = np.arange(1.0, len(part.harmonics) + 1.0)
             size = multiples.size
-            labels = named(multiples, first, high)
+            labels = labelled(multiples, first, high)
             sources[source_of(part.part, "lines")] = {
                 "frequency": multiples * first,
                 "alpha": np.full(size, alpha),
@@ -140,9 +140,9 @@ class PartLines:
                 "alpha": np.full(labels.size, 1.0 if part is lead or lead is None else 0.75),
             }
         if lead is not None:
-            sources |= self._of_lead(lead)
-        swells = drawn["frequency"] > 0.5 * shaft  # what drifts slowly is not what the scale is for
-        loudest = float(np.max(drawn["level"][swells], initial=10.0))
+            sources |= self._lead_sources(lead)
+        fast = drawn["frequency"] > 0.5 * shaft  # a slow drift must not set the scale
+        loudest = float(np.max(drawn["level"][fast], initial=10.0))
         room = name_row * (len(PARTS) + 0.8)
         head = (loudest - LOWEST) * room / (1.0 - room)
         return sources, {
@@ -151,8 +151,8 @@ class PartLines:
             "diagnosis_level": (LOWEST, self._levels.fit(np.array([LOWEST, loudest + head]))[1]),
         }
 
-    def _of_lead(self, lead: PartEvidence) -> Sources:
-        """The marks on the harmonics of the part that leads, and its sidebands."""
+    def _lead_sources(self, lead: PartEvidence) -> Sources:
+        """Return the marks on the harmonics of the leading part, and its sidebands."""
         multiples = np.arange(1.0, len(lead.harmonics) + 1.0)
         sources: Sources = {
             source_of(lead.part, "points"): {
@@ -160,7 +160,7 @@ class PartLines:
                 "level": np.maximum(lead.harmonics, LOWEST),
             }
         }
-        if lead.part != "outer race":  # which stands still in the load and makes none
+        if lead.part != "outer race":  # it stands still in the load and has no sidebands
             sidebands = np.array([-lead.sideband_spacing, lead.sideband_spacing])
             both = multiples[:, None] * lead.frequency + sidebands
             sources[source_of(lead.part, "sidebands")] = {"frequency": both.ravel()}
@@ -168,5 +168,5 @@ class PartLines:
 
 
 def source_of(part: str, kind: str) -> str:
-    """The name of a source: of the lines of a part, their names, sidebands or points."""
+    """Name a source: the lines of a part, their names, sidebands or points."""
     return f"diagnosis_{part.replace(' ', '_')}_{kind}"

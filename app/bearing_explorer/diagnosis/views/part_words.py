@@ -23,7 +23,7 @@ COUNTED = (
 """Warning after "no damage seen" if the number of balls or rollers is an estimate."""
 
 CHANGES = 1.05
-"""Ratio of highest to lowest speed above which both are said: noise scatters by less."""
+"""Ratio of highest to lowest speed above which both are stated: noise scatters by less."""
 
 LENGTH_HIDDEN = "the length of the spall does not show"
 
@@ -34,13 +34,13 @@ _FREQUENCY = {
 }
 
 
-def the(part: str) -> str:
-    """A part in a sentence."""
+def with_article(part: str) -> str:
+    """Return a part with its article, for a sentence."""
     return "a ball" if part == "ball" else f"the {part}"
 
 
 def mood(answer: Diagnosis) -> str:
-    """Damage ("fault"), none ("healthy") or no answer ("unknown")."""
+    """Return "fault" for damage, "healthy" for none, or "unknown" without an answer."""
     if answer.names_a_part:
         return "fault"
     return "healthy" if answer.fault == NONE_SEEN else "unknown"
@@ -49,7 +49,7 @@ def mood(answer: Diagnosis) -> str:
 def headline(answer: Diagnosis) -> str:
     """The answer in a few words."""
     if answer.names_a_part:
-        words = the(answer.fault)
+        words = with_article(answer.fault)
         probably = "" if answer.probability >= LIKELY else "probably "
         return f"{words[0].upper()}{words[1:]} is {probably}damaged"
     return "No damage seen" if answer.fault == NONE_SEEN else "No clear result"
@@ -82,7 +82,7 @@ def estimate_warning(question: Question) -> str:
 
 
 def length(measured: MeasuredExtent, sizing: Sizing | None = None) -> str:
-    """The length of a spall in a few words, by its simulation where that is conclusive."""
+    """Return the length of a spall in a few words, from its sizing where that is conclusive."""
     if sizing is not None and sizing.conclusive:
         return f"{size_in_words(sizing)} long, by the frequencies at which the machine rings"
     if measured.measured:
@@ -91,19 +91,19 @@ def length(measured: MeasuredExtent, sizing: Sizing | None = None) -> str:
 
 
 def swing(depth: float) -> str:
-    """A share of the envelope's mean."""
+    """Word a share of the envelope's mean."""
     return f"{style.number(100.0 * depth, 1 if depth < 0.095 else 2)} %"
 
 
 def turns(answer: Diagnosis) -> str:
-    """The shaft's mean speed for a sentence; empty where none is known."""
+    """Word the shaft's mean speed; empty where none is known."""
     if answer.shaft_speed is None:
         return ""
     return f"{30.0 / math.pi * answer.shaft_speed:.0f} turns a minute"
 
 
 def speed_range(answer: Diagnosis, measured: Measured) -> str:
-    """The shaft's speed for a sentence, from least to most where it was measured and changes."""
+    """Word the shaft's speed; from least to greatest where it was measured and changes."""
     if measured.speed_limits is None or answer.shaft_speed is None:
         return turns(answer)
     least, most = (30.0 / math.pi * speed for speed in measured.speed_limits)
@@ -124,7 +124,7 @@ def speed_sentence(measured: Measured) -> str:
 
 
 def assumptions(question: Question) -> str:
-    """Assumptions of the answer that no person made for this file, in sentences after it."""
+    """Say which facts of the answer are assumed: no person gave them for this file."""
     machine = question.measured.machine
     names = {
         "bearing": f"the bearing ({machine.bearing_name})",
@@ -150,9 +150,9 @@ def _rpm(speed: float) -> str:
 def speed_source(answer: Diagnosis, machine: Machine) -> str:
     """Source of the shaft speed of an answer, in words."""
     source = machine.source_of("speed")
-    for given in ("given by the recording", "given"):
-        if answer.speed_source.startswith(given):
-            return source + answer.speed_source.removeprefix(given)
+    for prefix in ("given by the recording", "given"):
+        if answer.speed_source.startswith(prefix):
+            return source + answer.speed_source.removeprefix(prefix)
     return f"{source or 'not given'}; {answer.speed_source}"
 
 
@@ -167,9 +167,9 @@ def sentence(answer: Diagnosis, question: Question) -> str:
 def finding(answer: Diagnosis, question: Question) -> str:
     """The finding for a technician, with its assumptions."""
     speed, doubt = speed_range(answer, question.measured), assumptions(question)
-    at = f" at {speed}" if speed else ""
+    at_speed = f" at {speed}" if speed else ""
     name = question.measured.machine.bearing_name
-    head = f"bearing{f' {name}' if name else ''}{at}: "
+    head = f"bearing{f' {name}' if name else ''}{at_speed}: "
     if answer.names_a_part:
         part = answer.of(answer.fault)
         return (
@@ -205,13 +205,8 @@ def facts(answer: Diagnosis, question: Question) -> list[list[str]]:
     if not question.measured.in_si:
         rows.append(["Unit", "not known; the part does not depend on it"])
     if answer.spectrum is not None:
-        low, high = answer.spectrum.band
-        rows.append(
-            [
-                "Demodulation band",
-                f"{band(low, high)}{question.measured.along(answer.spectrum.direction)}, chosen",
-            ]
-        )
+        words = band(*answer.spectrum.band) + question.measured.along(answer.spectrum.direction)
+        rows.append(["Demodulation band", f"{words}, chosen"])
     return rows
 
 
@@ -235,12 +230,12 @@ def band(low: float, high: float) -> str:
 
 
 def truth(question: Question) -> str:
-    """The true state behind a simulated signal, and whether it is unrealistically quiet."""
+    """Say the true state behind a simulated signal, and if it is unrealistically quiet."""
     part = question.measured.true_part
     if not part:
         return ""
     if part != "none":
-        return f" The signal is simulated: {the(part)} is damaged."
+        return f" The signal is simulated: {with_article(part)} is damaged."
     words = " The signal is simulated: the bearing is healthy."
     if question.measured.noiseless:
         words += (
@@ -253,7 +248,7 @@ def truth(question: Question) -> str:
 def evidence_html(answer: Diagnosis, several: bool = True) -> str:
     """The evidence for each part as an HTML table; with directions where there are `several`.
 
-    Without a clear result no part has a probability or leads: it would look like a verdict.
+    Without a clear result, no part has a probability or is marked: that would look like a verdict.
     """
     if not answer.evidence:
         return ""
@@ -274,9 +269,9 @@ def evidence_html(answer: Diagnosis, several: bool = True) -> str:
 
 
 def _evidence_row(part: PartEvidence, answer: Diagnosis, several: bool) -> str:
-    """A row of that table; without a shaft speed it has no number that depends on one."""
+    """A row of that table; without a shaft speed, it has no number that depends on it."""
     lead, known = leading(answer), answer.shaft_speed is not None
-    turns, slip = part.part != OUTER, percent_off(part.slip)
+    rotates, slip = part.part != OUTER, percent_off(part.slip)
     near = part.sidebands[: len(part.sidebands) // 2]
     spacing = f"± {style.number(part.sideband_spacing, 3)} Hz, {part.sideband_source}"
     swatch = f'<i class="swatch" style="background: {style.css_color(COLORS[part.part])}"></i>'
@@ -290,8 +285,8 @@ def _evidence_row(part: PartEvidence, answer: Diagnosis, several: bool) -> str:
         ),
         _cell(decibels(part.level), f"noise {decibels(part.noise)}"),
         _cell(
-            decibels(float(near.mean())) if turns else "none expected",
-            spacing if turns and known else "",
+            decibels(float(near.mean())) if rotates else "none expected",
+            spacing if rotates and known else "",
         ),
         _cell(band(part.band.low, part.band.high), f"along {part.direction}" if several else ""),
         *([_cell(probability(part.probability))] if answer.conclusive else []),

@@ -15,7 +15,7 @@ from bearingcore import Recording, Scene
 from bearingcore.common import choice
 
 BEARINGS = (GIVEN, BY_FREQUENCIES, "unknown")
-"""Knowledge of the bearing of a recording."""
+"""Possible knowledge of the bearing of a recording."""
 
 
 def figure_of(
@@ -37,7 +37,7 @@ def figure_of(
     recording
         the signal that was measured, on the bearing and at the speed of the scene.
     in_si
-        whether its numbers are in m/s².
+        True if its numbers are in m/s².
     speed
         knowledge of the shaft speed: "given" (that of the scene), "rough" (good to 10 %),
         "unknown", or another one [rad/s].

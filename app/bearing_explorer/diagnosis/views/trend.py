@@ -1,4 +1,4 @@
-"""A machine over time: numbers of several files, compared with one of them."""
+"""A machine over time: numbers of several files, compared with a baseline file."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from bokeh.models import Scatter
 from bokeh.plotting import figure
 
 from bearing_explorer.diagnosis.model import Model
-from bearing_explorer.diagnosis.series import FoundTrend, Series
+from bearing_explorer.diagnosis.series import ComputedTrend, Series
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.views.frequency_lines import FAMILIES
 from bearing_explorer.diagnosis.views.measured_view import (
@@ -58,11 +58,11 @@ AXES = {
     "extent": style.AxisQuantity("Length of the defect", "Δφ", "°"),
 }
 MOST_NAMED = 3
-"""Files that are left out which a sentence names."""
+"""Largest number of left-out files that a sentence names."""
 
 
 def _layers(name: str) -> list[Layer]:
-    """Layers of the figure of this name."""
+    """Return the layers of the figure with this name."""
     if name == "lines":
         names = {f"{line}_line": color for line, color in COLORS.items()}
     else:
@@ -81,7 +81,7 @@ def _layers(name: str) -> list[Layer]:
     ]
 
 
-class TrendOfFiles(JobView[Model, FoundTrend, Editor], MeasuredView):
+class TrendOfFiles(JobView[Model, ComputedTrend, Editor], MeasuredView):
     """Root mean square, kurtosis, lines and extent of several files, in their order."""
 
     name = "trend"
@@ -132,9 +132,9 @@ class TrendOfFiles(JobView[Model, FoundTrend, Editor], MeasuredView):
         def work(job: Work) -> str:
             gathered = measurement.recordings(measured, direction)
 
-            def goes_on(so_far: Trend, of: int) -> bool:
-                job.progress(len(so_far.points) / of)
-                job.show(FoundTrend(so_far, gathered, series, measured))
+            def goes_on(so_far: Trend, count: int) -> bool:
+                job.progress(len(so_far.points) / count)
+                job.show(ComputedTrend(so_far, gathered, series, measured))
                 return not job.cancelled()
 
             try:
@@ -148,7 +148,7 @@ class TrendOfFiles(JobView[Model, FoundTrend, Editor], MeasuredView):
 
         return work
 
-    def _take(self, result: FoundTrend) -> None:
+    def _take(self, result: ComputedTrend) -> None:
         self.measurement.trend = result
         super()._take(result)
 
@@ -242,7 +242,7 @@ class TrendOfFiles(JobView[Model, FoundTrend, Editor], MeasuredView):
             several = len(self.measurement.series.tables) > 1
             return "Nothing is computed yet." if several else "One file is no trend yet."
         along = newest.measured.along(newest.trend.direction)
-        words = words_on(newest.trend, newest.measured.in_si, along)
+        words = trend_words(newest.trend, newest.measured.in_si, along)
         if out := newest.recordings.left_out:
             more = f" And {len(out) - MOST_NAMED} more." if len(out) > MOST_NAMED else ""
             words += f" Left out: {' '.join(out[:MOST_NAMED])}{more}"
@@ -268,7 +268,7 @@ class TrendOfFiles(JobView[Model, FoundTrend, Editor], MeasuredView):
 
 
 def time_axis(shown: Trend) -> tuple[style.AxisQuantity, np.ndarray]:
-    """Quantity and places (k,) of the recordings: their time, or their number without dates."""
+    """Quantity and values (k,) across: the time of each recording, or its number without dates."""
     hours = shown.hours
     if not np.isfinite(hours).all():
         return NUMBER, np.arange(1.0, len(hours) + 1.0)
@@ -278,23 +278,23 @@ def time_axis(shown: Trend) -> tuple[style.AxisQuantity, np.ndarray]:
 NO_LEVELS = "Their units are not known, so that their levels are not compared: say the unit."
 
 
-def words_on(shown: Trend, in_si: bool, along: str = "") -> str:
-    """The trend in sentences: growth, kurtosis, and the last recording.
+def trend_words(shown: Trend, in_si: bool, along: str = "") -> str:
+    """Word the trend: growth, kurtosis, and the last recording.
 
     Levels are compared in SI units only.
     """
     first, last = shown.points[0], shown.points[-1]
     if len(shown.points) == 1:
-        return f"One recording{along}: {part_words(shown)}"
+        return f"One recording{along}: {last_words(shown)}"
     kurtosis = [style.number(point.kurtosis, 3) for point in (first, last)]
     return (
         f"{len(shown.points)} recordings{along}. {growth(shown) if in_si else NO_LEVELS} Kurtosis "
-        f"{kurtosis[0]} in the first, {kurtosis[1]} in the last. {part_words(shown)}"
+        f"{kurtosis[0]} in the first, {kurtosis[1]} in the last. {last_words(shown)}"
     )
 
 
 def growth(shown: Trend) -> str:
-    """The growth in sentences: line of the named part, since when it shows, and the level."""
+    """Word the growth of the named part's line, its first recording, and the level's growth."""
     most, change = int(shown.rms_change.argmax()), shown.rms_change
     level = (
         f"Root mean square of the last is {style.number(float(change[-1]), 3)} times that of the "
@@ -307,7 +307,7 @@ def growth(shown: Trend) -> str:
 
 
 def line_growth(shown: Trend) -> str:
-    """A sentence on the growth of the line of the part named in the last recording, if any."""
+    """Word the growth of the line of the part named in the last recording, if any."""
     part = shown.points[-1].fault
     change = float(shown.line_change(part)[-1]) if part in PARTS else math.nan
     if not math.isfinite(change):
@@ -319,7 +319,7 @@ def line_growth(shown: Trend) -> str:
 
 
 def since_when(shown: Trend) -> str:
-    """A sentence on the recording, and the days, since which that line stands out of noise."""
+    """Say since which recording, and for how many days, that line stands out of noise."""
     part = shown.points[-1].fault
     first = shown.seen_since(part) if part in PARTS else None
     if first is None:
@@ -333,15 +333,15 @@ def since_when(shown: Trend) -> str:
     return f"It stands out since {shown.points[first].name}{date}{before}."
 
 
-def part_words(shown: Trend) -> str:
-    """The part named as damaged in the last recording, and the lines above noise."""
+def last_words(shown: Trend) -> str:
+    """Word the part named as damaged in the last recording, and the lines above noise."""
     last = shown.points[-1]
     clear = [
         LABELS[line] for k, line in enumerate(LINES) if np.isfinite(shown.clear_lines[:, k]).any()
     ]
     seen = f"Lines above noise: {style.list_words(clear)}." if clear else "No line is above noise."
     if not np.isfinite(shown.column("shaft_speed")).any():
-        seen = "The part's lines are not looked for: no shaft speed is known."
+        seen = "The part's lines are not searched for: no shaft speed is known."
     if last.extent.race and math.isfinite(last.extent.high):
         return f"{seen} In the last: {last.extent.sentence}"
     named = last.fault if last.fault not in (CANNOT_TELL, NONE_SEEN) else ""
@@ -352,8 +352,8 @@ def part_words(shown: Trend) -> str:
     return f"{seen} In the last: {named}, {100.0 * last.probability:.0f} % probable."
 
 
-def python_lines(newest: FoundTrend, model: Model) -> str:
-    """Lines that read the files of a trend and compute it."""
+def python_lines(newest: ComputedTrend, model: Model) -> str:
+    """Write Python that reads the files of a trend and computes it."""
     scene, shown = newest.measured.scene(model.scene), newest.trend
     machine, lines = newest.measured.machine, []
     bearing = "None" if machine.bearing is None else "scene.bearing"

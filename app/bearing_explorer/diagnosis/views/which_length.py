@@ -59,7 +59,7 @@ BAND_WORDS = "return row.extent > 0 ? row.extent.toFixed(1) + '°' : ''"
 
 
 class Cancelled(Exception):  # noqa: N818
-    """The search is to end."""
+    """A person cancelled the search."""
 
 
 class WhichLength(JobView[Model, SizedDefect, Editor], MeasuredView):
@@ -106,7 +106,7 @@ class WhichLength(JobView[Model, SizedDefect, Editor], MeasuredView):
 
     @property
     def race(self) -> str:
-        """The damaged race that is named; empty without."""
+        """The damaged race that the diagnosis names; empty without one."""
         extent = self.measurement.extent()
         return "" if extent is None else extent.race
 
@@ -125,8 +125,8 @@ class WhichLength(JobView[Model, SizedDefect, Editor], MeasuredView):
         known = given["support"] == KNOWN
 
         def work(job: Work) -> str:
-            def progress(part: float, words: str) -> None:
-                job.progress(part, words)
+            def progress(share: float, words: str) -> None:
+                job.progress(share, words)
                 if job.cancelled():
                     raise Cancelled
 
@@ -159,7 +159,7 @@ class WhichLength(JobView[Model, SizedDefect, Editor], MeasuredView):
             for dof, plot in self._plots.items():
                 plot.visible = dof in measured.directions
         if self._answer_of != self.measurement.state.arrival:
-            # what was said of the support is of the file before
+            # the answer on the support belongs to the file before
             self._answer_of = self.measurement.state.arrival
             self.job.fill({"support": "" if measured.true_scene is None else KNOWN}, {})
         if race and model is not None and self._began != (measured, race):
@@ -179,11 +179,9 @@ class WhichLength(JobView[Model, SizedDefect, Editor], MeasuredView):
         return self._sizing is not None and bool(self._sizing.candidates)
 
     def scene_drawn(self, model: Model) -> Scene:
-        return (
-            MeasuredView.scene_drawn(self, model)
-            if self.job_result is None
-            else self.job_result.machine
-        )
+        if self.job_result is None:
+            return MeasuredView.scene_drawn(self, model)
+        return self.job_result.machine
 
     def data(self, model: Model) -> tuple[Sources, Ranges]:
         sizing, measured = self._sizing, self.measured
@@ -202,8 +200,8 @@ class WhichLength(JobView[Model, SizedDefect, Editor], MeasuredView):
                 "y0": np.zeros_like(amplitude), "y1": amplitude,
             }  # fmt: skip
             for number, candidate in enumerate(sizing.candidates):
-                same = np.linalg.norm(sizing.lines) / np.linalg.norm(candidate.lines)
-                drawn.append(2.0 * same * np.abs(candidate.lines[:, column]))
+                scale = np.linalg.norm(sizing.lines) / np.linalg.norm(candidate.lines)
+                drawn.append(2.0 * scale * np.abs(candidate.lines[:, column]))
                 sources[f"length_candidate_{dof}_{number}"] = {
                     "frequency": sizing.frequency, "amplitude": drawn[-1],
                 }  # fmt: skip
@@ -253,7 +251,7 @@ def _plot(packed: PackedSource, dof: str, frequency: Range1d) -> figure:
 
 
 def _layers(dof: str) -> list[Layer]:
-    """The spectra along a direction, the best on top, under the bands of the candidates."""
+    """Return the bands of the candidates, and over them the spectra, the best one on top."""
     below: list[Layer] = [strips(f"length_bands_{dof}_0", COLORS[0], 0.10)]
     above: list[Layer] = []
     for number, color in reversed(list(enumerate(COLORS))):
@@ -269,7 +267,7 @@ def _layers(dof: str) -> list[Layer]:
 
 
 def _bands(candidate: Candidate, dof: str, number: int, top: float) -> dict[str, np.ndarray]:
-    """The natural frequencies of a candidate along a direction, in its row; the lowest is named."""
+    """The natural frequencies of a candidate along a direction; the lowest bears its extent."""
     ends = [span for label, span in candidate.bands.items() if label[:-1] == dof and span[0] < top]
     low, high = np.array(ends).reshape(-1, 2).T
     place = np.full_like(low, 1.0 - BAND_ROW * (number + 0.6))

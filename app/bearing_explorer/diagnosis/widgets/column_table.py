@@ -1,4 +1,4 @@
-"""The first lines of a file as a table, with what each column is to choose over it."""
+"""The first lines of a file as a table, with a choice of its role over each column."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from bearing_explorer.kit.messages import read
 
 
 class RoleOfColumn(msgspec.Struct):
-    """The role of a column of a file, from 0, was chosen, or the unit of a signal."""
+    """A role, or the unit of a signal, was chosen for a column; `column` counts from 0."""
 
     column: int
     role: str
@@ -22,18 +22,18 @@ class RoleOfColumn(msgspec.Struct):
 
 
 class ColumnTable(JSComponent):
-    """A table of a file's first lines; over each column a list of what it may be.
+    """A table of a file's first lines, with a list of roles over each column.
 
     Parameters
     ----------
     chosen
-        called with the number of a column, its role and, of a signal, its unit.
+        called with the number of a column, its role, and the unit of a signal.
     """
 
-    roles = param.List(doc="What a column may be: [value, words].")
-    signals = param.List(doc="Which of the roles have a unit.")
-    units = param.List(doc="In which units a signal may be: [value, words].")
-    shown = param.Dict({}, doc="Names, places, first lines, roles, units, and what is asked for.")
+    roles = param.List(doc="Possible roles of a column: [value, words].")
+    signals = param.List(doc="Roles that have a unit.")
+    units = param.List(doc="Possible units of a signal: [value, words].")
+    shown = param.Dict({}, doc="Names, places, first lines, roles, units, and open questions.")
 
     _esm = scripts("element.js", "column_table.js")
     _stylesheets: ClassVar[list[str]] = [asset_text("column_table.css")]
@@ -52,11 +52,10 @@ class ColumnTable(JSComponent):
     ) -> None:
         """Show columns: their names, places of sensors, first lines, and how many rows there are.
 
-        `marks` of "columns" and "unit": "open" where an answer is wanted, "refused" where it cannot
-        be.
+        `marks` of "columns" and "unit" are "open" for a question, "refused" for a refused answer.
         """
-        said = {"roles": [*roles], "units": [*units], "marks": {**marks}}
-        self.shown = {**columns, **said}
+        answers = {"roles": [*roles], "units": [*units], "marks": {**marks}}
+        self.shown = {**columns, **answers}
 
     def _take(self, data: Any) -> None:
         message = read(RoleOfColumn, data)

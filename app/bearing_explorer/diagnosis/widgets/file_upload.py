@@ -20,7 +20,7 @@ from bearing_explorer.kit.messages import read
 class UploadBegins(msgspec.Struct, tag="begin"):
     """A file was chosen: its name and its size [bytes].
 
-    It is the `number`th of `count` that come, from 1, out of so many that were `chosen`.
+    It is the `number`th (from 1) of `count` files that are sent, out of `chosen` files.
     """
 
     name: str
@@ -48,7 +48,7 @@ class FileUpload(JSComponent):
 
     largest = param.Integer(doc="Size of a file that is sent [bytes].")
     piece = param.Integer(doc="Size of a piece [bytes].")
-    most = param.Integer(doc="Files that are taken; of more, as many from first to last.")
+    most = param.Integer(doc="Largest number of files; of more, so many are taken.")
     note = param.String()
 
     _esm = scripts("element.js", "file_upload.js")

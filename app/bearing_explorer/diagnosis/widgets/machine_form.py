@@ -1,4 +1,4 @@
-"""The questions about the machine of a signal: which bearing, and how fast the shaft turned."""
+"""The questions about the machine of a signal: its bearing and its shaft speed."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from bearing_explorer.diagnosis.machine import (
     FIELDS,
     FILE,
     GROUPS,
-    KNOWN,
     MEASURED,
+    TYPED,
 )
 from bearing_explorer.diagnosis.measurement_state import MeasurementState
 from bearing_explorer.diagnosis.signal_form import SignalForm
@@ -46,24 +46,24 @@ KEPT_WORDS = (
 
 
 def kept_html(state: MeasurementState) -> str:
-    """Answers that are kept from the file before, and a guess of this file beside them."""
+    """Say which answers are kept from the file before, and what this file has instead."""
     if not state.kept_from:
         return ""
     of_file = dict(state.speeds).get(FILE, "")
     doubt = f"<p>Its file has another speed, {html.escape(of_file)}: choose it if it is right.</p>"
-    kept_speed = of_file and state.values["speed"] in KNOWN
+    kept_speed = of_file and state.values["speed"] in TYPED
     return KEPT_WORDS.format(html.escape(state.kept_from)) + (doubt if kept_speed else "")
 
 
 class MachineForm(pn.Column):
     """Bearing and shaft speed of a signal; each answer counts at once.
 
-    Enter in a field says that its answer, as it stands, is that of this file.
+    Enter in a field confirms its answer for this file.
 
     Parameters
     ----------
     form
-        gives the form of the signal.
+        returns the form of the signal.
     """
 
     def __init__(self, form: Callable[[], SignalForm]) -> None:
@@ -103,20 +103,20 @@ class MachineForm(pn.Column):
                 shown_options = choices(options or NO_OPTIONS[name])
                 fields.widgets[name].param.update(**shown_options, value=values[name])
         fields.put(values)
-        by, speed = values["bearing"], values["speed"]
+        bearing, speed = values["bearing"], values["speed"]
         shown = {
             "bearing": bool(state.bearings),
-            "designation": by == BY_DESIGNATION,
+            "designation": bearing == BY_DESIGNATION,
             "speed": bool(state.speeds),
-            "shaft_speed": speed in KNOWN and bool(state.bearings),
+            "shaft_speed": speed in TYPED and bool(state.bearings),
             "ratio": speed in MEASURED and bool(state.bearings),
-        } | dict.fromkeys(FREQUENCIES, by == BY_FREQUENCIES)
+        } | dict.fromkeys(FREQUENCIES, bearing == BY_FREQUENCIES)
         missing = {name for name in ("bearing", "designation", "shaft_speed") if not values[name]}
         for name, widget in fields.widgets.items():
             marks = {"refused": name in state.refused, "open": name in missing}
             widget.css_classes = ["field", f"field-{name}", *(c for c, on in marks.items() if on)]
             widget.visible = shown[name]
-        named = _fields_with_notes(state, by, speed, shown)
+        named = _fields_with_notes(state, bearing, speed, shown)
         words = {name: label.partition(" (")[0] for name, label in LABELS.items()}
         kept = kept_html(state)
         self._kept.visible = bool(kept)
@@ -125,17 +125,17 @@ class MachineForm(pn.Column):
 
 
 def _fields_with_notes(
-    state: MeasurementState, by: str, speed: str, shown: Mapping[str, bool]
+    state: MeasurementState, bearing: str, speed: str, shown: Mapping[str, bool]
 ) -> list[str]:
-    """Shown fields whose values are of the file, or refused."""
+    """Return the shown fields whose values are from the file, or refused."""
     likely = [value for value, _, heading in state.bearings if heading == LIKELY]
-    of_file = {"bearing": by in (*likely, BY_FREQUENCIES), "speed": speed == FILE}
+    of_file = {"bearing": bearing in (*likely, BY_FREQUENCIES), "speed": speed == FILE}
     named = [name for name in LABELS if shown[name] and of_file.get(name, True)]
     return named + [name for name in state.refused if shown.get(name) and name not in named]
 
 
 def notes_html(state: MeasurementState, fields: list[str], labels: Mapping[str, str]) -> str:
-    """Beneath the fields: why they are refused, or where their values come from."""
+    """Say beneath the fields why they are refused, or where their values come from."""
     facts = []
     for name in fields:
         words = state.refused.get(name) or state.reasons.get(name)

@@ -50,10 +50,9 @@ _WIDE: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0}
 class MeasurementForm(pn.Column):
     """A file to choose, a measurement to simulate, and questions about the file.
 
-    Once there is a signal and no question it folds to a line, and unfolds again by a button. The
-    fields about a file are made when there is the first one. Bearing and speed are among the
-    questions until there is a signal; then they are asked beside the answer. Nothing is chosen in
-    it before `attach`.
+    Once there is a signal and no open question, the form folds to a line; a button unfolds it. The
+    fields about a file are made with the first file. Bearing and speed are among the questions
+    until there is a signal; then step 2 asks for them. The form takes no input before `attach`.
     """
 
     _measurement: Measurement
@@ -70,7 +69,7 @@ class MeasurementForm(pn.Column):
         self._facts = _text("", visible=False, css_classes=["note"])
         self._words = _text("")
         self._line = _text("", css_classes=["line"])
-        self._change = button("Change", self._turn, css_classes=["change"])
+        self._change = button("Change", self._fold_or_unfold, css_classes=["change"])
         self._cancel = button(
             "Cancel", lambda: self._measurement.cancel(), visible=False, align="start"
         )
@@ -86,7 +85,7 @@ class MeasurementForm(pn.Column):
         self.show(MeasurementState())
 
     def attach(self, measurement: Measurement) -> None:
-        """Show a measurement, which gets the choices made here."""
+        """Show a measurement, and send it the choices made here."""
         self._measurement = measurement
         measurement.show, measurement.want = self.show, self.upload.want
         measurement.more = self.upload.more
@@ -124,7 +123,7 @@ class MeasurementForm(pn.Column):
             **_WIDE,
         )
 
-    # What is chosen here
+    # Choices
 
     def _open_record(self, name: str) -> None:
         self._measurement.open_record(name)
@@ -137,12 +136,12 @@ class MeasurementForm(pn.Column):
         else:
             self._measurement.take_piece(message.content, message.of)
 
-    def _answer(self, given: Mapping[str, str], sure: bool = False) -> None:
-        """Answer as is shown, and with what is `given`."""
+    def _answer(self, answers: Mapping[str, str], sure: bool = False) -> None:
+        """Send the shown answers, with new `answers` in their place."""
         self._agreed = sure
-        self._measurement.take_form({**self._shown.values, **given}, sure)
+        self._measurement.take_form({**self._shown.values, **answers}, sure)
 
-    # What there is to show
+    # Display
 
     def show(self, state: MeasurementState) -> None:
         """Show the state of the measurement."""
@@ -152,21 +151,18 @@ class MeasurementForm(pn.Column):
         self._about_file.visible = state.columns is not None
         if state.columns is not None:
             self._show_fields(state)
-        self._facts.param.update(object=html.escape(state.said), visible=bool(state.said))
+        self._facts.param.update(object=html.escape(state.facts), visible=bool(state.facts))
         self._shown = state
 
     def _fold(self, state: MeasurementState) -> None:
-        """Show the line, or what is behind it, and the words that go with either."""
+        """Show the line alone or the whole form, and the words that belong to it."""
         mood = "bad" if state.bad else "busy" if state.busy else "good"
         words = state.words if mood != "good" or not self.folded else state.remarks
         lines = f'<pre tabindex="0">{html.escape(state.lines)}</pre>' if state.lines else ""
-        # what is refused stands above the files, where it is seen at once
+        # a refusal stands above the files, where it is seen at once
         self._words.styles = {"order": "-1" if mood == "bad" else "0"}
-        self._words.object = (
-            f'<p class="words {mood}" role="status">{html.escape(words)}</p>{lines}'
-            if words
-            else ""
-        )
+        paragraph = f'<p class="words {mood}" role="status">{html.escape(words)}</p>{lines}'
+        self._words.object = paragraph if words else ""
         whole = f' title="{html.escape(state.whole_name)}"' if state.whole_name else ""
         self._line.object = f"<p{whole}>{html.escape(state.line)}</p>"
         self._in_short.visible = bool(state.line)
@@ -174,14 +170,14 @@ class MeasurementForm(pn.Column):
         self._change.label = "Change" if self.folded else "Fold"
         self._cancel.visible = state.busy
 
-    def _turn(self) -> None:
+    def _fold_or_unfold(self) -> None:
         self.folded = not self.folded
         self._fold(self._shown)
         self._unfolded()
 
-    def _role(self, index: int, role: str, unit: str) -> None:
+    def _change_role(self, index: int, role: str, unit: str) -> None:
         """Take another role or unit of a column."""
-        assert self._fields is not None, "there is no column before"
+        assert self._fields is not None, "columns are shown only beside the fields"
         now = columns_as_said(self._shown)
         if index < len(now[0]):
             changed = change_role(*now, index, role, unit)
@@ -191,7 +187,7 @@ class MeasurementForm(pn.Column):
         fields = Fields(lambda _: self._answer(fields.values))
         fields.values |= {"columns": "", "unit": ""}
         self._table = ColumnTable(
-            self._role,
+            self._change_role,
             roles=[list(role) for role in ROLES],
             signals=[*DIRECTIONS],
         )
@@ -254,9 +250,9 @@ def units(state: MeasurementState) -> list[list[str]]:
 
 
 def columns_as_said(state: MeasurementState) -> tuple[list[str], list[str]]:
-    """The role of each column, and the unit that it has or would have as a signal."""
+    """Return the role of each column, and the unit that it has, or would have as a signal."""
     assert state.columns is not None
-    roles, given = roles_and_units(state.values["columns"])
+    roles, typed = roles_and_units(state.values["columns"])
     unit = state.values["unit"]
     headed = state.columns.headed if unit == AS_HEADED else [unit] * len(roles)
-    return roles, [unit or other for unit, other in zip(given, headed, strict=False)]
+    return roles, [unit or other for unit, other in zip(typed, headed, strict=False)]

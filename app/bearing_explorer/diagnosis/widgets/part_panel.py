@@ -19,13 +19,13 @@ _PICTURES = {
     "unknown": "Bearing with a question mark: no clear result",
     "question": "Bearing with a question mark: which one is not known",
 }
-_COPY = """
+_COPY_JS = """
 navigator.clipboard?.writeText(summary.text)
 button.label = navigator.clipboard ? "Copied" : "Select the text to copy it"
 """
 NOT_NOW = "Work order and report have to wait until the answer is up to date."
-_SEVERAL = "window.dispatchEvent(new CustomEvent('explorer-choose-files'))"
-_REPORT = "window.dispatchEvent(new CustomEvent('explorer-measured-report'))"
+_CHOOSE_JS = "window.dispatchEvent(new CustomEvent('explorer-choose-files'))"
+_REPORT_JS = "window.dispatchEvent(new CustomEvent('explorer-measured-report'))"
 _MOST_BALLS = 60
 
 
@@ -43,7 +43,7 @@ class PartPanel(pn.Column):
     Parameters
     ----------
     report_on
-        callback with the words for the report, by the names of `REPORTED`.
+        called with the words for the report, by the names of `REPORTED`.
     """
 
     def __init__(
@@ -54,15 +54,15 @@ class PartPanel(pn.Column):
         self._answer = pn.pane.HTML("", stylesheets=[asset_text("part.css")], **wide)
         self._summary = pn.pane.Str("", visible=False)
         self._copy = button("Copy the work order", lambda: None)
-        self._copy.js_on_click(args={"summary": self._summary, "button": self._copy}, code=_COPY)
+        self._copy.js_on_click(args={"summary": self._summary, "button": self._copy}, code=_COPY_JS)
         self._report = button("Report on one page", lambda: None)
-        self._report.js_on_click(code=_REPORT)
+        self._report.js_on_click(code=_REPORT_JS)
         self._why_not = _words("")
         fields = Fields(lambda _: report_on(dict(fields.values)))
         for name, (label, example) in REPORTED.items():
             fields.add(name, entry(label, placeholder=example))
         several = button("Is it getting worse? Several files …", lambda: None)
-        several.js_on_click(code=_SEVERAL)
+        several.js_on_click(code=_CHOOSE_JS)
         self._actions = row(
             self._copy, *fields.widgets.values(), self._report, several, self._why_not,
             visible=False, margin=(0, 0, 8, 0),
@@ -100,27 +100,27 @@ def part_html(state: Mapping[str, Any]) -> str:
     names = (
         "headline", "probability", "extent", "plain", "work_order", "color", "mood", "stale",
     )  # fmt: skip
-    said = {name: html.escape(str(state.get(name, ""))) for name in names}
-    short = said["probability"], said["extent"]
+    safe = {name: html.escape(str(state.get(name, ""))) for name in names}
+    short = safe["probability"], safe["extent"]
     facts = [Fact(html.escape(name), value) for name, value in state.get("facts", ())]
     summary = (
-        f'<div class="summary"><strong>Work order to copy</strong><p>{said["work_order"]}</p></div>'
-        if said["work_order"] and not said["stale"]
+        f'<div class="summary"><strong>Work order to copy</strong><p>{safe["work_order"]}</p></div>'
+        if safe["work_order"] and not safe["stale"]
         else ""
     )
     assumptions = (
         f'<div class="rests"><h4>Assumptions</h4>{facts_html(facts)}</div>' if facts else ""
     )
     stale = ""
-    if said["stale"]:
-        stale = f'<p class="stale" role="status"><strong>Out of date.</strong> {said["stale"]}</p>'
+    if safe["stale"]:
+        stale = f'<p class="stale" role="status"><strong>Out of date.</strong> {safe["stale"]}</p>'
     return (
         f'{stale}<section class="part{" old" if stale else ""}" '
-        f'aria-label="Which part is damaged" data-mood="{said["mood"]}" '
-        f'style="--part: {said["color"] or "var(--accent)"}">'
-        f'<div class="place">{picture(state)}</div><div class="answer"><h3>{said["headline"]}</h3>'
+        f'aria-label="Which part is damaged" data-mood="{safe["mood"]}" '
+        f'style="--part: {safe["color"] or "var(--accent)"}">'
+        f'<div class="place">{picture(state)}</div><div class="answer"><h3>{safe["headline"]}</h3>'
         f'<p class="probability">{" · ".join(filter(None, short))}</p>'
-        f"<p>{said['plain']}</p>{summary}</div>"
+        f"<p>{safe['plain']}</p>{summary}</div>"
         f'<div class="rests">{assumptions}</div></section>'
     )
 
@@ -148,7 +148,7 @@ def picture(state: Mapping[str, Any]) -> str:
         for i in range(min(bearing["n_balls"], _MOST_BALLS))
         for turn in [2.0 * math.pi * i / bearing["n_balls"] + 0.5 * math.pi]
     )
-    # the impact is at the bottom, where a load that points down would press
+    # the impact is at the bottom, where a load that points down presses
     places = {"outer race": outer, "inner race": inner, "ball": 0.5 * (bearing["pitch"] + ball)}
     mark = _impact(scale * places[part], max(0.22 * scale * ball, 4.5)) if part else ""
     if mood in ("unknown", "question"):

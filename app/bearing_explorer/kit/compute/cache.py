@@ -1,7 +1,7 @@
 """Results that all sessions share: each is computed once.
 
-Thirty people who look at one scene cost as much as one. A thread that needs what another one is
-computing waits for that instead of computing it again.
+Thirty people who look at one scene cost as much as one. A thread that needs a result that another
+thread is computing waits for it.
 """
 
 from __future__ import annotations
@@ -20,12 +20,12 @@ from cachetools import LRUCache
 Result = TypeVar("Result")
 
 MOST_BYTES = 64_000_000
-"""Size of all results that are kept. A count bounds nothing: a result has a kilobyte or 20 MB,
-and a process whose caches counted held more than a gigabyte after some thousand scenes."""
+"""Largest size of all kept results. A largest count would not bound memory: a result has a kilobyte
+or 20 MB, and with counts a process held more than a gigabyte after some thousand scenes."""
 
 _OVERHEAD = 4096  # bytes of objects around the arrays
-_LONG = 256  # items from which a list counts as one of numbers, and is not looked through
-_A_NUMBER = 32  # bytes of one in such a list, and of what points to it
+_LONG = 256  # items; a longer list is taken to hold numbers, and is not searched
+_NUMBER_SIZE = 32  # bytes of a number in such a list, with its pointer
 
 
 _results: LRUCache[tuple[Any, ...], tuple[Any, int]] = LRUCache(
@@ -46,7 +46,7 @@ class Cached(Generic[Result]):
         _functions[self.name] = self
 
     def __call__(self, *key: Hashable) -> Result:
-        """The result for these arguments."""
+        """Return the result for these arguments."""
         full_key = (self, *key)
         with _lock:
             if full_key in _results:
@@ -57,15 +57,16 @@ class Cached(Generic[Result]):
             if future is None:
                 future = _under_way[full_key] = Future()
         if mine:
-            return self._find(full_key, future)
+            return self._fulfil(full_key, future)
         return future.result()  # type: ignore[no-any-return]
 
     def knows(self, *key: Hashable) -> bool:
-        """True if the result is there already."""
+        """Return True if the result is kept already."""
         with _lock:
             return (self, *key) in _results
 
-    def _find(self, full_key: tuple[Hashable, ...], future: Future[Result]) -> Result:
+    def _fulfil(self, full_key: tuple[Hashable, ...], future: Future[Result]) -> Result:
+        """Compute a result, keep it, and hand it to the threads that wait for it."""
         try:
             result = self._compute(*full_key[1:])
         except BaseException as error:
@@ -87,16 +88,16 @@ def _keep(full_key: tuple[Hashable, ...], result: Any) -> None:
 
 
 def cached(compute: Callable[..., Result]) -> Cached[Result]:
-    """Keep what a function returns, by its arguments, the least recently used going first.
+    """Keep the results of a function by its arguments; the least recently used go first.
 
-    Each result is computed once, also where several threads need it at the same time. All
-    functions together keep at most `MOST_BYTES`. What a function raises is not kept.
+    Each result is computed once, even if several threads need it at the same time. All functions
+    together keep at most `MOST_BYTES`. Exceptions are not kept.
     """
     return Cached(compute)
 
 
 def kept_results() -> dict[tuple[Hashable, ...], tuple[Any, int]]:
-    """All results that are kept, with their bytes, by the function's name and its arguments."""
+    """Return all kept results with their bytes, by the function's name and its arguments."""
     with _lock:
         return {(key[0].name, *key[1:]): value for key, value in _results.items()}
 
@@ -115,7 +116,7 @@ def clear() -> None:
 
 
 def nbytes(value: object) -> int:
-    """Bytes of arrays and long lists that something keeps alive; of a view the whole array."""
+    """Count the bytes of arrays and long lists that a value keeps alive, with arrays of views."""
     arrays: dict[int, int] = {}
     seen: set[int] = set()
     left: list[Any] = [value]
@@ -133,7 +134,7 @@ def nbytes(value: object) -> int:
             arrays[id(item)] = item.nbytes
         elif isinstance(item, list | tuple | set | frozenset):
             if len(item) > _LONG:
-                total += _A_NUMBER * len(item)
+                total += _NUMBER_SIZE * len(item)
             else:
                 left.extend(item)
         elif isinstance(item, Mapping):

@@ -1,12 +1,12 @@
-"""Kernels are made ready in one thread of the server, part by part, behind pages that are open.
+"""Compiling the kernels in one thread of the server, part by part, while pages are open.
 
-On a first start that compiles, which takes long; later starts read machine code from disk in a
-second. Until then pages draw results that come with the package, their sliders do not move, and a
-progress bar says why. What a part is needed for raises `StillCompiling`. Where nothing simulates,
-it is not begun, and Numba is not imported.
+The first start compiles them, which takes long; later starts read machine code from disk in a
+second. Until they are ready, pages draw stored results, their sliders do not move, and a progress
+bar says why. A computation that needs a missing part raises `StillCompiling`. Without the half of
+the page that simulates, nothing is compiled, and Numba is not imported.
 
-numba holds the interpreter as it compiles, which a page that is being made needs too: compiling
-begins once the first picture is sent, or after `FIRST_PICTURE` where none is asked for.
+Numba holds the interpreter lock as it compiles, and a page that is being made needs that too. So
+compiling begins once the first picture is sent, or after `FIRST_PICTURE` if none is requested.
 """
 
 from __future__ import annotations
@@ -40,14 +40,14 @@ def all_on_disk() -> bool:
 
 
 class StillCompiling(ValueError):  # noqa: N818
-    """A part that is needed is still being compiled; it comes by itself."""
+    """A part that is needed is still being compiled; it will be ready by itself."""
 
     def __init__(self, part: str) -> None:
         super().__init__(f"{_WORDS[part]}: still being compiled for this computer, once")
 
 
 class Compilation:
-    """The compiling of a process; `begin` starts it."""
+    """The compilation of all kernels in a process; `begin` starts it."""
 
     def __init__(self) -> None:
         self._begun = False
@@ -62,9 +62,9 @@ class Compilation:
         report: Callable[[str], object] = log.info,
         done: Callable[[], object] = lambda: None,
     ) -> None:
-        """Compile in a thread; does nothing the second time.
+        """Compile in a thread; a second call does nothing.
 
-        `meanwhile` is called where that will take long, to have something to draw until then.
+        `meanwhile` is called if that will take long: it provides results to draw until then.
         `report` gets a line for each part. `done` is called in the thread at the end.
         """
         with self._lock:
@@ -80,7 +80,7 @@ class Compilation:
         ).start()
 
     def drawn(self) -> None:
-        """A picture is sent: compiling may begin."""
+        """Let compiling begin: a picture is sent."""
         self._drawn.set()
 
     def wait(self, seconds: float) -> bool:
@@ -88,19 +88,19 @@ class Compilation:
         return self._over.wait(seconds)
 
     def left(self) -> tuple[str, ...]:
-        """Parts that are not ready yet; none where nothing is being compiled."""
+        """Return the parts that are not ready yet; none if nothing is being compiled."""
         return self._left
 
     def need(self, part: str, scene: Scene | None = None) -> None:
-        """Raise `StillCompiling` where a part, or that of a scene's balls, is not ready."""
+        """Raise `StillCompiling` if a part, or the part for the scene's balls, is not ready."""
         for name in (part, BALLS_WITH_MASS if scene and scene.balls == WITH_MASS else part):
             if name in self._left:
                 raise StillCompiling(name)
 
     def progress(self) -> dict[str, object]:
-        """The parts that are ready, for a progress bar; empty where all are.
+        """Return the progress for a bar; empty where all parts are ready.
 
-        `still`: whether sliders do not move yet.
+        `still` is True while sliders do not move.
         """
         left = self._left
         if not left:

@@ -12,7 +12,7 @@ from bearing_explorer.kit.compute.executors import FINE, run_in_thread
 log = logging.getLogger(__name__)
 
 RESTS_AFTER = 0.3
-"""Time [s] after the last picture after which a slider without newer inputs counts as at rest."""
+"""Time [s] after a picture without newer inputs from which a slider counts as at rest."""
 
 Inputs = TypeVar("Inputs")
 Fine = TypeVar("Fine")
@@ -21,8 +21,8 @@ Fine = TypeVar("Fine")
 class DrawingLoop(Generic[Inputs, Fine]):
     """Draws the newest inputs, and drops older ones that still wait.
 
-    Slider events come faster than scenes can be drawn. In a queue they would grow into a tail that
-    moves on after the slider has stopped; here at most one set of inputs waits.
+    Slider events come faster than scenes can be drawn. In a queue they would pile up, and the
+    picture would move on after the slider has stopped. Here at most one set of inputs waits.
 
     Parameters
     ----------
@@ -34,7 +34,7 @@ class DrawingLoop(Generic[Inputs, Fine]):
     draw_fine
         draws such a picture, on the event loop.
     failed
-        function that is called where one of them raises an exception.
+        called with an exception that one of these functions has raised.
     """
 
     def __init__(
@@ -120,7 +120,7 @@ class DrawingLoop(Generic[Inputs, Fine]):
         return False
 
     async def _draw_finely(self, inputs: Inputs) -> None:
-        """Draw finely, unless newer inputs come first: those do not wait for it."""
+        """Draw finely, unless newer inputs come first: they do not wait for it."""
         fine = asyncio.ensure_future(run_in_thread(self._refine, inputs, pool=FINE))
         newer = asyncio.ensure_future(self._submitted.wait())
         try:

@@ -1,7 +1,7 @@
 """The threads that compute, shared by all sessions of a process.
 
-Kernels release the interpreter lock, so threads do run at the same time. Several pools, so that
-what takes long never delays what follows a slider: see `jobs` for what runs in which.
+Kernels release the interpreter lock, so threads do run at the same time. There are several pools,
+so that long computations never delay the pictures that follow a slider; see `jobs` for their use.
 """
 
 from __future__ import annotations
@@ -21,10 +21,10 @@ _CORES = os.cpu_count() or 2
 
 POOL_SIZE = 2 * _CORES
 PICTURES = Pool(POOL_SIZE, "compute")
-"""Pictures that follow a slider. More threads than processors, so that a quick one need not wait
-for a motion."""
+"""Pictures that follow a slider. There are more threads than processors, so that a quick picture
+need not wait for a motion."""
 FINE = Pool(1, "fine")
-"""Fine pictures of all sessions, one by one: their threads hold up moving sliders."""
+"""Fine pictures of all sessions, one by one: several at once would slow down moving sliders."""
 ANSWERS = Pool(2, "answer")
 """Short work that a message asks for: a search, a link, a report."""
 JOBS = Pool(max(2, _CORES // 2), "job")
@@ -32,9 +32,9 @@ JOBS = Pool(max(2, _CORES // 2), "job")
 
 
 def return_large_arrays() -> None:
-    """Have memory of 4 MB and more go back to the system as soon as it is free, with glibc.
+    """Make glibc return freed blocks of 4 MB and more to the system at once.
 
-    Else twice what four files of 24 MB need stays with the process: 1040 MB, 470 with this.
+    After four files of 24 MB, a process then keeps 470 MB; otherwise it would keep 1040 MB.
     """
     with suppress(OSError, AttributeError, TypeError):
         ctypes.CDLL(None).mallopt(_MMAP_THRESHOLD, 4 * 2**20)
@@ -61,8 +61,8 @@ _TURNS = WeakKeyDictionary[asyncio.AbstractEventLoop, asyncio.Lock]()
 async def run_in_turn(function: Callable[..., Result], *args: object) -> Result:
     """Run `function` on the event loop, one call after the other.
 
-    Between two of them what browsers have sent is taken: of the positions of a slider only the
-    newest is drawn. For 30 people that is half as many more of their changes a second.
+    Between two calls, the messages of browsers are read, so that of the positions of a slider only
+    the newest is drawn. With 30 people, that draws half as many more of their changes a second.
     """
     async with _TURNS.setdefault(asyncio.get_running_loop(), asyncio.Lock()):
         await asyncio.sleep(0.0)

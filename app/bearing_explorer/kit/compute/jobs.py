@@ -1,16 +1,15 @@
-"""Everything that a session computes in the background: one type of work, said in one place.
+"""Background jobs of a session: one type of work for everything that does not follow a slider.
 
 A job computes in a thread and never touches the page. It reports its progress, checks whether to go
-on, and shows what it has; all of that is taken up on the event loop of the session. Its kind
-says in which pool it runs and what it overtakes: of each kind a session has one job at work and at
-most one that waits. A newer job takes the place of the one that waits, and asks the one at work to
-end. So no message, however often it is sent, starts more than one job at a time, and the end of the
-session ends all of them.
+on, and shows its results; the event loop of the session takes up all of these. Its kind says in
+which pool it runs. Of each kind, a session has one job at work and at most one that waits. A newer
+job replaces the one that waits, and asks the one at work to end. So no message, however often it is
+sent, starts more than one job at a time, and the end of the session ends all of them.
 
 Each session has at most one entry of a kind in the queue of a pool, so that sessions take turns. A
 job of many steps gives its turn away between two of them.
 
-What follows a slider is no job: `drawing_loop` draws it, by the same rule.
+Pictures that follow a slider are no jobs: `drawing_loop` draws them, by the same rule.
 """
 
 from __future__ import annotations
@@ -34,9 +33,9 @@ Result = TypeVar("Result")
 
 @dataclass(frozen=True)
 class Kind:
-    """A kind of job, of which the newest of a session wins: its pool, and how long it may work.
+    """A kind of job, with its pool and its longest time; in a session, the newest of a kind wins.
 
-    `longest` [s]: a job that works for longer is asked to end, with what it has.
+    `longest` [s]: a job that works for longer is asked to end, with the results so far.
     """
 
     name: str
@@ -51,16 +50,16 @@ OPENING = Kind("opening", ANSWERS)
 REPORT = Kind("report", ANSWERS)
 """A report is written."""
 READING = Kind("reading", FILES, longest=60.0)
-"""A file is read with all that is in it, an answer about it is taken, or a signal is simulated."""
+"""All files of an upload are read, an answer about a file is read, or a signal is simulated."""
 COMPUTATION = Kind("computation", JOBS)
 """A map, a sweep or a trend that a person has started."""
 PART, EXTENT = (Kind(name, JOBS) for name in ("part", "extent"))
 """Analyses of a signal: the damaged part, the extent of its spall."""
 SIZING = Kind("sizing", JOBS)
-"""Lengths of a spall are simulated and held against a signal."""
+"""Lengths of a spall are simulated and compared with a signal."""
 
 _TICK = 0.12  # [s] between two looks at a job
-_ASIDE = 1.0  # [s] that a sentence is shown at least, so that it can be read and read out
+_READABLE = 1.0  # [s] that a sentence is shown at least, so that it can be read, also aloud
 
 Mood = Literal["idle", "waiting", "busy", "done", "stopped", "failed"]
 
@@ -85,7 +84,7 @@ class Work:
     def __init__(self, longest: float = COMPUTATION.longest) -> None:
         self._stop = threading.Event()
         self._lock = threading.Lock()
-        self._found: list[Any] = []
+        self._results: list[Any] = []
         self._longest = longest
         self.part = 0.0
         #: when it began, as if it had never waited between two steps
@@ -97,7 +96,7 @@ class Work:
         self.part = min(max(float(part), 0.0), 1.0)
 
     def cancelled(self) -> bool:
-        """True once the job should end, with what it has."""
+        """Return True once the job should end, with the results so far."""
         if time.monotonic() - self.started > self._longest:
             self.timed_out = True
         return self.timed_out or self._stop.is_set()
@@ -105,18 +104,18 @@ class Work:
     def show(self, result: Any) -> None:
         """Hand over a result to be drawn; where several wait, the newest wins."""
         with self._lock:
-            self._found = [result]
+            self._results = [result]
 
-    def taken(self) -> list[Any]:
-        """The result that waits to be drawn, if there is one."""
+    def take_results(self) -> list[Any]:
+        """Take the result that waits to be drawn, if there is one."""
         with self._lock:
-            results, self._found = self._found, []
+            results, self._results = self._results, []
         return results
 
     @property
-    def has_found(self) -> bool:
+    def has_result(self) -> bool:
         """True if a result waits to be drawn."""
-        return bool(self._found)
+        return bool(self._results)
 
     def stop(self) -> None:
         """Ask the work to end soon."""
@@ -124,13 +123,13 @@ class Work:
 
     @property
     def stopped(self) -> bool:
-        """True once it was cancelled."""
+        """True once the work was asked to end."""
         return self._stop.is_set()
 
 
 Change = Callable[[], None]
 Compute = Callable[[Work], str | Generator[None, None, str]]
-"""The computing of a job: it returns a sentence that sums up, and may yield between its steps."""
+"""The computation of a job: it returns a sentence that sums up, and may yield between its steps."""
 
 _WAITS = JobState("waiting", 0.0, "Waiting for another computation to end.")
 _NEVER_BEGAN = JobState("stopped", 0.0, "Cancelled before it began.")
@@ -162,7 +161,7 @@ class Jobs:
         report: Callable[[JobState], None] | None = None,
         kind: Kind = COMPUTATION,
     ) -> None:
-        """Begin a job in place of those of its kind.
+        """Begin a job in place of earlier jobs of its kind.
 
         Parameters
         ----------
@@ -199,13 +198,13 @@ class Jobs:
         self.start(show, take, kind=kind)
 
     def cancel(self, kind: Kind = COMPUTATION) -> None:
-        """End the jobs of a kind; what the one at work has shown stays."""
+        """End the jobs of a kind; results that are shown already stay."""
         if (lane := self._lanes.get(kind)) is not None:
             for job in filter(None, (lane.at_work, lane.waiting)):
                 job.work.stop()
 
     def drop(self, kind: Kind) -> None:
-        """End the jobs of a kind, and take nothing of their results."""
+        """End the jobs of a kind, and ignore their results."""
         if (lane := self._lanes.get(kind)) is not None:
             lane.waiting = None
             if lane.at_work is not None:
@@ -213,7 +212,7 @@ class Jobs:
                 lane.at_work.work.stop()
 
     def stop(self) -> None:
-        """The session is over."""
+        """Drop all jobs and start no more: the session is over."""
         self._ended = True
         for kind in self._lanes:
             self.drop(kind)
@@ -223,7 +222,7 @@ class Jobs:
             lane.at_work, lane.waiting = job, None
             try:
                 await self._follow(lane, job)
-            except Exception:  # of what takes results and states; this task has no other listener
+            except Exception:  # of `take` or `report`: nothing else listens to this task
                 log.exception("a job could not be followed")
                 job.work.stop()
                 job.take = lambda _: None
@@ -231,6 +230,7 @@ class Jobs:
         del self._lanes[kind]
 
     async def _follow(self, lane: _Lane, job: _Job) -> None:
+        """Queue one step of a job after the other, and report its progress and its end."""
         ended = False
         while not ended:
             if job.work.stopped:  # before it began, or between two steps
@@ -249,16 +249,16 @@ class Jobs:
         await self._close(lane, job, future.exception())
 
     async def _look(self, job: _Job) -> None:
-        """Take up what a job reports."""
+        """Report the progress of a job, and show its results."""
         if job.report is None or job.overtaken or job.dropped:
             return
         state = job.state()
-        if job.work.has_found or state != job.reported:
+        if job.work.has_result or state != job.reported:
             job.reported = state
             await self._take_up(job, state)
 
     async def _take_up(self, job: _Job, state: JobState) -> None:
-        results = job.work.taken()
+        results = job.work.take_results()
         if not results and job.report is None:
             return
 
@@ -297,7 +297,7 @@ class Jobs:
 
 @dataclass(eq=False)
 class _Lane:
-    """The jobs of a kind that a session has: one at work, one that waits, and their task."""
+    """The jobs of one kind in a session: one at work, one that waits, and their task."""
 
     waiting: _Job | None
     at_work: _Job | None = None
@@ -306,7 +306,7 @@ class _Lane:
 
 @dataclass(eq=False)
 class _Job:
-    """One job: its computing, its listeners, and its last report."""
+    """One job: its computation, its listeners, and its last report."""
 
     compute: Compute
     take: Callable[[Any], None]
@@ -320,7 +320,7 @@ class _Job:
     _steps: Generator[None, None, str] | None = None
     _left_at: float = math.nan
     _progress: str = ""
-    _said_at: float = -math.inf
+    _worded_at: float = -math.inf
 
     def __post_init__(self) -> None:
         self.work = Work(self.kind.longest)
@@ -346,20 +346,20 @@ class _Job:
         return None
 
     def state(self) -> JobState:
-        """The progress; its sentence changes seldom enough to be read."""
+        """Return the progress; its sentence changes seldom enough to be read."""
         now = time.monotonic()
         spent = now - self.work.started
         part = math.floor(self.work.part * 200.0) / 200.0
         if math.isnan(spent):
             return _WAITS
-        if now - self._said_at >= _ASIDE:
-            self._said_at = now
+        if now - self._worded_at >= _READABLE:
+            self._worded_at = now
             self._progress = _progress_words(part, spent)
         return JobState("busy", part, self._progress)
 
 
 def _progress_words(part: float, spent: float) -> str:
-    """Share done, and the time that the rest may take [s] at the same rate."""
+    """Word the share that is done, and the time that the rest may take at the same rate."""
     if part < 0.02 or spent < 1.0:
         return "Computing."
     left = spent * (1.0 - part) / part

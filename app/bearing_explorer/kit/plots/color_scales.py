@@ -1,8 +1,8 @@
 """Colour scales for maps: perceptually even, and distinct to colour-blind eyes.
 
-`SEQUENTIAL` for numbers of one sign, from dark to light; `DIVERGING` for numbers of both signs,
-blue below zero and orange above it, as light as paper at zero and equally dark at both ends;
-`DIVERGING_DARK` the same on a dark page, as dark as that at zero and equally light at both ends.
+`SEQUENTIAL`, for numbers of one sign, goes from dark to light. `DIVERGING`, for numbers of both
+signs, is blue below zero and orange above it, light at zero and equally dark at both ends.
+`DIVERGING_DARK`, for a dark page, is dark at zero and equally light at both ends.
 """
 
 from __future__ import annotations
@@ -30,13 +30,13 @@ def _rgb(colors: Sequence[str]) -> np.ndarray:
 
 
 def _scale(colors: str) -> np.ndarray:
-    """A scale of `STEPS` colours through these, which are evenly apart."""
+    """Return a scale of `STEPS` colours through evenly spaced ones."""
     return _rgb(interp_palette([f"#{color}" for color in colors.split()], STEPS))
 
 
 SEQUENTIAL = _rgb(Viridis256)
 """(256, 3) sRGB, dark to light."""
-# colours whose lightness goes evenly in Oklab (Ottosson 2020)
+# the lightness of these colours changes evenly in Oklab (Ottosson 2020)
 _LIGHT = "0e60a4 3d86cc 71ace9 afd1f5 f6f6f7 f3c1a8 e39065 c3642c 9a3e00"
 _DARK = "73bcff 4b94db 336da5 2c4a68 262727 653c26 9e5226 d2723b fe9963"
 DIVERGING = _scale(_LIGHT)
@@ -46,11 +46,11 @@ DIVERGING_DARK = _scale(_DARK)
 
 
 def packed_colors(scale: np.ndarray) -> list[int]:
-    """The colours as browsers keep pixels: red in the lowest byte, opaque."""
+    """Return the colours as browsers store pixels: red in the lowest byte, opaque."""
     red, green, blue = scale.T
     return [int(x) for x in 0xFF000000 + (blue << 16) + (green << 8) + red]
 
 
 def hex_colors(scale: np.ndarray) -> list[str]:
-    """The colours as "#rrggbb"."""
+    """Return the colours as "#rrggbb"."""
     return ["#{:02x}{:02x}{:02x}".format(*rgb) for rgb in scale]

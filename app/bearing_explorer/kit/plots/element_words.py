@@ -1,4 +1,4 @@
-"""Names of rolling elements, balls or rollers, one by one, row by row; sizes of defects."""
+"""Names of rolling elements (balls or rollers) and of their rows, and sizes of defects."""
 
 from __future__ import annotations
 
@@ -17,23 +17,23 @@ def elements(bearing: Bearing, count: int = 2) -> str:
 
 
 def element_name(bearing: Bearing, index: int) -> str:
-    """The name of one, counted from 0 row after row: "ball 3", "ball 3 of row 2"."""
+    """The name of an element; `index` counts from 0 row after row: "ball 3", "ball 3 of row 2"."""
     row, number = bearing.row_of_ball(int(index))
     name = f"{bearing.kind.element} {number + 1}"
     return name if len(bearing.all_rows) == 1 else f"{name} of row {row + 1}"
 
 
 def row_words(bearing: Bearing, row: int | None) -> str:
-    """The row of a defect, of a bearing of several rows: ", row 1"; empty for one row."""
+    """The row of a defect: ", row 1"; empty for a bearing of one row."""
     if len(bearing.all_rows) == 1:
         return ""
     return ", all rows" if row is None else f", row {row + 1}"
 
 
 def with_elements_of(bearing: Bearing, text: str) -> str:
-    """A text about balls for a bearing, whose elements may be rollers.
+    """Return a text about balls for a bearing, whose elements may be rollers.
 
-    A ball pass is called so for rollers too.
+    "Ball pass" stays: it is the term for rollers too.
     """
     element = bearing.kind.element
     if element == "ball":

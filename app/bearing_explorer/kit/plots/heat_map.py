@@ -1,7 +1,7 @@
-"""Heat maps: numbers on a grid as a picture, read under the pointer, clicked to go there.
+"""Heat maps: a grid of numbers as a picture. The pointer reads a value; a click goes to its place.
 
-Every heat map of the page is read and clicked by the same scripts, see `let_point`; what draws it
-is a `GridImage`, or a canvas of sixteen maps.
+The same scripts do that for all heat maps of the page, see `let_point`. A heat map is drawn by a
+`GridImage`, or by a canvas of sixteen maps.
 
 The packed source carries columns of floats, so a picture travels as one column: a head that says
 where the grid lies, then the values, row by row from below.
@@ -46,14 +46,14 @@ TOOLTIP = (
 )
 """Text under the pointer: both places and the value."""
 VALUE_FIELDS = {"$x": "x", "$y": "y", "$sx": "value"}
-"""Meaning of the fields of TOOLTIP. The value is none of Bokeh's own, which writes NaN itself."""
+"""Meaning of the fields of TOOLTIP. A value has no field of Bokeh's own: that would write "NaN"."""
 
 
 @dataclass(frozen=True)
 class Side:
     """Quantity along a side of a grid.
 
-    `name`: of the quantity that a click sets, `sign` times what is read; empty where it sets none.
+    A click sets the quantity `name` to `sign` times the value read; an empty `name`: nothing.
     """
 
     name: str
@@ -64,7 +64,7 @@ class Side:
 
     @classmethod
     def of(cls, field: Field) -> Side:
-        """The side for a field of the scene."""
+        """Return the side for a field of the scene."""
         minus = "−" if field.read_sign < 0.0 else ""
         symbol = minus + field.symbol.replace("_", "")
         return cls(field.key, field.read_label, symbol, field.shown_unit, field.read_sign)
@@ -101,33 +101,32 @@ def let_point(
 ) -> None:
     """Show the value under the pointer, without the server, and have a click go there.
 
-    A click sets the quantities of both sides to those of the place clicked at. Two clicks do not:
-    they bring a figure that is zoomed back, see heat_map_click.js.
+    A click sets the quantities of both sides to their values at that place. A double click only
+    resets the zoom of the figure, see heat_map_click.js.
 
     Parameters
     ----------
     image
         Bokeh's source of the pictures: image, x, y, dw, dh.
     sides
-        all quantities that a side may have; the first to the right and the second upwards where
-        no source says which (``across``, ``up``).
+        all quantities that a side may have; without `stands`, the first lies to the right and the
+        second upwards.
     renderers
-        that are pointed at.
+        pictures from which the pointer reads values.
     say
         JavaScript: body of a function of `cell`, the number there, and `at`, the place; it returns
         its meaning as text.
     stands
-        the source that says so, and the values at the ends (``x_first``, ``x_last``, ``y_first``,
-        ``y_last``) where these are not the ends of the picture.
+        source of the sides (``across``, ``up``), and of the values at the ends (``x_first``,
+        ``x_last``, ``y_first``, ``y_last``) if these are not the ends of the picture.
     count
         number of pictures of the source that are maps.
     digits
-        places are those of the middles of cells, or with this the very ones, rounded to as many
-        digits behind the point.
+        number of decimals of a place; without it, a place is the middle of a cell.
     fields
         content of the fields of the tooltip: "x", "y" or "value".
     args
-        models and numbers that `say` knows besides.
+        further models and numbers that `say` uses.
     """
     places = {
         "image": image,
@@ -172,17 +171,17 @@ BAR_LOOK: dict[str, Any] = {
 
 
 def color_bar(mapper: ColorMapper, title: str = "", **options: Any) -> ColorBar:
-    """The colour scale of a map."""
+    """Return the colour scale of a map."""
     return ColorBar(color_mapper=mapper, title=title, **{**BAR_LOOK, **options})
 
 
 class GridImage:
-    """Numbers on a grid from dark to bright, with their scale, whose ends are those of `shown`.
+    """A grid of numbers from dark to bright, with a colour scale between the ends of `shown`.
 
     Parameters
     ----------
     plot
-        the figure they are drawn in.
+        the figure in which it is drawn.
     name
         of the source, one per session.
     sides
@@ -205,7 +204,7 @@ class GridImage:
         title: str,
     ) -> None:
         plot.grid.visible = False
-        plot.toolbar_inner = False  # it would lie on the picture
+        plot.toolbar_inner = False  # it would cover the picture
         mapper = LinearColorMapper(palette=list(Viridis256), nan_color=CLEAR)
         mapper.update(low=shown.start, high=shown.end, syncable=False)
         scale = "mapper.setv({low: shown.start, high: shown.end})"
@@ -230,13 +229,13 @@ class GridImage:
         values: NDArray[np.float64],
         alpha: float = 1.0,
     ) -> dict[str, np.ndarray]:
-        """The source's columns: values (ny, nx) at evenly spaced places x, y in their units."""
+        """Return the source's columns for values (ny, nx) at evenly spaced places x, y."""
         (left, right), (bottom, top) = ends(x), ends(y)
         head = [x.size, y.size, left, right - left, bottom, top - bottom, alpha]
         return {"packed": np.concatenate([head, np.ravel(values)])}
 
 
 def ends(values: NDArray[np.float64]) -> tuple[float, float]:
-    """Ends of the cells around evenly spaced values."""
+    """Return the outer ends of the cells around evenly spaced values."""
     half = 0.5 * float(values[1] - values[0])
     return float(values[0]) - half, float(values[-1]) + half

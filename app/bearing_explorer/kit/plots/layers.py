@@ -3,9 +3,9 @@
 A view lists what its figure shows, from the lowest layer to the highest; `draw` declares the
 sources with the columns that the layers name, once each, and draws them.
 
-Glyphs are added as the models that they are: `figure.line` and its like make three each, one for
-what is not selected and one for what is muted. Nothing here is selected or muted, and models are
-most of what a session costs.
+Glyphs are added as single models. `figure.line` and its like make three each, for glyphs that are
+not selected and for muted ones. Nothing here is selected or muted, and models are most of the cost
+of a session.
 """
 
 from __future__ import annotations
@@ -52,17 +52,17 @@ _OF_RENDERER = frozenset({"level", "tags", "x_range_name", "y_range_name"})
 
 
 LIT = {"line_color": "#D55E00", "line_width": 3.5}
-"""Look of what belongs to an element that is pointed at."""
+"""Look of the glyphs of a rolling element under the pointer."""
 
 
 @dataclass(frozen=True)
 class Glyph:
-    """A glyph of Bokeh's of some kind.
+    """A Bokeh glyph of some kind.
 
-    `places`: where it is, columns or numbers. `look`: properties of it or of its renderer; `color`
-    is that of its lines and of its inside. `reads`: columns that its `look` reads besides; with
-    "element" among them, which numbers rolling elements from 1, those that are pointed at anywhere
-    have the look `lit` (see `pointed.js`).
+    `places`: columns or numbers of its place. `look`: properties of the glyph or of its renderer;
+    `color` is for its lines and its inside. `reads`: further columns, which its `look` reads. If
+    "element" is among them (a number of a rolling element, from 1), an element under the pointer in
+    any figure has the look `lit` (see `pointed.js`).
     """
 
     kind: type[models.Glyph]
@@ -107,7 +107,7 @@ def curve(
 ) -> Glyph:
     """A curve; NaN is a gap.
 
-    `cells`: source of the cells that it lies in, whose sides and limits (low, high) are its axes.
+    `cells`: source of cells to draw it in; their sides and limits (low, high) are its axes.
     """
     look = {"line_color": color, "line_width": width, "line_alpha": alpha, "line_dash": list(dash)}
     return Glyph(models.Line, source, (x, y), look | ({"tags": [cells]} if cells else {}))
@@ -130,7 +130,7 @@ def strips(
 
 
 def ball_dots(source: str, x: str, y: str) -> Glyph:
-    """Balls at this cage angle: white dots that the frame does not cut."""
+    """Balls at the current cage angle: white dots that the frame does not cut."""
     look = {"fill_color": "white", "line_color": style.INK, "line_width": 1.6}
     look |= {"size": 8, "level": "annotation"}
     return Glyph(models.Scatter, source, (x, y), look, ("element",), {"size": 13, **LIT})
@@ -150,7 +150,7 @@ def uprights(
 
 
 def filled(source: str, color: str, alpha: float = 1.0, **line: Any) -> Glyph:
-    """Polygons with NaN between them; `line`: look of their edges, which have none otherwise."""
+    """Polygons with NaN between them; without `line`, the look of their edges, they have none."""
     look = {"fill_color": color, "fill_alpha": alpha, "line_color": None, **line}
     return Glyph(models.Patch, source, ("x", "y"), look)
 
@@ -204,13 +204,12 @@ class Words:
         name, ``si(value, unit)`` writes a number with its prefix, ``rounded(value, digits)`` one
         without.
     reads
-        columns that the code and the `look` read besides.
+        further columns that the code and the `look` read.
     fitting
-        width [px] of the frame below which the code knows it as `narrow`, with type of the usual
-        size.
+        width [px] of the frame, for type of the usual size, below which the code sees `narrow`.
     in_view
-        "x" or "y": words that the frame would cut off along that side once it is zoomed are left
-        out, and the code knows whether the frame is `narrow`, as below `style.NARROW`.
+        "x" or "y": in a zoomed figure, words that the frame would cut off along that side are left
+        out. The code then sees `narrow` below `style.NARROW`.
     share
         share of a text right of its place: a text that crosses the right edge is left out.
     """
@@ -263,7 +262,7 @@ class Words:
             follow = CustomJS(args=zoom, code=_ZOOMS)
             shown.js_on_change("start", follow)
             shown.js_on_change("end", follow)
-        if below:  # its width is known later than its numbers, and changes
+        if below:  # the width of the frame is known later than the numbers, and changes
             write = CustomJS(args={"source": source}, code="source.change.emit()")
             plot.js_on_change("inner_width", write)
         narrow = style.IS_NARROW if below else ""
@@ -281,7 +280,7 @@ Layer = Glyph | Words
 ON_PAPER = {"background_fill_color": "white", "background_fill_alpha": 0.85}
 """Look of words that lie on lines."""
 CENTERED = {"text_align": "center"}
-"""Look of words that lie to both sides of their place."""
+"""Look of words that are centred on their place."""
 
 
 def names_over(
@@ -293,9 +292,9 @@ def names_over(
     reads: tuple[str, ...] = (),
     **look: Any,
 ) -> Words:
-    """Names over curves, by `code`, see `Words`; those that are zoomed out of view go.
+    """Names over curves, written by `code`, see `Words`; zoomed out of view they are left out.
 
-    `row` is where, as a share of the frame's height. `x_offset` may be a column of pixels, for
+    `row` is their height, as a share of the frame's. `x_offset` may be a column of pixels, for
     names on either side of their places.
     """
     share = {"center": 0.5, "right": 0.0}.get(look.get("text_align", ""), 1.0)
@@ -306,7 +305,7 @@ def names_over(
 
 
 def sources_of(packed: PackedSource, layers: Iterable[Layer]) -> dict[str, ColumnDataSource]:
-    """The sources that layers name, each declared once with all the columns that they read."""
+    """Declare the sources that layers name, each once, with all the columns that they read."""
     columns: dict[str, dict[str, None]] = {}
     for layer in layers:
         columns.setdefault(layer.source, {}).update(dict.fromkeys(layer.columns))
@@ -326,7 +325,7 @@ def add_all(
 
 
 def by_number(column: str, colors: Sequence[str]) -> dict[str, Any]:
-    """The colour of what a column numbers, from 0."""
+    """Return colours by the numbers in a column, from 0."""
     mapper = LinearColorMapper(palette=list(colors), low=-0.5, high=len(colors) - 0.5)
     return {"field": column, "transform": mapper}
 
@@ -334,7 +333,7 @@ def by_number(column: str, colors: Sequence[str]) -> dict[str, Any]:
 def with_gaps(
     curves: Iterable[tuple[NDArray[np.float64], NDArray[np.float64]]], x: str, y: str
 ) -> dict[str, NDArray[np.float64]]:
-    """Curves as one line with a gap between one and the next, as columns `x` and `y`."""
+    """Join curves to one line with gaps between them, as columns `x` and `y`."""
     none, gap = np.empty(0), np.array([np.nan])
     pieces = [(none, none)]
     for across, up in curves:
@@ -348,15 +347,15 @@ def least_and_greatest(
 ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
     """Choose at most 2·`parts` numbers that draw the same line as the rows of `values` (n, k).
 
-    Of each of `parts` stretches the least and the greatest number are kept, in the order in which
-    they came, so that no peak is lost that a pixel would show. Returns the row numbers at which
-    the kept ones stand (the same for all columns) and the kept ones.
+    The least and the greatest number of each of `parts` stretches are kept, in their order, so that
+    no visible peak is lost. Returns their row numbers (the same for all columns) and the numbers.
     """
     n = len(values)
     if n <= 2 * parts:
         return np.arange(n), values
     size = math.ceil(n / parts)
     count = math.ceil(n / size)
+    # repeat the last row, so that all stretches have the same size
     full = np.concatenate([values, np.repeat(values[-1:], count * size - n, axis=0)])
     blocks = full.reshape(count, size, -1)
     least, greatest = blocks.min(axis=1), blocks.max(axis=1)
@@ -371,7 +370,7 @@ def least_and_greatest(
 
 
 def toggle(label: str, drawn: Sequence[GlyphRenderer], *, shown: bool) -> CheckboxGroup:
-    """A box that shows and hides layers that are drawn, in the browser alone."""
+    """Return a box that shows and hides drawn layers, in the browser alone."""
     for renderer in drawn:
         renderer.update(visible=shown, syncable=False)
     # a group of one: its box and its words belong together for screen readers and fingers
@@ -383,7 +382,7 @@ def toggle(label: str, drawn: Sequence[GlyphRenderer], *, shown: bool) -> Checkb
         stylesheets=[style.BUTTONS],
         css_classes=["look"],
     )
-    code = "for (const one of drawn) one.visible = cb_obj.active.length > 0"
+    code = "for (const layer of drawn) layer.visible = cb_obj.active.length > 0"
     box.js_on_change("active", CustomJS(args={"drawn": list(drawn)}, code=code))
     return box
 
@@ -392,7 +391,7 @@ _SWITCH = "plots.forEach((plot, which) => { plot.visible = which == cb_obj.activ
 
 
 def switch(labels: Sequence[str], plots: Sequence[figure], active: int = 0) -> RadioButtonGroup:
-    """Buttons that show one of several figures, in the browser alone."""
+    """Return buttons that show one of several figures, in the browser alone."""
     for number, plot in enumerate(plots):
         plot.visible = number == active
     buttons = RadioButtonGroup(

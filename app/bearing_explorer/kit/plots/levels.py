@@ -26,7 +26,7 @@ def decibels(density: Any) -> Any:
 def drawn_levels(
     spectra: Mapping[str, Spectrum], top: float, lowest: float = 0.0
 ) -> dict[str, NDArray[np.float64]]:
-    """Levels [dB] of the directions shown from `lowest` up to `top` [Hz].
+    """Return the levels [dB] of the directions shown from `lowest` up to `top` [Hz].
 
     NaN for a direction that is not free; empty without spectra.
     """
@@ -47,9 +47,9 @@ def drawn_levels(
 def seen_levels(
     room: float, *spectra: Mapping[str, np.ndarray], depth: float = DEPTH_OF_VIEW
 ) -> tuple[NDArray[np.float64], float]:
-    """Levels [dB] for which an axis makes room, and `room` above the loudest.
+    """Return the levels [dB] that an axis has to show, and its top, `room` above the loudest.
 
-    Far below the loudest line is silence, for which no axis has to make room.
+    Levels more than `depth` below the loudest line count as silence, and are cut off there.
     """
     levels = np.concatenate([spectrum[dof] for spectrum in spectra for dof in SHOWN])
     loudest = float(np.nanmax(levels, initial=LEVEL_FLOOR))

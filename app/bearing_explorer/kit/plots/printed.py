@@ -1,4 +1,4 @@
-"""Bokeh's figures drawn by Matplotlib, for paper: every layer that the views are made of.
+"""Drawing Bokeh's figures by Matplotlib, for paper: all layers that the views use.
 
 It knows glyphs, axes, legends and scales of colours, and nothing of views.
 """
@@ -35,8 +35,8 @@ _LEVELS = {"image": 0, "underlay": 1, "glyph": 2, "guide": 3, "annotation": 4, "
 _FONTS = ["Helvetica", "Arial", "Liberation Sans", "DejaVu Sans"]
 
 
-def needs_extra() -> None:
-    """ImportError with what to do about it, where what printing needs is not installed."""
+def check_packages() -> None:
+    """Raise ImportError, with the remedy, if the packages for printing are not installed."""
     try:
         import matplotlib
         import py_mini_racer  # noqa: F401
@@ -45,36 +45,38 @@ def needs_extra() -> None:
             f"figures as {', '.join(SUFFIXES)} need matplotlib and mini-racer ({error}): "
             'pip install "bearing-explorer[figures]"'
         ) from error
-    matplotlib.set_loglevel("error")  # of fonts that are missing
+    matplotlib.set_loglevel("error")  # no warning of missing fonts
 
 
 def print_figures(document: Document, note: str, path: Path, width: float | None) -> None:
     """Write the visible figures of a document below one another with a note, `width` [mm] wide.
 
-    The suffix of the path says as what; see SUFFIXES. None is a column, or two where they need it.
+    The suffix of the path gives the format, see SUFFIXES. A width of None is that of a
+    column, or of two for a figure that needs them.
     """
-    needs_extra()
+    check_packages()
     import matplotlib
     from matplotlib.figure import Figure
     from matplotlib.font_manager import get_font_names
 
-    document = Document.from_json(document.to_json())  # its models are changed
+    document = Document.from_json(document.to_json())  # a copy: its models are changed below
     plots = [plot for plot in document.roots[0].children if plot.visible]
     if width is None:
         width = TWO_COLUMNS if any(WIDE in plot.tags for plot in plots) else COLUMN
     pixels = width / 25.4 * 72.0 / POINT
-    most = [0.9 * pixels if _has_circles(plot) else math.inf for plot in plots]
-    heights = [min(plot.min_height, high) for plot, high in zip(plots, most, strict=True)]
-    size = {
+    # drawings with circles are to scale: higher than wide, they would have empty margins
+    limits = [0.9 * pixels if _has_circles(plot) else math.inf for plot in plots]
+    heights = [min(plot.min_height, limit) for plot, limit in zip(plots, limits, strict=True)]
+    frame_sizes = {
         plot.id: (pixels - (plot.min_border_left or 0) - (plot.min_border_right or 0), height - 40)
         for plot, height in zip(plots, heights, strict=True)
     }
-    for k, plot in enumerate(plots):
+    for k, plot in enumerate(plots):  # each entry of a key takes a line above its figure
         heights[k] += LINE * sum(item.visible for item in plot.select(models.LegendItem))
     lines = wrap(note, int(pixels / (0.52 * 10)))
-    scripts = Scripts(document.models, size)
+    scripts = Scripts(document.models, frame_sizes)
     scripts.follow()
-    fonts = [name for name in _FONTS if name in get_font_names()]  # a sign is of the first with it
+    fonts = [name for name in _FONTS if name in get_font_names()]  # the first that has a sign
     look = {"font.family": fonts, "svg.fonttype": "none", "pdf.fonttype": 42}
     look |= {"font.size": 11 * POINT, "axes.linewidth": 0.6}
     with matplotlib.rc_context(look):
@@ -88,7 +90,7 @@ def print_figures(document: Document, note: str, path: Path, width: float | None
 
 
 def _has_circles(plot: Plot) -> bool:
-    """True for a drawing of what has a shape: a radius is one along both axes."""
+    """True for a drawing with circles, whose radius is the same along both axes."""
     return any(isinstance(getattr(r, "glyph", None), models.Circle) for r in plot.renderers)
 
 
@@ -122,54 +124,56 @@ class _Printed:
         self._put_annotations()
 
     def _put_axis(self, side: str, axis: Any) -> None:
+        """Give an axis its label, ticks and numbers."""
         from matplotlib.ticker import FixedLocator, LogLocator, MaxNLocator, NullLocator
 
         axes, name = self.axes, getattr(axis, f"{side}_range_name")
-        if name != "default":  # the same places in another quantity
+        if name != "default":  # a second axis, which shows the same places in another quantity
             if not axis.visible:
                 return
-            own, other = getattr(self.plot, f"{side}_range"), self.plot.extra_x_ranges[name]
-            ratio = other.end / own.end
+            main, other = getattr(self.plot, f"{side}_range"), self.plot.extra_x_ranges[name]
+            ratio = other.end / main.end
             axes = axes.secondary_xaxis("top", functions=(lambda x: x * ratio, lambda x: x / ratio))
-        paper = getattr(axes, f"{side}axis")
+        target = getattr(axes, f"{side}axis")
         axes.tick_params(length=2.5, width=0.6, labelsize=11 * POINT, colors="#20262D")
-        paper.set_label_text(axis.axis_label or "", fontsize=12 * POINT)
+        target.set_label_text(axis.axis_label or "", fontsize=12 * POINT)
         if isinstance(axis.ticker, models.FixedTicker):
-            paper.set_major_locator(FixedLocator(axis.ticker.ticks))
+            target.set_major_locator(FixedLocator(axis.ticker.ticks))
         elif isinstance(axis, models.LogAxis):
-            paper.set_major_locator(LogLocator(numticks=7))
+            target.set_major_locator(LogLocator(numticks=7))
         else:
-            paper.set_major_locator(MaxNLocator(6, steps=[1, 2, 5, 10]))
-        paper.set_minor_locator(NullLocator())
+            target.set_major_locator(MaxNLocator(6, steps=[1, 2, 5, 10]))
+        target.set_minor_locator(NullLocator())
         if (write := self._writer(axis)) is not None:
-            paper.set_major_formatter(write)
+            target.set_major_formatter(write)
         if names := axis.major_label_overrides:
-            paper.set_major_formatter(lambda tick, _: str(names.get(tick, "")))
+            target.set_major_formatter(lambda tick, _: str(names.get(tick, "")))
 
     def _writer(self, axis: Any) -> Callable[[float, int], str] | None:
-        """The formatter of an axis or a colour bar."""
+        """Return the formatter of an axis or a colour bar; None for Matplotlib's own."""
         form = axis.formatter
         if not isinstance(form, models.CustomJSTickFormatter):
             return None
         return lambda tick, _: str(self.scripts.run(form.code, form.args, tick=float(tick)))
 
     def _value(self, part: Any, name: str, data: dict[str, Any]) -> Any:
-        """Value of a property, a number or an array; None without it."""
+        """Return the value of a property, a number or an array; None without the property."""
         if not hasattr(part, name):
             return None
         value = part.lookup(name).get_value(part)
         if isinstance(value, Expr):
             return self.scripts.run(value.expr.code, value.expr.args)
         if isinstance(value, Field):
-            column, turn = data[value.field], value.transform
-            if isinstance(turn, models.ColorMapper):
-                return _colors(turn, np.asarray(column, float))
-            if isinstance(turn, models.CustomJSTransform):
-                return self.scripts.run(turn.v_func, turn.args, xs=list(column))
+            column, transform = data[value.field], value.transform
+            if isinstance(transform, models.ColorMapper):
+                return _colors(transform, np.asarray(column, float))
+            if isinstance(transform, models.CustomJSTransform):
+                return self.scripts.run(transform.v_func, transform.args, xs=list(column))
             return column
         return value.value if isinstance(value, Value) else value
 
     def _put(self, renderer: GlyphRenderer) -> None:
+        """Draw a renderer by the method that is named after its glyph."""
         from matplotlib.transforms import blended_transform_factory
 
         data, glyph = renderer.data_source.data, renderer.glyph
@@ -177,11 +181,11 @@ class _Printed:
         if not count:
             return
 
-        def at(name: str) -> Any:
+        def get(name: str) -> Any:
             return self._value(glyph, name, data)
 
         def color(kind: str) -> Any:
-            return _with_alpha(at(f"{kind}_color"), at(f"{kind}_alpha"))
+            return _with_alpha(get(f"{kind}_color"), get(f"{kind}_alpha"))
 
         sides = [
             self.axes.transAxes if name == "shares" else self.axes.transData
@@ -192,17 +196,17 @@ class _Printed:
         place["transform"] = blended_transform_factory(*sides)
         line: dict[str, Any] = {}
         if hasattr(glyph, "line_width"):
-            line["linewidth"] = _numbers(at("line_width")) * POINT
-            line["linestyle"] = _dashes(at("line_dash"), line["linewidth"])
+            line["linewidth"] = _numbers(get("line_width")) * POINT
+            line["linestyle"] = _dashes(get("line_dash"), line["linewidth"])
         draw = getattr(self, f"_{type(glyph).__name__.lower()}")
-        self.drawn[renderer.id] = draw(at, color, place, line, count)
+        self.drawn[renderer.id] = draw(get, color, place, line, count)
 
-    def _rows(self, at: Any, names: Sequence[str], count: int) -> np.ndarray:
-        """Numbers of some places as rows (count, names); spans' ends that are NaN stay."""
-        return np.stack([np.broadcast_to(_numbers(at(name)), count) for name in names], axis=1)
+    def _rows(self, get: Any, names: Sequence[str], count: int) -> np.ndarray:
+        """Return the numbers of some places as rows (count, names)."""
+        return np.stack([np.broadcast_to(_numbers(get(name)), count) for name in names], axis=1)
 
-    def _line(self, at: Any, color: Any, place: Any, line: Any, count: int) -> Any:
-        x, y = self._rows(at, ("x", "y"), count).T
+    def _line(self, get: Any, color: Any, place: Any, line: Any, count: int) -> Any:
+        x, y = self._rows(get, ("x", "y"), count).T
         return self.axes.plot(x, y, color=color("line"), **line, **place)[0]
 
     def _lines(self, lines: Any, color: Any, place: Any, line: Any) -> Any:
@@ -212,12 +216,12 @@ class _Printed:
             LineCollection(lines, colors=color("line"), **line, **place)
         )
 
-    def _multiline(self, at: Any, color: Any, place: Any, line: Any, count: int) -> Any:
-        lines = [np.column_stack(pair) for pair in zip(at("xs"), at("ys"), strict=True)]
+    def _multiline(self, get: Any, color: Any, place: Any, line: Any, count: int) -> Any:
+        lines = [np.column_stack(pair) for pair in zip(get("xs"), get("ys"), strict=True)]
         return self._lines(lines, color, place, line)
 
-    def _segment(self, at: Any, color: Any, place: Any, line: Any, count: int) -> Any:
-        ends = self._rows(at, ("x0", "y0", "x1", "y1"), count).reshape(-1, 2, 2)
+    def _segment(self, get: Any, color: Any, place: Any, line: Any, count: int) -> Any:
+        ends = self._rows(get, ("x0", "y0", "x1", "y1"), count).reshape(-1, 2, 2)
         return self._lines(ends, color, place, line)
 
     def _polygons(self, corners: Any, color: Any, place: Any, line: Any) -> Any:
@@ -229,11 +233,11 @@ class _Printed:
             )
         )
 
-    def _patch(self, at: Any, color: Any, place: Any, line: Any, count: int) -> Any:
+    def _patch(self, get: Any, color: Any, place: Any, line: Any, count: int) -> Any:
         from matplotlib.patches import PathPatch
         from matplotlib.path import Path as Outline
 
-        points = self._rows(at, ("x", "y"), count)
+        points = self._rows(get, ("x", "y"), count)
         gaps = np.flatnonzero(np.isnan(points).any(axis=1))
         rings = [part[~np.isnan(part).any(axis=1)] for part in np.split(points, gaps)]
         outlines = [
@@ -243,26 +247,26 @@ class _Printed:
         shape = PathPatch(whole, facecolor=color("fill"), edgecolor=color("line"), **line, **place)
         return self.axes.add_patch(shape)
 
-    def _varea(self, at: Any, color: Any, place: Any, line: Any, count: int) -> Any:
-        x, low, high = self._rows(at, ("x", "y1", "y2"), count).T
+    def _varea(self, get: Any, color: Any, place: Any, line: Any, count: int) -> Any:
+        x, low, high = self._rows(get, ("x", "y1", "y2"), count).T
         return self.axes.fill_between(x, low, high, color=color("fill"), linewidth=0.0, **place)
 
-    def _quad(self, at: Any, color: Any, place: Any, line: Any, count: int) -> Any:
-        left, right, bottom, top = self._rows(at, ("left", "right", "bottom", "top"), count).T
+    def _quad(self, get: Any, color: Any, place: Any, line: Any, count: int) -> Any:
+        left, right, bottom, top = self._rows(get, ("left", "right", "bottom", "top"), count).T
         corners = np.stack([left, bottom, right, bottom, right, top, left, top], axis=1)
         return self._polygons(corners.reshape(-1, 4, 2), color, place, line)
 
     def _across(self, place: Any, up: bool) -> Any:
-        """`place` for shapes through the whole frame: to the right if they stand `up` the axis."""
+        """Return `place` for shapes through the whole frame; `up`: their values are heights."""
         axes = self.axes
         return {
             **place, "transform": axes.get_yaxis_transform() if up else axes.get_xaxis_transform()
         }  # fmt: skip
 
     def _vstrip(
-        self, at: Any, color: Any, place: Any, line: Any, count: int, up: bool = False
+        self, get: Any, color: Any, place: Any, line: Any, count: int, up: bool = False
     ) -> Any:
-        low, high = self._rows(at, ("y0", "y1") if up else ("x0", "x1"), count).T
+        low, high = self._rows(get, ("y0", "y1") if up else ("x0", "x1"), count).T
         across = np.stack([low, high, high, low])
         along = np.broadcast_to([[0.0], [0.0], [1.0], [1.0]], across.shape)
         corners = np.stack([along, across] if up else [across, along], axis=-1).transpose(1, 0, 2)
@@ -271,18 +275,18 @@ class _Printed:
     _hstrip = partialmethod(_vstrip, up=True)
 
     def _vspan(
-        self, at: Any, color: Any, place: Any, line: Any, count: int, up: bool = False
+        self, get: Any, color: Any, place: Any, line: Any, count: int, up: bool = False
     ) -> Any:
-        (value,) = self._rows(at, "y" if up else "x", count).T
+        (value,) = self._rows(get, "y" if up else "x", count).T
         ends = np.stack([value, np.zeros(count), value, np.ones(count)], axis=1).reshape(-1, 2, 2)
         return self._lines(ends[..., ::-1] if up else ends, color, self._across(place, up), line)
 
     _hspan = partialmethod(_vspan, up=True)
 
-    def _scatter(self, at: Any, color: Any, place: Any, line: Any, count: int) -> Any:
-        x, y = self._rows(at, ("x", "y"), count).T
-        marks = np.broadcast_to(np.asarray(at("marker")), count)
-        sizes = np.broadcast_to(_numbers(at("size")), count) * POINT
+    def _scatter(self, get: Any, color: Any, place: Any, line: Any, count: int) -> Any:
+        x, y = self._rows(get, ("x", "y"), count).T
+        marks = np.broadcast_to(np.asarray(get("marker")), count)
+        sizes = np.broadcast_to(_numbers(get("size")), count) * POINT
         drawn = None
         for mark in dict.fromkeys(marks.tolist()):
             rows = marks == mark
@@ -295,41 +299,41 @@ class _Printed:
             )  # fmt: skip
         return drawn
 
-    def _circle(self, at: Any, color: Any, place: Any, line: Any, count: int) -> Any:
-        x, y, radius = self._rows(at, ("x", "y", "radius"), count).T
+    def _circle(self, get: Any, color: Any, place: Any, line: Any, count: int) -> Any:
+        x, y, radius = self._rows(get, ("x", "y", "radius"), count).T
         turn = np.linspace(0.0, 2.0 * math.pi, 73)
         around = radius[:, None, None] * np.column_stack([np.cos(turn), np.sin(turn)])
         corners = np.column_stack([x, y])[:, None] + around
         return self._polygons(corners, color, place, line)
 
-    def _image(self, at: Any, color: Any, place: Any, line: Any, count: int) -> Any:
-        drawn, mapper = None, at("color_mapper")
-        for k, (x, y, w, h) in enumerate(self._rows(at, ("x", "y", "dw", "dh"), count)):
-            grid = np.asarray(at("image")[k])
+    def _image(self, get: Any, color: Any, place: Any, line: Any, count: int) -> Any:
+        drawn, mapper = None, get("color_mapper")
+        for k, (x, y, w, h) in enumerate(self._rows(get, ("x", "y", "dw", "dh"), count)):
+            grid = np.asarray(get("image")[k])
             pixels = _pixels(grid) if mapper is None else _colors(mapper, grid)
             drawn = self.axes.imshow(
                 pixels, extent=(x, x + w, y, y + h), origin="lower", aspect="auto",
                 interpolation="nearest", zorder=place["zorder"],
             )  # fmt: skip
-        shown = self.plot.x_range, self.plot.y_range  # a picture moves them
+        shown = self.plot.x_range, self.plot.y_range  # `imshow` has moved the limits
         self.axes.set(xlim=(shown[0].start, shown[0].end), ylim=(shown[1].start, shown[1].end))
         return drawn
 
     _imagergba = _image
 
-    def _text(self, at: Any, color: Any, place: Any, line: Any, count: int) -> Any:
-        texts = np.broadcast_to(np.asarray(at("text"), dtype=object), count)
+    def _text(self, get: Any, color: Any, place: Any, line: Any, count: int) -> Any:
+        texts = np.broadcast_to(np.asarray(get("text"), dtype=object), count)
         x, y, right, up, angle = self._rows(
-            at, ("x", "y", "x_offset", "y_offset", "angle"), count
+            get, ("x", "y", "x_offset", "y_offset", "angle"), count
         ).T
         colors = color("text")
-        size = float(str(at("text_font_size")).removesuffix("px")) * POINT
-        aligns = np.broadcast_to(np.asarray(at("text_align"), dtype=object), count)
-        base = str(at("text_baseline"))
+        size = float(str(get("text_font_size")).removesuffix("px")) * POINT
+        aligns = np.broadcast_to(np.asarray(get("text_align"), dtype=object), count)
+        base = str(get("text_baseline"))
         base = {"middle": "center", "alphabetic": "baseline"}.get(base, base)
-        paper = at("background_fill_color")
+        paper = get("background_fill_color")
         box = {"facecolor": paper, "edgecolor": "none", "pad": 0.5}
-        box["alpha"] = at("background_fill_alpha")
+        box["alpha"] = get("background_fill_alpha")
         for k, text in enumerate(texts):
             if text and np.isfinite([x[k], y[k]]).all():
                 self.axes.annotate(
@@ -342,7 +346,7 @@ class _Printed:
         return None
 
     def _put_annotations(self) -> None:
-        """Legends, colour bars, and single lines, boxes and words."""
+        """Draw legends, colour bars, and single lines and words."""
         from matplotlib.cm import ScalarMappable
         from matplotlib.colors import ListedColormap, Normalize
 
@@ -378,7 +382,7 @@ class _Printed:
 
 
 def _dashes(dash: Any, width: np.ndarray) -> Any:
-    """Dashes of Bokeh's as a line style of Matplotlib, whose lengths are widths of the line."""
+    """Convert dashes from Bokeh to Matplotlib, which measures lengths in widths of the line."""
     if not isinstance(dash, Sequence) or isinstance(dash, str) or not len(dash):
         return "--" if dash == "dashed" else "-"
     thick = max(float(np.max(width, initial=0.3)), 0.3)
@@ -394,7 +398,7 @@ def _of_rows(colors: Any, rows: np.ndarray) -> Any:
 
 
 def _with_alpha(color: Any, alpha: Any) -> Any:
-    """Colours as Matplotlib takes them, (n, 4) where they or their alpha are columns."""
+    """Return colours for Matplotlib, (n, 4) where they or their alpha are columns."""
     from matplotlib.colors import to_rgba_array
 
     if color is None:
@@ -406,7 +410,7 @@ def _with_alpha(color: Any, alpha: Any) -> Any:
 
 
 def _colors(mapper: Any, values: np.ndarray) -> np.ndarray:
-    """Colours (..., 4) that a linear mapper gives to numbers."""
+    """Return the colours (..., 4) that a linear mapper gives to numbers."""
     from matplotlib.colors import to_rgba_array
 
     palette = to_rgba_array(list(mapper.palette))
@@ -420,6 +424,6 @@ def _colors(mapper: Any, values: np.ndarray) -> np.ndarray:
 
 
 def _pixels(grid: np.ndarray) -> np.ndarray:
-    """Pixels (rows, columns, 4) from 0 to 255 of whole numbers, red in the lowest byte."""
+    """Unpack whole numbers, red in the lowest byte, to pixels (rows, columns, 4) of 0 to 255."""
     whole = np.ascontiguousarray(grid.astype(np.uint32))
     return whole.view(np.uint8).reshape(*whole.shape, 4)

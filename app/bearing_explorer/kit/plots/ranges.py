@@ -51,13 +51,13 @@ class StickyRange:
         self._fitted = False
 
     def fit(self, *values: ArrayLike) -> tuple[float, float]:
-        """(start, end) for these numbers; numbers that are not finite do not count."""
+        """Return (start, end) for these numbers; numbers that are not finite do not count."""
         low, high = self._extremes(values)
         if not low <= high:
             return self.start, self.end
         outside = low < self.start or high > self.end
-        roomy = high - low < self._shrink_below * (self.end - self.start)
-        if outside or roomy or not self._fitted:
+        too_wide = high - low < self._shrink_below * (self.end - self.start)
+        if outside or too_wide or not self._fitted:
             self.start, self.end = nice_range(low, high)
             self._fitted = True
         return self.start, self.end
@@ -97,11 +97,11 @@ class StickyRange:
 
 
 TICKS = 8
-"""Steps on an axis, about."""
+"""Approximate number of steps on an axis."""
 
 
 def nice_range(low: float, high: float) -> tuple[float, float]:
-    """The narrowest range with about `TICKS` round steps that holds `low` and `high`."""
+    """Return the narrowest range with about `TICKS` round steps that holds `low` and `high`."""
     span = high - low
     if span <= 0.0:
         span = abs(low) or 1.0
@@ -114,7 +114,7 @@ def nice_range(low: float, high: float) -> tuple[float, float]:
 
 
 def nice_step(least: float) -> float:
-    """The smallest of 1, 2, 2.5, 5 times a power of ten that is at least `least`."""
+    """Return the smallest of 1, 2, 2.5, 5 times a power of ten that is at least `least`."""
     power = 10.0 ** math.floor(math.log10(least))
     for factor in (1.0, 2.0, 2.5, 5.0):
         if factor * power >= least * (1.0 - 1e-9):

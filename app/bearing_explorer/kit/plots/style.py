@@ -30,9 +30,9 @@ from bokeh.plotting import figure
 from bearingcore.common import PREFIXES, number as number, prefix_power, with_prefix as with_prefix
 
 DEFECTIVE = "#0072B2"
-"""The bearing as the sliders have it."""
+"""Colour of the bearing as the sliders describe it."""
 HEALTHY = "#8E93A3"
-"""The same bearing without its defect."""
+"""Colour of the same bearing without its defect."""
 DEFECT = "#E69F00"
 """Colour of the defect."""
 INK = "#20262D"
@@ -56,13 +56,13 @@ FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'Helvetica Neue', Arial, s
 HTML_FONT = f"font:12.5px/1.45 {FONT}".replace('"', "'")
 TEXT_SIZE = "12px"
 WRAPPED = ":host { flex-wrap: wrap; min-width: 0 !important; }"
-"""Style of rows that stand below one another where there is little room."""
+"""Style of rows that wrap where there is little room."""
 SIDE_BY_SIDE = """
 :host { display: grid !important; gap: 8px 16px;
         min-height: auto !important;
         grid-template-columns: repeat(auto-fit, minmax(min(100%, max(380px, 40%)), 1fr)); }
 """
-"""Style of figures of which two stand in a row where there is room."""
+"""Style that puts two figures side by side where there is room."""
 BUTTONS = f"""
 :host {{
   --default: var(--card); --default-hover: var(--track-soft); --default-active: var(--accent-paper);
@@ -131,7 +131,7 @@ class AxisQuantity:
     """Quantity of an axis: name, symbol and unit.
 
     `prefixed` lets the axis choose an SI prefix for `unit`; the data are in `unit` always.
-    `around`: an angle, written between 0° and 360° also where the axis runs past.
+    `around`: an angle, written between 0° and 360° even where the axis goes beyond.
     """
 
     name: str
@@ -171,10 +171,10 @@ def make_figure(
     sizing_mode: str = "stretch_both",
     **options: Any,
 ) -> figure:
-    """A figure in the house style on two fixed ranges, both axes labelled and prefixed.
+    """Make a figure in the house style on two fixed ranges, both axes labelled and prefixed.
 
     `right` is the room [px] right of the frame, for labels next to their lines. Unless
-    `sizing_mode` says otherwise it is as wide and high as its place, and `height` [px] the least.
+    `sizing_mode` says otherwise, the figure fills its place and is at least `height` [px] high.
     """
     plot = figure(
         x_range=x_range,
@@ -188,7 +188,7 @@ def make_figure(
         min_border_right=right,
         min_border_left=64,
         min_border_top=10,
-        lod_threshold=None,  # or Bokeh holds lines of thousands of points once more, with fewer
+        lod_threshold=None,  # otherwise Bokeh keeps a second copy of long lines, with fewer points
         **{"min_width": 280, **options},
     )
     plot.toolbar_inner = True
@@ -200,7 +200,7 @@ def make_figure(
 
 
 def style_figure(plot: figure) -> None:
-    """Paper, grid, title and toolbar of a figure."""
+    """Style the paper, grid, title and toolbar of a figure."""
     plot.background_fill_color = plot.border_fill_color = PAPER
     plot.outline_line_color = None
     plot.toolbar.logo = None
@@ -215,7 +215,7 @@ def style_figure(plot: figure) -> None:
 
 
 def bare_figure(x_range: Range1d, y_range: Range1d, *, height: int, **options: Any) -> figure:
-    """A figure without axes and grid, for drawings."""
+    """Make a figure without axes and grid, for drawings."""
     plot = make_figure(
         AxisQuantity("", "", ""),
         AxisQuantity("", "", ""),
@@ -232,7 +232,7 @@ def bare_figure(x_range: Range1d, y_range: Range1d, *, height: int, **options: A
 
 
 def style_axis(axis: Axis) -> None:
-    """Fonts and colours of an axis."""
+    """Set the fonts and colours of an axis."""
     axis.axis_label_text_font = axis.major_label_text_font = FONT
     axis.axis_label_text_font_style = "normal"
     axis.axis_label_text_font_size = TEXT_SIZE
@@ -248,12 +248,12 @@ def style_axis(axis: Axis) -> None:
 
 
 def write_units(axis: LinearAxis | ColorBar, quantity: AxisQuantity, shown: Range1d) -> None:
-    """Label an axis or colour bar; numbers and label follow the prefix that `shown` asks for."""
+    """Label an axis or colour bar; numbers and label follow the prefix that fits `shown`."""
     field = "title" if isinstance(axis, ColorBar) else "axis_label"
     setattr(axis, field, quantity.label(max(abs(shown.start), abs(shown.end))))
     axis.formatter = tick_formatter(quantity, shown)
     if quantity.prefixed:
-        axis.syncable = False  # or the server would hear of each change of its label
+        axis.syncable = False  # otherwise each change of its label would go to the server
         follow = CustomJS(
             args={
                 "axis": axis,
@@ -274,7 +274,7 @@ if (axis[field] != label) axis[field] = label
 
 
 def tick_formatter(quantity: AxisQuantity, shown: Range1d) -> CustomJSTickFormatter:
-    """Numbers of an axis over the range `shown`, with a true minus sign."""
+    """Write the numbers of an axis over the range `shown`, with a true minus sign."""
     return CustomJSTickFormatter(
         args={"shown": shown, "prefixed": quantity.prefixed, "around": quantity.around},
         code=JS_PREFIX
@@ -287,7 +287,7 @@ return minus(String(Number((turned/10**e).toPrecision(6))))
 
 
 def logarithmic_ticks(unit: str = "") -> CustomJSTickFormatter:
-    """Numbers of a logarithmic axis: with a prefix where they have a unit, else powers of ten."""
+    """Write the numbers of a logarithmic axis: with a prefix and a unit, or as powers of ten."""
     return CustomJSTickFormatter(
         args={"unit": unit},
         code=JS_PREFIX
@@ -302,12 +302,12 @@ return (m == 1 ? '' : m + '·') + '10' + raised(e)
 
 
 def fixed_ticks(axis: LinearAxis, ticks: Sequence[float]) -> None:
-    """Put the numbers of an axis at `ticks` whatever its range."""
+    """Put the numbers of an axis at `ticks`, whatever its range is."""
     axis.ticker = FixedTicker(ticks=list(ticks), minor_ticks=[])
 
 
 def in_degrees(angle: float, digits: int = 1) -> str:
-    """`angle` [rad] for a sentence, between 0° and 360°."""
+    """Word an angle [rad] between 0° and 360°, for a sentence."""
     turned = math.degrees(angle) % 360.0
     text = f"{turned:.{digits}f}"
     whole = f"{360.0:.{digits}f}"
@@ -321,17 +321,17 @@ def color_along(direction: str) -> str:
 
 
 def css_color(color: str) -> str:
-    """A colour for a style in HTML that follows light and dark as it does in figures."""
+    """Return a colour for HTML that follows light and dark as it does in figures."""
     return f"var(--in-dark-{color[1:].upper()}, {color})"
 
 
 def list_words(words: Sequence[str]) -> str:
-    """The words as a sentence lists them: "a", "a and b", "a, b and c"."""
+    """List words as in a sentence: "a", "a and b", "a, b and c"."""
     return " and ".join(filter(None, (", ".join(words[:-1]), words[-1]))) if words else ""
 
 
 def legend(items: Iterable[tuple[str, str, str]]) -> str:
-    """A legend as HTML: colour, sign and words of each item."""
+    """Return a legend as HTML: colour, sign and words of each item."""
     spans = "".join(
         f'<span><span style="color:{css_color(color)}" aria-hidden="true">{sign}</span>'
         f" {html.escape(words)}</span>"

@@ -1,8 +1,8 @@
-"""Dark colours of the figures: which colour of the light page is which of the dark one.
+"""Dark colours of the figures: one for each colour of the light page.
 
-Each colour has one meaning on the whole page, so one table says it all; `look.js` applies
-it in the browser. A colour that must stay, as one on top of a picture, is one that is not in the
-table (`style.LIGHT`, `style.SHADE`).
+Each colour has one meaning on the whole page, so one table is enough; `look.js` applies it in the
+browser. Colours that must stay, such as those on top of a picture, are not in the table
+(`style.LIGHT`, `style.SHADE`).
 """
 
 from __future__ import annotations
@@ -48,17 +48,17 @@ DARK_PALETTES = [
     (color_scales.LOADS, color_scales.DARK_LOADS),
     (color_scales.INKS, [DARK_COLORS[style.INK], DARK_COLORS[style.PAPER]]),
 ]
-"""Lists of colours that do not change one by one."""
+"""Palettes (light, dark) that change as a whole."""
 
 
 def dark_properties() -> str:
-    """Dark colours for styles in HTML, see `style.css_color`."""
+    """Return the dark colours as CSS properties, see `style.css_color`."""
     words = (f"--in-dark-{light[1:].upper()}: {dark};" for light, dark in DARK_COLORS.items())
     return f':root[data-theme="dark"] {{ {" ".join(words)} }}'
 
 
 def themes() -> str:
-    """The tables as `look.js` reads them."""
+    """Return the tables in the form that `look.js` reads."""
     colors = {light.upper(): dark for light, dark in DARK_COLORS.items()}
     colors["WHITE"] = DARK_COLORS[style.PAPER]
     palettes = [[list(light), list(dark)] for light, dark in DARK_PALETTES]

@@ -1,7 +1,7 @@
 """The scripts of Bokeh's models, run without a browser, by V8.
 
-Labels with prefixes, words and pictures are made by scripts in the browser, out of the numbers.
-Whoever draws a figure elsewhere runs the same scripts, so that both say the same.
+In the browser, scripts make labels with prefixes, words and pictures from the numbers. A figure
+that is drawn elsewhere runs the same scripts, so that both show the same.
 """
 
 from __future__ import annotations
@@ -44,14 +44,14 @@ const plain = (key, value) => value instanceof Grid
   ? {shape: value.shape, values: [...value.values]}
   : ArrayBuffer.isView(value) ? [...value].map((x) => isFinite(x) ? x : null)
   : typeof value === "number" && !isFinite(value) ? null : value
-const told = (value) => JSON.stringify(value, plain)
+const toJson = (value) => JSON.stringify(value, plain)
 """
 
 
 class Scripts:
-    """The scripts of some models, whose figures are of a size [px].
+    """The scripts of some models; `size` is that of the frame of each figure [px].
 
-    `follow` runs those that follow numbers and updates the models. ImportError without V8.
+    `follow` runs the scripts that react to numbers, and updates the models. ImportError without V8.
     """
 
     def __init__(self, models: Iterable[Model], size: Mapping[str, tuple[float, float]]) -> None:
@@ -60,7 +60,7 @@ class Scripts:
         self._models = {model.id: model for model in models}
         self._v8 = MiniRacer()
         self._v8.eval(_WORLD)
-        for name in self._models:  # all, as properties refer to each other
+        for name in self._models:  # all of them first, because properties refer to each other
             self._v8.eval(f"add({name!r}, {{}})")
         for model in self._models.values():
             self._v8.eval(f"M[{model.id!r}].setv({{{self._properties(model, size)}}})")
@@ -78,7 +78,7 @@ class Scripts:
         return ", ".join(f"{name}: {self._code(value)}" for name, value in known.items())
 
     def _code(self, value: Any) -> str:
-        """JavaScript of a value; a model is looked up."""
+        """Write a value as JavaScript; a model is named by its id."""
         if isinstance(value, Model):
             return f"M[{value.id!r}]"
         if isinstance(value, np.ndarray) and value.ndim == 2:
@@ -93,7 +93,7 @@ class Scripts:
         return json.dumps(value.tolist() if isinstance(value, np.ndarray | np.generic) else value)
 
     def follow(self) -> None:
-        """Run what follows numbers and sizes, and update the models; what wants a page fails."""
+        """Run the scripts that react to numbers and sizes; ignore those that need a page."""
         for event in _EVENTS:
             for model in list(self._models.values()):
                 for script in model.js_property_callbacks.get(event, []):
@@ -107,20 +107,20 @@ class Scripts:
                 names = ["data"]
             for name in names:
                 before = f"M[{model.id!r}].{name}"
-                same = f"{before} === M[{model.id!r}].was"  # numbers that no script has changed
-                value = json.loads(self._v8.eval(f"told({same} ? null : {before} ?? null)"))
+                kept = f"{before} === M[{model.id!r}].was"  # no script has changed these numbers
+                value = json.loads(self._v8.eval(f"toJson({kept} ? null : {before} ?? null)"))
                 if value is not None and hasattr(model, name):
                     setattr(model, name, _arrays(value) if name == "data" else value)
 
     def run(self, code: str, args: Mapping[str, Any], **more: Any) -> Any:
-        """Return what the body of a function returns that knows `args` and `more`."""
+        """Run the body of a function of `args` and `more`, and return its result."""
         names = {**args, **more}
         body = f"(({{{', '.join(names)}}}) => {{{code}}})({self._code(names)})"
-        return json.loads(self._v8.eval(f"told({body})"))
+        return json.loads(self._v8.eval(f"toJson({body})"))
 
 
 def _arrays(data: Mapping[str, list[Any]]) -> dict[str, Any]:
-    """Columns with their pictures as arrays; null is NaN."""
+    """Return columns with their pictures as arrays, and NaN for null."""
     return {
         name: [np.array(v["values"], dtype=float).reshape(v["shape"]) for v in values]
         if values and isinstance(values[0], dict)

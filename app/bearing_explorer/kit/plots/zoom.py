@@ -1,8 +1,8 @@
-"""Every figure zooms: with Ctrl and the wheel, two fingers, a box; a button in it leads back.
+"""Zooming of all figures: with Ctrl and the wheel, two fingers, or a box; a button resets it.
 
-One finger goes on scrolling the page, and so does the wheel alone. Ranges from the server move the
-axes of a figure only while it is not zoomed; back is always where they would be then (see
-`serve.packed_source`).
+One finger still scrolls the page, and so does the wheel alone. Ranges from the server move the axes
+of a figure only while it is not zoomed. A reset always goes to the newest ranges from the server
+(see `serve.packed_source`).
 """
 
 from __future__ import annotations
@@ -20,10 +20,10 @@ MOVES = "moves"
 _STAY = "if (cb_obj.start != start || cb_obj.end != end) cb_obj.setv({start, end})"
 
 
-def zoomable(plot: Plot) -> None:
-    """Give a figure the tools to zoom. Its ranges for places of words stay.
+def make_zoomable(plot: Plot) -> None:
+    """Give a figure the tools to zoom. Its ranges for places of words do not zoom.
 
-    With `active_drag` None, as of a drawing with handles, no drag zooms or pans it.
+    With `active_drag` None, as in a drawing with handles, no drag zooms or pans the figure.
     """
     wheel = WheelZoomTool(modifiers="ctrl")
     plot.add_tools(wheel, ResetTool())
@@ -39,11 +39,11 @@ def zoomable(plot: Plot) -> None:
     plot.js_on_event(RangesUpdate, home)
     plot.js_on_change("inner_width", home)
     for shown in (plot.x_range, plot.y_range):
-        if shown.reset_start is None:  # or nothing would lead back before the first numbers
+        if shown.reset_start is None:  # otherwise a reset would fail before the first numbers
             shown.update(reset_start=shown.start, reset_end=shown.end)
-    for words in (*plot.extra_x_ranges.values(), *plot.extra_y_ranges.values()):
-        if MOVES in words.tags:
+    for fixed in (*plot.extra_x_ranges.values(), *plot.extra_y_ranges.values()):
+        if MOVES in fixed.tags:
             continue
-        stay = CustomJS(args={"start": words.start, "end": words.end}, code=_STAY)
-        words.js_on_change("start", stay)
-        words.js_on_change("end", stay)
+        stay = CustomJS(args={"start": fixed.start, "end": fixed.end}, code=_STAY)
+        fixed.js_on_change("start", stay)
+        fixed.js_on_change("end", stay)

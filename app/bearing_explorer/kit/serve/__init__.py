@@ -1,1 +1,1 @@
-"""The server: who may come in, the messages to the browser, private names of Panel and Bokeh."""
+"""The server: hosts and messages that it allows, the packed data, private names of libraries."""

@@ -6,6 +6,6 @@ TOO_LONG = "too-long"
 LONGEST_ADDRESS = 16_000
 """Characters of an address that reaches the page; links of the page have at most half of that.
 
-A session's token holds the address and goes back in a header: with a longer one the page would come
-and its connection never.
+A session's token holds the address and returns in a header: with a longer address, the page would
+load but never connect.
 """

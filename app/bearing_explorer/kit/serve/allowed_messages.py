@@ -1,8 +1,8 @@
 """The messages that the server takes from a browser: those that the page's own scripts send.
 
-Bokeh trusts its browser: a message may put any model with any value into the document. Here pass
-messages to components that are there, and plain values of properties of models that are there;
-new models, new roots, tables of data and code are dropped.
+Bokeh trusts its browser: a message may put any model with any value into the document. This server
+accepts messages to existing components, and plain values for properties of existing models. It
+drops new models, new roots, tables of data, and code.
 """
 
 from __future__ import annotations
@@ -13,11 +13,11 @@ from collections.abc import Mapping
 from typing import Any
 
 MOST_EVENTS = 100
-"""Events of one message."""
+"""Largest number of events in a message."""
 _MOST_ITEMS = 5_000
-"""Values of one event."""
+"""Largest number of values in an event."""
 _DEEPEST = 30
-"""Lists in lists."""
+"""Greatest depth of lists in lists."""
 _PLAIN = (str, int, float, bool, type(None))
 _NEVER = {
     "code", "args", "esm", "tags", "name", "js_property_callbacks", "js_event_callbacks",
@@ -34,7 +34,7 @@ _EVENTS = {
 def is_costly(text: str) -> bool:
     """True if parsing a frame would hold up everybody: 2.6 s for a million empty lists.
 
-    What people wrote may hold any number of commas and brackets: it stands in strings.
+    Strings do not count: text that people wrote may hold any number of commas and brackets.
     """
     if len(text) < 20 * _MOST_ITEMS:
         return False
@@ -48,16 +48,16 @@ _STRING = re.compile(r'"[^"\\]*(?:\\.[^"\\]*)*"')
 
 
 def component_message(event: Any, buffers: Mapping[str, bytes]) -> tuple[str, Any] | None:
-    """The id of a model and the plain data that a component's script sends it.
+    """Return the id of a model, and the plain data that a component's script sends it.
 
-    None where `event` is no such thing; ValueError where its data is more than plain. `buffers`
-    are the blocks of bytes that belong to the message, by their ids.
+    None if `event` is no such message; ValueError if its data are more than plain. `buffers` are
+    the blocks of bytes that belong to the message, by their ids.
     """
     data = event.get("msg_data") if isinstance(event, dict) else None
     if not isinstance(data, dict) or data.get("name") != "data_event":
         return None
     try:
-        # BokehJS writes a model out in full that it believes to be new; its id is enough
+        # BokehJS writes out in full a model that it believes to be new; the id is enough
         values = dict(data["values"]["entries"])
         return str(values["model"]["id"]), _Reader(buffers).read(values["data"])
     except (TypeError, KeyError) as error:
@@ -65,9 +65,9 @@ def component_message(event: Any, buffers: Mapping[str, bytes]) -> tuple[str, An
 
 
 def name_model_by_id(event: Any) -> Any:
-    """An event whose model is named by its id alone.
+    """Return an event that names its model by the id alone.
 
-    BokehJS writes a model out in full that it believes to be new, as after a tab has been added.
+    BokehJS writes out in full a model that it believes to be new, as after a tab has been added.
     """
     try:
         values = event["msg_data"]["values"]
@@ -79,9 +79,9 @@ def name_model_by_id(event: Any) -> Any:
 
 
 def is_allowed(event: Any, models: Any) -> bool:
-    """True if an event that is no message to a component may reach the document.
+    """Return True if an event that is no message to a component may reach the document.
 
-    `models` are those of the document (`Document.models`).
+    `models` are the models of the document (`Document.models`).
     """
     kind = event.get("kind") if isinstance(event, dict) else None
     if kind == "MessageSent" and set(event) == {"kind", "msg_type", "msg_data"}:
@@ -100,12 +100,12 @@ def is_allowed(event: Any, models: Any) -> bool:
 
 
 def _is_offered(model: Any, attribute: str, new: Any) -> bool:
-    """True if a choice is among those of its list; Panel raises for any other one."""
+    """Return True if a choice is in its list; Panel raises for any other."""
     offers = type(model).properties()
     if attribute == "value" and "options" in offers:
         groups = model.options.values() if isinstance(model.options, dict) else [model.options]
-        values = [one[0] if isinstance(one, tuple) else one for group in groups for one in group]
-        return new in values
+        options = [option for group in groups for option in group]
+        return new in [option[0] if isinstance(option, tuple) else option for option in options]
     if attribute == "active" and "labels" in offers:
         chosen = new if isinstance(new, list) else [new]
         return all(type(name) is int and 0 <= name < len(model.labels) for name in chosen)
@@ -113,7 +113,7 @@ def _is_offered(model: Any, attribute: str, new: Any) -> bool:
 
 
 def _is_plain(value: Any) -> bool:
-    """True if a value only refers to models, and makes none."""
+    """Return True if a value only refers to models, and makes none."""
     try:
         _Reader({}).read(value)
     except (ValueError, TypeError):
@@ -122,14 +122,14 @@ def _is_plain(value: Any) -> bool:
 
 
 class _Reader:
-    """Reads plain data out of Bokeh's notation; ValueError where it holds more, or too much."""
+    """Reads plain data from Bokeh's notation; ValueError for other data, or for too much."""
 
     def __init__(self, buffers: Mapping[str, bytes]) -> None:
         self._buffers = buffers
         self._left = _MOST_ITEMS
 
     def read(self, value: Any, depth: int = 0) -> Any:
-        """Lists, maps, numbers, texts, bytes and references to models."""
+        """Return lists, maps, numbers, texts, bytes and references to models."""
         self._left -= 1
         if self._left < 0 or depth > _DEEPEST:
             raise ValueError("it holds too much")

@@ -2,7 +2,7 @@
 
 The list says what each name serves, measured on two busy cores, and what happens without it.
 
-* Those in `_OF_THE_WALK`, `_property_values`, `_unstable_default_values`: opening three tabs holds
+* Those in `_WALK_NAMES`, `_property_values`, `_unstable_default_values`: opening three tabs holds
   the event loop for 253 ms (`find_models_quickly`). Without: 1,231 ms.
 * `_held_events`, `_new_models`, `_references`, `_subscribed_connections`, `_socket`: a change is
   one message, and a class of 20 gets 74 pictures a second (`send_changes`). Without: 50.
@@ -50,7 +50,7 @@ PLAIN = os.environ.get("BEARING_EXPLORER_PLAIN", "0") not in ("", "0")
 
 log = logging.getLogger(__name__)
 
-_OF_THE_WALK: tuple[tuple[Any, str], ...] = (
+_WALK_NAMES: tuple[tuple[Any, str], ...] = (
     (model_util, "visit_immediate_value_references"),
     (HasProps, "_overridden_defaults"),
     (HasProps, "_initialized"),
@@ -64,7 +64,7 @@ _OF_THE_WALK: tuple[tuple[Any, str], ...] = (
 
 def missing() -> list[str]:
     """Names for `find_models_quickly` that this version of Bokeh does not have, in sentences."""
-    gone = [(owner, name) for owner, name in _OF_THE_WALK if not hasattr(owner, name)]
+    gone = [(owner, name) for owner, name in _WALK_NAMES if not hasattr(owner, name)]
     return [
         f"{owner.__name__}.{name} is gone from bokeh {version('bokeh')}" for owner, name in gone
     ]
@@ -114,7 +114,7 @@ async def apply_patch(message: Any, connection: Any) -> None:
 
 
 def parts_of(server: Any) -> tuple[Any, Any] | None:
-    """The Tornado application and the server under it; None where they are hidden."""
+    """Return the Tornado application and the server under it; None where they are hidden."""
     parts = getattr(server, "_tornado", None), getattr(server, "_http", None)
     return None if PLAIN or None in parts else parts
 
@@ -134,7 +134,7 @@ def dispatch_event(model: Model, event: DataEvent) -> None:
 
 
 def sockets_of(session: Any) -> list[Any]:
-    """The websockets of a session; none where they are hidden."""
+    """Return the websockets of a session; none where they are hidden."""
     connections = () if PLAIN else tuple(getattr(session, "_subscribed_connections", ()))
     sockets = (getattr(connection, "_socket", None) for connection in connections)
     return [socket for socket in sockets if socket is not None]
@@ -143,7 +143,7 @@ def sockets_of(session: Any) -> list[Any]:
 async def send_changes(session: Any, document: Document, change: Callable[[], None]) -> None:
     """Run `change` and send all that it changed as one message, written when this returns.
 
-    By public ways, Bokeh chooses the number of messages.
+    Without private names, Bokeh chooses the number of messages.
     """
     callbacks: Any = document.callbacks
     document.hold("combine")
@@ -188,9 +188,9 @@ def find_models_quickly() -> None:
 
     Whenever a model is added, made or written, Bokeh walks all models, asks each for every property
     that might hold another model, and makes defaults for them. That is most of the cost of a
-    session. With this function a default is made only when somebody asks for it. The browser makes
-    the others, a third of all models, with the same properties. Only values that are written are
-    asked for, facts of a class are computed once instead of for each of its models, and values are
+    session. With this function, a default is made only when somebody asks for it; the browser makes
+    the others, a third of all models, with the same properties. Only values that will be written
+    are asked for, facts of a class are computed once instead of once per model, and values are
     walked without an import for each.
     """
     if PLAIN or getattr(model_util, "visit_immediate_value_references", None) is _visit:
@@ -214,7 +214,7 @@ def find_models_quickly() -> None:
 
 @cache
 def _is_made(descriptor: PropertyDescriptor, kind: type[HasProps]) -> bool:
-    """True if each model of a class has a default of its own."""
+    """Return True if each model of a class has a default of its own."""
     changed = kind._overridden_defaults().get(descriptor.name)
     return bool(descriptor.property._may_have_unstable_default() or descriptor.is_unstable(changed))
 
@@ -234,7 +234,7 @@ def _values_to_write(
     include_defaults: bool = True,
     include_undefined: bool = False,
 ) -> dict[str, Any]:
-    """Values of the properties that `query` takes, by name; without defaults only set ones.
+    """Return the values of the properties that `query` accepts; without defaults, only set ones.
 
     Bokeh gets the value of each property before it checks whether the property is set.
     """
@@ -282,6 +282,7 @@ _references: dict[type[HasProps], tuple[str, ...]] = {}
 
 
 def _visit(value: Any, visitor: Callable[[Any], None]) -> None:
+    """Give `visitor` the models in the properties of a model that can hold any."""
     if not isinstance(value, HasProps):
         _walk(value, visitor)
         return

@@ -17,9 +17,8 @@ PERMISSIONS = (
 class Headers(OutputTransform):
     """Headers on every answer.
 
-    Bokeh makes functions out of text (CustomJS) and Panel its components, so scripts may use
-    `eval` and inline parts of the page; no script, style, font or picture from another server is
-    ever taken.
+    Bokeh makes functions from text (CustomJS), and Panel makes components from text. So scripts may
+    be inline and use `eval`. No script, style, font or picture comes from another server.
     """
 
     frame_ancestors: ClassVar[tuple[str, ...]] = ("'self'",)
@@ -34,7 +33,7 @@ class Headers(OutputTransform):
         headers["Permissions-Policy"] = PERMISSIONS
         headers["Cross-Origin-Opener-Policy"] = "same-origin"
         headers["Cross-Origin-Resource-Policy"] = "same-origin"
-        if len(self.frame_ancestors) == 1:  # it has no way to name others
+        if len(self.frame_ancestors) == 1:  # this header cannot name other sites
             headers["X-Frame-Options"] = "SAMEORIGIN"
         for name in ("Server", "Access-Control-Allow-Origin"):
             if name in headers:
@@ -43,7 +42,7 @@ class Headers(OutputTransform):
 
 
 def policy(frame_ancestors: Sequence[str]) -> str:
-    """All that the page may load and do, and the pages that may show it in a frame."""
+    """Return rules on what the page may load and do, and on pages that may show it in a frame."""
     return "; ".join(
         [
             "default-src 'self'",

@@ -1,8 +1,8 @@
 """Names under which browsers may reach the page, and origins whose pages may connect to it.
 
-Browsers let any page open a websocket to any server, and a foreign name can lead to this
-machine (DNS rebinding): so the server asks for both names. Tornado does not: from 6.6 on it takes
-any websocket whose two names agree, or whose browser says that it is of the same site.
+Browsers let any page open a websocket to any server, and a foreign name can lead to this machine
+(DNS rebinding). So the server checks both host and origin. Tornado does not: from 6.6 on it accepts
+any websocket whose host and origin agree, or whose browser says that it is of the same site.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ _NAME = re.compile(r"[\w.-]+|\[[0-9a-f:.]+\]", re.ASCII)
 def origins_of(text: str) -> set[str]:
     """Return the origins that `[scheme://]name[:port]` stands for, as browsers write them.
 
-    Both schemes where none is said; ValueError where it is no such thing.
+    Without a scheme, both are returned. ValueError for text of another form.
     """
     parts = urlsplit(text if "://" in text else f"//{text}")
     port, name = parts.port, parts.netloc.lower().removesuffix(f":{parts.port}")
@@ -34,9 +34,10 @@ def origins_of(text: str) -> set[str]:
 
 
 class AllowedHosts:
-    """The hosts of a server: this machine, the address that it listens on, and those named.
+    """The hosts of a server: this machine, the address that it listens on, and the named ones.
 
-    It speaks http itself: a page that came by https came through a proxy, which is named then.
+    The server itself speaks http. A page that comes by https comes through a proxy, which has to be
+    named.
     """
 
     def __init__(self, port: int, address: str, named: Iterable[str] = ()) -> None:

@@ -20,13 +20,13 @@ from bearing_explorer.kit.serve.bokeh_internals import (
 )
 
 _SHORT = 0.01
-"""Work [s] on the event loop after which others only have what they have ready."""
+"""Longest work [s] on the event loop that is not followed by a pause for other sessions."""
 
 
 def run_on_loop(doc: Document | None, act: Callable[[], None]) -> None:
-    """Have `act` happen on the event loop of a session: now where this is it, else soon.
+    """Run `act` on the event loop of a session: now if this is that loop, otherwise soon.
 
-    From 3.10 on Bokeh hands over in threads, which have no loop, what a browser sends.
+    From 3.10 on, Bokeh passes messages of a browser on in threads, which have no loop.
     """
     try:
         asyncio.get_running_loop()
@@ -46,8 +46,9 @@ def run_on_loop(doc: Document | None, act: Callable[[], None]) -> None:
 async def hand_on(session: Any, model: Any, data: Any) -> None:
     """Give a message of the browser to the component that `model` shows.
 
-    Bokeh would list all models of the document to read it, and ask each whether it is meant. Other
-    sessions have their turn after it, for as long as it took: a message may hold many of them.
+    Bokeh would list all models of the document, and ask each whether the message is meant for it.
+    Afterwards other sessions have their turn for as long as this took, because one session may send
+    many messages.
     """
     began = time.perf_counter()
 
@@ -65,8 +66,8 @@ async def one_message(doc: Document | None, change: Callable[[], None]) -> None:
 
     For tasks of the event loop, which hold no lock on the document. The lock is taken and held
     until the message is written, so messages arrive in the order of the changes. Panel's own
-    ``unlocked`` does not promise that: where two of its writes meet, the second may lie about
-    until a third comes, and the last position of a slider would not be drawn.
+    ``unlocked`` does not promise that: if two of its writes meet, the second may wait until a third
+    comes, and the last position of a slider would not be drawn.
     """
     session = getattr(getattr(doc, "session_context", None), "session", None)
     if doc is None or session is None:
@@ -84,9 +85,9 @@ async def one_message(doc: Document | None, change: Callable[[], None]) -> None:
 
 
 def send_at_once(doc: Document | None) -> int:
-    """Set TCP_NODELAY on the websockets of `doc`; return how many there were.
+    """Set TCP_NODELAY on the websockets of `doc`, and return their number.
 
-    A Bokeh message is several small frames; without this the kernel holds them back until
+    A Bokeh message is several small frames. Otherwise the kernel would hold them back until
     the browser acknowledges the one before (about 30 ms a drawing).
     """
     context = getattr(doc, "session_context", None)

@@ -15,12 +15,12 @@ The array is, in float32:
 A range that is zoomed stays where it is; only the range that a reset goes back to is new.
 
 Whole numbers up to 2**24 pass through float32 unharmed; NaN passes as NaN, a gap in a line.
-A source whose numbers are those of last time is not sent again, so its figure is not repainted.
+A source whose numbers have not changed is not sent again, so its figure is not repainted.
 
 The controls read ``window.__mark`` (the `mark` of the newest packet: which inputs it belongs to),
-``window.__worked`` (how long it took once it had its turn [s]; all else of its way is waiting) and
-``window.__arrived`` (when its first packet came [ms]); tests and benchmarks read
-``window.__frames`` (packets received) too.
+``window.__worked`` (the time that computing it took [s], without waiting) and ``window.__arrived``
+(the time when its first packet came [ms]); tests and benchmarks read ``window.__frames`` (packets
+received) too.
 """
 
 from __future__ import annotations
@@ -76,11 +76,11 @@ class PackedSource:
         #: the columns of each source
         self.columns: dict[str, tuple[str, ...]] = {}
         self._ranges: dict[str, Range1d] = {}
-        #: what was sent last of each source and range
+        #: shape and bytes that were last sent of each source and range
         self._sent: dict[ColumnDataSource | Range1d, tuple[tuple[int, ...], bytes]] = {}
         self._packet = ColumnDataSource(data={"packed": np.zeros(4, np.float32)})
         self._unpack = CustomJS(args=self._args(), code=_UNPACK)
-        self._known = 0  # how many sources and ranges the browser's callback knows
+        self._known = 0  # number of sources and ranges that the browser's callback has
         self._packet.js_on_change("data", self._unpack)
         #: an invisible model that carries the packet into the document; put it on the page once
         self.anchor = Spacer(width=0, height=0, visible=False, tags=[self._packet])
@@ -114,8 +114,8 @@ class PackedSource:
     ) -> int:
         """Send what changed to the browser in one message; return its size [bytes].
 
-        `mark` travels with the packet, so that the browser knows which inputs are drawn;
-        `worked` is how long they took once they had their turn [s].
+        `mark` travels with the packet, so that the browser knows which inputs are drawn; `worked`
+        is the time that computing them took [s], without waiting.
         """
         if PLAIN:
             self._assign(data, ranges or {})
@@ -134,15 +134,15 @@ class PackedSource:
         for name, (start, end) in ranges.items():
             moved = self._ranges[name]
             home = moved.reset_start, moved.reset_end
-            if home in ((None, None), (moved.start, moved.end)):  # else it is zoomed
+            if home in ((None, None), (moved.start, moved.end)):  # otherwise it is zoomed
                 moved.update(start=start, end=end)
             moved.update(reset_start=start, reset_end=end)
 
     def introduce(self) -> None:
-        """Let the browser's callback know all that is declared.
+        """Give all declared sources and ranges to the browser's callback.
 
-        To be called when their figures are in the document, in the same message: each time that
-        models are given to a callback, Bokeh counts all of the document.
+        Call it when their figures are in the document, in the same message: each time that a
+        callback gets models, Bokeh counts all models of the document.
         """
         if self._known != (known := len(self._sources) + len(self._ranges)):
             self._unpack.args = self._args()
@@ -175,7 +175,7 @@ class PackedSource:
         return np.concatenate([head, np.array(heads, np.float32).ravel(), *blocks])
 
     def _is_new(self, model: ColumnDataSource | Range1d, numbers: np.ndarray) -> bool:
-        """True if a model had other numbers last, bit for bit, so that NaN equals NaN."""
+        """Return True if a model had other numbers before, bit for bit, so that NaN equals NaN."""
         now = numbers.shape, numbers.tobytes()
         if self._sent.get(model) == now:
             return False
@@ -183,7 +183,7 @@ class PackedSource:
         return True
 
     def _block(self, name: str, columns: Columns) -> np.ndarray:
-        """Columns of one source as rows of one array, in the order they were declared."""
+        """Return the columns of a source as rows of one array, in the order of declaration."""
         if name not in self._sources:
             raise ValueError(f"source {name!r} was not declared; known: {sorted(self._sources)}")
         wanted = self.columns[name]

@@ -1,4 +1,4 @@
-"""The page, and small ones with a sentence where it cannot be shown."""
+"""The page, and small pages with a sentence for when it cannot be shown."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from bearing_explorer.kit.serve.hosts import AllowedHosts
 
 
 def message_page(title: str, words: str) -> str:
-    """A small page with a sentence."""
+    """Return a small page with a sentence."""
     page = asset_text("message.html")
     return page.replace("{title}", html.escape(title)).replace("{words}", html.escape(words))
 
@@ -41,9 +41,9 @@ class PageHandler(panel_server.DocHandler):  # type: ignore[misc]
     without it, all of 20 people who came at once waited for the last page."""
 
     async def get(self, *arguments: Any, **named: Any) -> None:
-        """A session, and the page that connects to it."""
+        """Make a session, and write the page that connects to it."""
         if len(self.request.uri or "") > LONGEST_ADDRESS:
-            self.redirect(f"?v={TOO_LONG}")  # relative: a path such as //elsewhere would lead there
+            self.redirect(f"?v={TOO_LONG}")  # relative: a path such as //elsewhere is another host
         elif not self.hosts.allow_page(self.request):
             write_html(self, 403, "This address does not work", _UNKNOWN_HOST)
         elif {"bokeh-token", "bokeh-session-id"} & set(self.request.arguments):
@@ -52,7 +52,7 @@ class PageHandler(panel_server.DocHandler):  # type: ignore[misc]
             self._ask_to_come_back()
         else:
             async with self.one_at_a_time:
-                if self.is_full(self.application_context):  # by now
+                if self.is_full(self.application_context):  # it may have filled meanwhile
                     self._ask_to_come_back()
                     return
                 await super().get(*arguments, **named)
@@ -65,7 +65,7 @@ class PageHandler(panel_server.DocHandler):  # type: ignore[misc]
 
     @classmethod
     async def make_session(cls, context: Any, name: Any, request: Any, token: str) -> Any | None:
-        """Return the session of a token, made anew if it is over; None where there is no room.
+        """Return the session of a token, made again if it is over; None if there is no room.
 
         A page's token outlives its session, and may be used at any time.
         """
@@ -86,7 +86,7 @@ class PageHandler(panel_server.DocHandler):  # type: ignore[misc]
         """Answer monitors without a session."""
 
     def write_error(self, status_code: int, **named: Any) -> None:
-        """A page with a sentence; what went wrong stands in the log."""
+        """Write a page with a sentence; the log has the error."""
         words = f"The server answers {status_code}. Try the page again."
         write_html(self, status_code, "This did not work", words)
         self.finish()
@@ -101,7 +101,7 @@ _NO_SESSION = "A session cannot be named in an address. Leave the part after the
 
 
 class Missing(RequestHandler):
-    """Every other path."""
+    """Handler of all other paths."""
 
     def prepare(self) -> None:
         """Answer any method with a sentence."""
@@ -113,7 +113,7 @@ class HasControls(Matcher):
     """Matches paths with control characters, at which Tornado's file handler fails."""
 
     def match(self, request: HTTPServerRequest) -> dict[str, Any] | None:
-        """Parameters of the handler; None where the path is an ordinary one."""
+        """Return the parameters of the handler; None if the path is an ordinary one."""
         return None if unquote(request.path or "").isprintable() else {}
 
 
@@ -121,7 +121,7 @@ class Icon(RequestHandler):
     """The logo as the page's icon, also under a path in front of the page."""
 
     def get(self) -> None:
-        """The picture."""
+        """Write the picture."""
         self.set_header("Content-Type", "image/svg+xml")
         self.set_header("Cache-Control", "max-age=86400")
         self.write(asset_text("logo.svg"))

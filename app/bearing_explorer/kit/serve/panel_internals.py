@@ -1,4 +1,4 @@
-"""Private names of Panel, and their gain in speed; no other file uses any.
+"""Private names of Panel, which make the page quicker; no other file uses any.
 
 * `_models`, `_msg__callbacks`, `_process_bokeh_event`, and param's `no_instance_params`: a message
   of a component takes a tenth of the time (`LiveComponent`). Without them Panel handles it.

@@ -27,7 +27,7 @@ from bearing_explorer.kit.serve.tornado_internals import HTTP_OPTIONS, bound
 from bearing_explorer.kit.serve.websocket import LiveSocket, close_idle
 
 SESSION_GRACE_SECONDS = 15.0
-"""Time [s] that a session without a browser is kept: the browser may still come, or come back."""
+"""Time [s] for which a session without a browser is kept: the browser may come, or come back."""
 
 _SWITCH_INTERVAL = 0.0005
 """Longest time [s] that a thread keeps the interpreter while the event loop waits for it.
@@ -36,16 +36,16 @@ With Python's own 5 ms, a class of thirty waits a sixth longer."""
 
 @dataclass(frozen=True)
 class Limits:
-    """The most that a process gives.
+    """Limits of a server process.
 
     Attributes
     ----------
     sessions
         people at once; those who come later are asked to come back.
     message
-        of a browser, all of its frames [bytes]. Files are uploaded in pieces of 1 MB.
+        size of a browser's message with all its frames [bytes]. Uploads come in pieces of 1 MB.
     idle
-        after which a browser that sends nothing is disconnected [s].
+        time [s] after which a browser that sends nothing is disconnected.
     """
 
     sessions: int = 100
@@ -64,14 +64,14 @@ def make_server(
     frame_ancestors: Sequence[str] = (),
     limits: Limits = Limits(),
 ) -> Any:
-    """The server, listening but not running yet. OSError where the port is taken."""
+    """Make the server, which listens but does not run yet. OSError if the port is taken."""
     PageHandler.most_sessions = limits.sessions
     PageHandler.one_at_a_time = asyncio.Lock()
     LiveSocket.largest = limits.message
     Headers.frame_ancestors = ("'self'", *frame_ancestors)
     per_app_patterns[:] = [(r"/ws", LiveSocket), (r"/?", PageHandler)]
     find_models_quickly()
-    settings.perform_document_validation = False  # the tests do it
+    settings.perform_document_validation = False  # the tests validate documents
     options: dict[str, Any] = {}
     if root_path:
         options["prefix"] = root_path
@@ -111,12 +111,12 @@ _YOUNG, _MIDDLE, _FULL = 2000, 10, 1000  # Python's own: 700, 10, 10
 
 
 def freeze_startup_objects() -> None:
-    """Have garbage collections look past what stays as long as the process: modules, kernels.
+    """Exclude from garbage collections what lasts as long as the process: modules, kernels.
 
-    Sessions refer to each other in circles, which only collections free; Panel starts one five
-    seconds after the last session has ended. Full ones while a class is there free nothing, and
-    hold the event loop for a second each with thirty sessions: they come a hundred times less, and
-    where people come and go without an end `collect_now_and_then` has them.
+    Objects of a session refer to each other, so only collections free them. Panel starts one five
+    seconds after the last session has ended. While a class is present, a full collection frees
+    nothing and holds the event loop for a second with thirty sessions. So full collections are made
+    a hundred times less often; where people always come and go, `collect_now_and_then` makes them.
     """
     gc.collect()
     gc.freeze()

@@ -47,13 +47,13 @@ HTTP_OPTIONS = {
 class _Started(HTTPMessageDelegate):
     """Passes a request on, and reports the arrival of its headers."""
 
-    def __init__(self, inner: HTTPMessageDelegate, come: Callable[[], None]) -> None:
-        self._inner, self._come = inner, come
+    def __init__(self, inner: HTTPMessageDelegate, arrived: Callable[[], None]) -> None:
+        self._inner, self._arrived = inner, arrived
 
     def headers_received(
         self, start_line: RequestStartLine | ResponseStartLine, headers: Any
     ) -> Any:
-        self._come()
+        self._arrived()
         return self._inner.headers_received(start_line, headers)
 
     def data_received(self, chunk: bytes) -> Any:
@@ -72,7 +72,7 @@ class BoundedServer(HTTPServer):
     _unfinished: dict[int, IOStream]
 
     def handle_stream(self, stream: IOStream, address: tuple) -> None:
-        """Count a new connection, and close the oldest where there are too many."""
+        """Count a new connection, and close the oldest if there are too many."""
         while len(self._unfinished) >= MOST_UNFINISHED:
             self._unfinished.pop(next(iter(self._unfinished))).close()
         self._unfinished[id(stream)] = stream
@@ -89,14 +89,14 @@ class BoundedServer(HTTPServer):
         """Watch the headers that a connection is about to send."""
         stream = request_conn.stream
 
-        def come() -> None:
+        def arrived() -> None:
             self._unfinished.pop(id(stream), None)
 
-        return _Started(super().start_request(server_conn, request_conn), come)
+        return _Started(super().start_request(server_conn, request_conn), arrived)
 
 
 def bound(application: Any, server: HTTPServer) -> None:
-    """Bound the connections of a server that a library has made, and refuse odd paths."""
+    """Bound the connections of a library's server, and refuse paths with control characters."""
     rules = getattr(getattr(application, "default_router", None), "rules", None)
     if rules is None or not hasattr(server, "start_request"):
         log.warning("connections are not bound: Tornado %s has other names", tornado.version)

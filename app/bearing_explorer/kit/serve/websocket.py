@@ -51,7 +51,7 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
         self.finish()
 
     def check_origin(self, origin: str) -> bool:
-        """Return True if a page of this origin may connect; not every Tornado asks."""
+        """Return True if a page of this origin may connect; not every Tornado calls this."""
         return self.hosts.allow_origin(origin)
 
     def select_subprotocol(self, subprotocols: list[str]) -> str | None:
@@ -70,13 +70,13 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
             self._refuse(error)
 
     def _is_signed(self) -> bool:
-        """True if the token is of this server and not over; Bokeh refuses one that is not."""
+        """Return True if the token is of this server and valid; Bokeh refuses all others."""
         app, token = self.application, self._named_token
         signed = check_token_signature(token, signed=app.sign_sessions, secret_key=app.secret_key)
         return signed and get_token_payload(token).get("session_expiry", 0.0) > time.time()
 
     async def _has_place(self) -> bool:
-        """True if there is room for the session, and in it; else the connection is closed."""
+        """Return True if there is room for and in the session; otherwise close the connection."""
         token, context = self._named_token, self.application_context
         name = get_session_id(token)
         if await PageHandler.make_session(context, name, self.request, token) is None:
@@ -90,7 +90,7 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
         return True
 
     async def on_message(self, fragment: str | bytes) -> None:
-        """Take a frame; whoever sends what the page does not send is disconnected."""
+        """Take a frame; disconnect a sender of anything that the page does not send."""
         self.last_message_at = time.monotonic()
         self._size += len(fragment)
         if self._size > self.largest:
@@ -107,9 +107,10 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
             self._refuse(error)
 
     async def _take(self, message: Any) -> None:
+        """Answer a request for the document, or pass on the allowed events of a message."""
         if message.msgtype == "PULL-DOC-REQ":
             answer = await self.handler.handle(message, self.connection)
-            if answer is not None:  # newer versions of Bokeh have sent it
+            if answer is not None:  # newer versions of Bokeh send it themselves
                 await self.send_message(answer)
             return
         events = message.content["events"]
@@ -132,10 +133,10 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
         self.close(1008, "This message was not understood.")
 
     def on_close(self) -> None:
-        """The browser is gone."""
+        """Leave the session: the browser is gone."""
         self.connected.discard(self)
         connection, self.connection = self.connection, None
-        if connection is not None:  # Bokeh's own fails where a ping found out before
+        if connection is not None:  # Bokeh's own method fails after a failed ping
             self.application.client_lost(connection)
 
 

@@ -1,1 +1,1 @@
-"""The parts that views of both halves are made of."""
+"""Parts of the views of both halves."""

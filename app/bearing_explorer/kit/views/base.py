@@ -1,7 +1,7 @@
 """A view: figures made once, numbers pushed through the packed source, one live sentence.
 
-A view never computes physics. It says in `needs` which attributes of its results, the content of
-its half, it reads; only those are computed, and only while the view is on screen.
+A view never computes physics. It lists in `needs` the attributes that it reads of its results, the
+content of its half. Only those are computed, and only while the view is on screen.
 
 To write one, subclass `View`, set the class attributes (the key of `about`, sentences such as
 “Grey: ...”, is seen above the figure; all else opens behind "?"), and give it
@@ -9,13 +9,13 @@ To write one, subclass `View`, set the class attributes (the key of `about`, sen
 - `build(packed)`: make figures, sources and ranges, once, and return what goes on the page;
 - `data(results)`: numbers to send, ``({source: {column: array}}, {range: (start, end)})``; pure;
   sources of the view that it leaves out are empty;
-- `sentence(results)`: plain words on the figure, of which the first sentence is seen below it and
-  all others open behind "?";
+- `sentence(results)`: plain words on the figure; the first sentence is seen below it, and all
+  others open behind "?";
 - `table(results)`: the numbers behind the figure, units in the names, for the CSV file;
-- `show(results)`, where something in it is not in the packed source.
+- `show(results)`, if something in the view is not in the packed source.
 
-On the page `parts` is the half of the session that the view is of, with the scene of the controls
-or the measured signal; what a view begins with it, it begins in `attach(parts)`.
+On the page, `parts` is the half of the session to which the view belongs, with the scene of the
+controls or the measured signal. A view gets it by `attach(parts)`, before anything else.
 
 `data`, `sentence` and `table` may run in a worker thread: they touch no model.
 """
@@ -33,7 +33,7 @@ from bokeh.models import LayoutDOM, Plot
 
 from bearing_explorer.kit.assets import asset_path, asset_text, scripts
 from bearing_explorer.kit.compute.jobs import Jobs
-from bearing_explorer.kit.plots.zoom import zoomable
+from bearing_explorer.kit.plots.zoom import make_zoomable
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.serve.panel_internals import LiveComponent
 from bearing_explorer.kit.views.content import Content
@@ -49,21 +49,21 @@ Sources = dict[str, dict[str, np.ndarray]]
 Ranges = dict[str, tuple[float, float]]
 
 ANSWER = "answer"
-"""Tag of the parts of a figure that a veil hides, where it is to leave the others (page.js)."""
+"""Tag of the parts of a figure that a veil hides while it leaves the others (page.js)."""
 
 
 class Caption(LiveComponent):
     """Head of a view: its title, its content in a line, and a menu for exports."""
 
     title = param.String()
-    #: its content, and the rest of that, which opens on a click
+    #: words on its content, and the rest of them, which opens on a click
     line = param.String()
     rest = param.String()
-    #: files are called bearing- and this
+    #: name of saved files, behind "bearing-"
     name_of_files = param.String()
     #: subject of its numbers, for names of files and beneath pictures; empty for the scene
     subject = param.String()
-    #: whether the view draws an SVG of the class "picture" by itself
+    #: True if the view draws an SVG of the class "picture" by itself
     picture = param.Boolean(default=False)
     #: ids of the models of Bokeh's figures in the view, for pictures
     figures = param.List(default=[])
@@ -71,15 +71,15 @@ class Caption(LiveComponent):
     cells = param.List(default=[])
     #: HTML above each of them; empty strings for nothing
     cell_lines = param.List(default=[])
-    #: a small one: a title that leads to the tab of this name, and a sentence
+    #: True for a small card; its title leads to the tab `leads_to`
     compact = param.Boolean(default=False)
     leads_to = param.String()
-    #: what that tab shows beyond it
+    #: what that tab shows in addition
     lead = param.String()
 
-    #: whether there are no numbers behind it yet, so that none are offered
+    #: True while there are no numbers to save
     empty = param.Boolean(default=False)
-    #: whether there is nothing at all to take along, no lines of Python either
+    #: True while there is nothing to save, not even lines of Python
     nothing = param.Boolean(default=False)
 
     _esm = scripts("element.js", "figure_export.js", "enlarge.js", "caption.html", "caption.js")
@@ -96,13 +96,13 @@ class Sentence(LiveComponent):
 
 
 class SessionParts(Protocol):
-    """The half of the session that a view is attached to; each half has more besides."""
+    """The parts that each half of a session gives to its views."""
 
     jobs: Jobs
-    """The background of the session."""
+    """The background jobs of the session."""
 
     def draw(self) -> None:
-        """Bring what is on screen up to date."""
+        """Draw the views on screen anew."""
 
 
 C = TypeVar("C", bound=Content)
@@ -119,13 +119,13 @@ class View(Generic[C]):
     title: ClassVar[str]
     about: ClassVar[str] = ""
     needs: frozenset[str] = frozenset()
-    #: whether it draws an SVG of the class "picture" by itself instead of Bokeh's figures
+    #: True if it draws an SVG of the class "picture" by itself instead of Bokeh's figures
     picture: ClassVar[bool] = False
-    #: whether it is drawn only once the slider rests, and does not follow a drag
+    #: True if it is drawn only once the slider rests, and does not follow a drag
     at_rest: ClassVar[bool] = False
-    #: whether it is a small card of the overview; `leads_to` is the tab that shows it in full
+    #: True for a small card of the overview; `leads_to` is the tab that shows it in full
     compact: ClassVar[bool] = False
-    #: whether of all words on a figure only the key and one sentence are seen
+    #: True if only the key and one sentence are seen of the words on a figure
     is_brief: ClassVar[bool] = True
     #: "unseen": for screen readers alone
     sentence_looks: ClassVar[tuple[str, ...]] = ()
@@ -137,13 +137,13 @@ class View(Generic[C]):
     parts: Any = None
     #: result of a job of the view
     job_result: Any = None
-    #: whether `choose` computes the content of the view
+    #: True if `choose` computes the content of the view
     computes: ClassVar[bool] = False
 
     def __init__(self, packed: PackedSource) -> None:
         self._results: C | None = None
         self._has_drawn = False
-        self._looks: tuple[bool, bool] | None = None  # as `say` had it last
+        self._looks: tuple[bool, bool] | None = None  # as `say` last set them
         #: keys of the newest content, and of the last picture
         self._key: object = None
         self._drawn_key: object = None
@@ -167,7 +167,7 @@ class View(Generic[C]):
             for plot in figures_in(getattr(pane.object, "state", pane.object))
         ]
         if self.figures and _only_figures(body):
-            # whether a figure's own pane is visible is taken back from the figure
+            # Panel resets the visibility of a figure's own pane, but not of a layout around it
             body = body if isinstance(body, pn.Column) else stack(body)
             self._pictures.append(body)
         if not self.needs:
@@ -188,8 +188,8 @@ class View(Generic[C]):
         self._put_words(self.caption())
         self._caption.on_msg(self._answer)
         for plot in self.figures:
-            zoomable(plot)
-            plot.syncable = False  # how large it is is not asked on the server
+            make_zoomable(plot)
+            plot.syncable = False  # the server does not need the size of a figure
         self.panel: pn.viewable.Viewable = stack(
             self._caption,
             body,
@@ -200,38 +200,38 @@ class View(Generic[C]):
         )
 
     def attach(self, parts: SessionParts) -> None:
-        """Take the half of the session, once, before the view is first on screen."""
+        """Take the half of the session; called once, before the view is first on screen."""
         self.parts = parts
 
     def build(self, packed: PackedSource) -> Any:
-        """Make the figures, once; return one of them, a layout, or a list of what is stacked."""
+        """Make the figures, once; return one of them, a layout, or a list of parts to stack."""
         raise NotImplementedError
 
     def only_with_numbers(self, *parts: Any, **params: Any) -> pn.Column:
-        """The parts below one another, hidden while there are no numbers; for `build`.
+        """Stack parts that are hidden while there are no numbers; for `build`.
 
-        A view of figures alone has them so by itself.
+        A view that has only figures hides them by itself.
         """
         self._pictures.append(stack(*parts, stylesheets=[AS_HIGH_AS_SHOWN], **params))
         return self._pictures[-1]
 
     def withhold(self, hidden: pn.Column) -> None:
-        """Keep what a hidden layout holds from the browser, which would build it, till `bring`."""
+        """Take the parts out of a hidden layout until `bring`, so that no browser builds them."""
         self._withheld.append((hidden, list(hidden.objects)))
         hidden.objects = []
 
     def bring(self) -> None:
-        """Put what was withheld where it belongs. On the event loop only."""
+        """Put the withheld parts back into their layouts. On the event loop only."""
         for hidden, content in self._withheld:
             hidden.objects = content
         self._withheld = []
 
     def data(self, results: C) -> tuple[Sources, Ranges]:
-        """Sources and ranges for these results; none where nothing comes in the packed source."""
+        """Return sources and ranges for these results; none if the packed source has none."""
         return {}, {}
 
     def all_data(self, results: C) -> tuple[Sources, Ranges]:
-        """`data`, with all sources of the view."""
+        """Return `data` with all sources of the view."""
         sources, ranges = self.data(results)
         return {**self._empty, **sources}, ranges
 
@@ -246,9 +246,9 @@ class View(Generic[C]):
     def say(self, results: C | None, sentence: str) -> None:
         """Show the sentence and keep the results for the table. On the event loop only.
 
-        Without results the last ones stay, as the last picture does, which is faded. Before the
-        first picture of a `Content.picture_key`, and where it has no numbers, the sentence stands
-        in its place, and no empty axes.
+        Without results, the last ones and the last picture stay, and the picture is faded. Before
+        the first picture of a `Content.picture_key`, and in a picture without numbers, the sentence
+        is shown instead of empty axes.
         """
         self._results = results or self._results
         if results is not None:
@@ -258,18 +258,19 @@ class View(Generic[C]):
         if self._has_drawn:
             self.bring()
         looks = self._has_drawn, results is not None
-        if self._pictures and looks != self._looks:  # Panel takes a twentieth of a step for these
+        if self._pictures and looks != self._looks:  # setting these takes a twentieth of a step
             self._looks = looks
             for picture in self._pictures:
                 picture.visible = self._has_drawn
                 opacity = FADED if results is None else "1"
-                if picture.styles.get("opacity", "1") != opacity:  # Bokeh takes no style away
+                if picture.styles.get("opacity", "1") != opacity:  # Bokeh removes no styles
                     picture.styles = picture.styles | {"opacity": opacity}
             classes = self.sentence_looks if self._has_drawn else ()
             self._sentence.css_classes = ["sentence", *classes]
             # hidden figures are not to be saved
             shown = [plot.id for plot in self.figures] if self._has_drawn else []
             self._caption.put(figures=shown)
+        # the first sentence on a figure is seen, and all others open on a click
         brief = self.is_brief and self._has_drawn and results is not None and self.figures
         first, *others = _sentences(sentence) if brief else [sentence]
         self._sentence.put(text=sentence_html(first))
@@ -290,10 +291,10 @@ class View(Generic[C]):
         return []
 
     def show(self, content: C) -> None:
-        """Show what is not in the packed source of this content. On the event loop only."""
+        """Show the parts of content that the packed source lacks. On the event loop only."""
 
     def put_head(self, content: C) -> None:
-        """Show title and caption in the words of the content."""
+        """Show title and caption in the words for the content's bearing."""
         self._key = content.picture_key
         self._caption.put(title=content.in_words(self.title_of(content)))
         self._put_words(content.in_words(self.caption(content)))
@@ -308,12 +309,12 @@ class View(Generic[C]):
         self._caption.put(rest=words if self.compact else sentence_html(words))
 
     def title_of(self, content: C) -> str:
-        """The title over this content."""
+        """Return the title over this content."""
         return self.title
 
     @classmethod
     def caption(cls, content: C | None = None) -> str:
-        """The text above the figure of this content; before the first, of the usual one."""
+        """Return the text above the figure of this content; without content, the usual text."""
         return cls.about
 
     def put_away(self) -> None:
@@ -321,33 +322,33 @@ class View(Generic[C]):
         self._results = None
 
     def end(self) -> None:
-        """The session is over: cancel timers."""
+        """Cancel timers: the session is over."""
 
     @property
     def is_empty(self) -> bool:
-        """True if there are no numbers behind the figure: views of jobs before the first."""
+        """True if there are no numbers behind the figure, as before the first result of a job."""
         return False
 
     def csv(self) -> str:
-        """The table of the current figure as comma-separated values; empty before the first."""
+        """Return the table of the current figure as CSV; empty before the first figure."""
         return "" if self._results is None else as_csv(self.table(self._results))
 
     def python(self) -> str:
-        """Lines of Python that make the current figure; empty before the first."""
+        """Return lines of Python that make the current figure; empty before the first figure."""
         return "" if self._results is None else self.lines_of_python(self._results)
 
     # Outside of the page: see `views.still_figure`
 
     def scene_drawn(self, results: C) -> Scene:
-        """The scene that is drawn: the result of a job may be of an earlier one."""
+        """Return the drawn scene; the result of a job may be of an earlier scene."""
         return results.scene_drawn()
 
     def arguments(self, results: C) -> Mapping[str, str]:
-        """Arguments of the figure of these results, as expressions of Python."""
+        """Return the arguments of the figure of these results, as expressions of Python."""
         return results.arguments(self.needs)
 
     def lines_of_python(self, results: C) -> str:
-        """Lines of Python that make the scene, the figure of these results and its numbers."""
+        """Write lines of Python that make the scene, its figure, and the numbers of the figure."""
         choices = self.choices()
         chosen = {"choices": code_of(choices)} if choices else {}
         return figure_lines(
@@ -360,18 +361,18 @@ class View(Generic[C]):
         )
 
     def choices(self) -> dict[str, Any]:
-        """Choices made in the view itself, as plain values, for `choose`."""
+        """Return the choices made in the view itself, as plain values, for `choose`."""
         return {}
 
     def choose(self, choices: Mapping[str, Any], results: C) -> None:
         """Take `choices`, and compute as the page does when they are made."""
 
     def lines_before(self) -> list[str]:
-        """Lines of Python between those of the scene and of the figure."""
+        """Return lines of Python to put between the scene and the figure."""
         return []
 
     def more_arguments(self) -> dict[str, str]:
-        """Arguments of the figure that these lines have made: parameters and expressions."""
+        """Return further arguments of the figure, as expressions that use `lines_before`."""
         return {}
 
     def still_figures(self) -> Sequence[LayoutDOM]:
@@ -379,6 +380,7 @@ class View(Generic[C]):
         return self.figures
 
     def _answer(self, event: Any) -> None:
+        """Send the browser the text that it asks for."""
         if event.data == "csv":
             self._caption.send({"csv": self.csv()})
         if event.data == "table":
@@ -390,12 +392,12 @@ class View(Generic[C]):
 
 
 def _holds_figures(part: Any) -> bool:
-    """True if a part shows figures, Bokeh's own or those of a plot of HoloViews."""
+    """Return True if a part shows figures, of Bokeh or of HoloViews."""
     return isinstance(part, pn.pane.Bokeh | pn.pane.HoloViews)
 
 
 def _only_figures(body: pn.viewable.Viewable) -> bool:
-    """True if there is nothing in a layout but figures: nothing to choose or to press."""
+    """Return True if a layout has only figures: nothing to choose or to press."""
     leaves = [part for part in body.select() if not isinstance(part, pn.layout.ListPanel)]
     return all(isinstance(part, pn.pane.Bokeh) for part in leaves)
 
@@ -404,14 +406,14 @@ _IS_KEY = re.compile(r"[A-Z][^:.]{0,26}: ")
 
 
 def _sentences(text: str) -> list[str]:
-    """The sentences of a text; one that begins with a number goes with the one before."""
+    """Split a text into sentences; one that begins with a number stays with the one before."""
     return re.split(r"(?<=[.!?])\s+(?=\D)", text)
 
 
 def parts_of(text: str, *, key_alone: bool) -> tuple[str, str]:
-    """The part of a caption that is seen, and the part that opens on a click.
+    """Split a caption into the part that is seen and the part that opens on a click.
 
-    The key is seen, sentences such as “Shaded: the defect.”, and the first sentence unless
+    The seen part is the key, sentences such as “Shaded: the defect.”, and the first sentence unless
     `key_alone`.
     """
     seen: list[str] = []
@@ -423,7 +425,7 @@ def parts_of(text: str, *, key_alone: bool) -> tuple[str, str]:
 
 
 def figures_in(layout: Any) -> list[Plot]:
-    """Bokeh's figures in one of its layouts. Looked for here: `select` looks at all models."""
+    """Find the figures in a Bokeh layout; Bokeh's own `select` would look at all models."""
     if isinstance(layout, Plot):
         return [layout]
     return [plot for child in getattr(layout, "children", ()) for plot in figures_in(child)]

@@ -22,7 +22,7 @@ class Warnings:
 class Content:
     """All that views draw at one moment; a value, read in any thread. Subclasses are dataclasses.
 
-    What it says of itself here is so of content without a model.
+    The methods of this class describe content without a scene.
     """
 
     moving: bool
@@ -43,7 +43,7 @@ class Content:
         return None
 
     def log_name(self) -> str:
-        """Name of the content in the log; equal content has the same."""
+        """Return the name of the content in the log; equal content has the same name."""
         return ""
 
     def in_words(self, text: str) -> str:
@@ -51,31 +51,31 @@ class Content:
         return text
 
     def at_rest(self, rested: bool = True) -> Self:
-        """The content once the slider rests."""
+        """Return the content as it is drawn once the slider rests."""
         return replace(self, moving=not rested)  # type: ignore[type-var]
 
     @property
     def warnings(self) -> Warnings:
-        """Warnings on the content; computed once in a while."""
+        """Warnings on the content; not computed for each picture."""
         return Warnings()
 
     def prefetch(self, needed: frozenset[str]) -> None:
-        """Begin in other threads what views that need these attributes can share."""
+        """Begin computations in other threads that views with these needs can share."""
 
     def status(self, seconds: float, needed: frozenset[str]) -> dict[str, Any]:
-        """The status line, after `seconds` [s] of computing for views that need these."""
+        """Return the status line, after `seconds` [s] of computing for views with these needs."""
         raise NotImplementedError
 
     def is_finer_at_rest(self, needed: frozenset[str]) -> bool:
-        """True if any of these attributes is computed more finely once the slider rests."""
+        """Return True if any of these attributes is computed more finely at rest."""
         return False
 
     def scene_drawn(self) -> Scene:
-        """The scene that lines of Python begin with."""
+        """Return the scene with which lines of Python begin."""
         raise NotImplementedError
 
     def arguments(self, needed: frozenset[str]) -> Mapping[str, str]:
-        """Arguments of the figure of a view that needs these, as expressions of Python."""
+        """Return the arguments of the figure of a view with these needs, as Python expressions."""
         return {}
 
 
@@ -96,7 +96,7 @@ class SceneContent(Content):
         return short_digest(self.scene.to_data())
 
     def in_words(self, text: str) -> str:
-        """A text in the words of the bearing: its balls may be rollers."""
+        """Return a text in the words of the bearing: its balls may be rollers."""
         return with_elements_of(self.scene.bearing, text)
 
     def scene_drawn(self) -> Scene:

@@ -46,11 +46,11 @@ progress::-webkit-progress-value { background: var(--accent); border-radius: 3px
 
 
 def last_shown(work: Callable[[Work], str]) -> Any:
-    """The result of a job that is run here and now; ValueError where it has none."""
+    """Run a job here and now, and return its result; ValueError if it has none."""
     job = Work(math.inf)
     job.started = time.monotonic()
     words = work(job)
-    results = job.taken()
+    results = job.take_results()
     if not results:
         raise ValueError(words)
     return results[-1]
@@ -70,7 +70,7 @@ class JobForm(pn.Column):
     fields
         fields of the form.
     at_once
-        whether a changed field starts the job, without the button.
+        True if a changed field starts the job, without the button.
     """
 
     def __init__(
@@ -91,9 +91,9 @@ class JobForm(pn.Column):
         self._cancel = button("Cancel", cancel, css_classes=["cancel"], disabled=True)
         self._bar = pn.pane.HTML("", visible=False, margin=0, stylesheets=[_PROGRESS])
         self._sentence = Sentence(css_classes=["words"])
-        #: of the job that is shown
+        #: state of the job that is shown
         self.state = JobState("idle", 0.0, "")
-        # many fields: the last one is below, with the buttons
+        # with `at_once`, the last field stands below the others, beside the buttons
         first, below = (widgets[:-1], widgets[-1:]) if at_once else (widgets, [])
         (below if at_once else first).extend((begin, self._cancel))
         super().__init__(
@@ -117,7 +117,7 @@ class JobForm(pn.Column):
         return self._fields.values
 
     def fill(self, values: Mapping[str, str], fills: Mapping[str, Any]) -> None:
-        """Set the fields, and which values a choice brings with it."""
+        """Set the fields, and the values that a choice sets in other fields."""
         self.fills = fills
         self._fields.put(values)
 
@@ -141,24 +141,24 @@ class JobForm(pn.Column):
 class JobView(View[C], Generic[C, Result, E]):
     """A view of the result of a job.
 
-    A subclass puts `self.job` among what it builds, and provides `form` and `prepare`;
-    `job_result` is the newest result. `data`, `sentence` and `table` read it besides the results
+    A subclass puts `self.job` into its layout, and provides `form` and `prepare`;
+    `job_result` is the newest result. `data`, `sentence` and `table` read it beside the results
     of the scene.
     """
 
     start: ClassVar[str]
     """Words of the button."""
     bounds: ClassVar[str]
-    """A sentence: how large a job may be."""
+    """A sentence on the size or the time of a job."""
     at_once: ClassVar[bool] = False
     """True where a changed field starts the job, without the button."""
     kind: ClassVar[Kind] = COMPUTATION
-    """The jobs of the session that it takes the place of."""
+    """Kind of the job: in a session, a newer job replaces an older one of its kind."""
 
     computes = True
     job_result: Result | None = None
     #: values of the form, and the scene, of the newest result
-    _found_for: tuple[dict[str, str], Scene] | None = None
+    _computed_for: tuple[dict[str, str], Scene] | None = None
     _jobs: Jobs | None = None
     _editor: E
     _draw: Callable[[], None]
@@ -179,7 +179,7 @@ class JobView(View[C], Generic[C, Result, E]):
         self.job.fill(*self.form(self._editor))
 
     def editor_of(self, owner: Any) -> E:
-        """Owner of the scene: of the half on the page, elsewhere of what is drawn."""
+        """Return the owner of the scene: the half on the page, elsewhere the drawn results."""
         editor: E = owner
         return editor
 
@@ -193,14 +193,14 @@ class JobView(View[C], Generic[C, Result, E]):
         return []
 
     def form(self, editor: E) -> tuple[dict[str, str], dict[str, Any]]:
-        """First values of the fields, and the values that a choice brings with it.
+        """Return the first values of the fields, and values that a choice sets in other fields.
 
         The second is {field: {its value: {other field: its value then}}}.
         """
         return {}, {}
 
     def prepare(self, given: Mapping[str, str], editor: E) -> Callable[[Work], str]:
-        """The job for the values of the form; ValueError with a sentence where there is none."""
+        """Return the job for the values of the form; ValueError with a sentence if it has none."""
         raise NotImplementedError
 
     def table(self, results: C) -> dict[str, np.ndarray]:
@@ -225,12 +225,12 @@ class JobView(View[C], Generic[C, Result, E]):
             self._jobs.cancel(self.kind)
 
     def begin(self, given: Mapping[str, str]) -> None:
-        """Start the job of a form; ValueError with a sentence where there is none."""
+        """Start the job of a form; ValueError with a sentence if it has none."""
         assert self._jobs is not None
         work, asked = self.prepare(given, self._editor), (dict(given), self._editor.scene)
 
         def take(result: Result) -> None:
-            self._found_for = asked
+            self._computed_for = asked
             self._take(result)
 
         self._jobs.start(work, take, self.report, self.kind)
@@ -240,17 +240,17 @@ class JobView(View[C], Generic[C, Result, E]):
         self.job.show(state)
 
     def scene_drawn(self, results: C) -> Scene:
-        return super().scene_drawn(results) if self._found_for is None else self._found_for[1]
+        return super().scene_drawn(results) if self._computed_for is None else self._computed_for[1]
 
     def choices(self) -> dict[str, Any]:
-        return {} if self._found_for is None else dict(self._found_for[0])
+        return {} if self._computed_for is None else dict(self._computed_for[0])
 
     def choose(self, choices: Mapping[str, Any], results: C) -> None:
         """Compute the job of a form with these fields; missing ones have their usual values."""
         editor = self.editor_of(results)
         given = {**self.form(editor)[0], **choices}
         self.job_result = last_shown(self.prepare(given, editor))
-        self._found_for = given, editor.scene
+        self._computed_for = given, editor.scene
 
     def _take(self, result: Result) -> None:
         self.job_result = result

@@ -1,4 +1,4 @@
-"""Views with choices of how they look: which map, which scale, which lines."""
+"""Views with choices of their look, such as the map, the scale or the lines."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class LookView(View[C]):
         self.show_look()
 
     def look_changed(self, name: str, value: Any) -> None:
-        """Draw as it was chosen; what is refused changes nothing."""
+        """Draw with a new choice; a refused one changes nothing."""
         try:
             self.take_look({name: value})
         except ValueError as error:
@@ -36,8 +36,8 @@ class LookView(View[C]):
             self.parts.draw()
 
     def take_look(self, choices: Mapping[str, Any]) -> None:
-        """Take choices; ValueError with a sentence for one that there is not."""
-        # in place of the one before: a thread may be reading that
+        """Take choices; ValueError with a sentence for an impossible one."""
+        # a new dictionary, because a thread may be reading the old one
         self.look = {
             **self.look,
             **{name: checked(self.look_fields, name, value) for name, value in choices.items()},

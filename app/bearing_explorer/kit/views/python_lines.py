@@ -1,4 +1,4 @@
-"""Lines of Python that make the figure of a view: runnable as they stand, without the page."""
+"""Lines of Python that make the figure of a view; they run as they are, without the page."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from bearingcore.bearings import name_of
 
 FILE = "bearing-scene.toml"
 LONGEST_SCENE = 6000
-"""Characters up to which a scene is part of the lines; a longer one is read from its file."""
+"""Longest scene [characters] that is part of the lines; a longer one is read from its file."""
 NOTHING_YET = "# Nothing has been computed in this view yet."
 _DEGREES = frozenset({"extent", "center", "contact_angle"})
 
@@ -23,7 +23,7 @@ def figure_lines(
     scene: Scene, before: Sequence[str], figure: str, arguments: Mapping[str, str], *,
     has_numbers: bool, is_shown: bool,
 ) -> str:  # fmt: skip
-    """Lines that make a scene, one of its figures and its numbers.
+    """Write lines that make a scene, one of its figures, and its numbers.
 
     Parameters
     ----------
@@ -32,7 +32,7 @@ def figure_lines(
     figure, arguments
         name of its view, and its parameters with their expressions.
     has_numbers, is_shown
-        whether there is anything in it yet, and whether there is a picture to show.
+        True if the figure has numbers already, and if it has a picture to show.
     """
     body = [f"scene = {scene_code(scene)}", *before]
     if not has_numbers:
@@ -41,7 +41,8 @@ def figure_lines(
         given = ["scene", *(f"{name}={code}" for name, code in arguments.items())]
         call = f"drawn = figures.{figure.replace('-', '_')}({', '.join(given)})"
         if len(call) > 88 or "\n" in call:
-            call = call.partition("(")[0] + "(\n" + "".join(f"    {one},\n" for one in given) + ")"
+            lines = "".join(f"    {code},\n" for code in given)
+            call = f"{call.partition('(')[0]}(\n{lines})"
         body += [call, "print(drawn.sentence)", "columns = drawn.table()  # as in the CSV file"]
         if is_shown:
             body.append("drawn.show()  # in the browser")
@@ -61,7 +62,7 @@ def figure_lines(
 
 
 def changed_fields(value: Any, usual: Any) -> dict[str, Any]:
-    """Fields of a dataclass that are not as usual."""
+    """Return the fields in which a dataclass differs from the usual one."""
     return {
         field.name: getattr(value, field.name)
         for field in dataclasses.fields(value)
@@ -70,9 +71,9 @@ def changed_fields(value: Any, usual: Any) -> dict[str, Any]:
 
 
 def scene_code(scene: Scene) -> str:
-    """An expression that makes `scene`: a bearing by name, or a preset, with the fewest changes.
+    """Write an expression for `scene`: a bearing by name, or a preset, with the fewest changes.
 
-    Only where that is the very same; else the whole scene as a file has it.
+    If these do not make exactly the same scene, the expression has the whole scene as TOML.
     """
     bases = {f"presets[{code_of(name)}]": base for name, base in presets.items()}
     with suppress(ValueError):  # a bearing without a rating
@@ -102,7 +103,7 @@ def scene_code(scene: Scene) -> str:
 
 
 def _differences(scene: Scene, base: Scene) -> dict[str, Any]:
-    """Values of `scene` that `base` has otherwise, by the names that `Scene.replace` takes."""
+    """Return the values of `scene` that differ from `base`, by their names in `Scene.replace`."""
     parts: list[tuple[Any, Any]] = [
         (scene, base), (scene.load, base.load), (scene.support, base.support),
         (scene.bearing, base.bearing),
@@ -118,7 +119,7 @@ def _differences(scene: Scene, base: Scene) -> dict[str, Any]:
 
 
 def _field_code(name: str, value: Any) -> str:
-    """A value of a scene as people write it, where that is the very same number."""
+    """Write a value of a scene as people do, if that is exactly the same number."""
     if isinstance(value, float):
         degrees = float(f"{math.degrees(value):.12g}")
         if name in _DEGREES and math.radians(degrees) == value:
@@ -130,7 +131,7 @@ def _field_code(name: str, value: Any) -> str:
 
 
 def code_of(value: Any) -> str:
-    """A plain value as an expression, strings in double quotes."""
+    """Write a plain value as an expression, with strings in double quotes."""
     if isinstance(value, str):
         return json.dumps(value, ensure_ascii=False)
     if isinstance(value, float):
@@ -146,7 +147,7 @@ def code_of(value: Any) -> str:
 
 
 def short(value: float) -> str:
-    """The shortest text that is this float, such as 50e-6."""
+    """Return the shortest text that reads as this float, such as 50e-6."""
     text = repr(float(value))
     if value and math.isfinite(value) and (abs(value) < 1e-2 or abs(value) >= 1e5):
         power = 3 * math.floor(math.log10(abs(value)) / 3.0)

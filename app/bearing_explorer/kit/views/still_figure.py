@@ -29,11 +29,11 @@ for (const source of sources) source.properties.data.change.emit()
 
 
 LEAST_HEIGHT = (200, 500)
-"""[px] of a figure, and of one for two columns: on the page cards are as high as there is room."""
+"""Least height [px] of a figure, and of one for two columns; on the page, figures fill cards."""
 
 
 class FilledSources(PackedSource):
-    """Sources and ranges that hold their numbers; those of the page are sent theirs.
+    """Sources and ranges that hold their numbers; on the page, numbers are sent to them.
 
     The browser derives labels with prefixes, pictures and words from the numbers when these change.
     The callback that `fill` returns makes it derive them from the first numbers.
@@ -105,12 +105,12 @@ class Figure(Generic[C]):
         self.view.say(results, self.sentence)
         follow = sources.fill(data, ranges)
         for plot in self.view.figures:
-            plot.frame_align = False  # else each takes the margins of the widest
+            plot.frame_align = False  # otherwise each figure takes the margins of the widest
             least = LEAST_HEIGHT[printed.WIDE in plot.tags]
             plot.min_height = max(plot.min_height or plot.height, least)
         plots = [] if self.view.is_empty else list(self.view.still_figures())
         self.layout = Column(children=plots, sizing_mode="stretch_width")
-        # keeps those of which only pictures and colours are made
+        # the tags keep those sources from which only pictures and colours are made
         self.layout.tags = [*follow.args["sources"], *follow.args["ranges"]]
         self.document = Document()
         self.document.add_root(self.layout)
@@ -163,7 +163,7 @@ class Figure(Generic[C]):
                 "suffix of path", path.suffix, f".html: {self.view.name} has no figure"
             )
         caption = self.results.in_words(self.view.caption(self.results))
-        # paper is not clicked
+        # nobody can click on paper
         note, _ = parts_of(re.sub(r"Click[^.]*\. ?", "", caption), key_alone=False)
         printed.print_figures(self.document, note, path, width)
 
@@ -177,7 +177,7 @@ class Figure(Generic[C]):
             print(file.name)
 
     def _repr_html_(self) -> str:
-        """HTML for a notebook; the first figure brings the scripts of Bokeh along."""
+        """HTML for a notebook; the first figure has the scripts of Bokeh with it."""
         return _bokeh_once() + self._place()
 
 

@@ -49,7 +49,7 @@ class FactGroup(NamedTuple):
 
 
 class LiveFacts(LiveComponent):
-    """Facts that follow a slider; a pane would have its card laid out anew at each step."""
+    """Facts that follow a slider; with a pane, each step would lay out the card anew."""
 
     text = param.String()
 
@@ -58,7 +58,7 @@ class LiveFacts(LiveComponent):
 
 
 def facts_pane(content: str = "", **params: Any) -> pn.pane.HTML:
-    """A pane for facts and paragraphs."""
+    """Make a pane for facts and paragraphs."""
     return pn.pane.HTML(content, stylesheets=[asset_text("facts.css")], margin=0, **params)
 
 
@@ -82,17 +82,17 @@ def groups_html(groups: Iterable[FactGroup]) -> str:
 
 
 def html_text(words: str) -> str:
-    """Words as HTML."""
+    """Escape words for HTML."""
     return html.escape(words, quote=True)
 
 
 def sentence_html(words: str) -> str:
-    """A sentence in which a stiffness, ``k_yy``, has its directions under its letter."""
+    """Return a sentence as HTML, with the directions of a stiffness, ``k_yy``, as subscripts."""
     return re.sub(r"\bk_([xyzθ]+)", r"k<sub>\1</sub>", html_text(words))
 
 
 def html_table(heads: Iterable[str], rows: Iterable[Sequence[str]], named: bool = False) -> str:
-    """A table of cells that are HTML already; `named`: the first of each row is its name."""
+    """Return a table of cells that are HTML already; if `named`, rows begin with their name."""
     head = "".join(f"<th scope='col'>{html_text(word)}</th>" for word in heads)
     body = ""
     for row in rows:
@@ -102,26 +102,26 @@ def html_table(heads: Iterable[str], rows: Iterable[Sequence[str]], named: bool 
 
 
 MOST_ROWS = 300
-"""Rows of a table to read; the CSV file has all."""
+"""Largest number of rows of a table on the page; the CSV file has all."""
 NOISE = 1e-12
 """Share of a unit's largest number: less is rounding noise."""
 _PLACES = ("angle", "frequency", "time")
-"""Words in the names of columns that say where a row is."""
+"""Words in the names of columns that give the place of a row."""
 _UNITS = {unit.suffix: name for name, unit in UNITS.items() if unit.suffix}
 
 
 def table_to_read(columns: Mapping[str, NDArray[Any]]) -> tuple[str, str]:
-    """The numbers behind a figure as a table of HTML, and words on which of its rows it has.
+    """Return the numbers behind a figure as an HTML table, and words on the rows that it has.
 
-    It begins where there is something: a column may be zero up to a time or an angle.
+    It begins where values begin: columns may be zero up to a time or an angle.
     """
     if not columns:
         return "", "Nothing is drawn yet."
     size = max(np.size(column) for column in columns.values())
-    said = [
-        k for n, v in columns.items() if not any(word in n for word in _PLACES) for k in _said(v)
+    begins = [
+        k for n, v in columns.items() if not any(word in n for word in _PLACES) for k in _begin(v)
     ]
-    first = max(0, min(said, default=0) - 1)
+    first = max(0, min(begins, default=0) - 1)
     end = min(size, first + MOST_ROWS)
     shown = [
         [_cell(value) for value in np.ravel(v)[first:end]] for v in _drop_noise(columns).values()
@@ -134,7 +134,7 @@ def table_to_read(columns: Mapping[str, NDArray[Any]]) -> tuple[str, str]:
 
 
 def _drop_noise(columns: Mapping[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
-    """Numbers that are rounding noise of the largest one of their unit as the zero they are."""
+    """Replace rounding noise, relative to the largest number of the same unit, by zero."""
     numbers = {name: v for name, v in columns.items() if np.asarray(v).dtype.kind == "f"}
     largest: dict[str, float] = {}
     for name, values in numbers.items():
@@ -147,27 +147,27 @@ def _drop_noise(columns: Mapping[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
     }
 
 
-def _said(values: NDArray[Any]) -> NDArray[np.intp]:
-    """The first row, if any, in which a column has more to say than zero or NaN."""
+def _begin(values: NDArray[Any]) -> NDArray[np.intp]:
+    """Return the first row, if any, in which a column is neither zero nor NaN nor empty."""
     flat = np.ravel(values)
     return np.flatnonzero(np.nan_to_num(flat) if flat.dtype.kind in "fiu" else flat != "")[:1]
 
 
 def _heading(name: str) -> str:
-    """``ball_load_n`` is "ball load (N)"."""
+    """Return a heading: "ball load (N)" for ``ball_load_n``."""
     suffix = _suffix(name)
     bare = name.removesuffix(f"_{suffix}").replace("_", " ")
     return f"{bare} ({_UNITS[suffix]})" if suffix else bare
 
 
 def _suffix(name: str) -> str:
-    """The unit in the name of a column, as it is written there."""
+    """Return the unit at the end of a column's name, as it is written there."""
     suffixes = [suffix for suffix in _UNITS if name.endswith(f"_{suffix}")]
     return max(suffixes, key=len, default="")
 
 
 def _cell(value: Any) -> str:
-    """A number to six digits; everything else as it is."""
+    """Write a number with six digits, and everything else as it is."""
     if isinstance(value, float | np.number):
         return number(float(value), 6)
     return html_text(str(value))

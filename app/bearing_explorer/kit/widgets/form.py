@@ -10,9 +10,9 @@ import panel as pn
 from bearing_explorer.kit.assets import asset_text
 
 LONGEST_TEXT = 60
-"""Characters of a field that are read."""
+"""Longest text [characters] that is read from a field."""
 SEARCHED = 20
-"""Options from which on a list gets a search field."""
+"""Number of options above which a list gets a search field."""
 
 
 _ROW = ":host { flex-wrap: wrap; align-items: end; gap: 8px 14px; min-width: 0 !important; }"
@@ -30,7 +30,7 @@ class FieldSpec(TypedDict, total=False):
 
     Without `options` text is typed into it. An option is [value, words] or [value, words, heading];
     where `some` of several can be chosen, [value, words, colour]. `hint` is the placeholder of a
-    text field. `within` is what a number may be: its words in a sentence, its unit, its least and
+    text field. `within` describes a number: its name in a sentence, its unit, its least and its
     greatest value.
     """
 
@@ -43,12 +43,12 @@ class FieldSpec(TypedDict, total=False):
 
 
 def select(label: str, options: Sequence[Sequence[str]], **params: Any) -> pn.widgets.Select:
-    """A labelled list of [value, words] or [value, words, heading] to choose from."""
+    """Make a labelled list of [value, words] or [value, words, heading] to choose from."""
     return pn.widgets.Select(label=label, **choices(options), **_common(params))
 
 
 def choices(options: Sequence[Sequence[str]]) -> dict[str, Any]:
-    """Options in the form of Panel's Select: by their words, under headings where they have any."""
+    """Return options for Panel's Select: by their words, under headings where they have any."""
     groups: dict[str, dict[str, str]] = {}
     for value, words, *heading in options:
         groups.setdefault("".join(heading), {})[words] = value
@@ -56,12 +56,12 @@ def choices(options: Sequence[Sequence[str]]) -> dict[str, Any]:
 
 
 def entry(label: str, **params: Any) -> pn.widgets.TextInput:
-    """A labelled field to type text or a number into."""
+    """Make a labelled field for text or a number."""
     return pn.widgets.TextInput(label=label, **_common(params))
 
 
 def widget_of(spec: FieldSpec, *classes: str) -> pn.widgets.Widget:
-    """The list, or the field to type into, of a field."""
+    """Make the list or the text field of a specification."""
     if "options" in spec:
         return select(spec["label"], spec["options"], css_classes=list(classes))
     hint = spec.get("hint", "")
@@ -69,27 +69,27 @@ def widget_of(spec: FieldSpec, *classes: str) -> pn.widgets.Widget:
 
 
 def button(label: str, act: Callable[[], None], **params: Any) -> pn.widgets.Button:
-    """A button; `act` is called on the event loop of the session."""
+    """Make a button; `act` is called on the event loop of the session."""
     made = pn.widgets.Button(label=label, **_common(params))
     made.on_click(lambda _: act())
     return made
 
 
 def row(*parts: Any, **params: Any) -> pn.Row:
-    """Parts side by side, on several lines where there is little room."""
+    """Put parts side by side, on several lines where there is little room."""
     wide: dict[str, Any] = {"sizing_mode": "stretch_width", "margin": 0, "stylesheets": [_ROW]}
     return pn.Row(*parts, **(wide | params))
 
 
 def stack(*parts: Any, **params: Any) -> pn.Column:
-    """Parts below one another, as wide as their place, and as high where one of them is."""
+    """Put parts below one another, as wide as their place, and as high if one of them is."""
     return pn.Column(*parts, **({"margin": 0} | params))
 
 
 AS_HIGH_AS_SHOWN = ":host { min-height: min-content !important; }"
-"""Style sheet of a stack within that of a card: as high as what is visible of it.
+"""Style sheet of a stack inside a card: the stack is as high as its visible parts.
 
-Panel adds up the least heights of figures, also of hidden ones, and counts none for text.
+Panel adds up the least heights of figures, even of hidden ones, and counts none for text.
 """
 
 
@@ -117,7 +117,7 @@ class Fields:
         self.widgets[name] = widget
         self.values[name] = widget.value
         widget.css_classes = [*widget.css_classes, "field", f"field-{name}"]
-        widget.param.watch(lambda event: self._heard(name, event.new), "value")
+        widget.param.watch(lambda event: self._take(name, event.new), "value")
         return widget
 
     def put(self, values: Mapping[str, Any]) -> None:
@@ -127,7 +127,7 @@ class Fields:
             if self.widgets[name].value != value:
                 self.widgets[name].value = value
 
-    def _heard(self, name: str, value: Any) -> None:
+    def _take(self, name: str, value: Any) -> None:
         value = value[:LONGEST_TEXT] if isinstance(value, str) else value
         if self.values[name] != value:
             self.values[name] = value
@@ -135,7 +135,7 @@ class Fields:
 
 
 class SearchedSelect(pn.Column):
-    """A long list with a search field: only options that hold all its words are offered.
+    """A long list with a search field, which offers only options that hold all words typed.
 
     The chosen option always stays.
     """

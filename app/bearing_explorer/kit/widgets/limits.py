@@ -28,7 +28,7 @@ class LimitsStrip(LiveComponent):
 
 
 def judged(status: Mapping[str, Any], rows: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
-    """A status line, which is a warning where all is computed and a limit of `rows` exceeded."""
+    """Return the status line, as a warning if all is computed but a limit of `rows` is exceeded."""
     crossed = any(row["state"] == "crossed" for row in rows)
     if not crossed or status["mood"] != "good":
         return dict(status)

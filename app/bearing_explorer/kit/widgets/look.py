@@ -14,9 +14,9 @@ from bearing_explorer.kit.widgets.form import Fields, FieldSpec, choices, row, w
 
 
 def checked(fields: Sequence[FieldSpec], name: str, value: Any) -> Any:
-    """The value of a choice; ValueError with a sentence where there is no such choice.
+    """Check the value of a choice; ValueError with a sentence if there is no such choice.
 
-    A string, or a list of strings where some of several can be chosen. A number has no unit.
+    Returns a string, or a list of strings if several can be chosen. A number has no unit.
     """
     field = next((field for field in fields if field["name"] == name), None)
     if field is None:
@@ -38,9 +38,9 @@ def checked(fields: Sequence[FieldSpec], name: str, value: Any) -> Any:
 
 
 class LookPanel(pn.Column):
-    """Choices of how a figure looks; `changed(name, value)` is called for each that changes.
+    """Choices of the look of a figure; `changed(name, value)` is called for each change.
 
-    The value is a string, or a list of strings where some of several can be chosen.
+    The value is a string, or a list of strings if several can be chosen.
     """
 
     def __init__(self, changed: Callable[[str, Any], None], fields: Sequence[FieldSpec]) -> None:
@@ -86,11 +86,11 @@ class LookPanel(pn.Column):
             options that cannot be chosen now, by field.
         """
         for spec in self._specs:
-            name, gone = spec["name"], (disabled or {}).get(spec["name"], ())
-            if self._disabled.get(name, ()) == gone:
+            name, hidden = spec["name"], (disabled or {}).get(spec["name"], ())
+            if self._disabled.get(name, ()) == hidden:
                 continue
-            self._disabled[name] = gone
-            kept = [option for option in spec["options"] if option[0] not in gone]
+            self._disabled[name] = hidden
+            kept = [option for option in spec["options"] if option[0] not in hidden]
             self._fields.values[name] = values[name]
             self._fields.widgets[name].param.update(
                 **choices(kept), value=values[name], visible=len(kept) > 1
@@ -98,7 +98,7 @@ class LookPanel(pn.Column):
         self._fields.put({name: v for name, v in values.items() if name in self._fields.values})
 
     def refuse(self, sentence: str) -> None:
-        """Say why a number is refused; an empty sentence takes that back."""
+        """Show why a number is refused; an empty sentence removes the words."""
         self._refusal.param.update(object=html.escape(sentence), visible=bool(sentence))
 
 

@@ -13,14 +13,14 @@ from bearing_explorer.kit.serve.panel_internals import LiveComponent
 
 
 class StatusLine(LiveComponent):
-    """Converged or not, residual, degrees of freedom and time taken."""
+    """Convergence, residual, degrees of freedom and computing time of a picture."""
 
     #: {"mood": "good" | "warn" | "bad" | "busy", "words": str, "details": [str, ...]}
-    #: and, where it is of a picture, "tab": str and "resting": bool
+    #: and, for a picture, "tab": str and "resting": bool
     line = param.Dict(default={"mood": "busy", "words": "Computing", "details": []})
-    #: of compiling: {"done": int, "of": int, "words": str, "still": bool}; empty once all is ready
+    #: compilation: {"done": int, "of": int, "words": str, "still": bool}; empty once all is ready
     progress = param.Dict(default={})
-    #: whether the details are behind a button, in a list that opens above the line
+    #: True if a button opens the details in a list above the line
     folded = param.Boolean(default=False)
 
     _esm = scripts("element.js", "status.js")
@@ -40,6 +40,6 @@ class Tabs(LiveComponent):
     _esm = scripts("element.js", "tabs.js")
     _stylesheets: ClassVar[list[str]] = [asset_text("tabs.css")]
 
-    def __init__(self, asked: Callable[[Any], None], **params: Any) -> None:
+    def __init__(self, open_tab: Callable[[Any], None], **params: Any) -> None:
         super().__init__(margin=0, **params)
-        self.on_msg(lambda event: take(asked, TabChange, event.data))
+        self.on_msg(lambda event: take(open_tab, TabChange, event.data))

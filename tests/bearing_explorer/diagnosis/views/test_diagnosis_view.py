@@ -7,7 +7,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from bearing_explorer.diagnosis.diagnoses import Question, answered
+from bearing_explorer.diagnosis.diagnoses import Question, diagnosis_of
 from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.simulated import simulated
@@ -36,7 +36,7 @@ def heard(truth: str, noise_db: float = 20.0) -> Measured:
 
 @cache
 def diagnosed(truth: str, noise_db: float = 20.0) -> Diagnosis:
-    diagnosis = answered(Question.about(heard(truth, noise_db)))
+    diagnosis = diagnosis_of(Question.about(heard(truth, noise_db)))
     assert isinstance(diagnosis, Diagnosis)
     return diagnosis
 
@@ -154,7 +154,7 @@ def test_a_part_that_is_hardly_told_is_only_probably_damaged():
 
 def test_nothing_is_marked_where_it_cannot_be_told():
     short = Measured(Recording(heard("none").recording.acceleration[:1200], 25_600.0), at(MOTOR))
-    diagnosis = answered(Question.about(short))
+    diagnosis = diagnosis_of(Question.about(short))
     assert isinstance(diagnosis, Diagnosis)
     view = view_of(short, diagnosis)
     sources, ranges = view.all_data(MODEL)
@@ -170,7 +170,7 @@ def test_nothing_is_marked_where_it_cannot_be_told():
 
 def test_a_refusal_is_a_sentence():
     still = Measured(heard("none").recording, at(MOTOR, 0.0))
-    answer = answered(Question.about(still))
+    answer = diagnosis_of(Question.about(still))
     assert isinstance(answer, str)
     assert "shaft speed" in answer
     view = view_of(still, answer)
@@ -237,7 +237,7 @@ def test_the_part_does_not_depend_on_the_unit_and_it_is_said_where_it_is_not_kno
     velocity = dataclasses.replace(truth.recording, acceleration=velocity - velocity.mean(axis=0))
     unknown = Measured(velocity, truth.machine, in_si=False)
     question = Question.about(unknown)
-    diagnosis = answered(question)
+    diagnosis = diagnosis_of(question)
     assert diagnosis.fault == known.fault
     rests = dict(panel_state(question, diagnosis)["facts"])
     assert rests["Unit"] == "not known; the part does not depend on it"

@@ -6,7 +6,7 @@ import math
 from functools import cache
 
 import pytest
-from bearing_explorer.diagnosis.diagnoses import BUSY, ExtentQuestion, Question, answered, extent_of
+from bearing_explorer.diagnosis import diagnoses
 from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.simulated import load_on_defect, simulated
@@ -32,10 +32,10 @@ def view_of(entry: float = 1.0) -> SpallExtent:
     """The view with the answer it asks for."""
     made = SpallExtent(PackedSource())
     made.measure(measuring(measured(entry)))
-    about = Question.about(measured(entry))
-    made.measurement.diagnoses.keep(about, answered(about))
+    about = diagnoses.Question.about(measured(entry))
+    made.measurement.diagnoses.keep(about, diagnoses.diagnosis_of(about))
     question = made.question()
-    made.measurement.extents.keep(question, extent_of(question))
+    made.measurement.extents.keep(question, diagnoses.extent_of(question))
     made.say(MODEL, made.sentence(MODEL))
     return made
 
@@ -68,8 +68,8 @@ def test_a_simulated_signal_is_measured_with_its_own_load_and_edges():
     assert made.true_load == pytest.approx(700.0)
 
     def held(about: Measured) -> list[bool]:
-        question = ExtentQuestion.about(about, whole=about.bearing, race="inner")
-        return [low <= truth <= high for _, low, high in extent_of(question).alternatives]
+        question = diagnoses.ExtentQuestion.about(about, whole=about.bearing, race="inner")
+        return [low <= truth <= high for _, low, high in diagnoses.extent_of(question).alternatives]
 
     assert held(made) == [True, False]
     assert held(dataclasses.replace(made, true_load=None, true_edge=None)) == [False, False]
@@ -99,9 +99,9 @@ def test_it_waits_for_the_diagnosis_and_is_worked_on_once_it_is_there():
         view.measure(measuring(measured()))
         view.say(MODEL, view.sentence(MODEL))
         assert view.measurement.extents.wanted is None
-        assert view._sentence.text == BUSY
-        about = Question.about(measured())
-        view.measurement.diagnoses.keep(about, answered(about))
+        assert view._sentence.text == diagnoses.BUSY
+        about = diagnoses.Question.about(measured())
+        view.measurement.diagnoses.keep(about, diagnoses.diagnosis_of(about))
         view.say(MODEL, view.sentence(MODEL))
         question = view.measurement.extents.wanted
         while view.measurement.extents.of(question) is None:

@@ -6,7 +6,7 @@ import re
 
 import numpy as np
 import pytest
-from bearing_explorer.diagnosis.diagnoses import answered
+from bearing_explorer.diagnosis.diagnoses import diagnosis_of
 from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.signal import Measured, Origin
 from bearing_explorer.diagnosis.views.frequency_lines import (
@@ -14,7 +14,7 @@ from bearing_explorer.diagnosis.views.frequency_lines import (
     MOST_LINES,
     NAME_WIDTH,
     ORDER_WIDTH,
-    named,
+    labelled,
     orders,
 )
 from bearing_explorer.diagnosis.views.frequency_view import Shown, shown_curve
@@ -45,7 +45,7 @@ def view_of(kind, measured: Measured | None = None):
 def test_names_of_a_family_stand_clear_of_each_other(family, first, top):
     multiples = orders(family, first, top)
     assert (multiples * first <= top * (1.0 + 1e-9)).all()
-    shown = named(multiples, first, top)
+    shown = labelled(multiples, first, top)
     assert set(shown) <= set(multiples)
     places = shown * first
     if len(shown):
@@ -94,7 +94,7 @@ def test_envelopes_are_taken_in_the_band_of_the_diagnosis():
     view = view_of(MeasuredEnvelope, measured)
     assert "where the kurtogram is highest" in view.sentence(MODEL)
     question = view.measurement.question()
-    diagnosis = answered(question)
+    diagnosis = diagnosis_of(question)
     view.measurement.diagnoses.keep(question, diagnosis)
     assert "the band of the diagnosis" in view.sentence(MODEL)
     shown = view.shown(MODEL, measured)

@@ -9,7 +9,7 @@ import pytest
 from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.session import Measurement
 from bearing_explorer.diagnosis.upload import PIECE
-from bearing_explorer.diagnosis.views.trend import NO_LEVELS, TrendOfFiles, words_on
+from bearing_explorer.diagnosis.views.trend import NO_LEVELS, TrendOfFiles, trend_words
 from bearing_explorer.kit.compute.jobs import READING, Work
 from bearing_explorer.kit.serve.packed_source import PackedSource
 
@@ -78,7 +78,7 @@ def computed(view: TrendOfFiles) -> str:
     """The job of the view here and now: its sentence."""
     work = Work()
     words = view.prepare({}, MODEL)(work)
-    (view.job_result,) = work.taken()
+    (view.job_result,) = work.take_results()
     return words
 
 
@@ -110,7 +110,7 @@ def test_a_bad_file_among_good_ones_is_named_and_nothing_is_lost(view: TrendOfFi
     np.testing.assert_allclose(rms / rms[0], LOUD, rtol=1e-4)
     assert ranges["trend_rms"][1] > rms[-1]
     assert len(view.table(MODEL)["rms_m_per_s2"]) == 3
-    words = words_on(view.job_result.trend, in_si=False)
+    words = trend_words(view.job_result.trend, in_si=False)
     assert NO_LEVELS in words
     assert "times" not in words
 

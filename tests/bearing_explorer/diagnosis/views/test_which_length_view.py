@@ -8,7 +8,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from bearing_explorer.diagnosis.diagnoses import Question, answered, extent_of
+from bearing_explorer.diagnosis.diagnoses import Question, diagnosis_of, extent_of
 from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.report import measured_report
 from bearing_explorer.diagnosis.session import Measurement
@@ -66,7 +66,7 @@ def diagnosed(measured: Measured, scene: Scene = OTHER) -> Measurement:
     return made
 
 
-diagnosis = cache(answered)
+diagnosis = cache(diagnosis_of)
 
 
 def view_of(made: Measurement, support: str) -> WhichLength:
@@ -186,7 +186,7 @@ def test_it_begins_by_itself_once_entry_and_exit_are_known_and_can_be_cancelled(
     work = Work()
     work.stop()
     assert view.prepare({"support": KNOWN}, MODEL)(work) == ""
-    assert not work.taken()
+    assert not work.take_results()
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,7 @@
-"""Cross-section of a bearing as SVG, drawn from its numbers; each dimension can be pointed at.
+"""Cross-section of a bearing as SVG, drawn from its numbers.
 
-A dimension is a group of the class ``dimension``; its ``data-name`` is the name of its control.
+Each dimension is a group of the class ``dimension``, which a person can point at; its ``data-name``
+is the name of its control.
 """
 
 from __future__ import annotations
@@ -19,9 +20,9 @@ Point = tuple[float, float]
 _CONTROL = {field.full_name: field.key for field in SHOWN_FIELDS if field.group in BEARING_GROUPS}
 
 AXIS, MIDDLE = 372.0, 155.0
-"""Place in the section of the middle of the shaft (from the top) and of the bearing (along it)."""
+"""Height of the middle of the shaft (from the top), and place of the bearing along the shaft."""
 SHOULDER = 0.42
-"""Thickness of a ring behind its groove in ball diameters, height of its shoulders in radii."""
+"""Thickness of a ring behind its groove in ball diameters; height of its shoulders in radii."""
 CONTACT: Point = (440.0, 142.0)
 """The centre of the element that is drawn large."""
 
@@ -53,7 +54,7 @@ def _shape(tag: str, content: str = "", **attributes: object) -> str:
 
 
 def _path(cls: str, *commands: str | float) -> str:
-    """A path from its commands: letters, lengths (float) and flags (int)."""
+    """An SVG path from its commands: letters, lengths (float) and flags (int)."""
     d = " ".join(f"{part:.2f}" if isinstance(part, float) else str(part) for part in commands)
     return _shape("path", d=d, cls=cls)
 
@@ -80,13 +81,13 @@ def _dimension(field: str, *parts: str) -> str:
 
 
 def _arrow(x1: float, y1: float, x2: float, y2: float, both: bool = True) -> str:
-    made = _line("line", x1, y1, x2, y2) + _line("grip", x1, y1, x2, y2)
+    arrow = _line("line", x1, y1, x2, y2) + _line("grip", x1, y1, x2, y2)
     length = math.hypot(x2 - x1, y2 - y1)
     if length < 4.0:
-        return made
+        return arrow
     dx, dy = (x2 - x1) / length, (y2 - y1) / length
-    made += _head(x2, y2, dx, dy)
-    return made + (_head(x1, y1, -dx, -dy) if both else "")
+    arrow += _head(x2, y2, dx, dy)
+    return arrow + (_head(x1, y1, -dx, -dy) if both else "")
 
 
 def _head(x: float, y: float, dx: float, dy: float) -> str:
@@ -102,13 +103,13 @@ def _box(cls: str, x: float, y: float, width: float, height: float, rx: float = 
     return _shape("rect", x=x, y=y, width=width, height=height, rx=rx, cls=cls)
 
 
-# Half of the section through the shaft, to scale: radii are heights above its middle
+# Upper half of the section, to scale: radii are heights above the middle of the shaft
 
 
 class _RowAt(NamedTuple):
     """A drawn row: place, radius of its ball, heights of its centre and raceways.
 
-    `lean` is the slope of its races along the shaft.
+    `lean` is the slope of the races along the shaft.
     """
 
     number: int
@@ -121,7 +122,7 @@ class _RowAt(NamedTuple):
 
 
 class _Section:
-    """A section: its scale, and its rows from right to left."""
+    """The section of a bearing: its scale, and its rows from right to left."""
 
     def __init__(self, bearing: Bearing) -> None:
         self.bearing = bearing
@@ -162,7 +163,7 @@ class _Section:
         return AXIS - self.scale * radius
 
     def groove(self, row: _RowAt, level: float, side: float) -> list[str | float]:
-        """The race of a row: `side` 1 for the outer ring, −1 for the inner one."""
+        """Path along the race of a row; `side` is 1 for the outer ring, −1 for the inner ring."""
         edge, wide = level + side * SHOULDER * row.ball, 0.8 * row.ball
         if self.is_roller:
             half = (self.long + 1.0) / math.hypot(1.0, row.lean)  # of a leaning race
@@ -215,6 +216,7 @@ def _turned(content: str, degrees: float, x: float, y: float) -> str:
 
 
 def _section(bearing: Bearing) -> Iterable[str]:
+    """The section to scale, with its dimensions."""
     at, look = _Section(bearing), bearing.kind.picture
     yield _path("steel", "M", at.left, at.top, "H", at.right, *at.outer_race(), "Z")
     yield _path("steel", "M", at.left, at.bore, "H", at.right, *at.inner_race(), "Z")
@@ -226,8 +228,8 @@ def _section(bearing: Bearing) -> Iterable[str]:
             yield _line("line dashed", row.x + over * row.lean, row.centre - over, foot, AXIS)
     yield _line("axis", 14.0, AXIS, 296.0, AXIS)
     by_number = {row.number: row for row in at.rows}
-    own = bearing.rows[1].own if len(bearing.rows) > 1 else {}
-    unlike = bool({"ball_diameter", "pitch_diameter"} & own.keys())
+    second = bearing.rows[1].own if len(bearing.rows) > 1 else {}
+    unlike = bool({"ball_diameter", "pitch_diameter"} & second.keys())
     first = by_number[0] if unlike else at.rows[0]
     x, centre = first.x, at.up(0.5 * bearing.pitch_diameter)
     if "roller_length" in look.dimensions:
@@ -271,7 +273,7 @@ def _distance(at: _Section) -> str:
 
 
 def _second(row: _RowAt) -> Iterable[str]:
-    """Dimensions of a second row that is unlike the first; they have names of their own."""
+    """Dimensions of a second row that is unlike the first."""
     x, away = row.x, row.x - 0.6 * row.ball
     yield _dimension(
         "second_ball_diameter",
@@ -285,7 +287,7 @@ def _second(row: _RowAt) -> Iterable[str]:
     )
 
 
-# An element between its races; small features are drawn large
+# One element between its races; clearance and conformity are drawn larger than they are
 
 
 def _gap(bearing: Bearing) -> float:
@@ -304,7 +306,7 @@ def _clearance(x: float, low: float, gap: float, *witnesses: str) -> str:
 
 
 def _line_contact(bearing: Bearing) -> Iterable[str]:
-    """A roller between its races, which it touches along its length."""
+    """A roller between its races, which it touches along a line."""
     (x, y), high, gap = CONTACT, 60.0, _gap(bearing)
     slender = (bearing.roller_length or 0.0) / bearing.ball_diameter
     long = min(110.0, max(25.0, high * slender))
@@ -376,7 +378,7 @@ def _grooves(bearing: Bearing) -> Iterable[str]:
 
 
 def _ring(circle: _Circle, side: float, back: float) -> str:
-    """Steel of a ring around its groove, from the height `back`."""
+    """The steel of a ring from the height `back` to its groove."""
     ends = [circle.point(turn if side > 0.0 else math.pi - turn) for turn in (-0.9, 0.9)]
     (left, level), end, sweep = ends[0], ends[1], 1 if side > 0.0 else 0
     x = CONTACT[0]
@@ -385,7 +387,7 @@ def _ring(circle: _Circle, side: float, back: float) -> str:
 
 
 def _angle(angle: float, ball: float) -> str:
-    """The contact angle: from the plane of the balls to the line of contact."""
+    """The contact angle, from the plane of the balls to the line of contact."""
     x, y = CONTACT
     sine, cosine, far, arc = math.sin(angle), math.cos(angle), 1.5 * ball, 1.32 * ball
     parts = [
@@ -400,10 +402,11 @@ def _angle(angle: float, ball: float) -> str:
     return _dimension("contact_angle", *parts, _label(*at, "α", "0", anchor="start"))
 
 
-# All elements seen along the shaft, and the load of one over its compression
+# All elements seen along the shaft, and the load of an element over its compression
 
 
 def _front(bearing: Bearing) -> Iterable[str]:
+    """The elements seen along the shaft, with their number."""
     x, y = 660.0, 100.0
     scale = 66.0 / (bearing.outer_raceway_radius + 0.3 * bearing.ball_diameter)
     for radius in (bearing.outer_raceway_radius, bearing.inner_raceway_radius):
@@ -411,7 +414,7 @@ def _front(bearing: Bearing) -> Iterable[str]:
     pitch, ball = 0.5 * scale * bearing.pitch_diameter, 0.5 * scale * bearing.ball_diameter
     turns = (2.0 * math.pi * i / bearing.n_balls for i in range(bearing.n_balls))
     balls = [_circle("ball", x + pitch * math.cos(t), y - pitch * math.sin(t), ball) for t in turns]
-    counts = [own.stop - own.start for own in bearing.balls_of_rows]
+    counts = [balls.stop - balls.start for balls in bearing.balls_of_rows]
     alike = len(set(counts)) == 1
     several = f"{len(counts)} · {counts[0]}" if len(counts) > 1 else str(counts[0])
     count = several if alike else " + ".join(map(str, counts))

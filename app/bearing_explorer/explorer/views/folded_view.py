@@ -1,4 +1,4 @@
-"""Views that are folded at first: computed and drawn once they are opened."""
+"""Views that are folded at first; they are computed and drawn when a person opens them."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from bearing_explorer.kit.widgets.form import button
 
 
 class FoldedView(View[C]):
-    """A view behind a button on the page; elsewhere, in reports and scripts, it is open."""
+    """A view that a button opens on the page; in reports and scripts it is always open."""
 
     def __init__(self, packed: PackedSource) -> None:
         super().__init__(packed)
@@ -54,7 +54,7 @@ class FoldedView(View[C]):
         super().put_head(content)
 
     def words(self, results: C) -> str:
-        """`View.sentence` of what is drawn."""
+        """The sentence of the open view, see `View.sentence`."""
         raise NotImplementedError
 
     def sentence(self, results: C) -> str:

@@ -1,4 +1,4 @@
-"""Figures 3 to 10 of the paper: their scenes, the tab that draws them live, printed values."""
+"""Figures 3 to 10 of the paper: their scenes, printed values, and the tabs that draw them."""
 
 from __future__ import annotations
 
@@ -60,12 +60,12 @@ class PaperFigure:
 
     @cached_property
     def rows(self) -> list[tuple[str, str, str]]:
-        """Name, printed and computed value of each number, for all sessions."""
+        """Name, printed and computed value of each number; all sessions share them."""
         return [(entry.name, entry.paper, entry.ours(self.scenes)) for entry in self.printed]
 
     @property
     def slip(self) -> str:
-        """The sentence of MODEL.md on a mistake of the paper in this figure; empty for none."""
+        """The sentence of MODEL.md on a mistake of the paper in this figure; else empty."""
         section = asset_text("docs/MODEL.md").partition(_SLIPS)[2].partition("\n## ")[0]
         head = f"* Figure {self.number}: "
         lines = [line for line in section.splitlines() if line.startswith(head)]
@@ -73,7 +73,7 @@ class PaperFigure:
 
     @property
     def link(self) -> str:
-        """Address of the last scene on the tab, compared with the others that have a defect."""
+        """Address that shows the last scene on the tab, compared with the others with a defect."""
         others = [scene for scene in self.scenes[:-1] if scene.defects]
         drawn = tuple(Reference(scene, usual_name(scene)) for scene in others)
         return write(Place(self.scenes[-1], self.preset, tab=self.tab, compared=drawn))
@@ -91,7 +91,7 @@ def _term(term: str, first: float, last: float, scene: Scene) -> Array:
 
 
 def _acceleration(column: int, scene: Scene) -> Array:
-    """Acceleration of the housing between 0.745 and 0.775 s, as printed."""
+    """Acceleration of the housing between 0.745 and 0.775 s, the printed stretch."""
     motion = Results(scene).motion
     return motion.outer_acceleration[slice(*np.searchsorted(motion.time, (0.745, 0.775))), column]
 
@@ -175,8 +175,8 @@ def _entry_to_exit(scenes: Sequence[Scene]) -> str:
     return ", ".join(f"{1e3 * time:.2f} ms" for time in between)
 
 
-def _leaving(scenes: Sequence[Scene]) -> str:
-    """Number of the ball that is next to leave after ball 9 has entered."""
+def _next_to_leave(scenes: Sequence[Scene]) -> str:
+    """Number of the first ball that leaves after ball 9 has entered."""
     words = []
     for scene in scenes:
         events = crossings(scene, 0.0, 4.0 * math.pi)
@@ -262,7 +262,7 @@ FIGURES = (
         9, "Simulated vibration", "fan-rig", _EXTENTS,
         (
             Printed("From entry to exit", "0.013 s for both", _entry_to_exit),
-            Printed("Ball that leaves after ball 9 has entered", "9, 10", _leaving),
+            Printed("Ball that leaves after ball 9 has entered", "9, 10", _next_to_leave),
             Printed("Horizontal acceleration; the printed axis", "−2 to 2 m/s²",
                     partial(_drawn, partial(_acceleration, 0), "m/s²")),
             Printed("Vertical acceleration; the printed axis", "−4 to 4 m/s²",

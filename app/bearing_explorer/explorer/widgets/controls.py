@@ -1,7 +1,7 @@
-"""Panels of controls: sliders one can type into, choices, play.
+"""Panels of controls: sliders with boxes to type in, choices, play.
 
-One component holds a whole panel: a session stays cheap, and a drag sends one message a frame
-whatever it moves. What they ask for is judged in `bearing_explorer.explorer.state.scene_editor`.
+One component holds a whole panel, so a session stays cheap, and a drag sends one message a frame
+for all its controls. `bearing_explorer.explorer.state.scene_editor` checks the messages.
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ from bearing_explorer.kit.serve.panel_internals import LiveComponent
 
 
 def spec_of(groups: Iterable[str], *choices: Choice) -> dict[str, Any]:
-    """The constant part of a panel of controls: some groups of fields, and their choices.
+    """The constant part of a panel of controls: groups of fields with their choices.
 
-    `choices` are further ones.
+    `choices` are choices besides those of the groups.
     """
     names = list(groups)
     return {
@@ -77,7 +77,7 @@ class Rows(LiveComponent):
 
 
 MAIN = ("extent_deg", "fy_n", "shaft_speed_hz")
-"""Sliders that are always seen; all others are folded."""
+"""Sliders that are always visible; the others are folded."""
 
 
 class Controls(Rows):

@@ -1,4 +1,4 @@
-"""The bar above the controls: steps back and forth, links, kept scenes, files."""
+"""The bar above the controls: undo and redo, links, kept scenes, files."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from bearing_explorer.kit.messages import take
 
 
 class ShareBar(JSComponent):
-    """Undo, redo, reset; share, keep, download.
+    """Buttons for undo, redo and reset, and menus to share, keep and download.
 
     `asked` is called with each message as a dictionary with fields of `LinksChange`.
     """
 
-    #: what `Bookmarks.state` says
+    #: state by `Bookmarks.state`
     state = param.Dict(default={})
 
     _esm = scripts(

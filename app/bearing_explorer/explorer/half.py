@@ -166,7 +166,7 @@ class Explorer(Half):
         try:
             if "reset" in message:
                 self.editor.take_preset(self.editor.preset)
-                self._last_state = LastState(self.scene)  # a reset is shown without its effects
+                self._last_state = LastState(self.scene)  # a reset is no change to explain
                 self.show_controls(state=self.editor.state())
             if "choose" in message:
                 refused = self.editor.choose(message["choose"])
@@ -224,13 +224,13 @@ class Explorer(Half):
         if self.bookmarks.go(message):
             self.show_controls(state=self.editor.state())
         self.bookmarks.change_compared(message)
-        if (wanted := open_request_of(message)) is not None:
+        if (request := open_request_of(message)) is not None:
             self.jobs.answer(
                 OPENING,
-                lambda: read_request(wanted),
-                lambda place: self._take_place(wanted, place),
+                lambda: read_request(request),
+                lambda place: self._take_place(request, place),
             )
-        self.change_scene(message)  # the mark, and a reset
+        self.change_scene(message)  # for the mark, and a reset
 
     def open_link(self, name: str, text: str) -> None:
         """Open the scene and the tab of a link that comes with the page."""
@@ -260,7 +260,7 @@ class Explorer(Half):
                 log.exception("a report failed")
                 return None
 
-        self.jobs.answer(REPORT, report, lambda made: self.share.answer(report=made))
+        self.jobs.answer(REPORT, report, lambda file: self.share.answer(report=file))
 
     # Lessons
 
@@ -269,8 +269,8 @@ class Explorer(Half):
         name = self.bookmarks.lesson
         if not name:
             return
-        number = name.isdecimal() and len(name) < 4  # Python refuses thousands of digits
-        lesson = self.lesson.begin(int(name) - 1 if number else name)
+        is_number = name.isdecimal() and len(name) < 4  # Python refuses thousands of digits
+        lesson = self.lesson.begin(int(name) - 1 if is_number else name)
         if lesson is None:
             self.bookmarks.lesson = ""
             self.bookmarks.say(f"There is no lesson “{name}” here.")
@@ -295,6 +295,6 @@ class Explorer(Half):
                 lesson.begin(self.editor)
                 self.show_controls(state=self.editor.state())
             self.page.show_tab(message if lesson is None else {"show": lesson.tab})
-        self.change_scene(message)  # the mark, and what a button changes
+        self.change_scene(message)  # for the mark, and the changes of a button
         if "simulate" in message and begins:
             self.simulate(message["simulate"]["noise"])

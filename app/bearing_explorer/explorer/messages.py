@@ -22,7 +22,7 @@ class SceneChange(msgspec.Struct, omit_defaults=True):
     Attributes
     ----------
     mark
-        number of the change; the picture that shows it carries the same.
+        number of the change; the picture that shows it carries the same number.
     set, typed, second
         numbers by the keys of their fields: dragged, in the units of the page; typed; or typed in
         the second unit of the field.

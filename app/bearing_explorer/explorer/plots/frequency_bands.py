@@ -19,7 +19,7 @@ const low = row.low.toFixed(0), high = row.high.toFixed(0)
 return low == high ? `${name} ${low} Hz` : `${name} ${low}–${high} Hz`
 """
 SHORT_BAND_WORDS = f"{BAND_NAME}\nif (narrow) return name\n{BAND_SPAN}"
-"""JavaScript of `layers.Words`: name and span of a band; only the name where it is narrow."""
+"""JavaScript of `layers.Words`: name and span of a band; only the name in a narrow frame."""
 
 
 def band_rows(bands: Mapping[str, tuple[float, float]]) -> dict[str, np.ndarray]:

@@ -34,9 +34,9 @@ class SpectrumFigures:
     frequencies
         first range of the axis [Hz]; linear if it begins at 0, else logarithmic.
     level_range
-        range of the levels [dB].
+        range of the axis of levels [dB].
     depth
-        of the levels in view below the loudest line [dB].
+        range of the levels in view below the loudest line [dB].
     """
 
     def __init__(

@@ -45,7 +45,7 @@ def preset_like(scene: Scene) -> str:
 
 
 def compute(job: Work, scene: Scene, name: str) -> str:
-    """Measure an experiment on a scene and show each point. Runs in a job's thread."""
+    """Measure an experiment on a scene and show each point; return a sentence for the job."""
     names = (STABILITY, ORBITS) if name == STABILITY else (name,)
     if not set(names) <= set(MEASURED):
         raise ValueError("There is no such experiment.")

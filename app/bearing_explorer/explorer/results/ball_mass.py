@@ -83,7 +83,7 @@ class BallMass:
         edges, share of the power along x and y that mass adds, 1 − P(massless)/P(with mass), and
         its standard error over parts of the motion, NaN where that is too short for it.
     added : (m,) [dB]
-        the same as a ratio of powers.
+        ratio of the powers with and without mass.
     comparison
         frequency up to which massless balls are accurate; None if the motions are too short.
     quiet : (m,)
@@ -141,7 +141,7 @@ class BallMass:
 
 
 def compare_motions(massless: Motion, heavy: Motion, since: float) -> BallMass:
-    """Compare two motions of equal duration and sample rate, settled `since` [s]."""
+    """Compare two motions of equal duration and sample rate, which have settled at `since` [s]."""
     scene, rate = heavy.scene, heavy.sample_rate
     for passes in ENOUGH_PASSES:
         whole = excerpt_of(scene, heavy, since, n_passes=passes)
@@ -207,7 +207,7 @@ def _powers(signal: Array, rate: float, bandwidth: float, octaves: Array, known:
 
 
 def _comparison(massless: Motion, heavy: Motion) -> BallComparison | None:
-    """Compare both motions; None where they are too short."""
+    """Compare both motions in bands of frequency; None if they are too short."""
     enough = len(heavy.time) > 2.0 * SETTLING * heavy.sample_rate
     if not (enough and massless.completed and heavy.completed):
         return None

@@ -58,7 +58,7 @@ class Chain:
         least and greatest natural frequency of each mode [Hz], by its label; empty where the
         support is not known well enough.
     peaks
-        loudest line of the housing's acceleration along x and y, where they are free; empty
+        loudest line of the housing's acceleration along x and y, if they are free; empty
         without a motion, and `silent` then says why.
     radial_share
         mean cos²α of the contact angles, weighted by ball load: the radial share of a contact's

@@ -58,7 +58,7 @@ def spans(scene: Scene, cage_angle: float, row: int | None = None) -> list[Span]
 
 
 def pieces(span: Span) -> list[tuple[float, float]]:
-    """`span` as intervals within 0 to 2π [rad]: two where it lies across 0."""
+    """`span` as intervals within 0 to 2π [rad]: two if it lies across 0."""
     end = span.start + span.extent
     if end <= TWO_PI:
         return [(span.start, end)]
@@ -68,7 +68,7 @@ def pieces(span: Span) -> list[tuple[float, float]]:
 def race_depth(
     scene: Scene, cage_angle: float, race: str, angle: ArrayLike, row: int | None = None
 ) -> NDArray[np.float64]:
-    """Depth [m] of the floor of defects below `race` at the angles [rad]; 0 on the whole race.
+    """Depth [m] of the floor of defects below `race` at the angles [rad]; 0 beside the defects.
 
     A rim above the race has a negative depth. `row`: only the race of that row.
     """
@@ -85,10 +85,10 @@ def race_depth(
 def _walls(all_spans: list[Span], race: str, row: int | None = None) -> NDArray[np.float64]:
     """A pair of angles [rad] at every edge of a race, so that walls are drawn upright."""
     ends = [
-        at
+        edge
         for span in all_spans
         if span.race == race and span.meets(row)
-        for at in (span.start, span.start + span.extent)
+        for edge in (span.start, span.start + span.extent)
     ]
     return np.add.outer(ends, [-1e-9, 1e-9]).ravel()
 

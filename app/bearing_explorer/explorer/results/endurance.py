@@ -33,7 +33,7 @@ ASSUMED_GROOVES = (
 )
 ESTIMATED = "Estimated: the inside of the bearing follows from its designation."
 ASSUMED_VISCOSITY = 0.02
-"""Viscosity [Pa·s] that is assumed where none is given: a usual oil, warm."""
+"""Viscosity [Pa·s] that is assumed if none is given: a usual oil, warm."""
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ class LifeInputs:
     """Steel, oil and surfaces as entered under Life.
 
     dynamic_load_rating
-        C_r [N] of the catalogue; None: the bearing's own where its number is known, else
+        C_r [N] of the catalogue; None: that of the bearing's number if it is known, else
         computed by ISO 281.
     viscosity [Pa·s]
         of the oil at its temperature where it is drawn in; None: not known. A film is then shown

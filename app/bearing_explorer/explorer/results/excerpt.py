@@ -124,10 +124,9 @@ def excerpt_of(scene: Scene, motion: Motion, since: float, n_passes: float = 1.5
     return Excerpt(
         time=time[cut] - zero,
         motion_time=zero,
+        # copies, because views would keep the whole motion alive
         acceleration={
-            dof: motion.outer_acceleration[
-                cut, index
-            ].copy()  # a view would keep the whole motion alive
+            dof: motion.outer_acceleration[cut, index].copy()
             for index, dof in enumerate(motion.dofs)
         },
         events=events,
@@ -167,12 +166,12 @@ def _stretch(
         if event.enters and since + before <= _time_at(scene, motion, event.cage_angle) <= latest
     ]
     if entries:
-        entry = _time_at(scene, motion, _most_telling(scene, entries).cage_angle)
+        entry = _time_at(scene, motion, _most_loaded_entry(scene, entries).cage_angle)
         return entry - before, length, entry
     return end - length, length, end - length
 
 
-def _most_telling(scene: Scene, entries: list[Crossing]) -> Crossing:
+def _most_loaded_entry(scene: Scene, entries: list[Crossing]) -> Crossing:
     """Choose the entry whose ball would carry the most load without the defect.
 
     A defect of the inner race meets balls all around, most of them without load. Among equals the

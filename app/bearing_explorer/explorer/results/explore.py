@@ -133,7 +133,7 @@ class Question:
         object.__setattr__(self, "places", ends)
         first = {name: float(values[0]) for name, values in (self.x.in_si, self.y.in_si)}
         with contextlib.suppress(ValueError):
-            # the map replaces these two fields of the scene: scenes that differ in them are equal
+            # the map replaces these two fields: questions that differ only in them are equal
             object.__setattr__(self, "scene", self.scene.replace(**first))
 
     @cached_property
@@ -154,7 +154,7 @@ class Question:
 
     @property
     def first_stride(self) -> int:
-        """Stride of the first level: 9 × 7 points where they come at once, or else 5 × 4."""
+        """Stride of the first level: 9 × 7 points if it is quick enough for a drag, else 5 × 4."""
         return 8 if self.at_once else 16
 
     def level(self, stride: int) -> tuple[NDArray[np.intp], ...]:
@@ -261,6 +261,7 @@ class Survey:
                 yield (part, fixed_index) if upright else (fixed_index, part)
 
     def _compute_points(self, rows: NDArray[np.intp], columns: NDArray[np.intp]) -> None:
+        """Compute a block of points: the numbers, or the reasons for missing ones."""
         output = self.question.output
         grid = self.question.grid
         x, y = grid.axes
@@ -278,6 +279,7 @@ class Survey:
             self._reasons[j, i] = why
 
     def _why(self, status: SweepStatus, row: int, column: int) -> str:
+        """Reason for a missing number; of a refused scene the sentence of its refusal."""
         if status is SweepStatus.SCENE_REFUSED:
             (x, x_values), (y, y_values) = self.question.x.in_si, self.question.y.in_si
             try:

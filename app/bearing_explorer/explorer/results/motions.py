@@ -1,4 +1,4 @@
-"""Simulated motions and what is made of them, shared by all sessions.
+"""Simulated motions and results from them, shared by all sessions.
 
 While the sliders rest, a motion is marched with steps that resolve the highest natural frequency
 and every passage of a ball. While one moves, a motion that would take too long is shorter and
@@ -71,7 +71,7 @@ class Ending(NamedTuple):
     doubt: str
 
 
-# What a motion costs
+# Cost of a motion
 
 
 @cached
@@ -87,7 +87,7 @@ def step_rate_of(scene: Scene, sample_rate: float) -> float | None:
     return default_step_rate(scene, sample_rate)
 
 
-def _contacts(scene: Scene, how: Marching) -> float:
+def _contact_steps(scene: Scene, how: Marching) -> float:
     """Contact steps in a second of motion; 0 if there is no motion."""
     try:
         rate = how.step_rate or step_rate_of(scene, how.sample_rate) or 0.0
@@ -99,7 +99,7 @@ def _contacts(scene: Scene, how: Marching) -> float:
 
 def is_costly(scene: Scene, how: Marching) -> bool:
     """True if a motion takes too long to be marched in full while a slider moves."""
-    return how.duration * _contacts(scene, how) > MOST_IN_FULL
+    return how.duration * _contact_steps(scene, how) > MOST_IN_FULL
 
 
 def quick_duration(scene: Scene, how: Marching, at_rest: float = math.inf) -> float:
@@ -107,14 +107,14 @@ def quick_duration(scene: Scene, how: Marching, at_rest: float = math.inf) -> fl
 
     `at_rest`: most contact steps of a motion that is not coarse.
     """
-    most, contacts = MOST_IN_DRAG if how.coarse else at_rest, _contacts(scene, how)
-    if scene.balls == MASSLESS or not contacts:
+    most, steps = MOST_IN_DRAG if how.coarse else at_rest, _contact_steps(scene, how)
+    if scene.balls == MASSLESS or not steps:
         return how.duration
     shortest = SHORTEST
     if how.coarse and scene.cage_speed > 0.0:
         preview = PREVIEW_PASSES * scene.bearing.ball_spacing / scene.cage_speed
         shortest = min(max(preview, PREVIEW_DURATION), SHORTEST)
-    return min(how.duration, max(most / contacts, shortest))
+    return min(how.duration, max(most / steps, shortest))
 
 
 def _affordable(scene: Scene, duration: float, rate: float) -> float:
@@ -134,12 +134,12 @@ def _affordable(scene: Scene, duration: float, rate: float) -> float:
     return most / rate
 
 
-# Motions and what is made of them
+# Motions and results from them
 
 
 @cached
 def motion(scene: Scene, how: Marching) -> SettledMotion:
-    """The motion from rest; its second half counts as settled. ValueError where there is none."""
+    """The motion from rest; its second half counts as settled. ValueError if there is none."""
     compiling.need(compiling.MOTION, scene)
     rate = how.step_rate or step_rate_of(scene, how.sample_rate)
     if how.coarse:
@@ -174,7 +174,7 @@ def excerpt(scene: Scene, how: Marching) -> Excerpt:
 def late_spectra(scene: Scene, how: Marching) -> dict[str, Spectrum]:
     """Spectrum of the housing's acceleration along each direction, once the motion has settled.
 
-    Empty where it did not stay finite.
+    Empty if it did not stay finite.
     """
     run, since = motion(scene, how)
     if not run.completed:
@@ -185,7 +185,7 @@ def late_spectra(scene: Scene, how: Marching) -> dict[str, Spectrum]:
 
 @cached
 def dynamic_load(scene: Scene, how: Marching) -> float:
-    """Greatest load of a ball [N] since the motion settled; NaN where it did not stay finite."""
+    """Greatest load of a ball [N] since the motion settled; NaN if it did not stay finite."""
     run, since = motion(scene, how)
     if not run.completed:
         return math.nan

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 LEAST = 0.01
 """Least relative change of a stiffness that counts as a change."""
 ALIKE = 0.01
-"""Share of the greatest load: balls within this of it are all named as carrying the most."""
+"""Balls whose load differs by at most this share from the greatest one carry the most together."""
 NEAR = 0.65
 """Least mean cos²φ of loaded balls that lie near an axis; all balls of one side have 0.5 to 0.6."""
 SEPARATE = 4.0
@@ -72,7 +72,7 @@ def most_loaded(
     line = direction(scene)
     if most.size == load.size:
         return f"All {elements(bearing)} carry alike, {load_words}: nothing loads one side."
-    names = _named(bearing, most)
+    names = _element_names(bearing, most)
     text = f"{names[0].upper()}{names[1:]} {'carry' if several else 'carries'} most"
     text += "" if briefly else f", {load_words}"
     # elements nearer to the load's line would be expected to carry more
@@ -83,7 +83,7 @@ def most_loaded(
     lost = (drop > drop[most].max()) & (load < (1.0 - ALIKE) * load.max())
     inside, adjacent = nearer[lost[nearer]], _neighbours(bearing, most)
     gone = inside if inside.size else adjacent[lost[adjacent]]
-    gone_names, single = _named(bearing, gone), gone.size == 1
+    gone_names, single = _element_names(bearing, gone), gone.size == 1
     if briefly:
         if gone.size and (nearer.size or math.isnan(line)):
             return f"{text}: {gone_names} {'is' if single else 'are'} in the defect."
@@ -141,7 +141,7 @@ def greatest_load(results: Results) -> str:
     )
 
 
-def _named(bearing: Bearing, which: NDArray[np.int64]) -> str:
+def _element_names(bearing: Bearing, which: NDArray[np.int64]) -> str:
     """Names of elements, row by row: "balls 10 and 12"; for more than six only their number."""
     rows: dict[int, list[str]] = {}
     for k in which:
@@ -341,6 +341,7 @@ def not_needed(scene: Scene, *, briefly: bool = False) -> str:
 
 
 def _why_held(scene: Scene, held: list[str], briefly: bool) -> str:
+    """Say why these directions are held: by default, by choice, or because nothing moves them."""
     names = style.list_words([DOF_SYMBOLS[dof] for dof in held])
     if scene.holds_tilt_unasked:
         return f"{names} are held, as by the shaft's other bearing."
@@ -528,10 +529,8 @@ def jolt(shown: Excerpt, bearing: Bearing) -> str:
             "No loaded ball passes the defect: only the changing number of loaded balls shakes it."
         )
     nearest = min(loaded, key=lambda event: abs(event.time - jolt_time))
-    apart, load = (
-        jolt_time - nearest.time,
-        shown.ball_load[:, list(shown.balls).index(nearest.ball)],
-    )
+    apart = jolt_time - nearest.time
+    load = shown.ball_load[:, list(shown.balls).index(nearest.ball)]
     near = AT_AN_EDGE * float(np.ptp(shown.time))
     around = load[np.abs(shown.time - jolt_time) <= near]
     swing = loads[nearest.ball] / shown.greatest_static_load

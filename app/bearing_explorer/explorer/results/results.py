@@ -380,7 +380,7 @@ class Results(SceneContent):
 
     @property
     def fault(self) -> str:
-        """Reason for an early end of the motion; empty where there is none."""
+        """Reason for an early end of the motion; empty without one."""
         return motions.ending(self.scene, self.marching).fault
 
     @property
@@ -397,7 +397,7 @@ class Results(SceneContent):
     def late_spectra(self) -> dict[str, Spectrum]:
         """Spectrum of the housing's acceleration along each direction, once the motion has settled.
 
-        Empty where it did not stay finite.
+        Empty if the motion did not stay finite.
         """
         return motions.late_spectra(self.scene, self.marching)
 

@@ -340,6 +340,7 @@ def _pop_compared(pairs: dict[str, str]) -> tuple[Reference, ...]:
 
 
 def _read_place(pairs: dict[str, str]) -> Place:
+    """Read the place of pairs of a name and a value; every pair must have been used at the end."""
     compared = _pop_compared(pairs)
     version = pairs.pop("v", "")
     if version == TOO_LONG:
@@ -357,14 +358,16 @@ def _read_place(pairs: dict[str, str]) -> Place:
     cage_angle, _ = _parse_number(pairs.pop(CAGE_ANGLE, "0"), CAGE_ANGLE)
     tab = pairs.pop("tab", "")
     name = one_line(pairs.pop("name", ""), LONGEST_NAME)
+    # defects: each lists its differences from the first defect of the preset
     defects = []
     note = ""
     for number in range(count):
-        here = {name: _prefix(number) + name for name in _DEFECT_NAMES}
-        defect_pairs = {name: pairs.pop(there) for name, there in here.items() if there in pairs}
+        keys = {name: _prefix(number) + name for name in _DEFECT_NAMES}
+        defect_pairs = {name: pairs.pop(key) for name, key in keys.items() if key in pairs}
         if defect_pairs.get("floor") == "left-out":
             note = "A measured floor was too long for the address; here it is flat."
         defects.append(_read_defect(defect_pairs, defects_of(base)[0]))
+    # all other fields, by the part of the scene to which they belong
     fields = {part: _pop_fields(entries, pairs) for part, entries in _SCENE.items()}
     of_rows = _pop_fields(_TWO_ROWS, pairs)
     if pairs:
@@ -381,7 +384,7 @@ def _read_place(pairs: dict[str, str]) -> Place:
     if dofs == TILT_HELD:
         scene_fields["dofs"] = None
     scene = dataclasses.replace(base, defect=defect, **parts, **scene_fields).with_tilts_as(dofs)
-    scene = scene.replace(**of_rows)
+    scene = scene.replace(**of_rows)  # fields of two rows change the rows that were read before
     tab = OTHER_NAMES_OF_TABS.get(tab, tab)[:40]
     return Place(scene, preset, selected, cage_angle, tab, note, name, compared)
 

@@ -32,7 +32,7 @@ Parts begin with ``##``. Formulas are between dollar signs, ``$Q = K\\delta^{3/2
 ``set:extent_deg=64&edge=chord`` is a button that changes the scene, one to ``show:maps`` a button
 that opens a tab. A link to ``simulate:noise=20&race=inner`` is a button that changes the scene, if
 the link has changes, simulates a measurement of it, and opens Diagnosis. Files are read in the
-order of their names. The name of a lesson, which stands in the page's address, is the name of its
+order of their names. The name of a lesson, by which the page's address names it, is the name of its
 file without the leading number.
 
 Lessons may come from people who are not trusted: HTML is shown as text, pictures are not loaded,

@@ -76,7 +76,7 @@ ESTIMATED = "inside estimated"
 
 _USUAL = {"defect": "defect", "load": "load", "shaft_speed": "speed", "support": "support"}
 """Parts of a scene that come with a listed bearing, and their names in a sentence."""
-_SOUND = Defect(0.0, 50e-6, math.radians(270.0), edge="exact")
+_NO_DEFECT = Defect(0.0, 50e-6, math.radians(270.0), edge="exact")
 """Defect without a length; once a slider gives it one, it lies in the middle of the load zone."""
 _FIRST_DEFECT = (math.radians(10.0), 50e-6)
 _OF_FLOOR = [field.key for field in SHOWN_FIELDS if field.part == "floor"]
@@ -110,7 +110,7 @@ class SceneEditor:
     """The name that a person gave the bearing; may be empty."""
     origin: CatalogueOrigin | None = field(init=False, default=None)
     """The entry of a list that the bearing was taken from."""
-    begun: Scene = field(init=False)
+    base: Scene = field(init=False)
     """The preset, or the usual scene of a listed bearing, from which changes began."""
     effects: dict[str, str] = field(init=False, default_factory=dict)
     """Sentences on effects of the last choices that are not obvious, by names of choices."""
@@ -138,7 +138,7 @@ class SceneEditor:
         if preset not in presets:
             alike = [name for name in presets if presets[name].bearing == scene.bearing]
             preset = self.preset if self.preset in alike or not alike else alike[0]
-        defects = [_turned(defect) for defect in defects_of(scene)]
+        defects = [_within_one_turn(defect) for defect in defects_of(scene)]
         if len(defects) > MOST_DEFECTS:
             raise refuse("number of defects", len(defects), f"at most {MOST_DEFECTS} here")
         if len(scene.bearing.all_rows) > MOST_SHOWN_ROWS:
@@ -154,7 +154,7 @@ class SceneEditor:
                 if not math.isnan(value):  # NaN: the scene does not have this number
                     read(key, repr(value), limits)
         self.preset, self.scene, self.selected = preset, scene, selected
-        self.begun = presets[preset]
+        self.base = presets[preset]
         self.own_name, self.origin, self.effects = one_line(name, LONGEST_NAME), None, {}
         self.limits = limits
         self.values = {}
@@ -162,16 +162,16 @@ class SceneEditor:
 
     def __eq__(self, other: object) -> bool:
         """True if a person would see no difference."""
-        return isinstance(other, SceneEditor) and self._seen == other._seen
+        return isinstance(other, SceneEditor) and self._visible_state == other._visible_state
 
     __hash__ = None  # type: ignore[assignment]
 
     @property
-    def _seen(self) -> tuple[object, ...]:
+    def _visible_state(self) -> tuple[object, ...]:
         return self.scene, self.preset, self.own_name, self.origin, self.values[CAGE_ANGLE]
 
     def snapshot(self) -> SceneEditor:
-        """The whole state, for `restore`."""
+        """Copy the whole state, for `restore`."""
         return copy.copy(self)
 
     def restore(self, kept: SceneEditor) -> None:
@@ -198,7 +198,7 @@ class SceneEditor:
     @property
     def name_in_links(self) -> str:
         """A person's name for the bearing, marked if its numbers have changed since; or empty."""
-        changed = bool(self.own_name) and self.own_name == self._begun_from
+        changed = bool(self.own_name) and self.own_name == self._changed_listed_name
         return self.own_name + (", changed" if changed else "")
 
     @property
@@ -206,14 +206,14 @@ class SceneEditor:
         """Source of the bearing's numbers."""
         if not self.changed:
             return preset_notes.get(self.preset, "")
-        if self.origin is not None and not self._begun_from:
+        if self.origin is not None and not self._changed_listed_name:
             return self.origin.words
         still = " Some numbers are still estimates." if self.scene.bearing.estimated else ""
-        begun = self._begun_from or self.preset
-        return f"Edited from “{begun}”; its sources no longer apply.{still}"
+        source = self._changed_listed_name or self.preset
+        return f"Edited from “{source}”; its sources no longer apply.{still}"
 
     @property
-    def _begun_from(self) -> str:
+    def _changed_listed_name(self) -> str:
         """Name of a listed bearing whose numbers have been changed; else empty."""
         if self.origin is None or self.origin.bearing == self.scene.bearing:
             return ""
@@ -227,21 +227,23 @@ class SceneEditor:
 
         If the remaining defects do not fit it, ValueError is raised and nothing changes.
         """
-        usual = scene_of(bearing).replace(defect=_SOUND)
-        kept = [part for part in _USUAL if getattr(self.scene, part) != getattr(self.begun, part)]
-        lost = " and ".join(f"{number(math.degrees(d.extent))}°" for d in self.scene.defects)
-        gone = f"The defect of {lost} is gone. " if lost and "defect" not in kept else ""
+        # parts of the scene that a person has changed stay; the others are the usual ones
+        usual = scene_of(bearing).replace(defect=_NO_DEFECT)
+        kept = [part for part in _USUAL if getattr(self.scene, part) != getattr(self.base, part)]
+        extents = " and ".join(f"{number(math.degrees(d.extent))}°" for d in self.scene.defects)
+        loss = f"The defect of {extents} is gone. " if extents and "defect" not in kept else ""
         fresh = {part: getattr(usual, part) for part in _USUAL if part not in kept}
+        # the old defect must not be checked against the new bearing if it is dropped anyway
         before = self.scene.replace(defect=fresh.get("defect", self.scene.defect))
-        if before.dofs == self.begun.dofs:
+        if before.dofs == self.base.dofs:
             before = before.replace(dofs=None)
         scene, effect = add_thrust(scene_with(before, bearing).replace(**fresh))
         self.selected = self.selected if "defect" in kept else 0
-        self.begun = usual
-        self._take(scene)
+        self.base = usual
+        self._show_scene(scene)
         self.limits = limits_of(self.scene)
         self._write_values()
-        self.effects["preset"] = f"{gone}{_usual_words(scene, kept)} {effect}".rstrip()
+        self.effects["preset"] = f"{loss}{_usual_words(scene, kept)} {effect}".rstrip()
         self.own_name = one_line(name, LONGEST_NAME)
         self.origin = CatalogueOrigin(self.own_name, origin, self.scene.bearing)
 
@@ -280,30 +282,30 @@ class SceneEditor:
     def set(self, values: Mapping[Any, Any]) -> tuple[Refused, Values]:
         """Set numbers, dragged or typed; return refusals and all values that changed."""
         refused: Refused = {}
-        taken: Values = {}
+        accepted: Values = {}
         for name, value in list(values.items())[: len(FIELD_BY_KEY)]:
             try:
-                taken[str(name)] = read(str(name), value, self.limits)
+                accepted[str(name)] = read(str(name), value, self.limits)
             except ValueError as error:
                 refused[str(name)[:60]] = str(error)
         try:
-            scene = self._scene_with(taken)
+            scene = self._scene_with(accepted)
         except ValueError as error:
-            return refused | {name: sentence_of(error) for name in taken}, {}
+            return refused | {name: sentence_of(error) for name in accepted}, {}
         before = self.values
         self.effects = self.effects if scene == self.scene else {}
-        self._take(scene, cage_angle=taken.get(CAGE_ANGLE))
-        self._set_values(self.values | taken)
+        self._show_scene(scene, cage_angle=accepted.get(CAGE_ANGLE))
+        self._set_values(self.values | accepted)
         changed = {
             name: value for name, value in self.values.items() if differ(before[name], value)
         }
         return refused, changed
 
-    def _scene_with(self, taken: Values) -> Scene:
+    def _scene_with(self, accepted: Values) -> Scene:
         """The scene with these numbers of the page; ValueError if they do not fit together."""
         fields: dict[str, Any] = {}
         rough: dict[str, Any] = {}
-        for name, value in taken.items():
+        for name, value in accepted.items():
             field = FIELD_BY_KEY[name]
             if field.part:
                 numbers = rough if field.part == "floor" else fields
@@ -324,7 +326,7 @@ class SceneEditor:
             fields["floor"] = dataclasses.replace(floor, **rough)
         return scene_with_fields(self.scene, fields, self.selected)
 
-    def _take(self, scene: Scene, cage_angle: float | None = None) -> None:
+    def _show_scene(self, scene: Scene, cage_angle: float | None = None) -> None:
         """Show a scene; a bearing with other balls has other limits of its grooves."""
         if scene.bearing != self.scene.bearing:
             self.limits = self.limits | groove_limits(scene)
@@ -333,8 +335,8 @@ class SceneEditor:
 
     def _write_values(self, cage_angle: float | None = None) -> None:
         """Set the values of the controls from the scene."""
-        turned = self.values.get(CAGE_ANGLE, 0.0) if cage_angle is None else cage_angle
-        fresh = {**values_of(self.scene, self.selected), CAGE_ANGLE: turned}
+        angle = self.values.get(CAGE_ANGLE, 0.0) if cage_angle is None else cage_angle
+        fresh = {**values_of(self.scene, self.selected), CAGE_ANGLE: angle}
         # a typed number stays as it was typed, although its last digit may differ in SI
         self._set_values(
             {
@@ -369,10 +371,10 @@ class SceneEditor:
             "defect": self._take_defect,
             "bearing": self._take_listed,
         }
-        asked = [known.name for known in CHOICE_LIST if choice.get(known.name) in known.names]
-        asked += [name for name in ("defect", "bearing") if name in choice]
+        names = [known.name for known in CHOICE_LIST if choice.get(known.name) in known.names]
+        names += [name for name in ("defect", "bearing") if name in choice]
         refused: Refused = {}
-        for name in asked:
+        for name in names:
             try:
                 takers[name](choice[name])
             except ValueError as error:
@@ -380,7 +382,7 @@ class SceneEditor:
         return refused
 
     def _change(self, **fields: Any) -> None:
-        self._take(scene_with_fields(self.scene, fields, self.selected))
+        self._show_scene(scene_with_fields(self.scene, fields, self.selected))
 
     def _take_option(self, choice: Choice, name: str) -> None:
         """Take an option of a choice that is a field of the scene or of its defects."""
@@ -403,7 +405,7 @@ class SceneEditor:
         scene, effect = add_thrust(
             scene_with(self.scene, convert_to_kind(self.scene.bearing, kind))
         )
-        self._take(scene)
+        self._show_scene(scene)
         if effect:
             self.effects["kind"] = effect
         self.limits = {**limits_of(self.scene), **groove_limits(self.scene)}
@@ -451,14 +453,14 @@ class SceneEditor:
     def _change_defects(self, defects: list[Defect], selected: int) -> None:
         scene = self.scene.replace(defect=defects[0] if len(defects) == 1 else tuple(defects))
         self.selected = selected
-        self._take(scene)
+        self._show_scene(scene)
 
     def _take_numbers(self, how: str) -> None:
         """Describe the bearing by a "drawing", or by "direct" numbers of the contact model."""
         bearing = self.scene.bearing
         if how == "drawing" and not bearing.is_drawn:
             as_drawn = drawn(bearing).replace(rows=bearing.rows, estimated=bearing.estimated)
-            self._take(self.scene.replace(bearing=as_drawn))
+            self._show_scene(self.scene.replace(bearing=as_drawn))
             self.effects["numbers"] = (
                 f"The grooves begin with {USUAL_GROOVES['inner']} (inner) and "
                 f"{USUAL_GROOVES['outer']} (outer) ball diameters, as is usual, in steel: change "
@@ -468,11 +470,11 @@ class SceneEditor:
             )
         elif how == "direct" and bearing.is_drawn:
             fields: dict[str, Any] = dict.fromkeys((*OPTIONAL_FIELDS, *BALL_MATERIAL))
-            self._take(self.scene.replace(bearing=dataclasses.replace(bearing, **fields)))
+            self._show_scene(self.scene.replace(bearing=dataclasses.replace(bearing, **fields)))
 
     def _take_ball_material(self, name: str) -> None:
         bearing = self.scene.bearing
-        self._take(self.scene.replace(bearing=bearing.with_balls_of(BALL_MATERIALS[name])))
+        self._show_scene(self.scene.replace(bearing=bearing.with_balls_of(BALL_MATERIALS[name])))
 
     # State for the browser
 
@@ -534,7 +536,7 @@ def _usual_words(scene: Scene, kept: Iterable[str]) -> str:
     return f"{usual} Kept as you set it: {', '.join(names)}.".strip() if names else usual
 
 
-def _turned(defect: Defect) -> Defect:
+def _within_one_turn(defect: Defect) -> Defect:
     """The same defect with its centre within one turn, as the page shows it."""
     if 0.0 <= defect.center <= 2.0 * math.pi:
         return defect

@@ -254,6 +254,7 @@ class BearingDrawing(ComparingView):
         half = OF_A_ROW if len(rows) > 1 else HALF_WIDTH
         wide = half * len(rows)
         healthy = results.reference.load_curves
+        # shapes of each row, side by side
         several: list[Sources] = []
         if not results.held:  # a new scale would move the tip of the arrow out of the hand
             if results.before is None:  # at the start, and after a reset
@@ -425,7 +426,7 @@ class Shapes:
     ) -> None:
         bearing = scene.bearing.of_row(row)
         self.scene, self.cage_angle, self.row = scene, cage_angle, row
-        self.unit = max(own.outer_raceway_radius for own, _ in scene.bearing.unlike_rows)
+        self.unit = max(row.outer_raceway_radius for row, _ in scene.bearing.unlike_rows)
         self.ball = bearing.ball_radius / self.unit
         self.outer_race = bearing.outer_raceway_radius / self.unit
         self.inner_race = bearing.inner_raceway_radius / self.unit

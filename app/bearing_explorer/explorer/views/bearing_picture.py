@@ -106,7 +106,7 @@ def _box(cls: str, x: float, y: float, width: float, height: float, rx: float = 
 # Upper half of the section, to scale: radii are heights above the middle of the shaft
 
 
-class _RowAt(NamedTuple):
+class _DrawnRow(NamedTuple):
     """A drawn row: place, radius of its ball, heights of its centre and raceways.
 
     `lean` is the slope of the races along the shaft.
@@ -144,7 +144,7 @@ class _Section:
         self.top, self.bore = self.up(rim), min(self.up(max(hole, 0.0)), AXIS - 6.0)
         self.rows = sorted(
             (
-                _RowAt(
+                _DrawnRow(
                     k,
                     MIDDLE + self.scale * row.place,
                     0.5 * self.scale * single.ball_diameter,
@@ -162,7 +162,7 @@ class _Section:
         """Height in the drawing of a radius [m]."""
         return AXIS - self.scale * radius
 
-    def groove(self, row: _RowAt, level: float, side: float) -> list[str | float]:
+    def groove(self, row: _DrawnRow, level: float, side: float) -> list[str | float]:
         """Path along the race of a row; `side` is 1 for the outer ring, −1 for the inner ring."""
         edge, wide = level + side * SHOULDER * row.ball, 0.8 * row.ball
         if self.is_roller:
@@ -188,7 +188,7 @@ class _Section:
         return [*(part for row in self.rows for part in self.groove(row, row.inner, -1.0)),
                 "H", self.left]  # fmt: skip
 
-    def element(self, row: _RowAt) -> str:
+    def element(self, row: _DrawnRow) -> str:
         if not self.is_roller:
             return _circle("ball", row.x, row.centre, row.ball)
         corner = row.x - self.long, row.centre - row.ball
@@ -217,52 +217,53 @@ def _turned(content: str, degrees: float, x: float, y: float) -> str:
 
 def _section(bearing: Bearing) -> Iterable[str]:
     """The section to scale, with its dimensions."""
-    at, look = _Section(bearing), bearing.kind.picture
-    yield _path("steel", "M", at.left, at.top, "H", at.right, *at.outer_race(), "Z")
-    yield _path("steel", "M", at.left, at.bore, "H", at.right, *at.inner_race(), "Z")
-    yield from map(at.element, at.rows)
-    if len(at.rows) > 1 and look.outer != "sphere" and any(row.lean for row in at.rows):
-        for row in at.rows:  # lines of contact, drawn to the middle of the shaft
+    cut, look = _Section(bearing), bearing.kind.picture
+    yield _path("steel", "M", cut.left, cut.top, "H", cut.right, *cut.outer_race(), "Z")
+    yield _path("steel", "M", cut.left, cut.bore, "H", cut.right, *cut.inner_race(), "Z")
+    yield from map(cut.element, cut.rows)
+    if len(cut.rows) > 1 and look.outer != "sphere" and any(row.lean for row in cut.rows):
+        for row in cut.rows:  # lines of contact, down to the middle of the shaft
             over = 1.5 * row.ball
             foot = row.x - (AXIS - row.centre) * row.lean
             yield _line("line dashed", row.x + over * row.lean, row.centre - over, foot, AXIS)
     yield _line("axis", 14.0, AXIS, 296.0, AXIS)
-    by_number = {row.number: row for row in at.rows}
+    # dimensions, at the first row if rows are unlike, else at the right one
+    by_number = {row.number: row for row in cut.rows}
     second = bearing.rows[1].own if len(bearing.rows) > 1 else {}
     unlike = bool({"ball_diameter", "pitch_diameter"} & second.keys())
-    first = by_number[0] if unlike else at.rows[0]
-    x, centre = first.x, at.up(0.5 * bearing.pitch_diameter)
+    first = by_number[0] if unlike else cut.rows[0]
+    x, centre = first.x, cut.up(0.5 * bearing.pitch_diameter)
     if "roller_length" in look.dimensions:
-        level = centre + 0.45 * at.ball
-        yield _dimension("roller_length", _arrow(x - at.long, level, x + at.long, level),
+        level = centre + 0.45 * cut.ball
+        yield _dimension("roller_length", _arrow(x - cut.long, level, x + cut.long, level),
                          _label(x, level + 13.0, "l"))  # fmt: skip
-    if len(at.rows) > 1:
-        yield _distance(at)
+    if len(cut.rows) > 1:
+        yield _row_distance(cut)
     if unlike:
-        yield from _second(by_number[1])
+        yield from _second_row(by_number[1])
     if "groove_center_radius" in look.dimensions:
-        level = at.up(bearing.groove_center_radius)
-        yield at.height("groove_center_radius", 26.0, at.left, level, "r", "d")
-    place = min(72.0, at.left - 6.0)
-    yield at.height("pitch_diameter", place, at.left, centre, "D", "p", "/2")
-    yield at.height("inner_raceway_radius", max(236.0, at.right + 8.0), at.right,
-                    at.up(bearing.inner_raceway_radius), "R", "i")  # fmt: skip
-    yield at.height("outer_raceway_radius", max(266.0, at.right + 38.0), at.right,
-                    at.up(bearing.outer_raceway_radius), "R", "o")  # fmt: skip
-    if at.is_roller:
-        x += 0.6 * at.long
-        yield _dimension("ball_diameter", _arrow(x, centre - at.ball, x, centre + at.ball),
+        level = cut.up(bearing.groove_center_radius)
+        yield cut.height("groove_center_radius", 26.0, cut.left, level, "r", "d")
+    place = min(72.0, cut.left - 6.0)
+    yield cut.height("pitch_diameter", place, cut.left, centre, "D", "p", "/2")
+    yield cut.height("inner_raceway_radius", max(236.0, cut.right + 8.0), cut.right,
+                    cut.up(bearing.inner_raceway_radius), "R", "i")  # fmt: skip
+    yield cut.height("outer_raceway_radius", max(266.0, cut.right + 38.0), cut.right,
+                    cut.up(bearing.outer_raceway_radius), "R", "o")  # fmt: skip
+    if cut.is_roller:
+        x += 0.6 * cut.long
+        yield _dimension("ball_diameter", _arrow(x, centre - cut.ball, x, centre + cut.ball),
                          _label(x - 5.0, centre - 8.0, "D", "b", anchor="end"))  # fmt: skip
     else:
-        yield _dimension("ball_diameter", _arrow(x - at.ball, centre, x + at.ball, centre),
+        yield _dimension("ball_diameter", _arrow(x - cut.ball, centre, x + cut.ball, centre),
                          _label(x, centre - 5.0, "D", "b"))  # fmt: skip
-    yield from (_circle("centre", row.x, row.centre, 2.6) for row in at.rows)
+    yield from (_circle("centre", row.x, row.centre, 2.6) for row in cut.rows)
     yield _label(MIDDLE, 396.0, "to scale, above the middle of the shaft")
 
 
-def _distance(at: _Section) -> str:
+def _row_distance(cut: _Section) -> str:
     """The distance between two rows, drawn below the middle of the shaft."""
-    right, left = at.rows[:2]
+    right, left = cut.rows[:2]
     level = AXIS + 6.0
     return _dimension(
         "row_distance",
@@ -272,7 +273,7 @@ def _distance(at: _Section) -> str:
     )
 
 
-def _second(row: _RowAt) -> Iterable[str]:
+def _second_row(row: _DrawnRow) -> Iterable[str]:
     """Dimensions of a second row that is unlike the first."""
     x, away = row.x, row.x - 0.6 * row.ball
     yield _dimension(

@@ -26,7 +26,7 @@ from bearing_explorer.explorer.state.value_range import (
     value_of,
 )
 from bearing_explorer.explorer.views.scene_job_view import SceneJobView
-from bearing_explorer.kit.compute.jobs import COMPUTATION, Jobs, JobState, Work
+from bearing_explorer.kit.compute.jobs import COMPUTATION, Jobs, JobState
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.heat_map import Side
 from bearing_explorer.kit.sentences import sentence_of, with_unit
@@ -79,9 +79,8 @@ class ExplorePlane(SceneJobView[explore.Plane]):
     _refining: tuple[explore.Question, int] | None = None
 
     def build(self, packed: PackedSource) -> Any:
-        from bearing_explorer.explorer.plots.plane import (
-            PlaneFigures,  # HoloViews: not at the start
-        )
+        # HoloViews takes long to import: not when the page starts
+        from bearing_explorer.explorer.plots.plane import PlaneFigures
 
         self._plane = PlaneFigures("explore", self._go)
         panes = [pn.pane.HoloViews(plot, margin=0) for plot in self._plane.plots]
@@ -252,11 +251,9 @@ class ExplorePlane(SceneJobView[explore.Plane]):
         assert self._request is not None
         stride = self._request.stride
         self._refining = question, stride
-
-        def work(job: Work) -> str:
-            return explore.refine(job, question, stride, start)
-
-        jobs.start(work, self._take, self.report)
+        jobs.start(
+            lambda job: explore.refine(job, question, stride, start), self._take, self.report
+        )
 
     def _take(self, plane: explore.Plane) -> None:
         if plane.question == self._question:

@@ -283,21 +283,19 @@ def _pressures(results: Results, answer: endurance.Endurance) -> FactGroup:
     facts = []
     for contact in (answer.pressures.inner, answer.pressures.outer):
         across = "half the length" if bearing.kind.line_contact else "across"
-        facts.append(
+        facts += [
             Fact(
                 f"{contact.race.capitalize()} race",
                 style.with_prefix(contact.greatest_pressure, "Pa"),
                 "In the middle of the contact of the heaviest loaded ball or roller.",
-            )
-        )
-        facts.append(
+            ),
             Fact(
                 "half-axes of the contact ellipse",
                 f"{style.with_prefix(contact.semi_axis_across, 'm')} {across}, "
                 f"{style.with_prefix(contact.semi_axis_along, 'm')} along the rolling",
                 "For a roller: half its length, and half the width of the contact.",
-            )
-        )
+            ),
+        ]
     allowed = style.with_prefix(bearing.kind.static_pressure, "Pa")
     words = (
         f"At {style.with_prefix(answer.pressures.ball.load, 'N', 4)}, the heaviest load at rest. "
@@ -324,21 +322,19 @@ def _film(results: Results, answer: endurance.Endurance) -> FactGroup:
     facts = []
     for film in (answer.film.inner, answer.film.outer):
         parameter = style.number(film.film_parameter) if film.lubrication else "not known"
-        facts.append(
+        facts += [
             Fact(
                 f"{film.race.capitalize()} race, thickness",
                 style.with_prefix(film.thickness, "m") if film.lubrication else "not known",
                 "Thickness where it is least.",
-            )
-        )
-        facts.append(
+            ),
             Fact(
                 "film parameter Λ",
                 f"{parameter} ({film.lubrication or 'no film'})",
                 "Thickness over the roughness of both surfaces: below 1 they touch all the time, "
                 "above 3 hardly ever.",
-            )
-        )
+            ),
+        ]
     words = answer.film.sentence
     if results.life_inputs.viscosity is None:
         viscosity = style.with_prefix(endurance.ASSUMED_VISCOSITY, "Pa·s")

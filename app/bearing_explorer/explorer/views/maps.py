@@ -30,8 +30,8 @@ from bearing_explorer.kit.views.base import Ranges, Sources, View
 from bearingcore import STIFFNESS_TERMS
 from bearingcore.model.statics import TERM_UNITS
 
-#: kinds of colour scales, as the browser knows them
 _CELL_COLUMNS = ("low", "high", "kind", "now", "unit", "zero")
+#: kinds of colour scales, by the numbers that the scripts use
 ONE_SIGN, TWO_SIGNS, COUNT, FLAT = 0, 1, 2, 3
 
 _TOOLTIP = (
@@ -100,7 +100,7 @@ class StiffnessMaps(View):
     )
 
     def build(self, packed: PackedSource) -> Any:
-        """One canvas for all maps."""
+        """Make the canvas of all maps."""
         self._one_sign = [StickyRange(0.0, 1.0) for _ in matrix_cells.PLACES]
         self._two_signs = [StickyRange(-1.0, 1.0, anchor="symmetric") for _ in matrix_cells.PLACES]
         self._two = [False] * len(matrix_cells.PLACES)
@@ -158,6 +158,7 @@ class StiffnessMaps(View):
             at_now = 0.0 if abs(at_now) < matrix_cells.NEGLIGIBLE * sizes[i] else at_now
             kind = FLAT if flat else TWO_SIGNS if self._two[i] else ONE_SIGN
             cells.append((low, high, kind, at_now, matrix_cells.UNITS.index(TERM_UNITS[term])))
+        # the last map: a colour for each number of loaded balls, in the middle of its step
         counts = np.where(maps.converged, maps.loaded_balls, np.nan)
         low, high = self._balls.fit(counts)
         low, high = math.floor(low), math.ceil(high)

@@ -28,7 +28,7 @@ LABEL_PIXELS = 16.0  # height that a label needs
 NAMES_WIDTH = 148
 """Width [px] right of the frame for the names of bands."""
 NARROW = 520
-"""Width [px] of the figure below which the names stand alone, without their frequencies."""
+"""Width [px] of the figure below which names are written without their frequencies."""
 _ROOM = f"""{style.LARGER}
 const room = cb_obj.outer_width < larger*below ? 34 : larger*usual
 if (cb_obj.min_border_right != room) cb_obj.setv({{min_border_right: room}}, {{sync: false}})

@@ -39,7 +39,7 @@ FIRST_COUNT = 25
 """Speeds of the first picture."""
 FAINT = 0.35
 """Opacity of a run of another scene."""
-RESOLUTION = 16.0  # [Hz]; half a ball-pass frequency of the fan rig at 7 Hz is 20 Hz
+RESOLUTION = 16.0  # [Hz]: separates half ball-pass frequencies, 20 Hz on the fan rig at 7 Hz
 DEPTH_OF_VIEW = 60.0  # [dB] below the loudest point
 HARMONICS = 8
 HEIGHT = 330
@@ -108,14 +108,14 @@ ALL_LAYERS = [*(layer for dof in SHOWN for layer in expected(dof)), *SCENE]
 
 
 @dataclass(frozen=True)
-class FoundRun:
+class SweptRun:
     """A run, and its speeds [Hz] as a sweep of the field."""
 
     run: SpeedRun
     speeds: value_range.Sweep
 
 
-class SpeedRunSpectra(SceneJobView[FoundRun]):
+class SpeedRunSpectra(SceneJobView[SweptRun]):
     """Power spectral density of the housing's acceleration over frequency and shaft speed."""
 
     name = "speed-run"
@@ -130,7 +130,7 @@ class SpeedRunSpectra(SceneJobView[FoundRun]):
     start = "Compute all speeds"
     bounds = f"At most {COUNTS[-1]} speeds; a coarse picture comes by itself."
 
-    _begun = False
+    _first_run_began = False
 
     def build(self, packed: PackedSource) -> Any:
         frequency = packed.range("speed_run_frequency", 0.0, HIGHEST)
@@ -191,7 +191,7 @@ class SpeedRunSpectra(SceneJobView[FoundRun]):
         if (answer := self.job_result) is None:
             return {}, {}
         run, speeds = answer.run, answer.speeds
-        alpha = FAINT if self._is_of_another(results, answer) else 1.0
+        alpha = FAINT if self._is_of_another_scene(results, answer) else 1.0
         seen = drawn_frequencies(run)
         frequency = run.frequency[seen]
         top = float(frequency[-1])
@@ -220,7 +220,7 @@ class SpeedRunSpectra(SceneJobView[FoundRun]):
             **level_ranges,
         }
 
-    def _is_of_another(self, results: Results, answer: FoundRun) -> bool:
+    def _is_of_another_scene(self, results: Results, answer: SweptRun) -> bool:
         """True if a run belongs to another scene than that on screen."""
         scene = value_range.focused(results.scene, results.focus)
         return not value_range.differ_only_in(scene, answer.run.scene, (answer.speeds,))
@@ -229,20 +229,20 @@ class SpeedRunSpectra(SceneJobView[FoundRun]):
         if self.job_result is None:
             return self.words_of_nothing
         words = words_of(self.job_result)
-        if self._is_of_another(results, self.job_result):
+        if self._is_of_another_scene(results, self.job_result):
             return f"Faint, as the scene has changed since this was computed. Then: {words}"
         return words
 
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)
-        if results is None or results.moving or self._begun or self._jobs is None:
+        if results is None or results.moving or self._first_run_began or self._jobs is None:
             return
         if self.job_result is None and not self._jobs.busy(COMPUTATION):
-            self._begun = True
+            self._first_run_began = True
             with contextlib.suppress(ValueError):  # “Compute all speeds” shows the reason
                 self.begin({**self.job.values, "count": str(FIRST_COUNT)})
 
-    def columns(self, answer: FoundRun) -> dict[str, np.ndarray]:
+    def columns(self, answer: SweptRun) -> dict[str, np.ndarray]:
         run = answer.run
         orbits = np.repeat(run.from_orbit.astype(int), run.frequency.size)
         return {**run.table().in_units({"rad/s": "Hz"}).named(), "from_orbit": orbits}
@@ -253,7 +253,7 @@ def drawn_frequencies(run: SpeedRun) -> NDArray[np.bool_]:
     return run.frequency <= max(HIGHEST, 1.05 * highest(run.bands))
 
 
-def words_of(answer: FoundRun) -> str:
+def words_of(answer: SweptRun) -> str:
     """Say where the housing vibrates most, and how many motions were integrated in time."""
     run, words, seen = answer.run, [], drawn_frequencies(answer.run)
     for dof in SHOWN:
@@ -306,7 +306,7 @@ def compute(job: Work, scene: Scene, speeds: value_range.Sweep) -> str:
                 raise
             return f"{shown} Finer was not begun: speeds must be {error.allowed}."
         if run.completed or not done:
-            job.show(FoundRun(run, grid))
+            job.show(SweptRun(run, grid))
             shown = f"{size} speeds after {time.perf_counter() - started:.1f} s."
             if size == FIRST_COUNT:
                 shown = f"A coarse picture: {shown} “Compute all speeds” makes it finer."

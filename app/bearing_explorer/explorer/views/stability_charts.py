@@ -145,7 +145,7 @@ def step_marks(chart: StabilityChart | None, in_use: float) -> Picture:
         trials = sorted((t for t in chart.trials if t.method == method), key=lambda t: t.step_rate)
         states = [trial.verdict == DIVERGED for trial in trials]
         for i, trial in enumerate(trials):
-            # a method is named at its first trial, and again at the first that diverged
+            # a method is named at its first trial that diverged and at its first other one
             broken, first = states[i], not any(s == states[i] for s in states[:i])
             state = DIVERGED if broken else f"{style.number(trial.amplitude, 3)} of the amplitude"
             why = f"{method}, {style.number(trial.step_rate, 4)} steps/s: {state}"

@@ -130,20 +130,18 @@ class Stiffness(ComparingView):
             put(cell, limits, shares, *terms)
             height = float(cell.y(np.array(value), limits))
             marks.append((float(cell.x(np.array(now_share))), height, cell.bottom, cell.top))
+            # the line of zero, at the edge of the cell if zero is beyond it
             zero = float(np.clip(cell.y(np.array(0.0), limits), cell.bottom, cell.top))
             known = [term[np.isfinite(term)] for term in terms]
             flat.append(any(map(len, known)) and not np.concatenate(known).any())
             heads.append((*limits, value, zero))
 
+        # the last cell: numbers of loaded balls, drawn as steps
         counts = [np.where(e.converged, e.loaded_balls, np.nan) for e in answers]
         low, high = self._ball_limits.fit(*counts)
         limits = (max(0.0, math.floor(low - 0.5)), math.ceil(high + 0.5))
-        put(
-            _BALLS,
-            limits,
-            [_stepped(share) for share in shares],
-            *(np.repeat(count, 2) for count in counts),
-        )
+        steps = [_stepped(share) for share in shares]
+        put(_BALLS, limits, steps, *(np.repeat(count, 2) for count in counts))
         balls = float(now.loaded_balls[0]) if now.converged[0] else math.nan
         height = float(_BALLS.y(np.array(balls), limits))
         marks.append((float(_BALLS.x(np.array(now_share))), height, _BALLS.bottom, _BALLS.top))

@@ -307,19 +307,13 @@ def pass_frequencies(scene: Scene, top: float) -> dict[str, NDArray[np.float64]]
     Columns: the frequency, 1 for the inner race, the number of the row (0 if rows are alike), and
     the error [Hz] if the inside is estimated. The outer race comes first.
     """
-    frequencies, inner, rows = [np.empty(0)], [np.empty(0)], [np.empty(0)]
-    spreads = [np.empty(0)]
+    lines = [np.empty((0, 4))]
     for race, row, first in passed(scene):
         bearing = scene.bearing.of_row(max(row - 1, 0))
         spread = first * bearing.frequency_spread("bpfo" if race == "outer" else "bpfi")
         count = int(top / first) if first > 0.0 else 0
-        frequencies.append(first * np.arange(1.0, count + 1.0))
-        inner.append(np.full(count, float(race == "inner")))
-        rows.append(np.full(count, float(row)))
-        spreads.append(np.full(count, spread))
-    return {
-        "frequency": np.concatenate(frequencies),
-        "inner": np.concatenate(inner),
-        "row": np.concatenate(rows),
-        "spread": np.concatenate(spreads),
-    }
+        line = np.tile([0.0, float(race == "inner"), float(row), spread], (count, 1))
+        line[:, 0] = first * np.arange(1.0, count + 1.0)
+        lines.append(line)
+    columns = np.concatenate(lines).T.copy()
+    return dict(zip(("frequency", "inner", "row", "spread"), columns, strict=True))

@@ -80,18 +80,20 @@ const beside = (i, words, letter, over_lines = false) => {
     }
   }
 }
-const own = names.data
-for (const k of own.name.keys()) {
-  own.text[k] = ""
-  const its = places.map((_, i) => i).filter((i) => own.name[k] && method[i] == own.name[k])
-  for (const [i, over] of [...its.map((i) => [i, false]), ...its.map((i) => [i, true])]) {
-    const place = beside(i, own.name[k], 6.6, over)
+// names of methods: first beside points where they cover no line, then also over lines
+const rows = names.data
+for (const [k, name] of rows.name.entries()) {
+  rows.text[k] = ""
+  const known = places.map((_, i) => i).filter((i) => name && method[i] == name)
+  for (const [i, over] of [...known.map((i) => [i, false]), ...known.map((i) => [i, true])]) {
+    const place = beside(i, name, 6.6, over)
     if (!place) continue
-    ;[own.cost[k], own.error[k], own.text[k]] = [cost[i], error[i], own.name[k]]
-    ;[own.right[k], own.down[k]] = place
+    ;[rows.cost[k], rows.error[k], rows.text[k]] = [cost[i], error[i], name]
+    ;[rows.right[k], rows.down[k]] = place
     break
   }
 }
+// labels of settings, those of the best methods and the one in use first
 const order = places.map((_, i) => i).sort((a, b) => first[b] - first[a])
 for (const i of order) {
   const words = label[i], used = words.startsWith("in use")

@@ -63,7 +63,7 @@ def spec_of(groups: Iterable[str], *choices: Choice) -> dict[str, Any]:
 class Rows(LiveComponent):
     """Sliders, numbers and choices.
 
-    `asked` is called with each change as a dictionary with fields of `SceneChange`.
+    `on_change` is called with each change as a dictionary with fields of `SceneChange`.
     """
 
     spec = param.Dict(default={})
@@ -71,9 +71,9 @@ class Rows(LiveComponent):
 
     _stylesheets: ClassVar[list[str]] = [asset_text("button.css"), asset_text("controls.css")]
 
-    def __init__(self, asked: Callable[[Any], None], **params: Any) -> None:
+    def __init__(self, on_change: Callable[[Any], None], **params: Any) -> None:
         super().__init__(**params)
-        self.on_msg(lambda event: take(asked, SceneChange, event.data))
+        self.on_msg(lambda event: take(on_change, SceneChange, event.data))
 
 
 MAIN = ("extent_deg", "fy_n", "shaft_speed_hz")
@@ -85,7 +85,7 @@ class Controls(Rows):
 
     _esm = scripts("element.js", "asking.js", "rows.js", "bearing_search.js", "controls.js")
 
-    def __init__(self, asked: Callable[[Any], None], **params: Any) -> None:
+    def __init__(self, on_change: Callable[[Any], None], **params: Any) -> None:
         spec = {
             **spec_of(SCENE_GROUPS),
             "main": MAIN,
@@ -94,4 +94,4 @@ class Controls(Rows):
             "defects": "Defect",
             "last": [field.key for field in SHOWN_FIELDS if field.part == "floor"],
         }
-        super().__init__(asked, spec=spec, **params)
+        super().__init__(on_change, spec=spec, **params)

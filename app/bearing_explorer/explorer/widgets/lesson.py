@@ -19,7 +19,7 @@ class LessonPanel(JSComponent):
 
     A scene is set when a lesson begins, and not when its words are shown again.
 
-    `asked` is called with each message as a dictionary with fields of `LessonChange`.
+    `on_message` is called with each message as a dictionary with fields of `LessonChange`.
     """
 
     #: [title, fault of the file or "", name] of each lesson
@@ -33,7 +33,7 @@ class LessonPanel(JSComponent):
     _stylesheets: ClassVar[list[str]] = [asset_text("lesson.css")]
 
     def __init__(
-        self, asked: Callable[[Any], None], lessons: Sequence[Lesson | Fault], **params: Any
+        self, on_message: Callable[[Any], None], lessons: Sequence[Lesson | Fault], **params: Any
     ) -> None:
         titles = [
             [lesson.title, getattr(lesson, "sentence", ""), getattr(lesson, "name", "")]
@@ -44,7 +44,7 @@ class LessonPanel(JSComponent):
         self._begun = 0
         #: stiffness term of the last lesson; empty without one
         self.term = ""
-        self.on_msg(lambda event: take(asked, LessonChange, event.data))
+        self.on_msg(lambda event: take(on_message, LessonChange, event.data))
 
     def begin(self, which: object, *, again: bool = True) -> Lesson | None:
         """Show the lesson with this number or name and return it; None if there is no such lesson.

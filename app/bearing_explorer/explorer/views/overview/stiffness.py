@@ -121,6 +121,7 @@ class OverviewStiffness(ComparingView):
         scales = matrix_cells.term_sizes(
             lambda term: np.concatenate([e.term(term) for e in answers])
         )
+        # a cell for each term that matters, with a trace for each scene and a mark
         lively = lively_terms(results, answers, scales)
         cells = cells_for(len(lively))
         values, ends = np.empty(len(lively)), np.empty((2, len(lively)))

@@ -95,7 +95,7 @@ def _load_and_stiffness(by: Cause, now: Chain, before: Chain, along: str, stiff:
     # a move of the load explains the stiffness only if it changes where balls push back
     text = moved if "push" in why and moved else why
     if not why and not (stiff and by.contacts):
-        text = moved or load_of_one(now, before)
+        text = moved or greatest_load_words(now, before)
     if by.play:
         text = f"{by.play}, {why}" if why else by.play
     if stiff:
@@ -197,8 +197,8 @@ def moved_load(now: Chain, before: Chain, by_defect: bool = False) -> str:
     return ""
 
 
-def load_of_one(now: Chain, before: Chain) -> str:
-    """Change of the load of the most loaded ball."""
+def greatest_load_words(now: Chain, before: Chain) -> str:
+    """Change of the load of the most loaded ball, in words; empty if it is small."""
     grown = _ratio(now.greatest_load, before.greatest_load)
     return f"the greatest load of a ball {_growth(grown)}" if abs(grown) >= LEAST_LOAD else ""
 

@@ -27,7 +27,7 @@ from bearing_explorer.explorer.state.lessons import Fault, Lesson
 from bearing_explorer.explorer.state.references import BEFORE, HEALTHY, Reference
 from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.explorer.state.settings import Settings
-from bearing_explorer.explorer.state.value_range import focused
+from bearing_explorer.explorer.state.value_range import focus_first
 from bearing_explorer.explorer.widgets.controls import Controls, Rows
 from bearing_explorer.explorer.widgets.lesson import LessonPanel
 from bearing_explorer.explorer.widgets.share import ShareBar
@@ -98,7 +98,7 @@ class Explorer(Half):
     @property
     def focused_scene(self) -> Scene:
         """The scene with the selected defect, which the sliders move, as its first."""
-        return focused(self.editor.scene, self.editor.selected)
+        return focus_first(self.editor.scene, self.editor.selected)
 
     def content(self) -> Results:
         before = self._last_state.before
@@ -214,7 +214,7 @@ class Explorer(Half):
     def change_links(self, message: Any) -> None:
         """Take a message of the bar: steps, links, kept and compared scenes, files, a report."""
         if "keep" in message:
-            self.share.answer(kept=self.bookmarks.kept(message["keep"]))
+            self.share.answer(kept=self.bookmarks.kept_scene(message["keep"]))
         if message.get("want") == "toml":
             self.share.answer(file=self.bookmarks.toml())
         if "report" in message:

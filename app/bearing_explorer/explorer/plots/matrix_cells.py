@@ -178,7 +178,7 @@ def term_sizes(term: Callable[[str], NDArray[np.float64]]) -> list[float]:
     return [math.sqrt(tops[i] * tops[j]) or 1.0 for i, j in PLACES]
 
 
-def cleaned(values: np.ndarray, scale: float) -> np.ndarray:
+def clean_noise(values: np.ndarray, scale: float) -> np.ndarray:
     """Values of a term, with zeros for rounding errors of a term that vanishes by symmetry."""
     return np.where(np.abs(values) < NEGLIGIBLE * scale, 0.0, values)
 

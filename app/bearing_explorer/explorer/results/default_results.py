@@ -22,14 +22,14 @@ LARGEST = 500_000
 """Most bytes of a stored result: whole motions are left out, results made of them are not."""
 
 
-def collected() -> dict[tuple[Hashable, ...], Any]:
+def collect() -> dict[tuple[Hashable, ...], Any]:
     """Results in the cache of at most `LARGEST` bytes."""
     return {key: result for key, (result, size) in kept_results().items() if size <= LARGEST}
 
 
 def write(path: Path) -> None:
     """Write the collected results to a file."""
-    path.write_bytes(lzma.compress(pickle.dumps(collected(), protocol=5)))
+    path.write_bytes(lzma.compress(pickle.dumps(collect(), protocol=5)))
 
 
 def read() -> dict[tuple[Hashable, ...], Any]:

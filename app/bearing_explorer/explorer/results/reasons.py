@@ -416,7 +416,7 @@ HEALTHY_SHAKES = (
 """Reason for peaks at the ball-pass frequency that could be taken for the sign of a defect."""
 
 
-def passes(
+def ball_pass_peak(
     spectrum: Spectrum,
     rate: float,
     lowest_mode: float,

@@ -166,7 +166,7 @@ def _known_pairs(text: str) -> tuple[dict[str, str], str]:
 _TAB = re.compile(r"(?:^|[?&])tab=([a-z-]{1,40})(?=&|$)")
 
 
-def opened(text: str, editor: SceneEditor) -> Place:
+def show_text(text: str, editor: SceneEditor) -> Place:
     """Show the place of a text on an editor. It never fails: `note` names a reason instead."""
     tab, note = "", ""
     compared: tuple[Reference, ...] = ()
@@ -272,7 +272,7 @@ def _floor_pairs(floor: object, left_out: bool) -> Iterable[tuple[str, str]]:
         yield "floor", "left-out"
     elif isinstance(floor, MeasuredFloor):
         yield "floor", floor_name(floor)
-        yield "points", packed(floor)
+        yield "points", pack_points(floor)
 
 
 def number_text(field: Field, value: float | None) -> str:
@@ -300,7 +300,7 @@ def _short(value: float) -> str:
 
 
 @lru_cache(maxsize=32)
-def packed(floor: MeasuredFloor) -> str:
+def pack_points(floor: MeasuredFloor) -> str:
     """The points of a floor as a word."""
     numbers = floor.places + floor.depths
     raw = struct.pack(f"<{len(numbers)}d", *numbers)
@@ -427,7 +427,7 @@ def _read_defect(pairs: dict[str, str], usual: Defect) -> Defect:
             **{entry.field: entry.value_of(pairs.get(entry.name, "")) for entry in _FLOOR}
         )
     elif kind == "measured":
-        fields["floor"] = unpacked(pairs.get("points", ""))
+        fields["floor"] = unpack_points(pairs.get("points", ""))
     elif kind in ("flat", "left-out"):
         fields["floor"] = None
     else:
@@ -496,8 +496,8 @@ def _dofs_text(dofs: tuple[str, ...] | str | None) -> str:
     return ".".join(dofs) if isinstance(dofs, tuple) else next(words)
 
 
-def unpacked(word: str) -> MeasuredFloor:
-    """Read the floor of a word of `packed`; ValueError with a sentence for any other text."""
+def unpack_points(word: str) -> MeasuredFloor:
+    """Read the floor of a word of `pack_points`; ValueError with a sentence for any other text."""
     most = 16 * MOST_ROWS
     try:
         squeezed = base64.b64decode(word + "=" * (-len(word) % 4), b"-_", validate=True)

@@ -18,10 +18,10 @@ from bearing_explorer.explorer.state.address import (
     Place,
     leaves_out,
     lesson_in,
-    opened,
     place_of,
     read,
     show_place,
+    show_text,
     write,
 )
 from bearing_explorer.explorer.state.difference import distinct_name
@@ -90,7 +90,7 @@ class Bookmarks:
         self.lesson, address = lesson_in(address)
         #: True if the address names the scene to show
         self.has_scene = bool(address)
-        place = opened(address, editor)
+        place = show_text(address, editor)
         #: name of the section on screen; empty at first if the address has no scene
         self.tab = place.tab
         self._notice = (0, place.note)
@@ -145,7 +145,7 @@ class Bookmarks:
             return True
         if values:
             names = sorted(str(name)[:40] for name in list(values)[:9] if name != CAGE_ANGLE)
-            self._history.moved(now, " ".join(names) or self._history.moving or CAGE_ANGLE)
+            self._history.move(now, " ".join(names) or self._history.moving or CAGE_ANGLE)
         if message.get("released") is True:
             self._history.settle()
         return not self._history.moving
@@ -199,7 +199,7 @@ class Bookmarks:
         words = f"“{name}”" if name else "the scene as it is now"  # its name follows from others
         self.say(f"Dashed {_COLORS[len(self._compared) - 1]}: {words}, for comparison.")
 
-    def kept(self, name: str) -> dict[str, str]:
+    def kept_scene(self, name: str) -> dict[str, str]:
         """The current scene for the browser to keep."""
         return {"name": name_of(name), "text": write(place_of(self._editor))}
 

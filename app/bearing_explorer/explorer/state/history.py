@@ -1,6 +1,6 @@
 """Steps that can be undone and redone.
 
-A whole drag is one step: `moved` follows the drag, and `settle` ends the step. A drag that ends
+A whole drag is one step: `move` follows the drag, and `settle` ends the step. A drag that ends
 where it began is no step.
 """
 
@@ -37,7 +37,7 @@ class History(Generic[State]):
         """True if a step was undone that can be done again."""
         return bool(self._future)
 
-    def moved(self, now: State, control: str) -> None:
+    def move(self, now: State, control: str) -> None:
         """Continue the step that moves `control`, or begin it."""
         if self.moving != control:
             self.settle()

@@ -87,7 +87,7 @@ def usual_range(name: str, limits: Mapping[str, Range]) -> tuple[float, float]:
     return (first, last) if field.read_sign > 0.0 else (-last, -first)
 
 
-def focused(scene: Scene, selected: int) -> Scene:
+def focus_first(scene: Scene, selected: int) -> Scene:
     """Move the `selected` defect of a scene to the front, because sweeps change the first."""
     defects = list(defects_of(scene))
     if len(defects) == 1:

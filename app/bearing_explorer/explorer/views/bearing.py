@@ -29,26 +29,26 @@ from bearingcore.model.scene import ball_angles
 
 # The drawing measures lengths in outer raceway radii, so its ranges never move.
 HALF_WIDTH, OF_A_ROW = 1.62, 1.76  # of one row; of each of several rows, whose numbers need more
-HEIGHT, STILL_HEIGHT = 250, 520  # [px] least height on the page with the colour bar; outside of it
-BAR_START = 0.05  # beyond the outer ring
-BAR_LENGTH = 0.26  # of a ball that carries the greatest load of the colour bar
+HEIGHT, STILL_HEIGHT = 250, 520  # [px] least height with the colour bar: on the page, elsewhere
+BAR_START = 0.05  # gap between the outer ring and the bars
+BAR_LENGTH = 0.26  # of the greatest load on the colour bar
 LOWEST = 1.52  # end of the longest bar, from the middle
 HIGHEST = 1.3  # top of a ring with words above it, from the middle
 ROW_NAMES = 1.5  # distance of the names of rows below their middle
 SIDE_ROOM = 0.55  # room for the number of a bar at 0° or 180°
 NUMBER_RIGHT, NUMBER_UP = 20.0, 13.0  # [px] from the end of a bar to the middle of its number
 NUMBER_HALF, SIDE = 30.0, 1.25  # [px] half the width of a number; start of its bar from the middle
-MOST_NAMED = 4  # balls in a defect; more are counted
+MOST_NAMED = 4  # balls in a defect that are named; more are counted
 LINE_PIXELS = 16.0
 KEYWAY = 0.09  # [rad] half its width
-ARROW_SHORTEST, ARROW_LONGEST = 0.3, 0.88  # of the radius of the bore, at rest
+ARROW_SHORTEST, ARROW_LONGEST = 0.3, 0.88  # shares of the radius of the bore, after a drag
 ARROW_END = 1.45  # from the middle; a longer arrow would leave the figure
 DRAWN_DEPTH = 0.45  # of a ball radius: no defect is drawn deeper
 
 PLACE_AND_SIZE = ("x", "y", "radius")
 POLYGONS = ("rings", "defect", "healthy_loads", "arrow")
 
-# pale to dark, even steps to the eye, distinct to colour-blind eyes and in grey print
+# colours of a ball without load, and of a ball whose load is unknown
 IDLE_BALL = style.PAPER
 NO_VALUE = "#C9CED4"
 
@@ -268,9 +268,9 @@ class BearingDrawing(ComparingView):
             shapes = drawn.all(now.ball_load[0, row_balls], drop, top)
             shapes["healthy_loads"] = drawn.load_rim(*healthy[row], top)
             shapes["handles"] = drawn.handles()
-            several.append(moved(shapes, (2 * row + 1) * half - wide))
+            several.append(shift_shapes(shapes, (2 * row + 1) * half - wide))
         sources = {
-            f"{self.prefix}_{name}": one_after_other(
+            f"{self.prefix}_{name}": join_shapes(
                 [outlines[name] for outlines in several], gaps=name in POLYGONS
             )
             for name in several[0]
@@ -278,14 +278,11 @@ class BearingDrawing(ComparingView):
 
         def rims(other: Results) -> dict[str, NDArray[np.float64]]:
             curves = zip(range(len(rows)), other.load_curves, strict=False)
-            lines = [
-                moved(
-                    {"": Shapes(scene, 0.0, row).load_line(*curve, top)},
-                    (2 * row + 1) * half - wide,
-                )
-                for row, curve in curves
-            ]
-            return one_after_other([line[""] for line in lines], gaps=True)
+            lines = []
+            for row, curve in curves:
+                line = {"": Shapes(scene, 0.0, row).load_line(*curve, top)}
+                lines.append(shift_shapes(line, (2 * row + 1) * half - wide)[""])
+            return join_shapes(lines, gaps=True)
 
         sources |= compared_curves.sources(
             f"{self.prefix}_loads", ("x", "y"), results.compared_results, rims
@@ -346,7 +343,7 @@ def _inside_words(bearing: Bearing, balls: NDArray[np.int64]) -> str:
     return f"; {style.list_words(words)} {'is' if balls.size == 1 else 'are'} in the defect"
 
 
-def moved(shapes: Sources, to_right: float) -> Sources:
+def shift_shapes(shapes: Sources, to_right: float) -> Sources:
     """Move shapes to the right: all their columns of x."""
     return {
         name: {
@@ -357,7 +354,7 @@ def moved(shapes: Sources, to_right: float) -> Sources:
     }
 
 
-def one_after_other(parts: list[dict[str, np.ndarray]], gaps: bool) -> dict[str, np.ndarray]:
+def join_shapes(parts: list[dict[str, np.ndarray]], gaps: bool) -> dict[str, np.ndarray]:
     """Join the columns of several shapes; with `gaps`, polygons have NaN between them."""
     if not gaps:
         return {column: np.concatenate([part[column] for part in parts]) for column in parts[0]}

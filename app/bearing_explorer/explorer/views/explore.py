@@ -20,7 +20,7 @@ from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.explorer.state.value_range import (
     SWEEPABLE,
     Sweep,
-    focused,
+    focus_first,
     sweep,
     usual_range,
     value_of,
@@ -56,7 +56,9 @@ class MapRequest:
 
     def of(self, results: Results) -> explore.Question:
         """The question of this map for a scene."""
-        return explore.Question(focused(results.scene, results.focus), self.x, self.y, self.output)
+        return explore.Question(
+            focus_first(results.scene, results.focus), self.x, self.y, self.output
+        )
 
 
 class ExplorePlane(SceneJobView[explore.Plane]):
@@ -191,7 +193,7 @@ class ExplorePlane(SceneJobView[explore.Plane]):
         self.job_result = plane or self.job_result
         super().say(results, sentence)
         if self.job_result is not None:
-            scene = focused(results.scene, results.focus)
+            scene = focus_first(results.scene, results.focus)
             x, y = (
                 value_of(scene, sweep.field) for sweep in (self.job_result.x, self.job_result.y)
             )

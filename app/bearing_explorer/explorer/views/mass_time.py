@@ -149,7 +149,7 @@ def event_rows(shown: BallMass, start: float, end: float) -> dict[str, np.ndarra
     times[np.abs(times) <= 1e-8] = 0.0
     return {
         "time": times,
-        **passage_view.named(shown.scene.bearing, balls.astype(np.int64)),
+        **passage_view.name_columns(shown.scene.bearing, balls.astype(np.int64)),
         "kind": kinds,
         **passage_view.places_of_labels(
             times.tolist(), start, end, 1.5 * passage_view.LABEL_WIDTH, 1.3

@@ -151,7 +151,7 @@ def event_names(prefix: str, code: str, reads: tuple[str, ...]) -> layers.Layer:
     )
 
 
-def named(bearing: Bearing, balls: NDArray[np.int64]) -> dict[str, np.ndarray]:
+def name_columns(bearing: Bearing, balls: NDArray[np.int64]) -> dict[str, np.ndarray]:
     """Columns that name balls, counted from 0 through all rows; row 0: there is only one row."""
     row, number = np.array([bearing.row_of_ball(ball) for ball in balls.tolist()]).reshape(-1, 2).T
     return {
@@ -168,7 +168,7 @@ def ball_names(balls: NDArray[np.int64], bearing: Bearing) -> dict[str, np.ndarr
     return {
         "from": 0.02 + (LONG_NAME_WIDTH if bearing.rows else NAME_WIDTH) * slots,
         "at": np.full(balls.size, 1.0 - 0.8 * ROW_HEIGHT),
-        **named(bearing, balls),
+        **name_columns(bearing, balls),
         "slot": slots,
     }
 

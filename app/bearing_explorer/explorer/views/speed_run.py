@@ -60,7 +60,7 @@ _ON_PICTURE = {
 """Style of words on the picture."""
 
 
-def expected(dof: str) -> list[layers.Layer]:
+def expected_layers(dof: str) -> list[layers.Layer]:
     """Layers of the natural frequencies' bands along `dof` and of the ball-pass harmonics."""
     bands, names = f"speed_run_bands_{dof}", "speed_run_harmonic_names"
     edge: dict[str, Any] = {"line_color": style.LIGHT, "line_alpha": 0.9, "line_width": 1.0}
@@ -104,7 +104,7 @@ SCENE: list[layers.Layer] = [
     ),
 ]
 """Speeds whose motion was integrated in time, and the speed of this scene."""
-ALL_LAYERS = [*(layer for dof in SHOWN for layer in expected(dof)), *SCENE]
+ALL_LAYERS = [*(layer for dof in SHOWN for layer in expected_layers(dof)), *SCENE]
 
 
 @dataclass(frozen=True)
@@ -154,7 +154,7 @@ class SpeedRunSpectra(SceneJobView[SweptRun]):
             shown = packed.range(f"speed_run_level_{dof}", -80.0, -20.0)
             name, title = f"speed_run_cells_{dof}", f"S{dof} (dB re 1 (m/s²)²/Hz)"
             self._images[dof] = GridImage(plot, packed, name, shown, sides, _SAY, title)
-            marks += layers.add_all(plot, sources, expected(dof))
+            marks += layers.add_all(plot, sources, expected_layers(dof))
             layers.add_all(plot, sources, SCENE)
             plots.append(plot)
         along = layers.switch([f"Along {dof}" for dof in SHOWN], plots, active=1)
@@ -182,7 +182,7 @@ class SpeedRunSpectra(SceneJobView[SweptRun]):
         speeds = value_range.sweep(
             SPEED, given["from"], given["to"], int(given["count"]), editor.limits
         )
-        scene = value_range.focused(editor.scene, editor.selected)
+        scene = value_range.focus_first(editor.scene, editor.selected)
         return lambda job: compute(job, scene, speeds)
 
     # The picture
@@ -222,7 +222,7 @@ class SpeedRunSpectra(SceneJobView[SweptRun]):
 
     def _is_of_another_scene(self, results: Results, answer: SweptRun) -> bool:
         """True if a run belongs to another scene than that on screen."""
-        scene = value_range.focused(results.scene, results.focus)
+        scene = value_range.focus_first(results.scene, results.focus)
         return not value_range.differ_only_in(scene, answer.run.scene, (answer.speeds,))
 
     def sentence(self, results: Results) -> str:

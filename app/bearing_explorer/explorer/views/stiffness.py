@@ -14,7 +14,7 @@ from bokeh.models import ColumnDataSource
 from bokeh.plotting import figure
 
 from bearing_explorer.explorer.plots import compared_curves, matrix_cells
-from bearing_explorer.explorer.plots.matrix_cells import PLACES, UNITS, Cell, cleaned, write
+from bearing_explorer.explorer.plots.matrix_cells import PLACES, UNITS, Cell, clean_noise, write
 from bearing_explorer.explorer.results import reasons
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.views.comparing_view import ComparingView
@@ -122,8 +122,8 @@ class Stiffness(ComparingView):
         for cell, sticky, term, scale in zip(
             _CELLS, self._limits, STIFFNESS_TERMS, scales, strict=True
         ):
-            terms = [cleaned(e.term(term), scale) for e in answers]
-            value = float(cleaned(now.term(term), scale)[0])
+            terms = [clean_noise(e.term(term), scale) for e in answers]
+            value = float(clean_noise(now.term(term), scale)[0])
             limits = matrix_cells.trace_limits(sticky, scale, *terms)
             if term == results.lesson_term:
                 limits = self._limits_of_lesson(term).fit(*terms)

@@ -258,7 +258,7 @@ def loudest_words(results: Results) -> str:
     passing = style.list_words(
         [
             f"of the {race} race{f', row {row},' if row else ''} at {style.number(frequency, 4)} Hz"
-            for race, row, frequency in passed(results.scene)
+            for race, row, frequency in passed_races(results.scene)
         ]
     )
     estimated = ", as estimated" if results.scene.bearing.estimated else ""
@@ -275,16 +275,16 @@ def why_words(results: Results, *, briefly: bool = False) -> str:
     if not peaks:
         return ""
     most = results.late_spectra[max(peaks, key=lambda dof: peaks[dof].level)]
-    rates = [rate for _, _, rate in passed(results.scene)]
+    rates = [rate for _, _, rate in passed_races(results.scene)]
     words = [reasons.peak(results, rates, briefly=briefly)]
     lowest = min((low for low, _ in results.bands.values() if not np.isnan(low)), default=0.0)
-    words.append(reasons.passes(most, min(rates), lowest, briefly=briefly))
+    words.append(reasons.ball_pass_peak(most, min(rates), lowest, briefly=briefly))
     if not results.scene.defects:
         words.insert(len(words) if briefly else 0, reasons.HEALTHY_SHAKES)
     return with_elements_of(results.scene.bearing, " ".join(filter(None, words)))
 
 
-def passed(scene: Scene) -> list[tuple[str, int, float]]:
+def passed_races(scene: Scene) -> list[tuple[str, int, float]]:
     """Races with a defect, and their ball-pass frequencies [Hz]; the outer race without defects.
 
     The number of the row is 0, unless rows are unlike: then each row that meets a defect counts.
@@ -308,7 +308,7 @@ def pass_frequencies(scene: Scene, top: float) -> dict[str, NDArray[np.float64]]
     the error [Hz] if the inside is estimated. The outer race comes first.
     """
     lines = [np.empty((0, 4))]
-    for race, row, first in passed(scene):
+    for race, row, first in passed_races(scene):
         bearing = scene.bearing.of_row(max(row - 1, 0))
         spread = first * bearing.frequency_spread("bpfo" if race == "outer" else "bpfi")
         count = int(top / first) if first > 0.0 else 0

@@ -136,7 +136,9 @@ def event_rows(
     times = [event.time for event in events]
     return {
         "time": np.array(times),
-        **passage_view.named(bearing, np.array([event.ball for event in events], dtype=np.int64)),
+        **passage_view.name_columns(
+            bearing, np.array([event.ball for event in events], dtype=np.int64)
+        ),
         "enters": np.array([float(event.enters) for event in events]),
         **passage_view.places_of_labels(times, start, end, apart=apart),
     }

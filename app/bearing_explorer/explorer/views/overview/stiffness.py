@@ -129,8 +129,8 @@ class OverviewStiffness(ComparingView):
         marks = np.empty((2, len(lively)))
         for i, (cell, index) in enumerate(zip(cells, lively, strict=True)):
             term, scale = STIFFNESS_TERMS[index], scales[index]
-            terms = [matrix_cells.cleaned(answer.term(term), scale) for answer in answers]
-            values[i] = matrix_cells.cleaned(now.term(term), scale)[0]
+            terms = [matrix_cells.clean_noise(answer.term(term), scale) for answer in answers]
+            values[i] = matrix_cells.clean_noise(now.term(term), scale)[0]
             limits = ends[:, i] = matrix_cells.trace_limits(self._limits[index], scale, *terms)
             for trace, shares_of, pick, term_values in zip(
                 traces, shares, picks, terms, strict=True
@@ -179,7 +179,7 @@ def lively_terms(
     free = free_terms(results.equilibrium.dofs)
     terms = []
     for i, (term, scale) in enumerate(zip(STIFFNESS_TERMS, scales, strict=True)):
-        values, *others = (matrix_cells.cleaned(answer.term(term), scale) for answer in answers)
+        values, *others = (matrix_cells.clean_noise(answer.term(term), scale) for answer in answers)
         if term in free and (
             term in reasons.RADIAL or any(is_lively(values, other, scale) for other in others)
         ):

@@ -21,7 +21,7 @@ from bearing_explorer.diagnosis.views.frequency_lines import row_frequencies
 from bearing_explorer.explorer.messages import LessonChange
 from bearing_explorer.explorer.state.lessons import Lesson
 from bearing_explorer.explorer.state.scene_editor import SceneEditor
-from bearing_explorer.explorer.views.vibration_spectrum import pass_frequencies, passed
+from bearing_explorer.explorer.views.vibration_spectrum import pass_frequencies, passed_races
 from bearing_explorer.kit.messages import take
 from bearing_explorer.page import Halves, lessons_of
 
@@ -96,13 +96,13 @@ def test_lines_of_an_estimated_inside_have_their_error() -> None:
 
 def test_rows_that_are_not_alike_have_pass_frequencies_of_their_own() -> None:
     pair = presets["7208-back-to-back"]
-    assert len(passed(pair)) == 1
+    assert len(passed_races(pair)) == 1
     low, high = pair.bearing.rows
     rows = (low, dataclasses.replace(high, n_balls=11))
     scene = pair.replace(bearing=pair.bearing.replace(rows=rows), row=None)
     rates = [scene.bearing.of_row(k).bpfo(scene.shaft_speed) for k in range(2)]
-    assert passed(scene) == [("outer", 1, rates[0]), ("outer", 2, rates[1])]
-    assert passed(scene.replace(row=1)) == [("outer", 2, rates[1])]
+    assert passed_races(scene) == [("outer", 1, rates[0]), ("outer", 2, rates[1])]
+    assert passed_races(scene.replace(row=1)) == [("outer", 2, rates[1])]
     columns = frequency_lines.columns("own", row_frequencies(scene), ("bpfo",), 3000.0, 400.0)
     names = columns["own_bpfo_names"]
     assert set(names["of"]) == {1.0, 2.0}

@@ -1,4 +1,4 @@
-"""Front of the scene's half for the page: tabs, session, lessons, help, compiled kernels."""
+"""Names of the scene's half that the page uses: tabs, session, lessons, help, kernels."""
 
 from __future__ import annotations
 
@@ -83,16 +83,16 @@ SECTIONS = (
 """Tabs of the scene, and their parts."""
 
 EXPLAINED = ("Defect", "Turning", "Load", "Balls", "Rows", "Drawing", "Contact", "Races", "Bodies")
-"""Groups of fields in the glossary of the help; the others are springs and dampers."""
+"""Groups of fields in the glossary of the help; the other groups are springs and dampers."""
 
 
 def begin_compiling(**report: Callable[..., object]) -> None:
-    """Begin `compiling`; until it ends, the results that come with the program are drawn."""
+    """Begin to compile the kernels; until that ends, the stored default results are drawn."""
     compiling.begin(default_results.keep, **report)
 
 
 def help_texts() -> dict[str, str]:
-    """Parts of the page's help that are about the scene, as HTML by their names."""
+    """Parts of the page's help about the scene: HTML by name."""
     return {
         "glossary": _quantities(),
         "bearing_picture": bearing_picture(presets["fan-rig"].bearing),

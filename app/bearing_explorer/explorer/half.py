@@ -1,7 +1,7 @@
 """The scene's half of a session: messages -> controls -> Scene -> Results -> views.
 
-Messages have a known form: `messages.take` drops all that the scripts of the page do not send. The
-words and numbers in them are not trusted.
+Messages have a known form: `messages.take` drops everything that the page's scripts do not send.
+Words and numbers in messages are not trusted.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from bearing_explorer.explorer.state.lessons import Fault, Lesson
 from bearing_explorer.explorer.state.references import BEFORE, HEALTHY, Reference
 from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.explorer.state.settings import Settings
-from bearing_explorer.explorer.state.value_range import focused
+from bearing_explorer.explorer.state.value_range import focus_first
 from bearing_explorer.explorer.widgets.controls import Controls, Rows
 from bearing_explorer.explorer.widgets.lesson import LessonPanel
 from bearing_explorer.explorer.widgets.share import ShareBar
@@ -42,18 +42,18 @@ log = logging.getLogger(__name__)
 
 
 class Explorer(Half):
-    """The scene of a session, the panels that change it, and what its views draw of it.
+    """The scene of a session, with the controls, links and lessons that change it.
 
-    Its views are attached to it: they read `editor` and call its methods.
+    The views of its tabs read `editor` and call its methods.
 
     Parameters
     ----------
     sections
-        its tabs.
+        tabs of this half.
     address
         the query of the page's address; it is not trusted.
     lessons
-        those that the page offers.
+        lessons that the page offers, with a `Fault` for each file that cannot be read.
     """
 
     kind_of_content = Results
@@ -75,8 +75,8 @@ class Explorer(Half):
         self.mark = 0
         self.share = ShareBar(self.change_links, state=self.bookmarks.state())
         self.lesson = LessonPanel(self.change_lesson, lessons)
-        #: returns the maker of the report on the measured signal, or why there is none; and
-        #: simulates a measurement of the scene. The page sets them, where it has that half
+        #: returns a function that makes the report on the measured signal, or a reason why there is
+        #: none. The page sets this and `simulate`, which simulates a measurement of the scene
         self.report_on_signal: Callable[[About], Callable[[], dict[str, Any]] | str] = lambda _: (
             "this page has no Diagnosis."
         )
@@ -92,13 +92,13 @@ class Explorer(Half):
 
     @property
     def scene(self) -> Scene:
-        """The scene as the controls have it."""
+        """The scene that the controls show."""
         return self.editor.scene
 
     @property
     def focused_scene(self) -> Scene:
-        """The scene with the defect that the sliders move in first place."""
-        return focused(self.editor.scene, self.editor.selected)
+        """The scene with the selected defect, which the sliders move, as its first."""
+        return focus_first(self.editor.scene, self.editor.selected)
 
     def content(self) -> Results:
         before = self._last_state.before
@@ -144,7 +144,7 @@ class Explorer(Half):
             panel.send(news)
 
     def show_links(self) -> None:
-        """Bring the bar up to date: the address, and what can be undone."""
+        """Update the bar above the controls: the address, and the steps that can be undone."""
         if self.share.state != (state := self.bookmarks.state()):
             self.share.state = state
 
@@ -161,12 +161,12 @@ class Explorer(Half):
             return
         self.mark = message.get("mark", self.mark)
         if compiling.STATICS in compiling.left():
-            self.draw()  # sliders do not move yet, and the mark is answered
+            self.draw()  # the scene stays as it is, but the browser waits for its mark
             return
         try:
             if "reset" in message:
                 self.editor.take_preset(self.editor.preset)
-                self._last_state = LastState(self.scene)  # no change with an effect of its own
+                self._last_state = LastState(self.scene)  # a reset is no change to explain
                 self.show_controls(state=self.editor.state())
             if "choose" in message:
                 refused = self.editor.choose(message["choose"])
@@ -185,9 +185,9 @@ class Explorer(Half):
             self.draw()  # even a refusal is answered, or the browser would wait for its mark
 
     def _set(self, numbers: Mapping[Any, Any], confirm: bool) -> None:
-        """Take numbers; a refused one stays unchanged, with a sentence.
+        """Set numbers; a refused number keeps its value, and a sentence says why.
 
-        A slider knows its position; a typed number is confirmed as it was read.
+        `confirm` sends the numbers back as they were read; a slider knows its position.
         """
         editor = self.editor
         was_changed, had_effects = editor.changed, editor.effects
@@ -203,7 +203,7 @@ class Explorer(Half):
             self.show_controls(refused=refused)
 
     def _take_place(self, request: OpenRequest, place: Place | str) -> None:
-        """Open or compare a place; show the reason where there is none."""
+        """Open or compare a place; if it is a sentence instead, show that."""
         self.bookmarks.take(request, place)
         self.show_controls(state=self.editor.state())
         self.show_links()
@@ -214,7 +214,7 @@ class Explorer(Half):
     def change_links(self, message: Any) -> None:
         """Take a message of the bar: steps, links, kept and compared scenes, files, a report."""
         if "keep" in message:
-            self.share.answer(kept=self.bookmarks.kept(message["keep"]))
+            self.share.answer(kept=self.bookmarks.kept_scene(message["keep"]))
         if message.get("want") == "toml":
             self.share.answer(file=self.bookmarks.toml())
         if "report" in message:
@@ -224,13 +224,13 @@ class Explorer(Half):
         if self.bookmarks.go(message):
             self.show_controls(state=self.editor.state())
         self.bookmarks.change_compared(message)
-        if (wanted := open_request_of(message)) is not None:
+        if (request := open_request_of(message)) is not None:
             self.jobs.answer(
                 OPENING,
-                lambda: read_request(wanted),
-                lambda place: self._take_place(wanted, place),
+                lambda: read_request(request),
+                lambda place: self._take_place(request, place),
             )
-        self.change_scene(message)  # the mark, and a reset
+        self.change_scene(message)  # for the mark, and a reset
 
     def open_link(self, name: str, text: str) -> None:
         """Open the scene and the tab of a link that comes with the page."""
@@ -242,7 +242,7 @@ class Explorer(Half):
     def _report(self, base: str, words: Mapping[Any, Any]) -> None:
         """Make the report on the measured signal; `base` is the page's address without its query.
 
-        `words` may hold a title, the machine and remarks.
+        `words` may contain a title, the machine and remarks.
         """
         title, machine, remarks = (words.get(name, "") for name in ("title", "machine", "remarks"))
         link = f"{base}?{self.bookmarks.state()['address']}"
@@ -260,17 +260,17 @@ class Explorer(Half):
                 log.exception("a report failed")
                 return None
 
-        self.jobs.answer(REPORT, report, lambda made: self.share.answer(report=made))
+        self.jobs.answer(REPORT, report, lambda file: self.share.answer(report=file))
 
     # Lessons
 
     def _open_lesson_of_link(self) -> None:
-        """Open the lesson of the address, by name or number, with its scene if there is none."""
+        """Open the lesson that the address names, with its scene if the address has no scene."""
         name = self.bookmarks.lesson
         if not name:
             return
-        number = name.isdecimal() and len(name) < 4  # Python refuses thousands of digits
-        lesson = self.lesson.begin(int(name) - 1 if number else name)
+        is_number = name.isdecimal() and len(name) < 4  # Python refuses thousands of digits
+        lesson = self.lesson.begin(int(name) - 1 if is_number else name)
         if lesson is None:
             self.bookmarks.lesson = ""
             self.bookmarks.say(f"There is no lesson “{name}” here.")
@@ -283,7 +283,7 @@ class Explorer(Half):
         self.share.state = self.bookmarks.state()
 
     def change_lesson(self, message: Any) -> None:
-        """A lesson begins, is shown again or closed, or a button among its words is pressed."""
+        """Take a message of the lessons: begin, show or close one, or press one of its buttons."""
         words_only = "words_only" in message
         closed = message.get("lesson") == ""
         lesson = self.lesson.begin(message.get("lesson"), again=not words_only)
@@ -295,6 +295,6 @@ class Explorer(Half):
                 lesson.begin(self.editor)
                 self.show_controls(state=self.editor.state())
             self.page.show_tab(message if lesson is None else {"show": lesson.tab})
-        self.change_scene(message)  # the mark, and what a button changes
+        self.change_scene(message)  # for the mark, and the changes of a button
         if "simulate" in message and begins:
             self.simulate(message["simulate"]["noise"])

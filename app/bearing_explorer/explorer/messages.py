@@ -10,7 +10,7 @@ Mark = Annotated[int, msgspec.Meta(ge=0, lt=2**24)]
 
 
 class TextFile(msgspec.Struct):
-    """A text file that was chosen, or a scene that was kept: its name and its text."""
+    """Name and text of a file that a person chose, or of a scene that the browser has kept."""
 
     name: str
     text: str
@@ -22,16 +22,16 @@ class SceneChange(msgspec.Struct, omit_defaults=True):
     Attributes
     ----------
     mark
-        number of the change; the picture that shows it carries the same.
+        number of the change; the picture that shows it carries the same number.
     set, typed, second
-        numbers by the keys of their fields, in the units of the page: dragged, or as text, or as
-        text in the second unit of the field.
+        numbers by the keys of their fields: dragged, in the units of the page; typed; or typed in
+        the second unit of the field.
     choose
         options by the names of their lists.
     released
-        whether a drag has ended with it, as one step to undo.
+        True if a drag ends with this change; the drag is one step to undo.
     turning
-        whether the bearing turns by itself, which is no step to undo.
+        True if the bearing turns by itself, which is no step to undo.
     search
         text for which bearings are searched; it changes nothing, and has no mark.
     """
@@ -53,18 +53,18 @@ class LinksChange(SceneChange, omit_defaults=True):
     Attributes
     ----------
     open, file, compare
-        a scene that is to be opened, from the browser or from a file, or drawn too.
+        a kept scene to be opened; a file to be opened; a scene to be compared.
     compare_here
-        the name under which the current scene is drawn too; empty for the usual one.
+        name under which the current scene is compared; empty for the usual name.
     number
         number of the compared scene to `remove`.
     keep
-        the name under which the browser keeps the current scene.
+        name under which the browser keeps the current scene.
     want
-        kind of a file to download.
+        kind of the file to download.
     report
-        address of the page, for the link in the report on the measured signal; `title`, `machine`
-        and `remarks` go in it.
+        address of the page, for the link in the report on the measured signal. The report also
+        contains `title`, `machine` and `remarks`.
     """
 
     undo: bool = False
@@ -84,20 +84,20 @@ class LinksChange(SceneChange, omit_defaults=True):
 
 
 class Simulation(msgspec.Struct):
-    """A simulated measurement, by the name of its noise."""
+    """A request to simulate a measurement, with the name of its noise."""
 
     noise: str
 
 
 class LessonChange(SceneChange, omit_defaults=True):
-    """A lesson begins, its words are shown, or a button among them is pressed.
+    """A message of the lessons: one begins, its words are shown, or one of its buttons is pressed.
 
     Attributes
     ----------
     lesson
-        number or name; the empty name closes it.
+        number or name of a lesson; an empty name closes the open one.
     words_only
-        whether its scene stays unset.
+        True if the lesson is shown but its scene is not set.
     show
         name of a tab to open.
     simulate

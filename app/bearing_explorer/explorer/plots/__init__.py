@@ -1,1 +1,1 @@
-"""Drawing that is of scenes alone."""
+"""Parts of figures that only views of scenes use."""

@@ -18,16 +18,16 @@ COLORS = ("#009E73", "#AA3377", "#661100", "#56B4E9")
 DASHES: tuple[tuple[int, ...], ...] = ((8, 3), (3, 2), (9, 3, 2, 3), (14, 4))
 
 THIN = "thin: x, horizontal"
-"""Tag of a figure that has two curves a scene, with the horizontal one thin; its key says so."""
+"""Tag of a figure with two curves for each scene, the horizontal one thin; its key says so."""
 
 _SLOT = "_compared_"
 _LONGEST_NAME = 28
 
 
 def curves(name: str, x: str, *ys: str, width: float = 1.6, thin: str = "") -> list[Glyph]:
-    """Layers: for each compared scene its columns `ys` over `x`, of the sources of `sources`.
+    """Layers that draw the columns `ys` over `x` for each compared scene; see `sources`.
 
-    `thin`: the one of `ys` that has half the width.
+    `thin`: the column of `ys` that is drawn with half the width.
     """
     return [
         curve(f"{name}{_SLOT}{slot}", x, y, color, 0.5 * width if y == thin else width, dash)
@@ -37,7 +37,7 @@ def curves(name: str, x: str, *ys: str, width: float = 1.6, thin: str = "") -> l
 
 
 def bands(name: str, *, level: bool = False) -> list[Glyph]:
-    """Layers: for each compared scene strips from ``low`` to ``high``."""
+    """Layers that draw strips from ``low`` to ``high`` for each compared scene."""
     return [
         strips(f"{name}{_SLOT}{slot}", color, 0.10, level=level)
         for slot, color in enumerate(COLORS)
@@ -50,7 +50,7 @@ def sources(
     compared: Iterable[Other],
     compute: Callable[[Other], Mapping[str, np.ndarray]],
 ) -> dict[str, dict[str, np.ndarray]]:
-    """Sources of the layers, `columns` by `compute`; empty where a scene has no such curve."""
+    """Sources of the layers, with the `columns` of `compute`; empty if that raises ValueError."""
     nothing = dict.fromkeys(columns, np.zeros(0))
     curves: list[dict[str, np.ndarray]] = []
     for other in compared:
@@ -69,10 +69,10 @@ def numbers(drawn: Mapping[str, Mapping[str, np.ndarray]], column: str) -> np.nd
 
 
 class CurveKey:
-    """The names of the compared scenes above a figure, with their lines.
+    """Key above a figure: the names of the compared scenes with their lines.
 
-    It is part of the figure: what is exported has it too. A figure without such curves has no
-    `items`.
+    It is part of the figure, so exported figures have it too. A figure without such curves has
+    no `items`.
     """
 
     def __init__(self, plot: Plot) -> None:
@@ -91,13 +91,13 @@ class CurveKey:
             plot.add_layout(self._legend, "above")
 
     def show(self, names: Sequence[str]) -> None:
-        """Show these names; none hides the key."""
+        """Show the names of the compared scenes; without names the key is hidden."""
         shown = [_short(name) + self._note for name in names]
         if shown == [item.label.value for item in self.items if item.visible]:
             return
         for slot, item in enumerate(self.items):
-            known = slot < len(shown)
-            item.update(label={"value": shown[slot] if known else ""}, visible=known)
+            visible = slot < len(shown)
+            item.update(label={"value": shown[slot] if visible else ""}, visible=visible)
         self._legend.visible = bool(shown)
 
 

@@ -1,4 +1,4 @@
-"""Bands of natural frequencies over spectra: their columns, names and the places of those."""
+"""Bands of natural frequencies over spectra: their columns, names and places of the names."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from bearing_explorer.kit.plots import style
 
-LABEL_WIDTH = 0.17  # that a name needs of the width of a spectrum
+LABEL_WIDTH = 0.17  # of a name, as a share of the width of a spectrum
 
 BAND_NAME = """
 const name = ['x', 'y', 'z', 'θx', 'θy'][row.direction] + '₀₁₂₃₄₅₆₇₈₉'[row.number]
@@ -19,7 +19,7 @@ const low = row.low.toFixed(0), high = row.high.toFixed(0)
 return low == high ? `${name} ${low} Hz` : `${name} ${low}–${high} Hz`
 """
 SHORT_BAND_WORDS = f"{BAND_NAME}\nif (narrow) return name\n{BAND_SPAN}"
-"""Name and span of a band, for `layers.Words` that fit."""
+"""JavaScript of `layers.Words`: name and span of a band; only the name in a narrow frame."""
 
 
 def band_rows(bands: Mapping[str, tuple[float, float]]) -> dict[str, np.ndarray]:
@@ -50,13 +50,13 @@ def bands_along(
 def spread(
     places: NDArray[np.float64], apart: float, lowest: float, highest: float
 ) -> NDArray[np.float64]:
-    """`places` moved as little as it takes to be at least `apart` and stay within the limits.
+    """Move `places` as little as possible: at least `apart` from each other, within the limits.
 
-    Neighbours that are too close become a group around the mean of where they want to be; groups
-    that meet join. Where there are too many for the room they keep the distance and overrun it.
+    Neighbours that are too close become a group around the mean of their places; groups that meet
+    are joined. If the room is too small for all, they keep their distance and overrun the limit.
     """
     order = np.argsort(places, kind="stable")
-    groups: list[list[float]] = []  # wanted places, lowest first
+    groups: list[list[float]] = []  # of the places as given, lowest first
     for place in places[order]:
         groups.append([float(place)])
         while len(groups) > 1 and _bottom(groups[-1], apart, lowest, highest) < (
@@ -75,7 +75,7 @@ def spread(
 
 
 def _bottom(group: list[float], apart: float, lowest: float, highest: float) -> float:
-    """Place of the lowest of a group."""
+    """Moved place of the lowest member of a group, whose members are `apart`."""
     height = apart * (len(group) - 1)
     wanted = float(np.mean(group)) - 0.5 * height
     return max(min(wanted, highest - 0.5 * apart - height), lowest + 0.5 * apart)

@@ -1,10 +1,10 @@
 """The drawing of the symmetric 5×5 stiffness matrix: a cell for each of its 15 terms.
 
-One canvas instead of fifteen: column j and row i of the matrix are the unit square at (j, -i). That
-paints several times faster than a figure for each term, and shows where in the matrix each stands.
-Below the diagonal, where the matrix only repeats itself, is room for the number of loaded balls.
-The numbers of a cell are next to it, out of sight while the cell fills the frame: then the
-drawing's own axes show, with the numbers of the cells in view, see cell_axes.js.
+All cells share one canvas: column j and row i of the matrix are the unit square at (j, -i). One
+canvas paints several times faster than a figure for each term, and shows the place of each term in
+the matrix. The matrix only repeats itself below the diagonal, so the number of loaded balls is
+drawn there. The numbers of a cell are written beside it. When a cell is enlarged they are out of
+sight; the drawing's own axes then show the numbers of the cells in view (cell_axes.js).
 """
 
 from __future__ import annotations
@@ -31,14 +31,14 @@ from bearingcore.model.statics import TERM_SYMBOLS, crossings
 UNITS = ("N/m", "N/rad", "N·m/rad")
 """Units of stiffness with no, one and two rotations."""
 NEGLIGIBLE = 1e-6
-"""Share of the geometric mean of the two diagonal terms: less is rounding, not coupling."""
+"""A term below this share of the geometric mean of its two diagonal terms is rounding error."""
 ZEROS = ("", "0 by symmetry", "0: not resisted")
 """Why a cell is empty; see `zero_kinds`."""
 
 PLACES = [(i, j) for i in range(5) for j in range(i, 5)]
 """Row and column of each term."""
 SYMBOLS = list(TERM_SYMBOLS.values())
-"""Symbols of the terms; what follows the space is a subscript."""
+"""Symbols of the terms; the part after the space is a subscript."""
 NAMES = [*SYMBOLS, "Loaded balls"]
 """Names of the cells."""
 SIDES = ("left", "right", "bottom", "top")
@@ -79,7 +79,7 @@ def named_cells(cells: Sequence[Cell]) -> list[Named]:
 
 
 def enlarge_on_click(plot: figure) -> None:
-    """Let a click on a cell fill the screen with it, see enlarge.js."""
+    """Let a click on a cell enlarge it to the whole screen (enlarge.js)."""
     code = """
 const detail = {figure: plot.id, x: cb_obj.x, y: cb_obj.y}
 window.dispatchEvent(new CustomEvent("explorer-cell", {detail}))
@@ -94,13 +94,13 @@ def matrix_figure(
     least_width: int = 340,
     **options: Any,
 ) -> figure:
-    """A figure for cells, with further styles; on a phone `scrolled` lets it scroll in its card.
+    """Make a figure for cells; `looks` are further styles.
 
-    `least_width` [px] is that at which its words have room.
+    Its words need the `least_width` [px]; on a phone `scrolled` lets it scroll in its card.
     """
     plot = style.bare_figure(models.Range1d(*x), models.Range1d(*y), **options)
     plot.toolbar_location = "left"  # on the right it would lie on the last column
-    # as a property of the figure Panel would give the width to the whole card
+    # Panel would give a `min_width` of the figure to the whole card, so a style sheet sets it
     plot.min_width = None
     least = f"min-width: var(--matrix-width, {least_width}px);"
     plot.stylesheets = [f":host {{ {least} }} {looks}"]
@@ -123,13 +123,13 @@ def write(
     fitting: Any = 0.0,
     **look: Any,
 ) -> None:
-    """Small words at the places x, y of a source, by `code`, see `layers.Words`."""
+    """Write small words at x, y of a source; JavaScript `code` returns them (`layers.Words`)."""
     look = {"text_color": style.FAINT_INK, "text_baseline": "bottom", **look}
     Words("", x, y, code, fitting=fitting, look=look).add(plot, source)
 
 
 def write_names(plot: figure, cells: Sequence[Cell]) -> None:
-    """The symbols of the terms above their cells, and the name of the last cell."""
+    """Write the symbols of the terms above their cells, and the name of the last cell."""
     *terms, balls = cells
     source = models.ColumnDataSource(
         {
@@ -152,14 +152,14 @@ def crossing_layer(source: str) -> Glyph:
 
 
 def crossing_lines(results: Results, cells: Sequence[Cell]) -> dict[str, NDArray[np.float64]]:
-    """Upright lines in cells over the cage angle where an element passes an edge of a defect.
+    """Vertical lines in cells at the cage angles at which an element passes an edge of a defect.
 
-    Its number is negative where every element in turn passes at the same place.
+    `element` is its number, negative if every element in turn passes at the same place.
     """
     first, last, _ = results.stretch
-    met = crossings(results.scene, first, last)
-    share = np.array([(event.cage_angle - first) / (last - first) for event in met])
-    number = np.array([event.ball + 1.0 for event in met])
+    events = crossings(results.scene, first, last)
+    share = np.array([(event.cage_angle - first) / (last - first) for event in events])
+    number = np.array([event.ball + 1.0 for event in events])
     x = np.concatenate([cell.x(share) for cell in cells])
     low, high = (np.repeat([getattr(c, side) for c in cells], share.size) for side in SIDES[2:])
     element = np.tile(number if results.over_shaft else -number, len(cells))
@@ -167,9 +167,9 @@ def crossing_lines(results: Results, cells: Sequence[Cell]) -> dict[str, NDArray
 
 
 def term_sizes(term: Callable[[str], NDArray[np.float64]]) -> list[float]:
-    """Return the size that counts as one for each term: the mean of its two diagonal terms.
+    """Return the scale of each term: the geometric mean of the tops of its two diagonal terms.
 
-    `term` gives the numbers that are shown of a term, by its name.
+    `term` returns the shown numbers of a term by its name.
     """
     tops = []
     for dof in DOF_NAMES:
@@ -178,19 +178,19 @@ def term_sizes(term: Callable[[str], NDArray[np.float64]]) -> list[float]:
     return [math.sqrt(tops[i] * tops[j]) or 1.0 for i, j in PLACES]
 
 
-def cleaned(values: np.ndarray, scale: float) -> np.ndarray:
-    """Rounding noise of a term that vanishes by symmetry, drawn as the zero that it is."""
+def clean_noise(values: np.ndarray, scale: float) -> np.ndarray:
+    """Values of a term, with zeros for rounding errors of a term that vanishes by symmetry."""
     return np.where(np.abs(values) < NEGLIGIBLE * scale, 0.0, values)
 
 
 def zero_kinds(flat: Sequence[bool]) -> list[int]:
-    """Places in ZEROS of terms, which vanish where `flat`: a diagonal term not by symmetry."""
+    """Index into ZEROS of each term: 1 if it is `flat` (zero), 2 if a direction is not resisted."""
     idle = {i for (i, j), zero in zip(PLACES, flat, strict=True) if zero and i == j}
     return [zero + bool(zero and idle & {*place}) for place, zero in zip(PLACES, flat, strict=True)]
 
 
 def trace_limits(sticky: StickyRange, scale: float, *traces: np.ndarray) -> tuple[float, float]:
-    """Least and greatest value that a cell shows of a term whose size is `scale`; NaN for none."""
+    """Ends of the axis of a cell whose term has the size `scale`; NaN without finite values."""
     finite = np.concatenate(traces)
     finite = finite[np.isfinite(finite)]
     if not finite.size:
@@ -218,20 +218,20 @@ def axes_when_zoomed(
     cells
         one for each of NAMES.
     scale_of
-        JavaScript: body of a function of `k`, a cell, which returns the quantities of its sides:
-        ``{x: side, y: side}``, each ``{first, last, factor, unit, words}``. What is written is a
-        place over `factor`; empty `words` stand for the name of the cell.
+        JavaScript body of a function of `k`, the number of a cell. It returns the quantities of its
+        sides, ``{x: side, y: side}``, each ``{first, last, factor, unit, words}``. The axis writes
+        places divided by `factor`; empty `words` stand for the name of the cell.
     sources
-        sources whose news change that; the function knows them as `sources`.
+        sources whose new data may change these; the function finds them under this name.
     known
-        further models that it knows.
+        further models of the function, by name.
     """
     axes = []
     for axis in (plot.xaxis[0], plot.yaxis[0]):
         shown = models.ColumnDataSource({"at": [], "words": []}, syncable=False)
         axis.ticker = models.FixedTicker(ticks=[], minor_ticks=[], syncable=False)
         axis.formatter = models.CustomJSTickFormatter(args={"shown": shown}, code=_TICK_WORDS)
-        axis.syncable = False  # it is the browser that shows and hides it
+        axis.syncable = False  # only the browser shows and hides it
         axes.append([axis, axis.ticker, shown])
     follow = models.CustomJS(
         args={

@@ -1,8 +1,8 @@
 """A map over two quantities, with a curve across it each way, as HoloViews.
 
-`layout_of` returns the objects, for a notebook. `PlaneFigures` is the same on a page: HoloViews
-makes its plots once and tells it where the pointer is; later maps go into the sources of these
-plots, as elements that a stream makes anew take twice as long as all else until they are painted.
+`layout_of` returns the objects, for a notebook. `PlaneFigures` draws the same on a page: HoloViews
+makes the plots once and reports where the pointer is. Later maps go straight into the sources of
+these plots, because new elements from a stream take twice as long as all the rest of a change.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
 
 import holoviews as hv
-import holoviews.plotting.bokeh  # what `opts` may say
+import holoviews.plotting.bokeh  # registers the options of `opts`
 import numpy as np
 from bokeh.models import CustomJSHover, HoverTool, Range1d
 from bokeh.plotting import figure
@@ -31,7 +31,7 @@ from bearingcore.fields import FIELD_OF
 if TYPE_CHECKING:
     from xarray import DataArray
 
-hv.Store.set_current_backend("bokeh")  # hv.extension would ask other computers
+hv.Store.set_current_backend("bokeh")  # hv.extension would make network requests
 SECOND_CLICK = 0.32
 """Time [s] that a click on a zoomed map waits for a second click."""
 WAYS = ("up", "across")
@@ -45,7 +45,7 @@ _TOOLTIP = f'<div style="{style.HTML_FONT}">{{}}</div>'
 
 @dataclass(frozen=True, eq=False)
 class Field:
-    """Numbers over a plane.
+    """Numbers over a plane of two quantities.
 
     Attributes
     ----------
@@ -56,7 +56,7 @@ class Field:
     values : (ny, nx)
         NaN where there is no answer.
     reasons : (ny, nx)
-        why there is none.
+        why there is no answer.
     """
 
     x: tuple[Side, NDArray[np.float64]]
@@ -70,10 +70,7 @@ class Field:
     def of_sweep(cls, output: DataArray) -> Field:
         """One output of a sweep over two fields, angles in degrees.
 
-        Raises
-        ------
-        ValueError
-            for another number of fields, or values that are not evenly spaced.
+        ValueError for another number of fields, or values that are not evenly spaced.
         """
         if output.ndim != 2:
             raise ValueError(f"dimensions are {output.dims}; allowed: two, choose with .sel(...)")
@@ -88,7 +85,7 @@ class Field:
 
     @cached_property
     def scaled(self) -> tuple[NDArray[np.float64], str]:
-        """The numbers with an SI prefix for the greatest of them, and their unit with it."""
+        """The numbers in the unit with the SI prefix that suits the greatest one, and that unit."""
         if self.unit in _NO_PREFIX:
             return self.values, self.unit
         power = prefix_power(float(np.nanmax(np.abs(self.values), initial=0.0)))
@@ -116,7 +113,7 @@ class Field:
         return {**ends_of_cells, "reason": reasons}
 
     def cell_at(self, x: float | None, y: float | None) -> tuple[int, int] | None:
-        """Row and column of the cell at a place; None where that is beside the map or nowhere."""
+        """Row and column of the cell at a place; None beside the map, or without a place."""
         if x is None or y is None:
             return None
         (left, right), (bottom, top) = self.bounds
@@ -152,7 +149,7 @@ def _page_numbers(output: DataArray) -> tuple[tuple[str, str, str], NDArray[np.f
 
 
 def tooltip(field: Field) -> str:
-    """The text under the pointer: both places and the number, short, so that it covers no axis."""
+    """The text at the pointer: coordinates and number, short, so that it covers no axis."""
     numbers = ("$x", field.x[0].unit), ("$y", field.y[0].unit), ("@image", field.scaled[1])
     x, y, value = (f"{n}{{custom}}{'' if u == '°' else ' '}{u}" for n, u in numbers)
     return _TOOLTIP.format(f"{x}, {y}<br><b>{value}</b>")
@@ -166,7 +163,7 @@ def dimensions(field: Field) -> list[hv.Dimension]:
 
 
 def map_of(field: Field) -> hv.Overlay:
-    """The map, hatched where there is no answer, and rings for a mark, which is nowhere."""
+    """The map, hatched where there is no answer, with rings for a mark that has no place yet."""
     x, y, value = dimensions(field)
     low, high = color_limits(field.scaled[0])
     image = hv.Image((field.x[1], field.y[1], field.scaled[0]), [x, y], value).opts(
@@ -200,7 +197,7 @@ def _hatch(plot: Any, _: hv.Rectangles) -> None:
 
 
 def section_of(field: Field, way: str, x: float | None = None, y: float | None = None) -> hv.Curve:
-    """The curve through a place, "up" or "across"; through the middle where that is nowhere."""
+    """The section "up" or "across" through a place; without a place, through the middle."""
     places, values, title = field.section(way, field.cell_at(x, y))
     side, value = dimensions(field)[way == "up"], dimensions(field)[2]
     return hv.Curve((places, values), side, value).opts(
@@ -220,9 +217,9 @@ def layout_of(field: Field) -> hv.Layout:
 
 
 class PlaneFigures:
-    """The map and its sections on a page; a click there calls `go` with the place.
+    """The map and its sections on a page; a click on the map calls `go` with the place.
 
-    `plots` are those of HoloViews, for its pane.
+    `plots` are the plots of HoloViews, for its pane.
     """
 
     def __init__(self, name: str, go: Callable[[float, float], None]) -> None:
@@ -244,17 +241,17 @@ class PlaneFigures:
             plot.handles for plot in self.plots[0].subplots.values()
         )
         self.map, self.up, self.across = figures = [plot.state for plot in self.plots]
-        for plot, what in zip(figures, ("map", *WAYS), strict=True):
-            _house_style(plot, f"{name}_{what}")
+        for plot, part in zip(figures, ("map", *WAYS), strict=True):
+            _house_style(plot, f"{name}_{part}")
         self.up.x_range, self.across.x_range = self.map.y_range, self.map.x_range
         self.across.y_range = self.up.y_range
         self.map.grid.visible = False
-        self.map.toolbar_inner = False  # it would lie on the picture
+        self.map.toolbar_inner = False  # inside it would cover the map
         self.map.stylesheets = [":host { cursor: crosshair; }"]
-        self.up.frame_align = False  # it needs no colour bar's room
+        self.up.frame_align = False  # it needs no room for a colour bar
 
     def show(self, field: Field, mark: tuple[float, float], alpha: float = 1.0) -> None:
-        """Draw a field, and the sections at the `mark`. On the event loop only."""
+        """Draw a field, and the sections at the `mark`. Call this on the event loop only."""
         self._field, self._mark = field, mark
         values, unit = field.scaled
         (left, right), (bottom, top) = field.bounds
@@ -293,7 +290,7 @@ class PlaneFigures:
             plot.state.title.text = title
 
     def _send_sections(self, x: float, y: float) -> None:
-        """Draw the sections through a place: streams act while the document is not locked."""
+        """Draw the sections as one message: streams of HoloViews do not lock the document."""
         change = one_message(self.map.document, partial(self._draw_sections, x, y))
         self._sent = asyncio.get_running_loop().create_task(change)
 
@@ -302,7 +299,7 @@ class PlaneFigures:
             self._send_sections(x, y)
 
     def _tap(self, x: float | None, y: float | None) -> None:
-        """Go to a cell; a second click on a map that is zoomed brings all of it back instead."""
+        """Go to a cell. A zoomed map waits first: a second click shows the whole map instead."""
         if (cell := self._field.cell_at(x, y)) is not None:
             place = float(self._field.x[1][cell[1]]), float(self._field.y[1][cell[0]])
             wait = SECOND_CLICK * any(map(_is_zoomed, (self.map.x_range, self.map.y_range)))
@@ -318,7 +315,7 @@ _BLANK = Field(
 
 
 def _house_style(plot: figure, name: str) -> None:
-    """Make a figure of HoloViews look as the others do."""
+    """Give a figure of HoloViews the style of the other figures."""
     style.style_figure(plot)
     for axis in plot.axis:
         style.style_axis(axis)
@@ -331,7 +328,7 @@ def _house_style(plot: figure, name: str) -> None:
 
 
 def _move(shown: Range1d, start: float, end: float) -> None:
-    """Move a range, and what a reset goes back to; where it is zoomed the latter alone."""
+    """Set the ends of a range and of its reset; of a zoomed range those of the reset alone."""
     home = {"reset_start": start, "reset_end": end}
     shown.update(**home, **({} if _is_zoomed(shown) else {"start": start, "end": end}))
 
@@ -341,7 +338,7 @@ def _is_zoomed(shown: Range1d) -> bool:
 
 
 def color_limits(values: NDArray[np.float64]) -> tuple[float, float]:
-    """Ends of the colour scale for numbers: the same on both sides of zero for both signs."""
+    """Ends of the colour scale for numbers; symmetric about zero if they have both signs."""
     known = values[np.isfinite(values)]
     low, high = (float(known.min()), float(known.max())) if known.size else (0.0, 1.0)
     if low < 0.0 < high:

@@ -17,9 +17,9 @@ from bearing_explorer.kit.views.base import Ranges, Sources
 
 TICKS = [m * 10.0**e for e in range(1, 6) for m in (1, 3)]  # [Hz] of logarithmic axes
 FREQUENCY_WITH_UNITS = style.AxisQuantity("Frequency", "f", "")
-"""Quantity of such an axis: its numbers have their units."""
-HEIGHT = 286  # [px]: the label of the axis is whole in large type too
-ROOM = 6.0  # [dB] above the loudest line
+"""Quantity of a logarithmic axis, which writes the unit behind each number."""
+HEIGHT = 286  # [px]: enough for the whole label of the axis in large type
+ROOM = 6.0  # [dB] free above the loudest line
 
 
 class SpectrumFigures:
@@ -28,15 +28,15 @@ class SpectrumFigures:
     Parameters
     ----------
     name
-        prefix of sources and ranges: "lines" for the spectra of the scene, "grey" for the others.
+        prefix of the sources ("_lines": the scene, "_grey": the reference) and ranges.
     layers
-        of the figure along a direction.
+        returns the layers of the figure along a direction.
     frequencies
-        [Hz] at first; from 0 the axis is linear, else logarithmic.
+        first range of the axis [Hz]; linear if it begins at 0, else logarithmic.
     level_range
-        range of the axis [dB].
+        range of the axis of levels [dB].
     depth
-        [dB] below the loudest line for which there is room.
+        range of the levels in view below the loudest line [dB].
     """
 
     def __init__(
@@ -71,9 +71,7 @@ class SpectrumFigures:
             self.plots.append(plot)
 
     def data(self, results: Results, top: float) -> tuple[Sources, Ranges]:
-        """Sources and ranges of the spectra up to `top` [Hz]; grey ones beyond a linear axis
-        are cut.
-        """
+        """Sources and ranges up to `top` [Hz]; on linear axes grey does not widen the levels."""
         name, lowest = self._name, self._lowest
         both = results.late_spectra, results.reference.late_spectra
         drawn, grey = (levels.drawn_levels(spectra, top, lowest) for spectra in both)

@@ -1,1 +1,1 @@
-"""Results of a scene: one computation each, in threads, cached."""
+"""Results of a scene: each module holds one computation, which is cached and runs in a thread."""

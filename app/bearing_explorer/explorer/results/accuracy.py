@@ -1,4 +1,4 @@
-"""Speed against accuracy: what is shipped for a preset, and what is measured on this machine."""
+"""Speed against accuracy: measurements that come with a preset, and those on this machine."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ from bearingcore.model.experiments import (
 )
 
 SUBJECTS = {"motion": "Motion", "statics": "Statics", STABILITY: "Stability"}
-"""Labels of what is measured, by name."""
+"""Labels of the experiments, by name."""
 
 
 @dataclass(frozen=True)
-class Found:
-    """Measurements on this machine, and their scene."""
+class SceneMeasurements:
+    """Measurements on this machine, with their scene."""
 
     scene: Scene
     result: Measurements
@@ -38,14 +38,14 @@ def shipped(preset: str) -> Measurements:
 
 
 def preset_like(scene: Scene) -> str:
-    """The preset that is `scene`, or has its bearing, or else the fan rig."""
+    """The preset that equals `scene`, else one with its bearing, else the fan rig."""
     same = [name for name, preset in presets.items() if preset == scene]
     alike = [name for name, preset in presets.items() if preset.bearing == scene.bearing]
     return (*same, *alike, "fan-rig")[0]
 
 
 def compute(job: Work, scene: Scene, name: str) -> str:
-    """Measure and show it point by point. Runs in a job's thread."""
+    """Measure an experiment on a scene and show each point; return a sentence for the job."""
     names = (STABILITY, ORBITS) if name == STABILITY else (name,)
     if not set(names) <= set(MEASURED):
         raise ValueError("There is no such experiment.")
@@ -56,7 +56,7 @@ def compute(job: Work, scene: Scene, name: str) -> str:
         slow=False,
         progress=job.progress,
         cancelled=job.cancelled,
-        shown=lambda part: job.show(Found(scene, part)),
+        shown=lambda part: job.show(SceneMeasurements(scene, part)),
         words=words_of,
     )
     if not results.count:

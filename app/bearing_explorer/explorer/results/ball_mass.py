@@ -1,4 +1,4 @@
-"""A scene's motion without and with the mass of its balls: what mass adds, when, and where."""
+"""Motions of a scene without and with the mass of its balls, and their difference."""
 
 from __future__ import annotations
 
@@ -38,24 +38,23 @@ LOWEST_OCTAVE = 250.0
 """Frequency [Hz] at which the lowest octave begins, eight lines of the spectra above zero."""
 
 BEFORE, AFTER = 0.4, 1.1
-"""Parts of the time that a ball takes through the defect that are shown before it enters and after
-it leaves."""
+"""Time shown before a ball enters and after it leaves, over its time in the defect."""
 SHORTEST_LOOK = 1e-3
 """Shortest time [s] that is shown."""
 
 PARTS = 4
-"""Into which the settled motion is cut to see how much the powers of octaves scatter."""
+"""Number of parts of the settled motion, for the scatter of the powers in octaves."""
 SHORTEST_PART = 4096  # samples
 
 LATE = 1.5
-"""Within how many times its way through the defect a ball strikes that counts as its strike."""
+"""Latest strike that a ball's way through the defect causes, over its time in the defect."""
 
 HARD, MOST_STRIKES = 0.4, 2
-"""Load of a strike over that of the hardest on its race from which on it is shown, and how many of
-a race at most. Elastic loads: the dashpot of a contact adds most of what the housing feels."""
+"""Least load of a shown strike over the hardest one on its race, and most strikes of a race. These
+loads are elastic: the dashpot of a contact adds most of the force on the housing."""
 
 ENOUGH_PASSES = (3.0, 1.0, 0.6)
-"""Ball passes out of which the stretch is taken; fewer where the motion is too short for more."""
+"""Ball passes from which the stretch is cut; fewer if the motion is too short for more."""
 
 
 @dataclass(frozen=True)
@@ -67,9 +66,9 @@ class BallMass:
     scene, sample_rate [Hz]
         scene that moves; sample rate of its motions.
     broke_off
-        why one of the motions ended early; empty if none did.
+        reason why one of the motions ended early; empty if none did.
     time : (n,) [s]
-        of a stretch around a ball's way through the defect; it enters at 0.
+        times around a ball's way through the defect; it enters at 0.
     massless, with_mass : {dof: (n,)} [m/s²]
         acceleration of the housing.
     balls : (k,), loads : (2, n, k) [N]
@@ -77,18 +76,18 @@ class BallMass:
     events, flights
         of these balls.
     strikes
-        the hard ones, of the ball that enters at 0, on a race that it has let go of.
+        hard strikes of the ball that enters at 0, each on a race that it had left.
     far_edge [s]
-        when that ball meets the far edge, where it lets go of neither race; else NaN.
+        time at which that ball meets the far edge, if it leaves neither race; else NaN.
     octaves : (m + 1,) [Hz], share : (m,), spread : (m,)
         edges, share of the power along x and y that mass adds, 1 − P(massless)/P(with mass), and
         its standard error over parts of the motion, NaN where that is too short for it.
     added : (m,) [dB]
-        the same as a ratio of powers.
+        ratio of the powers with and without mass.
     comparison
-        up to which frequency massless balls will do; None where the motions are too short for it.
+        frequency up to which massless balls are accurate; None if the motions are too short.
     quiet : (m,)
-        True where there is next to no power against the loudest octave.
+        True where the power is negligible beside that of the loudest octave.
     """
 
     scene: Scene
@@ -111,7 +110,7 @@ class BallMass:
     comparison: BallComparison | None
 
     def table(self) -> ResultTable:
-        """A row a time: acceleration without and with mass, loads of the balls at both races."""
+        """One row for each time: acceleration without and with mass, ball loads at both races."""
         loads = [
             (f"ball_{ball + 1}_{race}_race_load", "N", load[:, k])
             for k, ball in enumerate(self.balls)
@@ -125,7 +124,7 @@ class BallMass:
         )
 
     def share_table(self) -> ResultTable:
-        """A row an octave: the share of the power that mass adds."""
+        """One row for each octave: the share of the power that mass adds."""
         return table_of(
             ("lowest_frequency", "Hz", self.octaves[:-1]),
             ("highest_frequency", "Hz", self.octaves[1:]),
@@ -137,18 +136,19 @@ class BallMass:
 
     @property
     def free_share(self) -> float:
-        """Share of the shown time of the shown balls that is free flight."""
+        """Share of the shown time that the shown balls spend in free flight."""
         return float((self.loads <= 0.0).all(axis=0).mean())
 
 
 def compare_motions(massless: Motion, heavy: Motion, since: float) -> BallMass:
-    """Compare two motions of equal duration and sample rate, settled `since` [s]."""
+    """Compare two motions of equal duration and sample rate, which have settled at `since` [s]."""
     scene, rate = heavy.scene, heavy.sample_rate
     for passes in ENOUGH_PASSES:
         whole = excerpt_of(scene, heavy, since, n_passes=passes)
         if entry_of(whole.events) is not None:
             break
-    start, end = _look(whole.events, whole.time)
+    # the stretch shown: one ball's way through the defect, with the time before and after it
+    start, end = _shown_time(whole.events, whole.time)
     begin = round((whole.motion_time + start) * rate)
     stop = min(max(round((whole.motion_time + end) * rate), begin + 2), len(heavy.time))
     time = heavy.time[begin:stop] - whole.motion_time
@@ -156,13 +156,14 @@ def compare_motions(massless: Motion, heavy: Motion, since: float) -> BallMass:
     balls = np.array(list(dict.fromkeys(event.ball for event in events)), dtype=np.int64)
     balls = balls if balls.size else whole.balls
     loads = heavy.race_loads(begin, stop)[:, :, balls]
-    struck = _strikes(time, loads, balls, events)
+    strikes = _strikes(time, loads, balls, events)
     dofs = compared_directions(heavy.dofs)
     columns = [heavy.dofs.index(dof) for dof in dofs]
-    seen = [
+    shown = [
         dict(zip(dofs, motion.outer_acceleration[begin:stop, columns].T, strict=True))
         for motion in (massless, heavy)
     ]
+    # power in octaves, from everything after the start-up
     first = math.ceil(since * rate - 1e-6)
     late = [motion.outer_acceleration[first:, columns] for motion in (massless, heavy)]
     finite = all(np.isfinite(signal).all() for signal in late)
@@ -178,8 +179,8 @@ def compare_motions(massless: Motion, heavy: Motion, since: float) -> BallMass:
         sample_rate=rate,
         broke_off=next((why_ended(m) for m in (massless, heavy) if not m.completed), ""),
         time=time,
-        massless=seen[0],
-        with_mass=seen[1],
+        massless=shown[0],
+        with_mass=shown[1],
         balls=balls,
         loads=loads,
         events=events,
@@ -187,8 +188,8 @@ def compare_motions(massless: Motion, heavy: Motion, since: float) -> BallMass:
             Flight(int(balls[flight.ball]), flight.begin, flight.end)
             for flight in flights(time, loads)
         ),
-        strikes=struck,
-        far_edge=math.nan if struck else _far_edge(scene, events, whole.motion_time),
+        strikes=strikes,
+        far_edge=math.nan if strikes else _far_edge(scene, events, whole.motion_time),
         octaves=octaves,
         share=share,
         spread=_spread(late, rate, octaves) if known else np.full_like(share, math.nan),
@@ -199,22 +200,22 @@ def compare_motions(massless: Motion, heavy: Motion, since: float) -> BallMass:
 
 
 def _powers(signal: Array, rate: float, bandwidth: float, octaves: Array, known: bool) -> Array:
-    """Power in each octave, of all directions; NaN where it is not known."""
+    """Power in each octave, summed over the directions; NaN unless `known`."""
     if not known:
         return np.full(len(octaves) - 1, math.nan)
     return core.spectrum(signal, rate).up_to(bandwidth).powers(octaves).sum(axis=1)
 
 
 def _comparison(massless: Motion, heavy: Motion) -> BallComparison | None:
-    """Compare both motions; None where they are too short."""
+    """Compare both motions in bands of frequency; None if they are too short."""
     enough = len(heavy.time) > 2.0 * SETTLING * heavy.sample_rate
     if not (enough and massless.completed and heavy.completed):
         return None
     return compare_bands(massless, heavy)
 
 
-def _look(events: tuple[Event, ...], time: Array) -> tuple[float, float]:
-    """Begin and end [s] of the shown way of the ball that enters at 0."""
+def _shown_time(events: tuple[Event, ...], time: Array) -> tuple[float, float]:
+    """First and last time [s] shown around the way of the ball that enters at 0."""
     last = exit_of(events)
     if last is None:
         return float(time[0]), float(time[-1])
@@ -225,12 +226,12 @@ def _look(events: tuple[Event, ...], time: Array) -> tuple[float, float]:
 
 
 def entry_of(events: tuple[Event, ...]) -> Event | None:
-    """The ball that enters at 0."""
+    """Entry of a ball at time 0; None without one."""
     return next((e for e in events if e.enters and abs(e.time) < 1e-8), None)
 
 
 def exit_of(events: tuple[Event, ...]) -> Event | None:
-    """The ball that enters at 0, as it leaves."""
+    """Exit of the ball that enters at 0; None without one."""
     entry = entry_of(events)
     if entry is None:
         return None
@@ -240,7 +241,7 @@ def exit_of(events: tuple[Event, ...]) -> Event | None:
 def _strikes(
     time: Array, loads: Array, balls: NDArray[np.int64], events: tuple[Event, ...]
 ) -> tuple[Strike, ...]:
-    """The hard strikes on each race of the ball that enters at 0, on its way through the defect."""
+    """The hardest strikes on each race of the ball that enters at 0, caused by the defect."""
     entry, leaves = entry_of(events), exit_of(events)
     if entry is None:
         return ()
@@ -249,19 +250,19 @@ def _strikes(
     hits = [s for s in ball_strikes(time, loads[:, :, [slot]]) if 0.0 < s.time <= until]
     strikes = []
     for race in RACES:
-        there = sorted((s for s in hits if s.race == race), key=lambda s: -s.load)[:MOST_STRIKES]
+        hard = sorted((s for s in hits if s.race == race), key=lambda s: -s.load)[:MOST_STRIKES]
         strikes += [
             dataclasses.replace(strike, ball=entry.ball)
-            for strike in there
-            if strike.load >= HARD * there[0].load
+            for strike in hard
+            if strike.load >= HARD * hard[0].load
         ]
     return tuple(sorted(strikes, key=lambda strike: strike.time))
 
 
 def _far_edge(scene: Scene, events: tuple[Event, ...], zero: float) -> float:
-    """Time [s] at which the ball that enters at 0 meets the far edge; NaN if no edge gives it.
+    """Time [s] at which the ball that enters at 0 meets the far edge; NaN without an edge.
 
-    `zero`: [s] of the motion at which it enters.
+    `zero` [s]: time of the motion at which it enters.
     """
     leaves = exit_of(events)
     if leaves is None:
@@ -274,14 +275,14 @@ def _far_edge(scene: Scene, events: tuple[Event, ...], zero: float) -> float:
 
 
 def _octaves(bandwidth: float) -> Array:
-    """Edges [Hz] of octaves; the last band, of half an octave or more, ends where signals do."""
+    """Edges [Hz] of octaves; the last band, at least half an octave, ends at the bandwidth."""
     count = math.floor(math.log2(bandwidth / LOWEST_OCTAVE))
     edges = LOWEST_OCTAVE * 2.0 ** np.arange(count + 1, dtype=np.float64)
     return np.append(edges, bandwidth) if bandwidth > math.sqrt(2.0) * edges[-1] else edges
 
 
 def _spread(late: list[Array], rate: float, edges: Array) -> Array:
-    """Standard error (m,) of the share, from parts of the motion that are taken one by one."""
+    """Standard error (m,) of the share, from its scatter over parts of the motion."""
     length = len(late[0]) // PARTS
     if length < SHORTEST_PART:
         return np.full(len(edges) - 1, math.nan)

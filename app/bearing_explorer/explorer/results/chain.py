@@ -1,4 +1,4 @@
-"""One scene from the loads of its balls to the vibration of its housing, a few numbers a link."""
+"""The chain from ball loads to vibration of the housing: a few numbers for each link."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from bearingcore.common import ResultTable, table_of
 from bearingcore.model.statics import BALL_LOAD, TERM_UNITS, StaticRanges
 
 LOWEST_PEAK = 100.0
-"""Frequency [Hz] from which on the loudest line of a spectrum is looked for."""
+"""Frequency [Hz] above which the loudest line of a spectrum is sought."""
 ALIKE = 1.05
-"""Ratio of two natural frequencies up to which it makes no difference which is which."""
+"""Ratio of two natural frequencies up to which their order does not matter."""
 LEVEL_FLOOR = 1e-20
-"""Density [(m/s²)²/Hz] below which a housing does not move at all."""
+"""Density [(m/s²)²/Hz] below which a housing counts as still."""
 
 
 @dataclass(frozen=True)
@@ -43,28 +43,26 @@ class Chain:
     Attributes
     ----------
     answered
-        part of the positions that have an equilibrium; `reason` is why the first of the others
+        share of the positions that have an equilibrium; `reason` says why the first of the others
         has none.
     off_line : [rad]
         mean angle between the balls and the direction of the radial load, each ball weighted by
         its load. NaN without a radial load.
     direction : [rad]
-        of the radial load; NaN without one.
-    greatest_load : [N]
-        of a ball.
-    loaded_balls
-        mean number.
+        direction of the radial load; NaN without one.
+    greatest_load : [N], loaded_balls
+        greatest load of a ball, and mean number of loaded balls.
     stiffness
-        mean of the diagonal term of each free direction, by the term's name [N/m or N·m/rad].
+        mean diagonal term of each free direction, by the term's name [N/m or N·m/rad].
     bands
         least and greatest natural frequency of each mode [Hz], by its label; empty where the
         support is not known well enough.
     peaks
-        loudest line of the housing's acceleration along x and y, where they are free; empty
+        loudest line of the housing's acceleration along x and y, if they are free; empty
         without a motion, and `silent` then says why.
-    upright
-        mean cos²α of the contact angles of loaded balls, each by what it carries: the share of the
-        stiffness of a contact that is radial.
+    radial_share
+        mean cos²α of the contact angles, weighted by ball load: the radial share of a contact's
+        stiffness.
     """
 
     answered: float
@@ -77,15 +75,15 @@ class Chain:
     bands: dict[str, tuple[float, float]]
     peaks: dict[str, Peak]
     silent: str
-    upright: float = 1.0
+    radial_share: float = 1.0
 
     @property
     def loudest(self) -> str:
-        """The direction with the highest peak; nothing without peaks."""
+        """The direction with the highest peak; empty without peaks."""
         return max(self.peaks, key=lambda dof: self.peaks[dof].level, default="")
 
     def table(self) -> ResultTable:
-        """One row."""
+        """All numbers in one row."""
         return table_of(
             ("off_line", "rad", [self.off_line], "mean angle of the loads off their line"),
             ("greatest_load", "N", [self.greatest_load], "greatest load of a ball"),
@@ -117,7 +115,7 @@ def chain_of(
     peaks: dict[str, Peak],
     silent: str,
 ) -> Chain:
-    """The chain of a scene; the last three are attributes of it, bands of other modes left out."""
+    """Make the chain of a scene; bands that are NaN are left out."""
     state = ranges.state
     bad = np.flatnonzero(~state.converged)
     terms = [f"k_{dof}{dof}" for dof in state.dofs]
@@ -133,12 +131,12 @@ def chain_of(
         bands={label: band for label, band in bands.items() if math.isfinite(band[0])},
         peaks=peaks,
         silent=silent,
-        upright=mean_by_load(state, np.cos(state.contact_angle) ** 2),
+        radial_share=mean_by_load(state, np.cos(state.contact_angle) ** 2),
     )
 
 
 def mean_by_load(state: Equilibrium, values: NDArray[np.float64]) -> float:
-    """Mean of values (n, N_b) of the balls, each by what its ball carries; NaN where none does."""
+    """Mean of the balls' values (n, N_b), weighted by load; NaN without load."""
     carried = np.where(state.converged[:, None], state.ball_load, 0.0) * state.shares[:, None]
     total = float(carried.sum())
     loaded = carried > 0.0
@@ -152,10 +150,10 @@ def direction(scene: Scene) -> float:
 
 
 def have_same_order(label: str, *bands: Mapping[str, tuple[float, float]]) -> bool:
-    """True if the mode of a label is in each scene above, or below, that of the other direction.
+    """True if a mode is on the same side of the mode of the other direction in all scenes.
 
-    Modes that move along x and y alike may have each other's names in another scene. Modes within
-    `ALIKE` of each other are in any order.
+    Modes that move along both x and y may swap names between scenes. The order of modes within
+    `ALIKE` of each other does not count.
     """
     other = {"x": "y", "y": "x"}.get(label[:-1], "") + label[-1]
     pairs = [

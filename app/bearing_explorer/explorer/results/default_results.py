@@ -1,6 +1,6 @@
 """Results of the default scene that come with the package: pictures before kernels are compiled.
 
-``python -m bearing_explorer.default_results`` makes them anew, which a change of numbers takes.
+After a change of numbers, ``python -m bearing_explorer.default_results`` makes them again.
 """
 
 from __future__ import annotations
@@ -19,21 +19,21 @@ log = logging.getLogger(__name__)
 
 NAME = "default_results.xz"
 LARGEST = 500_000
-"""Bytes of a result that comes along: whole motions do not, only what is made of them."""
+"""Most bytes of a stored result: whole motions are left out, results made of them are not."""
 
 
-def collected() -> dict[tuple[Hashable, ...], Any]:
-    """All results in the cache, but the largest."""
+def collect() -> dict[tuple[Hashable, ...], Any]:
+    """Results in the cache of at most `LARGEST` bytes."""
     return {key: result for key, (result, size) in kept_results().items() if size <= LARGEST}
 
 
 def write(path: Path) -> None:
-    """Write all results in the cache."""
-    path.write_bytes(lzma.compress(pickle.dumps(collected(), protocol=5)))
+    """Write the collected results to a file."""
+    path.write_bytes(lzma.compress(pickle.dumps(collect(), protocol=5)))
 
 
 def read() -> dict[tuple[Hashable, ...], Any]:
-    """The results that come along."""
+    """Read the stored results."""
     results: dict[tuple[Hashable, ...], Any] = pickle.loads(
         lzma.decompress(asset_path(NAME).read_bytes())
     )
@@ -41,8 +41,8 @@ def read() -> dict[tuple[Hashable, ...], Any]:
 
 
 def keep() -> None:
-    """Put them into the cache; without them first pictures wait for their kernels."""
+    """Put the stored results into the cache; without them first pictures wait for kernels."""
     try:
         keep_results(read())
-    except Exception:  # another version of a library may not know its own old numbers
-        log.exception("the results that come along cannot be read")
+    except Exception:  # another version of a library may not unpickle them
+        log.exception("the stored default results cannot be read")

@@ -31,15 +31,15 @@ class Span(NamedTuple):
     row: int | None = None
 
     def meets(self, row: int | None) -> bool:
-        """True if balls of a row meet it; None: of any row."""
+        """True if balls of a row meet it; None: balls of any row."""
         return row is None or self.row is None or self.row == row
 
 
 def spans(scene: Scene, cage_angle: float, row: int | None = None) -> list[Span]:
     """The defects of `scene` with the cage at `cage_angle` [rad]; `start` between 0 and 2π.
 
-    An inner-race defect has turned with the shaft, further than the cage. `row` asks for those
-    that the balls of that row meet.
+    An inner-race defect has turned with the shaft, further than the cage. `row` selects the
+    defects that the balls of that row meet.
     """
     return [
         Span(
@@ -58,7 +58,7 @@ def spans(scene: Scene, cage_angle: float, row: int | None = None) -> list[Span]
 
 
 def pieces(span: Span) -> list[tuple[float, float]]:
-    """`span` as intervals within 0 to 2π [rad]: two where it lies across 0."""
+    """`span` as intervals within 0 to 2π [rad]: two if it lies across 0."""
     end = span.start + span.extent
     if end <= TWO_PI:
         return [(span.start, end)]
@@ -68,16 +68,16 @@ def pieces(span: Span) -> list[tuple[float, float]]:
 def race_depth(
     scene: Scene, cage_angle: float, race: str, angle: ArrayLike, row: int | None = None
 ) -> NDArray[np.float64]:
-    """Depth [m] of what is missing from `race` at the angles [rad], the floor as it was cut.
+    """Depth [m] of the floor of defects below `race` at the angles [rad]; 0 beside the defects.
 
-    It is negative where a rim stands above the race. `row`: of that row's race alone.
+    A rim above the race has a negative depth. `row`: only the race of that row.
     """
     angles = np.asarray(angle, dtype=float)
     depth = np.zeros_like(angles)
     for defect in scene.defects:
         if defect.race == race and (row is None or defect.row in (None, row)):
-            turned = angles - defect.turn_ratio(scene.bearing) * cage_angle
-            shape = defect.surface(turned, scene.bearing)
+            on_ring = angles - defect.turn_ratio(scene.bearing) * cage_angle
+            shape = defect.surface(on_ring, scene.bearing)
             depth = np.where(np.abs(shape) > np.abs(depth), shape, depth)
     return depth
 
@@ -85,10 +85,10 @@ def race_depth(
 def _walls(all_spans: list[Span], race: str, row: int | None = None) -> NDArray[np.float64]:
     """A pair of angles [rad] at every edge of a race, so that walls are drawn upright."""
     ends = [
-        at
+        edge
         for span in all_spans
         if span.race == race and span.meets(row)
-        for at in (span.start, span.start + span.extent)
+        for edge in (span.start, span.start + span.extent)
     ]
     return np.add.outer(ends, [-1e-9, 1e-9]).ravel()
 
@@ -100,9 +100,9 @@ def race_angles(all_spans: list[Span], race: str, n: int = 361) -> NDArray[np.fl
 
 @dataclass(frozen=True)
 class Profile:
-    """angle (n,) [rad], rising, perhaps past 2π; depth of the race and drop of the ball [m].
+    """A race around a defect: depth of the race and drop of a ball's centre (n,) [m].
 
-    Of the race of one `row`, counted from 0.
+    `angle` (n,) [rad] rises, perhaps past 2π. `row` of balls counts from 0.
     """
 
     race: str
@@ -112,7 +112,7 @@ class Profile:
     row: int = 0
 
     def table(self) -> ResultTable:
-        """A row an angle: depth of the race, and how far the ball's centre drops."""
+        """One row for each angle: depth of the race, and drop of a ball's centre."""
         return table_of(
             ("angle", "rad", self.angle),
             ("race_depth", "m", self.depth),

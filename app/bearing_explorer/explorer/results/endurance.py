@@ -33,7 +33,7 @@ ASSUMED_GROOVES = (
 )
 ESTIMATED = "Estimated: the inside of the bearing follows from its designation."
 ASSUMED_VISCOSITY = 0.02
-"""Viscosity [Pa·s] that is assumed where none is given: a usual oil, warm."""
+"""Viscosity [Pa·s] that is assumed if none is given: a usual oil, warm."""
 
 
 @dataclass(frozen=True)
@@ -41,11 +41,11 @@ class LifeInputs:
     """Steel, oil and surfaces as entered under Life.
 
     dynamic_load_rating
-        C_r [N] of the catalogue; None: the bearing's own where its number is known, else
+        C_r [N] of the catalogue; None: that of the bearing's number if it is known, else
         computed by ISO 281.
     viscosity [Pa·s]
-        of the oil where it is drawn in, at its temperature; None: not known, and then a film is
-        shown for `ASSUMED_VISCOSITY` but no limit of the scene judged by it.
+        of the oil at its temperature where it is drawn in; None: not known. A film is then shown
+        for `ASSUMED_VISCOSITY`, but no limit of the scene is judged by it.
     race_roughness, ball_roughness [m]
         root mean square.
     """
@@ -65,12 +65,12 @@ class Endurance:
     healthy
         the life without the defects.
     assumed
-        what these answers assume of a bearing whose groove radii are not known, or whose inside is
-        estimated; empty otherwise.
+        assumptions on a bearing whose groove radii are not known, or whose inside is estimated;
+        else empty.
     rating [N], rating_words
-        the dynamic load rating that was used, and where it comes from.
+        the dynamic load rating that was used, and its source.
     no_life, no_pressures, no_film
-        why there is none; empty where there is one.
+        reason why that answer is missing; else empty.
     """
 
     life: Life | None
@@ -95,9 +95,9 @@ def endurance(scene: Scene, inputs: LifeInputs) -> Endurance:
     """Life, contact pressures and film of a scene."""
     compiling.need(compiling.STATICS)
     with_grooves = assume_usual_grooves(scene)
-    told = [ESTIMATED] if scene.bearing.estimated else []
+    notes = [ESTIMATED] if scene.bearing.estimated else []
     of_number = scene.bearing.dynamic_load_rating
-    assumed = " ".join(told if with_grooves is None else [*told, ASSUMED_GROOVES])
+    assumed = " ".join(notes if with_grooves is None else [*notes, ASSUMED_GROOVES])
     scene = with_grooves or scene
     rating, rating_words = inputs.dynamic_load_rating, GIVEN
     no_life = ""
@@ -113,16 +113,16 @@ def endurance(scene: Scene, inputs: LifeInputs) -> Endurance:
                 "The standard's rating of this kind of bearing is not computed here: enter that of "
                 "the catalogue."
             )
-    lasting = healthy = None
+    scene_life = healthy = None
     if rating is not None:
-        lasting, no_life = _answer(life, scene, rating)
+        scene_life, no_life = _answer(life, scene, rating)
         healthy, no_healthy_life = _answer(life, scene.healthy(), rating)
         no_life = no_life or no_healthy_life
     state = _state_of_contacts(scene)
     pressures, no_pressures = _answer(contact_pressures, scene, state)
     oil, no_film = _answer(film_of, scene, inputs, state)
     return Endurance(
-        *(lasting, healthy, no_life, rating, rating_words),
+        *(scene_life, healthy, no_life, rating, rating_words),
         *(pressures, no_pressures, oil, no_film, assumed),
     )
 
@@ -136,10 +136,10 @@ def _answer(compute: Callable[..., Result], *arguments: Any) -> tuple[Result | N
 
 
 def assume_usual_grooves(scene: Scene) -> Scene | None:
-    """The scene with usual groove radii, where its own are not known and its loads stay the same.
+    """The scene with usual groove radii; None if its own are known or its loads would change.
 
-    That is so for a row of balls without contact angle under a radial load: the distance of the
-    groove centres has no effect there. None otherwise.
+    The loads stay the same for a row of balls without contact angle under a radial load, because
+    the distance of the groove centres has no effect there.
     """
     bearing, load = scene.bearing, scene.load
     if bearing.knows_contacts or bearing.rows or bearing.kind.line_contact:
@@ -159,12 +159,12 @@ def assume_usual_grooves(scene: Scene) -> Scene | None:
 
 
 def _state_of_contacts(scene: Scene) -> Equilibrium | None:
-    """State of the contacts; None for balls with mass, whose forces at speed limits leave out."""
+    """State of the contacts; None for balls with mass: limits leave out their forces at speed."""
     return None if scene.balls == WITH_MASS else state_of_limits(scene)
 
 
 def film_of(scene: Scene, inputs: LifeInputs, state: Equilibrium | None) -> Film:
-    """The film of a scene with the oil of `inputs`; ValueError as of `film`."""
+    """The film of a scene with the oil of `inputs`; it raises ValueError as `film` does."""
     return film(
         scene,
         viscosity=inputs.viscosity or ASSUMED_VISCOSITY,
@@ -181,8 +181,8 @@ def limits(
 ) -> tuple[Limit, ...]:
     """Effects that the model leaves out of a scene, each with its number and its limit.
 
-    `step_rate` [Hz] and `dynamic_load` [N], the greatest of a ball, are those of a simulated
-    motion; None: there is none.
+    `step_rate` [Hz] and `dynamic_load` [N], the greatest of a ball, come from a simulated motion;
+    None without one.
     """
     compiling.need(compiling.STATICS)
     state = state_of_limits(scene)
@@ -196,7 +196,7 @@ def limits(
 
 
 def _not_judged(limit: Limit) -> Limit:
-    """A limit that is not known for want of groove radii, which are assumed on the Life tab."""
+    """Add to a limit that is unknown for want of groove radii that the Life tab assumes them."""
     usual = unknown(limit.name, limit.limit, limit.unit, NO_DRAWING)
     if limit.sentence != usual.sentence:
         return limit

@@ -1,4 +1,4 @@
-"""The last ball passes of a motion: what the time view shows, cut where balls enter the defect."""
+"""The last ball passes of a motion for the view over time, cut where a ball enters the defect."""
 
 from __future__ import annotations
 
@@ -40,13 +40,13 @@ class Excerpt:
     balls : (k,)
         the balls that enter or leave, counted from 0; if none does, the two that carry most.
     ball_load : (n, k) [N]
-        what they carry as they move.
+        their loads in motion.
     static_time : (p,) [s], static_load : (p, k) [N]
-        what they would carry at rest at each of these instants.
+        instants, and the loads of these balls if everything rested there.
     greatest_static_load : float [N]
-        of all balls.
+        greatest static load of any ball.
     static_cage_angle : (p,) [rad], moving_load : (p, N_b) [N], drop : {race: (p, N_b)} [m]
-        cage, what each ball carries as it moves, and how far its centre is in a defect, at each of
+        angle of the cage, load of each ball in motion, and drop of its centre into a defect, at
         the same instants.
     bandwidth : float [Hz]
         up to which the acceleration is known.
@@ -70,7 +70,7 @@ class Excerpt:
     bandwidth: float
 
     def table(self) -> ResultTable:
-        """Rows in time: acceleration and loads as they move; and the loads at rest."""
+        """Rows in time: acceleration and loads of the motion, and the loads at rest."""
         return table_of(
             ("time", "s", self.time),
             *acceleration_columns("", self.acceleration),
@@ -80,19 +80,19 @@ class Excerpt:
         )
 
     def _ball_columns(
-        self, what: str, values: NDArray[np.float64]
+        self, name: str, values: NDArray[np.float64]
     ) -> list[tuple[str, str, NDArray[np.float64]]]:
         """Columns of loads (n, k) of the balls."""
-        named = zip(self.balls, values.T, strict=True)
-        return [(f"ball_{ball + 1}_{what}", "N", load) for ball, load in named]
+        loads = zip(self.balls, values.T, strict=True)
+        return [(f"ball_{ball + 1}_{name}", "N", load) for ball, load in loads]
 
 
 def acceleration_columns(
-    who: str, acceleration: Mapping[str, NDArray[np.float64]]
+    prefix: str, acceleration: Mapping[str, NDArray[np.float64]]
 ) -> Iterator[tuple[str, str, NDArray[np.float64]]]:
-    """Columns of accelerations by direction, `who` before their names."""
+    """Columns of accelerations by direction, with `prefix` before their names."""
     for dof, signal in acceleration.items():
-        yield f"{who}acceleration_{dof}", "rad/s²" if dof.startswith("r") else "m/s²", signal
+        yield f"{prefix}acceleration_{dof}", "rad/s²" if dof.startswith("r") else "m/s²", signal
 
 
 def why_ended(motion: Motion) -> str:
@@ -101,9 +101,9 @@ def why_ended(motion: Motion) -> str:
 
 
 def excerpt_of(scene: Scene, motion: Motion, since: float, n_passes: float = 1.5) -> Excerpt:
-    """A stretch of `n_passes` ball passes, beginning a quarter pass before an entry.
+    """Cut out `n_passes` ball passes, beginning a quarter pass before an entry.
 
-    `since` [s] is when the motion has settled: the stretch lies after it.
+    The motion has settled at `since` [s]; the excerpt lies after that.
     """
     time, cage = motion.time, motion.cage_angle
     start, length, zero = _stretch(scene, motion, since, n_passes)
@@ -124,8 +124,9 @@ def excerpt_of(scene: Scene, motion: Motion, since: float, n_passes: float = 1.5
     return Excerpt(
         time=time[cut] - zero,
         motion_time=zero,
+        # copies, because views would keep the whole motion alive
         acceleration={
-            dof: motion.outer_acceleration[cut, index].copy()  # a view would keep it all alive
+            dof: motion.outer_acceleration[cut, index].copy()
             for index, dof in enumerate(motion.dofs)
         },
         events=events,
@@ -145,7 +146,7 @@ def excerpt_of(scene: Scene, motion: Motion, since: float, n_passes: float = 1.5
 def _stretch(
     scene: Scene, motion: Motion, since: float, n_passes: float
 ) -> tuple[float, float, float]:
-    """Start, length and zero of the stretch [s], after `since`."""
+    """Start, length and zero of the excerpt [s], after `since`."""
     end = float(motion.time[-1])
     settled = end - since
     speed = scene.cage_speed
@@ -165,17 +166,17 @@ def _stretch(
         if event.enters and since + before <= _time_at(scene, motion, event.cage_angle) <= latest
     ]
     if entries:
-        entry = _time_at(scene, motion, _most_telling(scene, entries).cage_angle)
+        entry = _time_at(scene, motion, _most_loaded_entry(scene, entries).cage_angle)
         return entry - before, length, entry
     return end - length, length, end - length
 
 
-def _most_telling(scene: Scene, entries: list[Crossing]) -> Crossing:
-    """Choose the entry where the ball would carry most without the defect: that of the first ball.
+def _most_loaded_entry(scene: Scene, entries: list[Crossing]) -> Crossing:
+    """Choose the entry whose ball would carry the most load without the defect.
 
-    A defect of the inner race meets balls all around, most of them without load. The first ball
-    rather than the last entry: which one is last depends on how long the motion is, and a drawing
-    should not change its words because the same motion was marched for longer.
+    A defect of the inner race meets balls all around, most of them without load. Among equals the
+    first ball is taken, not the last entry: the last one depends on the duration of the motion,
+    and the words of a drawing should not change because a motion was simulated for longer.
     """
     angles = np.array([entry.cage_angle for entry in entries])
     loads = np.nan_to_num(equilibrium(scene.healthy(), angles).ball_load)
@@ -185,7 +186,7 @@ def _most_telling(scene: Scene, entries: list[Crossing]) -> Crossing:
 
 
 def _time_at(scene: Scene, motion: Motion, cage_angle: float) -> float:
-    """Time [s] of the motion at which the cage passes `cage_angle` [rad]: it turns steadily."""
+    """Time [s] of the motion at which the cage, which turns steadily, passes `cage_angle` [rad]."""
     end_angle, end = float(motion.cage_angle[-1]), float(motion.time[-1])
     if scene.cage_speed == 0.0:
         return math.nan

@@ -1,10 +1,10 @@
 """Maps of one output over the plane of two quantities: outputs, levels of refinement, progress.
 
-A map is refined by halving the distance of its points: each level holds the points of the level
+A map is refined by halving the distance of its points. Each level contains the points of the level
 before, which are not computed again. A job that takes too long ends with the level that it has
-come to.
+reached.
 
-What is not known has a reason instead of a number. Holds no Panel and draws nothing.
+A point without a number has a reason. This module uses no Panel and draws nothing.
 """
 
 from __future__ import annotations
@@ -51,11 +51,11 @@ FINEST = (65, 49)
 STRIDES = (16, 8, 4, 2, 1)
 """Strides of the levels: a level takes every sixteenth, eighth, ... of the finest points."""
 SIZES = {stride: tuple((n - 1) // stride + 1 for n in FINEST) for stride in STRIDES}
-"""Points of each level, where nothing is rounded to whole numbers: 5 × 4, 9 × 7, ... 65 × 49."""
+"""Points of each level, unless values are whole numbers: 5 × 4, 9 × 7, ... 65 × 49."""
 
 _QUICK = (STATICS, PRESSURE, LIFE, MODES)
-"""Computations of which a first level is there while a slider is dragged."""
-_CHUNK = 0.1  # [s] between two looks at whether to go on
+"""Computations quick enough for a first level while a slider is dragged."""
+_CHUNK = 0.1  # [s] between two checks whether the job was cancelled
 _SETTINGS = Settings()
 
 NOT_COMPUTED = "not computed"
@@ -63,9 +63,9 @@ NOT_COMPUTED = "not computed"
 
 @dataclass(frozen=True)
 class MapOutput:
-    """Something that can be mapped.
+    """An output that can be mapped.
 
-    `in_sweep` is its name in `bearingcore.model.sweeps.OUTPUTS`, `mode` the mode that it is of.
+    `in_sweep` is its name in `bearingcore.model.sweeps.OUTPUTS`, `mode` the label of its mode.
     """
 
     name: str
@@ -78,7 +78,7 @@ class MapOutput:
 
     @property
     def fineness(self) -> dict[str, float]:
-        """Settings that say how finely each point is computed, by their names with units."""
+        """Settings of the computation of each point, by names with units."""
         if self.needs in _QUICK:
             return {"cage_angles_a_period": _SETTINGS.cage_angles}
         return {"motion_s": _SETTINGS.duration, "sample_rate_hz": _SETTINGS.sample_rate}
@@ -91,7 +91,7 @@ class MapOutput:
 
 
 def _all_outputs() -> dict[str, MapOutput]:
-    made = []
+    map_outputs = []
     for name, output in OUTPUTS.items():
         if output.per_sample:
             continue
@@ -102,21 +102,21 @@ def _all_outputs() -> dict[str, MapOutput]:
             if output.needs == MASS:
                 low, high = 1e-3 * _SETTINGS.band_low, 1e-3 * _SETTINGS.band_high
                 label = f"{label}, {number(low, 4)} to {number(high, 4)} kHz"
-            made.append(MapOutput(key, output.group, label, unit, output.needs, name, mode))
-    groups = list(dict.fromkeys(output.group for output in made))
-    made.sort(key=lambda output: (groups.index(output.group), output.label.casefold()))
-    return {output.name: output for output in made}
+            map_outputs.append(MapOutput(key, output.group, label, unit, output.needs, name, mode))
+    groups = list(dict.fromkeys(output.group for output in map_outputs))
+    map_outputs.sort(key=lambda output: (groups.index(output.group), output.label.casefold()))
+    return {output.name: output for output in map_outputs}
 
 
 MAP_OUTPUTS: Mapping[str, MapOutput] = _all_outputs()
-"""All that can be mapped, by name, in sorted groups: every output of a sweep."""
+"""Every output that can be mapped, by name, sorted in groups: those of a sweep."""
 
 
 @dataclass(frozen=True)
 class Question:
     """A map to be computed: `output` over the values of `x` and `y`, all else as in `scene`.
 
-    `x` and `y` hold the values of the finest level. Two questions are equal where the answers are.
+    `x` and `y` hold the values of the finest level. Questions with the same answer are equal.
     """
 
     scene: Scene
@@ -133,12 +133,12 @@ class Question:
         object.__setattr__(self, "places", ends)
         first = {name: float(values[0]) for name, values in (self.x.in_si, self.y.in_si)}
         with contextlib.suppress(ValueError):
-            # what the map goes over does not count
+            # the map replaces these two fields: questions that differ only in them are equal
             object.__setattr__(self, "scene", self.scene.replace(**first))
 
     @cached_property
     def grid(self) -> Grid:
-        """The finest scenes; ValueError where none can be."""
+        """The scenes of the finest level; ValueError, with a sentence, if they are impossible."""
         sides, name = dict([self.x.in_si, self.y.in_si]), self.output.in_sweep
         try:
             return Grid.of(self.scene, sides, [name], _SETTINGS)
@@ -154,16 +154,16 @@ class Question:
 
     @property
     def first_stride(self) -> int:
-        """Stride of the first level: 9 × 7 points where they come at once, or else 5 × 4."""
+        """Stride of the first level: 9 × 7 points if it is quick enough for a drag, else 5 × 4."""
         return 8 if self.at_once else 16
 
     def level(self, stride: int) -> tuple[NDArray[np.intp], ...]:
         """Index of the finest points, rows and columns, that belong to a level."""
-        sizes = (
+        indices = (
             np.arange(0, side.values.size, 1 if side.every(stride) is side else stride)
             for side in (self.y, self.x)
         )
-        return np.ix_(*sizes)
+        return np.ix_(*indices)
 
     def size_words(self, stride: int) -> str:
         """The points of a level, in words."""
@@ -173,7 +173,7 @@ class Question:
 
 @dataclass(frozen=True, eq=False)
 class Plane:
-    """A map as it was computed on one level.
+    """A map on one level.
 
     Attributes
     ----------
@@ -184,7 +184,7 @@ class Plane:
     values : (ny, nx)
         in the unit of the output; NaN where there is none.
     reasons : (ny, nx)
-        why there is none; empty elsewhere.
+        why there is no number; else empty.
     """
 
     question: Question
@@ -209,7 +209,7 @@ class Plane:
 
 
 class Survey:
-    """All that is known of a map so far, on the finest grid."""
+    """The known numbers of a map and the reasons for missing ones, on the finest grid."""
 
     def __init__(self, question: Question, start: Plane | None = None) -> None:
         self.question = question
@@ -226,9 +226,9 @@ class Survey:
         return known
 
     def compute(self, stride: int, job: Work | None = None, last: int | None = None) -> bool:
-        """Compute what is missing of a level; False where it was cancelled.
+        """Compute the missing points of a level; return False if the job was cancelled.
 
-        The level `last` is where the work is to end, for the progress.
+        The job ends with the level `last`, by which its progress is counted.
         """
         last = stride if last is None else last
         for rows, columns in self._chunks(stride):
@@ -245,11 +245,11 @@ class Survey:
         return Plane(self.question, stride, self._values[level], self._reasons[level])
 
     def _chunks(self, stride: int) -> Iterator[tuple[NDArray[np.intp], NDArray[np.intp]]]:
-        """Rows and columns of what is missing, in blocks: lines of extents whole, as they are
-        solved together, others short enough for a job to be cancelled soon.
-        """
+        """Rows and columns of the missing points, in blocks that are computed together."""
         rows, columns = (side.ravel() for side in self.question.level(stride))
         few = max(1, int(_CHUNK / SECONDS[self.question.output.needs]))
+        # a line along extents is solved as a whole; other blocks are so short that a job can be
+        # cancelled soon
         upright = self.question.y.field.name == "extent"
         for fixed in columns if upright else rows:
             line = rows if upright else columns
@@ -257,10 +257,11 @@ class Survey:
             left = line[reasons == NOT_COMPUTED]
             most = left.size if self.question.grid.in_rows else few
             for start in range(0, left.size, max(most, 1)):
-                part, fixed_value = left[start : start + most], np.array([fixed])
-                yield (part, fixed_value) if upright else (fixed_value, part)
+                part, fixed_index = left[start : start + most], np.array([fixed])
+                yield (part, fixed_index) if upright else (fixed_index, part)
 
     def _compute_points(self, rows: NDArray[np.intp], columns: NDArray[np.intp]) -> None:
+        """Compute a block of points: the numbers, or the reasons for missing ones."""
         output = self.question.output
         grid = self.question.grid
         x, y = grid.axes
@@ -278,6 +279,7 @@ class Survey:
             self._reasons[j, i] = why
 
     def _why(self, status: SweepStatus, row: int, column: int) -> str:
+        """Reason for a missing number; of a refused scene the sentence of its refusal."""
         if status is SweepStatus.SCENE_REFUSED:
             (x, x_values), (y, y_values) = self.question.x.in_si, self.question.y.in_si
             try:
@@ -289,17 +291,17 @@ class Survey:
 
 @cached
 def coarse(question: Question) -> Plane:
-    """The first level of a map, for a slider that is dragged. ValueError where none can be."""
+    """The first level of a map, for a drag. ValueError, with a sentence, if it is impossible."""
     survey = Survey(question)
     survey.compute(question.first_stride)
     return survey.plane(question.first_stride)
 
 
 def refine(job: Work, question: Question, finest: int, start: Plane | None = None) -> str:
-    """One level after another up to the stride `finest`, each shown; returns what to say of it.
+    """Compute and show one level after another up to the stride `finest`; return a sentence.
 
-    Goes on from `start` where it is given. ValueError, with a sentence, where no scene of the map
-    can be.
+    The work continues from `start` if there is one. ValueError, with a sentence, if the map is
+    impossible.
     """
     survey = Survey(question, start)
     first = question.first_stride

@@ -22,13 +22,13 @@ SAME_PLACE = 1e-9  # [rad]
 def load_curve(
     equilibrium: Equilibrium, row: int = 0, loads: NDArray[np.float64] | None = None
 ) -> Curve:
-    """Angle from 0 to 2π [rad] and load [N] of a ball there, every position of the row's balls.
+    """Angles from 0 to 2π [rad] and loads [N] of a row's balls in all their positions.
 
-    `loads` (n, N_b) [N]: others than `ball_load`, such as those at the inner race.
+    `loads` (n, N_b) [N] replaces `ball_load`, for example by the loads at the inner race.
 
     With a defect at rest the load depends on the ball's angle alone and this is one
-    curve. A defect of the inner race comes by everywhere, and where rows are of unlike balls those
-    of the other row do: then the greatest load at each angle, or half degree, is given.
+    curve. A defect of the inner race passes every angle, and so does the other row if the rows
+    have unlike balls: the curve is then the greatest load at each angle, or half degree.
     """
     balls = equilibrium.scene.bearing.balls_of_rows[row]
     angle = np.mod(equilibrium.ball_angle[:, balls], TWO_PI).ravel()
@@ -38,10 +38,10 @@ def load_curve(
         angle, load = _greatest(angle, load)
     order = np.argsort(angle, kind="stable")
     angle, load = angle[order], load[order]
-    # where a ball ends a cage turn of one spacing, the next ball began it
+    # the cage turns by one spacing: a ball ends where the next one began, and one point is enough
     new = np.diff(angle, prepend=-1.0) > SAME_PLACE
     angle, load = angle[new], load[new]
-    # the ends of the turn are the same place: both belong to the curve
+    # 0 and 2π are the same place: the curve is continued past both
     return (
         np.concatenate([[angle[-1] - TWO_PI], angle, [angle[0] + TWO_PI]]),
         np.concatenate([[load[-1]], load, [load[0]]]),
@@ -66,9 +66,9 @@ def curves_table(curves: Sequence[Curve]) -> ResultTable:
 
 
 def _greatest(angle: NDArray[np.float64], load: NDArray[np.float64]) -> Curve:
-    """The greatest finite load at each angle; NaN where none is.
+    """The greatest finite load at each angle; NaN where no load is finite.
 
-    In each of `BINS` equal parts of the turn, where there are more angles.
+    More than `BINS` angles are replaced by the middles of `BINS` equal parts of the turn.
     """
     middles, part = np.unique(np.round(angle, 9), return_inverse=True)
     part = part.ravel()

@@ -1,7 +1,8 @@
-"""Simulated motions and what is made of them, shared by all sessions.
+"""Simulated motions and results from them, shared by all sessions.
 
-At rest a motion is marched with steps that resolve the highest natural frequency and every passage
-of a ball. While a slider moves, a motion that takes too long for that is shorter and coarser.
+While the sliders rest, a motion is marched with steps that resolve the highest natural frequency
+and every passage of a ball. While one moves, a motion that would take too long is shorter and
+coarser.
 """
 
 from __future__ import annotations
@@ -22,39 +23,39 @@ from bearingcore.model.dynamics import default_step_rate, fine_step_rate, highes
 from bearingcore.model.scene import MASSLESS, WITH_MASS, is_planar
 
 MOST_STEPS = 400_000
-"""Steps of a motion on the page: where a defect is passed so fast that it takes more, the motion is
-shorter, or one person's drag would fill the memory of the server."""
+"""Most steps of a motion on the page. A motion that would take more, for a defect that is passed
+very fast, is shortened; otherwise one person's drag could fill the memory of the server."""
 MOST_STEPS_WITH_MASS = 1_600_000
-"""Most steps with mass of the balls, about a second: samples are kept instead of steps."""
+"""Most steps with mass of the balls, about a second. Only samples are kept, not steps."""
 SHORTEST = 0.1
 """Shortest motion [s]: a shorter one shows nothing at the resolution of the spectra."""
 
 COARSE_STEPS = 0.55
-"""Part of the usual steps that is taken while a slider moves, where all of them take too long.
-Against short steps over the same stretch of time, spectra of fan-rig, liew-lim, 6205 and 6206 are
-then off by 0.28, 0.12, 0.00 and 0.20 dB; with 0.45 that of the 6206 was by 0.8 dB."""
+"""Share of the usual steps that are taken while a slider moves, if all of them take too long.
+Compared with short steps over the same time, spectra of fan-rig, liew-lim, 6205 and 6206 are off by
+0.28, 0.12, 0.00 and 0.20 dB; with a share of 0.45 the 6206 was off by 0.8 dB."""
 
 PREVIEW_DURATION, PREVIEW_PASSES, PREVIEW_TRANSIENT_SHARE = 0.05, 2.36, 0.3
-"""Shortest motion of balls with mass while a slider moves, in seconds and in ball passes, and the
-share of it that counts as its start and is not shown. The shown part is as long as one stretch of a
+"""Shortest motion of balls with mass while a slider moves, in seconds and in ball passes, and its
+first share, which is the start-up and is not shown. The shown part is as long as one segment of a
 spectrum, 31 ms. A ball's way through the defect can begin anywhere in the first pass of that part,
 and ends within six tenths of the next."""
 
 GENERAL_COST = 4.0
-"""Cost of a contact that is not that of a flat bearing, over the cost of one that is."""
+"""Cost of a contact over that of a planar bearing, which moves along x and y only."""
 MASS_COST = 2.5
 """Cost of a ball with mass over one without: it has two contacts and a motion of its own."""
 MOST_IN_FULL = 2.0e5
-"""Contacts, a step each, of a flat bearing that are marched in full while a slider moves: about
-3 ms. A frame of a drag has 30 ms, in which the browser has its work too."""
-MOST_TOUCHED = 2.0e6
-"""Contacts, a step each, of a motion that is shortened to follow a slider: about 40 ms."""
+"""Most contact steps (steps times contacts of a planar bearing) of a motion that is marched in full
+while a slider moves: about 3 ms. A frame of a drag has 30 ms, shared with the browser."""
+MOST_IN_DRAG = 2.0e6
+"""Most contact steps of a motion that is shortened to follow a slider: about 40 ms."""
 MOST_COMPARED = 6.0e7
-"""Contacts, a step each, of balls with mass once a slider rests, for comparison: a second."""
+"""Most contact steps of balls with mass once a slider rests, for comparison: a second."""
 
 
 class SettledMotion(NamedTuple):
-    """A motion, and since when [s] it counts as settled."""
+    """A motion, and the time [s] from which it counts as settled."""
 
     motion: Motion
     since: float
@@ -63,14 +64,14 @@ class SettledMotion(NamedTuple):
 class Ending(NamedTuple):
     """Reason for an early end of a motion, or empty.
 
-    `doubt`: how well bands of the spectrum of a completed motion are known, see `Motion.detail`.
+    `doubt`: uncertain bands in the spectrum of a completed motion, see `Motion.detail`.
     """
 
     fault: str
     doubt: str
 
 
-# What a motion costs
+# Cost of a motion
 
 
 @cached
@@ -86,8 +87,8 @@ def step_rate_of(scene: Scene, sample_rate: float) -> float | None:
     return default_step_rate(scene, sample_rate)
 
 
-def _contacts(scene: Scene, how: Marching) -> float:
-    """Contacts of a flat bearing that a second of motion would step; 0 where there is none."""
+def _contact_steps(scene: Scene, how: Marching) -> float:
+    """Contact steps in a second of motion; 0 if there is no motion."""
     try:
         rate = how.step_rate or step_rate_of(scene, how.sample_rate) or 0.0
     except ValueError:
@@ -98,26 +99,26 @@ def _contacts(scene: Scene, how: Marching) -> float:
 
 def is_costly(scene: Scene, how: Marching) -> bool:
     """True if a motion takes too long to be marched in full while a slider moves."""
-    return how.duration * _contacts(scene, how) > MOST_IN_FULL
+    return how.duration * _contact_steps(scene, how) > MOST_IN_FULL
 
 
 def quick_duration(scene: Scene, how: Marching, at_rest: float = math.inf) -> float:
-    """Duration [s] of a coarse motion: balls with mass cannot take fewer steps, but less time.
+    """Duration [s] of a motion: balls with mass need their short steps, so they get less time.
 
-    `at_rest`: what may be touched of one that is not coarse.
+    `at_rest`: most contact steps of a motion that is not coarse.
     """
-    most, contacts = MOST_TOUCHED if how.coarse else at_rest, _contacts(scene, how)
-    if scene.balls == MASSLESS or not contacts:
+    most, steps = MOST_IN_DRAG if how.coarse else at_rest, _contact_steps(scene, how)
+    if scene.balls == MASSLESS or not steps:
         return how.duration
     shortest = SHORTEST
     if how.coarse and scene.cage_speed > 0.0:
         preview = PREVIEW_PASSES * scene.bearing.ball_spacing / scene.cage_speed
         shortest = min(max(preview, PREVIEW_DURATION), SHORTEST)
-    return min(how.duration, max(most / contacts, shortest))
+    return min(how.duration, max(most / steps, shortest))
 
 
 def _affordable(scene: Scene, duration: float, rate: float) -> float:
-    """`duration` [s], or as much of it as the steps that are allowed make."""
+    """`duration` [s], shortened to the most steps that are allowed."""
     with_mass = scene.balls == WITH_MASS
     most = MOST_STEPS_WITH_MASS if with_mass else MOST_STEPS
     if duration * rate <= most:
@@ -133,12 +134,12 @@ def _affordable(scene: Scene, duration: float, rate: float) -> float:
     return most / rate
 
 
-# Motions and what is made of them
+# Motions and results from them
 
 
 @cached
 def motion(scene: Scene, how: Marching) -> SettledMotion:
-    """The motion from rest; its second half counts as settled. ValueError where there is none."""
+    """The motion from rest; its second half counts as settled. ValueError if there is none."""
     compiling.need(compiling.MOTION, scene)
     rate = how.step_rate or step_rate_of(scene, how.sample_rate)
     if how.coarse:
@@ -146,7 +147,7 @@ def motion(scene: Scene, how: Marching) -> SettledMotion:
     duration = quick_duration(scene, how)
     if rate is not None:
         duration = _affordable(scene, duration, rate)
-    # the default takes more steps where contacts that let go need them
+    # without a step rate `simulate` takes more steps where opening contacts need them
     chosen = rate if how.coarse else how.step_rate
     run = core.simulate(
         scene, duration, how.sample_rate, step_rate=chosen, most_steps=MOST_STEPS_WITH_MASS
@@ -157,7 +158,7 @@ def motion(scene: Scene, how: Marching) -> SettledMotion:
 
 @cached
 def ending(scene: Scene, how: Marching) -> Ending:
-    """The end of the motion."""
+    """Reason for an early end of the motion, or the uncertain bands of its spectrum."""
     run, _ = motion(scene, how)
     return Ending("", run.detail) if run.completed else Ending(run.reason, "")
 
@@ -173,7 +174,7 @@ def excerpt(scene: Scene, how: Marching) -> Excerpt:
 def late_spectra(scene: Scene, how: Marching) -> dict[str, Spectrum]:
     """Spectrum of the housing's acceleration along each direction, once the motion has settled.
 
-    Empty where it did not stay finite.
+    Empty if it did not stay finite.
     """
     run, since = motion(scene, how)
     if not run.completed:
@@ -184,7 +185,7 @@ def late_spectra(scene: Scene, how: Marching) -> dict[str, Spectrum]:
 
 @cached
 def dynamic_load(scene: Scene, how: Marching) -> float:
-    """Greatest load of a ball [N] since the motion settled; NaN where it did not stay finite."""
+    """Greatest load of a ball [N] since the motion settled; NaN if it did not stay finite."""
     run, since = motion(scene, how)
     if not run.completed:
         return math.nan
@@ -192,8 +193,8 @@ def dynamic_load(scene: Scene, how: Marching) -> float:
     return float(loads.max(initial=0.0))
 
 
-def limit_to_known(light: Scene, how: Marching) -> Marching:
-    """Limit the march of massless balls to what is known of the march with mass."""
+def match_bandwidth(light: Scene, how: Marching) -> Marching:
+    """Marching of massless balls with a spectrum that is known as far as that with mass."""
     if how.coarse:
         return how
     return dataclasses.replace(how, step_rate=fine_step_rate(light, how.sample_rate))
@@ -204,7 +205,7 @@ def ball_mass(scene: Scene, how: Marching) -> BallMass:
     """The motions without and with the balls' mass, compared over the same time."""
     heavy = scene.replace(balls=WITH_MASS)
     alike = dataclasses.replace(how, duration=quick_duration(heavy, how, MOST_COMPARED))
-    moved = motion(heavy, alike)
+    with_mass = motion(heavy, alike)
     light = scene.replace(balls=MASSLESS)
-    massless = motion(light, limit_to_known(light, alike))
-    return compare_motions(massless.motion, moved.motion, moved.since)
+    massless = motion(light, match_bandwidth(light, alike))
+    return compare_motions(massless.motion, with_mass.motion, with_mass.since)

@@ -1,6 +1,6 @@
-"""Reasons for results: a sentence each, from the results alone.
+"""Reasons for results: one sentence for each, from the results alone.
 
-Where the results do not show a reason the sentence is empty, or says that there is none here.
+If the results show no reason, the sentence is empty or says so.
 """
 
 from __future__ import annotations
@@ -27,23 +27,23 @@ if TYPE_CHECKING:
     from bearingcore import Bearing, Equilibrium, Scene, Spectrum
 
 LEAST = 0.01
-"""Share of a stiffness: less is no change."""
+"""Least relative change of a stiffness that counts as a change."""
 ALIKE = 0.01
-"""Share of the greatest load within which balls carry the most together."""
+"""Balls whose load differs by at most this share from the greatest one carry the most together."""
 NEAR = 0.65
-"""Mean cos²φ of loaded balls from which they lie near an axis; all of one side have 0.5 to 0.6."""
+"""Least mean cos²φ of loaded balls that lie near an axis; all balls of one side have 0.5 to 0.6."""
 SEPARATE = 4.0
-"""Lines of a spectrum between two peaks that stand apart; a Hann window widens each to four."""
+"""Least distance of separate peaks in lines of a spectrum; a Hann window widens each to four."""
 STANDS_OUT = 3.0
 """Height [dB] of a peak over its surroundings, which lie halfway to its neighbours."""
 LOADED = 0.01
 """Share of the greatest load at rest from which a ball counts as loaded."""
 AT_AN_EDGE = 0.07
-"""Share of an excerpt, a tenth of a ball pass: a jolt farther from an edge is not its effect."""
+"""Share of an excerpt, a tenth of a ball pass: a jolt farther from an edge has another cause."""
 KEPT = 0.25
-"""Share of its greatest load: a ball that carries more throughout does not lose it."""
+"""Share of its greatest load that a ball must carry throughout, or it counts as unloaded."""
 LARGE_SWING = 1.25
-"""Greatest load in motion over that at rest from which a swing is not small."""
+"""Greatest load in motion over that at rest above which a swing is not small."""
 _ACROSS = {"x": "the horizontal", "y": "the vertical"}
 _OTHER = {"x": "up and down", "y": "sideways"}
 RADIAL = ("k_xx", "k_yy")
@@ -68,24 +68,25 @@ def most_loaded(
         return ""
     most = np.flatnonzero(load >= (1.0 - ALIKE) * load.max())
     several = most.size > 1
-    what = f"{style.with_prefix(load.max(), 'N')}{' each' if several else ''}"
+    load_words = f"{style.with_prefix(load.max(), 'N')}{' each' if several else ''}"
     line = direction(scene)
     if most.size == load.size:
-        return f"All {elements(bearing)} carry alike, {what}: nothing loads one side."
-    names = _named(bearing, most)
+        return f"All {elements(bearing)} carry alike, {load_words}: nothing loads one side."
+    names = _element_names(bearing, most)
     text = f"{names[0].upper()}{names[1:]} {'carry' if several else 'carries'} most"
-    text += "" if briefly else f", {what}"
+    text += "" if briefly else f", {load_words}"
+    # elements nearer to the load's line would be expected to carry more
     apart = np.abs((states.ball_angle[state] - line + math.pi) % (2.0 * math.pi) - math.pi)
     nearer = np.flatnonzero(apart < apart[most].min() - 1e-6)  # none without a line, which is NaN
     where = _place_words(float(apart[most].min()), bool(nearer.size), not several)
-    # in a defect, farther than those that carry most, and with less load
+    # elements that lost their load: deeper in a defect than those that carry most
     lost = (drop > drop[most].max()) & (load < (1.0 - ALIKE) * load.max())
     inside, adjacent = nearer[lost[nearer]], _neighbours(bearing, most)
     gone = inside if inside.size else adjacent[lost[adjacent]]
-    said, single = _named(bearing, gone), gone.size == 1
+    gone_names, single = _element_names(bearing, gone), gone.size == 1
     if briefly:
         if gone.size and (nearer.size or math.isnan(line)):
-            return f"{text}: {said} {'is' if single else 'are'} in the defect."
+            return f"{text}: {gone_names} {'is' if single else 'are'} in the defect."
         return f"{text}: {where.partition(',')[0]}."
     if not gone.size:
         return f"{text}: {where}."
@@ -96,14 +97,14 @@ def most_loaded(
         "nearer the line of the load" if inside.size else f"beside {'them' if several else 'it'}"
     )
     verbs = ("lies", "carries") if single else ("lie", "carry")
-    why = f"{said}, {place}, {verbs[0]} in the defect and {verbs[1]} {carry}"
+    why = f"{gone_names}, {place}, {verbs[0]} in the defect and {verbs[1]} {carry}"
     return f"{text}: {why}." if inside.size or math.isnan(line) else f"{text}: {where}; {why}."
 
 
 def _place_words(apart: float, is_off: bool, single: bool) -> str:
-    """Place of the elements that carry most, `apart` [rad] from the load's line.
+    """Place of the elements that carry most, `apart` [rad] from the load's line, in words.
 
-    `is_off`: others are nearer to it. NaN where there is no line.
+    `is_off`: others are nearer to the line. `apart` is NaN without a line.
     """
     if math.isnan(apart) or is_off:
         return "the rings are pressed together most there"
@@ -114,12 +115,12 @@ def _place_words(apart: float, is_off: bool, single: bool) -> str:
 
 
 def _neighbours(bearing: Bearing, which: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Elements beside these in their rows."""
+    """Numbers of the elements beside these in their rows."""
     adjacent = [
-        its.start + (int(k) - its.start + side) % (its.stop - its.start)
-        for its in bearing.balls_of_rows
+        row.start + (int(k) - row.start + side) % (row.stop - row.start)
+        for row in bearing.balls_of_rows
         for k in which
-        if its.start <= k < its.stop
+        if row.start <= k < row.stop
         for side in (-1, 1)
     ]
     return np.unique(np.array(adjacent, dtype=np.int64))
@@ -140,8 +141,8 @@ def greatest_load(results: Results) -> str:
     )
 
 
-def _named(bearing: Bearing, which: NDArray[np.int64]) -> str:
-    """Elements by their names, row by row: "balls 10 and 12"; of more than six how many."""
+def _element_names(bearing: Bearing, which: NDArray[np.int64]) -> str:
+    """Names of elements, row by row: "balls 10 and 12"; for more than six only their number."""
     rows: dict[int, list[str]] = {}
     for k in which:
         row, number = bearing.row_of_ball(int(k))
@@ -172,51 +173,53 @@ def why_softer(
     before: tuple[Mapping[str, float], float],
     briefly: bool = False,
 ) -> str:
-    """Say why the mean of k_xx or k_yy changed, from both and the number of loaded balls.
+    """Say why the mean of k_xx or k_yy changed, from the means and numbers of `radial`.
 
-    A contact at φ with stiffness k adds k·cos²φ to k_xx and k·sin²φ to k_yy: their sum is the
-    stiffness of all contacts, the share of one of them the mean cos²φ or sin²φ. Empty where the
-    means do not show it.
+    A contact at φ with stiffness k adds k·cos²φ to k_xx and k·sin²φ to k_yy. So their sum is the
+    stiffness of all contacts, and the share of one term is the mean cos²φ or sin²φ. Empty if the
+    means do not show the reason.
     """
     (stiff, balls), (former, balls_before) = now, before
     if not {term, "k_xx", "k_yy"} <= set(stiff) & set(former):
         return ""
-    total, total_before = (of["k_xx"] + of["k_yy"] for of in (stiff, former))
+    total, total_before = (means["k_xx"] + means["k_yy"] for means in (stiff, former))
     if not (min(stiff[term], former[term], balls, balls_before) > 0.0):
         return ""
     share, share_before = stiff[term] / total, former[term] / total_before
+    # ln(term ratio) = ln(share ratio) + ln(total ratio): name each part that has the sign of the
+    # change and at least half the size of the other
     turned, grown = math.log(share / share_before), math.log(total / total_before)
     more = math.log(balls / balls_before)
     dof = term[-1]
     rises = stiff[term] > former[term]
-    said = []
+    reasons = []
     if (turned > 0.0) == rises and abs(turned) >= 0.5 * abs(grown):
         how = "farther from" if turned < 0.0 else "nearer"
         push = "more" if turned < 0.0 else "less"
         lie = "" if briefly else f"loaded balls lie {how} {_ACROSS[dof]} and "
-        said.append(
+        reasons.append(
             f"{lie or 'balls '}push back {push} {_OTHER[dof]} "
             f"({_SQUARE[dof]} {change_words(share_before, share)})"
         )
     if (grown > 0.0) == rises and abs(grown) >= 0.5 * abs(turned):
         if (more > 0.0) == rises and abs(more) >= 0.5 * abs(grown):
             many = "more" if more > 0.0 else "fewer"
-            said.append(
+            reasons.append(
                 f"{many} balls carry ({style.number(balls_before)} → {style.number(balls)})"
             )
         else:
-            said.append(f"each contact is {'stiffer' if grown > more else 'softer'} on average")
-    return style.list_words(said)
+            reasons.append(f"each contact is {'stiffer' if grown > more else 'softer'} on average")
+    return style.list_words(reasons)
 
 
 def change_words(before: float, now: float) -> str:
-    """Two numbers with as many places as distinguish them, two at least."""
+    """Two numbers with the fewest decimals that distinguish them, at least two."""
     places = next((n for n in range(2, 9) if f"{before:.{n}f}" != f"{now:.{n}f}"), 9)
     return f"{before:.{places}f} → {now:.{places}f}"
 
 
 def stiffness(results: Results, *, briefly: bool = False) -> str:
-    """Say why the radial stiffness is not the healthy one, or why x and y differ."""
+    """Say why the radial stiffness differs from the healthy one, or between x and y."""
     now = radial(results)
     means = now[0]
     if len(means) < 2 or not all(map(math.isfinite, means.values())):
@@ -245,7 +248,7 @@ def stiffness(results: Results, *, briefly: bool = False) -> str:
 
 
 def _stiffness_against(results: Results, now: tuple[dict[str, float], float], briefly: bool) -> str:
-    """Say why the radial stiffness is not, or just, the healthy one; empty if unknown."""
+    """Say how and why the radial stiffness differs from the healthy one; empty if unknown."""
     means, before = now[0], radial(results.reference)
     grown = {term: means[term] / before[0][term] - 1.0 for term in means}
     most = max(grown, key=lambda term: abs(grown[term]))
@@ -272,7 +275,7 @@ def _stiffness_against(results: Results, now: tuple[dict[str, float], float], br
 
 
 _LEVER = {"x": "cosα·cosφ", "y": "cosα·sinφ", "z": "sinα"}
-"""Component of a contact's line along a direction."""
+"""Component of a contact's unit vector along a direction."""
 
 
 def stiffness_term(results: Results, term: str) -> str:
@@ -284,6 +287,7 @@ def stiffness_term(results: Results, term: str) -> str:
     symbol = TERM_SYMBOLS[term].replace(" ", "_", 1)
     least, most = np.nanmin(states.term(term)), np.nanmax(states.term(term))
     size = max(abs(least), abs(most))
+    # zero is judged by the geometric mean of the two diagonal terms
     diagonal = (states.term(f"k_{dof}{dof}") for dof in (first, other))
     scale = math.sqrt(math.prod(float(np.nanmax(np.abs(values))) for values in diagonal))
     if size <= 1e-6 * scale:
@@ -320,16 +324,16 @@ def stiffness_term(results: Results, term: str) -> str:
 
 
 STIFF_WHERE_HELD = "Directions that are held have a stiffness as well."
-"""Why terms of directions that cannot move have values: they are the bearing's."""
+"""Why terms of directions that cannot move have values: the stiffness is the bearing's."""
 
 
 def not_needed(scene: Scene, *, briefly: bool = False) -> str:
-    """Directions in which the rings are held in a scene, and why; empty where all are free."""
+    """Say in which directions the rings are held, and why; empty if all are free."""
     held = [dof for dof in DOF_NAMES if dof not in scene.active_dofs]
     if not held:
         return ""
     words = _why_held(scene, held, briefly)
-    # rollers and self-aligning balls resist nothing there
+    # the sentence is false for rollers and self-aligning balls: they do not resist tilt
     resists = not scene.bearing.kind.left_out or set(held) <= set(
         scene.bearing.kind.needed_directions
     )
@@ -337,6 +341,7 @@ def not_needed(scene: Scene, *, briefly: bool = False) -> str:
 
 
 def _why_held(scene: Scene, held: list[str], briefly: bool) -> str:
+    """Say why these directions are held: by default, by choice, or because nothing moves them."""
     names = style.list_words([DOF_SYMBOLS[dof] for dof in held])
     if scene.holds_tilt_unasked:
         return f"{names} are held, as by the shaft's other bearing."
@@ -355,7 +360,7 @@ def _why_held(scene: Scene, held: list[str], briefly: bool) -> str:
 
 
 def play(now: Bearing, before: Bearing) -> str:
-    """Effect of contact angle and clearance on the play 2·(A₀·(1 − cos α₀) + r_L), in words."""
+    """Say how contact angle and clearance change the play 2·(A₀·(1 − cos α₀) + r_L)."""
     old, new = before.diametral_play, now.diametral_play
     if abs(new - old) < ALIKE * max(abs(new), abs(old)):
         return ""
@@ -375,7 +380,7 @@ def _micro(length: float) -> str:
 
 
 def frequencies(results: Results) -> str:
-    """Say why the natural frequency that moves most does so."""
+    """Say which natural frequency moves most, and why."""
     ranges = results.ranges
     widths = {
         label: high / low
@@ -390,7 +395,7 @@ def frequencies(results: Results) -> str:
     if not ratio > 1.0:
         return ""
     name = mode_symbol(label)
-    moves, varies = (f"{style.number(100.0 * (of - 1.0), 2)} %" for of in (widths[label], ratio))
+    moves, varies = (f"{style.number(100.0 * (x - 1.0), 2)} %" for x in (widths[label], ratio))
     if ratio < 1.0 + LEAST:
         return f"The bands are narrow because {term} varies by no more than {varies}."
     power = math.log(widths[label]) / math.log(ratio)
@@ -408,20 +413,20 @@ HEALTHY_SHAKES = (
     "No defect: a healthy bearing also shakes as its balls pass, because as they change places the "
     "stiffness under the load changes."
 )
-"""Reason for peaks at the ball-pass frequency that might seem to be the sign of a defect."""
+"""Reason for peaks at the ball-pass frequency that could be taken for the sign of a defect."""
 
 
-def passes(
+def ball_pass_peak(
     spectrum: Spectrum,
     rate: float,
     lowest_mode: float,
     *,
     briefly: bool = False,
 ) -> str:
-    """Say whether a peak stands at the ball-pass frequency [Hz], why not, and where to see it.
+    """Say whether the spectrum has a peak at the ball-pass frequency `rate` [Hz], and if not why.
 
-    `lowest_mode` [Hz]: the least natural frequency. `briefly`: nothing where the spectrum cannot
-    show it.
+    `lowest_mode` [Hz]: the least natural frequency. `briefly`: empty if the spectrum is too
+    coarse to show it.
     """
     frequency, density = spectrum
     spacing = float(frequency[1] - frequency[0])
@@ -437,8 +442,8 @@ def passes(
             f"{style.with_prefix(1.0 / rate, 's')}) and in the envelope (Diagnosis)."
         )
     level = 10.0 * np.log10(np.maximum(density, 1e-20))
-    at = round(rate / spacing)
-    height = level[at - 1 : at + 2].max()
+    line = round(rate / spacing)
+    height = level[line - 1 : line + 2].max()
     valleys = [level[round(share * rate / spacing)] for share in (0.5, 1.5)]
     below = f"{style.number(float(level.max() - height), 2)} dB below the largest peak"
     if height - max(valleys) < STANDS_OUT:
@@ -464,7 +469,7 @@ def peak(results: Results, rates: Sequence[float], *, briefly: bool = False) -> 
     lower = density[is_low].max(initial=0.0) > density[~is_low].max(initial=0.0)
     above = f" above {LOWEST_PEAK:.0f} Hz" if lower else ""
     text = f"The largest peak{above}, {most.frequency:.0f} Hz along {dof},"
-    bands = {label: band for label, band in results.bands.items() if band[0] == band[0]}
+    bands = {label: band for label, band in results.bands.items() if not math.isnan(band[0])}
     inside = [label for label, band in bands.items() if _distance(most, band) <= most.resolution]
     if alike := [label for label in inside if label[:-1] == dof]:
         if briefly:
@@ -497,7 +502,7 @@ def peak(results: Results, rates: Sequence[float], *, briefly: bool = False) -> 
 
 
 def _ball_pass_words(most: Peak, rates: Sequence[float]) -> str:
-    """A peak as a multiple of a rate [Hz] of ball passes, and why it is there; else empty."""
+    """A peak as a multiple of a rate [Hz] of ball passes, with the reason; else empty."""
     for rate in rates:
         halves = round(2.0 * most.frequency / rate) if rate > 0.0 else 0
         resolved = rate >= SEPARATE * most.resolution and halves > 0
@@ -512,33 +517,34 @@ def _ball_pass_words(most: Peak, rates: Sequence[float]) -> str:
 
 
 def jolt(shown: Excerpt, bearing: Bearing) -> str:
-    """Time of the largest jolt, against the loaded balls that enter and leave a defect."""
+    """Say when the largest jolt comes, and which loaded ball enters or leaves a defect then."""
     if shown.broke_off or not shown.acceleration or not shown.events:
         return ""
     size = np.max([np.abs(values) for values in shown.acceleration.values()], axis=0)
-    at = float(shown.time[int(np.argmax(size))])
+    jolt_time = float(shown.time[int(np.argmax(size))])
     loads = dict(zip(shown.balls, shown.ball_load.max(axis=0, initial=0.0), strict=True))
     loaded = [e for e in shown.events if loads[e.ball] > LOADED * shown.greatest_static_load]
     if not loaded:
         return (
             "No loaded ball passes the defect: only the changing number of loaded balls shakes it."
         )
-    nearest = min(loaded, key=lambda event: abs(event.time - at))
-    apart, load = at - nearest.time, shown.ball_load[:, list(shown.balls).index(nearest.ball)]
+    nearest = min(loaded, key=lambda event: abs(event.time - jolt_time))
+    apart = jolt_time - nearest.time
+    load = shown.ball_load[:, list(shown.balls).index(nearest.ball)]
     near = AT_AN_EDGE * float(np.ptp(shown.time))
-    around = load[np.abs(shown.time - at) <= near]
+    around = load[np.abs(shown.time - jolt_time) <= near]
     swing = loads[nearest.ball] / shown.greatest_static_load
     if abs(apart) > near:
         text = "The largest jolt comes while no ball enters or leaves the defect"
         if swing <= LARGE_SWING:
             return f"{text}."
         return f"{text}: a ball carries up to {style.number(swing, 2)} times as much as at rest."
-    verb, what = ("enters", "loses") if nearest.enters else ("leaves", "takes back")
+    verb, then = ("enters", "loses") if nearest.enters else ("leaves", "takes back")
     when = f"{style.with_prefix(abs(apart), 's', 2)} {'after' if apart >= 0.0 else 'before'}"
     text = f"The largest jolt comes {when} {element_name(bearing, nearest.ball)} {verb} the defect"
     if around.min() > KEPT * load.max():
         return f"{text}; it carries at least {style.with_prefix(around.min(), 'N', 2)} then."
-    return f"{text} and {what} its load ({style.with_prefix(around.max(), 'N', 2)} at most)."
+    return f"{text} and {then} its load ({style.with_prefix(around.max(), 'N', 2)} at most)."
 
 
 def _distance(peak: Peak, band: tuple[float, float]) -> float:

@@ -1,7 +1,7 @@
-"""Results: what is known about one scene, computed when first asked for.
+"""Results of one scene, computed when they are first needed.
 
-Everything that is drawn passes through here. What is costly is
-computed by the functions of `statics`, `motion` and `endurance`, whose results all sessions share.
+Everything that is drawn passes through here. Costly results come from the functions of `statics`,
+`motions` and `endurance`, and all sessions share them.
 """
 
 from __future__ import annotations
@@ -53,42 +53,40 @@ from bearingcore.model.statics import (
 )
 
 MAP_REACHES = tuple(math.radians(reach) for reach in (90.0, 120.0, 180.0, 360.0))
-"""Greatest extents of maps [rad]: the first that holds the extent shown. 90° as in the paper."""
+"""Greatest extents of maps [rad]; the first that holds the shown extent is used. Paper: 90°."""
 
 OF_MOTION = frozenset({"motion", "excerpt", "late_spectra", "ball_mass", "chain"})
-"""Attributes of `Results` that are made of a simulated motion, and are drawn after the others."""
+"""Attributes of `Results` that need a simulated motion; they are drawn after the others."""
 OVER_STRETCH = frozenset({"equilibrium", "ranges", "modes", "bands", "chain"})
-"""Attributes over the cage angles of the curves, fewer while a slider moves."""
+"""Attributes over the cage angles of the curves, which are fewer while a slider moves."""
 
 
 @cached
 def _chain_of(scene: Scene, cage_angle: float, settings: Settings, moving: bool) -> Chain:
-    """The chain of another scene: a whole drag is compared with the one where it began."""
+    """Chain of another scene; a whole drag is compared with the chain where it began."""
     return Results(scene, cage_angle, settings, moving=moving).chain
 
 
 @dataclass(frozen=True, eq=False)
 class Results(SceneContent):
-    """All that the views read. Attributes are computed when first asked for, in any thread.
+    """All results that views read. Attributes are computed when first needed, in any thread.
 
     Parameters
     ----------
-    scene
-        the scene shown.
-    cage_angle
-        [rad] shown.
+    scene, cage_angle [rad]
+        scene and cage angle on screen.
     settings
         fineness of the computation.
     focus
-        number of the defect that is looked at.
+        index of the selected defect.
     moving
-        whether a slider moves, so that a quick answer is wanted.
+        True while a slider moves and a quick answer is wanted.
     held
-        whether a hand still holds a slider or handle: the scales that it measures by stay.
+        True while a hand holds a slider or handle; the scales that it uses must stay.
     compared
-        scenes that are drawn too, each under a name.
+        scenes that are drawn for comparison, each with a name.
     before
-        the scene before the last change, where there was one.
+        scene before the last change; None before the first.
     grey_kind
         kind of the reference that is drawn in grey.
     life_inputs
@@ -96,9 +94,9 @@ class Results(SceneContent):
     lesson_term
         term of the stiffness that the open lesson compares between scenes; empty without one.
     mark
-        number of the newest change of the browser that they hold.
+        number of the newest change of the browser that is in these results.
     like
-        other results, over whose stretch and with whose steps these are computed.
+        other results whose stretch and steps these share.
     """
 
     slow: ClassVar[Set[str]] = OF_MOTION
@@ -121,13 +119,13 @@ class Results(SceneContent):
 
     @property
     def fine_key(self) -> tuple[object, ...]:
-        """All that a fine picture depends on: turning the bearing leaves one fine."""
+        """Key of a fine picture. It has no cage angle: a turned bearing keeps its fine picture."""
         return self.scene, self.settings, self.compared, self.grey_kind
 
     def against(self, reference: Reference, *, own_period: bool = False) -> Results:
         """Results of another scene, to be compared with these.
 
-        Over the cage angles and with the steps of these, or over its `own_period` with its own.
+        They have the same cage angles and steps, or with `own_period` those of that scene.
         """
         key = reference.scene, own_period
         if key not in self._against:
@@ -142,7 +140,7 @@ class Results(SceneContent):
 
     @cached_property
     def editor(self) -> SceneEditor:
-        """Controls with this scene, for forms outside of the page."""
+        """An editor with this scene, for forms outside of the page."""
         editor = SceneEditor("fan-rig")
         editor.take_scene(self.scene, selected=self.focus)
         return editor
@@ -159,21 +157,21 @@ class Results(SceneContent):
 
     @property
     def reference(self) -> Results:
-        """Results of that."""
+        """Results of the reference that is drawn in grey."""
         return self.against(self.grey)
 
     @property
     def over_shaft(self) -> bool:
-        """True if curves are drawn over a turn of the shaft: a defect turns with it."""
+        """True if curves are drawn over a turn of the shaft, because a defect turns with it."""
         return self.scene.defect_turns
 
     @cached_property
     def stretch(self) -> tuple[float, float, int]:
-        """First and last cage angle [rad] that curves are drawn over, and how many there are.
+        """First and last cage angle [rad] of the curves, and the number of cage angles.
 
-        A ball spacing, after which all is as before; of rows of unlike balls what their spacings
-        have in common, or a turn of the cage. With a defect of the inner race nothing repeats so
-        soon: then the turn of the shaft that the cage angle shown lies in.
+        The stretch is a ball spacing, after which everything repeats; for rows of unlike balls a
+        common multiple of their spacings, or a turn of the cage. With a defect of the inner race
+        nothing repeats so soon: the stretch is the turn of the shaft at the shown cage angle.
         """
         if self.like is not None:
             return self.like.stretch
@@ -189,9 +187,9 @@ class Results(SceneContent):
         return turn * length, (turn + 1) * length, angles.size
 
     def along(self, cage_angle: ArrayLike) -> NDArray[np.float64]:
-        """Cage angles [rad] as curves show them [degrees], within the stretch.
+        """Convert cage angles [rad] to places on the curves [deg], within the stretch.
 
-        Those of the cage, or where the curves are over a turn of the shaft, those of the shaft.
+        These are angles of the cage, or of the shaft if curves are over a turn of the shaft.
         """
         first, last, _ = self.stretch
         angle = np.asarray(cage_angle, dtype=float)
@@ -202,14 +200,14 @@ class Results(SceneContent):
 
     @cached_property
     def equilibrium(self) -> Equilibrium:
-        """Static answers over the stretch."""
+        """Static equilibrium over the stretch."""
         return statics.curves(self.scene, *self.stretch)
 
     @cached_property
     def ranges(self) -> StaticRanges:
-        """Least, greatest and mean of static answers, over all positions of the bearing.
+        """Least, greatest and mean of static results, over all positions of the bearing.
 
-        Where a defect turns with the shaft they are more than the turn that curves are over.
+        If a defect turns with the shaft, these are more positions than one turn of the curves.
         """
         if self.over_shaft or (self.like is not None and self.like.over_shaft):
             return statics.ranges(self.scene, self.moving)
@@ -217,13 +215,13 @@ class Results(SceneContent):
 
     @cached_property
     def load_curves(self) -> list[Curve]:
-        """Load [N] of a ball over its angle [rad], a curve a row; see `load_curve`."""
+        """Load [N] of a ball over its angle [rad], one curve for each row; see `load_curve`."""
         rows = range(len(self.scene.bearing.all_rows))
         return [load_curve(self.ranges.state, row) for row in rows]
 
     @cached_property
     def inner_load_curves(self) -> list[Curve]:
-        """Load curves at the inner race, where balls with mass carry less; else none."""
+        """Load curves at the inner race, where balls with mass carry less; empty if massless."""
         state = self.ranges.state
         if not isinstance(state, EquilibriumWithMass) or state.positions.centrifugal_load == 0.0:
             return []
@@ -232,7 +230,7 @@ class Results(SceneContent):
 
     @cached_property
     def now(self) -> Equilibrium:
-        """Static answer at the cage angle shown; arrays of length 1."""
+        """Static equilibrium at the shown cage angle; arrays of length 1."""
         return statics.curves(self.scene, self.cage_angle, self.cage_angle, 1)
 
     @cached_property
@@ -244,28 +242,29 @@ class Results(SceneContent):
     def bands(self) -> dict[str, tuple[float, float]]:
         """Least and greatest frequency [Hz] of each mode over all positions of the bearing.
 
-        Looked for between the angles too, and in all turns of the shaft: the same however finely
-        curves are drawn. Coarser while a slider moves.
+        The search covers all turns of the shaft and places between the cage angles of curves, so
+        the result does not depend on their number. It is coarser while a slider moves.
         """
         return statics.bands(self.scene, self.moving)
 
     @property
     def extent(self) -> float:
-        """Extent [rad] of the defect that is looked at."""
+        """Extent [rad] of the selected defect."""
         return defects_of(self.scene)[self.focus].extent
 
     @cached_property
     def maps(self) -> Maps:
-        """Stiffness and loaded balls over extents of the defect looked at, and cage angles.
+        """Stiffness and loaded balls over extents of the selected defect and cage angles.
 
-        The same maps for every extent that they hold: moving along them computes nothing.
+        All extents that a map holds share it: a change of the extent computes nothing.
         """
         first, last, _ = self.stretch
         others = list(defects_of(self.scene))
-        looked_at = dataclasses.replace(others.pop(self.focus), extent=0.0)
-        scene = self.scene.replace(defect=(looked_at, *others) if others else looked_at)
+        selected = dataclasses.replace(others.pop(self.focus), extent=0.0)
+        scene = self.scene.replace(defect=(selected, *others) if others else selected)
         reach = next(reach for reach in MAP_REACHES if self.extent <= reach * 1.000001)
-        # a turn of the shaft holds about five ball spacings: twice the angles, or too much to send
+        # a turn of the shaft holds about five ball spacings, but five times the angles would be
+        # too much to send: twice as many are taken
         n = self.settings.n_map_angles
         columns = 2 * n - 1 if has_long_period(self.scene) else n
         return statics.maps(scene, reach, self.settings.n_extents, first, last, columns)
@@ -281,14 +280,14 @@ class Results(SceneContent):
         return profile(self.scene, self.cage_angle, self.focus)
 
     def prefetch(self, needed: frozenset[str]) -> None:
-        """Begin in another thread what of these attributes can be computed at the same time."""
+        """Begin in another thread the part of these attributes that can be computed in parallel."""
         if {"late_spectra", "reference"} <= needed:
             key = self.grey.scene, self.reference.marching
             if not motions.late_spectra.knows(*key):  # the picture waits for this one
                 PICTURES.submit(motions.late_spectra, *key)
 
     def status(self, seconds: float, needed: frozenset[str] = frozenset()) -> dict[str, Any]:
-        """The status line of results that took `seconds` [s], for views that need these."""
+        """Status line of results that took `seconds` [s], for views that need these attributes."""
         mood, words = self.verdict(needed)
         details = verdict.details_of(self.equilibrium)
         if self.is_coarse(needed):
@@ -297,9 +296,9 @@ class Results(SceneContent):
         return {"mood": mood, "words": words, "details": details, "resting": not self.moving}
 
     def verdict(self, shown: frozenset[str]) -> Verdict:
-        """The verdict on what is on screen: `shown` are the attributes that its views read.
+        """Verdict on the results on screen; `shown` are the attributes that its views read.
 
-        The first failure counts: without a static state there is no motion.
+        The first failure counts, because without a static state there is no motion.
         """
         bad = verdict.statics_words(self.equilibrium)
         if not bad and "now" in shown and not self.now.converged[0]:
@@ -320,7 +319,7 @@ class Results(SceneContent):
         return Verdict("good", "Computed without problems")
 
     def arguments(self, needed: frozenset[str]) -> dict[str, str]:
-        """Arguments of a figure that needs these attributes, where they are not as usual."""
+        """Arguments, other than the usual ones, of a figure that needs these attributes."""
         arguments: dict[str, str] = {}
         if self.cage_angle:
             arguments["cage_angle"] = short(self.cage_angle)
@@ -340,12 +339,12 @@ class Results(SceneContent):
 
     @property
     def compared_argument(self) -> dict[str, str]:
-        """The argument of a figure that draws compared scenes; none without them."""
+        """Argument of a figure that draws compared scenes; empty without them."""
         named = (f"{code_of(other.name)}: {scene_code(other.scene)}" for other in self.compared)
         return {"compared": "{" + ", ".join(named) + "}"} if self.compared else {}
 
     def is_coarse(self, shown: frozenset[str]) -> bool:
-        """True if what is shown of attributes is made of motions that are marched coarsely."""
+        """True if any of the shown attributes comes from a motion that is marched coarsely."""
         scenes = [self.scene] if shown & OF_MOTION else []
         if "reference" in shown and scenes:
             scenes.append(self.grey.scene)
@@ -361,17 +360,17 @@ class Results(SceneContent):
         return self.moving and motions.is_costly(scene, self.settings.marching)
 
     def _marching_of(self, *scenes: Scene) -> Marching:
-        """Settings of motions: coarse where one of them takes too long while a slider moves."""
+        """Settings of motions: coarse if one of them takes too long while a slider moves."""
         coarse = any(map(self._is_coarse, scenes))
         return self.settings.coarse_marching if coarse else self.settings.marching
 
     @cached_property
     def marching(self) -> Marching:
-        """Settings of its motions; those of the scene with the defect where it is compared."""
+        """Settings of its motions; compared results share those of the scene on screen."""
         first = self.like or self
         how = first._marching_of(first.scene, first.grey.scene)
         if first.grey_kind == OTHER_BALLS and self.scene.balls == MASSLESS:
-            return motions.limit_to_known(self.scene, how)
+            return motions.match_bandwidth(self.scene, how)
         return how
 
     @cached_property
@@ -381,12 +380,12 @@ class Results(SceneContent):
 
     @property
     def fault(self) -> str:
-        """Reason for an early end of the motion; empty where there is none."""
+        """Reason for an early end of the motion; empty without one."""
         return motions.ending(self.scene, self.marching).fault
 
     @property
     def doubt(self) -> str:
-        """Words on bands of the spectrum that are not known within 1 dB; or empty."""
+        """Words on bands of the spectrum that are not known within 1 dB; empty without them."""
         return motions.ending(self.scene, self.marching).doubt
 
     @cached_property
@@ -398,19 +397,19 @@ class Results(SceneContent):
     def late_spectra(self) -> dict[str, Spectrum]:
         """Spectrum of the housing's acceleration along each direction, once the motion has settled.
 
-        Empty where it did not stay finite.
+        Empty if the motion did not stay finite.
         """
         return motions.late_spectra(self.scene, self.marching)
 
     @cached_property
     def peaks(self) -> dict[str, Peak]:
-        """The highest lines of these spectra along x and y, where the housing moves along them."""
+        """The highest line of the spectra along x and y, if the housing moves along them."""
         spectra = self.late_spectra
         return {dof: loudest(spectra[dof]) for dof in ("x", "y") if dof in spectra}
 
     @cached_property
     def ball_mass(self) -> BallMass:
-        """The motions without and with the balls' mass, marched alike, for any scene."""
+        """The motions without and with the balls' mass, with the same settings."""
         if kind := self.scene.bearing.kind.mass_unknown:
             raise ValueError(f"the model has no mass of {kind}")
         how = self._marching_of(self.scene.replace(balls=WITH_MASS))
@@ -418,7 +417,7 @@ class Results(SceneContent):
 
     @cached_property
     def contact_damping(self) -> float:
-        """Viscous damping of a loaded contact [N·s/m], given or from the stiffness."""
+        """Viscous damping of a loaded contact [N·s/m], as set or from the stiffness."""
         compiling.need(compiling.STATICS, self.scene)
         return core.contact_damping(self.scene)
 
@@ -426,13 +425,13 @@ class Results(SceneContent):
     def limits(self) -> tuple[Limit, ...]:
         """Effects that the model leaves out of the scene, with their numbers in motion.
 
-        The same whatever is on screen: looked at over cage angles of its own, and with the motion
-        that any view has had simulated.
+        They do not depend on the views on screen: they have their own cage angles, and use a
+        motion if any view has simulated it.
         """
         try:
             step_rate = motions.step_rate_of(self.scene, self.settings.sample_rate)
         except ValueError:
-            step_rate = None  # no motion, no steps
+            step_rate = None  # there is no motion
         return endurance.limits(self.scene, step_rate, self.load_in_motion, self.life_inputs)
 
     @property
@@ -446,7 +445,7 @@ class Results(SceneContent):
 
     @property
     def load_in_motion(self) -> float | None:
-        """Greatest ball load [N] of the settled motion, where one has been simulated."""
+        """Greatest ball load [N] of the settled motion; None if none has been simulated."""
         key = self.scene, self.settings.marching
         simulated = not self.moving and motions.motion.knows(*key)
         if not simulated and not motions.dynamic_load.knows(*key):
@@ -456,7 +455,7 @@ class Results(SceneContent):
 
     @cached_property
     def chain(self) -> Chain:
-        """Results from the loads of the balls to the vibration."""
+        """Results of each link from the loads of the balls to the vibration."""
         bands: dict[str, tuple[float, float]] = {}
         peaks: dict[str, Peak] = {}
         silent = ""
@@ -474,13 +473,13 @@ class Results(SceneContent):
 
     @property
     def picture_top(self) -> float:
-        """The frequency [Hz] up to which bands and highest lines are: a picture shows all."""
+        """Upper end [Hz] of a picture that shows all bands and highest lines."""
         ends = [peak.frequency for peak in self.peaks.values()]
         ends += [high for _, high in self.bands.values() if not math.isnan(high)]
         return 1.05 * max(ends, default=0.0)
 
     def chain_of(self, reference: Reference) -> Chain:
-        """The chain of a reference; while a drag is compared with its beginning it is looked up."""
+        """The chain of a reference; during a drag that of its beginning comes from the cache."""
         if reference.scene == self.scene:
             return self.chain
         return _chain_of(reference.scene, self.cage_angle, self.settings, self.moving)

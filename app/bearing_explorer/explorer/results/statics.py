@@ -42,7 +42,7 @@ def bands(scene: Scene, coarse: bool) -> dict[str, tuple[float, float]]:
 
 @cached
 def ranges(scene: Scene, coarse: bool) -> StaticRanges:
-    """Least, greatest and mean of loads and of the stiffness that counts, over all positions."""
+    """Least, greatest and mean of loads and stiffness terms in use, over all positions."""
     compiling.need(compiling.STATICS, scene)
     dofs = scene.active_dofs
     free = [f"k_{a}{b}" for i, a in enumerate(dofs) for b in dofs[i:]]

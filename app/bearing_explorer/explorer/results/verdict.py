@@ -14,14 +14,14 @@ from bearingcore.model.scene import DOF_SYMBOLS
 from bearingcore.model.statics import NO_OIL
 
 MOTIONS = frozenset({"motion", "excerpt", "late_spectra"})
-"""Attributes that are of a simulated motion."""
+"""Attributes that come from a simulated motion."""
 
 LIFE_FIELDS = " Enter them on the Machine tab, under Life."
-"""Behind a limit that is not known for want of an oil."""
+"""Words after a limit that is unknown because no oil was entered."""
 
 
 class Verdict(NamedTuple):
-    """`mood`: "good", "bad" or "busy"."""
+    """A sentence on the results on screen, and its `mood`: "good", "bad" or "busy"."""
 
     mood: str
     words: str
@@ -47,7 +47,7 @@ def chain_words(chain: Chain) -> str:
 
 
 def details_of(state: Equilibrium) -> list[str]:
-    """Details of the status line on the static answers of the curves."""
+    """Details of the static equilibrium of the curves, for the status line."""
     finite = state.residual[state.converged & np.isfinite(state.residual)]
     symbols = " ".join(DOF_SYMBOLS[dof] for dof in state.dofs)
     freedom = count(len(state.dofs), "degree of freedom", "degrees of freedom")

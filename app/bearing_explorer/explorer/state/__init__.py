@@ -1,1 +1,1 @@
-"""State that a person has set: fields, scene, steps to undo, address, lessons. No drawing."""
+"""State that a person sets: fields, scene, steps to undo, address, lessons. It draws nothing."""

@@ -2,41 +2,41 @@
 
     v=1&preset=fan-rig&extent_deg=38.6&fy_n=-120&tab=stiffness&cage_angle_deg=12.5
 
-The text says what differs from a preset, under the names and in the units of the page: so a person
-can read it, change a number by hand and see in a mail what a link is about. One packed word would
-be hardly shorter, as most scenes differ from a preset in two or three numbers, and could not
-be mended. Only the points of a measured floor are packed.
+The text lists the differences from a preset, under the names and in the units of the page. So a
+person can read it, change a number by hand and see in a mail what a link is about. One packed word
+would hardly be shorter, because most scenes differ from a preset in two or three numbers, and it
+could not be corrected by hand. Only the points of a measured floor are packed.
 
 The rules of version 1, which later versions go on reading:
 
-- `v` is 1, also where it is missing, `preset` a name of `bearingcore.presets`. What follows is left
-  out where it is as in the preset; so the numbers of a preset must not change (a test holds them).
-- A number is in the unit of its name, or in SI with ``SI`` behind it where its twelve digits in
-  that unit stand for another scene. ``none`` is an optional number left open. Whatever is written
-  is read back to the last bit.
-- Of several defects (`defects` says how many) the second has its names behind ``defect2.``, and so
-  on; each says what differs from the first defect of the preset. `selected` is the one the sliders
-  move.
+- `v` is 1, also if it is missing. `preset` is a name of `bearingcore.presets`. A value that equals
+  that of the preset is left out; so the numbers of a preset must not change (a test holds them).
+- A number is in the unit of its name, or, if its twelve digits in that unit would give another
+  scene, in SI with ``SI`` behind it. Every number is read back to the last bit. ``none`` is an
+  optional number that is left open.
+- `defects` is the number of defects. Names of the second begin with ``defect2.``, and so on; each
+  lists its differences from the first defect of the preset. `selected` is the defect that the
+  sliders move.
 - `race`, `edge`, `law`, `balls`, `dofs` are words. `dofs` are names with dots between, ``free``
-  (tilts are free), ``held`` (held, but for a moment), or ``auto``, which like nothing leaves tilts
-  free where the load causes any: that was so before links could say ``held``. `floor` is
-  ``flat``, ``rough`` with its three numbers, ``measured`` with `points`, or ``left-out``: it was
-  too long for an address.
-- `rows` is ``one``, or of each row place, facing, clearance, offset and turn in SI with ``_``
-  between them, and ``~`` between rows; behind them what a row has of its own: contact angle, number
-  of balls, ball and pitch diameter, inner and outer groove radius, nothing between the ``_`` of one
-  it has not, and none of the last ones. `row_distance_mm`, `preload_um` and numbers of the second
-  row are read too, and change two rows. `name` is what a person calls the bearing, `estimated` the
-  dimensions that are estimates, with dots between them, `rating` a catalogue's C_r [N].
-- What has ``compare1.`` in front are the first scene that is compared, by
-  the same rules; `compare1.label` is the name of its curves.
-- `tab` and `cage_angle_deg` are where and when one looks, `lesson` the name of the one that is
-  open; alone it stands for the scene that the lesson begins with.
-- `points` is base64url of zlib of the points' places and then depths, as little-endian doubles
-  whose first bytes all come first, then all second ones: neighbours have their first bytes alike.
+  (tilts are free), ``held`` (held, unless a moment acts), or ``auto``. Without `dofs`, and with
+  ``auto``, tilts are free if the load causes any, as before links knew ``held``. `floor` is
+  ``flat``, ``rough`` with its three numbers, ``measured`` with `points`, or ``left-out`` if it
+  was too long for an address.
+- `rows` is ``one``, or the rows with ``~`` between them. A row is its place, facing, clearance,
+  offset and turn in SI, with ``_`` between them, and then the numbers in which it differs from the
+  bearing: contact angle, number of balls, ball and pitch diameter, inner and outer groove radius.
+  Equal ones are empty; at the end they are left out. `row_distance_mm`, `preload_um` and numbers
+  of the second row are read too, and change two rows. `name` is a person's name for the bearing,
+  `estimated` the dimensions that are estimates, with dots between, `rating` a catalogue's C_r [N].
+- Names that begin with ``compare1.`` belong to the first compared scene, by the same rules;
+  `compare1.label` is the name of its curves.
+- `tab` is the open tab, `cage_angle_deg` the cage angle, `lesson` the name of the open lesson. A
+  lesson alone stands for the scene that it begins with.
+- `points` is base64url of zlib of the points' places and then depths, as little-endian doubles.
+  All their first bytes come first, then all second ones: like bytes in a row pack well.
 
-An address is not trusted: it is never evaluated, its length and what unpacks from it are
-bounded, and what cannot be understood is answered with a sentence.
+An address is not trusted: it is never evaluated, its length and its unpacked size are bounded, and
+a sentence says which part cannot be understood.
 """
 
 from __future__ import annotations
@@ -69,15 +69,15 @@ from bearingcore.model.scene import MOST_ROWS, TILT_FREE, TILT_HELD
 
 VERSION = "1"
 LONGEST_LINK = 7_000
-"""Characters of a link: servers in front of ours take lines of 8 kB as they come."""
+"""Most characters of a link: servers in front of ours accept lines of 8 kB by default."""
 LONGEST_TEXT = 2_500_000
-"""Characters that are read at the most, of what a browser has kept: a floor of any length fits."""
+"""Most characters of a text that a browser has kept: a floor of any length fits."""
 _MOST_FIELDS = 400
 _MOST_ESCAPES = 100_000
 _LONGEST_NUMBER = 40
 
 TAB_OF_OLD_LINKS = "load"
-"""Links that name no tab are of days when this one came first."""
+"""Tab of links that name none: they are from a version in which this tab came first."""
 OTHER_NAMES_OF_TABS = {
     "sizing": "diagnosis",
     "ball-mass": "vibration",
@@ -87,7 +87,7 @@ OTHER_NAMES_OF_TABS = {
     "machine": "bearing",
     "more": "explore",
 }
-"""Former names of tabs, in links that people have, and what is written on them."""
+"""Present names of tabs by the former names in old links, or by the words on the tab."""
 
 _DOFS_OF_WORD = {"auto": None, "free": TILT_FREE, "held": TILT_HELD}
 _MAY_BE_NONE = (*OPTIONAL_FIELDS, *BALL_MATERIAL, "roller_length", "groove_center_distance")
@@ -95,17 +95,17 @@ _OF_ROW = (
     *("place", "facing", "clearance", "offset", "turn", "contact_angle", "n_balls"),
     *("ball_diameter", "pitch_diameter", "inner_groove_radius", "outer_groove_radius"),
 )
-"""Numbers of a row in the order of links; those from the sixth on only where it has its own."""
+"""Numbers of a row in the order of links; from the sixth on only if they differ."""
 _ALWAYS_OF_ROW = 5
 _NUMBER = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)(SI)?", re.IGNORECASE | re.ASCII)
 
 
 @dataclass(frozen=True)
 class Place:
-    """A scene and how one looks at it: what a link stands for.
+    """The content of a link: a scene, and the way in which it is shown.
 
-    `selected` is the defect that the sliders move, `cage_angle` in degrees, `tab` a section of the
-    page. `note` is a sentence for whoever opened the link; `compared` are the scenes drawn too.
+    `selected` is the index of the defect that the sliders move, `cage_angle` is in degrees, `tab`
+    is a section of the page. `note` is a sentence for the person who opened the link.
     """
 
     scene: Scene
@@ -119,9 +119,9 @@ class Place:
 
 
 def write(place: Place, longest: int | None = None) -> str:
-    """The text of a place; floors that make it longer than `longest` are left out of it."""
-    text = _written(place, False)
-    return text if longest is None or len(text) <= longest else _written(place, True)
+    """Write a place as text; without its floors if it would be longer than `longest`."""
+    text = _text_of(place, False)
+    return text if longest is None or len(text) <= longest else _text_of(place, True)
 
 
 def leaves_out(text: str) -> bool:
@@ -130,25 +130,19 @@ def leaves_out(text: str) -> bool:
 
 
 def read(text: str) -> Place | None:
-    """The place of a text; None where the text says nothing about a scene.
-
-    Raises
-    ------
-    ValueError
-        with a sentence for the page.
-    """
+    """Read the place of a text; None if it has no scene, ValueError with a sentence if bad."""
     pairs, note = _known_pairs(text)
     if not pairs:
         return None
-    place = _read(pairs)
+    place = _read_place(pairs)
     return dataclasses.replace(place, note=" ".join(filter(None, (place.note, note))))
 
 
 def _known_pairs(text: str) -> tuple[dict[str, str], str]:
-    """Values of a text under names that are known, and a sentence on those that are not."""
+    """Values of a text by their known names, and a sentence on unknown names."""
     if len(text) > LONGEST_TEXT:
         raise ValueError("It is far too long.")
-    if text.count("%") > _MOST_ESCAPES:  # each is looked up one by one
+    if text.count("%") > _MOST_ESCAPES:  # `parse_qsl` would be slow
         raise ValueError("It has far too many percent signs to be a scene.")
     try:
         pairs = parse_qsl(text.removeprefix("?"), True, max_num_fields=_MOST_FIELDS)
@@ -160,20 +154,20 @@ def _known_pairs(text: str) -> tuple[dict[str, str], str]:
     values: dict[str, str] = {}
     for name, value in pairs:
         if name in values:
-            raise ValueError(f"“{_shown(name)}” is given twice.")
+            raise ValueError(f"“{_quoted(name)}” is given twice.")
         if _is_known(name):
             values[name] = value
     if not strange:
         return values, ""
     more = f", like {len(strange) - 1} more," if len(strange) > 1 else ""
-    return values, f"“{_shown(strange[0])}” in the address{more} is not known and was ignored."
+    return values, f"“{_quoted(strange[0])}” in the address{more} is not known and was ignored."
 
 
 _TAB = re.compile(r"(?:^|[?&])tab=([a-z-]{1,40})(?=&|$)")
 
 
-def opened(text: str, editor: SceneEditor) -> Place:
-    """Show the place of a text on an editor. Never fails: `note` says where it could not be."""
+def show_text(text: str, editor: SceneEditor) -> Place:
+    """Show the place of a text on an editor. It never fails: `note` names a reason instead."""
     tab, note = "", ""
     compared: tuple[Reference, ...] = ()
     try:
@@ -204,7 +198,7 @@ def lesson_in(text: str) -> tuple[str, str]:
 
 
 def show_place(place: Place, editor: SceneEditor) -> None:
-    """Show the scene of a place on an editor; ValueError where the page cannot hold it."""
+    """Show the scene of a place on an editor; ValueError if the page cannot show it."""
     editor.take_scene(place.scene, place.preset, place.selected, place.cage_angle, place.name)
 
 
@@ -219,7 +213,7 @@ def place_of(editor: SceneEditor, tab: str = "") -> Place:
 # Writing
 
 
-def _written(place: Place, without_floors: bool) -> str:
+def _text_of(place: Place, without_floors: bool) -> str:
     pairs = [("v", VERSION), *_scene_pairs(place, without_floors)]
     for number, other in enumerate(place.compared, 1):
         preset = min(presets, key=lambda name: len(_scene_pairs(Place(other.scene, name), True)))
@@ -235,7 +229,7 @@ def _written(place: Place, without_floors: bool) -> str:
 
 
 def _scene_pairs(place: Place, without_floors: bool) -> list[tuple[str, str]]:
-    """The scene of a place, with the defect that is selected and its bearing's name."""
+    """Names and values of a scene, with the selected defect and the bearing's name."""
     scene, base = place.scene, presets[place.preset]
     pairs: list[tuple[str, str]] = [("preset", place.preset)]
     defects, usual = defects_of(scene), defects_of(base)[0]
@@ -264,7 +258,7 @@ def _part_of(scene: Scene, part: str) -> Any:
 
 
 def _changes(entries: Iterable[Entry], owner: Any, usual: Any) -> Iterable[tuple[str, str]]:
-    """The entries of an owner that are not as usual."""
+    """Names and values of the entries in which `owner` differs from `usual`."""
     for entry in entries:
         if (value := getattr(owner, entry.field)) != getattr(usual, entry.field):
             yield entry.name, entry.text_of(value)
@@ -278,11 +272,11 @@ def _floor_pairs(floor: object, left_out: bool) -> Iterable[tuple[str, str]]:
         yield "floor", "left-out"
     elif isinstance(floor, MeasuredFloor):
         yield "floor", floor_name(floor)
-        yield "points", packed(floor)
+        yield "points", pack_points(floor)
 
 
 def number_text(field: Field, value: float | None) -> str:
-    """Text of a number in SI, of which `_number` makes the very same."""
+    """Text of a number in SI; `_read_number` returns exactly the same number."""
     if value is None:
         return "none"
     shown = field_values.shown_number(field, value)
@@ -290,7 +284,7 @@ def number_text(field: Field, value: float | None) -> str:
 
 
 def rows_text(rows: tuple[Row, ...]) -> str:
-    """Rows of balls as a word; `_rows` makes the very same of it."""
+    """Rows of balls as a word; `_read_rows` returns exactly the same rows."""
     if not rows:
         return "one"
     words = []
@@ -306,7 +300,7 @@ def _short(value: float) -> str:
 
 
 @lru_cache(maxsize=32)
-def packed(floor: MeasuredFloor) -> str:
+def pack_points(floor: MeasuredFloor) -> str:
     """The points of a floor as a word."""
     numbers = floor.places + floor.depths
     raw = struct.pack(f"<{len(numbers)}d", *numbers)
@@ -331,8 +325,8 @@ def _is_known(name: str) -> bool:
     return plain in known
 
 
-def _compared(pairs: dict[str, str]) -> tuple[Reference, ...]:
-    """The compared scenes of an address, in the order of their numbers; they are taken out."""
+def _pop_compared(pairs: dict[str, str]) -> tuple[Reference, ...]:
+    """Remove the compared scenes from the pairs and return them in the order of their numbers."""
     parts: dict[str, dict[str, str]] = {}
     for name in list(pairs):
         if match := _OF_COMPARED.fullmatch(name):
@@ -340,60 +334,63 @@ def _compared(pairs: dict[str, str]) -> tuple[Reference, ...]:
     references = []
     for _, part in sorted(parts.items()):
         label = one_line(part.pop("label", ""), LONGEST_NAME)
-        place = _read({"v": VERSION, **part})
+        place = _read_place({"v": VERSION, **part})
         references.append(Reference(place.scene, label, bearing=place.name))
     return tuple(references)
 
 
-def _read(pairs: dict[str, str]) -> Place:
-    compared = _compared(pairs)
+def _read_place(pairs: dict[str, str]) -> Place:
+    """Read the place of pairs of a name and a value; every pair must have been used at the end."""
+    compared = _pop_compared(pairs)
     version = pairs.pop("v", "")
     if version == TOO_LONG:
         raise ValueError("It is far too long.")
     if version not in ("", VERSION):
         raise ValueError(
-            f"It has version “{_shown(version)}”; this program reads version {VERSION} only."
+            f"It has version “{_quoted(version)}”; this program reads version {VERSION} only."
         )
     preset = pairs.pop("preset", "fan-rig")
     if preset not in presets:
-        raise ValueError(f"There is no bearing “{_shown(preset)}”.")
+        raise ValueError(f"There is no bearing “{_quoted(preset)}”.")
     base = presets[preset]
-    count = _count(pairs.pop("defects", "1"), "defects")
-    selected = _count(pairs.pop("selected", "1"), "selected") - 1
-    cage_angle, _ = _parsed(pairs.pop(CAGE_ANGLE, "0"), CAGE_ANGLE)
+    count = _read_count(pairs.pop("defects", "1"), "defects")
+    selected = _read_count(pairs.pop("selected", "1"), "selected") - 1
+    cage_angle, _ = _parse_number(pairs.pop(CAGE_ANGLE, "0"), CAGE_ANGLE)
     tab = pairs.pop("tab", "")
     name = one_line(pairs.pop("name", ""), LONGEST_NAME)
+    # defects: each lists its differences from the first defect of the preset
     defects = []
     note = ""
     for number in range(count):
-        here = {name: _prefix(number) + name for name in _DEFECT_NAMES}
-        defect_pairs = {name: pairs.pop(there) for name, there in here.items() if there in pairs}
+        keys = {name: _prefix(number) + name for name in _DEFECT_NAMES}
+        defect_pairs = {name: pairs.pop(key) for name, key in keys.items() if key in pairs}
         if defect_pairs.get("floor") == "left-out":
             note = "A measured floor was too long for the address; here it is flat."
-        defects.append(_defect(defect_pairs, defects_of(base)[0]))
-    fields = {part: _taken(entries, pairs) for part, entries in _SCENE.items()}
-    of_rows = _taken(_TWO_ROWS, pairs)
+        defects.append(_read_defect(defect_pairs, defects_of(base)[0]))
+    # all other fields, by the part of the scene to which they belong
+    fields = {part: _pop_fields(entries, pairs) for part, entries in _SCENE.items()}
+    of_rows = _pop_fields(_TWO_ROWS, pairs)
     if pairs:
-        raise ValueError(f"“{_shown(next(iter(pairs)))}” belongs to a defect that is missing.")
-    own_fields = fields.pop("scene")
+        raise ValueError(f"“{_quoted(next(iter(pairs)))}” belongs to a defect that is missing.")
+    scene_fields = fields.pop("scene")
     if fields["bearing"]:
-        fields["bearing"]["kind"] = ""  # links do not say it: the numbers do
+        fields["bearing"]["kind"] = ""  # not in links: it follows from the numbers
     parts = {
         part: dataclasses.replace(getattr(base, part), **changes)
         for part, changes in fields.items()
     }
     defect = defects[0] if count == 1 else tuple(defects)
-    said = own_fields.get("dofs")
-    if said == TILT_HELD:
-        own_fields["dofs"] = None
-    scene = dataclasses.replace(base, defect=defect, **parts, **own_fields).with_tilts_as(said)
-    scene = scene.replace(**of_rows)
+    dofs = scene_fields.get("dofs")
+    if dofs == TILT_HELD:
+        scene_fields["dofs"] = None
+    scene = dataclasses.replace(base, defect=defect, **parts, **scene_fields).with_tilts_as(dofs)
+    scene = scene.replace(**of_rows)  # fields of two rows change the rows that were read before
     tab = OTHER_NAMES_OF_TABS.get(tab, tab)[:40]
     return Place(scene, preset, selected, cage_angle, tab, note, name, compared)
 
 
-def _taken(entries: Iterable[Entry], pairs: dict[str, str]) -> dict[str, Any]:
-    """The values of the entries that are given, by their fields; they are taken out."""
+def _pop_fields(entries: Iterable[Entry], pairs: dict[str, str]) -> dict[str, Any]:
+    """Remove the values of these entries from the pairs and return them by their fields."""
     return {
         entry.field: entry.value_of(pairs.pop(entry.name))
         for entry in entries
@@ -401,7 +398,7 @@ def _taken(entries: Iterable[Entry], pairs: dict[str, str]) -> dict[str, Any]:
     }
 
 
-def _rows(text: str) -> tuple[Row, ...]:
+def _read_rows(text: str) -> tuple[Row, ...]:
     if text == "one":
         return ()
     rows: list[Row] = []
@@ -409,9 +406,9 @@ def _rows(text: str) -> tuple[Row, ...]:
         numbers = word.split("_")
         few = not _ALWAYS_OF_ROW <= len(numbers) <= len(_OF_ROW)
         if few or "" in numbers[:_ALWAYS_OF_ROW] or len(rows) == MOST_SHOWN_ROWS:
-            raise ValueError(f"“{_shown(text)}” does not describe the rows of a bearing.")
+            raise ValueError(f"“{_quoted(text)}” does not describe the rows of a bearing.")
         numbers_of_row: dict[str, Any] = {
-            name: _parsed(number, "rows")[0]
+            name: _parse_number(number, "rows")[0]
             for name, number in zip(_OF_ROW, numbers, strict=False)
             if number
         }
@@ -422,29 +419,29 @@ def _rows(text: str) -> tuple[Row, ...]:
     return tuple(rows)
 
 
-def _defect(pairs: dict[str, str], usual: Defect) -> Defect:
-    fields = _taken(_DEFECT, pairs)
+def _read_defect(pairs: dict[str, str], usual: Defect) -> Defect:
+    fields = _pop_fields(_DEFECT, pairs)
     kind = pairs.get("floor", "rough" if any(entry.name in pairs for entry in _FLOOR) else "flat")
     if kind == "rough":
         fields["floor"] = RoughFloor(
             **{entry.field: entry.value_of(pairs.get(entry.name, "")) for entry in _FLOOR}
         )
     elif kind == "measured":
-        fields["floor"] = unpacked(pairs.get("points", ""))
+        fields["floor"] = unpack_points(pairs.get("points", ""))
     elif kind in ("flat", "left-out"):
         fields["floor"] = None
     else:
-        raise ValueError(f"There is no floor “{_shown(kind)}”.")
+        raise ValueError(f"There is no floor “{_quoted(kind)}”.")
     return dataclasses.replace(usual, **fields)
 
 
-def _number(field: Field, text: str) -> float | None:
-    """A number in SI; ValueError with a sentence where it is no number."""
+def _read_number(field: Field, text: str) -> float | None:
+    """Read a number in SI; ValueError with a sentence if the text is no number."""
     if text == "none" and (field.optional or field.name in _MAY_BE_NONE):
         return None
-    value, is_si = _parsed(text, field.key)
+    value, is_si = _parse_number(text, field.key)
     if not is_si:
-        # as it would be typed on the page: out of range it is refused in the words of the page
+        # out of range it is refused in the same words as a number typed on the page
         field_values.read(field.key, text, _usual_limits())
     if field.whole and value == int(value):
         return int(value)
@@ -453,29 +450,31 @@ def _number(field: Field, text: str) -> float | None:
 
 @cache
 def _usual_limits() -> Mapping[str, Range]:
-    """Range of what can be typed: the same with every preset."""
+    """Ranges of typed numbers, which are the same with every preset."""
     return field_values.limits_of(presets["fan-rig"])
 
 
-def _parsed(text: str, name: str) -> tuple[float, bool]:
-    """A number and whether it is said to be in SI."""
+def _parse_number(text: str, name: str) -> tuple[float, bool]:
+    """A number, and True if it is marked as SI."""
     match = _NUMBER.fullmatch(text) if len(text) <= _LONGEST_NUMBER else None
     value = float(match[1]) if match else math.nan
     if match is None or not math.isfinite(value):
-        raise ValueError(f"“{_shown(text)}” is not a number for {name}.")
+        raise ValueError(f"“{_quoted(text)}” is not a number for {name}.")
     return value, match[2] is not None
 
 
-def _count(text: str, name: str) -> int:
+def _read_count(text: str, name: str) -> int:
     if not (text.isascii() and text.isdecimal() and 1 <= int(text[:3]) <= MOST_DEFECTS):
-        raise ValueError(f"“{_shown(text)}” is out of range: {name} goes from 1 to {MOST_DEFECTS}.")
+        raise ValueError(
+            f"“{_quoted(text)}” is out of range: {name} goes from 1 to {MOST_DEFECTS}."
+        )
     return int(text[:3])
 
 
-def _option(choice: Choice, text: str) -> Any:
+def _read_option(choice: Choice, text: str) -> Any:
     """The value of an option."""
     if text not in choice.link_options:
-        raise ValueError(f"“{_shown(text)}” is not one of {', '.join(choice.link_options)}.")
+        raise ValueError(f"“{_quoted(text)}” is not one of {', '.join(choice.link_options)}.")
     return choice.link_options[text]
 
 
@@ -483,12 +482,12 @@ def _option_text(choice: Choice, value: Any) -> str:
     return next(name for name, held in choice.link_options.items() if held == value)
 
 
-def _dofs(text: str) -> tuple[str, ...] | str | None:
+def _read_dofs(text: str) -> tuple[str, ...] | str | None:
     if text in _DOFS_OF_WORD:
         return _DOFS_OF_WORD[text]
     names = tuple(text.split("."))
     if not set(names) <= set(DOF_NAMES) or len(set(names)) != len(names):
-        raise ValueError(f"“{_shown(text)}” is not a list of directions that can move.")
+        raise ValueError(f"“{_quoted(text)}” is not a list of directions that can move.")
     return names
 
 
@@ -497,13 +496,13 @@ def _dofs_text(dofs: tuple[str, ...] | str | None) -> str:
     return ".".join(dofs) if isinstance(dofs, tuple) else next(words)
 
 
-def unpacked(word: str) -> MeasuredFloor:
-    """The floor of `packed`; ValueError with a sentence for anything else."""
+def unpack_points(word: str) -> MeasuredFloor:
+    """Read the floor of a word of `pack_points`; ValueError with a sentence for any other text."""
     most = 16 * MOST_ROWS
     try:
         squeezed = base64.b64decode(word + "=" * (-len(word) % 4), b"-_", validate=True)
         opener = zlib.decompressobj()
-        raw = opener.decompress(squeezed, most + 1)  # no more, whatever it would swell to
+        raw = opener.decompress(squeezed, most + 1)  # bounded: a short word may unpack to much
     except (binascii.Error, ValueError, zlib.error):
         raise ValueError("The points of a measured floor cannot be read.") from None
     if len(raw) > most or len(raw) % 16 or not opener.eof:
@@ -517,7 +516,7 @@ def unpacked(word: str) -> MeasuredFloor:
         raise ValueError(sentence_of(error)) from None
 
 
-def _shown(text: str) -> str:
+def _quoted(text: str) -> str:
     """Untrusted text for a sentence: short, on one line."""
     clean = one_line(text, 31)
     return clean if len(clean) <= 30 else clean[:29] + "…"
@@ -525,7 +524,7 @@ def _shown(text: str) -> str:
 
 @dataclass(frozen=True)
 class Entry:
-    """A field of a scene in an address: its name there, and the way to its text and back."""
+    """A field of a scene in an address: its name there, and functions to its text and back."""
 
     name: str
     field: str
@@ -535,7 +534,7 @@ class Entry:
 
 def _numbers_of(part: str) -> list[Entry]:
     return [
-        Entry(field.key, field.full_name, partial(number_text, field), partial(_number, field))
+        Entry(field.key, field.full_name, partial(number_text, field), partial(_read_number, field))
         for field in SHOWN_FIELDS
         if field.part == part
     ]
@@ -543,23 +542,30 @@ def _numbers_of(part: str) -> list[Entry]:
 
 def _choices_of(choices: Iterable[Choice]) -> list[Entry]:
     return [
-        Entry(choice.name, choice.field, partial(_option_text, choice), partial(_option, choice))
+        Entry(
+            choice.name, choice.field, partial(_option_text, choice), partial(_read_option, choice)
+        )
         for choice in choices
     ]
 
 
 _SCENE = {part: _numbers_of(part) for part in ("scene", "load", "bearing", "support")}
 _SCENE["bearing"] += [
-    Entry("rows", "rows", rows_text, _rows),
+    Entry("rows", "rows", rows_text, _read_rows),
     Entry("estimated", "estimated", ".".join, lambda text: tuple(text.split("."))),
-    Entry("rating", "dynamic_load_rating", "{!r}".format, lambda text: _parsed(text, "rating")[0]),
+    Entry(
+        "rating",
+        "dynamic_load_rating",
+        "{!r}".format,
+        lambda text: _parse_number(text, "rating")[0],
+    ),
 ]
-_SCENE["scene"] += [*_choices_of(OF_SCENE), Entry("dofs", "dofs", _dofs_text, _dofs)]
+_SCENE["scene"] += [*_choices_of(OF_SCENE), Entry("dofs", "dofs", _dofs_text, _read_dofs)]
 """Entries of each part of a scene."""
 _DEFECT = [*_numbers_of("defect"), *_choices_of(OF_DEFECT)]
 _FLOOR = _numbers_of("floor")
 _TWO_ROWS = [*_numbers_of("pair"), *_numbers_of("second")]
-"""Numbers that `rows` holds too: links have that, a person may write these."""
+"""Numbers that `rows` also holds: links have `rows`, but a person may write these."""
 
 _PLACE_ONLY = {"v", "tab", CAGE_ANGLE}
 _PLACE_NAMES = {

@@ -15,33 +15,23 @@ MOST_SHOWN_ROWS = 2
 
 
 def convert_to_kind(bearing: Bearing, variant: str) -> Bearing:
-    """The bearing nearest to `bearing` that is of a kind, by the name of its option.
+    """Convert a bearing to another kind, named by its option.
 
-    Dimensions that both kinds have are kept; what the new kind needs besides is assumed, and is
-    there to be changed.
-
-    Raises
-    ------
-    ValueError
-        where there is none.
+    Dimensions that both kinds have are kept. Further dimensions of the new kind are assumed, and a
+    person can change them. ValueError if there is no such bearing.
     """
     if variant == bearing.kind.variant(bearing):
         return bearing
-    made = convert_bearing(bearing, variant)
-    rating = bearing.dynamic_load_rating if made.rated == bearing.rated else None
-    return dataclasses.replace(made, estimated=bearing.estimated, dynamic_load_rating=rating)
+    converted = convert_bearing(bearing, variant)
+    rating = bearing.dynamic_load_rating if converted.rated == bearing.rated else None
+    return dataclasses.replace(converted, estimated=bearing.estimated, dynamic_load_rating=rating)
 
 
 def scene_with(scene: Scene, bearing: Bearing) -> Scene:
-    """A scene with another bearing in it, without what that one cannot have.
+    """Put another bearing into a scene, and drop what this bearing cannot have.
 
-    Loads and directions that the kind of bearing has not are left out; defects of a row that is
-    not there lie in all rows.
-
-    Raises
-    ------
-    ValueError
-        for a defect that the bearing cannot have.
+    Loads and directions that its kind lacks are left out; a defect of a row that is missing now
+    lies in all rows. ValueError for a defect that the bearing cannot have.
     """
     rows = len(bearing.all_rows)
     defects = tuple(
@@ -52,7 +42,7 @@ def scene_with(scene: Scene, bearing: Bearing) -> Scene:
     )
     before, now = scene.bearing.kind.directions, bearing.kind.directions
     dofs = scene.dofs if bearing.rows or scene.dofs != TILT_FREE else None  # one row may tip over
-    if isinstance(dofs, tuple):  # where they were all that the other kind had they are no choice
+    if isinstance(dofs, tuple):  # chosen for a kind with fewer directions, they are no choice now
         dofs = None if set(now) - set(before) else tuple(name for name in dofs if name in now)
     return dataclasses.replace(
         scene,
@@ -65,11 +55,11 @@ def scene_with(scene: Scene, bearing: Bearing) -> Scene:
 
 
 def add_thrust(scene: Scene) -> tuple[Scene, str]:
-    """A scene in which rows that face one way are pushed together, and a sentence on it.
+    """Add an axial load to a scene whose rows face one way; return a sentence on it too.
 
-    A row with a contact angle, and rows in tandem, carry a radial load only with an axial one,
-    which is added where the scene has none; tilts are held, as by the shaft's other bearing. No
-    sentence where nothing is.
+    A row with a contact angle, and rows in tandem, carry a radial load only with an axial one. It
+    is added if the scene has none, and tilts are held, as by the shaft's other bearing. If nothing
+    is added the sentence is empty.
     """
     bearing, load = scene.bearing, scene.load
     thrust = 2.0 * math.tan(bearing.contact_angle) * math.hypot(load.fx, load.fy)
@@ -91,7 +81,7 @@ def _loads_without(bearing: Bearing) -> list[str]:
 
 
 def hidden_of(bearing: Bearing) -> list[str]:
-    """Controls that do not belong to this kind of bearing."""
+    """Names of the controls that this kind of bearing does not have."""
     inputs = bearing.kind.inputs(bearing)
     without = _loads_without(bearing)
     hidden = [

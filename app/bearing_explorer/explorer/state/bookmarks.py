@@ -1,8 +1,8 @@
 """Scenes that a session remembers: steps to undo, compared scenes, the address.
 
-Holds no Panel. Requests come from the browser and are not trusted: they are checked here,
-and refused with a sentence. Scenes that a person keeps lie in the browser, as
-the text of `explorer.state.address` with a name; nothing of them stays on the server.
+This module uses no Panel. Requests come from the browser and are not trusted: they are checked
+here, and refused with a sentence. Scenes that a person keeps stay in the browser, as a name and the
+text of `explorer.state.address`; the server stores none of them.
 """
 
 from __future__ import annotations
@@ -18,10 +18,10 @@ from bearing_explorer.explorer.state.address import (
     Place,
     leaves_out,
     lesson_in,
-    opened,
     place_of,
     read,
     show_place,
+    show_text,
     write,
 )
 from bearing_explorer.explorer.state.difference import distinct_name
@@ -41,23 +41,23 @@ _STEPS = ("set", "typed", "second", "choose", "reset")
 class OpenRequest:
     """A request to open or compare a scene; `read_request` reads it, in any thread."""
 
-    what: str
+    kind: str
     name: str
     text: str
 
 
 def open_request_of(message: Mapping[str, Any]) -> OpenRequest | None:
-    """The request of a message to open ("open", "file") or compare a scene, or None."""
-    for what in ("open", "file", "compare"):
-        if sent := message.get(what):
-            return OpenRequest(what, name_of(sent["name"]), sent["text"][: LONGEST_TEXT + 1])
+    """The request of a message to open ("open", "file") or "compare" a scene; else None."""
+    for kind in ("open", "file", "compare"):
+        if sent := message.get(kind):
+            return OpenRequest(kind, name_of(sent["name"]), sent["text"][: LONGEST_TEXT + 1])
     return None
 
 
 def read_request(request: OpenRequest) -> Place | str:
-    """The place that is requested, or a sentence."""
+    """Read the requested place; return a sentence if that fails."""
     try:
-        if request.what == "file":
+        if request.kind == "file":
             if len(request.text) > LARGEST_TEXT:
                 return f"{request.name} is longer than a scene can be."
             return Place(Scene.from_toml(request.text), "")
@@ -73,7 +73,7 @@ def name_of(text: str) -> str:
 
 
 FIRST_TAB = "overview"
-"""The tab of a page whose address names none; links that are shared name it."""
+"""The tab of a page whose address names none; links to share name it all the same."""
 
 
 State = tuple[SceneEditor, tuple[Reference, ...]]
@@ -84,22 +84,22 @@ class Bookmarks:
     """Undo, compared scenes, notice and address of one session."""
 
     def __init__(self, editor: SceneEditor, address: str = "") -> None:
-        """`address`: what stood behind the question mark as the page was opened."""
+        """`address`: the text after the question mark when the page was opened."""
         self._editor = editor
-        #: the lesson that is open, by its name; empty without one
+        #: name of the open lesson; empty without one
         self.lesson, address = lesson_in(address)
-        #: whether the address said which scene to show
+        #: True if the address names the scene to show
         self.has_scene = bool(address)
-        place = opened(address, editor)
-        #: the section that is on screen; at first empty where the address says nothing of a scene
+        place = show_text(address, editor)
+        #: name of the section on screen; empty at first if the address has no scene
         self.tab = place.tab
-        self._said = (0, place.note)
-        # scenes that are drawn too; one without a name is named by what differs
+        self._notice = (0, place.note)
+        # compared scenes; a scene without a name is named by its differences
         self._compared: tuple[Reference, ...] = place.compared
         self._history: History[State] = History(self._state())
 
     def begin_anew(self, tab: str) -> None:
-        """The scene that the editor has now is the one to begin with."""
+        """Begin a new history with the scene of the editor, on a tab."""
         self.tab = tab
         self._history = History(self._state())
 
@@ -108,12 +108,12 @@ class Bookmarks:
 
     @property
     def moving(self) -> bool:
-        """True if a hand moves something: a step has begun and not ended."""
+        """True during a drag: a step has begun and not ended."""
         return bool(self._history.moving)
 
     @property
     def compared(self) -> tuple[Reference, ...]:
-        """Scenes that are drawn too."""
+        """Compared scenes, each with a name."""
         return tuple(
             reference
             if reference.name
@@ -122,18 +122,18 @@ class Bookmarks:
         )
 
     def _usual_name(self, scene: Scene, bearing: str) -> str:
-        """A name by the differences from the current scene and those that are compared."""
+        """Name of a scene by its differences from the current and the compared scenes."""
         others = [self._editor.scene, *(reference.scene for reference in self._compared)]
         return distinct_name(scene, others, self._editor.selected, bearing)
 
     def say(self, sentence: str) -> None:
-        """Set the notice shown in the toolbar; the same one again counts as new."""
-        self._said = (self._said[0] + 1, sentence)
+        """Set the notice in the toolbar; the same sentence again counts as a new notice."""
+        self._notice = (self._notice[0] + 1, sentence)
 
     def follow(self, message: Mapping[Any, Any]) -> bool:
-        """Note what a message did to the scenes; True if a step has ended.
+        """Record the change that a message made to the scenes; True if a step has ended.
 
-        Play turns the bearing while a hand moves something else: that belongs to the hand's step.
+        Play may turn the bearing during a drag; its changes then belong to the step of the drag.
         """
         now = self._state()
         values = message.get("set")
@@ -145,31 +145,31 @@ class Bookmarks:
             return True
         if values:
             names = sorted(str(name)[:40] for name in list(values)[:9] if name != CAGE_ANGLE)
-            self._history.moved(now, " ".join(names) or self._history.moving or CAGE_ANGLE)
+            self._history.move(now, " ".join(names) or self._history.moving or CAGE_ANGLE)
         if message.get("released") is True:
             self._history.settle()
         return not self._history.moving
 
     def go(self, message: Mapping[Any, Any]) -> bool:
-        """Undo or redo where a message asks for it; True if that changed the scenes."""
+        """Undo or redo if a message asks for it; True if that changed the scenes."""
         if message.get("undo") is True:
-            kept = self._history.undo()
+            state = self._history.undo()
         elif message.get("redo") is True:
-            kept = self._history.redo()
+            state = self._history.redo()
         else:
             return False
-        if kept is None:
+        if state is None:
             return False
-        editor, self._compared = kept
+        editor, self._compared = state
         self._editor.restore(editor)
         return True
 
     def take(self, request: OpenRequest, place: Place | str) -> bool:
-        """Open or compare the place of `read_request`, as a step; True if anything changed."""
+        """Open or compare the place of `read_request` as one step; True if anything changed."""
         if isinstance(place, str):
             self.say(place)
             return False
-        if request.what == "compare":
+        if request.kind == "compare":
             self._compare(place.scene, request.name)
         else:
             try:
@@ -183,12 +183,12 @@ class Bookmarks:
         return True
 
     def change_compared(self, message: Mapping[Any, Any]) -> None:
-        """Add the current scene to those compared, or remove one, where a message says so."""
+        """Compare the current scene, or remove a compared one, if a message asks for it."""
         if isinstance(name := message.get("compare_here"), str):
             self._compare(self._editor.scene, one_line(name, LONGEST_NAME), self._editor.name)
         number = message.get("number")
         if message.get("remove") is True and isinstance(number, int) and number >= 0:
-            self.say("")  # what was said of their colours holds no longer
+            self.say("")  # the last notice may name a colour that has changed
             self._compared = self._compared[:number] + self._compared[number + 1 :]
 
     def _compare(self, scene: Scene, name: str, bearing: str = "") -> None:
@@ -196,10 +196,10 @@ class Bookmarks:
             self.say(f"{MOST_COMPARED} scenes are compared; remove one first.")
             return
         self._compared += (Reference(scene, name, bearing="" if name else bearing),)
-        said = f"“{name}”" if name else "the scene as it is now"  # its name follows from others
-        self.say(f"Dashed {_COLORS[len(self._compared) - 1]}: {said}, for comparison.")
+        words = f"“{name}”" if name else "the scene as it is now"  # its name follows from others
+        self.say(f"Dashed {_COLORS[len(self._compared) - 1]}: {words}, for comparison.")
 
-    def kept(self, name: str) -> dict[str, str]:
+    def kept_scene(self, name: str) -> dict[str, str]:
         """The current scene for the browser to keep."""
         return {"name": name_of(name), "text": write(place_of(self._editor))}
 
@@ -222,5 +222,5 @@ class Bookmarks:
             "compared": [reference.name for reference in self.compared],
             "scene": scene_line(self._editor.name, self._editor.scene),
             "usual_name": self._usual_name(self._editor.scene, self._editor.name),
-            "said": {"number": self._said[0], "words": self._said[1]},
+            "said": {"number": self._notice[0], "words": self._notice[1]},
         }

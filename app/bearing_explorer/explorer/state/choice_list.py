@@ -1,7 +1,7 @@
-"""Every choice of the page that is taken out of a list: its options, and what it is of a scene.
+"""The choices of the page that have a list of options, and the fields of a scene that they set.
 
-The controls, what the browser may ask for, links and lessons all come from this table. A
-choice that is a field of a scene or of its defects needs an entry here and nothing else.
+Controls, allowed messages of the browser, links and lessons all come from this table. A choice that
+sets a field of a scene or of its defects needs an entry here and nothing else.
 """
 
 from __future__ import annotations
@@ -16,14 +16,14 @@ from bearingcore.bearings import KINDS
 from bearingcore.model.scene import TILT_FREE
 
 NOTHING = object()
-"""The value of an option that is None in the core."""
+"""Marks an option whose value in the core is None."""
 
 
 @dataclass(frozen=True)
 class Option:
     """One option: its name in messages, links and lessons, and its words on the page.
 
-    `in_core` is what the core calls it, where that is not its name.
+    `in_core` is its value in the core if that differs from the name.
     """
 
     name: str
@@ -46,18 +46,18 @@ class Choice:
     Parameters
     ----------
     group
-        the group of quantities that it stands with; `first`: before their sliders.
+        group of quantities among which it is shown; `first`: before their sliders.
     of
-        "scene" or "defect" where it is the value of a field of that, "scene" also where it is one
-        of the bearing, the load or the support; else the editor of the scene knows what it does.
+        "defect" if it sets a field of a defect; "scene" if it sets a field of the scene, its
+        bearing, load or support; empty if a method of `SceneEditor` carries it out.
     field
-        the field that it is about.
+        name of that field.
     all_alike
-        all defects have it alike.
+        True if all defects must have the same option.
     in_lessons
-        whether a lesson can set it.
+        True if a lesson can set it.
     lesson_control
-        whether it can be a control of a lesson.
+        True if it can be a control of a lesson.
     """
 
     name: str
@@ -82,11 +82,11 @@ class Choice:
         return {option.name.replace(" ", "-"): option.value for option in self.options}
 
     def value_of(self, name: str) -> Any:
-        """The value of the scene's field with an option."""
+        """Value of the field for the option of this name."""
         return next(option.value for option in self.options if option.name == name)
 
     def name_of(self, owner: Any) -> str:
-        """The option that a scene or a defect has, whichever the choice is of."""
+        """Name of the option that a scene or a defect has."""
         if isinstance(owner, Scene):
             parts = (owner, owner.bearing, owner.load, owner.support)
             owner = next(part for part in parts if hasattr(part, self.field))
@@ -300,20 +300,20 @@ KIND = Choice(
 CHOICE_LIST: tuple[Choice, ...] = (
     KIND, RACE, ROW, EDGE, FLOOR, LAW, BALLS, DIRECTIONS, NUMBERS, MATERIAL,
 )  # fmt: skip
-"""All choices, in the order in which several are taken."""
+"""All choices, in the order in which they are applied."""
 
 OF_SCENE = tuple(choice for choice in CHOICE_LIST if choice.of == "scene")
 OF_DEFECT = tuple(choice for choice in CHOICE_LIST if choice.of == "defect")
 
 
 def floor_name(floor: object) -> str:
-    """The option of FLOOR that a defect's floor is."""
+    """Name of the option of FLOOR for a defect's floor."""
     kinds = {RoughFloor: "rough", MeasuredFloor: "measured"}
     return next((name for kind, name in kinds.items() if isinstance(floor, kind)), "flat")
 
 
 def chosen_of(scene: Scene, selected: int = 0) -> dict[str, str]:
-    """The options that a scene has, of its `selected` defect where they are one's."""
+    """Options of a scene and of its `selected` defect, by the names of the choices."""
     defect = defects_of(scene)[selected]
     return {
         **{choice.name: choice.name_of(defect) for choice in OF_DEFECT},

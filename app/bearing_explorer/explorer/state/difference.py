@@ -19,13 +19,13 @@ from bearingcore.common import number, with_prefix
 from bearingcore.fields import Field
 
 MOST_NUMBERS = 3
-"""Most numbers that are named one by one; more count as another bearing, or several changes."""
+"""Most changed numbers that are named; more are called another bearing, or several changes."""
 WHOLE = 0.02
-"""Share of a ball spacing: a change this close to whole spacings counts as whole."""
+"""Share of a ball spacing: a change so close to whole spacings is called whole."""
 
 
 def difference(now: Scene, before: Scene, focus: int = 0) -> str:
-    """Changes from one scene to the other; `focus` is the selected defect."""
+    """Changes from the scene `before` to `now` in words; `focus` is the selected defect."""
     if not (now.defects and before.defects) and now.healthy() == before.healthy():
         return "With the defect" if now.defects else "Without the defect"
     defects, earlier = defects_of(now), defects_of(before)
@@ -50,8 +50,8 @@ def difference(now: Scene, before: Scene, focus: int = 0) -> str:
 def distinct_name(scene: Scene, others: Iterable[Scene], focus: int = 0, bearing: str = "") -> str:
     """Name a scene by its differences from others: "100 N", "6208, 7 Hz", "12.9°, 50 µm".
 
-    The name has at most MOST_NUMBERS of them. Another bearing comes first, by its name `bearing` if
-    that is known. Without a difference the name is the size of the defect `focus`.
+    The name has at most MOST_NUMBERS of them. Another bearing comes first, by its name `bearing`
+    if it has one. Without a difference the name is the size of the defect `focus`.
     """
     changed: dict[Field, float] = {}
     options: dict[str, None] = {}
@@ -85,28 +85,28 @@ def distinct_name(scene: Scene, others: Iterable[Scene], focus: int = 0, bearing
 
 
 def _defect_at(scene: Scene, focus: int) -> int:
-    """The index of a defect that the scene has: `focus`, or its last."""
+    """Index of the defect `focus`, or of the last defect if the scene has fewer."""
     return min(focus, len(defects_of(scene)) - 1)
 
 
 def _changed_fields(scene: Scene, other: Scene, focus: int) -> dict[Field, tuple[float, float]]:
-    """Fields that differ, each with its number in a scene and in the other one."""
-    numbers, theirs = (values_of(each, _defect_at(each, focus)) for each in (scene, other))
+    """Fields in which two scenes differ, each with its number in both."""
+    numbers, others = (values_of(each, _defect_at(each, focus)) for each in (scene, other))
     return {
-        field: (numbers[field.key], theirs[field.key])
+        field: (numbers[field.key], others[field.key])
         for field in SHOWN_FIELDS
-        if field.part and differ(numbers[field.key], theirs[field.key])
+        if field.part and differ(numbers[field.key], others[field.key])
     }
 
 
 def _changed_choices(scene: Scene, other: Scene, focus: int) -> Iterator[tuple[Choice, str, str]]:
-    """Choices that differ, with the options of a scene and of the other one."""
+    """Choices in which two scenes differ, each with its option in both."""
     defects = (defects_of(each)[_defect_at(each, focus)] for each in (scene, other))
-    for choices, (owner, their_owner) in ((OF_SCENE, (scene, other)), (OF_DEFECT, defects)):
+    for choices, (owner, other_owner) in ((OF_SCENE, (scene, other)), (OF_DEFECT, defects)):
         for choice in choices:
-            name, their_name = choice.name_of(owner), choice.name_of(their_owner)
-            if name != their_name:
-                yield choice, name, their_name
+            name, other_name = choice.name_of(owner), choice.name_of(other_owner)
+            if name != other_name:
+                yield choice, name, other_name
 
 
 def _direction(scene: Scene) -> float:
@@ -115,6 +115,7 @@ def _direction(scene: Scene) -> float:
 
 
 def _change_words(field: Field, now: float, before: float, scene: Scene) -> str:
+    """A change of a field in words; a longer defect also in whole ball spacings."""
     digits = 4 if f"{before:.4g}" != f"{now:.4g}" else 12
     former = _read_number(field, before, digits).removesuffix(field.shown_unit).rstrip()
     numbers = f"({former} → {_read_number(field, now, digits)})"
@@ -129,7 +130,7 @@ def _change_words(field: Field, now: float, before: float, scene: Scene) -> str:
 
 
 def _read_number(field: Field, value: float, digits: int = 4) -> str:
-    """A number of a field with its unit, as the page reads it."""
+    """A number of a field with its unit and sign, as on the page."""
     if math.isnan(value):
         return "left empty"
     return with_unit(field.read_sign * value, field.shown_unit, digits)

@@ -1,6 +1,6 @@
-"""The numbers of a scene as the page has them: in the units of `bearingcore.fields`, by their keys.
+"""The numbers of a scene on the page: by their keys, in the units of `bearingcore.fields`.
 
-Degrees, micrometres and hertz live here and in the browser; behind this module all is SI.
+Only this module and the browser use degrees, micrometres and hertz; everything else uses SI.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from bearingcore.fields import FIELDS, Field, Range
 from bearingcore.units import read_number, units_like
 
 SHOWN_FIELDS = tuple(field for field in FIELDS if field.group)
-"""Fields that can be set on the page, in its order."""
+"""Fields that can be set on the page, in the page's order."""
 
 FIELD_BY_KEY: Mapping[str, Field] = {field.key: field for field in SHOWN_FIELDS}
 """These fields by their keys."""
@@ -37,7 +37,7 @@ Values = dict[str, float]
 """A value for each key, in the shown unit of the field; NaN for an optional one left open."""
 
 FIRST_ROUGHNESS = RoughFloor(rms_height=2e-6, correlation_length=200e-6)
-"""A rough floor to begin with."""
+"""The rough floor that a defect begins with."""
 
 
 def defects_of(scene: Scene) -> tuple[Defect, ...]:
@@ -55,10 +55,10 @@ def values_of(scene: Scene, selected: int = 0) -> Values:
 
 
 def number_of(scene: Scene, field: Field, selected: int = 0) -> float | None:
-    """A number of a scene [SI]; None where it is left open, or the scene has it not.
+    """A number of a scene [SI]; None if it is left open, or if the scene does not have it.
 
-    Of a defect it is that of the `selected` one; of a floor that is not rough, what a rough one
-    would begin with.
+    A number of a defect is that of the `selected` one. For a floor that is not rough it is the
+    number that a rough floor begins with.
     """
     if field.part == "scene":
         part: Any = scene
@@ -83,12 +83,12 @@ def shown_number(field: Field, si: float | None) -> float:
 
 @lru_cache(4096)  # every change of a slider asks for all numbers of the page
 def _divided(si: float, factor: float) -> float:
-    # The last digits of π have no business on a page.
+    # 12 digits hide the rounding of a division by π
     return float(f"{si / factor:.12g}")
 
 
 def si_number(field: Field, value: float) -> float | None:
-    """Number in SI of one that the page shows; None for NaN, one left open."""
+    """A number of the page in SI; None for NaN, a number left open."""
     if math.isnan(value):
         return None
     parts = round(1.0 / field.factor)
@@ -97,7 +97,7 @@ def si_number(field: Field, value: float) -> float | None:
 
 
 def scene_with_fields(scene: Scene, fields: Mapping[str, Any], selected: int = 0) -> Scene:
-    """`scene` with fields changed by their names, those of a defect in the `selected` one."""
+    """Change fields of a scene by their names; fields of a defect in the `selected` one."""
     of_defect = {name: fields[name] for name in fields if name in _OF_DEFECT}
     others = {name: fields[name] for name in fields if name not in of_defect}
     defects = list(defects_of(scene))
@@ -110,18 +110,18 @@ def scene_with_fields(scene: Scene, fields: Mapping[str, Any], selected: int = 0
 
 
 def differ(a: float, b: float) -> bool:
-    """True if two numbers of fields differ; NaN, left open, equals itself."""
+    """True if two numbers of fields differ; NaN (left open) equals NaN."""
     return a != b and not (math.isnan(a) and math.isnan(b))
 
 
 def limits_of(base: Scene) -> dict[str, Range]:
-    """Ranges that fit a preset, by key: loads up to a few times its own, for example."""
+    """Ranges that suit a preset, by key: for example loads up to a few times its load."""
     values = values_of(base)
     return {field.key: field.range_for(base, values[field.key]) for field in SHOWN_FIELDS}
 
 
 def groove_limits(scene: Scene) -> dict[str, Range]:
-    """The ranges that change with the ball of a scene, by key."""
+    """Ranges that depend on the ball of a scene, by key."""
     names = ("inner_groove_radius_mm", "outer_groove_radius_mm")
     return {name: FIELD_BY_KEY[name].range_for(scene, math.nan) for name in names}
 
@@ -143,13 +143,13 @@ def read(key: str, typed: object, limits: Mapping[str, Range]) -> float:
     span = f"{with_unit(low, '')} to {with_unit(high, field.shown_unit)}"
     if not math.isfinite(value):
         units = units_like(field.shown_unit) if re.match(r"[+−-]?[\d.,]", text) else []
-        of = f" in {', '.join(units)}" if len(units) > 1 else ""
-        shown = f"“{text}” is not a number{of}" if text else "A number is missing"
+        in_units = f" in {', '.join(units)}" if len(units) > 1 else ""
+        shown = f"“{text}” is not a number{in_units}" if text else "A number is missing"
         raise ValueError(f"{shown}: {label_inside(field)} goes from {span}.")
     if not least <= value <= most:
         shown = with_unit(field.read_sign * value, field.shown_unit)
-        meant = field.shown_unit == "Hz" and text[-1:].isdecimal() and least <= value / 60.0 <= most
-        question = f" Did you mean {text} rpm?" if meant else ""
+        is_rpm = field.shown_unit == "Hz" and text[-1:].isdecimal() and least <= value / 60 <= most
+        question = f" Did you mean {text} rpm?" if is_rpm else ""
         raise ValueError(
             f"{shown} is out of range: {label_inside(field)} goes from {span}.{question}"
         )
@@ -157,10 +157,10 @@ def read(key: str, typed: object, limits: Mapping[str, Range]) -> float:
 
 
 def second_units(scene: Scene, selected: int) -> dict[str, dict[str, Any]]:
-    """The second unit of quantities that have one, by name: its unit, words and factor.
+    """Second units of quantities, by key: unit, words, and factor from the first unit.
 
-    A groove is also a ratio to its ball, a clearance also diametral, a speed also in turns a
-    minute, a defect also in millimetres along its race: each is the number times the factor.
+    A groove radius is also a ratio to the ball, a clearance also diametral, a speed also in turns
+    a minute, an extent also in millimetres along the race.
     """
     defect = defects_of(scene)[selected]
     on_race = 1e3 * defect.raceway_radius(scene.bearing) * math.pi / 180.0

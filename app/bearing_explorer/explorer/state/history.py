@@ -1,7 +1,7 @@
-"""Steps that can be undone and done again.
+"""Steps that can be undone and redone.
 
-A drag is one step however many positions it passed: during a drag, `moved` only follows, and
-`settle` ends the step. What ends where it began is no step.
+A whole drag is one step: `move` follows the drag, and `settle` ends the step. A drag that ends
+where it began is no step.
 """
 
 from __future__ import annotations
@@ -17,11 +17,11 @@ State = TypeVar("State")
 
 
 class History(Generic[State]):
-    """States of something, one of them now. Equal states count as no change."""
+    """Past, present and future states. Equal states count as no change."""
 
     def __init__(self, now: State, most: int = MOST_STEPS) -> None:
         self._now = now
-        self._begun = now  # where the step that is being made began
+        self._begun = now  # state at the beginning of the present step
         self._past: deque[State] = deque(maxlen=most)
         self._future: deque[State] = deque(maxlen=most)
         #: name of the control being moved; empty between steps
@@ -37,21 +37,21 @@ class History(Generic[State]):
         """True if a step was undone that can be done again."""
         return bool(self._future)
 
-    def moved(self, now: State, what: str) -> None:
-        """Go on with the step that moves `what`, or begin it."""
-        if self.moving != what:
+    def move(self, now: State, control: str) -> None:
+        """Continue the step that moves `control`, or begin it."""
+        if self.moving != control:
             self.settle()
-        self.moving = what
+        self.moving = control
         self._now = now
 
     def amend(self, now: State) -> None:
-        """Change the state without a step: undoing leads to none before it."""
+        """Change the present state without a step of its own to undo."""
         self._now = now
         if not self.moving:
             self._begun = now
 
     def settle(self) -> None:
-        """End the step that is being made."""
+        """End the present step."""
         if self._now != self._begun:
             self._past.append(self._begun)
             self._future.clear()
@@ -59,17 +59,17 @@ class History(Generic[State]):
         self.moving = ""
 
     def step(self, now: State) -> None:
-        """Make a step that needs no moving."""
+        """Make a whole step at once."""
         self.settle()
         self._now = now
         self.settle()
 
     def undo(self) -> State | None:
-        """The state before the last step; None where there is none."""
+        """Go back to the state before the last step; None if there is none."""
         return self._go(self._past, self._future)
 
     def redo(self) -> State | None:
-        """The state after the step that was undone last; None where there is none."""
+        """Go to the state after the step that was undone last; None if there is none."""
         return self._go(self._future, self._past)
 
     def _go(self, source: deque[State], target: deque[State]) -> State | None:
@@ -82,7 +82,7 @@ class History(Generic[State]):
 
 
 class LastState:
-    """Remembers the scene before the last change. A drag is one change, from where it began."""
+    """The scene before the last change. A whole drag is one change."""
 
     def __init__(self, scene: Scene) -> None:
         self._settled = scene
@@ -91,7 +91,7 @@ class LastState:
         self.before: Scene | None = None
 
     def follow(self, scene: Scene, moving: bool) -> None:
-        """Note the current scene, and whether a drag is still `moving` it."""
+        """Record the current scene; `moving` is True during a drag."""
         if scene != self._settled and not self._moving:
             self.before = self._settled
             self._moving = True

@@ -32,7 +32,7 @@ Parts begin with ``##``. Formulas are between dollar signs, ``$Q = K\\delta^{3/2
 ``set:extent_deg=64&edge=chord`` is a button that changes the scene, one to ``show:maps`` a button
 that opens a tab. A link to ``simulate:noise=20&race=inner`` is a button that changes the scene, if
 the link has changes, simulates a measurement of it, and opens Diagnosis. Files are read in the
-order of their names. The name of a lesson, which stands in the page's address, is the name of its
+order of their names. The name of a lesson, by which the page's address names it, is the name of its
 file without the leading number.
 
 Lessons may come from people who are not trusted: HTML is shown as text, pictures are not loaded,
@@ -131,10 +131,10 @@ Number = Annotated[float, Meta(ge=-1e12, le=1e12)]
 class Prediction(msgspec.Struct, frozen=True):
     """A question that the head of a lesson asks before the answer is shown.
 
-    With choices, the one whose number is `right`, counted from 1, is right. Without choices, the
-    answer is a number of `unit`, right from `right` − `within` to `right` + `within`. A first wrong
-    prediction gets the `hint`, if there is one, and may be made again. The figures in `veil` show
-    the answer, and are veiled until then; None: all that the lesson marks.
+    With choices, `right` is the number of the right one, counted from 1. Without choices, the
+    answer is a number in `unit`, right from `right` − `within` to `right` + `within`. After a first
+    wrong prediction the `hint` is shown, and the person may predict again. The figures in `veil`
+    show the answer, so they are veiled until then; None: all figures that the lesson marks.
     """
 
     ask: Text
@@ -163,7 +163,7 @@ class _Head(msgspec.Struct):
 class Lesson:
     """One lesson. `values` and `choices` change the scene of `preset`, by names of the page.
 
-    `name` stands for it in the page's address.
+    The page's address contains its `name`.
     """
 
     title: str
@@ -179,13 +179,13 @@ class Lesson:
     name: str = ""
 
     def begin(self, editor: SceneEditor) -> None:
-        """Set the scene at its beginning."""
+        """Set the scene with which the lesson begins."""
         editor.take_preset(self.preset)
         editor.choose(self.choices)
         editor.set(self.values)
 
     def browser_data(self, number: int) -> dict[str, Any]:
-        """The lesson as the page's script takes it; `number` counts from 0."""
+        """The lesson for the page's script; `number` counts from 0."""
         return {
             "number": number,
             "title": self.title,
@@ -212,9 +212,9 @@ def shipped_folder() -> Path:
 
 
 def lessons_in(folder: Path, tabs: Tabs) -> list[Lesson | Fault]:
-    """All lessons of a folder, in the order of their files' names; files that changed are reread.
+    """All lessons of a folder, in the order of their files' names; changed files are read again.
 
-    A folder that cannot be read, or holds none, is one fault.
+    A folder that cannot be read, or has no lesson, is one fault.
     """
     try:
         files = sorted(path for path in folder.iterdir() if path.suffix == ".md")
@@ -235,7 +235,7 @@ def lessons_in(folder: Path, tabs: Tabs) -> list[Lesson | Fault]:
 
 
 def shipped_lessons(tabs: Tabs) -> list[Lesson | Fault]:
-    """The lessons that come with the program, without those on a tab that this page lacks."""
+    """The program's own lessons, without those on a tab that this page lacks."""
     return [lesson for lesson in lessons_in(shipped_folder(), tabs) if isinstance(lesson, Lesson)]
 
 
@@ -245,7 +245,7 @@ def _fault(name: str, why: str) -> Fault:
 
 @lru_cache(maxsize=4 * MOST_LESSONS)
 def _read_file(path: Path, changed: int, size: int, tabs: Tabs) -> Lesson | Fault:
-    """The lesson in a file; the time and size of its last change are part of the cache's key."""
+    """Read the lesson in a file; the time of its last change and its size are keys of the cache."""
     try:
         lesson = read_lesson(_text(path, size), tabs)
         return replace(lesson, name=_name_of(path))
@@ -254,7 +254,7 @@ def _read_file(path: Path, changed: int, size: int, tabs: Tabs) -> Lesson | Faul
 
 
 def _name_of(path: Path) -> str:
-    """The name of a lesson: that of its file without a leading number, in plain signs."""
+    """Name of a lesson: that of its file without the leading number, in a to z, 0 to 9 and "-"."""
     plain = re.sub(r"[^a-z0-9]+", "-", path.stem.lower()).strip("-")
     return (re.sub(r"^\d+-", "", plain) or plain)[:LONGEST_NAME]
 
@@ -273,7 +273,7 @@ def _text(path: Path, size: int) -> str:
 
 
 def read_lesson(text: str, tabs: Tabs) -> Lesson:
-    """Read a lesson; LessonError where `text` is none."""
+    """Read a lesson; LessonError if `text` is no lesson."""
     lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
     if lines[0].strip() != _FENCE:
         raise LessonError(1, f"a lesson begins with a line {_FENCE}")
@@ -293,15 +293,7 @@ def read_lesson(text: str, tabs: Tabs) -> Lesson:
 
 
 class _Checks:
-    """The head of a lesson, checked against the controls and figures of the page.
-
-    Parameters
-    ----------
-    lines
-        lines of the head.
-    tabs
-        tabs of the page.
-    """
+    """The `lines` of the head of a lesson, checked against controls and `tabs` of the page."""
 
     def __init__(self, lines: list[str], tabs: Tabs) -> None:
         self._lines = lines
@@ -346,13 +338,13 @@ class _Checks:
     def error(self, name: str, words: str) -> LessonError:
         """Make the error on the entry `name`, with its line."""
         begins = re.compile(rf"\s*[\[\"']*\s*{re.escape(name)}\b")
-        at = next((i for i, line in enumerate(self._lines, 2) if begins.match(line)), 1)
-        return LessonError(at if name else 1, words)
+        number = next((i for i, line in enumerate(self._lines, 2) if begins.match(line)), 1)
+        return LessonError(number if name else 1, words)
 
-    def _require(self, entry: str, names: Sequence[str], known: Sequence[str], what: str) -> None:
+    def _require(self, entry: str, names: Sequence[str], known: Sequence[str], kind: str) -> None:
         for name in names:
             if name not in known:
-                raise self.error(entry, f"“{name[:40]}” is not {what}; {_hint(name, known)}")
+                raise self.error(entry, f"“{name[:40]}” is not {kind}; {_hint(name, known)}")
 
     def scene(self) -> tuple[dict[str, float], dict[str, str]]:
         """The numbers and choices that change the scene of the preset."""
@@ -360,7 +352,7 @@ class _Checks:
         return _changes(SceneEditor(self.head.preset), changes, self.error)
 
     def prediction(self) -> Prediction | None:
-        """The prediction; LessonError where none of its choices is right."""
+        """The prediction; LessonError if none of its choices is right."""
         if self.head.predict is None:
             return None
         prediction = self._entries(self.head.predict, Prediction)
@@ -372,7 +364,7 @@ class _Checks:
         return prediction
 
     @cached_property
-    def _begun(self) -> SceneEditor:
+    def _first_editor(self) -> SceneEditor:
         editor = SceneEditor(self.head.preset)
         values, choices = self.scene()
         editor.choose(choices)
@@ -381,11 +373,11 @@ class _Checks:
 
     def editor(self) -> SceneEditor:
         """The scene that the lesson begins with."""
-        return self._begun.snapshot()
+        return self._first_editor.snapshot()
 
 
 def _hint(name: str, known: Sequence[str]) -> str:
-    """The nearest known name, or all of them where there are few."""
+    """Words that name the nearest known name, or all of them if they are few."""
     if len(known) <= _MOST_LISTED:
         return f"possible: {', '.join(known)}"
     close = difflib.get_close_matches(name, known, 1, 0.3)
@@ -395,9 +387,9 @@ def _hint(name: str, known: Sequence[str]) -> str:
 def _changes(
     editor: SceneEditor, changes: Mapping[str, str], error: Callable[[str, str], LessonError]
 ) -> tuple[dict[str, float], dict[str, str]]:
-    """Changes of a scene as numbers and choices, tried on `editor`.
+    """Numbers and choices of the changes of a scene, tried on `editor`.
 
-    For a change that fails, raise what `error` makes of its name and a sentence.
+    If a change fails, `error` makes the exception from its name and a sentence.
     """
     choices = {name: value for name, value in changes.items() if name in (*CHOICES, "preset")}
     for name, value in choices.items():
@@ -438,12 +430,12 @@ def _parts(text: str, offset: int, checks: _Checks) -> tuple[Part, ...]:
     for token in tokens:
         line = offset + 1 + token.map[0] if token.map else line
         if token.type in ("heading_open", "heading_close"):
-            # below the title of the lesson
+            # headings of parts are one level below the title of the lesson
             token.tag = f"h{min(max(int(token.tag[1]) + 1, 3), 6)}"
         if token.type in ("math_block", "math_block_label"):
             token.type, token.content = "html_block", _formula(token.content, True, line)
         if token.children:
-            _mend(token.children, line, checks)
+            _convert_tokens(token.children, line, checks)
     sections = []
     for begin, end in zip(begins, [*begins[1:], len(tokens)], strict=True):
         words = tokens[begin + 1]
@@ -454,8 +446,8 @@ def _parts(text: str, offset: int, checks: _Checks) -> tuple[Part, ...]:
     return tuple(sections)
 
 
-def _mend(tokens: list[Token], line: int, checks: _Checks) -> None:
-    """Formulas to MathML, and links to buttons or to what may be linked to."""
+def _convert_tokens(tokens: list[Token], line: int, checks: _Checks) -> None:
+    """Convert formulas to MathML and links to buttons; allow other links to http and https only."""
     closing = ""
     for token in tokens:
         if token.type == "softbreak":
@@ -509,11 +501,11 @@ def _show(rest: str, line: int, checks: _Checks) -> dict[str, Any]:
 
 
 _BUTTONS = {"set": _set, "simulate": _simulate, "show": _show}
-"""Makers of the message of a button, by the word before the colon of its link."""
+"""Functions that make the message of a button, by the word before the colon of its link."""
 
 
 def _formula(latex: str, display: bool, line: int) -> str:
-    """Convert a formula in LaTeX to MathML of known elements, which browsers set themselves."""
+    """Convert a formula in LaTeX to MathML of known elements, which browsers can typeset."""
     latex = latex.strip()
     if len(latex) > LONGEST_FORMULA:
         raise LessonError(line, f"a formula is longer than {LONGEST_FORMULA} characters")
@@ -529,7 +521,7 @@ def _formula(latex: str, display: bool, line: int) -> str:
         unknown = [key for key in element.attrib if key not in _MATHML_ATTRIBUTES.split()]
         if element.tag not in _MATHML_ELEMENTS.split() or unknown:
             raise LessonError(line, f"“{latex[:60]}” has an element not allowed: {element.tag}")
-        if element.text:  # the converter writes letters as references, the tree holds letters
+        if element.text:  # the converter writes letters as references; the tree needs letters
             element.text = re.sub(
                 r"&#x([0-9A-Fa-f]{1,6});", lambda code: chr(int(code[1], 16)), element.text
             )

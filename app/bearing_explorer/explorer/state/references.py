@@ -13,7 +13,7 @@ from bearingcore.model.scene import MASSLESS, WITH_MASS
 
 @dataclass(frozen=True)
 class Reference:
-    """A scene that is drawn beside the one on screen, under a name.
+    """A named scene that is drawn beside the scene on screen.
 
     Parameters
     ----------
@@ -34,12 +34,12 @@ class Reference:
 
 
 BEFORE = "the scene before the last change"
-"""Name of that reference."""
+"""Name of the reference with that scene."""
 
 MOST_COMPARED = 4
 """Greatest number of compared scenes: more colours are hard to distinguish."""
 WITHOUT_DEFECT = "the bearing without its defect"
-"""Name of the usual scene in grey."""
+"""Name of the scene that is usually drawn in grey."""
 HEALTHY, OTHER_BALLS = "healthy", "other-balls"
 """Kinds of the scene that is drawn in grey."""
 
@@ -53,10 +53,7 @@ def healthy_reference(scene: Scene) -> Reference:
 def other_balls_reference(scene: Scene) -> Reference:
     """The same scene with the mass of its balls; if it has that, with massless balls.
 
-    Raises
-    ------
-    ValueError
-        where the model has no mass of the bearing's elements.
+    ValueError if the model does not know the mass of the bearing's elements.
     """
     if kind := scene.bearing.kind.mass_unknown:
         raise ValueError(f"the model has no mass of {kind}")
@@ -68,7 +65,7 @@ def other_balls_reference(scene: Scene) -> Reference:
 
 
 def massless_reference(scene: Scene) -> Reference:
-    """The same scene with massless balls, as on maps."""
+    """The same scene with massless balls; maps use it too."""
     return Reference(scene.replace(balls=MASSLESS), "the same with massless balls", "massless")
 
 

@@ -1,7 +1,7 @@
 """Editor of the scene: the scene, the numbers as they were typed, the selected defect.
 
-Holds no Panel and draws nothing. Requests come from the browser and are not trusted: they are
-checked here, and a refused one leaves all as it was, with a sentence.
+This module uses no Panel and draws nothing. Requests come from the browser and are not trusted:
+they are checked here. A refused request changes nothing, and a sentence says why.
 """
 
 from __future__ import annotations
@@ -70,14 +70,14 @@ from bearingcore.units import read_number
 
 MOST_DEFECTS = 6
 LONGEST_NAME = 60
-"""Characters of the name of a bearing."""
+"""Most characters of the name of a bearing."""
 ESTIMATED = "inside estimated"
-"""Behind the name of a bearing whose inside dimensions are estimates."""
+"""Words after the name of a bearing whose inside dimensions are estimates."""
 
 _USUAL = {"defect": "defect", "load": "load", "shaft_speed": "speed", "support": "support"}
-"""Parts of a scene that come with a bearing out of a list, and their names in a sentence."""
-_SOUND = Defect(0.0, 50e-6, math.radians(270.0), edge="exact")
-"""Defect of no length; once it has a length, it lies in the middle of the load zone."""
+"""Parts of a scene that come with a listed bearing, and their names in a sentence."""
+_NO_DEFECT = Defect(0.0, 50e-6, math.radians(270.0), edge="exact")
+"""Defect without a length; once a slider gives it one, it lies in the middle of the load zone."""
 _FIRST_DEFECT = (math.radians(10.0), 50e-6)
 _OF_FLOOR = [field.key for field in SHOWN_FIELDS if field.part == "floor"]
 
@@ -87,7 +87,7 @@ Refused = dict[str, str]
 
 @dataclass(frozen=True)
 class CatalogueOrigin:
-    """The bearing of a list that was taken into the scene: its name, and where it comes from."""
+    """The listed bearing from which the scene's bearing came: its name, source and numbers."""
 
     name: str
     words: str
@@ -96,9 +96,9 @@ class CatalogueOrigin:
 
 @dataclass(eq=False)
 class SceneEditor:
-    """The state of the controls, and the scene that they stand for.
+    """The state of the controls, and the scene that they describe.
 
-    Its tables are replaced and never changed: a shallow copy keeps a whole state.
+    Its tables are replaced, never changed in place, so a shallow copy keeps a whole state.
     """
 
     preset: str
@@ -110,16 +110,16 @@ class SceneEditor:
     """The name that a person gave the bearing; may be empty."""
     origin: CatalogueOrigin | None = field(init=False, default=None)
     """The entry of a list that the bearing was taken from."""
-    begun: Scene = field(init=False)
+    base: Scene = field(init=False)
     """The preset, or the usual scene of a listed bearing, from which changes began."""
     effects: dict[str, str] = field(init=False, default_factory=dict)
-    """Sentences on the effect of the last choices, by their names, where it is not plain."""
+    """Sentences on effects of the last choices that are not obvious, by names of choices."""
 
     def __post_init__(self) -> None:
         self.take_preset(self.preset)
 
     def take_preset(self, name: str) -> None:
-        """Back to the numbers of a preset."""
+        """Show the scene of a preset."""
         self.take_scene(presets[name], name)
 
     def take_scene(
@@ -132,13 +132,13 @@ class SceneEditor:
     ) -> None:
         """Show a scene that comes from a link or a file, at a cage angle in degrees.
 
-        Without a `preset` it counts as a change of the one that has its bearing, or of the one
-        chosen now. ValueError, and nothing changed, where the page could not hold the scene.
+        Without a `preset` it counts as a change of the preset that has its bearing, or else of the
+        present one. If the page cannot show the scene, ValueError is raised and nothing changes.
         """
         if preset not in presets:
             alike = [name for name in presets if presets[name].bearing == scene.bearing]
             preset = self.preset if self.preset in alike or not alike else alike[0]
-        defects = [_turned(defect) for defect in defects_of(scene)]
+        defects = [_within_one_turn(defect) for defect in defects_of(scene)]
         if len(defects) > MOST_DEFECTS:
             raise refuse("number of defects", len(defects), f"at most {MOST_DEFECTS} here")
         if len(scene.bearing.all_rows) > MOST_SHOWN_ROWS:
@@ -151,27 +151,27 @@ class SceneEditor:
         for index in range(len(defects)):
             values = {**values_of(scene, index), CAGE_ANGLE: cage_angle}
             for key, value in values.items():
-                if not math.isnan(value):  # it stands for what a scene does not have
+                if not math.isnan(value):  # NaN: the scene does not have this number
                     read(key, repr(value), limits)
         self.preset, self.scene, self.selected = preset, scene, selected
-        self.begun = presets[preset]
+        self.base = presets[preset]
         self.own_name, self.origin, self.effects = one_line(name, LONGEST_NAME), None, {}
         self.limits = limits
         self.values = {}
         self._write_values(cage_angle)
 
     def __eq__(self, other: object) -> bool:
-        """True if a person sees no difference."""
-        return isinstance(other, SceneEditor) and self._seen == other._seen
+        """True if a person would see no difference."""
+        return isinstance(other, SceneEditor) and self._visible_state == other._visible_state
 
     __hash__ = None  # type: ignore[assignment]
 
     @property
-    def _seen(self) -> tuple[object, ...]:
+    def _visible_state(self) -> tuple[object, ...]:
         return self.scene, self.preset, self.own_name, self.origin, self.values[CAGE_ANGLE]
 
     def snapshot(self) -> SceneEditor:
-        """The whole state, for `restore`."""
+        """Copy the whole state, for `restore`."""
         return copy.copy(self)
 
     def restore(self, kept: SceneEditor) -> None:
@@ -180,7 +180,7 @@ class SceneEditor:
 
     @property
     def defects(self) -> tuple[Defect, ...]:
-        """All defects on the list, also those without extent or depth."""
+        """All defects of the list, also those without extent or depth."""
         return defects_of(self.scene)
 
     @property
@@ -190,15 +190,15 @@ class SceneEditor:
 
     @property
     def name(self) -> str:
-        """Name of the bearing: the one given, else that of the preset it began from."""
+        """Name of the bearing: a person's name for it, else that of the preset it began from."""
         label = preset_labels[self.preset]
         name = self.name_in_links or label + (", changed" if self.changed else "")
         return f"{name} ({ESTIMATED})" if self.scene.bearing.estimated else name
 
     @property
     def name_in_links(self) -> str:
-        """The name that was given, and whether the numbers that it names are changed; or empty."""
-        changed = bool(self.own_name) and self.own_name == self._begun_from
+        """A person's name for the bearing, marked if its numbers have changed since; or empty."""
+        changed = bool(self.own_name) and self.own_name == self._changed_listed_name
         return self.own_name + (", changed" if changed else "")
 
     @property
@@ -206,48 +206,50 @@ class SceneEditor:
         """Source of the bearing's numbers."""
         if not self.changed:
             return preset_notes.get(self.preset, "")
-        if self.origin is not None and not self._begun_from:
+        if self.origin is not None and not self._changed_listed_name:
             return self.origin.words
         still = " Some numbers are still estimates." if self.scene.bearing.estimated else ""
-        begun = self._begun_from or self.preset
-        return f"Edited from “{begun}”; its sources no longer apply.{still}"
+        source = self._changed_listed_name or self.preset
+        return f"Edited from “{source}”; its sources no longer apply.{still}"
 
     @property
-    def _begun_from(self) -> str:
-        """The bearing of a list whose numbers have been changed since; empty where none was."""
+    def _changed_listed_name(self) -> str:
+        """Name of a listed bearing whose numbers have been changed; else empty."""
         if self.origin is None or self.origin.bearing == self.scene.bearing:
             return ""
         return self.origin.name
 
     def take_bearing(self, bearing: Bearing, name: str, origin: str) -> None:
-        """Put a bearing out of a list in the place of the one that is shown.
+        """Replace the bearing by a listed one.
 
-        It comes sound, with a load, a speed and a support that are usual for it (`scene_of`); what
-        was changed of these before stays as it was changed.
+        It comes without a defect, and with the load, speed and support that are usual for it
+        (`scene_of`). Those of them that a person has changed stay as they are.
 
-        ValueError, and nothing changed, where the defects that stay do not go with it.
+        If the remaining defects do not fit it, ValueError is raised and nothing changes.
         """
-        usual = scene_of(bearing).replace(defect=_SOUND)
-        kept = [part for part in _USUAL if getattr(self.scene, part) != getattr(self.begun, part)]
-        lost = " and ".join(f"{number(math.degrees(d.extent))}°" for d in self.scene.defects)
-        gone = f"The defect of {lost} is gone. " if lost and "defect" not in kept else ""
+        # parts of the scene that a person has changed stay; the others are the usual ones
+        usual = scene_of(bearing).replace(defect=_NO_DEFECT)
+        kept = [part for part in _USUAL if getattr(self.scene, part) != getattr(self.base, part)]
+        extents = " and ".join(f"{number(math.degrees(d.extent))}°" for d in self.scene.defects)
+        loss = f"The defect of {extents} is gone. " if extents and "defect" not in kept else ""
         fresh = {part: getattr(usual, part) for part in _USUAL if part not in kept}
+        # the old defect must not be checked against the new bearing if it is dropped anyway
         before = self.scene.replace(defect=fresh.get("defect", self.scene.defect))
-        if before.dofs == self.begun.dofs:
+        if before.dofs == self.base.dofs:
             before = before.replace(dofs=None)
         scene, effect = add_thrust(scene_with(before, bearing).replace(**fresh))
         self.selected = self.selected if "defect" in kept else 0
-        self.begun = usual
-        self._take(scene)
+        self.base = usual
+        self._show_scene(scene)
         self.limits = limits_of(self.scene)
         self._write_values()
-        self.effects["preset"] = f"{gone}{_usual_words(scene, kept)} {effect}".rstrip()
+        self.effects["preset"] = f"{loss}{_usual_words(scene, kept)} {effect}".rstrip()
         self.own_name = one_line(name, LONGEST_NAME)
         self.origin = CatalogueOrigin(self.own_name, origin, self.scene.bearing)
 
     @property
     def focus(self) -> int:
-        """Index in `scene.defects` of the one that sliders move; 0 where that one is none."""
+        """Index in `scene.defects` of the selected defect; 0 if that has no extent or depth."""
         defect = self.defects[self.selected]
         before = [d for d in self.defects[: self.selected] if not d.is_none]
         return 0 if defect.is_none else len(before)
@@ -255,10 +257,10 @@ class SceneEditor:
     # Numbers
 
     def read_units(self, texts: Mapping[str, Any], second: bool) -> dict[str, Any]:
-        """Texts as typed, in the units of the fields; in the box of the `second` unit or not.
+        """Convert typed texts to the units of the fields; `second`: from the second unit's box.
 
-        A number may name either unit in both boxes. What is a number in neither stays as it is, to
-        be refused.
+        A number may name either unit in both boxes. A text that is a number in neither is
+        returned unchanged, and `set` refuses it.
         """
         units = second_units(self.scene, self.selected)
 
@@ -278,38 +280,39 @@ class SceneEditor:
         }
 
     def set(self, values: Mapping[Any, Any]) -> tuple[Refused, Values]:
-        """Take numbers, dragged or typed; returns what was refused and all that changed."""
+        """Set numbers, dragged or typed; return refusals and all values that changed."""
         refused: Refused = {}
-        taken: Values = {}
+        accepted: Values = {}
         for name, value in list(values.items())[: len(FIELD_BY_KEY)]:
             try:
-                taken[str(name)] = read(str(name), value, self.limits)
+                accepted[str(name)] = read(str(name), value, self.limits)
             except ValueError as error:
                 refused[str(name)[:60]] = str(error)
         try:
-            scene = self._scene_with(taken)
+            scene = self._scene_with(accepted)
         except ValueError as error:
-            return refused | {name: sentence_of(error) for name in taken}, {}
+            return refused | {name: sentence_of(error) for name in accepted}, {}
         before = self.values
         self.effects = self.effects if scene == self.scene else {}
-        self._take(scene, cage_angle=taken.get(CAGE_ANGLE))
-        self._hold(self.values | taken)
+        self._show_scene(scene, cage_angle=accepted.get(CAGE_ANGLE))
+        self._set_values(self.values | accepted)
         changed = {
             name: value for name, value in self.values.items() if differ(before[name], value)
         }
         return refused, changed
 
-    def _scene_with(self, taken: Values) -> Scene:
+    def _scene_with(self, accepted: Values) -> Scene:
+        """The scene with these numbers of the page; ValueError if they do not fit together."""
         fields: dict[str, Any] = {}
         rough: dict[str, Any] = {}
-        for name, value in taken.items():
+        for name, value in accepted.items():
             field = FIELD_BY_KEY[name]
             if field.part:
                 numbers = rough if field.part == "floor" else fields
                 numbers[field.full_name] = si_number(field, value)
         bearing = self.scene.bearing
         if "ball_diameter" in fields:
-            # grooves are made for their ball: they keep what they are to it
+            # grooves are made for their ball: they keep their ratio to it
             ratio = fields["ball_diameter"] / bearing.ball_diameter
             inputs = bearing.kind.inputs(bearing)
             for race in ("inner", "outer"):
@@ -323,18 +326,19 @@ class SceneEditor:
             fields["floor"] = dataclasses.replace(floor, **rough)
         return scene_with_fields(self.scene, fields, self.selected)
 
-    def _take(self, scene: Scene, cage_angle: float | None = None) -> None:
-        """Make `scene` the one that is shown."""
+    def _show_scene(self, scene: Scene, cage_angle: float | None = None) -> None:
+        """Show a scene; a bearing with other balls has other limits of its grooves."""
         if scene.bearing != self.scene.bearing:
             self.limits = self.limits | groove_limits(scene)
         self.scene = scene
         self._write_values(cage_angle)
 
     def _write_values(self, cage_angle: float | None = None) -> None:
-        turned = self.values.get(CAGE_ANGLE, 0.0) if cage_angle is None else cage_angle
-        fresh = {**values_of(self.scene, self.selected), CAGE_ANGLE: turned}
-        # a typed number stays as typed, whatever its last digit is in SI
-        self._hold(
+        """Set the values of the controls from the scene."""
+        angle = self.values.get(CAGE_ANGLE, 0.0) if cage_angle is None else cage_angle
+        fresh = {**values_of(self.scene, self.selected), CAGE_ANGLE: angle}
+        # a typed number stays as it was typed, although its last digit may differ in SI
+        self._set_values(
             {
                 name: self.values[name]
                 if name in self.values and _close(self.values[name], fresh[name])
@@ -343,15 +347,15 @@ class SceneEditor:
             }
         )
 
-    def _hold(self, values: Values) -> None:
-        """Hold values, each within its limits, which widen around it."""
+    def _set_values(self, values: Values) -> None:
+        """Set the values; limits widen to contain them."""
         self.values = values
         self.limits = {name: self.limits[name].around(value) for name, value in values.items()}
 
     # Choices
 
     def choose(self, choice: Mapping[str, str]) -> Refused:
-        """Take choices out of lists; what is not on a list is passed over."""
+        """Carry out choices; options that are not in the list of their choice are ignored."""
         self.effects = {}
         if (preset := choice.get("preset", "")) in presets:
             self.take_preset(preset)
@@ -367,10 +371,10 @@ class SceneEditor:
             "defect": self._take_defect,
             "bearing": self._take_listed,
         }
-        asked = [known.name for known in CHOICE_LIST if choice.get(known.name) in known.names]
-        asked += [name for name in ("defect", "bearing") if name in choice]
+        names = [known.name for known in CHOICE_LIST if choice.get(known.name) in known.names]
+        names += [name for name in ("defect", "bearing") if name in choice]
         refused: Refused = {}
-        for name in asked:
+        for name in names:
             try:
                 takers[name](choice[name])
             except ValueError as error:
@@ -378,7 +382,7 @@ class SceneEditor:
         return refused
 
     def _change(self, **fields: Any) -> None:
-        self._take(scene_with_fields(self.scene, fields, self.selected))
+        self._show_scene(scene_with_fields(self.scene, fields, self.selected))
 
     def _take_option(self, choice: Choice, name: str) -> None:
         """Take an option of a choice that is a field of the scene or of its defects."""
@@ -394,14 +398,14 @@ class SceneEditor:
         listed = find_bearing(name)
         origin = origin_words(listed)
         self.take_bearing(listed.bearing, listed.name, origin)
-        if listed.assumed:  # seen where it is chosen; sources are behind the question mark
+        if listed.assumed:  # shown beside the choice; sources are behind the question mark
             self.effects["preset"] += f" Assumed: {', '.join(listed.assumed)}."
 
     def _take_kind(self, kind: str) -> None:
         scene, effect = add_thrust(
             scene_with(self.scene, convert_to_kind(self.scene.bearing, kind))
         )
-        self._take(scene)
+        self._show_scene(scene)
         if effect:
             self.effects["kind"] = effect
         self.limits = {**limits_of(self.scene), **groove_limits(self.scene)}
@@ -433,6 +437,7 @@ class SceneEditor:
             self._write_values()
 
     def _add_defect(self) -> None:
+        """Add a defect like the last one where the race has most room, shortened to fit."""
         if len(self.defects) >= MOST_DEFECTS:
             raise ValueError(f"There are {MOST_DEFECTS} defects already, the most there can be.")
         last = self.defects[-1]
@@ -448,32 +453,33 @@ class SceneEditor:
     def _change_defects(self, defects: list[Defect], selected: int) -> None:
         scene = self.scene.replace(defect=defects[0] if len(defects) == 1 else tuple(defects))
         self.selected = selected
-        self._take(scene)
+        self._show_scene(scene)
 
     def _take_numbers(self, how: str) -> None:
+        """Describe the bearing by a "drawing", or by "direct" numbers of the contact model."""
         bearing = self.scene.bearing
         if how == "drawing" and not bearing.is_drawn:
-            made = drawn(bearing).replace(rows=bearing.rows, estimated=bearing.estimated)
-            self._take(self.scene.replace(bearing=made))
+            as_drawn = drawn(bearing).replace(rows=bearing.rows, estimated=bearing.estimated)
+            self._show_scene(self.scene.replace(bearing=as_drawn))
             self.effects["numbers"] = (
                 f"The grooves begin with {USUAL_GROOVES['inner']} (inner) and "
                 f"{USUAL_GROOVES['outer']} (outer) ball diameters, as is usual, in steel: change "
                 "them where the drawing says otherwise. The load-deflection factor was "
                 f"{number(bearing.load_deflection_factor / 1e6)} MN/m¹·⁵ and is now "
-                f"{number(made.load_deflection_factor / 1e6)}."
+                f"{number(as_drawn.load_deflection_factor / 1e6)}."
             )
         elif how == "direct" and bearing.is_drawn:
             fields: dict[str, Any] = dict.fromkeys((*OPTIONAL_FIELDS, *BALL_MATERIAL))
-            self._take(self.scene.replace(bearing=dataclasses.replace(bearing, **fields)))
+            self._show_scene(self.scene.replace(bearing=dataclasses.replace(bearing, **fields)))
 
     def _take_ball_material(self, name: str) -> None:
         bearing = self.scene.bearing
-        self._take(self.scene.replace(bearing=bearing.with_balls_of(BALL_MATERIALS[name])))
+        self._show_scene(self.scene.replace(bearing=bearing.with_balls_of(BALL_MATERIALS[name])))
 
     # State for the browser
 
     def state(self, values: Iterable[str] | None = None) -> dict[str, Any]:
-        """State for the browser, of all fields or of `values` alone."""
+        """State for the browser: all of it, or only that of the fields in `values`."""
         wanted = self.values if values is None else {name: self.values[name] for name in values}
         state: dict[str, Any] = {
             "values": {name: None if math.isnan(v) else v for name, v in wanted.items()},
@@ -494,6 +500,7 @@ class SceneEditor:
         return state if values is not None else state | self._choices_state()
 
     def _choices_state(self) -> dict[str, Any]:
+        """State of the choices and of the list of defects, for the browser."""
         scene, floor = self.scene, self.defects[self.selected].floor
         usual = {k: v for k, v in values_of(presets[self.preset]).items() if not math.isnan(v)}
         hidden = [] if isinstance(floor, RoughFloor) else _OF_FLOOR
@@ -514,7 +521,7 @@ class SceneEditor:
 
 
 def _usual_words(scene: Scene, kept: Iterable[str]) -> str:
-    """Sentence on what came with a bearing out of a list, and on what was kept."""
+    """Sentence on the parts that came with a listed bearing, and on those that were kept."""
     loads = ((-scene.load.fy, "down"), (scene.load.fz, "along the shaft"))
     words = {
         "defect": "no defect",
@@ -523,13 +530,13 @@ def _usual_words(scene: Scene, kept: Iterable[str]) -> str:
         "support": f"a rotor and a housing of {number(scene.support.inner_mass)} kg each, on "
         f"springs of {number(1e-6 * scene.support.stiffness_y)} N/µm",
     }
-    came = [words[part] for part in _USUAL if part not in kept]
-    stays = [name for part, name in _USUAL.items() if part in kept]
-    usual = f"Usual for it, and assumed: {', '.join(came)}." if came else ""
-    return f"{usual} Kept as you set it: {', '.join(stays)}.".strip() if stays else usual
+    new = [words[part] for part in _USUAL if part not in kept]
+    names = [name for part, name in _USUAL.items() if part in kept]
+    usual = f"Usual for it, and assumed: {', '.join(new)}." if new else ""
+    return f"{usual} Kept as you set it: {', '.join(names)}.".strip() if names else usual
 
 
-def _turned(defect: Defect) -> Defect:
+def _within_one_turn(defect: Defect) -> Defect:
     """The same defect with its centre within one turn, as the page shows it."""
     if 0.0 <= defect.center <= 2.0 * math.pi:
         return defect
@@ -545,5 +552,5 @@ def _gap_to(defects: Iterable[Defect], angle: float) -> float:
 
 
 def _close(a: float, b: float) -> bool:
-    """True if two numbers are the same up to the rounding of units."""
+    """True if two numbers differ at most by the rounding of units."""
     return (math.isnan(a) and math.isnan(b)) or math.isclose(a, b, rel_tol=1e-10, abs_tol=1e-12)

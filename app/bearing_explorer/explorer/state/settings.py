@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 COARSE = 0.5
-"""Part of the duration that is marched while a slider moves, where all of it takes too long."""
+"""Share of the duration that is marched while a slider moves, if all of it takes too long."""
 
 
 @dataclass(frozen=True)
@@ -14,14 +14,12 @@ class Marching:
 
     Parameters
     ----------
-    duration
-        [s]
-    sample_rate
-        [Hz]
+    duration [s], sample_rate [Hz]
+        of the motion.
     step_rate
-        [Hz] of the time integration; None: that of the scene.
+        [Hz] of the time integration; None: the scene's default.
     coarse
-        whether it takes half as many steps, as a slider moves.
+        True for fewer steps while a slider moves.
     """
 
     duration: float
@@ -34,9 +32,9 @@ class Marching:
 class Settings:
     """Resolution of results.
 
-    Against 28,800 cage angles to a ball spacing, loads over 361 are within 0.7 % of their swing at
-    99 % of the angles for every preset, and stiffness within 5 %: what is left is next to the
-    jumps of its slope where balls touch or let go, and is narrower than a pixel of the figures.
+    Compared with 28,800 cage angles in a ball spacing, 361 give loads within 0.7 % of their swing
+    and stiffness within 5 %, at 99 % of the angles for every preset. The largest errors lie beside
+    jumps of the slope, where balls touch or lift off, and are narrower than a pixel.
 
     Parameters
     ----------
@@ -44,15 +42,13 @@ class Settings:
         equally spaced over a ball spacing, ends included, for ball loads, stiffness and natural
         frequencies.
     n_while_moving
-        the same while a slider moves: the figures take a third of the numbers a frame.
+        the same while a slider moves, so that a frame has a third of the numbers.
     n_long_period
-        the same to an eighth of a turn of the shaft or the cage, where curves repeat only then.
+        the same for an eighth of a turn, if curves repeat only after a turn of shaft or cage.
     n_map_angles, n_extents
         cage angles and extents of maps.
-    duration
-        [s] of simulated motions.
-    sample_rate
-        [Hz] of simulated motions.
+    duration [s], sample_rate [Hz]
+        of simulated motions.
     """
 
     n_cage_angles: int = 361
@@ -70,5 +66,5 @@ class Settings:
 
     @property
     def coarse_marching(self) -> Marching:
-        """Settings of a motion while a slider moves, where the usual takes too long."""
+        """Settings of a motion while a slider moves, if the usual one takes too long."""
         return Marching(COARSE * self.duration, self.sample_rate, coarse=True)

@@ -1,6 +1,6 @@
-"""Values that a field runs through, for maps and speed runs.
+"""Ranges of values of a field, for maps and speed runs.
 
-What a person asked for is judged here; behind it all is SI.
+The input of a person is checked here; the results are in SI.
 """
 
 from __future__ import annotations
@@ -35,17 +35,17 @@ class Sweep:
     values: NDArray[np.float64]
 
     @property
-    def own_values(self) -> NDArray[np.float64]:
-        """The values with the sign of the field."""
+    def field_values(self) -> NDArray[np.float64]:
+        """The values with the sign that the field has in the core."""
         return self.field.read_sign * self.values
 
     @property
     def in_si(self) -> tuple[str, NDArray[np.float64]]:
-        """The field of the scene and its values [SI], as the core takes them."""
-        return self.field.full_name, np.array([si_number(self.field, v) for v in self.own_values])
+        """Name of the scene's field and its values [SI], for the core."""
+        return self.field.full_name, np.array([si_number(self.field, v) for v in self.field_values])
 
     def every(self, stride: int) -> Sweep:
-        """The same with every `stride`-th value, first and last among them, where that is even."""
+        """Every `stride`-th value with both ends; all values if the stride does not divide them."""
         count = self.values.size - 1
         if count % stride or count // stride < 2:
             return self
@@ -53,12 +53,12 @@ class Sweep:
 
 
 def sweep(name: str, first: str, last: str, count: int, limits: Mapping[str, Range]) -> Sweep:
-    """`count` values from `first` to `last` as a person typed them; ValueError with a sentence."""
+    """`count` values between two typed ends; ValueError with a sentence for the page."""
     if name not in SWEEPABLE:
         raise ValueError("There is no such quantity.")
     field = SWEEPABLE[name]
     sign = field.read_sign
-    ends = (text.strip() if sign > 0.0 else _turned(text.strip()) for text in (first, last))
+    ends = (text.strip() if sign > 0.0 else _negated(text.strip()) for text in (first, last))
     low, high = (sign * read(name, text, limits) for text in ends)
     if math.isnan(low) or math.isnan(high) or not low < high:
         raise ValueError(f"{field.read_label}: “to” must be greater than “from”.")
@@ -73,13 +73,13 @@ def sweep(name: str, first: str, last: str, count: int, limits: Mapping[str, Ran
     return Sweep(field, np.linspace(low, high, count))
 
 
-def _turned(text: str) -> str:
+def _negated(text: str) -> str:
     """The text of a number with the other sign."""
     return text[1:] if text[:1] in ("-", "−") else text and f"-{text.removeprefix('+')}"
 
 
 def usual_range(name: str, limits: Mapping[str, Range]) -> tuple[float, float]:
-    """Usual ends of a sweep: those of the slider, or where it shows most."""
+    """Usual ends of a sweep: the field's `sweep_range` if it is within those of the slider."""
     low, high = limits[name].least, limits[name].most
     field = SWEEPABLE[name]
     first, last = field.sweep_range or (low, high)
@@ -87,8 +87,8 @@ def usual_range(name: str, limits: Mapping[str, Range]) -> tuple[float, float]:
     return (first, last) if field.read_sign > 0.0 else (-last, -first)
 
 
-def focused(scene: Scene, selected: int) -> Scene:
-    """`scene` with the `selected` one of its defects first: sweeps change the first."""
+def focus_first(scene: Scene, selected: int) -> Scene:
+    """Move the `selected` defect of a scene to the front, because sweeps change the first."""
     defects = list(defects_of(scene))
     if len(defects) == 1:
         return scene
@@ -97,11 +97,11 @@ def focused(scene: Scene, selected: int) -> Scene:
 
 
 def value_of(scene: Scene, field: Field) -> float:
-    """The number of a field as it is read; for a field of defects, that of the first."""
+    """The number of a field as the page reads it; of a defect, that of the first."""
     return field.read_sign * shown_number(field, number_of(scene, field))
 
 
-def alike_but_for(scene: Scene, other: Scene, sweeps: tuple[Sweep, ...]) -> bool:
+def differ_only_in(scene: Scene, other: Scene, sweeps: tuple[Sweep, ...]) -> bool:
     """True if two scenes differ at most in the quantities of `sweeps`."""
     first = {field: float(values[0]) for field, values in (s.in_si for s in sweeps)}
     try:

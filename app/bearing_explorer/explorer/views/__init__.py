@@ -1,1 +1,1 @@
-"""The views of the page, one file each. `base.View` says what a view is."""
+"""The views of the scene, one file each. `kit.views.base.View` describes a view."""

@@ -25,7 +25,7 @@ from bearingcore.model import experiments
 from bearingcore.model.scene import WITH_MASS, preset_labels
 
 CHARTS = {"motion": ("",), "statics": ("", *experiments.HARD_CASES)}
-"""The references of each experiment: a chart for each."""
+"""References of each experiment, by which its errors are counted: a chart for each."""
 ERRORS = {"motion": tuple(experiments.MOTION_ERRORS), "statics": tuple(experiments.STATIC_ERRORS)}
 """Errors that can be drawn, by experiment."""
 
@@ -44,8 +44,8 @@ _GRID = """
 """Style of charts side by side."""
 
 
-class Accuracy(SceneJobView[accuracy.Found]):
-    """Error against cost, where steps are too long, and where the orbit is unstable."""
+class Accuracy(SceneJobView[accuracy.SceneMeasurements]):
+    """Charts of error against cost, of steps that are too long, and of unstable orbits."""
 
     name = "accuracy"
     title = "Speed against accuracy"
@@ -103,11 +103,11 @@ class Accuracy(SceneJobView[accuracy.Found]):
 
     def attach(self, parts: SessionParts) -> None:
         super().attach(parts)
-        self._turn_to(self._subject)
+        self._show_section(self._subject)
 
     @property
     def _subject(self) -> str:
-        """Name of what is shown."""
+        """Name of the experiment on screen."""
         return str(self._chosen.values["charts"])
 
     def still_figures(self) -> list[Plot]:
@@ -115,8 +115,8 @@ class Accuracy(SceneJobView[accuracy.Found]):
         panes = [pane for part in parts for pane in part.select(pn.pane.Bokeh)]
         return [plot for pane in panes for plot in figures_in(pane.object)]
 
-    def _turn_to(self, subject: str) -> None:
-        """Leave the browser one section alone: it takes long to build them all."""
+    def _show_section(self, subject: str) -> None:
+        """Show one section only, because the browser would take long to build them all."""
         first, more = self._sections[subject]
         for name in ("error", "cost"):
             self._chosen.widgets[name].visible = subject in ERRORS
@@ -136,10 +136,10 @@ class Accuracy(SceneJobView[accuracy.Found]):
     # The picture
 
     def _shown(self, results: Results) -> Mapping[str, experiments.Experiment]:
-        """The experiments shown: of this machine, or else measured beforehand."""
+        """The experiments on screen: from this machine, or else measured beforehand."""
         base = accuracy.shipped(accuracy.preset_like(results.scene))
-        own = {} if self.job_result is None else self.job_result.result.experiments
-        return {**base.experiments, **own}
+        measured = {} if self.job_result is None else self.job_result.result.experiments
+        return {**base.experiments, **measured}
 
     def sentence(self, results: Results) -> str:
         shown, scene = self.job_result, results.scene
@@ -178,7 +178,7 @@ class Accuracy(SceneJobView[accuracy.Found]):
             options = choices([[name, name] for name in errors])
             self._chosen.widgets["error"].param.update(**options, value=errors[0])
         if self.parts is not None:
-            self._turn_to(self._subject)
+            self._show_section(self._subject)
         if self._results is not None:
             self._draw_charts(self._results)
 
@@ -213,7 +213,7 @@ class Accuracy(SceneJobView[accuracy.Found]):
         self._foot.object = foot(words, known, shown)
 
     def title_of(self, results: Results) -> str:
-        """The verdict on the chart that is shown."""
+        """The verdict on the chart on screen."""
         if self._subject == experiments.STABILITY:
             return "Where methods fail: unstable speeds, and steps that are too long"
         experiment = self._shown(results).get(self._subject)
@@ -226,7 +226,7 @@ class Accuracy(SceneJobView[accuracy.Found]):
 
 
 def side_by_side(panels: Iterable[pn.Column]) -> pn.Column:
-    """Charts in as many columns as there is room for."""
+    """Arrange charts in as many columns as there is room for."""
     return stack(*panels, stylesheets=[_GRID])
 
 
@@ -235,11 +235,11 @@ def foot(
     known: Sequence[experiments.Measurements],
     shown: Mapping[str, experiments.Experiment],
 ) -> str:
-    """The words on the charts, methods left out and machines, as HTML that opens on a click."""
+    """HTML that opens on a click: words on the charts, methods left out, and machines."""
     left = "".join(
-        f"<li>{html.escape(name.capitalize())}: {html.escape(one.left_out)}.</li>"
-        for name, one in shown.items()
-        if one.left_out
+        f"<li>{html.escape(name.capitalize())}: {html.escape(experiment.left_out)}.</li>"
+        for name, experiment in shown.items()
+        if experiment.left_out
     )
     words += f"<p>Left out:</p><ul>{left}</ul>" if left else ""
     for kind, results in zip(("Measured beforehand", "This machine"), known[::-1], strict=False):

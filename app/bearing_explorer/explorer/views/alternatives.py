@@ -27,13 +27,13 @@ LEAST_HEIGHT = 60
 """Height [px] of the chart without a model."""
 _DOTS = ("error", "row", "slot", "marker", "words", "side", "right")
 GOOD_ENOUGH = {True: work_precision.ALLOWED["dB"], False: work_precision.ALLOWED["1"]}
-"""Errors up to which a model will do: of spectra [dB], and of curves over their swing."""
+"""Greatest errors of a model that is good enough: of spectra [dB], of curves over their swing."""
 
 
 class OtherModels(SceneJobView[Alternatives]):
     """Errors and run times with fewer directions, other edges, balls, orbits, steps and angles.
 
-    Each model is a dot at its error over what is allowed.
+    Each model is a dot at its error over the allowed error.
     """
 
     name = "alternatives"
@@ -52,7 +52,7 @@ class OtherModels(SceneJobView[Alternatives]):
         return [self.plot, self.job]
 
     def _figure(self) -> Any:
-        """A row for each model, from the top; `_fill` sets their names."""
+        """Make the chart with a row for each model, from the top; `_fill` writes their names."""
         sides = [style.AxisQuantity(name, "", "") for name in ("Error over what is allowed", " ")]
         ranges = [Range1d(*ends, syncable=False) for ends in ((0.1, 10.0), (0.0, 1.0))]
         plot = style.make_figure(
@@ -77,20 +77,21 @@ class OtherModels(SceneJobView[Alternatives]):
         known = [share for share in shares if math.isfinite(share)]
         left, right = max(min([*known, 0.1]), 1e-4) / 2.0, 4.0 * max([*known, 10.0])
         dots = []
-        for i, (one, share) in enumerate(zip(rows, shares, strict=True)):
+        for i, (row, share) in enumerate(zip(rows, shares, strict=True)):
             finite = math.isfinite(share)
-            at = min(max(share, 1.5 * left), right / 1.5) if finite else right / 1.5
-            late = math.log(at / left) > 0.6 * math.log(right / left)
-            error = decibels(one.error) if one.quantity == SPECTRUM else percent(one.error, 2)
-            words = error if finite else one.note
-            if finite and math.isfinite(one.saved):
-                saving = "saves" if one.saved >= 0.0 else "costs more:"
-                words += f", {saving} {style.with_prefix(abs(one.saved), 's')}"
-            dots.append((at, -i, 0 if not finite else 1 if share <= 1.0 else 2,
+            place = min(max(share, 1.5 * left), right / 1.5) if finite else right / 1.5
+            # words of a dot in the right part of the chart are written to its left
+            to_left = math.log(place / left) > 0.6 * math.log(right / left)
+            error = decibels(row.error) if row.quantity == SPECTRUM else percent(row.error, 2)
+            words = error if finite else row.note
+            if finite and math.isfinite(row.saved):
+                saving = "saves" if row.saved >= 0.0 else "costs more:"
+                words += f", {saving} {style.with_prefix(abs(row.saved), 's')}"
+            dots.append((place, -i, 0 if not finite else 1 if share <= 1.0 else 2,
                          "circle" if finite else "x", words,
-                         "right" if late else "left", -9 if late else 9))  # fmt: skip
+                         "right" if to_left else "left", -9 if to_left else 9))  # fmt: skip
         self._dots.data = work_precision.columns_of(_DOTS, dots)
-        names = {-i: one.name for i, one in enumerate(rows)}
+        names = {-i: row.name for i, row in enumerate(rows)}
         self.plot.min_border_left = 26 + round(6.6 * max(map(len, names.values()), default=0))
         style.fixed_ticks(self.plot.yaxis[0], list(names))
         self.plot.yaxis.major_label_overrides = names

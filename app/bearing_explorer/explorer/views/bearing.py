@@ -1,4 +1,4 @@
-"""Drawing of the bearing: rings, balls coloured by their loads, defect, load."""
+"""Drawing of the bearing: rings, balls coloured by their loads, defects, and the load."""
 
 from __future__ import annotations
 
@@ -27,28 +27,28 @@ from bearingcore import Bearing, Load, Scene
 from bearingcore.common import table_of
 from bearingcore.model.scene import ball_angles
 
-# The drawing measures lengths in outer raceway radii: its ranges never move.
-HALF_WIDTH, OF_A_ROW = 1.62, 1.76  # the second of each of several rows, whose numbers need more
-HEIGHT, STILL_HEIGHT = 250, 520  # [px] at least, with the scale of colours; outside of the page
-BAR_START = 0.05  # beyond the outer ring
-BAR_LENGTH = 0.26  # of a ball that carries the greatest load of the colour bar
+# The drawing measures lengths in outer raceway radii, so its ranges never move.
+HALF_WIDTH, OF_A_ROW = 1.62, 1.76  # of one row; of each of several rows, whose numbers need more
+HEIGHT, STILL_HEIGHT = 250, 520  # [px] least height with the colour bar: on the page, elsewhere
+BAR_START = 0.05  # gap between the outer ring and the bars
+BAR_LENGTH = 0.26  # of the greatest load on the colour bar
 LOWEST = 1.52  # end of the longest bar, from the middle
-HIGHEST = 1.3  # of a ring with words above it, from the middle
-ROW_NAMES = 1.5  # below the middle of the rows: their names
-SIDE_ROOM = 0.55  # of the number of a bar at 0° or 180°, which has no more than that
-NUMBER_RIGHT, NUMBER_UP = 20.0, 13.0  # [px] from the ends of a bar: the middle of its number
-NUMBER_HALF, SIDE = 30.0, 1.25  # [px] half its width; from the middle, its bar's beginning at most
-MOST_NAMED = 4  # balls in a defect; more are counted
+HIGHEST = 1.3  # top of a ring with words above it, from the middle
+ROW_NAMES = 1.5  # distance of the names of rows below their middle
+SIDE_ROOM = 0.55  # room for the number of a bar at 0° or 180°
+NUMBER_RIGHT, NUMBER_UP = 20.0, 13.0  # [px] from the end of a bar to the middle of its number
+NUMBER_HALF, SIDE = 30.0, 1.25  # [px] half the width of a number; start of its bar from the middle
+MOST_NAMED = 4  # balls in a defect that are named; more are counted
 LINE_PIXELS = 16.0
 KEYWAY = 0.09  # [rad] half its width
-ARROW_SHORTEST, ARROW_LONGEST = 0.3, 0.88  # of the radius of the bore, at rest
-ARROW_END = 1.45  # from the middle, where an arrow that a hand lengthens leaves the figure
+ARROW_SHORTEST, ARROW_LONGEST = 0.3, 0.88  # shares of the radius of the bore, after a drag
+ARROW_END = 1.45  # from the middle; a longer arrow would leave the figure
 DRAWN_DEPTH = 0.45  # of a ball radius: no defect is drawn deeper
 
 PLACE_AND_SIZE = ("x", "y", "radius")
 POLYGONS = ("rings", "defect", "healthy_loads", "arrow")
 
-# pale to dark, even steps to the eye, distinct to colour-blind eyes and in grey print
+# colours of a ball without load, and of a ball whose load is unknown
 IDLE_BALL = style.PAPER
 NO_VALUE = "#C9CED4"
 
@@ -107,7 +107,7 @@ _UNDER_A_ROW = {**_LINE, **_MIDDLE, "text_baseline": "top", "y_offset": 20}
 def drawing_layers(
     prefix: str, colors: LinearColorMapper, inks: LinearColorMapper
 ) -> list[layers.Layer]:
-    """Return the layers from the lowest up; `colors` map loads, `inks` the numbers on them."""
+    """Layers of the drawing, the lowest first; `colors` map loads, `inks` the numbers on them."""
     load, number = ({"field": "load", "transform": mapper} for mapper in (colors, inks))
     end = layers.Glyph(
         Circle,
@@ -184,9 +184,9 @@ class BearingDrawing(ComparingView):
         "shaft; z points towards you."
     )
     needs = frozenset({"equilibrium", "now", "drop"})
-    #: of the names of its sources
+    #: prefix of the names of its sources
     prefix: ClassVar[str] = "bearing"
-    #: whether the defects and the arrow can be dragged
+    #: True if the defects and the arrow can be dragged
     grabbed: ClassVar[bool] = True
 
     def build(self, packed: PackedSource) -> Any:
@@ -197,7 +197,7 @@ class BearingDrawing(ComparingView):
         plot = self._figure(
             Range1d(-half, half, syncable=False), Range1d(-half, half, syncable=False)
         )
-        plot.toolbar.active_drag = None  # who misses a handle zooms nothing
+        plot.toolbar.active_drag = None  # a drag that misses a handle must not zoom
         shown = packed.range(f"{self.prefix}_width", -half, half)
         aspect = CustomJS(args={"plot": plot, "half": half, "shown": shown}, code=_EQUAL_ASPECT)
         shown.js_on_change("end", aspect)
@@ -254,22 +254,23 @@ class BearingDrawing(ComparingView):
         half = OF_A_ROW if len(rows) > 1 else HALF_WIDTH
         wide = half * len(rows)
         healthy = results.reference.load_curves
+        # shapes of each row, side by side
         several: list[Sources] = []
-        if not results.held:  # or the tip of the arrow would leave the hand
+        if not results.held:  # a new scale would move the tip of the arrow out of the hand
             if results.before is None:  # at the start, and after a reset
                 self._bore_load.forget()
             self._bore_load.fit(radial_load(scene.load) / ARROW_LONGEST or self._bore_load.end)
         bore_load = self._bore_load.end
         for row in range(len(rows)):
-            own = scene.bearing.balls_of_rows[row]
+            row_balls = scene.bearing.balls_of_rows[row]
             drawn = Shapes(scene, results.cage_angle, row, bore_load)
-            drop = {race: drops[own] for race, drops in results.drop.items()}
-            shapes = drawn.all(now.ball_load[0, own], drop, top)
+            drop = {race: drops[row_balls] for race, drops in results.drop.items()}
+            shapes = drawn.all(now.ball_load[0, row_balls], drop, top)
             shapes["healthy_loads"] = drawn.load_rim(*healthy[row], top)
             shapes["handles"] = drawn.handles()
-            several.append(moved(shapes, (2 * row + 1) * half - wide))
+            several.append(shift_shapes(shapes, (2 * row + 1) * half - wide))
         sources = {
-            f"{self.prefix}_{name}": one_after_other(
+            f"{self.prefix}_{name}": join_shapes(
                 [outlines[name] for outlines in several], gaps=name in POLYGONS
             )
             for name in several[0]
@@ -277,13 +278,11 @@ class BearingDrawing(ComparingView):
 
         def rims(other: Results) -> dict[str, NDArray[np.float64]]:
             curves = zip(range(len(rows)), other.load_curves, strict=False)
-            lines = [
-                moved(
-                    {"": Shapes(scene, 0.0, row).load_line(*one, top)}, (2 * row + 1) * half - wide
-                )
-                for row, one in curves
-            ]
-            return one_after_other([line[""] for line in lines], gaps=True)
+            lines = []
+            for row, curve in curves:
+                line = {"": Shapes(scene, 0.0, row).load_line(*curve, top)}
+                lines.append(shift_shapes(line, (2 * row + 1) * half - wide)[""])
+            return join_shapes(lines, gaps=True)
 
         sources |= compared_curves.sources(
             f"{self.prefix}_loads", ("x", "y"), results.compared_results, rims
@@ -330,22 +329,22 @@ class BearingDrawing(ComparingView):
 
 
 def _inside_words(bearing: Bearing, balls: NDArray[np.int64]) -> str:
-    """Say which balls, counted from 0, are in a defect, row by row."""
+    """Say which of `balls`, counted from 0, are in a defect, row by row."""
     if balls.size == 0:
         return ""
     words = []
-    for row, its in enumerate(bearing.balls_of_rows):
-        own = balls[(balls >= its.start) & (balls < its.stop)] - its.start + 1
-        if own.size:
+    for row, span in enumerate(bearing.balls_of_rows):
+        numbers = balls[(balls >= span.start) & (balls < span.stop)] - span.start + 1
+        if numbers.size:
             of_row = f" of row {row + 1}" if bearing.rows else ""
-            kind, names = elements(bearing, own.size), style.list_words([str(ball) for ball in own])
-            which = f"{kind} {names}" if own.size <= MOST_NAMED else f"{own.size} {kind}"
-            words.append(which + of_row)
+            count, kind = numbers.size, elements(bearing, numbers.size)
+            names = f"{kind} {style.list_words([str(number) for number in numbers])}"
+            words.append((names if count <= MOST_NAMED else f"{count} {kind}") + of_row)
     return f"; {style.list_words(words)} {'is' if balls.size == 1 else 'are'} in the defect"
 
 
-def moved(shapes: Sources, to_right: float) -> Sources:
-    """Shapes moved to the right, all their columns that say where."""
+def shift_shapes(shapes: Sources, to_right: float) -> Sources:
+    """Move shapes to the right: all their columns of x."""
     return {
         name: {
             column: values + to_right if column in ("x", "x0", "x1") else values
@@ -355,15 +354,15 @@ def moved(shapes: Sources, to_right: float) -> Sources:
     }
 
 
-def one_after_other(parts: list[dict[str, np.ndarray]], gaps: bool) -> dict[str, np.ndarray]:
-    """Columns of several shapes as one, polygons with NaN between those that are not empty."""
+def join_shapes(parts: list[dict[str, np.ndarray]], gaps: bool) -> dict[str, np.ndarray]:
+    """Join the columns of several shapes; with `gaps`, polygons have NaN between them."""
     if not gaps:
         return {column: np.concatenate([part[column] for part in parts]) for column in parts[0]}
     return layers.with_gaps(((part["x"], part["y"]) for part in parts if part["x"].size), "x", "y")
 
 
 def roller_ends(scene: Scene, balls: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
-    """The rim of a roller's end, which a ball has not."""
+    """The rim of a roller's end; empty for balls."""
     kept = slice(None) if scene.bearing.kind.picture.element == "roller" else slice(0)
     return {"x": balls["x"][kept], "y": balls["y"][kept], "radius": 0.72 * balls["radius"][kept]}
 
@@ -383,10 +382,10 @@ def row_words(scene: Scene, wide: float) -> dict[str, np.ndarray]:
 def load_words(
     load: Load, depth_scale: float = 0.0, bore_load: float = 0.0
 ) -> dict[str, np.ndarray]:
-    """Rows of text in the corner: the radial load always, the others where there are any.
+    """Lines of text in the corner: the radial load, and other loads that are not zero.
 
-    Under them how many times as deep as they are defects are drawn, which is 0 without any.
-    `bore_load` [N] is that of an arrow that ends at the bore.
+    The last line is the factor by which defects are drawn deeper (`depth_scale`; 0 without any).
+    `bore_load` [N] is the load whose arrow ends at the bore.
     """
     angle = math.degrees(math.atan2(load.fy, load.fx)) % 360.0
     rows: list[tuple[float, ...]] = [(0, radial_load(load), angle, bore_load)]
@@ -413,7 +412,7 @@ def radial_load(load: Load) -> float:
 class Shapes:
     """Shapes of one row of a scene at one cage angle [rad], lengths in outer raceway radii.
 
-    Of rows that are not alike in that of the largest, so that they are to scale.
+    Unlike rows share the radius of the largest, so they are drawn to one scale.
 
     Shapes of several parts are one polygon with NaN between the parts; a part inside another is a
     hole in it.
@@ -424,15 +423,15 @@ class Shapes:
     ) -> None:
         bearing = scene.bearing.of_row(row)
         self.scene, self.cage_angle, self.row = scene, cage_angle, row
-        self.unit = max(own.outer_raceway_radius for own, _ in scene.bearing.unlike_rows)
+        self.unit = max(row.outer_raceway_radius for row, _ in scene.bearing.unlike_rows)
         self.ball = bearing.ball_radius / self.unit
         self.outer_race = bearing.outer_raceway_radius / self.unit
         self.inner_race = bearing.inner_raceway_radius / self.unit
-        # between the races, whatever radii the bearing says: the balls are to be seen between them
+        # midway between the races, so that balls are drawn between them for any pitch diameter
         self.pitch = 0.5 * (self.outer_race + self.inner_race)
         self.rim = 1.0 + 1.1 * min(self.ball, 0.18)
         self.bore = max(self.inner_race - 1.1 * self.ball, 0.35 * self.inner_race)
-        # newtons of an arrow of length 1; and its length
+        # load [N] of an arrow of length 1, and the length of this arrow
         self.newtons = (bore_load or 2.0 * radial_load(scene.load) or 1.0) / self.bore
         self.arrow = radial_load(scene.load) / self.newtons
         self.spans = spans(scene, cage_angle, row)
@@ -444,7 +443,7 @@ class Shapes:
     def all(
         self, load: NDArray[np.float64], drop: dict[str, NDArray[np.float64]], top: float
     ) -> Sources:
-        """The columns of all shapes by name, for loads [N] and drops [m] of the row's balls."""
+        """Columns of all shapes by name, for loads [N] and drops [m] of the row's balls."""
         balls = self.balls(drop, load)
         return {
             "rings": self.rings(),
@@ -462,7 +461,7 @@ class Shapes:
         return self.depth_scale * depth / self.unit
 
     def _race(self, race: str) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        """Angle and radius along a race with its defects, exaggerated."""
+        """Angle and radius along a race, with defects drawn deeper than they are."""
         angle = race_angles(self.spans, race)
         depth = self._drawn(race_depth(self.scene, self.cage_angle, race, angle, self.row))
         return angle, self.outer_race + depth if race == "outer" else self.inner_race - depth
@@ -483,7 +482,7 @@ class Shapes:
         angle = keyway + np.linspace(KEYWAY, 2.0 * math.pi - KEYWAY, 181)
         radius = np.full_like(angle, self.bore)
         radius[[0, -1]] += 0.35 * (self.inner_race - self.bore)
-        angle[[0, -1]] = angle[[1, -2]]  # upright walls
+        angle[[0, -1]] = angle[[1, -2]]  # radial walls
         return angle, radius
 
     def defects(self) -> dict[str, np.ndarray]:
@@ -544,7 +543,7 @@ class Shapes:
     def balls(
         self, drop: dict[str, NDArray[np.float64]], load: NDArray[np.float64]
     ) -> dict[str, np.ndarray]:
-        """Balls at their places, sunk by their `drop` [m] on the scale of a defect's depth."""
+        """Balls at their places, moved by their `drop` [m] on the scale of the drawn depth."""
         angle, radius = self.ball_angles(), self.ball_radii(drop)
         return {
             **points(radius, angle),
@@ -556,11 +555,11 @@ class Shapes:
         }
 
     def bars(self, load: NDArray[np.float64], top: float) -> dict[str, np.ndarray]:
-        """A bar outside the ring for each ball, as long as its load; `top` has full length.
+        """A bar outside the ring for each ball, in proportion to its load; `top` has full length.
 
-        With the place of its number, the room for that, and whether its load is the greatest. The
-        number lies above or below the end of the bar and above its beginning: there it needs
-        little more room to the side than the bar, and leaves the ring free.
+        Columns also hold the place of its number, the room for it, and True for the greatest load.
+        The number lies above or below the end of the bar and right or left of its beginning: so it
+        needs little more room to the side than the bar, and leaves the ring free.
         """
         angle = self.ball_angles()
         start = self.rim + BAR_START
@@ -581,7 +580,7 @@ class Shapes:
     def load_rim(
         self, angle: NDArray[np.float64], load: NDArray[np.float64], top: float
     ) -> dict[str, np.ndarray]:
-        """The area that the bars of a ball sweep as it goes round, at each half degree or more."""
+        """Area that the bar of a ball sweeps in a turn, at steps of half a degree or more."""
         angle, end = self._load_ends(angle, load, top)
         start = np.full_like(angle, self.rim + BAR_START)
         return polar((np.concatenate([angle, angle[::-1]]), np.concatenate([start, end[::-1]])))
@@ -589,7 +588,7 @@ class Shapes:
     def load_line(
         self, angle: NDArray[np.float64], load: NDArray[np.float64], top: float
     ) -> dict[str, np.ndarray]:
-        """The outer edge of that area, where there is a load."""
+        """Outer edge of the area of `load_rim`; NaN without a load."""
         angle, end = self._load_ends(angle, load, top)
         return polar((angle, np.where(end > self.rim + BAR_START, end, np.nan)))
 
@@ -607,9 +606,9 @@ class Shapes:
         return handles(self.scene, self.spans, self.row, race, tip, self.bore, self.newtons)
 
     def load_arrow(self) -> dict[str, np.ndarray]:
-        """The radial load on the inner ring, from the shaft's middle; no arrow without one.
+        """Arrow of the radial load from the middle of the shaft; empty without a load.
 
-        A second head marks an arrow that is longer than the figure.
+        A second head marks an arrow that is cut because it is longer than the figure.
         """
         load = self.scene.load
         if self.arrow == 0.0:
@@ -629,7 +628,7 @@ class Shapes:
 
 
 def polar(*parts: tuple[NDArray[np.float64], NDArray[np.float64]]) -> dict[str, np.ndarray]:
-    """Closed lines given as (angle [rad], radius), one after the other with NaN between."""
+    """Points of closed lines from (angle [rad], radius), with NaN between the lines."""
     line = layers.with_gaps(parts, "angle", "radius")
     return points(line["radius"], line["angle"])
 

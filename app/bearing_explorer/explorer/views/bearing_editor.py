@@ -1,4 +1,4 @@
-"""Every dimension of the bearing, a picture of what each one is, and what follows from them."""
+"""All dimensions of the bearing, a picture that explains them, and numbers that follow."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from bearingcore.fields import FIELD_OF
 
 
 class BearingRows(Rows):
-    """The fields and the picture in the browser."""
+    """The fields and the picture in the browser, with the numbers that follow."""
 
     #: the cross-section as SVG
     picture = param.String()
@@ -54,7 +54,7 @@ def _balls_of(bearing: Bearing) -> str:
 
 
 class BearingEditor(ControlView):
-    """The bearing that the sliders load, dimension by dimension."""
+    """The form for the dimensions of the bearing."""
 
     name = "bearing-editor"
     title = "Dimensions of the bearing"
@@ -103,7 +103,7 @@ class BearingEditor(ControlView):
 
 
 def facts_of(scene: Scene) -> list[dict[str, str]]:
-    """Numbers that follow from the dimensions and the speed of the shaft, with their words."""
+    """Numbers that follow from the dimensions and the shaft speed, with their words."""
     bearing, speed = scene.bearing, scene.shaft_speed
     element, elements = bearing.kind.element, bearing.kind.elements
     facts = [
@@ -142,8 +142,8 @@ def _hertz(bearing: Bearing, name: str, speed: float) -> str:
 
 
 def _words_of_rows(bearing: Bearing, words: Callable[[Bearing], str]) -> str:
-    """The `words` of a bearing; of rows that are not alike, of one after the other."""
-    return " and ".join(dict.fromkeys(words(own) for own, _ in bearing.unlike_rows))
+    """The `words` of a bearing; for unlike rows those of each row."""
+    return " and ".join(dict.fromkeys(words(row) for row, _ in bearing.unlike_rows))
 
 
 def _length(name: str, digits: int = 3) -> Callable[[Bearing], str]:
@@ -172,9 +172,9 @@ def _free_angle(bearing: Bearing) -> str:
 
 
 class Fact(NamedTuple):
-    """A number that follows from the dimensions: its words, and what writes its value.
+    """A number that follows from the dimensions: its words, and the function of its value.
 
-    `of_row` writes it of each row where rows are unlike, `of_all` of the whole bearing.
+    `of_row` writes the value of each row if rows are unlike, `of_all` that of the whole bearing.
     """
 
     label: str
@@ -185,7 +185,7 @@ class Fact(NamedTuple):
 
 
 def _field_fact(name: str, *words: Callable[[Bearing], str], **more: Any) -> Fact:
-    """A number that other bearings are given by, and that follows here."""
+    """A number that describes other bearings, and follows from the dimensions of this one."""
     field = FIELD_OF[name]
     return Fact(field.label, field.symbol_html, html.escape(field.meaning), *words, **more)
 
@@ -249,4 +249,4 @@ FACTS = {
         for race in ("outer", "inner")
     },
 }
-"""All numbers that a kind of bearing may have shown, see `Kind.facts`."""
+"""All numbers that the page may show for a kind of bearing, see `Kind.facts`."""

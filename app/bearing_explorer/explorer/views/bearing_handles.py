@@ -1,7 +1,7 @@
 """Handles in the drawing of the bearing: ends and middles of defects, tip of the load's arrow.
 
-Without a load the tip is in the middle of the shaft. A handle is dragged, or moved with the arrow
-keys once it has the focus, and the sliders follow.
+Without a load the tip is in the middle of the shaft. A handle is dragged with the pointer, or moved
+with the arrow keys when it has the focus; the sliders follow.
 """
 
 from __future__ import annotations
@@ -25,12 +25,12 @@ START, END, MIDDLE, LOAD = range(4)
 
 
 def points(radius: Any, angle: NDArray[np.float64], end: str = "") -> dict[str, np.ndarray]:
-    """Columns of points about the middle of the shaft, such as `x0` and `y0` for the `end` "0"."""
+    """Columns of points in polar coordinates, such as `x0` and `y0` for the `end` "0"."""
     return {f"x{end}": radius * np.cos(angle), f"y{end}": radius * np.sin(angle)}
 
 
 def dots(source: str) -> Glyph:
-    """Dots at the handles of defects; the handle of the arrow is its tip and needs no dot."""
+    """Dots at the handles of defects; the tip of the arrow needs no dot."""
     look = {"fill_color": "white", "line_color": "#B87A00", "line_width": 1.6, "size": "size"}
     return Glyph(Scatter, source, ("x", "y"), look, (*COLUMNS[2:], "size"))
 
@@ -44,7 +44,7 @@ def handles(
     bore: float,
     newtons: float,
 ) -> dict[str, np.ndarray]:
-    """Columns of the handles of a row of balls, in coordinates about the middle of the shaft.
+    """Columns of the handles of a row of balls, from the middle of the shaft.
 
     `value` is the extent of the defect [deg] or the load [N]; `angle` [deg] is the handle's place.
 
@@ -86,7 +86,7 @@ def handles(
 
 
 def let_grab(plot: figure, packed: PackedSource, name: str) -> None:
-    """Draw the handles of a source and make them movable."""
+    """Draw the handles of a source and let the hand move them."""
     glyph = dots(name)
     sources = sources_of(packed, [glyph])
     add_all(plot, sources, [glyph])

@@ -1,6 +1,7 @@
-"""Cross-section of a bearing as SVG, drawn from its numbers; each dimension can be pointed at.
+"""Cross-section of a bearing as SVG, drawn from its numbers.
 
-A dimension is a group of the class ``dimension``; its ``data-name`` is the name of its control.
+Each dimension is a group of the class ``dimension``, which a person can point at; its ``data-name``
+is the name of its control.
 """
 
 from __future__ import annotations
@@ -19,9 +20,9 @@ Point = tuple[float, float]
 _CONTROL = {field.full_name: field.key for field in SHOWN_FIELDS if field.group in BEARING_GROUPS}
 
 AXIS, MIDDLE = 372.0, 155.0
-"""Place in the section of the middle of the shaft (from the top) and of the bearing (along it)."""
+"""Height of the middle of the shaft (from the top), and place of the bearing along the shaft."""
 SHOULDER = 0.42
-"""Thickness of a ring behind its groove in ball diameters, height of its shoulders in radii."""
+"""Thickness of a ring behind its groove in ball diameters; height of its shoulders in radii."""
 CONTACT: Point = (440.0, 142.0)
 """The centre of the element that is drawn large."""
 
@@ -53,7 +54,7 @@ def _shape(tag: str, content: str = "", **attributes: object) -> str:
 
 
 def _path(cls: str, *commands: str | float) -> str:
-    """A path from its commands: letters, lengths (float) and flags (int)."""
+    """An SVG path from its commands: letters, lengths (float) and flags (int)."""
     d = " ".join(f"{part:.2f}" if isinstance(part, float) else str(part) for part in commands)
     return _shape("path", d=d, cls=cls)
 
@@ -80,13 +81,13 @@ def _dimension(field: str, *parts: str) -> str:
 
 
 def _arrow(x1: float, y1: float, x2: float, y2: float, both: bool = True) -> str:
-    made = _line("line", x1, y1, x2, y2) + _line("grip", x1, y1, x2, y2)
+    arrow = _line("line", x1, y1, x2, y2) + _line("grip", x1, y1, x2, y2)
     length = math.hypot(x2 - x1, y2 - y1)
     if length < 4.0:
-        return made
+        return arrow
     dx, dy = (x2 - x1) / length, (y2 - y1) / length
-    made += _head(x2, y2, dx, dy)
-    return made + (_head(x1, y1, -dx, -dy) if both else "")
+    arrow += _head(x2, y2, dx, dy)
+    return arrow + (_head(x1, y1, -dx, -dy) if both else "")
 
 
 def _head(x: float, y: float, dx: float, dy: float) -> str:
@@ -102,13 +103,13 @@ def _box(cls: str, x: float, y: float, width: float, height: float, rx: float = 
     return _shape("rect", x=x, y=y, width=width, height=height, rx=rx, cls=cls)
 
 
-# Half of the section through the shaft, to scale: radii are heights above its middle
+# Upper half of the section, to scale: radii are heights above the middle of the shaft
 
 
-class _RowAt(NamedTuple):
+class _DrawnRow(NamedTuple):
     """A drawn row: place, radius of its ball, heights of its centre and raceways.
 
-    `lean` is the slope of its races along the shaft.
+    `lean` is the slope of the races along the shaft.
     """
 
     number: int
@@ -121,7 +122,7 @@ class _RowAt(NamedTuple):
 
 
 class _Section:
-    """A section: its scale, and its rows from right to left."""
+    """The section of a bearing: its scale, and its rows from right to left."""
 
     def __init__(self, bearing: Bearing) -> None:
         self.bearing = bearing
@@ -143,7 +144,7 @@ class _Section:
         self.top, self.bore = self.up(rim), min(self.up(max(hole, 0.0)), AXIS - 6.0)
         self.rows = sorted(
             (
-                _RowAt(
+                _DrawnRow(
                     k,
                     MIDDLE + self.scale * row.place,
                     0.5 * self.scale * single.ball_diameter,
@@ -161,8 +162,8 @@ class _Section:
         """Height in the drawing of a radius [m]."""
         return AXIS - self.scale * radius
 
-    def groove(self, row: _RowAt, level: float, side: float) -> list[str | float]:
-        """The race of a row: `side` 1 for the outer ring, −1 for the inner one."""
+    def groove(self, row: _DrawnRow, level: float, side: float) -> list[str | float]:
+        """Path along the race of a row; `side` is 1 for the outer ring, −1 for the inner ring."""
         edge, wide = level + side * SHOULDER * row.ball, 0.8 * row.ball
         if self.is_roller:
             half = (self.long + 1.0) / math.hypot(1.0, row.lean)  # of a leaning race
@@ -187,7 +188,7 @@ class _Section:
         return [*(part for row in self.rows for part in self.groove(row, row.inner, -1.0)),
                 "H", self.left]  # fmt: skip
 
-    def element(self, row: _RowAt) -> str:
+    def element(self, row: _DrawnRow) -> str:
         if not self.is_roller:
             return _circle("ball", row.x, row.centre, row.ball)
         corner = row.x - self.long, row.centre - row.ball
@@ -215,52 +216,54 @@ def _turned(content: str, degrees: float, x: float, y: float) -> str:
 
 
 def _section(bearing: Bearing) -> Iterable[str]:
-    at, look = _Section(bearing), bearing.kind.picture
-    yield _path("steel", "M", at.left, at.top, "H", at.right, *at.outer_race(), "Z")
-    yield _path("steel", "M", at.left, at.bore, "H", at.right, *at.inner_race(), "Z")
-    yield from map(at.element, at.rows)
-    if len(at.rows) > 1 and look.outer != "sphere" and any(row.lean for row in at.rows):
-        for row in at.rows:  # lines of contact, drawn to the middle of the shaft
+    """The section to scale, with its dimensions."""
+    cut, look = _Section(bearing), bearing.kind.picture
+    yield _path("steel", "M", cut.left, cut.top, "H", cut.right, *cut.outer_race(), "Z")
+    yield _path("steel", "M", cut.left, cut.bore, "H", cut.right, *cut.inner_race(), "Z")
+    yield from map(cut.element, cut.rows)
+    if len(cut.rows) > 1 and look.outer != "sphere" and any(row.lean for row in cut.rows):
+        for row in cut.rows:  # lines of contact, down to the middle of the shaft
             over = 1.5 * row.ball
             foot = row.x - (AXIS - row.centre) * row.lean
             yield _line("line dashed", row.x + over * row.lean, row.centre - over, foot, AXIS)
     yield _line("axis", 14.0, AXIS, 296.0, AXIS)
-    by_number = {row.number: row for row in at.rows}
-    own = bearing.rows[1].own if len(bearing.rows) > 1 else {}
-    unlike = bool({"ball_diameter", "pitch_diameter"} & own.keys())
-    first = by_number[0] if unlike else at.rows[0]
-    x, centre = first.x, at.up(0.5 * bearing.pitch_diameter)
+    # dimensions, at the first row if rows are unlike, else at the right one
+    by_number = {row.number: row for row in cut.rows}
+    second = bearing.rows[1].own if len(bearing.rows) > 1 else {}
+    unlike = bool({"ball_diameter", "pitch_diameter"} & second.keys())
+    first = by_number[0] if unlike else cut.rows[0]
+    x, centre = first.x, cut.up(0.5 * bearing.pitch_diameter)
     if "roller_length" in look.dimensions:
-        level = centre + 0.45 * at.ball
-        yield _dimension("roller_length", _arrow(x - at.long, level, x + at.long, level),
+        level = centre + 0.45 * cut.ball
+        yield _dimension("roller_length", _arrow(x - cut.long, level, x + cut.long, level),
                          _label(x, level + 13.0, "l"))  # fmt: skip
-    if len(at.rows) > 1:
-        yield _distance(at)
+    if len(cut.rows) > 1:
+        yield _row_distance(cut)
     if unlike:
-        yield from _second(by_number[1])
+        yield from _second_row(by_number[1])
     if "groove_center_radius" in look.dimensions:
-        level = at.up(bearing.groove_center_radius)
-        yield at.height("groove_center_radius", 26.0, at.left, level, "r", "d")
-    place = min(72.0, at.left - 6.0)
-    yield at.height("pitch_diameter", place, at.left, centre, "D", "p", "/2")
-    yield at.height("inner_raceway_radius", max(236.0, at.right + 8.0), at.right,
-                    at.up(bearing.inner_raceway_radius), "R", "i")  # fmt: skip
-    yield at.height("outer_raceway_radius", max(266.0, at.right + 38.0), at.right,
-                    at.up(bearing.outer_raceway_radius), "R", "o")  # fmt: skip
-    if at.is_roller:
-        x += 0.6 * at.long
-        yield _dimension("ball_diameter", _arrow(x, centre - at.ball, x, centre + at.ball),
+        level = cut.up(bearing.groove_center_radius)
+        yield cut.height("groove_center_radius", 26.0, cut.left, level, "r", "d")
+    place = min(72.0, cut.left - 6.0)
+    yield cut.height("pitch_diameter", place, cut.left, centre, "D", "p", "/2")
+    yield cut.height("inner_raceway_radius", max(236.0, cut.right + 8.0), cut.right,
+                    cut.up(bearing.inner_raceway_radius), "R", "i")  # fmt: skip
+    yield cut.height("outer_raceway_radius", max(266.0, cut.right + 38.0), cut.right,
+                    cut.up(bearing.outer_raceway_radius), "R", "o")  # fmt: skip
+    if cut.is_roller:
+        x += 0.6 * cut.long
+        yield _dimension("ball_diameter", _arrow(x, centre - cut.ball, x, centre + cut.ball),
                          _label(x - 5.0, centre - 8.0, "D", "b", anchor="end"))  # fmt: skip
     else:
-        yield _dimension("ball_diameter", _arrow(x - at.ball, centre, x + at.ball, centre),
+        yield _dimension("ball_diameter", _arrow(x - cut.ball, centre, x + cut.ball, centre),
                          _label(x, centre - 5.0, "D", "b"))  # fmt: skip
-    yield from (_circle("centre", row.x, row.centre, 2.6) for row in at.rows)
+    yield from (_circle("centre", row.x, row.centre, 2.6) for row in cut.rows)
     yield _label(MIDDLE, 396.0, "to scale, above the middle of the shaft")
 
 
-def _distance(at: _Section) -> str:
+def _row_distance(cut: _Section) -> str:
     """The distance between two rows, drawn below the middle of the shaft."""
-    right, left = at.rows[:2]
+    right, left = cut.rows[:2]
     level = AXIS + 6.0
     return _dimension(
         "row_distance",
@@ -270,8 +273,8 @@ def _distance(at: _Section) -> str:
     )
 
 
-def _second(row: _RowAt) -> Iterable[str]:
-    """Dimensions of a second row that is unlike the first; they have names of their own."""
+def _second_row(row: _DrawnRow) -> Iterable[str]:
+    """Dimensions of a second row that is unlike the first."""
     x, away = row.x, row.x - 0.6 * row.ball
     yield _dimension(
         "second_ball_diameter",
@@ -285,7 +288,7 @@ def _second(row: _RowAt) -> Iterable[str]:
     )
 
 
-# An element between its races; small features are drawn large
+# One element between its races; clearance and conformity are drawn larger than they are
 
 
 def _gap(bearing: Bearing) -> float:
@@ -304,7 +307,7 @@ def _clearance(x: float, low: float, gap: float, *witnesses: str) -> str:
 
 
 def _line_contact(bearing: Bearing) -> Iterable[str]:
-    """A roller between its races, which it touches along its length."""
+    """A roller between its races, which it touches along a line."""
     (x, y), high, gap = CONTACT, 60.0, _gap(bearing)
     slender = (bearing.roller_length or 0.0) / bearing.ball_diameter
     long = min(110.0, max(25.0, high * slender))
@@ -376,7 +379,7 @@ def _grooves(bearing: Bearing) -> Iterable[str]:
 
 
 def _ring(circle: _Circle, side: float, back: float) -> str:
-    """Steel of a ring around its groove, from the height `back`."""
+    """The steel of a ring from the height `back` to its groove."""
     ends = [circle.point(turn if side > 0.0 else math.pi - turn) for turn in (-0.9, 0.9)]
     (left, level), end, sweep = ends[0], ends[1], 1 if side > 0.0 else 0
     x = CONTACT[0]
@@ -385,7 +388,7 @@ def _ring(circle: _Circle, side: float, back: float) -> str:
 
 
 def _angle(angle: float, ball: float) -> str:
-    """The contact angle: from the plane of the balls to the line of contact."""
+    """The contact angle, from the plane of the balls to the line of contact."""
     x, y = CONTACT
     sine, cosine, far, arc = math.sin(angle), math.cos(angle), 1.5 * ball, 1.32 * ball
     parts = [
@@ -400,10 +403,11 @@ def _angle(angle: float, ball: float) -> str:
     return _dimension("contact_angle", *parts, _label(*at, "α", "0", anchor="start"))
 
 
-# All elements seen along the shaft, and the load of one over its compression
+# All elements seen along the shaft, and the load of an element over its compression
 
 
 def _front(bearing: Bearing) -> Iterable[str]:
+    """The elements seen along the shaft, with their number."""
     x, y = 660.0, 100.0
     scale = 66.0 / (bearing.outer_raceway_radius + 0.3 * bearing.ball_diameter)
     for radius in (bearing.outer_raceway_radius, bearing.inner_raceway_radius):
@@ -411,7 +415,7 @@ def _front(bearing: Bearing) -> Iterable[str]:
     pitch, ball = 0.5 * scale * bearing.pitch_diameter, 0.5 * scale * bearing.ball_diameter
     turns = (2.0 * math.pi * i / bearing.n_balls for i in range(bearing.n_balls))
     balls = [_circle("ball", x + pitch * math.cos(t), y - pitch * math.sin(t), ball) for t in turns]
-    counts = [own.stop - own.start for own in bearing.balls_of_rows]
+    counts = [balls.stop - balls.start for balls in bearing.balls_of_rows]
     alike = len(set(counts)) == 1
     several = f"{len(counts)} · {counts[0]}" if len(counts) > 1 else str(counts[0])
     count = several if alike else " + ".join(map(str, counts))

@@ -19,12 +19,12 @@ class ComparingView(View[Results]):
 
     def __init__(self, packed: PackedSource) -> None:
         super().__init__(packed)
-        #: the names of compared scenes, a key a figure that draws them
+        #: keys of the figures that draw compared scenes
         self._keys = [key for plot in self.figures if (key := CurveKey(plot)).items]
 
     @classmethod
     def caption(cls, content: Results | None = None) -> str:
-        if content is not None and not content.grey.label:  # grey is this scene, healthy
+        if content is not None and not content.grey.label:  # grey is the scene itself: no defect
             return _OF_DEFECT.sub("", cls.about)
         return cls.about.replace("{grey}", content.grey.name if content else WITHOUT_DEFECT)
 

@@ -1,4 +1,4 @@
-"""Views with controls of their own."""
+"""Views that contain controls."""
 
 from __future__ import annotations
 
@@ -25,17 +25,17 @@ def table_of_fields(groups: Sequence[str], values: Mapping[str, float]) -> dict[
 
 
 class ControlView(View):
-    """A view with a panel of controls in it; `build` makes `rows` and gives it `forward`."""
+    """A view with a panel of controls, `rows`; `build` makes it with the callback `forward`."""
 
     rows: Rows
 
     def attach(self, parts: SessionParts) -> None:
-        """Send changes to the session, and follow its scene."""
+        """Show the scene of the session and join its panels of controls."""
         super().attach(parts)
         self.rows.state = self.parts.editor.state()
         self.parts.panels.append(self.rows)
 
     def forward(self, message: Any) -> None:
-        """Hand on a message of the browser."""
+        """Pass a message of the browser to the session."""
         if self.parts is not None:
             self.parts.change_scene(message)

@@ -19,7 +19,7 @@ from bearing_explorer.kit.views.base import Ranges, Sources
 
 DEPTH = style.AxisQuantity("Depth", "d", "m", prefixed=True)
 BRIDGED = 10e-6
-"""Length [m] along the race that is bridged: a contact is some tenths of a millimetre long."""
+"""Length [m] of a defect that a contact bridges: contacts are some tenths of a millimetre long."""
 EDGE_WORDS = {
     "published": "an edge as in the paper",
     "chord": "a chord over the whole arc",
@@ -36,7 +36,7 @@ LAYERS = (
 
 
 class DepthProfile(ComparingView):
-    """The race around the defect and the way a ball's centre takes over it."""
+    """The race around the defect, and the path of a ball's centre over it."""
 
     name = "depth-profile"
     title = "Depth profile"
@@ -77,9 +77,9 @@ class DepthProfile(ComparingView):
             1.15 * profile.depth, 1.15 * compared_curves.numbers(compared, "drop")
         )[1]
         start, end = float(angle[0]), float(angle[-1])
-        own = results.scene.bearing.balls_of_rows[profile.row]
-        balls = np.degrees(results.now.ball_angle[0, own])
-        # the picture may run past 360°: a ball is drawn in whichever turn it is seen
+        row_balls = results.scene.bearing.balls_of_rows[profile.row]
+        balls = np.degrees(results.now.ball_angle[0, row_balls])
+        # the axis may run past 360°: draw a ball in the turn that is in view
         balls = start + (balls - start) % 360.0
         balls[balls > end] = np.nan
         sources = {
@@ -92,8 +92,8 @@ class DepthProfile(ComparingView):
             "depth_profile_path": _path(profile),
             "depth_profile_balls": {
                 "angle": balls,
-                "drop": results.drop[profile.race][own],
-                "element": np.arange(own.start, own.stop) + 1.0,
+                "drop": results.drop[profile.race][row_balls],
+                "element": np.arange(row_balls.start, row_balls.stop) + 1.0,
             },
         }
         return sources, {

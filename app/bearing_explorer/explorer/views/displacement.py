@@ -25,7 +25,7 @@ _WHEN = ("at this cage angle", "least", "mean", "greatest")
 
 
 class Displacement(View):
-    """Displacement of the inner ring, now and over a period."""
+    """Displacement of the inner ring, at this cage angle and over a period."""
 
     name = "displacement"
     title = "Displacement of the inner ring"
@@ -88,7 +88,7 @@ class Displacement(View):
 
 
 class OperatingPoint(Displacement):
-    """Displacement, and stiffness as five by five numbers to copy."""
+    """Displacement of the inner ring, and the 5×5 stiffness matrix to copy."""
 
     name = "operating-point"
     title = "Operating point"
@@ -121,6 +121,7 @@ class OperatingPoint(Displacement):
 
 
 def _stiffness_html(when: str, table: ResultTable) -> str:
+    """A stiffness matrix as an HTML table; `when` is part of its heading."""
     _, *columns = table.named().values()
     rows = (
         (html_text(str(load)), *(_digits(float(value), 5) for value in line))
@@ -137,7 +138,7 @@ def _drop_noise(values: np.ndarray, least: float = 1e-9) -> np.ndarray:
 
 
 def displacements(results: Results) -> np.ndarray:
-    """(4, 5) [µm, mrad] at this cage angle; least, mean and greatest over all positions."""
+    """Displacements (4, 5) [µm, mrad]: at this cage angle; least, mean, greatest over positions."""
     over = results.ranges.state.displacement_table().named()
     rows = [results.now.displacement[0], *(over[when] for when in _WHEN[1:])]
     return _drop_noise(np.array(rows, dtype=float) * _FACTORS)

@@ -1,4 +1,4 @@
-"""Any output over the plane of any two quantities: coarse at once, refined while one waits.
+"""Map of any output over two quantities: coarse at once, then refined.
 
 The first, coarse level follows the sliders like any other view. When the sliders rest, a job
 refines it level by level.
@@ -20,13 +20,13 @@ from bearing_explorer.explorer.state.scene_editor import SceneEditor
 from bearing_explorer.explorer.state.value_range import (
     SWEEPABLE,
     Sweep,
-    focused,
+    focus_first,
     sweep,
     usual_range,
     value_of,
 )
 from bearing_explorer.explorer.views.scene_job_view import SceneJobView
-from bearing_explorer.kit.compute.jobs import COMPUTATION, Jobs, JobState, Work
+from bearing_explorer.kit.compute.jobs import COMPUTATION, Jobs, JobState
 from bearing_explorer.kit.plots import style
 from bearing_explorer.kit.plots.heat_map import Side
 from bearing_explorer.kit.sentences import sentence_of, with_unit
@@ -46,7 +46,7 @@ SIDES = {"x": "Horizontal axis", "y": "Vertical axis"}
 
 @dataclass(frozen=True)
 class MapRequest:
-    """A map as the form has it."""
+    """The map that the form describes; `given` are the texts of its fields."""
 
     x: Sweep
     y: Sweep
@@ -55,8 +55,10 @@ class MapRequest:
     given: Mapping[str, str] = field(default_factory=dict, compare=False)
 
     def of(self, results: Results) -> explore.Question:
-        """The question for the scene shown."""
-        return explore.Question(focused(results.scene, results.focus), self.x, self.y, self.output)
+        """The question of this map for a scene."""
+        return explore.Question(
+            focus_first(results.scene, results.focus), self.x, self.y, self.output
+        )
 
 
 class ExplorePlane(SceneJobView[explore.Plane]):
@@ -79,9 +81,8 @@ class ExplorePlane(SceneJobView[explore.Plane]):
     _refining: tuple[explore.Question, int] | None = None
 
     def build(self, packed: PackedSource) -> Any:
-        from bearing_explorer.explorer.plots.plane import (
-            PlaneFigures,  # HoloViews: not at the start
-        )
+        # HoloViews takes long to import: not when the page starts
+        from bearing_explorer.explorer.plots.plane import PlaneFigures
 
         self._plane = PlaneFigures("explore", self._go)
         panes = [pn.pane.HoloViews(plot, margin=0) for plot in self._plane.plots]
@@ -90,7 +91,7 @@ class ExplorePlane(SceneJobView[explore.Plane]):
 
     @property
     def is_empty(self) -> bool:
-        """True before the first map, and where no point of it has an answer."""
+        """True before the first map, and if no point of it has an answer."""
         return self.job_result is None or self.job_result.missing == self.job_result.values.size
 
     # The form
@@ -129,14 +130,14 @@ class ExplorePlane(SceneJobView[explore.Plane]):
             for side in SIDES
         }
         values = {**_FIRST, **fills["x"][_FIRST["x"]], **fills["y"][_FIRST["y"]]}
-        # loads that point down, as weights do: without a load there is nothing to map
+        # loads that point down, as weights do, and not 0: without a load there is nothing to map
         values["y_from"] = f"{-0.05 * editor.limits['fy_n'].least:g}"
         if self._request is None:
             self._request = self.request_of(values, editor)
         return values, fills
 
     def request_of(self, given: Mapping[str, str], editor: SceneEditor) -> MapRequest:
-        """The map of the form; ValueError with a sentence where there can be none."""
+        """The map that the form describes; ValueError with a sentence if it is impossible."""
         if given["output"] not in explore.MAP_OUTPUTS:
             raise ValueError("There is no such output.")
         if given["grid"] not in map(str, explore.SIZES):
@@ -151,7 +152,7 @@ class ExplorePlane(SceneJobView[explore.Plane]):
         return MapRequest(x, y, output, int(given["grid"]), given)
 
     def start_job(self, given: Mapping[str, str]) -> None:
-        """Ask for the map of the form; the job begins when the sliders rest."""
+        """Take the map of the form; its job begins when the sliders rest."""
         try:
             self._request = self.request_of(given, self._editor)
         except ValueError as error:
@@ -165,7 +166,7 @@ class ExplorePlane(SceneJobView[explore.Plane]):
     def choices(self) -> dict[str, Any]:
         if self._request is None:
             return {}
-        plane = self.job_result  # as fine as its numbers in the file are, whatever was asked for
+        plane = self.job_result  # the grid of the exported numbers may be coarser than the form's
         stride = self._request.stride if plane is None else plane.stride
         return {**self._request.given, "grid": str(stride)}
 
@@ -192,7 +193,7 @@ class ExplorePlane(SceneJobView[explore.Plane]):
         self.job_result = plane or self.job_result
         super().say(results, sentence)
         if self.job_result is not None:
-            scene = focused(results.scene, results.focus)
+            scene = focus_first(results.scene, results.focus)
             x, y = (
                 value_of(scene, sweep.field) for sweep in (self.job_result.x, self.job_result.y)
             )
@@ -208,7 +209,7 @@ class ExplorePlane(SceneJobView[explore.Plane]):
             self._refine(self._jobs, question, plane)
 
     def _go(self, x: float, y: float) -> None:
-        """Set both quantities to those of a place of the map, as if they had been typed."""
+        """Set both quantities to their values at a place of the map, as if they were typed."""
         if self.job_result is None or self.parts is None:
             return
         fields = self.job_result.x.field, self.job_result.y.field
@@ -219,7 +220,7 @@ class ExplorePlane(SceneJobView[explore.Plane]):
         self.parts.change_scene({"typed": typed})
 
     def columns(self, plane: explore.Plane) -> dict[str, np.ndarray]:
-        up, across = np.meshgrid(plane.y.own_values, plane.x.own_values, indexing="ij")
+        up, across = np.meshgrid(plane.y.field_values, plane.x.field_values, indexing="ij")
         return {
             plane.x.field.key: across.ravel(),
             plane.y.field.key: up.ravel(),
@@ -232,7 +233,7 @@ class ExplorePlane(SceneJobView[explore.Plane]):
         }
 
     def _newest(self, results: Results) -> tuple[explore.Plane | None, str]:
-        """The map as far as it is computed, or the reason why there is none."""
+        """The finest map that is computed, or the reason why there is none."""
         if self._request is None:
             return None, ""
         question = self._request.of(results)
@@ -248,15 +249,13 @@ class ExplorePlane(SceneJobView[explore.Plane]):
     # Refining
 
     def _refine(self, jobs: Jobs, question: explore.Question, start: explore.Plane | None) -> None:
-        """Start the job of a map."""
+        """Start the job that refines a map."""
         assert self._request is not None
         stride = self._request.stride
         self._refining = question, stride
-
-        def work(job: Work) -> str:
-            return explore.refine(job, question, stride, start)
-
-        jobs.start(work, self._take, self.report)
+        jobs.start(
+            lambda job: explore.refine(job, question, stride, start), self._take, self.report
+        )
 
     def _take(self, plane: explore.Plane) -> None:
         if plane.question == self._question:
@@ -265,11 +264,11 @@ class ExplorePlane(SceneJobView[explore.Plane]):
 
 
 def field_of(plane: explore.Plane) -> Field:
-    """A map as the figures take it."""
+    """Convert a map for the figures."""
     from bearing_explorer.explorer.plots.plane import Field
 
     output = plane.question.output
-    words = re.sub("^k ", "k_", output.label)  # with its directions below
+    words = re.sub("^k ", "k_", output.label)  # the directions are a subscript
     words = words if words.startswith("k_") else words[0].upper() + words[1:]
     x, y = ((Side.of(sweep.field), sweep.values) for sweep in (plane.x, plane.y))
     return Field(x, y, words, output.unit, plane.values, plane.reasons)
@@ -289,19 +288,20 @@ def summary(plane: explore.Plane) -> str:
             return f"{words}: {points} {why}"
         missing = f" {points} {why}"
     least, most = (
-        np.unravel_index(int(find(values)), values.shape) for find in (np.nanargmin, np.nanargmax)
+        np.unravel_index(int(place(values)), values.shape) for place in (np.nanargmin, np.nanargmax)
     )
     ends = f"least {_place(plane, least)}, greatest {_place(plane, most)}"
     return f"{words}: {ends}.{missing} Computed at {size}."
 
 
-def _place(plane: explore.Plane, at: tuple[Any, ...]) -> str:
+def _place(plane: explore.Plane, point: tuple[Any, ...]) -> str:
+    """The number at a point (row, column) of a map, with its place, in words."""
     output = plane.question.output
-    value, unit = float(plane.values[at]), output.unit
+    value, unit = float(plane.values[point]), output.unit
     prefixed = unit not in ("", "°")
     shown = style.with_prefix(value, unit) if prefixed else with_unit(value, unit, 3)
     where = [
         f"{sweep.field.read_label.lower()} {with_unit(sweep.values[k], sweep.field.shown_unit, 3)}"
-        for sweep, k in ((plane.x, at[1]), (plane.y, at[0]))
+        for sweep, k in ((plane.x, point[1]), (plane.y, point[0]))
     ]
     return f"{shown} at {' and '.join(where)}"

@@ -1,4 +1,4 @@
-"""Views that are folded at first: computed and drawn once they are opened."""
+"""Views that are folded at first; they are computed and drawn when a person opens them."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from bearing_explorer.kit.widgets.form import button
 
 
 class FoldedView(View[C]):
-    """A view behind a button on the page; elsewhere, in reports and scripts, it is open."""
+    """A view that a button opens on the page; in reports and scripts it is always open."""
 
     def __init__(self, packed: PackedSource) -> None:
         super().__init__(packed)
         self.opened = True
-        self._named = self.title
-        self._opener = button("", self._turn, css_classes=["unfold"])
+        self._last_title = self.title
+        self._opener = button("", self._toggle, css_classes=["unfold"])
         self._body = list(self.panel)[1:]  # below its caption
         self.panel.insert(1, self._opener)
         self._show_fold()
@@ -26,7 +26,7 @@ class FoldedView(View[C]):
             self.withhold(picture)
         self._show_fold()
 
-    def _turn(self) -> None:
+    def _toggle(self) -> None:
         self.opened = not self.opened
         self._show_fold()
         if self.parts is not None:
@@ -35,7 +35,7 @@ class FoldedView(View[C]):
     def _show_fold(self) -> None:
         self.needs = type(self).needs if self.opened else frozenset()
         self._opener.visible = self.parts is not None
-        self._opener.name = "Hide" if self.opened else f"Show: {self._named}"
+        self._opener.name = "Hide" if self.opened else f"Show: {self._last_title}"
         if not self.opened:
             for part in self._body:
                 part.visible = False
@@ -50,11 +50,11 @@ class FoldedView(View[C]):
         self._show_fold()
 
     def put_head(self, content: C) -> None:
-        self._named = content.in_words(self.title_of(content))
+        self._last_title = content.in_words(self.title_of(content))
         super().put_head(content)
 
     def words(self, results: C) -> str:
-        """`View.sentence` of what is drawn."""
+        """The sentence of the open view, see `View.sentence`."""
         raise NotImplementedError
 
     def sentence(self, results: C) -> str:

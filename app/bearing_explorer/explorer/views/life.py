@@ -1,4 +1,4 @@
-"""Life of the bearing, pressure on its races and the oil film, with the numbers they need."""
+"""Life of the bearing, pressure on its races and the oil film, with a form for their inputs."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ from bearingcore.model.statics import LEFT_OUT, hours_in_words, turns_in_words
 
 
 class Field(NamedTuple):
-    """A number of the form: the field of `LifeInputs`, label, unit, and its range.
+    """A number of the form: the field of `LifeInputs`, its label, unit and range.
 
-    `hint` says which number the program takes where none is given; without one it is needed.
+    `hint` names the number that an empty field stands for; without a hint a number is required.
     """
 
     name: str
@@ -102,21 +102,18 @@ class LifeOfBearing(View):
         self._refusal = facts_pane(visible=False)
         parts: list[Any] = []
         for field in FIELDS:
-            given = entry(
-                f"{field.label} ({field.unit})",
-                placeholder=field.hint,
-                align="start",
-            )
-            parts += [self._fields.add(field.name, given), facts_pane(f"<p>{field.about}</p>")]
+            label = f"{field.label} ({field.unit})"
+            box = entry(label, placeholder=field.hint, align="start")
+            parts += [self._fields.add(field.name, box), facts_pane(f"<p>{field.about}</p>")]
         self._fields.put(self._values())
         self._answers = LiveFacts(styles={"flex": "2 1 340px"})
         form = pn.Column(*parts, self._refusal, margin=0, styles={"flex": "1 1 240px"})
-        # on a phone the answers are above what they are asked with
+        # on a phone the answers are above the form
         ways = {"flex-wrap": "wrap-reverse", "align-items": "flex-end", "gap": "10px 34px"}
         return row(form, self._answers, styles=ways)
 
     def take(self, name: str) -> None:
-        """Take a number that was typed; a refused one changes nothing and gets a sentence."""
+        """Read a typed number; a refused one changes nothing, and a sentence says why."""
         field = next(field for field in FIELDS if field.name == name)
         try:
             value: Any = read(field, self._fields.values[name])
@@ -166,13 +163,13 @@ class LifeOfBearing(View):
 
 
 def _text(name: str) -> str:
-    """A name without its tags, as a table and a CSV file have it."""
+    """A name without its HTML tags, for tables and CSV files."""
     return re.sub(r"<[^>]*>", "", name)
 
 
-def read(field: Field, given: object) -> float | None:
-    """The number [SI] a person gave; ValueError with a sentence for the page."""
-    text = str(given)[:40].strip()
+def read(field: Field, typed: object) -> float | None:
+    """Read a typed number [SI]; ValueError with a sentence for the page."""
+    text = str(typed)[:40].strip()
     if not text and field.hint:
         return None
     words = f"The {field.label.lower()}"
@@ -180,7 +177,7 @@ def read(field: Field, given: object) -> float | None:
 
 
 def groups_of(results: Results) -> list[FactGroup]:
-    """The answers; a reason that none of them is known is given once."""
+    """The answers in groups; a reason that all of them share is given once."""
     answer = results.endurance
     groups = [_life(results, answer), _pressures(results, answer), _film(results, answer)]
     words = groups[0].words
@@ -193,10 +190,11 @@ PROFILE = "Rollers are taken to have the profile of ISO 16281, and not to tilt."
 
 
 def _life(results: Results, answer: endurance.Endurance) -> FactGroup:
+    """Facts on the life of the healthy bearing, and words on the effect of the defect."""
     title = "Life of the healthy bearing" if results.scene.defects else "Life"
     if answer.life is None or answer.healthy is None or answer.rating is None:
         return FactGroup(title, answer.no_life, [])
-    lasts, known = answer.healthy, answer.healthy.known
+    healthy, known = answer.healthy, answer.healthy.known
     facts = [
         Fact(
             "Dynamic load rating C<sub>r</sub>",
@@ -205,27 +203,27 @@ def _life(results: Results, answer: endurance.Endurance) -> FactGroup:
         ),
         Fact(
             "Life L<sub>10r</sub>",
-            turns_in_words(lasts.million_revolutions) if known else "not known",
+            turns_in_words(healthy.million_revolutions) if known else "not known",
             "Turns that nine of ten bearings reach, from the load of each ball or roller by "
             "ISO 16281.",
         ),
         Fact(
             "at the speed of the scene",
-            _hours(lasts),
+            _hours(healthy),
             "This life in hours.",
         ),
         Fact(
             "Dynamic equivalent reference load P",
-            style.with_prefix(lasts.equivalent_load, "N", 4) if known else "not known",
+            style.with_prefix(healthy.equivalent_load, "N", 4) if known else "not known",
             "The load under which ISO 281 gives this life: C/P to the power 3 of balls, 10/3 of "
             "rollers.",
         ),
     ]
-    if len(lasts.rows) > 1 and known:
-        each = " and ".join(map(turns_in_words, lasts.rows))
+    if len(healthy.rows) > 1 and known:
+        each = " and ".join(map(turns_in_words, healthy.rows))
         facts.append(
             Fact(
-                f"of rows 1 to {len(lasts.rows)} on their own",
+                f"of rows 1 to {len(healthy.rows)} on their own",
                 each,
                 "Life of each row under its own load: the bearing fails with the first row.",
             )
@@ -233,15 +231,15 @@ def _life(results: Results, answer: endurance.Endurance) -> FactGroup:
     words = _damaged_words(answer.life) if results.scene.defects else ""
     profile = PROFILE if results.scene.bearing.kind.line_contact else ""
     if not known and not words:
-        words = lasts.sentence
-    against = _iso_281_words(lasts, answer.rating) if known else ""
-    words = " ".join(filter(None, (words, against, profile, answer.assumed)))
+        words = healthy.sentence
+    iso_281 = _iso_281_words(healthy, answer.rating) if known else ""
+    words = " ".join(filter(None, (words, iso_281, profile, answer.assumed)))
     return FactGroup(title, words, facts)
 
 
-def _iso_281_words(lasts: Life, rating: float) -> str:
-    """The life by ISO 281 for the radial load alone, and why it differs; empty with other loads."""
-    load, bearing = lasts.scene.load, lasts.scene.bearing
+def _iso_281_words(healthy: Life, rating: float) -> str:
+    """The life by ISO 281 for a radial load alone, and why it differs; empty with other loads."""
+    load, bearing = healthy.scene.load, healthy.scene.bearing
     radial = math.hypot(load.fx, load.fy)
     if load.fz or load.mx or load.my or not radial:
         return ""
@@ -254,16 +252,16 @@ def _iso_281_words(lasts: Life, rating: float) -> str:
     )
 
 
-def _hours(lasts: Life) -> str:
-    if math.isfinite(lasts.hours):
-        return hours_in_words(lasts.hours)
-    if lasts.scene.shaft_speed == 0.0:
+def _hours(healthy: Life) -> str:
+    if math.isfinite(healthy.hours):
+        return hours_in_words(healthy.hours)
+    if healthy.scene.shaft_speed == 0.0:
         return "no hours: the shaft is at rest"
-    return "no hours: unlimited" if lasts.known else "not known"
+    return "no hours: unlimited" if healthy.known else "not known"
 
 
 def _damaged_words(damaged: Life) -> str:
-    """The effect of the loads that a defect changes, and why it is no life of a damaged bearing."""
+    """The life from the loads with a defect, and why it is not the life of a damaged bearing."""
     if not damaged.known:
         return damaged.sentence
     share = damaged.share_of_healthy
@@ -275,6 +273,7 @@ def _damaged_words(damaged: Life) -> str:
 
 
 def _pressures(results: Results, answer: endurance.Endurance) -> FactGroup:
+    """Facts on the contacts of the heaviest loaded ball or roller."""
     title = "Greatest contact pressure"
     if answer.pressures is None:
         return FactGroup(title, answer.no_pressures, [])
@@ -284,21 +283,19 @@ def _pressures(results: Results, answer: endurance.Endurance) -> FactGroup:
     facts = []
     for contact in (answer.pressures.inner, answer.pressures.outer):
         across = "half the length" if bearing.kind.line_contact else "across"
-        facts.append(
+        facts += [
             Fact(
                 f"{contact.race.capitalize()} race",
                 style.with_prefix(contact.greatest_pressure, "Pa"),
                 "In the middle of the contact of the heaviest loaded ball or roller.",
-            )
-        )
-        facts.append(
+            ),
             Fact(
                 "half-axes of the contact ellipse",
                 f"{style.with_prefix(contact.semi_axis_across, 'm')} {across}, "
                 f"{style.with_prefix(contact.semi_axis_along, 'm')} along the rolling",
                 "For a roller: half its length, and half the width of the contact.",
-            )
-        )
+            ),
+        ]
     allowed = style.with_prefix(bearing.kind.static_pressure, "Pa")
     words = (
         f"At {style.with_prefix(answer.pressures.ball.load, 'N', 4)}, the heaviest load at rest. "
@@ -309,11 +306,12 @@ def _pressures(results: Results, answer: endurance.Endurance) -> FactGroup:
 
 
 def _assuming(answer: endurance.Endurance) -> str:
-    """Words that a title adds where groove radii are assumed, by which no limit is judged."""
+    """Words for a title if groove radii are assumed."""
     return ", with usual groove radii" if endurance.ASSUMED_GROOVES in answer.assumed else ""
 
 
 def _film(results: Results, answer: endurance.Endurance) -> FactGroup:
+    """Facts on the oil film; not known where the pressure is beyond Hertz theory."""
     title = "Oil film"
     if answer.film is None:
         return FactGroup(title, answer.no_film, [])
@@ -324,21 +322,19 @@ def _film(results: Results, answer: endurance.Endurance) -> FactGroup:
     facts = []
     for film in (answer.film.inner, answer.film.outer):
         parameter = style.number(film.film_parameter) if film.lubrication else "not known"
-        facts.append(
+        facts += [
             Fact(
                 f"{film.race.capitalize()} race, thickness",
                 style.with_prefix(film.thickness, "m") if film.lubrication else "not known",
                 "Thickness where it is least.",
-            )
-        )
-        facts.append(
+            ),
             Fact(
                 "film parameter Λ",
                 f"{parameter} ({film.lubrication or 'no film'})",
                 "Thickness over the roughness of both surfaces: below 1 they touch all the time, "
                 "above 3 hardly ever.",
-            )
-        )
+            ),
+        ]
     words = answer.film.sentence
     if results.life_inputs.viscosity is None:
         viscosity = style.with_prefix(endurance.ASSUMED_VISCOSITY, "Pa·s")

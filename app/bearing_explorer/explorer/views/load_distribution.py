@@ -53,7 +53,7 @@ LAYERS: tuple[layers.Layer, ...] = (
 
 
 class LoadDistribution(ComparingView):
-    """Load of a ball over its angle, with the balls of this cage angle on the curve."""
+    """Load of a ball over its angle, with the balls at this cage angle on the curve."""
 
     name = "load-distribution"
     title = "Load distribution"
@@ -82,7 +82,7 @@ class LoadDistribution(ComparingView):
         plot.add_tools(
             HoverTool(
                 renderers=curves,
-                visible=False,  # no button: it is always on
+                visible=False,  # it is always on, so the toolbar has no button for it
                 mode="vline",
                 line_policy="nearest",
                 tooltips=[("Position", "@angle{0.0}°"), ("Load", "@load{0,0.0} N")],
@@ -135,8 +135,8 @@ class LoadDistribution(ComparingView):
                 f"{style.with_prefix(load[most], 'N')}, at {style.in_degrees(angle[most])}"
             )
             if results.grey.label and np.isfinite(healthy).any():
-                most_there = style.with_prefix(np.nanmax(healthy), "N")
-                part += f" ({results.grey.label} {most_there})"
+                healthy_most = style.with_prefix(np.nanmax(healthy), "N")
+                part += f" ({results.grey.label} {healthy_most})"
             parts.append(part)
         words = "; ".join(parts)
         if results.over_shaft:
@@ -158,7 +158,7 @@ class LoadDistribution(ComparingView):
 
 
 def _both_races(now: EquilibriumWithMass) -> str:
-    """Load of the most loaded ball at each race over the cage angles, and its positions."""
+    """Loads and contact angles of the most loaded ball at both races, in words."""
     most = int(np.argmax(now.ball_load[0]))
     inner, outer = now.inner_load[0, most], now.ball_load[0, most]
     angles = [now.inner_contact_angle[0, most], now.contact_angle[0, most]]
@@ -191,16 +191,16 @@ def _both_races_table(state: Equilibrium, row: int) -> ResultTable:
 
 
 def _one_line(curves: list[Curve]) -> dict[str, np.ndarray]:
-    """Curves as one line with gaps, angles in degrees."""
+    """Join curves to one line with gaps, angles in degrees."""
     return layers.with_gaps(((np.degrees(angle), load) for angle, load in curves), "angle", "load")
 
 
 NAMES_APART = 40.0
-"""Least gap [degrees] between the names of rows that carry their most at about one place."""
+"""Least distance [degrees] of the names of rows whose greatest loads are close together."""
 
 
 def _names(curves: list[Curve]) -> dict[str, np.ndarray]:
-    """Places of the names of rows, at the tops of their curves; none for a single row."""
+    """Places of the names of rows, at the tops of their curves; empty for a single row."""
     rows = [
         (float(np.degrees(angle[np.nanargmax(load)])), float(np.nanmax(load)), row + 1.0)
         for row, (angle, load) in enumerate(curves)
@@ -211,7 +211,7 @@ def _names(curves: list[Curve]) -> dict[str, np.ndarray]:
 
 
 def defect_strips(scene: Scene, cage_angle: float) -> dict[str, np.ndarray]:
-    """The defects as intervals of ball angle [deg]: two where one lies across 0°."""
+    """The defects as intervals of ball angle [deg]; a defect across 0° gives two."""
     all_pieces = [piece for span in spans(scene, cage_angle) for piece in pieces(span)]
     start, end = np.degrees(np.array(all_pieces).reshape(-1, 2)).T
     return {"start": start, "end": end}

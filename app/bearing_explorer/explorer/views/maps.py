@@ -1,8 +1,8 @@
 """The 15 stiffness terms and the loaded balls over extent and cage angle (Figs. 5 and 6).
 
-One canvas for all sixteen maps. To the browser go whole numbers of 16 bits, two to a float of the
-packed source; there they are coloured, read under the pointer, and a click asks for the extent and
-the cage angle clicked at.
+All sixteen maps share one canvas. The browser receives whole numbers of 16 bits, two in each float
+of the packed source. It colours them and shows the number at the pointer; a click sets the sliders
+to the extent and the cage angle of that point.
 """
 
 from __future__ import annotations
@@ -30,8 +30,8 @@ from bearing_explorer.kit.views.base import Ranges, Sources, View
 from bearingcore import STIFFNESS_TERMS
 from bearingcore.model.statics import TERM_UNITS
 
-#: kinds of colour scales, as the browser knows them
 _CELL_COLUMNS = ("low", "high", "kind", "now", "unit", "zero")
+#: kinds of colour scales, by the numbers that the scripts use
 ONE_SIGN, TWO_SIGNS, COUNT, FLAT = 0, 1, 2, 3
 
 _TOOLTIP = (
@@ -40,17 +40,18 @@ _TOOLTIP = (
 )
 
 NO_ANSWER = 65535
-"""The whole number of a point without an answer."""
+"""Whole number of a point without an answer."""
 GREATEST = 65534
-"""The whole number of the upper end of a map's scale; the lower end is 0."""
+"""Whole number of the upper end of a map's scale; the lower end is 0."""
 MOST_LEVELS_NAMED = 14
-"""Steps of the scale of loaded balls up to which each gets its number."""
+"""Most steps of the scale of loaded balls that are all numbered."""
 HEIGHT = 460
 NARROWEST = 700
 """Width [px] below which the maps have no room for their values at the cross."""
 
 _TO_TWO_SIGNS, _TO_ONE_SIGN = 0.03, 0.01
-"""The smaller sign's part of the greater one above which a map has two signs, below which one."""
+"""Ratio of the smaller to the greater sign: a map gets two signs above the first, one below the
+second. In between it keeps its scale, so that a drag does not make it flicker."""
 
 
 def _cell(row: int, column: int) -> matrix_cells.Cell:
@@ -69,7 +70,7 @@ def _bar(cell: matrix_cells.Cell) -> matrix_cells.Cell:
 
 
 BAR_NUMBERS = 0.1
-"""Room for the numbers of a scale of colours, right of it."""
+"""Room for the numbers right of a colour scale."""
 _BARS = [_bar(cell) for cell in _CELLS]
 
 _SCALE_OF = """
@@ -99,14 +100,14 @@ class StiffnessMaps(View):
     )
 
     def build(self, packed: PackedSource) -> Any:
-        """One canvas for all maps."""
+        """Make the canvas of all maps."""
         self._one_sign = [StickyRange(0.0, 1.0) for _ in matrix_cells.PLACES]
         self._two_signs = [StickyRange(-1.0, 1.0, anchor="symmetric") for _ in matrix_cells.PLACES]
         self._two = [False] * len(matrix_cells.PLACES)
         self._balls = StickyRange(0.0, 1.0, shrink_below=0.0)
         looks = (
             ".bk-events.bk-events { cursor: crosshair; }"
-            ".bk-events.bk-events:focus { outline: none; }"  # it is clicked, not typed into
+            ".bk-events.bk-events:focus { outline: none; }"  # a click needs no mark of the focus
         )
         plot = matrix_cells.matrix_figure(
             (-0.12, 5.23), (-5.1, 0.09), looks, 560, height=HEIGHT, name="maps_drawing"
@@ -144,7 +145,7 @@ class StiffnessMaps(View):
         return matrix_cells.scrolled(plot)
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
-        """Points as whole numbers, their scales, and where the sliders stand."""
+        """Points as whole numbers, their scales, and the positions of the sliders."""
         maps, now = results.maps, results.against(massless_reference(results.scene)).now
         sizes = matrix_cells.term_sizes(maps.term)
         cells: list[tuple[float, ...]] = []
@@ -157,6 +158,7 @@ class StiffnessMaps(View):
             at_now = 0.0 if abs(at_now) < matrix_cells.NEGLIGIBLE * sizes[i] else at_now
             kind = FLAT if flat else TWO_SIGNS if self._two[i] else ONE_SIGN
             cells.append((low, high, kind, at_now, matrix_cells.UNITS.index(TERM_UNITS[term])))
+        # the last map: a colour for each number of loaded balls, in the middle of its step
         counts = np.where(maps.converged, maps.loaded_balls, np.nan)
         low, high = self._balls.fit(counts)
         low, high = math.floor(low), math.ceil(high)
@@ -181,7 +183,7 @@ class StiffnessMaps(View):
     def _limits(
         self, i: int, values: NDArray[np.float64], size: float
     ) -> tuple[float, float, bool]:
-        """Ends of a term's colour scale, and whether it is zero everywhere."""
+        """Ends of a term's colour scale, and True if the term is zero everywhere."""
         known = values[np.isfinite(values)]
         if not known.size:
             return math.nan, math.nan, False
@@ -192,12 +194,13 @@ class StiffnessMaps(View):
         two = lesser > (_TO_ONE_SIGN if self._two[i] else _TO_TWO_SIGNS) * greater
         self._two[i] = two
         middle = 0.5 * (least + most)
-        room = np.array([middle - 0.005 * size, middle + 0.005 * size])  # rounding is no picture
+        # a least span, so that a constant term does not show its rounding errors
+        room = np.array([middle - 0.005 * size, middle + 0.005 * size])
         low, high = (self._two_signs if two else self._one_sign)[i].fit(least, most, room)
         return low, high, False
 
     def sentence(self, results: Results) -> str:
-        """The length at which fewest balls carry load, and the state at the sliders' place."""
+        """Say at which length the fewest balls carry load, and the state at the sliders."""
         maps = results.maps
         if not maps.converged.any():
             first = np.unravel_index(0, maps.status.shape)
@@ -209,14 +212,13 @@ class StiffnessMaps(View):
         if most - least < 0.05:
             words = f"Whatever the length, about {least:.1f} of {n_balls} {names} carry load"
         else:
-            at = int(np.nanargmin(mean))
-            where = (
-                f"at a length of {in_degrees(maps.extents[at], 0)}" if at else "without a defect"
-            )
-            if at == mean.size - 1:
+            fewest = int(np.nanargmin(mean))
+            length = in_degrees(maps.extents[fewest], 0)
+            where = f"at a length of {length}" if fewest else "without a defect"
+            if fewest == mean.size - 1:
                 where += ", the longest of the map"
             words = f"Fewest {names} carry load {where}: {least:.1f} of {n_balls} on average"
-            if at and np.isfinite(mean[0]):
+            if fewest and np.isfinite(mean[0]):
                 words += f", against {mean[0]:.1f} without the defect"
         now = results.against(massless_reference(results.scene)).now
         if now.converged[0]:
@@ -236,7 +238,7 @@ class StiffnessMaps(View):
 
 
 def whole_numbers(values: NDArray[np.float64], low: float, high: float) -> NDArray[np.uint16]:
-    """Values between the ends of a scale as 0 to GREATEST, NO_ANSWER where there is none."""
+    """Convert values between the ends of a scale to 0 to GREATEST, and NaN to NO_ANSWER."""
     if not low < high:
         return np.full(values.size, NO_ANSWER, np.uint16)
     shares = ((values - low) * (GREATEST / (high - low))).ravel()
@@ -250,10 +252,10 @@ def pack_bits(
     levels: int,
     points: list[NDArray[np.uint16]],
 ) -> NDArray[np.float32]:
-    """Rows and columns of the maps, their kinds, levels of the last, and all points, as floats.
+    """Pack rows and columns of the maps, their kinds, levels of the last, and all points.
 
-    The packed source carries floats; two whole numbers lie in the bits of each and are never read
-    as one.
+    The packed source carries floats. The bits of each float are two whole numbers; it is never
+    read as a float.
     """
     head = np.array([*shape, *kinds, levels], np.uint16)
     numbers = np.concatenate([head, np.zeros(_HEAD - head.size, np.uint16), *points])
@@ -283,8 +285,8 @@ _PLACES_OF_CELLS = {
 def _grid(results: Results) -> dict[str, float]:
     """Ends of the sides of a map [deg]: half a point past the first and the last.
 
-    `turn`: degrees of the angle that the map shows for a degree of cage angle; it is the
-    shaft's where a defect turns with the shaft. `start` is the cage angle where it is zero.
+    A map shows the angle of the cage, or of the shaft if a defect turns with it: `turn` is its
+    change for a degree of cage angle, and `start` the cage angle at which it is zero.
     """
     maps = results.maps
 
@@ -316,26 +318,26 @@ def _marks(results: Results, grid: dict[str, float]) -> dict[str, np.ndarray]:
     }
 
 
-#: places of numbers: at the left of a map, at its foot, at a colour scale
+#: places of numbers: left of a map, below it, at a colour scale
 _LEFT, _FOOT, _SCALE = 0, 1, 2
 
 
 def _tick_rows(grid: dict[str, float], least: int, most: int) -> dict[str, np.ndarray]:
-    """Numbers on the axes of the maps on the diagonal and of the large one, and on its scale."""
+    """Numbers on the axes of the diagonal maps and of the large map, and on its colour scale."""
     rows = []
-    for at, cell in enumerate(_CELLS):
+    for index, cell in enumerate(_CELLS):
         large = cell is _BALLS
-        if not large and len(set(matrix_cells.PLACES[at])) > 1:
+        if not large and len(set(matrix_cells.PLACES[index])) > 1:
             continue
-        for at_side, first, last in (
+        for side, first, last in (
             (_LEFT, grid["y_first"], grid["y_last"]),
             (_FOOT, grid["x_first"], grid["x_last"]),
         ):
             for value in _round_numbers(first, last, 6 if large else 2):
                 share = np.array((value - first) / (last - first))
-                x = cell.left if at_side == _LEFT else float(cell.x(share))
-                y = cell.bottom if at_side == _FOOT else float(cell.y(share, (0.0, 1.0)))
-                rows.append((x, y, value, at_side))
+                x = cell.left if side == _LEFT else float(cell.x(share))
+                y = cell.bottom if side == _FOOT else float(cell.y(share, (0.0, 1.0)))
+                rows.append((x, y, value, side))
     every = -(-(most - least + 1) // MOST_LEVELS_NAMED)
     for count in range(least, most + 1, every):
         share = np.array((count - least + 0.5) / (most - least + 1))
@@ -345,7 +347,7 @@ def _tick_rows(grid: dict[str, float], least: int, most: int) -> dict[str, np.nd
 
 
 def _round_numbers(first: float, last: float, parts: int) -> list[float]:
-    """Return about `parts` equal round steps from zero on, within the ends [deg]."""
+    """Multiples of a round step from zero on, about `parts` of them within the ends [deg]."""
     span = last - max(first, 0.0)
     steps = [s for s in (1, 2, 5, 10, 15, 20, 30, 45, 60, 90, 120, 180) if s * parts >= 0.85 * span]
     step = steps[0] if steps else span / parts
@@ -356,7 +358,7 @@ def _round_numbers(first: float, last: float, parts: int) -> list[float]:
 
 
 def _frames(plot: figure) -> Any:
-    """Hatching, seen where a map has no answer."""
+    """Draw hatched frames, which are seen where a map has no answer."""
     return plot.quad(
         **{side: side for side in matrix_cells.SIDES},
         source=ColumnDataSource({**_SIDE_COLUMNS, "name": matrix_cells.NAMES}),
@@ -370,7 +372,7 @@ def _frames(plot: figure) -> Any:
 
 
 def _images(plot: figure, points: ColumnDataSource) -> ColumnDataSource:
-    """The maps and their colour scales, coloured in the browser."""
+    """Draw the maps and their colour scales, which the browser colours."""
     places = [*_CELLS, *_BARS]
     left, right, bottom, top = matrix_cells.sides_of(places).values()
     blank = [np.zeros((1, 1), np.uint32) for _ in places]
@@ -380,9 +382,10 @@ def _images(plot: figure, points: ColumnDataSource) -> ColumnDataSource:
     )
     plot.image_rgba("image", "x", "y", "dw", "dh", source=images)
     kinds = (color_scales.SEQUENTIAL, color_scales.DIVERGING, color_scales.DIVERGING_DARK)
-    one, *both = map(color_scales.packed_colors, kinds)
+    one_sign, *two_signs = map(color_scales.packed_colors, kinds)
     scales = {
-        theme: [one, two, one, two] for theme, two in zip(("light", "dark"), both, strict=True)
+        theme: [one_sign, two, one_sign, two]
+        for theme, two in zip(("light", "dark"), two_signs, strict=True)
     }
     color = CustomJS(
         args={"images": images, "scales": scales, "n": _N, "head": _HEAD, "none": NO_ANSWER},
@@ -401,7 +404,7 @@ _LEGEND = (
 
 
 def _names(plot: figure, grid: ColumnDataSource) -> None:
-    """Symbols over the maps, words on the axes, and the legend."""
+    """Write symbols over the maps, words on the axes, and the legend."""
     matrix_cells.write_names(plot, _CELLS)
     centered = {"text_align": "center", "text_color": style.INK}
     up = ColumnDataSource({"x": [_BALLS.left], "y": [0.5 * (_BALLS.bottom + _BALLS.top)]})
@@ -435,14 +438,14 @@ _ONLY = "return row.at == %d ? String(Number(row.value.toPrecision(4))) + '%s' :
 
 
 def _scales(plot: figure, cells: ColumnDataSource) -> None:
-    """Numbers at the colour scales, the value at the crosshair, zero where all is zero."""
+    """Write the numbers of the colour scales, values at the cross, and why a map is zero."""
     for code, y, baseline in (
         (_END % "low", "bottom", "bottom"),
         (_END % "high", "top", "top"),
         (_ZERO, "middle", "middle"),
     ):
-        at = {"x": "bar", "y": y, "x_offset": 4}
-        matrix_cells.write(plot, cells, code, text_baseline=baseline, **at)
+        place = {"x": "bar", "y": y, "x_offset": 4}
+        matrix_cells.write(plot, cells, code, text_baseline=baseline, **place)
     above = {"x": "bar", "y": "top", "x_offset": 20, "y_offset": -6}
     matrix_cells.write(plot, cells, _NOW, fitting=NARROWEST, text_align="right", **above)
     inside = {"x": "left", "y": "top", "x_offset": 8, "y_offset": 8}
@@ -450,7 +453,7 @@ def _scales(plot: figure, cells: ColumnDataSource) -> None:
 
 
 def _ticks(plot: figure, ticks: ColumnDataSource) -> None:
-    """Numbers of the axes and of the scale of loaded balls."""
+    """Write the numbers of the axes and of the scale of loaded balls."""
     for side, unit, look in (
         (_LEFT, "°", {"x_offset": -5, "text_align": "right", "text_baseline": "middle"}),
         (_FOOT, "°", {"y_offset": 5, "text_align": "center", "text_baseline": "top"}),
@@ -460,7 +463,7 @@ def _ticks(plot: figure, ticks: ColumnDataSource) -> None:
 
 
 def _crosshair(plot: figure, now: ColumnDataSource) -> None:
-    """Mark the positions of the sliders: dark on light, so that it shows on every colour."""
+    """Draw a cross at the positions of the sliders: dark on light, to show on every colour."""
     for color, width, alpha in ((style.LIGHT, 3.0, 0.75), (style.SHADE, 1.0, 0.9)):
         look = {"source": now, "line_color": color, "line_width": width, "line_alpha": alpha}
         plot.segment("x", "bottom", "x", "top", **look)

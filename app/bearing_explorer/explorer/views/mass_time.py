@@ -51,11 +51,11 @@ class MassInTime(FoldedView[Results], passage_view.PassageView):
         figures: list[tuple[style.AxisQuantity, int, list[Layer]]] = []
         for dof in reversed(SHOWN):
             quantity = style.AxisQuantity("Acceleration", f"a{dof}", "m/s²", prefixed=True)
-            own = curve("mass_motion", "time", dof, style.color_along(dof), 1.4)
-            other = curve("mass_motion", "time", f"{dof}_massless", **MASSLESS)
+            heavy = curve("mass_motion", "time", dof, style.color_along(dof), 1.4)
+            massless = curve("mass_motion", "time", f"{dof}_massless", **MASSLESS)
             compared = compared_curves.curves("mass_motion", "time", dof)
             figures.append(
-                (quantity, 210, [passage_view.event_lines("mass"), other, *compared, own])
+                (quantity, 210, [passage_view.event_lines("mass"), massless, *compared, heavy])
             )
         figures[0][2].append(passage_view.event_names("mass", _EVENT_WORDS, ("kind",)))
         return figures
@@ -74,20 +74,20 @@ class MassInTime(FoldedView[Results], passage_view.PassageView):
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         shown, bearing = results.ball_mass, results.scene.bearing
         massless = passage_view.both_directions(shown.time, shown.massless)
-        moved, numbers = self.motions(
+        motions, numbers = self.motions(
             results,
-            lambda one: (one.ball_mass.time, one.ball_mass.with_mass),
-            {f"{dof}_massless": one for dof, one in massless.items()},
+            lambda drawn: (drawn.ball_mass.time, drawn.ball_mass.with_mass),
+            {f"{dof}_massless": signal for dof, signal in massless.items()},
         )
         balls = shown.balls[: passage_view.SLOTS]
         loads: dict[str, np.ndarray] = {}
-        for race, carried in zip(RACES_OF_LOADS, shown.loads, strict=True):
-            loads |= passage_view.slot_columns(race, carried)
+        for race, race_loads in zip(RACES_OF_LOADS, shown.loads, strict=True):
+            loads |= passage_view.slot_columns(race, race_loads)
         slot_of = {int(ball): float(slot) for slot, ball in enumerate(balls)}
         free = [(f.begin, f.end, slot_of[f.ball]) for f in shown.flights if f.ball in slot_of]
         flights = np.array(free, dtype=float).reshape(-1, 3).T
         sources: Sources = {
-            **moved,
+            **motions,
             "mass_loads": passage_view.traces(shown.time, loads),
             "mass_flights": dict(zip(("from", "to", "slot"), flights, strict=True)),
             "mass_ball_names": passage_view.ball_names(balls, bearing),
@@ -127,12 +127,12 @@ def way_of_the_ball(shown: BallMass) -> str:
         if math.isfinite(shown.far_edge):
             where = f", meets the far edge {style.with_prefix(shown.far_edge, 's')} later"
         return f"{words}{where} and stays in contact with both races"
-    struck = [
+    strikes = [
         f"the {strike.race} race after {style.with_prefix(strike.time, 's')} with "
         f"{style.with_prefix(strike.load, 'N', 2)}"
         for strike in shown.strikes
     ]
-    return f"{words} and strikes {style.list_words(struck)}"
+    return f"{words} and strikes {style.list_words(strikes)}"
 
 
 def event_rows(shown: BallMass, start: float, end: float) -> dict[str, np.ndarray]:
@@ -143,13 +143,13 @@ def event_rows(shown: BallMass, start: float, end: float) -> dict[str, np.ndarra
     entering = entry.ball if entry else -1
     if math.isfinite(shown.far_edge):
         events.append((shown.far_edge, entering, 4))
-    # those of the ball that enters at 0 get their labels first
+    # events of the ball that enters at 0 come first, because the first labels have most room
     events.sort(key=lambda event: (event[1] != entering, event[0]))
     times, balls, kinds = np.array(events, dtype=float).reshape(-1, 3).T
     times[np.abs(times) <= 1e-8] = 0.0
     return {
         "time": times,
-        **passage_view.named(shown.scene.bearing, balls.astype(np.int64)),
+        **passage_view.name_columns(shown.scene.bearing, balls.astype(np.int64)),
         "kind": kinds,
         **passage_view.places_of_labels(
             times.tolist(), start, end, 1.5 * passage_view.LABEL_WIDTH, 1.3

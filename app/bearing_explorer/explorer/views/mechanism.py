@@ -1,4 +1,4 @@
-"""Two mechanisms that shake the housing: varying stiffness, and the mass of the balls."""
+"""Two causes of the housing's vibration: varying stiffness, and the mass of the balls."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ SHARE = style.AxisQuantity("Share that mass adds", "", "%")
 ROOM = 1.06
 """Gap between bars, as a ratio of frequencies."""
 LEAST = -1.0
-"""Share below which a bar is cut: next to nothing is left of the power with massless balls."""
+"""Share below which a bar is cut; at −1 the mass has halved the power."""
 HALF = 0.5
-"""Share from which on most of the power comes from the balls' mass."""
+"""Share above which most of the power comes from the balls' mass."""
 
 _BAR_WORDS = """
 if (!row.known) return narrow ? '?' : 'not known'
@@ -120,24 +120,24 @@ class WhichMechanism(FoldedView[Results]):
 
 
 def mechanism_words(mass: BallMass) -> str:
-    """Say in which octaves which mechanism gives most of the power."""
+    """Say which mechanism gives most of the power in which octaves."""
     loud = np.isfinite(mass.share) & ~mass.quiet
     low, high, share = mass.octaves[:-1][loud], mass.octaves[1:][loud], mass.share[loud]
-    struck = np.flatnonzero(share > HALF)
-    if not struck.size:
-        at = int(np.argmax(share))
-        most = f"{_percent(share[at])} from {_hertz(low[at])} to {_hertz(high[at])}"
-        adds = f"mass adds at most {most}" if share[at] > 0.0 else "mass adds nothing"
+    by_mass = np.flatnonzero(share > HALF)
+    if not by_mass.size:
+        top = int(np.argmax(share))
+        most = f"{_percent(share[top])} from {_hertz(low[top])} to {_hertz(high[top])}"
+        adds = f"mass adds at most {most}" if share[top] > 0.0 else "mass adds nothing"
         return f"The varying stiffness gives most of the power in every octave; {adds}."
-    most = _percent(share[struck].max())
-    if struck.size < low.size - struck[0]:  # others lie between
-        named = style.list_words([_hertz(low[i]) for i in struck])
+    most = _percent(share[by_mass].max())
+    if by_mass.size < low.size - by_mass[0]:  # octaves by stiffness lie between them
+        named = style.list_words([_hertz(low[i]) for i in by_mass])
         return (
             f"The mass of the balls gives most of the power in the octaves that begin at {named}, "
             f"up to {most}; in the others the varying stiffness does."
         )
-    words = f"From {_hertz(low[struck[0]])} up the mass of the balls gives most of the power"
-    below = share[: struck[0]]
+    words = f"From {_hertz(low[by_mass[0]])} up the mass of the balls gives most of the power"
+    below = share[: by_mass[0]]
     if not below.size:
         return f"{words}, up to {most}, as its strikes are short."
     return (

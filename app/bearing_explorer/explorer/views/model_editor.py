@@ -1,4 +1,4 @@
-"""Masses, springs and dampers around the bearing, and the law of the contacts."""
+"""Form for the masses, springs and dampers around the bearing, and the law of the contacts."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from bearingcore.model.scene import FREE_TILT_WORDS
 class ModelRows(Rows):
     """The fields in the browser."""
 
-    #: the contact damping that follows from the stiffness, as words
+    #: text of the contact damping that follows from the stiffness
     automatic = param.String()
 
     _esm = scripts("element.js", "asking.js", "rows.js", "model_editor.js")
@@ -33,7 +33,7 @@ class ModelRows(Rows):
 
 
 class ModelEditor(ControlView):
-    """Rotor, housing, support, damping: what decides how the bearing moves."""
+    """Rotor, housing, support and damping, on which the motion of the bearing depends."""
 
     name = "model-editor"
     title = "Rotor, housing and support"
@@ -57,7 +57,7 @@ class ModelEditor(ControlView):
 
     def _bodies(self, results: Results) -> str:
         support = results.scene.support
-        given = "given" if results.scene.contact_damping is not None else "from its stiffness"
+        source = "given" if results.scene.contact_damping is not None else "from its stiffness"
         words = (
             f"A rotor of {style.number(support.inner_mass, 4)} kg in a housing of "
             f"{style.number(support.outer_mass, 4)} kg; "
@@ -65,7 +65,7 @@ class ModelEditor(ControlView):
         if not results.contact_damping and results.scene.contact_damping is None:
             return f"{words}without a static state there is no stiffness to take a damping from."
         damping = style.number(results.contact_damping, 4)
-        return f"{words}a loaded contact has a damping of {damping} N·s/m, {given}."
+        return f"{words}a loaded contact has a damping of {damping} N·s/m, {source}."
 
     def show(self, results: Results) -> None:
         if results.scene.contact_damping is None:

@@ -1,4 +1,4 @@
-"""Natural frequencies over cage angle and the bands they move in (Fig. 8)."""
+"""Natural frequencies over cage angle, and the bands in which they move (Fig. 8)."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ LABEL_PIXELS = 16.0  # height that a label needs
 NAMES_WIDTH = 148
 """Width [px] right of the frame for the names of bands."""
 NARROW = 520
-"""Width [px] of the figure below which the names stand alone, without their frequencies."""
+"""Width [px] of the figure below which names are written without their frequencies."""
 _ROOM = f"""{style.LARGER}
 const room = cb_obj.outer_width < larger*below ? 34 : larger*usual
 if (cb_obj.min_border_right != room) cb_obj.setv({{min_border_right: room}}, {{sync: false}})
@@ -38,7 +38,7 @@ _NAME_WORDS = f"{BAND_NAME}\nif (plot.min_border_right < larger*100) return name
 
 
 def mode_layers(colors: Any) -> Sequence[layers.Layer]:
-    """Return the layers from the lowest up; `colors` of bands and their names, by direction."""
+    """Layers, the lowest first; `colors` are those of bands and their names, by direction."""
     return (
         layers.strips("modes_bands", colors, 0.10, level=True),
         *compared_curves.bands("modes_band", level=True),
@@ -49,7 +49,7 @@ def mode_layers(colors: Any) -> Sequence[layers.Layer]:
             for direction, color in zip(style.DIRECTIONS, style.DIRECTION_COLORS, strict=True)
         ),
         layers.uprights("modes_now"),
-        # at the right edge of the frame, not cut off by it, also when it is zoomed
+        # right of the frame, and so not cut off by it when it is zoomed
         layers.Words(
             "modes_bands",
             1.0,
@@ -132,8 +132,8 @@ class NaturalFrequencies(ComparingView):
             "modes_now": {"now": results.along([results.cage_angle])},
         }
         for direction in style.DIRECTIONS:
-            own = [i for i, label in enumerate(modes.label) if label[:-1] == direction]
-            sources[f"modes_{direction}"] = lines(angle, modes.frequency[:, own])
+            columns = [i for i, label in enumerate(modes.label) if label[:-1] == direction]
+            sources[f"modes_{direction}"] = lines(angle, modes.frequency[:, columns])
         ranges = {
             "modes_angle": (float(angle[0]), float(angle[-1])),
             "modes_frequency": shown,
@@ -159,8 +159,8 @@ class NaturalFrequencies(ComparingView):
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         modes, healthy = results.modes, results.reference.modes
-        own, grey = modes.table(), healthy.table().prefixed("healthy")
-        columns = (own | grey).in_units().named()
+        table, grey = modes.table(), healthy.table().prefixed("healthy")
+        columns = (table | grey).in_units().named()
         if results.over_shaft:
             columns["shaft_angle_deg"] = results.along(modes.cage_angles)
         return columns
@@ -172,5 +172,5 @@ def _band_words(band: tuple[float, float]) -> str:
 
 
 def lines(x: NDArray[np.float64], columns: NDArray[np.float64]) -> dict[str, np.ndarray]:
-    """The columns over x as one line with a gap between one column and the next."""
+    """Join the columns over x to one line with gaps between them."""
     return layers.with_gaps(((x, column) for column in columns.T), "angle", "frequency")

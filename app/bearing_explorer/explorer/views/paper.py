@@ -37,7 +37,7 @@ NOISE = "20"
 
 
 class PaperFigures(View[Results]):
-    """One figure of the paper at a time; a button for each."""
+    """The numbers of one figure of the paper, with a button for each figure."""
 
     name = "paper"
     title = "Figures of the paper"
@@ -66,7 +66,7 @@ class PaperFigures(View[Results]):
             self.parts.draw()
 
     def _open_live(self) -> None:
-        """The tab of the figure, with its other scenes as compared ones."""
+        """Open the tab that draws the figure, with its other scenes for comparison."""
         figure = self._figure
         if self.parts is not None:
             self.parts.open_link(f"Figure {figure.number}", figure.link)
@@ -107,8 +107,8 @@ class PaperFigures(View[Results]):
         slip = f"<p><b>Errors in the paper.</b> {_symbols(figure.slip)}</p>" if figure.slip else ""
         self._numbers.object = html_table(("", "Paper", "Here"), rows, named=True) + slip
         self._live.label = f"Open it on the tab {TAB_TITLES[figure.tab]}"
-        for number, one in self._buttons.items():
-            one.css_classes = ["main"] if number == figure.number else []
+        for number, widget in self._buttons.items():
+            widget.css_classes = ["main"] if number == figure.number else []
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         names, paper, here = zip(*self._figure.rows, strict=True)
@@ -116,5 +116,5 @@ class PaperFigures(View[Results]):
 
 
 def _symbols(words: str) -> str:
-    """Words as HTML, with what is behind "_" below the letter before it."""
+    """Words as HTML; the part after "_" becomes a subscript."""
     return re.sub(r"_(\w+)", r"<sub>\1</sub>", html.escape(words))

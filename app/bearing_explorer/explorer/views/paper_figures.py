@@ -1,4 +1,4 @@
-"""Figures 3 to 10 of the paper: their scenes, the tab that draws them live, printed values."""
+"""Figures 3 to 10 of the paper: their scenes, printed values, and the tabs that draw them."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _SLIPS = "## Errors in the paper"
 
 
 class Printed(NamedTuple):
-    """A number or statement of the paper, and the function that computes ours from scenes."""
+    """A number or statement of the paper, and the function that computes our value from scenes."""
 
     name: str
     paper: str
@@ -60,12 +60,12 @@ class PaperFigure:
 
     @cached_property
     def rows(self) -> list[tuple[str, str, str]]:
-        """Name, printed and computed value of each number, for all sessions."""
+        """Name, printed and computed value of each number; all sessions share them."""
         return [(entry.name, entry.paper, entry.ours(self.scenes)) for entry in self.printed]
 
     @property
     def slip(self) -> str:
-        """The sentence of MODEL.md on a mistake of the paper in this figure; empty for none."""
+        """The sentence of MODEL.md on a mistake of the paper in this figure; else empty."""
         section = asset_text("docs/MODEL.md").partition(_SLIPS)[2].partition("\n## ")[0]
         head = f"* Figure {self.number}: "
         lines = [line for line in section.splitlines() if line.startswith(head)]
@@ -73,7 +73,7 @@ class PaperFigure:
 
     @property
     def link(self) -> str:
-        """Address of the last scene on the tab, compared with the others that have a defect."""
+        """Address that shows the last scene on the tab, compared with the others with a defect."""
         others = [scene for scene in self.scenes[:-1] if scene.defects]
         drawn = tuple(Reference(scene, usual_name(scene)) for scene in others)
         return write(Place(self.scenes[-1], self.preset, tab=self.tab, compared=drawn))
@@ -91,7 +91,7 @@ def _term(term: str, first: float, last: float, scene: Scene) -> Array:
 
 
 def _acceleration(column: int, scene: Scene) -> Array:
-    """Acceleration of the housing between 0.745 and 0.775 s, as printed."""
+    """Acceleration of the housing between 0.745 and 0.775 s, the printed stretch."""
     motion = Results(scene).motion
     return motion.outer_acceleration[slice(*np.searchsorted(motion.time, (0.745, 0.775))), column]
 
@@ -110,12 +110,12 @@ def _ends(values: Array, unit: str) -> str:
     return prefixed_span(low, high, unit)
 
 
-def _drawn(curve: Callable[[Scene], Array], unit: str, scenes: Sequence[Scene]) -> str:
+def _range_of(curve: Callable[[Scene], Array], unit: str, scenes: Sequence[Scene]) -> str:
     """Range over the curves of all scenes, in words."""
     return _ends(np.concatenate([curve(scene) for scene in scenes]), unit)
 
 
-def _terms(terms: Sequence[str], scenes: Sequence[Scene]) -> str:
+def _range_of_terms(terms: Sequence[str], scenes: Sequence[Scene]) -> str:
     curves = [_term(term, 15.0, 45.0, scene) for term in terms for scene in scenes]
     return _ends(np.concatenate(curves), TERM_UNITS[terms[0]])
 
@@ -175,8 +175,8 @@ def _entry_to_exit(scenes: Sequence[Scene]) -> str:
     return ", ".join(f"{1e3 * time:.2f} ms" for time in between)
 
 
-def _leaving(scenes: Sequence[Scene]) -> str:
-    """Number of the ball that is next to leave after ball 9 has entered."""
+def _next_to_leave(scenes: Sequence[Scene]) -> str:
+    """Number of the first ball that leaves after ball 9 has entered."""
     words = []
     for scene in scenes:
         events = crossings(scene, 0.0, 4.0 * math.pi)
@@ -186,6 +186,7 @@ def _leaving(scenes: Sequence[Scene]) -> str:
 
 
 def _text(attribute: Callable[[Scene], float], unit: str) -> Callable[[Sequence[Scene]], str]:
+    """Make the function that writes a number of the first scene with its unit."""
     return lambda scenes: style.with_prefix(attribute(scenes[0]), unit)
 
 
@@ -198,7 +199,7 @@ FIGURES = (
         3, "Load distribution", "liew-lim", (0.0, 5.0, 40.0, 70.0),
         (
             Printed("Balls in the defect at 5°, 40° and 70°", "0 or 1, 1 or 2, 2 or 3", _counts),
-            Printed("Loads; the printed axis", "0 to 1.6 kN", partial(_drawn, _loads, "N")),
+            Printed("Loads; the printed axis", "0 to 1.6 kN", partial(_range_of, _loads, "N")),
         ),
         "load",
     ),
@@ -210,11 +211,11 @@ FIGURES = (
             Printed("Mean k_yy, healthy to 70°", "decreases up to 64°", partial(_mean, "k_yy")),
             Printed("Mean k_zz, healthy to 70°", "decreases", partial(_mean, "k_zz")),
             Printed("k_xx, k_yy, k_zz; the printed axis", "100 to 260 MN/m",
-                    partial(_terms, ("k_xx", "k_yy", "k_zz"))),
+                    partial(_range_of_terms, ("k_xx", "k_yy", "k_zz"))),
             Printed("k_xy, k_xz, k_yz; the printed axis", "−30 to 30 MN/m",
-                    partial(_terms, ("k_xy", "k_xz", "k_yz"))),
+                    partial(_range_of_terms, ("k_xy", "k_xz", "k_yz"))),
             Printed("k_θxθx, k_θyθy; the printed axis", "10 to 50 kN·m/rad",
-                    partial(_terms, ("k_rxrx", "k_ryry"))),
+                    partial(_range_of_terms, ("k_rxrx", "k_ryry"))),
         ),
         "stiffness",
     ),
@@ -262,11 +263,11 @@ FIGURES = (
         9, "Simulated vibration", "fan-rig", _EXTENTS,
         (
             Printed("From entry to exit", "0.013 s for both", _entry_to_exit),
-            Printed("Ball that leaves after ball 9 has entered", "9, 10", _leaving),
+            Printed("Ball that leaves after ball 9 has entered", "9, 10", _next_to_leave),
             Printed("Horizontal acceleration; the printed axis", "−2 to 2 m/s²",
-                    partial(_drawn, partial(_acceleration, 0), "m/s²")),
+                    partial(_range_of, partial(_acceleration, 0), "m/s²")),
             Printed("Vertical acceleration; the printed axis", "−4 to 4 m/s²",
-                    partial(_drawn, partial(_acceleration, 1), "m/s²")),
+                    partial(_range_of, partial(_acceleration, 1), "m/s²")),
         ),
         "vibration",
     ),
@@ -274,9 +275,9 @@ FIGURES = (
         10, "Spectra", "fan-rig", _EXTENTS,
         (
             Printed("Level along x; the printed axis", "−80 to −30 dB",
-                    partial(_drawn, partial(_levels, "x"), "dB")),
+                    partial(_range_of, partial(_levels, "x"), "dB")),
             Printed("Level along y; the printed axis", "−55 to −20 dB",
-                    partial(_drawn, partial(_levels, "y"), "dB")),
+                    partial(_range_of, partial(_levels, "y"), "dB")),
             Printed("Band of ω_x1", "higher for 38.6°", partial(_band, "x1")),
             Printed("Band of ω_y1", "lower for 38.6°", partial(_band, "y1")),
         ),

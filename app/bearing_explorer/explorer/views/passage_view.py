@@ -23,11 +23,11 @@ from bearingcore import Bearing
 Array = NDArray[np.float64]
 
 SLOTS = len(style.BALL_COLORS)
-PIXELS = 500  # stretches of a line that are kept apart
-LABEL_WIDTH = 0.3  # of the width of the figure: "ball 12 leaves" on a narrow one
-NAME_WIDTH, LONG_NAME_WIDTH = 0.17, 0.24  # of "ball 12", and of "ball 12 of row 2"
-ROW_HEIGHT = 0.065  # of its height
-ROW_PIXELS = 17.0  # of the names of events
+PIXELS = 500  # stretches of a line that can be told apart on the screen
+LABEL_WIDTH = 0.3  # of "ball 12 leaves", as a share of the width of a narrow figure
+NAME_WIDTH, LONG_NAME_WIDTH = 0.17, 0.24  # of "ball 12" and "ball 12 of row 2", also shares
+ROW_HEIGHT = 0.065  # of a row of names, as a share of the height of the figure
+ROW_PIXELS = 17.0  # height of a row of names of events
 EVENT_ROWS = 3
 
 MOST_LOADED = "the two balls that carry most"
@@ -37,11 +37,11 @@ BALL = "${row.roller ? 'roller' : 'ball'} ${row.ball}${row.row ? ` of row ${row.
 
 
 class PassageView(ComparingView):
-    """A view of acceleration and of ball loads in time; subclasses fill in the layers."""
+    """A view of acceleration and of ball loads in time; subclasses provide the layers."""
 
-    #: of the names of sources and ranges
+    #: prefix of the names of sources and ranges
     prefix: ClassVar[str]
-    #: the balls that are drawn, for "{balls}" of `about`, and the title without a defect
+    #: words for the balls that are drawn ("{balls}" of `about`), and the title without a defect
     balls: ClassVar[str]
     healthy_title: ClassVar[str]
 
@@ -91,16 +91,16 @@ class PassageView(ComparingView):
     def motions(
         self,
         results: Results,
-        of: Callable[[Results], tuple[Array, Mapping[str, Array]]],
+        signals_of: Callable[[Results], tuple[Array, Mapping[str, Array]]],
         more: Mapping[str, Array] = MappingProxyType({}),
     ) -> tuple[Sources, Array]:
-        """Sources of the acceleration along x and y, of compared scenes too, and all their numbers.
+        """Sources of the acceleration along x and y, also of compared scenes, and all numbers.
 
-        `of`: time and acceleration of results. `more`: columns that are drawn besides.
+        `signals_of` returns time and acceleration of results. `more` are further columns to draw.
         """
 
-        def columns(one: Results) -> tuple[Array, dict[str, Array]]:
-            time, acceleration = of(one)
+        def columns(drawn_results: Results) -> tuple[Array, dict[str, Array]]:
+            time, acceleration = signals_of(drawn_results)
             return time, both_directions(time, acceleration)
 
         name = f"{self.prefix}_motion"
@@ -110,8 +110,8 @@ class PassageView(ComparingView):
             results.compared_results,
             lambda other: traces(*columns(other)),
         )
-        time, own = columns(results)
-        drawn = own | dict(more)
+        time, acceleration = columns(results)
+        drawn = acceleration | dict(more)
         numbers = [compared_curves.numbers(compared, dof) for dof in SHOWN]
         sources: Sources = {**compared, name: traces(time, drawn)}
         return sources, np.concatenate([*drawn.values(), *numbers])
@@ -132,13 +132,13 @@ class PassageView(ComparingView):
 
 
 def event_lines(prefix: str) -> layers.Layer:
-    """The upright lines at events, of the source of that prefix."""
+    """Vertical lines at the events in the source of this prefix."""
     lines = layers.uprights(f"{prefix}_events", "time", style.FAINT_INK, 1.0, 0.55)
     return replace(lines, reads=("element",), lit=layers.LIT)
 
 
 def event_names(prefix: str, code: str, reads: tuple[str, ...]) -> layers.Layer:
-    """Names of the events by some code, which knows the width of the frame."""
+    """Names of the events, by JavaScript `code` that knows the width of the frame."""
     return layers.Words(
         f"{prefix}_events",
         "label_from",
@@ -151,8 +151,8 @@ def event_names(prefix: str, code: str, reads: tuple[str, ...]) -> layers.Layer:
     )
 
 
-def named(bearing: Bearing, balls: NDArray[np.int64]) -> dict[str, np.ndarray]:
-    """Columns that name balls, counted from 0 row after row; row 0 is the only one."""
+def name_columns(bearing: Bearing, balls: NDArray[np.int64]) -> dict[str, np.ndarray]:
+    """Columns that name balls, counted from 0 through all rows; row 0: there is only one row."""
     row, number = np.array([bearing.row_of_ball(ball) for ball in balls.tolist()]).reshape(-1, 2).T
     return {
         "element": balls + 1.0,
@@ -163,12 +163,12 @@ def named(bearing: Bearing, balls: NDArray[np.int64]) -> dict[str, np.ndarray]:
 
 
 def ball_names(balls: NDArray[np.int64], bearing: Bearing) -> dict[str, np.ndarray]:
-    """The names of balls in a row, shares of the figure's width and height."""
+    """Columns that name balls side by side, at shares of the figure's width and height."""
     slots = np.arange(float(balls.size))
     return {
         "from": 0.02 + (LONG_NAME_WIDTH if bearing.rows else NAME_WIDTH) * slots,
         "at": np.full(balls.size, 1.0 - 0.8 * ROW_HEIGHT),
-        **named(bearing, balls),
+        **name_columns(bearing, balls),
         "slot": slots,
     }
 
@@ -180,14 +180,14 @@ def both_directions(time: Array, acceleration: Mapping[str, Array]) -> dict[str,
 
 
 def slot_columns(name: str, loads: Array) -> dict[str, Array]:
-    """Loads of balls (n, balls) as a column for each of the slots that are drawn; NaN without."""
+    """Loads of balls (n, balls) as one column for each drawn slot; NaN for an empty slot."""
     missing = np.full(len(loads), np.nan)
     filled = list(loads.T[:SLOTS])
     return {f"{name}{i}": filled[i] if i < len(filled) else missing for i in range(SLOTS)}
 
 
 def traces(time: Array, columns: Mapping[str, Array]) -> dict[str, np.ndarray]:
-    """Columns over time, thinned out to what the pixels of a figure can show."""
+    """Columns over time, reduced to the points that the pixels of a figure can show."""
     rows, drawn = layers.least_and_greatest(np.stack(list(columns.values()), axis=1), PIXELS)
     return {"time": time[rows], **dict(zip(columns, drawn.T, strict=True))}
 
@@ -195,11 +195,11 @@ def traces(time: Array, columns: Mapping[str, Array]) -> dict[str, np.ndarray]:
 def places_of_labels(
     times: Sequence[float], start: float, end: float, share: float = LABEL_WIDTH, apart: float = 1.0
 ) -> dict[str, np.ndarray]:
-    """Places of labels right of their lines, each in the first row where it has room.
+    """Places of labels right of their lines, each in the first row that has room for it.
 
-    At the end of the stretch a label moves left as far as it needs. One that has room in no row
-    gets NaN; the first ones are served first. `share` is the width of a label over that of the
-    figure, `apart` the distance of the rows over their height [px].
+    At the end of the stretch a label moves left as far as it needs. The first labels are placed
+    first; a label without room in any row gets NaN. `share` is the width of a label over that of
+    the figure, `apart` the distance of the rows over ROW_PIXELS.
     """
     width = share * (end - start)
     lefts = np.array([min(time, end - width) for time in times])

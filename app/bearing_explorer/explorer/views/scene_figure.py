@@ -27,14 +27,14 @@ def figure_of(
     endurance: Mapping[str, Any] | None = None,
     **more: Any,
 ) -> Figure[Results]:
-    """The figure of a view for a scene.
+    """Draw the figure of a view for a scene.
 
     Parameters
     ----------
     cage_angle
         [rad] shown.
     focus
-        number of the defect that is looked at.
+        index of the selected defect.
     compared
         further scenes that are drawn, by their names.
     before
@@ -42,7 +42,7 @@ def figure_of(
     grey
         kind of the reference that is drawn in grey: "healthy" or "other-balls".
     settings, endurance
-        fields of `Settings` (how finely it is computed) and of steel, oil and surfaces.
+        fields of `Settings` (fineness of the computation) and of steel, oil and surfaces.
     more
         further parameters of `Figure`.
     """
@@ -51,7 +51,7 @@ def figure_of(
         cage_angle,
         Settings(**(settings or {})),
         focus,
-        compared=[Reference(one, name) for name, one in (compared or {}).items()],
+        compared=[Reference(other, name) for name, other in (compared or {}).items()],
         before=None if before is None else Reference(before, BEFORE),
         grey_kind=grey,
         life_inputs=LifeInputs(**(endurance or {})),

@@ -1,4 +1,4 @@
-"""Views of a long computation on the scene."""
+"""Views with a long computation on the scene."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ class SceneJobView(JobView[Results, Result, SceneEditor], Generic[Result]):
     """A `JobView` whose form reads the editor of the scene."""
 
     noun: ClassVar[str] = ""
-    """Name of its result, where there is nothing to see before the first."""
+    """Name of its result, for a view that has nothing to show before the first; else empty."""
 
     @property
     def words_of_nothing(self) -> str:
-        """The sentence before the first result: whether that is on its way."""
+        """The sentence before the first result: it is being computed, or there is none."""
         if self.job.state.running:
             return f"The first {self.noun} is being computed."
         return f"There is no {self.noun} yet."

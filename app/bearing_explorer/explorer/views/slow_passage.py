@@ -1,4 +1,4 @@
-"""The simulated motion as balls cross the defect, slowly."""
+"""The simulated motion in slow motion, as balls cross the defect."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from bearingcore.model.scene import ball_angles
 
 
 class SlowMotion(LiveComponent):
-    """Play, speed and place. It moves the figures in the browser alone."""
+    """Buttons for play, speed and place, which move the figures in the browser alone."""
 
     _esm = scripts("element.js", "slow_motion.js")
     _stylesheets: ClassVar[list[str]] = [
@@ -34,9 +34,9 @@ class SlowMotion(LiveComponent):
 
 
 class SlowPassage(bearing.BearingDrawing):
-    """The bearing with its moving balls at an instant of the motion, and where that instant is.
+    """The bearing with its balls at an instant of the motion, and this instant on a time axis.
 
-    What moves is sent once for the whole stretch; the script `slow_motion.js` shows an instant.
+    The positions of the whole stretch are sent once; the script `slow_motion.js` draws an instant.
     """
 
     name = "slow-passage"
@@ -82,20 +82,24 @@ class SlowPassage(bearing.BearingDrawing):
         shown, scene = results.excerpt, results.scene
         entry = next((event for event in shown.events if event.enters), None)
         row = scene.bearing.row_of_ball(entry.ball)[0] if entry else 0
-        own = scene.bearing.balls_of_rows[row]
+        row_balls = scene.bearing.balls_of_rows[row]
         top_range = self._load_range.fit(shown.moving_load)
-        at = int(np.argmin(np.abs(shown.static_time)))
+        # the first frame is the instant at which a ball enters
+        frame = int(np.argmin(np.abs(shown.static_time)))
         cage = shown.static_cage_angle
-        drawn = bearing.Shapes(scene, float(cage[at]), row)
-        load = shown.moving_load[:, own]
-        drop = {race: drops[:, own] for race, drops in shown.drop.items()}
-        shapes = drawn.all(load[at], {race: one[at] for race, one in drop.items()}, top_range[1])
-        shapes["spacings"] = dict.fromkeys(shapes["spacings"], np.zeros(0))  # it turns
-        turned = ball_angles(scene.bearing, cage)[:, own]
+        drawn = bearing.Shapes(scene, float(cage[frame]), row)
+        load = shown.moving_load[:, row_balls]
+        drop = {race: drops[:, row_balls] for race, drops in shown.drop.items()}
+        first_drop = {race: drops[frame] for race, drops in drop.items()}
+        shapes = drawn.all(load[frame], first_drop, top_range[1])
+        shapes["spacings"] = dict.fromkeys(
+            shapes["spacings"], np.zeros(0)
+        )  # they would have to turn
+        angles = ball_angles(scene.bearing, cage)[:, row_balls]
         frames = {
             "time": shown.static_time,
-            "turned": turned[:, 0] - turned[at, 0],
-            "shaft": (cage - cage[at]) / scene.bearing.cage_ratio,
+            "turned": angles[:, 0] - angles[frame, 0],
+            "shaft": (cage - cage[frame]) / scene.bearing.cage_ratio,
         }
         signals = both_directions(shown.time, shown.acceleration)
         start, end = float(shown.time[0]), float(shown.time[-1])
@@ -103,7 +107,7 @@ class SlowPassage(bearing.BearingDrawing):
             "slow_load_words": bearing.load_words(scene.load, drawn.depth_scale),
             "slow_frames": frames,
             "slow_path": {"radius": drawn.ball_radii(drop).ravel(), "load": load.ravel()},
-            "slow_start": {"angle": turned[at]},
+            "slow_start": {"angle": angles[frame]},
             "slow_base_rings": _turning(shapes["rings"], [0.0, 0.0, 1.0, 1.0]),
             "slow_base_defect": _turning(
                 shapes["defect"], [float(span.race == "inner") for span in drawn.spans]
@@ -116,7 +120,7 @@ class SlowPassage(bearing.BearingDrawing):
             },
             "slow_motion": traces(shown.time, signals),
             "slow_events": vibration_time.event_rows(shown.events, start, end, scene.bearing, 1.5),
-            "slow_cursor": {"now": shown.static_time[[at]]},
+            "slow_cursor": {"now": shown.static_time[[frame]]},
         }
         peak = 1.4 * np.nanmax(np.abs([*signals.values()]), initial=0.0)
         return sources, {
@@ -134,24 +138,24 @@ class SlowPassage(bearing.BearingDrawing):
         if shown.broke_off:
             return f"{shown.broke_off[0].upper()}{shown.broke_off[1:]}."
         loads = np.nan_to_num(shown.moving_load)
-        at, ball = np.unravel_index(np.argmax(loads), loads.shape)
+        frame, ball = np.unravel_index(np.argmax(loads), loads.shape)
         length = float(shown.time[-1] - shown.time[0])
         name = element_name(results.scene.bearing, int(ball))
         return (
             f"In these {style.with_prefix(length, 's')} {name} "
-            f"carries most: {style.with_prefix(loads[at, ball], 'N')} at "
-            f"{style.with_prefix(float(shown.static_time[at]), 's')}."
+            f"carries most: {style.with_prefix(loads[frame, ball], 'N')} at "
+            f"{style.with_prefix(float(shown.static_time[frame]), 's')}."
         )
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         shown = results.excerpt
-        loads = [(f"ball_{k + 1}_load", "N", own) for k, own in enumerate(shown.moving_load.T)]
+        loads = [(f"ball_{k + 1}_load", "N", load) for k, load in enumerate(shown.moving_load.T)]
         time = ("time", "s", shown.static_time)
         cage = ("cage_angle", "rad", shown.static_cage_angle)
         return table_of(time, cage, *loads).in_units().named()
 
 
 def _turning(shape: dict[str, np.ndarray], turns: list[float]) -> dict[str, np.ndarray]:
-    """A shape of polygons with NaN between; `turns` is 1 of those that turn with the shaft."""
+    """Add to a shape of polygons a column of `turns`: 1 for those that turn with the shaft."""
     part = np.cumsum(np.isnan(shape["x"]))
     return {**shape, "turns": np.array([*turns, 0.0])[part]}

@@ -1,4 +1,4 @@
-"""Spectra of the housing over shaft speed, with the expected lines (Campbell diagram)."""
+"""Spectra of the housing over shaft speed, with bands and ball-pass lines (Campbell diagram)."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ FIRST_COUNT = 25
 """Speeds of the first picture."""
 FAINT = 0.35
 """Opacity of a run of another scene."""
-RESOLUTION = 16.0  # [Hz] half a ball pass at 7 Hz on the fan rig is 20 Hz
+RESOLUTION = 16.0  # [Hz]: separates half ball-pass frequencies, 20 Hz on the fan rig at 7 Hz
 DEPTH_OF_VIEW = 60.0  # [dB] below the loudest point
 HARMONICS = 8
 HEIGHT = 330
@@ -57,11 +57,11 @@ _ON_PICTURE = {
     "background_fill_color": style.SHADE,
     "background_fill_alpha": 0.6,
 }
-"""Look of words that lie on the picture."""
+"""Style of words on the picture."""
 
 
-def expected(dof: str) -> list[layers.Layer]:
-    """The bands of the natural frequencies and the harmonics of the ball-pass frequency."""
+def expected_layers(dof: str) -> list[layers.Layer]:
+    """Layers of the natural frequencies' bands along `dof` and of the ball-pass harmonics."""
     bands, names = f"speed_run_bands_{dof}", "speed_run_harmonic_names"
     edge: dict[str, Any] = {"line_color": style.LIGHT, "line_alpha": 0.9, "line_width": 1.0}
     below = {"text_baseline": "top", "y_offset": 36, "padding": 1}
@@ -104,18 +104,18 @@ SCENE: list[layers.Layer] = [
     ),
 ]
 """Speeds whose motion was integrated in time, and the speed of this scene."""
-ALL_LAYERS = [*(layer for dof in SHOWN for layer in expected(dof)), *SCENE]
+ALL_LAYERS = [*(layer for dof in SHOWN for layer in expected_layers(dof)), *SCENE]
 
 
 @dataclass(frozen=True)
-class FoundRun:
-    """A run, and its speeds [Hz]."""
+class SweptRun:
+    """A run, and its speeds [Hz] as a sweep of the field."""
 
     run: SpeedRun
     speeds: value_range.Sweep
 
 
-class SpeedRunSpectra(SceneJobView[FoundRun]):
+class SpeedRunSpectra(SceneJobView[SweptRun]):
     """Power spectral density of the housing's acceleration over frequency and shaft speed."""
 
     name = "speed-run"
@@ -130,7 +130,7 @@ class SpeedRunSpectra(SceneJobView[FoundRun]):
     start = "Compute all speeds"
     bounds = f"At most {COUNTS[-1]} speeds; a coarse picture comes by itself."
 
-    _begun = False
+    _first_run_began = False
 
     def build(self, packed: PackedSource) -> Any:
         frequency = packed.range("speed_run_frequency", 0.0, HIGHEST)
@@ -150,11 +150,11 @@ class SpeedRunSpectra(SceneJobView[FoundRun]):
                 name=f"speed_run_drawing_{dof}",
             )
             plot.stylesheets = [":host { cursor: crosshair; }"]
-            plot.syncable = False  # which of them is seen is the browser's business
+            plot.syncable = False  # the browser alone shows one of them and hides the other
             shown = packed.range(f"speed_run_level_{dof}", -80.0, -20.0)
             name, title = f"speed_run_cells_{dof}", f"S{dof} (dB re 1 (m/s²)²/Hz)"
             self._images[dof] = GridImage(plot, packed, name, shown, sides, _SAY, title)
-            marks += layers.add_all(plot, sources, expected(dof))
+            marks += layers.add_all(plot, sources, expected_layers(dof))
             layers.add_all(plot, sources, SCENE)
             plots.append(plot)
         along = layers.switch([f"Along {dof}" for dof in SHOWN], plots, active=1)
@@ -182,7 +182,7 @@ class SpeedRunSpectra(SceneJobView[FoundRun]):
         speeds = value_range.sweep(
             SPEED, given["from"], given["to"], int(given["count"]), editor.limits
         )
-        scene = value_range.focused(editor.scene, editor.selected)
+        scene = value_range.focus_first(editor.scene, editor.selected)
         return lambda job: compute(job, scene, speeds)
 
     # The picture
@@ -191,7 +191,7 @@ class SpeedRunSpectra(SceneJobView[FoundRun]):
         if (answer := self.job_result) is None:
             return {}, {}
         run, speeds = answer.run, answer.speeds
-        alpha = FAINT if self._is_of_another(results, answer) else 1.0
+        alpha = FAINT if self._is_of_another_scene(results, answer) else 1.0
         seen = drawn_frequencies(run)
         frequency = run.frequency[seen]
         top = float(frequency[-1])
@@ -206,13 +206,13 @@ class SpeedRunSpectra(SceneJobView[FoundRun]):
             sources[f"speed_run_bands_{dof}"] = bands_along(run.bands, dof, top)
         limits = ends(speeds.values)
         sources |= harmonics(run, speeds, top)
-        not_proven = speeds.values[~run.from_orbit & np.isfinite(run.density).any(axis=(1, 2))]
+        marched = speeds.values[~run.from_orbit & np.isfinite(run.density).any(axis=(1, 2))]
         sources["speed_run_now"] = {
             "speed": np.array([value_range.value_of(results.scene, speeds.field)])
         }
         sources["speed_run_marched"] = {
-            "frequency": np.full(not_proven.size, 0.006 * top),
-            "speed": not_proven,
+            "frequency": np.full(marched.size, 0.006 * top),
+            "speed": marched,
         }
         return sources, {
             "speed_run_frequency": (0.0, top),
@@ -220,40 +220,40 @@ class SpeedRunSpectra(SceneJobView[FoundRun]):
             **level_ranges,
         }
 
-    def _is_of_another(self, results: Results, answer: FoundRun) -> bool:
-        """True if a run is of another scene than that on screen."""
-        scene = value_range.focused(results.scene, results.focus)
-        return not value_range.alike_but_for(scene, answer.run.scene, (answer.speeds,))
+    def _is_of_another_scene(self, results: Results, answer: SweptRun) -> bool:
+        """True if a run belongs to another scene than that on screen."""
+        scene = value_range.focus_first(results.scene, results.focus)
+        return not value_range.differ_only_in(scene, answer.run.scene, (answer.speeds,))
 
     def sentence(self, results: Results) -> str:
         if self.job_result is None:
             return self.words_of_nothing
         words = words_of(self.job_result)
-        if self._is_of_another(results, self.job_result):
+        if self._is_of_another_scene(results, self.job_result):
             return f"Faint, as the scene has changed since this was computed. Then: {words}"
         return words
 
     def say(self, results: Results | None, sentence: str) -> None:
         super().say(results, sentence)
-        if results is None or results.moving or self._begun or self._jobs is None:
+        if results is None or results.moving or self._first_run_began or self._jobs is None:
             return
         if self.job_result is None and not self._jobs.busy(COMPUTATION):
-            self._begun = True
-            with contextlib.suppress(ValueError):  # the button says why
+            self._first_run_began = True
+            with contextlib.suppress(ValueError):  # “Compute all speeds” shows the reason
                 self.begin({**self.job.values, "count": str(FIRST_COUNT)})
 
-    def columns(self, answer: FoundRun) -> dict[str, np.ndarray]:
+    def columns(self, answer: SweptRun) -> dict[str, np.ndarray]:
         run = answer.run
         orbits = np.repeat(run.from_orbit.astype(int), run.frequency.size)
         return {**run.table().in_units({"rad/s": "Hz"}).named(), "from_orbit": orbits}
 
 
 def drawn_frequencies(run: SpeedRun) -> NDArray[np.bool_]:
-    """Mask of the frequencies drawn: more than usual where a band lies higher."""
+    """Mask of the frequencies that are drawn: more than usual if a band lies higher."""
     return run.frequency <= max(HIGHEST, 1.05 * highest(run.bands))
 
 
-def words_of(answer: FoundRun) -> str:
+def words_of(answer: SweptRun) -> str:
     """Say where the housing vibrates most, and how many motions were integrated in time."""
     run, words, seen = answer.run, [], drawn_frequencies(answer.run)
     for dof in SHOWN:
@@ -278,12 +278,9 @@ def words_of(answer: FoundRun) -> str:
 
 
 def compute(job: Work, scene: Scene, speeds: value_range.Sweep) -> str:
-    """A coarse run and then the full one, each shown. Runs in a job's thread.
+    """Compute and show a coarse run and then the full one, in a job's thread.
 
-    Raises
-    ------
-    ValueError
-        where the first cannot be computed.
+    ValueError if the coarse run cannot be computed.
     """
     n = speeds.values.size
     runs = [speeds] if n <= FIRST_COUNT else [speeds.every((n - 1) // (FIRST_COUNT - 1)), speeds]
@@ -291,8 +288,8 @@ def compute(job: Work, scene: Scene, speeds: value_range.Sweep) -> str:
     started = time.perf_counter()
     done, shown = 0, "Nothing is shown yet."
 
-    def progress(begun: float, share: float, part: float, _: str) -> None:
-        job.progress(begun + share * part)
+    def progress(start: float, share: float, part: float, _: str) -> None:
+        job.progress(start + share * part)
 
     for grid in runs:
         size = grid.values.size
@@ -309,7 +306,7 @@ def compute(job: Work, scene: Scene, speeds: value_range.Sweep) -> str:
                 raise
             return f"{shown} Finer was not begun: speeds must be {error.allowed}."
         if run.completed or not done:
-            job.show(FoundRun(run, grid))
+            job.show(SweptRun(run, grid))
             shown = f"{size} speeds after {time.perf_counter() - started:.1f} s."
             if size == FIRST_COUNT:
                 shown = f"A coarse picture: {shown} “Compute all speeds” makes it finer."
@@ -320,25 +317,25 @@ def compute(job: Work, scene: Scene, speeds: value_range.Sweep) -> str:
 
 
 def levels_of(run: SpeedRun, dof: str) -> NDArray[np.float64]:
-    """(n, m) levels [dB] of a direction; NaN where it cannot move or was not computed."""
+    """Levels (n, m) [dB] along a direction; NaN where it cannot move or was not computed."""
     if dof not in run.dofs:
         return np.full(run.density.shape[:2], np.nan)
     return np.asarray(decibels(run.density[:, :, run.dofs.index(dof)]))
 
 
 def level_range(level: NDArray[np.float64], frequency: NDArray[np.float64]) -> tuple[float, float]:
-    """Ends of the colour scale [dB], after the levels above 100 Hz."""
-    heard = level[:, frequency >= 100.0]
-    if not np.isfinite(heard).any():
+    """Ends of the colour scale [dB], from the levels above 100 Hz."""
+    levels = level[:, frequency >= 100.0]
+    if not np.isfinite(levels).any():
         return -80.0, -20.0
-    top = nice_range(float(np.nanmax(heard)) - DEPTH_OF_VIEW, float(np.nanmax(heard)))[1]
+    top = nice_range(float(np.nanmax(levels)) - DEPTH_OF_VIEW, float(np.nanmax(levels)))[1]
     return top - DEPTH_OF_VIEW, top
 
 
 def harmonics(run: SpeedRun, speeds: value_range.Sweep, top: float) -> Sources:
-    """The lines of the ball-pass frequency and its harmonics up to `top` [Hz], and their names.
+    """Lines of the ball-pass frequency and its harmonics up to `top` [Hz], with their names.
 
-    Names stand where a line leaves the picture.
+    A name is placed where its line leaves the picture.
     """
     low, high = ends(speeds.values)
     ratio = float(run.ball_pass_frequency[-1] / speeds.values[-1])

@@ -1,4 +1,4 @@
-"""Failures of methods: growth of a disturbance over shaft speed, amplitude over step length."""
+"""Charts of failures: growth of a disturbance over shaft speed, amplitude over step rate."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ from bearingcore.model.experiments import DIVERGED, OrbitAtSpeed, StabilityChart
 HEIGHT = 340
 UNSTABLE = "#D55E00"
 LEAST = 1e-6
-"""Least value that is drawn: smaller ones stand there too, as the axis has no zero."""
+"""Least value that is drawn; smaller ones are drawn there too, as the axis has no zero."""
 STABLE_PAPER, STABLE_INK = "#E6F3EE", "#00704F"
 
 
 class Mark(NamedTuple):
-    """A point: place, colour as a place in COLORS, marker, words beside it and of its tooltip."""
+    """A point: place, colour (index of COLORS), marker, words beside it and in its tooltip."""
 
     x: float
     y: float
@@ -38,17 +38,14 @@ class Mark(NamedTuple):
 
 
 Picture = tuple[list[Mark], dict[str, float], tuple[float, str], str]
-"""Marks; where the stable part begins or ends ({"top": a height} or {"left": a rate [Hz]}); place
-[Hz] and name of the vertical line; the sentence."""
+"""Marks; edge of the stable part ({"top": a height} or {"left": a rate [Hz]}); place [Hz] and name
+of the vertical line; the sentence."""
 
 
 class StabilityPicture:
     """A chart on logarithmic axes, its stable and unstable part shaded, failures as crosses.
 
-    Parameters
-    ----------
-    title, x, y
-        heading, and names of the axes.
+    `title` is its heading; `x` and `y` are the names of the axes.
     """
 
     def __init__(self, title: str, x: str, y: str) -> None:
@@ -130,7 +127,7 @@ def orbit_marks(orbits: tuple[OrbitAtSpeed, ...], shaft_speed: float) -> Picture
         why = f"{style.number(speed, 3)} Hz: {state}"
         if orbit.multipliers:
             why += f", factor {style.number(size, 3)}"
-        higher = sum(1 for mark in marks if mark.words) % 2  # or names of neighbours would overlap
+        higher = sum(1 for mark in marks if mark.words) % 2  # in turn, so that names do not overlap
         mark = Mark(speed, size, int(state != "stable"), "circle", words, why)
         marks.append(mark._replace(down=4.0 - 14.0 * higher))
         before = state
@@ -148,6 +145,7 @@ def step_marks(chart: StabilityChart | None, in_use: float) -> Picture:
         trials = sorted((t for t in chart.trials if t.method == method), key=lambda t: t.step_rate)
         states = [trial.verdict == DIVERGED for trial in trials]
         for i, trial in enumerate(trials):
+            # a method is named at its first trial that diverged and at its first other one
             broken, first = states[i], not any(s == states[i] for s in states[:i])
             state = DIVERGED if broken else f"{style.number(trial.amplitude, 3)} of the amplitude"
             why = f"{method}, {style.number(trial.step_rate, 4)} steps/s: {state}"

@@ -1,7 +1,7 @@
-"""All 15 stiffness traces over cage angle in one light drawing, and the number of loaded balls.
+"""All 15 stiffness traces over cage angle in one drawing, and the number of loaded balls.
 
-The line of all traces is one line with gaps. Below the diagonal are the legend and the number of
-loaded balls.
+All traces of a scene are one line with gaps. The legend and the number of loaded balls are below
+the diagonal.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from bokeh.models import ColumnDataSource
 from bokeh.plotting import figure
 
 from bearing_explorer.explorer.plots import compared_curves, matrix_cells
-from bearing_explorer.explorer.plots.matrix_cells import PLACES, UNITS, Cell, cleaned, write
+from bearing_explorer.explorer.plots.matrix_cells import PLACES, UNITS, Cell, clean_noise, write
 from bearing_explorer.explorer.results import reasons
 from bearing_explorer.explorer.results.results import Results
 from bearing_explorer.explorer.views.comparing_view import ComparingView
@@ -29,9 +29,9 @@ from bearingcore.common import prefix_power, prefixed_span
 from bearingcore.model.statics import TERM_UNITS
 
 NARROWEST = 920
-"""Width [px] from which a cell has room for its symbol and its value."""
+"""Least width [px] at which a cell has room for its symbol and its value."""
 NARROWEST_WITH_UNITS = 740
-"""Width [px] from which it has room for the unit alone, and its limits for room beside it."""
+"""Least width [px] at which a cell has room for its unit, and beside it for its limits."""
 LEFT = 0.31
 """Room for the numbers left of a cell."""
 
@@ -43,7 +43,7 @@ def _cell(row: int, column: int) -> Cell:
 _CELLS = [_cell(i, j) for i, j in PLACES]
 _BALLS = Cell(LEFT, 2.6, -4.86, -3.5)
 _FRAMES = [*_CELLS, _BALLS]
-_IS_FOOT = np.array([i == j for i, j in PLACES] + [True])  # lowest of its column
+_IS_FOOT = np.array([i == j for i, j in PLACES] + [True])  # lowest cell of its column
 _PLACE_COLUMNS = {
     **matrix_cells.sides_of(_FRAMES),
     "unit": np.array([UNITS.index(unit) for unit in TERM_UNITS.values()] + [len(UNITS)]),
@@ -52,7 +52,7 @@ _CELL_COLUMNS = (*_PLACE_COLUMNS, "foot", "low", "high", "now", "zero", "flat", 
 
 
 class Stiffness(ComparingView):
-    """15 stiffness traces, defective against healthy, the current cage angle marked."""
+    """15 stiffness traces of the scene and of the reference, with the current cage angle."""
 
     name = "stiffness"
     title = "Stiffness of the bearing"
@@ -98,7 +98,7 @@ class Stiffness(ComparingView):
         return matrix_cells.scrolled(plot)
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
-        """All traces, scaled into their cells."""
+        """Traces of all scenes, scaled to their cells, with limits and present values."""
         states, now = results.equilibrium, results.now
         alike = [results.reference, *(results.against(other) for other in results.compared)]
         answers = [states, *(other.equilibrium for other in alike)]
@@ -122,31 +122,29 @@ class Stiffness(ComparingView):
         for cell, sticky, term, scale in zip(
             _CELLS, self._limits, STIFFNESS_TERMS, scales, strict=True
         ):
-            terms = [cleaned(e.term(term), scale) for e in answers]
-            at_now = float(cleaned(now.term(term), scale)[0])
+            terms = [clean_noise(e.term(term), scale) for e in answers]
+            value = float(clean_noise(now.term(term), scale)[0])
             limits = matrix_cells.trace_limits(sticky, scale, *terms)
             if term == results.lesson_term:
                 limits = self._limits_of_lesson(term).fit(*terms)
             put(cell, limits, shares, *terms)
-            at = float(cell.y(np.array(at_now), limits))
-            marks.append((float(cell.x(np.array(now_share))), at, cell.bottom, cell.top))
+            height = float(cell.y(np.array(value), limits))
+            marks.append((float(cell.x(np.array(now_share))), height, cell.bottom, cell.top))
+            # the line of zero, at the edge of the cell if zero is beyond it
             zero = float(np.clip(cell.y(np.array(0.0), limits), cell.bottom, cell.top))
             known = [term[np.isfinite(term)] for term in terms]
             flat.append(any(map(len, known)) and not np.concatenate(known).any())
-            heads.append((*limits, at_now, zero))
+            heads.append((*limits, value, zero))
 
+        # the last cell: numbers of loaded balls, drawn as steps
         counts = [np.where(e.converged, e.loaded_balls, np.nan) for e in answers]
         low, high = self._ball_limits.fit(*counts)
         limits = (max(0.0, math.floor(low - 0.5)), math.ceil(high + 0.5))
-        put(
-            _BALLS,
-            limits,
-            [_stepped(share) for share in shares],
-            *(np.repeat(count, 2) for count in counts),
-        )
+        steps = [_stepped(share) for share in shares]
+        put(_BALLS, limits, steps, *(np.repeat(count, 2) for count in counts))
         balls = float(now.loaded_balls[0]) if now.converged[0] else math.nan
-        at = float(_BALLS.y(np.array(balls), limits))
-        marks.append((float(_BALLS.x(np.array(now_share))), at, _BALLS.bottom, _BALLS.top))
+        height = float(_BALLS.y(np.array(balls), limits))
+        marks.append((float(_BALLS.x(np.array(now_share))), height, _BALLS.bottom, _BALLS.top))
         heads.append((*limits, balls, _BALLS.bottom))
 
         powers = _shared_powers(np.array(heads[:-1])[:, :2], np.array(flat))
@@ -172,7 +170,7 @@ class Stiffness(ComparingView):
         }, {}
 
     def _limits_of_lesson(self, term: str) -> StickyRange:
-        """Limits from zero that only grow: a lesson compares its scenes on one axis."""
+        """Limits from zero that only grow, because a lesson compares its scenes on one axis."""
         if term != self._lesson_term:
             self._lesson_term = term
             self._lesson_limits = StickyRange(0.0, 1e-9, anchor="zero", shrink_below=0.0, room=0.2)
@@ -195,25 +193,25 @@ class Stiffness(ComparingView):
             parts.append(line)
         balls = states.loaded_balls[states.converged]
         count = str(balls.min()) if balls.min() == balls.max() else f"{balls.min()}–{balls.max()}"
-        over = " Ranges are over all turns of the shaft, curves over the one shown."
+        turns = " Ranges are over all turns of the shaft, curves over the one shown."
         carry = f"{elements(states.scene.bearing)} carry load"
         why = with_elements_of(states.scene.bearing, reasons.stiffness(results))
         held = reasons.not_needed(results.scene)
-        said = why, f"{'; '.join(parts)}; {count} {carry}.", held
-        return " ".join(filter(None, said)) + (over if results.over_shaft else "")
+        sentences = why, f"{'; '.join(parts)}; {count} {carry}.", held
+        return " ".join(filter(None, sentences)) + (turns if results.over_shaft else "")
 
     def cell_lines(self, content: Results) -> list[str]:
         return [reasons.stiffness_term(content, term) for term in STIFFNESS_TERMS]
 
     def show(self, results: Results) -> None:
-        """Say in the legend whether there is a defect."""
+        """Write in the legend whether the scene has a defect."""
         defect = "with the defect" if results.scene.defects else "without a defect"
-        words = [defect, "healthy bearing", _NOW_WORDS]  # blue, grey, and the upright line
+        words = [defect, "healthy bearing", _NOW_WORDS]  # blue, grey, and the vertical line
         if words != self._legend.data["text"]:
             self._legend.data = {**self._legend.data, "text": words}
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
-        """Every trace in SI, defective and healthy."""
+        """Every trace in SI, of the scene and of the reference."""
         states, healthy = results.equilibrium, results.reference.equilibrium
         columns: dict[str, np.ndarray] = {}
         for kind, answer in (("defective", states), ("healthy", healthy)):
@@ -247,7 +245,7 @@ def _stepped(share: np.ndarray) -> np.ndarray:
 
 
 def _shared_powers(limits: np.ndarray, flat: np.ndarray) -> dict[str, float]:
-    """Power of ten of the prefix that all terms of a unit can share; `limits` (terms, 2) in SI."""
+    """Power of ten of the prefix that all terms of a unit share; `limits` (terms, 2) in SI."""
     units = np.array([*TERM_UNITS.values()])
     tops = {unit: np.abs(limits[(units == unit) & ~flat]) for unit in UNITS}
     known = {unit: top[np.isfinite(top)].max(initial=0.0) for unit, top in tops.items()}
@@ -255,7 +253,7 @@ def _shared_powers(limits: np.ndarray, flat: np.ndarray) -> dict[str, float]:
 
 
 def _static_parts(plot: figure) -> ColumnDataSource:
-    """Frames, names and legend: painted from the page's own numbers; returns the legend's."""
+    """Draw frames, names and legend, which never change; return the source of the legend."""
     frames = ColumnDataSource(matrix_cells.sides_of(_FRAMES))
     sides = {side: side for side in matrix_cells.SIDES}
     plot.quad(**sides, source=frames, fill_color="#FAFBFC", line_color=style.GRID)
@@ -305,18 +303,18 @@ return row.foot && !(narrow && unit) ? rounded(%s, narrow ? 3 : 4) + '°' : ''
 
 
 def _moving_parts(plot: figure, cells: ColumnDataSource, axis: ColumnDataSource) -> None:
-    """Zero lines, limits and values of the cells, and the ends of their cage angles."""
+    """Draw zero lines, limits and values of the cells, and the ends of their cage angles."""
     plot.segment("left", "zero", "right", "zero", source=cells, line_color=style.STEEL_EDGE)
     fitting = NARROWEST_WITH_UNITS
     left = {"x": "left", "x_offset": -3, "text_align": "right", "fitting": fitting}
-    # beside a cell; on a narrow figure, where another one is too near, below and above its corners
+    # beside a cell; on a narrow figure, where cells are close together, below and above the corners
     for at_corners, low, high in (("false", "bottom", "top"), ("true", "top", "bottom")):
         write(plot, cells, _LIMIT % (at_corners, "low"), y="bottom", text_baseline=low, **left)
         write(plot, cells, _LIMIT % (at_corners, "high"), y="top", text_baseline=high, **left)
     write(plot, axis, _SHARED_UNITS, x=LEFT, y=-3.1, fitting=fitting)
     above = {"x": "right", "y": "top", "y_offset": -6, "text_align": "right"}
     write(plot, cells, _NOW, fitting=NARROWEST, **above)
-    # below the zero line, which runs through the middle
+    # words for a zero term: below the zero line, which runs through the middle
     inside = {"x": "left", "y": "bottom", "x_offset": 3, "y_offset": -1}
     write(plot, cells, _FLAT, fitting=NARROWEST, **inside)
     below = {"y": "bottom", "y_offset": 4, "text_baseline": "top", "fitting": fitting}

@@ -43,11 +43,11 @@ AXIS: FieldSpec = {
 """The switches above the figures."""
 
 NAMED_IN_FULL = 580.0
-"""Width [px] of a frame from which the names of bands have room for their frequencies."""
+"""Least width [px] of a frame at which the names of bands include their frequencies."""
 LOWEST = 100.0
 """Lowest frequency [Hz] of the logarithmic axis."""
 WIDE_DEPTH = 90.0
-"""Range [dB] below the loudest line that this axis shows."""
+"""Range [dB] below the loudest line on the logarithmic axis."""
 _RESONANCE_WORDS = (
     "return `contact resonance ${si(row.low, 'Hz')}${row.above ? ', above this range' : ''}`"
 )
@@ -59,7 +59,7 @@ return `${row.inner ? 'BPFI' : 'BPFO'}${of} ${rounded(row.frequency, 4)}${give} 
 
 
 def spectra(dof: str) -> list[layers.Layer]:
-    """Along a direction: the spectra over the bands of the natural frequencies."""
+    """Layers of the spectra along a direction, over the bands of the natural frequencies."""
     color = style.color_along(dof)
     bands = f"spectrum_bands_{dof}"
     return [
@@ -82,7 +82,7 @@ def spectra(dof: str) -> list[layers.Layer]:
 
 
 def wide_spectra(dof: str) -> list[layers.Layer]:
-    """Layers of a spectrum as far as the motion is known, with the contact resonances."""
+    """Layers of the spectra up to the bandwidth of the motion, with the contact resonances."""
     return [
         layers.strips("spectrum_wide_resonance", style.DEFECT, 0.22, reads=("above",)),
         layers.curve("spectrum_wide_grey", "frequency", dof, style.HEALTHY, 1.5),
@@ -164,7 +164,7 @@ class VibrationSpectra(ComparingView, LookView[Results]):
 
     @property
     def wide(self) -> bool:
-        """True if it goes as far as the motion is known, on a logarithmic frequency axis."""
+        """True if the figure shows the whole bandwidth on a logarithmic frequency axis."""
         return bool(self.look["axis"] == "logarithmic")
 
     def still_figures(self) -> Sequence[LayoutDOM]:
@@ -172,7 +172,7 @@ class VibrationSpectra(ComparingView, LookView[Results]):
 
     def look_changed(self, name: str, value: Any) -> None:
         if name == "grey" and self.parts is not None:
-            self.parts.set_grey(value)  # what is drawn in grey is so on all tabs
+            self.parts.set_grey(value)  # all tabs draw the same reference in grey
         else:
             super().look_changed(name, value)
 
@@ -191,7 +191,7 @@ class VibrationSpectra(ComparingView, LookView[Results]):
         self._broad.visible = self.wide
 
     def _resonance(self, results: Results, top: float) -> dict[str, np.ndarray]:
-        """The band of the contact resonances, where balls have mass; `top` [Hz] is the axis's."""
+        """Band of the contact resonances if balls have mass; `top` [Hz] is the end of the axis."""
         scenes = results.scene, results.grey.scene
         bands = [contact_resonance_band(scene) for scene in scenes if scene.balls == WITH_MASS]
         low, high = np.array(bands[-1:]).reshape(-1, 2).T
@@ -203,9 +203,9 @@ class VibrationSpectra(ComparingView, LookView[Results]):
         sources, ranges = self._linear.data(results, top)
         if self.wide:
             known = results.motion.bandwidth
-            wide, its_ranges = self._wide.data(results, known)
+            wide, wide_ranges = self._wide.data(results, known)
             sources |= {**wide, "spectrum_wide_resonance": self._resonance(results, known)}
-            ranges |= its_ranges
+            ranges |= wide_ranges
         for dof in SHOWN:
             sources |= compared_curves.sources(
                 f"spectrum_band_{dof}",
@@ -214,10 +214,10 @@ class VibrationSpectra(ComparingView, LookView[Results]):
                 partial(_bands_of, dof, top),
             )
         passing = pass_frequencies(results.scene, top)
-        which = np.unique([passing["inner"], passing["row"]], axis=1, return_index=True)[1]
+        first = np.unique([passing["inner"], passing["row"]], axis=1, return_index=True)[1]
         sources |= {
             "spectrum_passes": {"frequency": passing["frequency"]},
-            "spectrum_first_pass": {name: column[which] for name, column in passing.items()},
+            "spectrum_first_pass": {name: column[first] for name, column in passing.items()},
             **{f"spectrum_bands_{dof}": bands_along(results.bands, dof, top) for dof in SHOWN},
         }
         return sources, ranges
@@ -230,10 +230,10 @@ class VibrationSpectra(ComparingView, LookView[Results]):
         before = f"{results.grey_kind.replace('-', '_')}_"
         spectra_of = {"": results.late_spectra, before: results.reference.late_spectra}
         for prefix, drawn in spectra_of.items():
-            for dof, one in drawn.items():
+            for dof, spectrum in drawn.items():
                 unit = "(rad/s²)²/Hz" if dof.startswith("r") else "(m/s²)²/Hz"
-                # samples of an orbit fit its period: a little off those of a march
-                columns = one.table([dof], unit).named()
+                # frequencies of an orbit follow from its period and differ from those of a march
+                columns = spectrum.table([dof], unit).named()
                 table |= {f"{prefix}{name}": values for name, values in columns.items()}
         return table
 
@@ -243,7 +243,7 @@ def _bands_of(dof: str, top: float, other: Results) -> dict[str, np.ndarray]:
 
 
 def loudest_words(results: Results) -> str:
-    """Say where the housing vibrates most along each direction, and how often balls pass."""
+    """Say at which frequency the housing vibrates most along each direction, and balls pass."""
     words = []
     if not results.late_spectra:
         return f"There is no spectrum, as {why_ended(results.motion)}."
@@ -258,7 +258,7 @@ def loudest_words(results: Results) -> str:
     passing = style.list_words(
         [
             f"of the {race} race{f', row {row},' if row else ''} at {style.number(frequency, 4)} Hz"
-            for race, row, frequency in passed(results.scene)
+            for race, row, frequency in passed_races(results.scene)
         ]
     )
     estimated = ", as estimated" if results.scene.bearing.estimated else ""
@@ -267,36 +267,36 @@ def loudest_words(results: Results) -> str:
 
 
 def why_words(results: Results, *, briefly: bool = False) -> str:
-    """Explain the largest peak, and say whether one stands at the ball-pass frequency.
+    """Explain the largest peak, and say whether there is one at the ball-pass frequency.
 
-    Without a defect the first sentence says why there is a peak at all.
+    Without a defect a sentence says why there are peaks at all.
     """
     peaks = {dof: peak for dof, peak in results.peaks.items() if peak.level > LEVEL_FLOOR}
     if not peaks:
         return ""
     most = results.late_spectra[max(peaks, key=lambda dof: peaks[dof].level)]
-    rates = [rate for _, _, rate in passed(results.scene)]
+    rates = [rate for _, _, rate in passed_races(results.scene)]
     words = [reasons.peak(results, rates, briefly=briefly)]
-    lowest = min((low for low, _ in results.bands.values() if low == low), default=0.0)
-    words.append(reasons.passes(most, min(rates), lowest, briefly=briefly))
+    lowest = min((low for low, _ in results.bands.values() if not np.isnan(low)), default=0.0)
+    words.append(reasons.ball_pass_peak(most, min(rates), lowest, briefly=briefly))
     if not results.scene.defects:
         words.insert(len(words) if briefly else 0, reasons.HEALTHY_SHAKES)
     return with_elements_of(results.scene.bearing, " ".join(filter(None, words)))
 
 
-def passed(scene: Scene) -> list[tuple[str, int, float]]:
+def passed_races(scene: Scene) -> list[tuple[str, int, float]]:
     """Races with a defect, and their ball-pass frequencies [Hz]; the outer race without defects.
 
-    Of rows that are not alike each whose balls meet one, with its number; else that is 0.
+    The number of the row is 0, unless rows are unlike: then each row that meets a defect counts.
     """
     speed, lines = scene.shaft_speed, []
     several = not scene.bearing.rows_are_alike
     for race in ("outer", "inner"):
-        for row, (own, _) in enumerate(scene.bearing.unlike_rows):
-            met = (None, row) if several else (None, *range(len(scene.bearing.all_rows)))
-            there = [d.race == race and d.row in met for d in scene.defects] or [race == "outer"]
-            if any(there):
-                rate = own.bpfo(speed) if race == "outer" else own.bpfi(speed)
+        for row, (bearing, _) in enumerate(scene.bearing.unlike_rows):
+            rows = (None, row) if several else (None, *range(len(scene.bearing.all_rows)))
+            met = [d.race == race and d.row in rows for d in scene.defects] or [race == "outer"]
+            if any(met):
+                rate = bearing.bpfo(speed) if race == "outer" else bearing.bpfi(speed)
                 lines.append((race, row + 1 if several else 0, rate))
     return lines
 
@@ -304,22 +304,16 @@ def passed(scene: Scene) -> list[tuple[str, int, float]]:
 def pass_frequencies(scene: Scene, top: float) -> dict[str, NDArray[np.float64]]:
     """Frequencies [Hz] at which balls pass the defects, with harmonics up to `top`.
 
-    Columns: frequency, whether it belongs to the inner race, the number of the row, 0 where rows
-    are alike, and the error [Hz] that an estimated inside may give; the outer race comes first.
+    Columns: the frequency, 1 for the inner race, the number of the row (0 if rows are alike), and
+    the error [Hz] if the inside is estimated. The outer race comes first.
     """
-    frequencies, inner, rows = [np.empty(0)], [np.empty(0)], [np.empty(0)]
-    spreads = [np.empty(0)]
-    for race, row, first in passed(scene):
-        own = scene.bearing.of_row(max(row - 1, 0))
-        spread = first * own.frequency_spread("bpfo" if race == "outer" else "bpfi")
+    lines = [np.empty((0, 4))]
+    for race, row, first in passed_races(scene):
+        bearing = scene.bearing.of_row(max(row - 1, 0))
+        spread = first * bearing.frequency_spread("bpfo" if race == "outer" else "bpfi")
         count = int(top / first) if first > 0.0 else 0
-        frequencies.append(first * np.arange(1.0, count + 1.0))
-        inner.append(np.full(count, float(race == "inner")))
-        rows.append(np.full(count, float(row)))
-        spreads.append(np.full(count, spread))
-    return {
-        "frequency": np.concatenate(frequencies),
-        "inner": np.concatenate(inner),
-        "row": np.concatenate(rows),
-        "spread": np.concatenate(spreads),
-    }
+        line = np.tile([0.0, float(race == "inner"), float(row), spread], (count, 1))
+        line[:, 0] = first * np.arange(1.0, count + 1.0)
+        lines.append(line)
+    columns = np.concatenate(lines).T.copy()
+    return dict(zip(("frequency", "inner", "row", "spread"), columns, strict=True))

@@ -30,7 +30,7 @@ return words.length*5.8*larger < room ? words : `${{row.ball}} ${{does}}`
 
 
 class VibrationInTime(passage_view.PassageView):
-    """Acceleration of the housing, and the loads of the balls meanwhile."""
+    """Acceleration of the housing, and loads of the balls at the same time."""
 
     name = "vibration-time"
     title = "Vibration as balls pass the defect"
@@ -64,13 +64,13 @@ class VibrationInTime(passage_view.PassageView):
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         shown, bearing = results.excerpt, results.scene.bearing
-        moved, numbers = self.motions(
-            results, lambda one: (one.excerpt.time, one.excerpt.acceleration)
+        motions, numbers = self.motions(
+            results, lambda drawn: (drawn.excerpt.time, drawn.excerpt.acceleration)
         )
         start, end = float(shown.time[0]), float(shown.time[-1])
         static = ((shown.static_time, load) for load in shown.static_load.T[: passage_view.SLOTS])
         sources: Sources = {
-            **moved,
+            **motions,
             "vibration_loads": passage_view.traces(
                 shown.time, passage_view.slot_columns("load", shown.ball_load)
             ),
@@ -80,8 +80,8 @@ class VibrationInTime(passage_view.PassageView):
                 shown.balls[: passage_view.SLOTS], bearing
             ),
         }
-        carried = np.append(shown.ball_load.ravel(), shown.greatest_static_load)
-        return sources, self.ranges(shown.time, numbers, carried)
+        loads = np.append(shown.ball_load.ravel(), shown.greatest_static_load)
+        return sources, self.ranges(shown.time, numbers, loads)
 
     def sentence(self, results: Results) -> str:
         shown = results.excerpt
@@ -118,7 +118,7 @@ class VibrationInTime(passage_view.PassageView):
 
 
 def motion_layers(prefix: str) -> list[layers.Layer]:
-    """Acceleration along x and y, with the events, of the sources of that prefix."""
+    """Layers of the acceleration along x and y, with the events; `prefix` names their sources."""
     return [
         passage_view.event_lines(prefix),
         *(
@@ -132,11 +132,13 @@ def motion_layers(prefix: str) -> list[layers.Layer]:
 def event_rows(
     events: tuple[Event, ...], start: float, end: float, bearing: Bearing, apart: float = 1.0
 ) -> dict[str, np.ndarray]:
-    """Events as columns, with the places of their labels, whose rows are `apart`."""
+    """Events as columns, with the places of their labels; see `places_of_labels` for `apart`."""
     times = [event.time for event in events]
     return {
         "time": np.array(times),
-        **passage_view.named(bearing, np.array([event.ball for event in events], dtype=np.int64)),
+        **passage_view.name_columns(
+            bearing, np.array([event.ball for event in events], dtype=np.int64)
+        ),
         "enters": np.array([float(event.enters) for event in events]),
         **passage_view.places_of_labels(times, start, end, apart=apart),
     }

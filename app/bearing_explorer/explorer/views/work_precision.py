@@ -34,14 +34,14 @@ COLORS = (
 """Colours of the methods, distinct for colour-blind people on a light and a dark page."""
 MARKERS = ("circle", "square", "triangle", "diamond", "inverted_triangle", "plus", "star")
 ALLOWED = {"dB": 0.1, "1": 0.01}
-"""The error that is allowed, by its unit: drawn as a line."""
+"""Allowed error by its unit; the chart draws it as a line."""
 UNORDERED = 1.0
 """Order of convergence below which shorter steps gain little."""
 BEYOND = "no vibration at all, so no error in dB"
 ABOVE = " It lies above the line because the page filters the acceleration, unlike this chart."
 NOT_YET = "Nothing was measured beforehand for this chart: “Measure on this machine” draws it."
 SHORTEST = 100.0
-"""Least quotient of the ends of an axis."""
+"""Least ratio of the ends of an axis."""
 
 _POINTS = ("cost", "error", "slot", "marker", "label", "method", "setting", "seconds",
            "evaluations", "status", "size", "first", "text", "right", "down")  # fmt: skip
@@ -80,18 +80,20 @@ const beside = (i, words, letter, over_lines = false) => {
     }
   }
 }
-const own = names.data
-for (const k of own.name.keys()) {
-  own.text[k] = ""
-  const its = places.map((_, i) => i).filter((i) => own.name[k] && method[i] == own.name[k])
-  for (const [i, over] of [...its.map((i) => [i, false]), ...its.map((i) => [i, true])]) {
-    const place = beside(i, own.name[k], 6.6, over)
+// names of methods: first beside points where they cover no line, then also over lines
+const rows = names.data
+for (const [k, name] of rows.name.entries()) {
+  rows.text[k] = ""
+  const known = places.map((_, i) => i).filter((i) => name && method[i] == name)
+  for (const [i, over] of [...known.map((i) => [i, false]), ...known.map((i) => [i, true])]) {
+    const place = beside(i, name, 6.6, over)
     if (!place) continue
-    ;[own.cost[k], own.error[k], own.text[k]] = [cost[i], error[i], own.name[k]]
-    ;[own.right[k], own.down[k]] = place
+    ;[rows.cost[k], rows.error[k], rows.text[k]] = [cost[i], error[i], name]
+    ;[rows.right[k], rows.down[k]] = place
     break
   }
 }
+// labels of settings, those of the best methods and the one in use first
 const order = places.map((_, i) => i).sort((a, b) => first[b] - first[a])
 for (const i of order) {
   const words = label[i], used = words.startsWith("in use")
@@ -102,22 +104,19 @@ for (const i of order) {
 points.change.emit()
 names.change.emit()
 """
-"""Put the name of each method beside one of its points, then each setting, where they cover
-neither a point nor another label, if there is such a place."""
+"""Put the name of each method beside one of its points, and then the settings beside theirs. A
+label covers neither a point nor another label; without such a place it is left out."""
 
 
 def look(slot: int) -> tuple[int, str]:
-    """Place in COLORS, and marker; after all colours the markers change, so none are alike."""
+    """Index of COLORS, and marker. After all colours the markers shift, so no two are alike."""
     return slot % len(COLORS), MARKERS[(slot + slot // len(COLORS)) % len(MARKERS)]
 
 
 class WorkPrecision:
-    """A chart against one reference and its sentence.
+    """A chart of errors against one reference, and its sentence.
 
-    Parameters
-    ----------
-    case
-        the hard case that it is of; empty for the one that has a row for itself.
+    `case`: name of the hard case; empty for the large chart, which has a row for itself.
     """
 
     def __init__(self, case: str = "") -> None:
@@ -129,7 +128,7 @@ class WorkPrecision:
         self.panel = stack(self._head, self.plot, self._words)
 
     def _figure(self, height: int) -> Any:
-        # with words, or no room would be left for them
+        # placeholders make room for the names of the axes
         sides = [style.AxisQuantity(name, "", "") for name in ("Time", "Error")]
         ranges = [Range1d(*ends, syncable=False) for ends in ((1e-4, 1.0), (1e-6, 10.0))]
         plot = style.make_figure(
@@ -181,9 +180,9 @@ class WorkPrecision:
     def draw(
         self, shown: Experiment | None, error: str, cost: str, refused: str, more: str
     ) -> None:
-        """Show the points of an experiment; `refused`: why there are none.
+        """Show the points of an experiment; `refused` says why there are none.
 
-        `error`: name of what is drawn upwards. `cost`: "seconds" or "evaluations". `more`:
+        `error`: name of the vertical quantity. `cost`: "seconds" or "evaluations". `more`:
         sentences after those on the points.
         """
         state = (shown, error, cost, refused, more)
@@ -200,6 +199,8 @@ class WorkPrecision:
         self._words.object = paragraph(f"{sentence(shown, error)} {more}".rstrip())
 
     def _fill(self, shown: Experiment, error: str, cost: str) -> None:
+        """Put the points, lines and names of the methods into the sources of the chart."""
+
         def place(point: Point) -> tuple[float, float]:
             return getattr(point, cost), point.errors.get(error, math.nan)
 
@@ -215,10 +216,10 @@ class WorkPrecision:
             lines.append((*columns_of(("cost", "error"), line).values(), color))
             for p in (p for p in known if p.method == method):
                 at = _shown_place(place(p), p in good, right / 1.3, top / 2.0)
-                rows.append(_row_of(p, at, p in good, p in frontier, color, marker))
+                rows.append(_point_row(p, at, p in good, p in frontier, color, marker))
         self._best.data = columns_of(("cost", "error"), [place(p) for p in frontier])
         self._used.data = columns_of(("cost", "error"), [place(p) for p in good if p.in_use])
-        # Bokeh reads colours of a text that has become longer before it has them
+        # always as many rows: Bokeh paints a longer text source before it has the new colours
         names += [(left, top, 0, "", "", 0.0, 0.0)] * (len(COLORS) - len(names))
         self._names.data = columns_of(_NAMES, names)
         self._points.data = columns_of(_POINTS, rows)
@@ -232,7 +233,7 @@ class WorkPrecision:
         places: Sequence[tuple[float, float]],
         good: Sequence[Point],
     ) -> tuple[float, float, float]:
-        """Set the axes, and return where they begin and end across, and end upwards."""
+        """Set the axes; return the left, right and upper end."""
         left, right = _axis_ends([c for c, _ in places if _are_logarithmic((c,))], 1.8)
         allowed = ALLOWED[shown.unit(error)]
         bottom, top = _axis_ends([*(p.errors[error] for p in good), allowed], 2.5)
@@ -255,12 +256,12 @@ class WorkPrecision:
 def _shown_place(
     at: tuple[float, float], is_placed: bool, right: float, top: float
 ) -> tuple[float, float]:
-    """Place of a point: as high as `top` without an error, at the `right` without a cost."""
+    """Place of a point: at `top` without an error, at `right` without a cost."""
     across, up = at
     return across if _are_logarithmic((across,)) else right, up if is_placed else top
 
 
-def _row_of(
+def _point_row(
     point: Point,
     at: tuple[float, float],
     is_placed: bool,
@@ -268,7 +269,7 @@ def _row_of(
     color: int,
     marker: str,
 ) -> tuple[Any, ...]:
-    """The cells of a point in `_POINTS`; one that has no place is a cross at the edge."""
+    """Values of a point for the columns `_POINTS`; without a place it is a cross at the edge."""
     label = f"in use: {point.label}" if point.in_use else point.label if is_best else ""
     return (
         *at, color, marker if is_placed else "x", label, point.method, point.setting,
@@ -279,26 +280,26 @@ def _row_of(
 
 
 def _are_logarithmic(values: Sequence[float]) -> bool:
-    """True where all have a place on a logarithmic axis."""
+    """True if all values have a place on a logarithmic axis."""
     return all(math.isfinite(value) and value > 0.0 for value in values)
 
 
-def error_with_unit(one: Experiment, error: str, value: float) -> str:
-    """An error for a sentence: in powers of ten where it is small."""
-    if one.unit(error) == "dB" and value >= 0.01:
+def error_with_unit(shown: Experiment, error: str, value: float) -> str:
+    """An error for a sentence; a small one is written in powers of ten."""
+    if shown.unit(error) == "dB" and value >= 0.01:
         return decibels(value)
     if 0.01 <= value < 10.0:
         return percent(value, 2)
     text = style.number(value, 2) if 0.01 <= value < 1000.0 else scientific(value, 2)
-    return f"{text} dB" if one.unit(error) == "dB" else text
+    return f"{text} dB" if shown.unit(error) == "dB" else text
 
 
-def verdict(one: Experiment, error: str, cost: str) -> str:
-    """Compare the cheapest method within the allowed error with the next of another program."""
-    allowed = ALLOWED[one.unit(error)]
-    limit = error_with_unit(one, error, allowed)
+def verdict(shown: Experiment, error: str, cost: str) -> str:
+    """Compare the cheapest method within the allowed error with the next one of another program."""
+    allowed = ALLOWED[shown.unit(error)]
+    limit = error_with_unit(shown, error, allowed)
     within = sorted(
-        (p for p in one.points if not p.failed and p.errors.get(error, math.inf) <= allowed),
+        (p for p in shown.points if not p.failed and p.errors.get(error, math.inf) <= allowed),
         key=lambda p: getattr(p, cost),
     )
     if not within:
@@ -310,40 +311,42 @@ def verdict(one: Experiment, error: str, cost: str) -> str:
     ratio = f"{float(f'{getattr(others[0], cost) / getattr(within[0], cost):.2g}'):g}"
     how = "with fixed steps " if best in METHODS and METHODS[best].fixed_step else ""
     less = f"{ratio} times cheaper" if cost == "seconds" else f"done with {ratio} times fewer"
-    what = "" if cost == "seconds" else f" {one.evaluations.removesuffix(' per equilibrium')}"
-    return f"Within {limit}, {best} {how}is {less}{what} than {others[0].method}"
+    unit = "" if cost == "seconds" else f" {shown.evaluations.removesuffix(' per equilibrium')}"
+    return f"Within {limit}, {best} {how}is {less}{unit} than {others[0].method}"
 
 
-def said(one: Experiment, error: str, point: Point) -> str:
-    """A point for a sentence: method, setting, time and error."""
-    words = error_with_unit(one, error, point.errors[error])
+def point_words(shown: Experiment, error: str, point: Point) -> str:
+    """A point in words: method, setting, time and error."""
+    words = error_with_unit(shown, error, point.errors[error])
     setting = f", {point.setting}" if point.setting else ""
     return f"{point.method}{setting} ({style.with_prefix(point.seconds, 's')}, {words})"
 
 
-def sentence(one: Experiment, error: str) -> str:
-    """Name the fastest point within the allowed error and the one in use, which may be above it."""
-    allowed = ALLOWED[one.unit(error)]
-    frontier = one.frontier(error)
+def sentence(shown: Experiment, error: str) -> str:
+    """Name the fastest point within the allowed error, and the point in use, perhaps above it."""
+    allowed = ALLOWED[shown.unit(error)]
+    frontier = shown.frontier(error)
     within = [point for point in frontier if point.errors[error] <= allowed]
-    limit = error_with_unit(one, error, allowed)
+    limit = error_with_unit(shown, error, allowed)
     parts = []
     if within:
         also = ", and in use" if within[0].in_use else ""
-        parts.append(f"Fastest within {limit}{also}: {said(one, error, within[0])}")
+        parts.append(f"Fastest within {limit}{also}: {point_words(shown, error, within[0])}")
     elif frontier:
-        parts.append(f"None is within {limit}; the nearest is {said(one, error, frontier[-1])}")
-    used = [p for p in one.points if p.in_use and error in p.errors and p not in within[:1]]
-    parts += [f"in use: {said(one, error, point)}" for point in used]
+        parts.append(
+            f"None is within {limit}; the nearest is {point_words(shown, error, frontier[-1])}"
+        )
+    used = [p for p in shown.points if p.in_use and error in p.errors and p not in within[:1]]
+    parts += [f"in use: {point_words(shown, error, point)}" for point in used]
     words = "; ".join(parts) + "."
     above = any(point.errors[error] > allowed for point in used)
-    return words + (ABOVE if above and one.name == "motion" else "")
+    return words + (ABOVE if above and shown.name == "motion" else "")
 
 
-def details(one: Experiment, error: str) -> str:
+def details(shown: Experiment, error: str) -> str:
     """Orders of convergence, failures and the reference of one chart, as HTML."""
     parts = []
-    slopes = {m: one.order(m, error) for m in one.methods if m in METHODS and METHODS[m].order}
+    slopes = {m: shown.order(m, error) for m in shown.methods if m in METHODS and METHODS[m].order}
     if known := {m: slope for m, slope in slopes.items() if math.isfinite(slope)}:
         words = ", ".join(f"{m} {style.number(slope, 2)}" for m, slope in known.items())
         theory = "4 in theory for smooth forces, 2 with kinks, 1 with jumps"
@@ -352,16 +355,16 @@ def details(one: Experiment, error: str) -> str:
             parts.append(
                 "Below 1 the errors are at their floor, or a force jumps: shorter steps gain little"
             )
-    failed = {point.method: point for point in one.points if point.failed}
+    failed = {point.method: point for point in shown.points if point.failed}
     parts += [", ".join(filter(None, (m, p.setting, p.status))) for m, p in failed.items()]
-    endless = [p for p in one.points if p.errors.get(error) == math.inf]
+    endless = [p for p in shown.points if p.errors.get(error) == math.inf]
     parts += [f"{p.method}: {BEYOND}" for p in endless]
-    (reference,) = one.references.values()
+    (reference,) = shown.references.values()
     apart = reference.agreement.get(error, math.nan)
     trust = "agree" if reference.trusted else "do not agree, so small errors mean little"
     parts.append(
         f"Reference: {style.list_words(reference.families)} {trust}"
-        + (f", {error_with_unit(one, error, apart)} apart" if math.isfinite(apart) else "")
+        + (f", {error_with_unit(shown, error, apart)} apart" if math.isfinite(apart) else "")
     )
     parts += [part for part in (reference.note,) if part]
     words = html.escape(". ".join(part.rstrip(".") for part in parts))
@@ -369,7 +372,7 @@ def details(one: Experiment, error: str) -> str:
 
 
 def prose(content: str = "") -> pn.pane.HTML:
-    """Headings and paragraphs in the type of the page."""
+    """A pane for headings and paragraphs in the font of the page."""
     styles = [asset_text("accuracy.css")]
     return pn.pane.HTML(content, stylesheets=styles, sizing_mode="stretch_width", margin=0)
 
@@ -380,22 +383,22 @@ def paragraph(words: str) -> str:
 
 
 def _axis_ends(values: list[float], room: float) -> tuple[float, float]:
-    """Ends of an axis: `room` about the values, and at least two numbers on it."""
+    """Ends of an axis: a factor of `room` around the values, and room for two tick labels."""
     low, high = (min(values), max(values)) if values else (1.0, 1.0)
     room = max(room, math.sqrt(SHORTEST * low / high))
     return low / room, high * room
 
 
 def set_range(side: Range1d, start: float, end: float) -> None:
-    """Set the ends of an axis, also for when it is reset."""
+    """Set the ends of an axis, and those of its reset."""
     side.update(start=start, end=end, reset_start=start, reset_end=end)
 
 
 def column_source(*columns: str) -> ColumnDataSource:
-    """A source without numbers yet."""
+    """A source with these columns, without numbers."""
     return ColumnDataSource({column: [] for column in columns}, syncable=False)
 
 
 def columns_of(names: tuple[str, ...], rows: list[Any]) -> dict[str, list[Any]]:
-    """Rows as columns."""
+    """Convert rows to columns."""
     return {name: [row[i] for row in rows] for i, name in enumerate(names)}

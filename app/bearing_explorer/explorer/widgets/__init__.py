@@ -1,1 +1,1 @@
-"""Widgets of the scene."""
+"""Panels of controls, lessons and links of the scene."""

@@ -1,7 +1,7 @@
-"""Panels of controls: sliders one can type into, choices, play.
+"""Panels of controls: sliders with boxes to type in, choices, play.
 
-One component holds a whole panel: a session stays cheap, and a drag sends one message a frame
-whatever it moves. What they ask for is judged in `bearing_explorer.explorer.state.scene_editor`.
+One component holds a whole panel, so a session stays cheap, and a drag sends one message a frame
+for all its controls. `bearing_explorer.explorer.state.scene_editor` checks the messages.
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ from bearing_explorer.kit.serve.panel_internals import LiveComponent
 
 
 def spec_of(groups: Iterable[str], *choices: Choice) -> dict[str, Any]:
-    """The constant part of a panel of controls: some groups of fields, and their choices.
+    """The constant part of a panel of controls: groups of fields with their choices.
 
-    `choices` are further ones.
+    `choices` are choices besides those of the groups.
     """
     names = list(groups)
     return {
@@ -63,7 +63,7 @@ def spec_of(groups: Iterable[str], *choices: Choice) -> dict[str, Any]:
 class Rows(LiveComponent):
     """Sliders, numbers and choices.
 
-    `asked` is called with each change as a dictionary with fields of `SceneChange`.
+    `on_change` is called with each change as a dictionary with fields of `SceneChange`.
     """
 
     spec = param.Dict(default={})
@@ -71,13 +71,13 @@ class Rows(LiveComponent):
 
     _stylesheets: ClassVar[list[str]] = [asset_text("button.css"), asset_text("controls.css")]
 
-    def __init__(self, asked: Callable[[Any], None], **params: Any) -> None:
+    def __init__(self, on_change: Callable[[Any], None], **params: Any) -> None:
         super().__init__(**params)
-        self.on_msg(lambda event: take(asked, SceneChange, event.data))
+        self.on_msg(lambda event: take(on_change, SceneChange, event.data))
 
 
 MAIN = ("extent_deg", "fy_n", "shaft_speed_hz")
-"""Sliders that are always seen; all others are folded."""
+"""Sliders that are always visible; the others are folded."""
 
 
 class Controls(Rows):
@@ -85,7 +85,7 @@ class Controls(Rows):
 
     _esm = scripts("element.js", "asking.js", "rows.js", "bearing_search.js", "controls.js")
 
-    def __init__(self, asked: Callable[[Any], None], **params: Any) -> None:
+    def __init__(self, on_change: Callable[[Any], None], **params: Any) -> None:
         spec = {
             **spec_of(SCENE_GROUPS),
             "main": MAIN,
@@ -94,4 +94,4 @@ class Controls(Rows):
             "defects": "Defect",
             "last": [field.key for field in SHOWN_FIELDS if field.part == "floor"],
         }
-        super().__init__(asked, spec=spec, **params)
+        super().__init__(on_change, spec=spec, **params)

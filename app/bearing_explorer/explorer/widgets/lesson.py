@@ -1,4 +1,4 @@
-"""The panel of lessons: the words of one, its prediction and answer, the way to the next."""
+"""The panel of lessons: the words of a lesson, its prediction and answer, and the next lesson."""
 
 from __future__ import annotations
 
@@ -15,25 +15,25 @@ from bearing_explorer.kit.messages import take
 
 
 class LessonPanel(JSComponent):
-    """The list of lessons, or the words of one; hidden until lessons are opened.
+    """The list of lessons, or the words of one lesson; hidden until a person opens it.
 
     A scene is set when a lesson begins, and not when its words are shown again.
 
-    `asked` is called with each message as a dictionary with fields of `LessonChange`.
+    `on_message` is called with each message as a dictionary with fields of `LessonChange`.
     """
 
-    #: [title, what is wrong with the file or "", name] of each
+    #: [title, fault of the file or "", name] of each lesson
     titles = param.List(default=[])
-    #: of `Lesson.browser_data`; empty before the first
+    #: the open lesson by `Lesson.browser_data`; empty before the first
     lesson = param.Dict(default={})
-    #: whether it is open when the page loads
+    #: True if the panel is open when the page loads
     open_first = param.Boolean(default=False)
 
     _esm = scripts("element.js", "asking.js", "lesson.js")
     _stylesheets: ClassVar[list[str]] = [asset_text("lesson.css")]
 
     def __init__(
-        self, asked: Callable[[Any], None], lessons: Sequence[Lesson | Fault], **params: Any
+        self, on_message: Callable[[Any], None], lessons: Sequence[Lesson | Fault], **params: Any
     ) -> None:
         titles = [
             [lesson.title, getattr(lesson, "sentence", ""), getattr(lesson, "name", "")]
@@ -42,14 +42,14 @@ class LessonPanel(JSComponent):
         super().__init__(titles=titles, margin=0, sizing_mode="stretch_width", **params)
         self._lessons = lessons
         self._begun = 0
-        #: term of the stiffness that the last lesson is about; empty without one
+        #: stiffness term of the last lesson; empty without one
         self.term = ""
-        self.on_msg(lambda event: take(asked, LessonChange, event.data))
+        self.on_msg(lambda event: take(on_message, LessonChange, event.data))
 
     def begin(self, which: object, *, again: bool = True) -> Lesson | None:
-        """Show the lesson with this number or name and return it; None where there is none.
+        """Show the lesson with this number or name and return it; None if there is no such lesson.
 
-        One that is shown already begins `again`, or stays as it is.
+        The open lesson begins again only if `again` is True.
         """
         number = self._number(which)
         if number is None:
@@ -59,7 +59,7 @@ class LessonPanel(JSComponent):
             return None
         self.term = lesson.term
         if again or self.lesson.get("number") != number:
-            # counted, or the same lesson begun again would be no news to the browser
+            # the count makes a lesson that begins again a new value for the browser
             self._begun += 1
             self.lesson = {**lesson.browser_data(number), "begun": self._begun}
         return lesson

@@ -1,4 +1,4 @@
-"""The bar above the controls: steps back and forth, links, kept scenes, files."""
+"""The bar above the controls: undo and redo, links, kept scenes, files."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from bearing_explorer.kit.messages import take
 
 
 class ShareBar(JSComponent):
-    """Undo, redo, reset; share, keep, download.
+    """Buttons for undo, redo and reset, and menus to share, keep and download.
 
-    `asked` is called with each message as a dictionary with fields of `LinksChange`.
+    `on_message` is called with each message as a dictionary with fields of `LinksChange`.
     """
 
-    #: what `Bookmarks.state` says
+    #: state by `Bookmarks.state`
     state = param.Dict(default={})
 
     _esm = scripts(
@@ -27,9 +27,9 @@ class ShareBar(JSComponent):
     )
     _stylesheets: ClassVar[list[str]] = [asset_text("menu.css"), asset_text("share.css")]
 
-    def __init__(self, asked: Callable[[Any], None], **params: Any) -> None:
+    def __init__(self, on_message: Callable[[Any], None], **params: Any) -> None:
         super().__init__(margin=0, sizing_mode="stretch_width", **params)
-        self.on_msg(lambda event: take(asked, LinksChange, event.data))
+        self.on_msg(lambda event: take(on_message, LinksChange, event.data))
 
     def answer(self, **news: Any) -> None:
         """Send the browser a `file` to save, a `kept` scene or a `report`."""

@@ -14,7 +14,7 @@ import pytest
 from bearing_explorer import figures
 from bearing_explorer.explorer.plots.plane import Field, PlaneFigures, color_limits, section_of
 from bearing_explorer.explorer.results import explore
-from bearing_explorer.explorer.results.accuracy import Found, compute, shipped
+from bearing_explorer.explorer.results.accuracy import SceneMeasurements, compute, shipped
 from bearing_explorer.explorer.results.explore import (
     MAP_OUTPUTS,
     Plane,
@@ -354,7 +354,7 @@ def test_an_experiment_is_shown_point_by_point_and_read_from_its_file(
         assert other.errors == pytest.approx(our.errors, rel=1e-3)
         assert other.in_use == our.in_use
     view = Accuracy(PackedSource())
-    view.job_result = Found(RIG, measured)
+    view.job_result = SceneMeasurements(RIG, measured)
     assert f"Measured on this machine: {measured.count} points" in view.sentence(Results(RIG))
     assert set(view.table(Results(RIG))["experiment"]) == {"statics"}
 

@@ -133,7 +133,7 @@ def test_what_comes_along_is_what_is_computed() -> None:
     """`python -m bearing_explorer.default_results` makes it anew."""
     cache.clear()
     draw_all()
-    shipped, computed = default_results.read(), default_results.collected()
+    shipped, computed = default_results.read(), default_results.collect()
     assert set(shipped) == set(computed)
     for key, types in computed.items():
         for path, (one, other) in numbers_of(shipped[key], types):

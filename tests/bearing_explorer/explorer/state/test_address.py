@@ -18,11 +18,11 @@ from bearing_explorer.explorer.state.address import (
     OTHER_NAMES_OF_TABS,
     Place,
     leaves_out,
-    opened,
-    packed,
+    pack_points,
     place_of,
     read,
-    unpacked,
+    show_text,
+    unpack_points,
     write,
 )
 from bearing_explorer.explorer.state.scene_editor import SceneEditor
@@ -130,7 +130,7 @@ def test_every_scene_comes_back_to_the_last_bit(place: Place) -> None:
     assert text.isascii()
     assert not set(text) & set(" \"'<>#`\\")
     editor = SceneEditor("fan-rig")
-    shown = opened(text, editor)
+    shown = show_text(text, editor)
     if not shown.note:  # else out of the limits of what can be typed
         assert place_of(editor, place.tab) == place
         assert write(shown) == text
@@ -171,7 +171,7 @@ def test_a_link_is_short_and_can_be_read() -> None:
 def test_links_of_earlier_days_open(link: dict) -> None:
     """Mend what fails here, never the file: somebody has these links in a mail."""
     editor = SceneEditor("liew-lim")
-    place = opened(link["text"], editor)
+    place = show_text(link["text"], editor)
     assert place.note == ""
     assert (place.cage_angle, place.tab) == (link.get("cage_angle", 0.0), link.get("tab", "load"))
     same(editor.scene.to_data(), Scene.from_data(link["scene"]).to_data())
@@ -249,7 +249,7 @@ def test_every_preset_is_among_the_frozen_links() -> None:
 def test_strangers_get_the_bearing_to_begin_with_and_a_sentence(text: str, words: str) -> None:
     editor = SceneEditor("fan-rig")
     before = editor.snapshot()
-    place = opened(text, editor)
+    place = show_text(text, editor)
     assert words in place.note
     assert place.note.endswith(".")
     assert len(place.note) < 500
@@ -263,7 +263,7 @@ def test_bombs_are_not_unpacked() -> None:
     tracemalloc.start()
     try:
         with pytest.raises(ValueError, match="cannot be read"):
-            unpacked(text)
+            unpack_points(text)
         _, most = tracemalloc.get_traced_memory()
     finally:
         tracemalloc.stop()
@@ -280,19 +280,19 @@ def test_anything_is_read_or_refused_in_a_sentence(text: str) -> None:
         "v=1&floor=measured&points=" + text,
     ):
         editor = SceneEditor("fan-rig")
-        note = opened(whole, editor).note
+        note = show_text(whole, editor).note
         assert note == "" or note.endswith(".")  # fmt: skip
 
 
 def test_a_link_without_a_version_is_read() -> None:
-    place = opened("?extent_deg=30&tab=stiffness", SceneEditor("fan-rig"))
+    place = show_text("?extent_deg=30&tab=stiffness", SceneEditor("fan-rig"))
     assert place.scene == presets["fan-rig"].replace(extent=math.radians(30))
     assert place.tab == "stiffness"
     assert place.note == ""
 
 
 def test_a_link_that_cannot_be_read_still_opens_its_tab() -> None:
-    place = opened("v=1&extent_deg=400&tab=orbits", SceneEditor("fan-rig"))
+    place = show_text("v=1&extent_deg=400&tab=orbits", SceneEditor("fan-rig"))
     assert place.scene == presets["fan-rig"]
     assert place.tab == "over-speed"
     assert "length of the defect" in place.note
@@ -311,11 +311,11 @@ def test_a_link_that_cannot_be_read_still_opens_its_tab() -> None:
 )
 def test_what_is_not_known_in_an_address_is_said(text: str, named: str) -> None:
     assert read(text) is None
-    note = opened(text, SceneEditor("fan-rig")).note
+    note = show_text(text, SceneEditor("fan-rig")).note
     assert named in note
     assert len(note) < 200
     assert ("ignored." in note) == bool(named)
-    place = opened("v=1&extent_deg=30&fbclid=x1", SceneEditor("fan-rig"))
+    place = show_text("v=1&extent_deg=30&fbclid=x1", SceneEditor("fan-rig"))
     assert place.scene.defect == dataclasses.replace(
         presets["fan-rig"].defect, extent=math.radians(30)
     )
@@ -328,14 +328,14 @@ def test_a_floor_too_long_for_a_link_is_left_out_and_said() -> None:
         tuple(math.sin(0.5 * math.pi * (2 * i / (n - 1) - 1)) for i in range(n)),
         tuple(abs(math.sin(i * i)) for i in range(n)),
     )
-    assert unpacked(packed(floor)) == floor
+    assert unpack_points(pack_points(floor)) == floor
     place = Place(presets["fan-rig"].replace(floor=floor, extent=0.3), "fan-rig")
     whole, link = write(place), write(place, LONGEST_LINK)
     assert read(whole) == place
     assert len(link) < 200
     assert leaves_out(link)
     assert not leaves_out(whole)
-    shown = opened(link, SceneEditor("fan-rig"))
+    shown = show_text(link, SceneEditor("fan-rig"))
     assert shown.scene == place.scene.replace(floor=None)
     assert "too long" in shown.note
 

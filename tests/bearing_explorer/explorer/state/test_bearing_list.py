@@ -115,7 +115,7 @@ def test_an_estimated_bearing_says_so_wherever_its_name_is() -> None:
     assert "Estimated" in editor.note
     link = address.write(address.place_of(editor))
     again = SceneEditor("6205")
-    address.opened(link, again)
+    address.show_text(link, again)
     assert again.name == editor.name
     assert again.scene == editor.scene
     editor.choose({"kind": "back-to-back"})
@@ -143,7 +143,7 @@ def test_balls_of_another_material_are_chosen_and_kept_in_links() -> None:
     assert editor.state()["choices"]["ball_material"] == "silicon nitride"
     assert editor.scene.bearing.density == 3200.0
     again = SceneEditor("fan-rig")
-    address.opened(address.write(address.place_of(editor)), again)
+    address.show_text(address.write(address.place_of(editor)), again)
     assert again.scene == editor.scene
     editor.set({"ball_youngs_modulus_gpa": 250.0})
     assert editor.state()["choices"]["ball_material"] == ""

@@ -316,8 +316,8 @@ CLAIMS: dict[str, Callable[[], list[tuple[str, tuple[float, ...]]]]] = {
         ("The balls are 30° apart", (math.degrees(LIEW_LIM.bearing.ball_spacing),)),
         ("From 15° From 30° From 60°", (15, 30, 60)),
         ("From about 60° on", (first_warned(),)),
-        ("a length of 30° halfway, at a cage angle of 15°; at 60° with a ball at either end, "
-         "at 0°; and at 90° halfway again", (30, 15, 60, 0, 90)),
+        ("length of 30° that is halfway, at a cage angle of 15°; for 60° it is at 0°, with a ball "
+         "at either end; and for 90° halfway again", (30, 15, 60, 0, 90)),
     ],
     "06": lambda: [
         ("Why 64°, and not 60°?", (64, 60)),
@@ -335,7 +335,7 @@ CLAIMS: dict[str, Callable[[], list[tuple[str, tuple[float, ...]]]]] = {
         ("the factor 0.25 under the root", (0.25,)),
         ("= 2.4° and = 1.1°, and the fewest balls are at 63.5°",
          (*edges_freed("published"), fewest("published")[0])),
-        ("they are 1.2° and 0.6°, and the extent is 61.75°",
+        ("the angles are 1.2° and 0.6°, and the extent is 61.75°",
          (*edges_freed("chord"), fewest("chord")[0])),
         ("(exact) gives 62°", (fewest("exact")[0],)),
         ("extents: 63.75°, 61.75° and 62°", tuple(fewest(edge)[1] for edge in EDGES)),

@@ -340,8 +340,8 @@ def test_names_are_short_and_on_one_line(text: str, name: str) -> None:
 
 def test_what_ends_where_it_began_is_no_step() -> None:
     history = History(0)
-    history.moved(1, "extent")
-    history.moved(0, "extent")
+    history.move(1, "extent")
+    history.move(0, "extent")
     assert not history.can_undo
     history.settle()
     history.step(0)

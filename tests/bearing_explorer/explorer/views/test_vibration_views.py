@@ -24,8 +24,8 @@ from bearing_explorer.explorer.views.slow_passage import SlowPassage
 from bearing_explorer.explorer.views.speed_run import (
     COUNTS,
     SPEED,
-    FoundRun,
     SpeedRunSpectra,
+    SweptRun,
     compute,
     levels_of,
 )
@@ -123,7 +123,7 @@ def test_the_largest_peak_is_that_of_the_whole_spectrum_and_is_in_the_picture(sp
 def test_a_healthy_bearing_has_no_defect_in_its_words(kind: type[PassageView]) -> None:
     healthy, view = Results(FAN_RIG.healthy()), kind(PackedSource())
     view.put_head(healthy)
-    opener = view._named if isinstance(view, FoldedView) else ""
+    opener = view._last_title if isinstance(view, FoldedView) else ""
     assert "defect" not in view._caption.title + view.caption(healthy) + opener
 
 
@@ -299,7 +299,7 @@ def test_what_is_folded_is_not_computed() -> None:
     view.attach(SimpleNamespace(jobs=None, draw=lambda: None))  # type: ignore[arg-type]
     assert view.needs == frozenset()
     assert view.sentence(Results(FAN_RIG)) == ""
-    view._turn()
+    view._toggle()
     assert view.needs == frozenset({"ball_mass"})
 
 
@@ -308,11 +308,11 @@ SPEEDS = Sweep(SWEEPABLE[SPEED], np.array([20.0, 30.0, 40.0]))
 
 
 @pytest.fixture(scope="module")
-def run() -> FoundRun:
-    return FoundRun(speed_run(RIG, SPEEDS.in_si[1], resolution=16.0), SPEEDS)
+def run() -> SweptRun:
+    return SweptRun(speed_run(RIG, SPEEDS.in_si[1], resolution=16.0), SPEEDS)
 
 
-def test_rows_are_speeds_and_columns_frequencies(run: FoundRun) -> None:
+def test_rows_are_speeds_and_columns_frequencies(run: SweptRun) -> None:
     view = SpeedRunSpectra(PackedSource())
     view.job_result = run
     sources, ranges = view.data(Results(RIG))
@@ -329,7 +329,7 @@ def test_rows_are_speeds_and_columns_frequencies(run: FoundRun) -> None:
     assert sources["speed_run_now"]["speed"] == pytest.approx([7.0])
 
 
-def test_marched_speeds_are_marked_and_told(run: FoundRun) -> None:
+def test_marched_speeds_are_marked_and_told(run: SweptRun) -> None:
     view = SpeedRunSpectra(PackedSource())
     view.job_result = run
     assert run.run.from_orbit.tolist() == [True, False, True]
@@ -358,7 +358,7 @@ def test_a_first_run_that_is_computed_is_not_called_missing() -> None:
 def test_a_coarse_run_comes_first_and_bounds_hold() -> None:
     job = Work()
     job.started = time.monotonic()
-    shown: list[FoundRun] = []
+    shown: list[SweptRun] = []
     job.show = shown.append  # type: ignore[method-assign]
     words = compute(job, RIG, sweep(SPEED, "30", "60", 49, limits_of(RIG)))
     assert [one.speeds.values.size for one in shown] == [25, 49]

@@ -1,4 +1,4 @@
-"""The bearing with the loads of its balls, small."""
+"""A small drawing of the bearing with the loads of its balls."""
 
 from __future__ import annotations
 
@@ -31,4 +31,4 @@ class OverviewBearing(BearingDrawing):
         return plot
 
     def _add_scale(self, plot: figure, colors: LinearColorMapper, load: Range1d) -> None:
-        """The bars say it; a scale would take a tenth of the height."""
+        """Add no scale: the bars show the loads, and a scale would take a tenth of the height."""

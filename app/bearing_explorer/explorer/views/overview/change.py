@@ -20,7 +20,7 @@ from bearingcore.common import number
 from bearingcore.fields import FIELD_OF
 
 _PLAY = ("contact_angle", "radial_clearance")
-"""Fields of a bearing that are its play."""
+"""Fields of a bearing that determine its play."""
 _NOTHING = (
     "There is no defect, and nothing has been changed yet: move a slider to see its effect here, "
     "from the loads to the vibration."
@@ -28,7 +28,7 @@ _NOTHING = (
 
 
 class LastChange(View):
-    """The sentence; its numbers, before and now, are the table."""
+    """A sentence on the last change; the table holds its numbers, before and now."""
 
     name = "last-change"
     title = "Effect of your last change"
@@ -84,26 +84,26 @@ class LastChange(View):
 
 
 def _alike_but_for_play(now: Bearing, before: Bearing) -> bool:
-    """True if contact angle and clearance alone differ."""
+    """True if two bearings differ only in contact angle and clearance."""
     try:
         return now.replace(**{name: getattr(before, name) for name in _PLAY}) == before
-    except ValueError:  # of another kind, which they do not fit
+    except ValueError:  # a bearing of another kind, to which these numbers do not fit
         return False
 
 
 def _masses_words(now: Scene, before: Scene, words: str) -> str:
-    """Masses of rotor and housing, where they have changed and the cause does not name them."""
-    weighed = [
+    """Changed masses of rotor and housing that the cause does not name, in words."""
+    masses = [
         f"the {part} is {number(after)} kg instead of {number(former)} kg"
         for part, name in (("rotor", "inner_mass"), ("housing", "outer_mass"))
         for after, former in [(getattr(now.support, name), getattr(before.support, name))]
         if after != former and label_inside(FIELD_OF[name]) not in words.lower()
     ]
-    return f"frequencies go with √(k/m): {' and '.join(weighed)}" if weighed else ""
+    return f"frequencies go with √(k/m): {' and '.join(masses)}" if masses else ""
 
 
 def why_not(now: Scene, before: Scene) -> str:
-    """Reason why a change may leave all loads unchanged; empty where it is not known."""
+    """Reason why a change may leave all loads unchanged; empty if it is not known."""
     if len(now.defects) != 1 or len(before.defects) != 1:
         return ""
     if now.defects[0].floor is None and now == before.replace(depth=now.defects[0].depth):

@@ -1,4 +1,4 @@
-"""The spectrum of the housing with the bands of the natural frequencies in it, small."""
+"""A small spectrum of the housing's vibration, with the bands of the natural frequencies."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
 
 LEFT = 68
-"""Room [px] left of the frame: the widest numbers fit, so that no drag moves it."""
+"""Room [px] left of the frame for the widest numbers, so that the frame never moves."""
 TOP_ROOM = 16.0
 """Room [dB] above the loudest line for the names of the bands."""
 NAME_ROOM = 0.06
@@ -28,7 +28,7 @@ NAME_ROOM = 0.06
 BAND_NAME_WIDTH = 0.05
 """Share of the frame's width that the short name of a band needs."""
 END = 0.8
-"""Share of the frequencies beyond which a curve makes room for its name."""
+"""Share of the frequencies beyond which a curve must not cross its name."""
 
 _BAND_WORDS = f"""
 const name = (() => {{ {frequency_bands.BAND_NAME} return name }})()
@@ -43,7 +43,7 @@ _OF_CURVES = (*style.DIRECTION_COLORS[:2], style.FAINT_INK)
 
 
 def layers() -> list[Layer]:
-    """Return the layers from the lowest up: bands, grey, curves, names."""
+    """Layers, the lowest first: bands, grey, curves, names."""
     blue, orange = style.DIRECTION_COLORS[:2]
     of_band = by_number("direction", style.DIRECTION_COLORS)
     of_curve = by_number("which", _OF_CURVES)
@@ -80,7 +80,7 @@ def layers() -> list[Layer]:
 
 
 class OverviewSpectrum(ComparingView):
-    """Along x and y in one figure, with the bands in which the natural frequencies move."""
+    """Spectra along x and y in one figure, with the bands of the natural frequencies."""
 
     name = "overview-spectrum"
     title = "Vibration"
@@ -135,16 +135,17 @@ class OverviewSpectrum(ComparingView):
 
 
 def named_bands(results: Results, top: float) -> dict[str, NDArray[np.float64]]:
-    """Bands by their frequency, in two lines of names, with the room [Hz] up to the next name."""
+    """Bands in order of frequency, their names in two lines, with the room [Hz] of each name."""
     bands = frequency_bands.band_rows(results.bands)
     order = np.argsort(bands["low"], kind="stable")
     named = {name: column[order] for name, column in bands.items()}
     line = np.arange(order.size) % 2
     name_at, room = np.empty(order.size), np.empty(order.size)
-    for own in (line == 0, line == 1):
-        half = 0.5 * BAND_NAME_WIDTH * top
-        name_at[own] = frequency_bands.spread(named["low"][own] + half, 2.0 * half, 0.0, top) - half
-        room[own] = np.diff(name_at[own], append=top)
+    half = 0.5 * BAND_NAME_WIDTH * top
+    for chosen in (line == 0, line == 1):
+        middle = frequency_bands.spread(named["low"][chosen] + half, 2.0 * half, 0.0, top)
+        name_at[chosen] = middle - half
+        room[chosen] = np.diff(name_at[chosen], append=top)
     return {**named, "name_at": name_at, "room": room, "line": 8.0 + 17.0 * line}
 
 
@@ -153,9 +154,9 @@ def end_names(
     shown: tuple[float, float],
     top: float,
 ) -> dict[str, NDArray[np.float64]]:
-    """Places of the names of curves (frequency, level) at their right ends, apart and in view.
+    """Places of the names of curves (frequency, level) at their right ends, separate and in view.
 
-    The name of the upper curve is above it; those of the others are below them.
+    The name of the upper curve is above it; the other names are below their curves.
     """
     ends = [level[frequency > END * top] for frequency, level in named]
     known = [k for k, end in enumerate(ends) if end.size and np.isfinite(end).all()]

@@ -1,4 +1,4 @@
-"""The stiffness terms that matter, large, and a line on the others."""
+"""The stiffness terms that matter in this scene, drawn large."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from bearingcore import STIFFNESS_TERMS, Equilibrium
 from bearingcore.model.statics import TERM_UNITS
 
 LIVELY = 0.02
-"""Share of a term's size: the term matters if it swings or differs from the healthy by more."""
+"""Share of a term's size by which it must vary, or differ from the healthy term, to matter."""
 MOST_POINTS = 61
 """Most points of a trace: a cell is little more than a hundred pixels wide."""
 
@@ -65,11 +65,11 @@ LAYERS: tuple[layers.Layer, ...] = (
     layers.curve("overview_lively", "x", "y", style.DEFECTIVE, 1.8, cells="overview_terms"),
     layers.Glyph(Scatter, "overview_term_now", ("x", "y"), _NOW_LOOK),
 )  # fmt: skip
-"""Frames and symbols of the cells and what is in them, from the lowest to the highest."""
+"""Frames, symbols and curves of the cells, the lowest layer first."""
 
 
 def cells_for(count: int) -> list[matrix_cells.Cell]:
-    """Return the cells, as large as they can be: side by side, or in rows of three or five."""
+    """Cells as large as possible: side by side, or in rows of three or five."""
     columns = count if count <= 3 else 3 if count <= 6 else 5
     rows = math.ceil(count / max(columns, 1))
     return [
@@ -84,7 +84,7 @@ def cells_for(count: int) -> list[matrix_cells.Cell]:
 
 
 class OverviewStiffness(ComparingView):
-    """The terms that matter over the cage angle, large; a click goes to all of them."""
+    """The terms that matter, over the cage angle; a click opens the tab of all terms."""
 
     name = "overview-stiffness"
     title = "Stiffness"
@@ -112,15 +112,16 @@ class OverviewStiffness(ComparingView):
         answers = [states, healthy, *others]
         first, last, _ = results.stretch
         sizes = [answer.cage_angles.size for answer in answers]
-        pick = [np.linspace(0, n - 1, min(n, MOST_POINTS)).round().astype(int) for n in sizes]
+        picks = [np.linspace(0, n - 1, min(n, MOST_POINTS)).round().astype(int) for n in sizes]
         shares = [
-            (answer.cage_angles[some] - first) / (last - first)
-            for answer, some in zip(answers, pick, strict=True)
+            (answer.cage_angles[pick] - first) / (last - first)
+            for answer, pick in zip(answers, picks, strict=True)
         ]
         share = (results.cage_angle - first) % (last - first) / (last - first)
         scales = matrix_cells.term_sizes(
             lambda term: np.concatenate([e.term(term) for e in answers])
         )
+        # a cell for each term that matters, with a trace for each scene and a mark
         lively = lively_terms(results, answers, scales)
         cells = cells_for(len(lively))
         values, ends = np.empty(len(lively)), np.empty((2, len(lively)))
@@ -128,11 +129,13 @@ class OverviewStiffness(ComparingView):
         marks = np.empty((2, len(lively)))
         for i, (cell, index) in enumerate(zip(cells, lively, strict=True)):
             term, scale = STIFFNESS_TERMS[index], scales[index]
-            terms = [matrix_cells.cleaned(answer.term(term), scale) for answer in answers]
-            values[i] = matrix_cells.cleaned(now.term(term), scale)[0]
+            terms = [matrix_cells.clean_noise(answer.term(term), scale) for answer in answers]
+            values[i] = matrix_cells.clean_noise(now.term(term), scale)[0]
             limits = ends[:, i] = matrix_cells.trace_limits(self._limits[index], scale, *terms)
-            for trace, share_of, some, values_of in zip(traces, shares, pick, terms, strict=True):
-                trace.append((cell.x(share_of), cell.y(values_of[some], limits)))
+            for trace, shares_of, pick, term_values in zip(
+                traces, shares, picks, terms, strict=True
+            ):
+                trace.append((cell.x(shares_of), cell.y(term_values[pick], limits)))
             marks[:, i] = cell.x(np.array(share)), cell.y(np.array(values[i]), limits)
         drawn, reference, *compared = (layers.with_gaps(lines, "x", "y") for lines in traces)
         return {
@@ -165,27 +168,27 @@ class OverviewStiffness(ComparingView):
 
 
 def free_terms(dofs: Sequence[str]) -> set[str]:
-    """Terms that matter where the inner ring can move in these directions only."""
+    """Names of the terms between these directions of the inner ring."""
     return {f"k_{a}{b}" for i, a in enumerate(dofs) for b in dofs[i:]}
 
 
 def lively_terms(
     results: Results, answers: Sequence[Equilibrium], scales: Sequence[float]
 ) -> list[int]:
-    """Numbers of the terms that matter here: k_xx and k_yy; others if they vary or differ."""
+    """Indices of the terms that matter here: k_xx and k_yy; others if they vary or differ."""
     free = free_terms(results.equilibrium.dofs)
     terms = []
     for i, (term, scale) in enumerate(zip(STIFFNESS_TERMS, scales, strict=True)):
-        own, *others = (matrix_cells.cleaned(answer.term(term), scale) for answer in answers)
+        values, *others = (matrix_cells.clean_noise(answer.term(term), scale) for answer in answers)
         if term in free and (
-            term in reasons.RADIAL or any(is_lively(own, other, scale) for other in others)
+            term in reasons.RADIAL or any(is_lively(values, other, scale) for other in others)
         ):
             terms.append(i)
     return terms
 
 
 def is_lively(values: NDArray[np.float64], healthy: NDArray[np.float64], scale: float) -> bool:
-    """True if a term of this size varies over the angles, or differs from the healthy one."""
+    """True if a term of this scale varies over the angles, or differs from the healthy one."""
     known, usual = values[np.isfinite(values)], healthy[np.isfinite(healthy)]
     if not known.size:
         return False

@@ -1,4 +1,4 @@
-"""The sentence on the effect of the last change along the chain, from the numbers alone."""
+"""The sentence on the effect of the last change, from the numbers of two chains alone."""
 
 from __future__ import annotations
 
@@ -14,18 +14,19 @@ from bearingcore.model.statics import TERM_SYMBOLS
 from bearingcore.model.sweeps import mode_symbol
 
 LEAST = 0.01
-"""Share of a number: less is no change."""
+"""Least relative change of a number that counts as a change."""
 LEAST_TURN = math.radians(1.0)
-"""Angle [rad] by which the loads have to move on average to count as moved."""
+"""Least mean angle [rad] by which loads must move to count as moved."""
 LEAST_LOAD = 0.05
-"""Share of the greatest load of a ball: less is no change."""
+"""Least relative change of the greatest ball load that counts as a change."""
 LEAST_LEVEL = 2.0
-"""Change of the loudest line [dB]: less is no change."""
+"""Least change of the loudest line [dB] that counts as a change."""
 ALMOST_NONE = 30.0
-"""Distance [dB] below another level at which next to nothing is left."""
-_SAME = 1e-7  # of a number: rounding
-_OF_STIFFNESS, _SHIFT = 0.75, 0.15  # of a logarithm: its root has 0.5, and masses may change too
-_SECOND = 1.5  # times the change of a stiffness that another one has to have to be named too
+"""Fall of a level [dB] after which hardly any vibration is left."""
+_SAME = 1e-7  # relative rounding error
+# greatest ln(f/f') of a mode: 0.75 ln(k/k') + 0.15. A root would give 0.5; masses may change too
+_OF_STIFFNESS, _SHIFT = 0.75, 0.15
+_SECOND = 1.5  # a second stiffness is named if it changes this many times as much as the first
 
 
 @dataclass(frozen=True)
@@ -35,18 +36,17 @@ class Cause:
     Parameters
     ----------
     words
-        in words.
+        the change in words.
     defect, masses
-        whether nothing but defects was changed; whether rotor and support were.
+        True if only defects were changed; True if rotor or support were changed.
     contacts
-        whether bearing or load case changed what a contact is: then loads alone do not explain
-        stiffness.
+        True if the contacts themselves were changed: loads alone do not explain the stiffness then.
     why_not
-        why the loads stay exactly as they are, should they.
+        reason for loads that stay exactly as they are.
     play
         effect of contact angle and clearance on the play of the bearing, in words.
     weighs
-        masses that changed without being named in `words`, for a frequency that moves.
+        changed masses that `words` does not name, as the reason for a frequency that moves.
     """
 
     words: str
@@ -59,16 +59,15 @@ class Cause:
 
 
 def story(by: Cause, now: Chain, before: Chain) -> str:
-    """Tell the cause, then its effects link after link: load, stiffness, frequency, spectrum.
+    """Name the cause, then its effects in order: load, stiffness, frequency, spectrum.
 
-    "So" and "therefore" stand only where one link makes the next.
+    "So" and "therefore" are used only where one effect causes the next.
     """
     if now.answered == 0.0:
         gone = "there is no equilibrium" + (" any more" if before.answered else ", as before")
         return f"{by.words or 'With the defect'}: {gone} ({now.reason})."
     if before.answered == 0.0:
-        whose = by.words or "With the defect"
-        return f"{whose}: now there is an equilibrium."
+        return f"{by.words or 'With the defect'}: now there is an equilibrium."
     along = direction(now, before)
     terms = named_terms(now, before, along)
     stiff = [f"k_{TERM_SYMBOLS[term][2:]} {_growth(_change(now, before, term))}" for term in terms]
@@ -89,15 +88,14 @@ def story(by: Cause, now: Chain, before: Chain) -> str:
 
 
 def _load_and_stiffness(by: Cause, now: Chain, before: Chain, along: str, stiff: list[str]) -> str:
-    """Say where the load went, and what that did to the stiffness."""
+    """Say which balls carry the load now, and how that changed the stiffness."""
     moved = moved_load(now, before, by.defect)
-    # harder or softer contacts are a reason by themselves, which the cause has said
+    # changed contacts are a sufficient reason, and the cause has named them
     why = why_stiffer(now, before, along) if stiff and not by.contacts else ""
-    # where the load went explains the stiffness only if balls push back elsewhere; what each
-    # carries, or another bearing's balls, do not
+    # a move of the load explains the stiffness only if it changes where balls push back
     text = moved if "push" in why and moved else why
     if not why and not (stiff and by.contacts):
-        text = moved or load_of_one(now, before)
+        text = moved or greatest_load_words(now, before)
     if by.play:
         text = f"{by.play}, {why}" if why else by.play
     if stiff:
@@ -108,27 +106,28 @@ def _load_and_stiffness(by: Cause, now: Chain, before: Chain, along: str, stiff:
 def _add_band_and_peak(
     text: str, by: Cause, now: Chain, before: Chain, along: str, stiff: list[str]
 ) -> str:
-    """`text` and what became of natural frequencies and of the spectrum's highest peak."""
+    """Add the changes of a natural frequency and of the spectrum's highest peak to `text`."""
     label = moved_band(now, before, along)
     peaks = (along, *(dof for dof in now.peaks if dof != along))
-    heard = next(filter(None, (peak_words(now, before, dof, label) for dof in peaks)), "")
+    peak = next(filter(None, (peak_words(now, before, dof, label) for dof in peaks)), "")
     band = band_words(label, now.bands[label], before.bands[label]) if label else ""
     if band and by.weighs:
         band += f" ({by.weighs})"
-    last = [words for words in (band, heard) if words]
+    last = [words for words in (band, peak) if words]
     if text and last:
-        # a frequency follows from its own stiffness, "x1" from k_xx, and not if masses changed
-        own = label and f"k_{label[:-1] * 2}"
-        follows = own and band_follows(now, before, label) and any(own in words for words in stiff)
+        # a frequency follows from the stiffness along it, "x1" from k_xx, unless masses changed
+        term = label and f"k_{label[:-1] * 2}"
+        named = term and any(term in words for words in stiff)
+        follows = named and band_follows(now, before, label)
         text += ". Therefore " if band and follows and not by.masses else "; "
-    return text + (" and " if "with it" in heard else "; ").join(last)
+    return text + (" and " if "with it" in peak else "; ").join(last)
 
 
 def direction(now: Chain, before: Chain) -> str:
-    """The direction that the chain is followed along: where the housing is loudest.
+    """The direction of the sentence: that in which the housing is loudest.
 
-    Where nothing changes along it, the one whose stiffness changes most; where none does, one with
-    a band that moves.
+    If nothing changes along it, the direction whose stiffness changes most; if no stiffness
+    changes, one with a band that moves.
     """
     loudest = now.loudest
     if loudest and (
@@ -146,7 +145,8 @@ def direction(now: Chain, before: Chain) -> str:
 
 def unchanged(now: Chain, before: Chain, why_not: str = "") -> str:
     """Sentence for a change without effects, or with effects too small to name."""
-    numbers = [np.concatenate(list(of.table().in_units().named().values())) for of in (now, before)]
+    tables = [chain.table().in_units().named() for chain in (now, before)]
+    numbers = [np.concatenate(list(table.values())) for table in tables]
     alike = numbers[0].size == numbers[1].size and np.allclose(
         numbers[0], numbers[1], rtol=_SAME, atol=_SAME, equal_nan=True
     )
@@ -158,27 +158,28 @@ def unchanged(now: Chain, before: Chain, why_not: str = "") -> str:
 
 
 def why_stiffer(now: Chain, before: Chain, along: str) -> str:
-    """Say why the stiffness that is named first changed, from balls and their places."""
+    """Say why the first named stiffness changed, from contact angles and loaded balls."""
     term = next(iter(named_terms(now, before, along)), "")
-    leant, changed = math.log(now.upright / before.upright), math.log1p(_change(now, before, term))
+    leant = math.log(now.radial_share / before.radial_share)
+    changed = math.log1p(_change(now, before, term))
     if leant * changed > 0.0 and abs(leant) >= 0.5 * abs(changed):
         more = "more" if leant < 0.0 else "less"
-        return f"contacts lean {more} (cos²α {before.upright:.2f} → {now.upright:.2f})"
+        return f"contacts lean {more} (cos²α {before.radial_share:.2f} → {now.radial_share:.2f})"
     return why_softer(
         term, (now.stiffness, now.loaded_balls), (before.stiffness, before.loaded_balls), True
     )
 
 
 def band_follows(now: Chain, before: Chain, label: str) -> bool:
-    """True if a band moves the way that the stiffness along it does."""
+    """True if a band and the stiffness along it both rise, or both fall."""
     moved = sum(now.bands[label]) - sum(before.bands[label])
     return moved * _change(now, before, f"k_{label[:-1] * 2}") > 0.0
 
 
 def moved_load(now: Chain, before: Chain, by_defect: bool = False) -> str:
-    """Shift of the load to other balls.
+    """Shift of the load to other balls, in words.
 
-    `by_defect`: nothing else was changed. Its neighbours take over only what they carry more.
+    `by_defect`: only the defect was changed. Neighbours take over load only if they carry more.
     """
     around = math.degrees(now.direction - before.direction)
     around = abs((around + 180.0) % 360.0 - 180.0)
@@ -196,28 +197,28 @@ def moved_load(now: Chain, before: Chain, by_defect: bool = False) -> str:
     return ""
 
 
-def load_of_one(now: Chain, before: Chain) -> str:
-    """Change of the load of the most loaded ball."""
+def greatest_load_words(now: Chain, before: Chain) -> str:
+    """Change of the load of the most loaded ball, in words; empty if it is small."""
     grown = _ratio(now.greatest_load, before.greatest_load)
     return f"the greatest load of a ball {_growth(grown)}" if abs(grown) >= LEAST_LOAD else ""
 
 
 def named_terms(now: Chain, before: Chain, along: str) -> list[str]:
-    """The terms whose change is named: along a direction, and another where it is larger."""
+    """Terms whose change is named: that along a direction, and another that changes more."""
     main = f"k_{along}{along}"
-    own = abs(_change(now, before, main))
+    main_change = abs(_change(now, before, main))
     others = [term for term in now.stiffness if term != main]
     most = max(others, key=lambda term: abs(_change(now, before, term)), default=main)
-    terms = [main] if own >= LEAST else []
-    if abs(_change(now, before, most)) >= max(_SECOND * own, LEAST) and most != main:
+    terms = [main] if main_change >= LEAST else []
+    if abs(_change(now, before, most)) >= max(_SECOND * main_change, LEAST) and most != main:
         terms.append(most)
     return terms
 
 
 def moved_band(now: Chain, before: Chain, along: str) -> str:
-    """The label of a mode of a direction whose band moves, and the loudest line with it.
+    """Label of a mode whose band moves along a direction, together with the loudest line.
 
-    Where that goes with none it is the one that moves most; nothing where none does.
+    If the line moves with no band, it is the mode that moves most; empty if no band moves.
     """
 
     def moved(label: str) -> float:
@@ -240,7 +241,7 @@ def moved_band(now: Chain, before: Chain, along: str) -> str:
 def is_same_mode(label: str, now: Chain, before: Chain) -> bool:
     """True if a label names the same mode before and now.
 
-    If not in the same order, then at most as far as the stiffness along it moves a mode.
+    Modes in another order count as the same only if the stiffness along them explains the move.
     """
     grown = sum(now.bands[label]) / sum(before.bands[label])
     stiffer = 1.0 + _change(now, before, f"k_{label[:-1] * 2}")
@@ -263,7 +264,7 @@ def band_words(label: str, now: tuple[float, float], before: tuple[float, float]
 
 
 def peak_words(now: Chain, before: Chain, along: str, label: str) -> str:
-    """Change of the loudest line, and whether it moves with the band of a mode."""
+    """Change of the loudest line in words, "with it" if it moves with the band of a mode."""
     if along not in now.peaks or along not in before.peaks:
         return ""
     new, old = now.peaks[along], before.peaks[along]
@@ -271,10 +272,10 @@ def peak_words(now: Chain, before: Chain, along: str, label: str) -> str:
     level = ""
     if abs(louder) >= ALMOST_NONE:
         where = "" if along == now.loudest else f" along {along}"
-        at = f"{(new if louder > 0.0 else old).frequency:.0f} Hz"
+        hertz = f"{(new if louder > 0.0 else old).frequency:.0f} Hz"
         if louder < 0.0:
-            return f"hardly any vibration is left{where} at {at}"
-        return f"vibration appears{where} at {at}"
+            return f"hardly any vibration is left{where} at {hertz}"
+        return f"vibration appears{where} at {hertz}"
     if abs(louder) >= LEAST_LEVEL:
         level = f"{style.number(abs(louder), 2)} dB {'higher' if louder > 0.0 else 'lower'}"
     moved = new.frequency - old.frequency
@@ -306,7 +307,7 @@ def _change(now: Chain, before: Chain, term: str) -> float:
 
 
 def _ratio(now: float, before: float) -> float:
-    """Relative growth of a number; 0 where it has none."""
+    """Relative growth of a number; 0 if it is not finite."""
     grown = now / before - 1.0 if before else 0.0
     return grown if math.isfinite(grown) else 0.0
 

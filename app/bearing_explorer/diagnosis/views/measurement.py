@@ -43,8 +43,8 @@ class MeasuredSignal(MeasuredView):
     name = "measurement"
     title = "1  Your measurement"
     about = (
-        "The vibration a sensor on the housing measures. The bearing and the speed of the scene "
-        "count only if you choose them; the questions stand with the answer."
+        "The vibration a sensor on the housing measures. Bearing and shaft speed are those of the "
+        "file or of your answers; the questions stand with the answer."
     )
     waits = False
 

@@ -114,8 +114,10 @@ export function render({ model }) {
     const { least } = panel.limits[name]
     return Number((least + (((value - least) % 360) + 360) % 360).toFixed(2))
   }
-  const follow_hand = ({ kind, defect, began, released, turn, force, more, to }) => {
+  const greatest_load = (angle) => Math.min(panel.limits.fx_n.most / Math.abs(Math.cos(angle)), panel.limits.fy_n.most / Math.abs(Math.sin(angle)))
+  const follow_hand = ({ kind, defect, began, released, turn, force, more, to, hear }) => {
     if (began) {
+      if (kind === "load") hear?.(Math.round(greatest_load(values.fx_n || values.fy_n ? Math.atan2(values.fy_n, values.fx_n) : pointed)))
       const own = kind === "load" || defect === selected
       hold = own ? { ...values, turn: 0, pointed } : null
       if (!own) send({ choose: { defect: String(defect) } })
@@ -129,8 +131,7 @@ export function render({ model }) {
       const held = Math.hypot(hold.fx_n, hold.fy_n)
       const angle = (held ? Math.atan2(hold.fy_n, hold.fx_n) : hold.pointed) + by * Math.PI / 180
       pointed = force ? Math.atan2(force[1], force[0]) : angle
-      const most = Math.min(panel.limits.fx_n.most / Math.abs(Math.cos(angle)), panel.limits.fy_n.most / Math.abs(Math.sin(angle)))
-      const size = to ? { least: 0, most }[to] : force ? Math.hypot(...force) : Math.max(0, held + more)
+      const size = to ? { least: 0, most: greatest_load(angle) }[to] : force ? Math.hypot(...force) : Math.max(0, held + more)
       const [fx_n, fy_n] = (force ?? [size * Math.cos(angle), size * Math.sin(angle)]).map((one) => Math.abs(one) < 0.01 * size ? 0 : one)  // by hand nothing is upright
       panel.move_all({ fx_n: inside("fx_n", fx_n), fy_n: inside("fy_n", fy_n) })
     } else if (kind === "middle") panel.move("center_deg", to ? panel.limits.center_deg[to] : around("center_deg", hold.center_deg + by))
@@ -200,8 +201,7 @@ export function render({ model }) {
   let usual = {}, many = 1
   const count_changed = () => {
     const differs = (name, value) => usual[name] !== undefined && value !== usual[name]
-    const folded = all_of.filter((one) => !is_main(one) && one.name !== spec.turning)
-    const changed = many - 1 + folded.filter(({ name }) => differs(name, values[name])).length
+    const changed = many - 1 + all_of.filter(({ name }) => name !== spec.turning && differs(name, values[name])).length
       + Object.entries(panel.selects).filter(([name, { select }]) => differs(name, select.value)).length
     const words = changed ? `All settings (${changed} changed)` : "All settings"
     if (more.textContent !== words) more.textContent = words

@@ -37,7 +37,6 @@ function enlarging(model, root) {
     const { x_range, y_range } = view.model
     const home = [x_range.reset_start, x_range.reset_end, y_range.reset_start, y_range.reset_end]
     const [left, right, bottom, top] = cell < 0 ? home : sides
-    host()?.style.setProperty("--matrix-width", cell < 0 ? "" : "0")  // a cell alone is not scrolled
     x_range.setv({ start: left, end: right })
     y_range.setv({ start: bottom, end: top })
     name.innerHTML = cell < 0 ? words : `${words.replace(/^k (.+)/, "k<sub>$1</sub>")}, ${cell + 1} of ${model.cells.length}`

@@ -2,7 +2,7 @@
 
 const SVG = "http://www.w3.org/2000/svg"
 const LOOKS = ["fill", "fill-opacity", "stroke", "stroke-width", "stroke-dasharray", "stroke-opacity",
-               "opacity", "font-family", "font-size", "font-style", "font-weight", "visibility"]
+               "opacity", "font-family", "font-size", "font-style", "font-weight", "visibility", "transform"]
 
 function set_all(made, attributes) {
   for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value)

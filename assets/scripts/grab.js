@@ -63,7 +63,8 @@ if (view?.frame?.bbox?.width > 0) {
       if (moved) say({ released: true })
       moved = null
     }
-    one.addEventListener("focus", () => say({ kind: one.kind, defect: one.defect, began: true, hand: false }))
+    const hear = (most) => attribute(one, "aria-valuemax", one.most = most)  // of a load, which its sliders know
+    one.addEventListener("focus", () => say({ kind: one.kind, defect: one.defect, began: true, hand: false, hear }))
     one.addEventListener("keydown", (event) => {
       const to = { Home: "least", End: "most" }[event.key]
       const side = { ArrowRight: 1, ArrowUp: 1, PageUp: 10, ArrowLeft: -1, ArrowDown: -1, PageDown: -10 }[event.key]
@@ -93,13 +94,13 @@ if (view?.frame?.bbox?.width > 0) {
     while (handles.length < x.length) handles.push(make_handle())
     attribute(cue, "data-words", kind.some((one) => KINDS[one] !== "load") ? "drag arrow or defect" : "drag arrow")
     handles.forEach((one, i) => {
-      const [number, place] = [value[i], angle[i]].map((one) => Number(one.toPrecision(3)))
+      const number = Number(value[i].toPrecision(3)), place = Number(angle[i].toPrecision(3)) % 360
       Object.assign(one, { kind: KINDS[kind[i]], defect: defect[i], size: value[i], angle: angle[i], whole: bore[i] * newtons[i] })
       one.style.transform = at(x[i], y[i])
       const load = one.kind === "load", middle = one.kind === "middle"
       attribute(one, "aria-label", NAMES[one.kind])
       attribute(one, "aria-valuenow", load ? number : place)
-      attribute(one, "aria-valuemax", load ? 1e6 : 360)
+      attribute(one, "aria-valuemax", load ? Math.max(number, one.most ?? 0) : 360)
       attribute(one, "aria-valuetext", load ? number ? `${number} N at ${place}\u00b0` : "0 N" : middle ? `at ${place}\u00b0`
         : `at ${place}\u00b0; defect ${number}\u00b0 long`)
       if (!load) return

@@ -217,12 +217,17 @@ def read_designation(text: str) -> Designation:
     )
 
 
-def _form_and_basic(text: str) -> tuple[re.Match[str], str]:
-    """Return the parts of a designation in capitals and its basic number; else ValueError."""
+def _parse(text: str) -> tuple[re.Match[str] | None, str | None]:
+    """Return the parts of a designation in capitals, and its basic number; None if not listed."""
     name = " ".join(text.upper().replace("–", "-").split())
     name = re.sub(r"^(\d{2,3}) (\d{2})\b", r"\1\2", name)  # "320 08": series, then bore
     form = _FORM.fullmatch(name) if len(name) <= LONGEST_DESIGNATION else None
-    basic = form and _basic(form["letters"] or "", form["number"])
+    return form, form and _basic(form["letters"] or "", form["number"])
+
+
+def _form_and_basic(text: str) -> tuple[re.Match[str], str]:
+    """Return the parts of a designation in capitals and its basic number; else ValueError."""
+    form, basic = _parse(text)
     # steep tapered rollers are not in the table: with another angle they have another inside
     steep = form and basic and _kind_of(basic) == TAPERED_ROLLERS and is_steep(form["suffix"] or "")
     if not form or not basic or steep:
@@ -244,8 +249,7 @@ def _play(kind: str, size: Boundary, clearance_class: str, assumed: list[str]) -
 
 def is_known(text: str) -> bool:
     """Return True if a text names a bearing of the table, also one whose suffix is refused."""
-    form = _FORM.fullmatch(" ".join(text.upper().split()))
-    return form is not None and _basic(form["letters"] or "", form["number"]) is not None
+    return _parse(text)[1] is not None
 
 
 def designations(beginning: str = "") -> Iterator[str]:

@@ -11,7 +11,7 @@ from bearingcore.measured.diagnosis._extent.knocks import (
     Pair as Pair,
     find_knocks as find_knocks,
 )
-from bearingcore.measured.diagnosis._part.combs import HARMONICS as HARMONICS
+from bearingcore.measured.diagnosis._part.combs import HARMONICS as HARMONICS, LOUDEST as LOUDEST
 from bearingcore.measured.diagnosis._part.diagnose import SLIP as SLIP
 from bearingcore.measured.diagnosis._part.evidence import (
     CANNOT_TELL as CANNOT_TELL,

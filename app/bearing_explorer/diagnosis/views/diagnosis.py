@@ -34,7 +34,7 @@ RACES_NAMED = (OUTER, INNER)
 
 ASKING = (
     "Nothing says which bearing was measured, and without it no part can be named: choose it above "
-    "from the list, by its designation, by its frequencies, or as that of the scene."
+    "from the list, by its designation, or by its frequencies."
 )
 MEASURING = "its length is being measured"
 NOTHING_NAMED = "No part is named before the bearing is."

@@ -43,8 +43,8 @@ class MeasuredSignal(MeasuredView):
     name = "measurement"
     title = "1  Your measurement"
     about = (
-        "The vibration a sensor on the housing measures. The bearing and the speed of the scene "
-        "count only if you choose them; step 2 asks for both."
+        "The vibration a sensor on the housing measures. Bearing and speed come from the file or "
+        "from your answers; step 2 asks for both."
     )
     waits = False
 

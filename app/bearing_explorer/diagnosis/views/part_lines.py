@@ -24,7 +24,7 @@ from bearing_explorer.kit.plots.zoom import MOVES
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
 from bearingcore import Diagnosis, PartEvidence
-from bearingcore.measured.diagnosis import NONE_SEEN, PARTS
+from bearingcore.measured.diagnosis import LOUDEST, NONE_SEEN, PARTS, EnvelopeLines
 
 FREQUENCY = style.AxisQuantity("Impact frequency", "f", "Hz")
 ORDER = style.AxisQuantity("Order: times a turn of the shaft", "", "")
@@ -140,7 +140,7 @@ class PartLines:
                 "alpha": np.full(labels.size, 1.0 if part is lead or lead is None else 0.75),
             }
         if lead is not None:
-            sources |= self._lead_sources(lead)
+            sources |= self._lead_sources(lead, spectrum)
         fast = drawn["frequency"] > 0.5 * shaft  # a slow drift must not set the scale
         loudest = float(np.max(drawn["level"][fast], initial=10.0))
         room = name_row * (len(PARTS) + 0.8)
@@ -151,15 +151,18 @@ class PartLines:
             "diagnosis_level": (LOWEST, self._levels.fit(np.array([LOWEST, loudest + head]))[1]),
         }
 
-    def _lead_sources(self, lead: PartEvidence) -> Sources:
-        """Return the marks on the harmonics of the leading part, and its sidebands."""
+    def _lead_sources(self, lead: PartEvidence, spectrum: EnvelopeLines) -> Sources:
+        """Return the marks on the harmonics of the leading part, and its sidebands.
+
+        The evidence counts levels up to LOUDEST; the mark of a higher line is on its peak.
+        """
         multiples = np.arange(1.0, len(lead.harmonics) + 1.0)
-        sources: Sources = {
-            source_of(lead.part, "points"): {
-                "frequency": multiples * lead.frequency,
-                "level": np.maximum(lead.harmonics, LOWEST),
-            }
-        }
+        places = multiples * lead.frequency
+        step = spectrum.frequency[1] - spectrum.frequency[0]
+        near = np.abs(spectrum.frequency - places[:, None]) <= 1.5 * step
+        peaks = np.max(np.where(near, spectrum.level, LOUDEST), axis=1)
+        level = np.where(lead.harmonics < LOUDEST, np.maximum(lead.harmonics, LOWEST), peaks)
+        sources: Sources = {source_of(lead.part, "points"): {"frequency": places, "level": level}}
         if lead.part != "outer race":  # it stands still in the load and has no sidebands
             sidebands = np.array([-lead.sideband_spacing, lead.sideband_spacing])
             both = multiples[:, None] * lead.frequency + sidebands

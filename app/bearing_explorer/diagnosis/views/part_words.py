@@ -14,7 +14,7 @@ from bearing_explorer.diagnosis.views.part_lines import COLORS, NAMES, leading
 from bearing_explorer.kit.plots import style
 from bearingcore import Diagnosis, MeasuredExtent, PartEvidence, Sizing
 from bearingcore.common import percent_off, probability, span
-from bearingcore.measured.diagnosis import LIKELY, NONE_SEEN, OUTER, SLIP, perhaps_a_ball
+from bearingcore.measured.diagnosis import LIKELY, LOUDEST, NONE_SEEN, OUTER, SLIP, perhaps_a_ball
 
 COUNTED = (
     " The number of {} is an estimate: with another one, damage of a race shows at another "
@@ -280,7 +280,10 @@ def _evidence_row(part: PartEvidence, answer: Diagnosis, several: bool) -> str:
         _cell(f"{part.order:.3f}" if known else "?", f"of {part.nominal_order:.3f}"),
         _cell(f"{style.number(part.frequency, 4)} Hz", slip if known else "not known"),
         *(
-            _cell(decibels(level), tag='td class="clear"' if lead and level > part.noise else "td")
+            _cell(
+                f"{'≥ ' if level >= LOUDEST else ''}{decibels(level)}",
+                tag='td class="clear"' if lead and level > part.noise else "td",
+            )
             for level in part.harmonics.tolist()
         ),
         _cell(decibels(part.level), f"noise {decibels(part.noise)}"),

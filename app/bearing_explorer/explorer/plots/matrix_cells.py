@@ -15,7 +15,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import panel as pn
 from bokeh import models
 from bokeh.plotting import figure
 from numpy.typing import NDArray
@@ -91,27 +90,16 @@ def matrix_figure(
     x: tuple[float, float],
     y: tuple[float, float],
     looks: str = "",
-    least_width: int = 340,
     **options: Any,
 ) -> figure:
-    """Make a figure for cells; `looks` are further styles.
-
-    Its words need the `least_width` [px]; on a phone `scrolled` lets it scroll in its card.
-    """
+    """Make a figure for cells, as wide as its card; `looks` are further styles."""
     plot = style.bare_figure(models.Range1d(*x), models.Range1d(*y), **options)
     plot.toolbar_location = "left"  # on the right it would lie on the last column
     # Panel would give a `min_width` of the figure to the whole card, so a style sheet sets it
     plot.min_width = None
-    least = f"min-width: var(--matrix-width, {least_width}px);"
-    plot.stylesheets = [f":host {{ {least} }} {looks}"]
+    plot.stylesheets = [looks]
     plot.tags = [printed.WIDE]
     return plot
-
-
-def scrolled(plot: figure) -> pn.Column:
-    """The figure in a frame that scrolls."""
-    scroll = ":host { overflow-x: auto; max-width: 100%; }"
-    return pn.Column(plot, sizing_mode="stretch_both", margin=0, stylesheets=[scroll])
 
 
 def write(

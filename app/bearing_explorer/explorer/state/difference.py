@@ -75,7 +75,9 @@ def distinct_name(scene: Scene, others: Iterable[Scene], focus: int = 0, bearing
         if field.name in ("extent", "depth"):
             name = usual_name(scene, focus)
         elif field.name in ("fx", "fy"):
-            at_angle = f" at {math.degrees(_direction(scene)) % 360.0:.4g}°" if turned else ""
+            at_angle = (
+                f" at {round(math.degrees(_direction(scene)), 1) % 360.0:.4g}°" if turned else ""
+            )
             name = f"{with_prefix(math.hypot(scene.load.fx, scene.load.fy), 'N')}{at_angle}"
         else:
             name = _read_number(field, changed[field])

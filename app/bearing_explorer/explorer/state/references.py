@@ -81,7 +81,7 @@ def scene_line(bearing: str, scene: Scene) -> str:
     radial = with_prefix(math.hypot(load.fx, load.fy), "N")
     parts = [
         *(defects or ["no defect"]),
-        f"load {radial} at {math.degrees(math.atan2(load.fy, load.fx)) % 360.0:.4g}°",
+        f"load {radial} at {round(math.degrees(math.atan2(load.fy, load.fx)), 1) % 360.0:.4g}°",
         *([f"axial {with_prefix(load.fz, 'N')}"] if load.fz else []),
         f"shaft {scene.shaft_speed / (2.0 * math.pi):.4g} Hz",
     ]

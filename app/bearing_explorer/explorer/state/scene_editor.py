@@ -510,7 +510,7 @@ class SceneEditor:
             "choices": {**chosen_of(scene, self.selected), "preset": self.preset},
             "defects": {
                 "names": [
-                    f"{d.race} race at {math.degrees(d.center) % 360.0:.0f}°" for d in self.defects
+                    f"{d.race} race at {round(math.degrees(d.center)) % 360}°" for d in self.defects
                 ],
                 "selected": self.selected,
                 "most": MOST_DEFECTS,

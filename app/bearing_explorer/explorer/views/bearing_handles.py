@@ -93,4 +93,5 @@ def let_grab(plot: figure, packed: PackedSource, name: str) -> None:
     grab = CustomJS(args={"plot": plot, "source": sources[name]}, code=asset_text("grab.js"))
     sources[name].js_on_change("data", grab)
     plot.js_on_change("inner_width", grab)
+    plot.js_on_change("inner_height", grab)
     plot.x_range.js_on_change("end", grab)

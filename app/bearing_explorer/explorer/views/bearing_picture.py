@@ -29,13 +29,18 @@ CONTACT: Point = (440.0, 142.0)
 
 @lru_cache(maxsize=32)
 def bearing_picture(bearing: Bearing) -> str:
-    """The SVG: section to scale, enlarged contact, front view, and the law of the contact."""
+    """The SVG: section to scale, enlarged contact, front view, and the law of the contact.
+
+    On a narrow page the style sheet puts all but the section below it.
+    """
     enlarged = _line_contact if bearing.kind.picture.element == "roller" else _grooves
-    parts = [*_section(bearing), *enlarged(bearing), *_front(bearing), *_law(bearing)]
+    details = "".join([*enlarged(bearing), *_front(bearing), *_law(bearing)])
+    parts = _shape("g", "".join(_section(bearing)), cls="section")
+    parts += _shape("g", details, cls="details")
     words = "Cross-section of the bearing with its dimensions"
     return (
-        f'<svg viewBox="0 0 740 400" role="img" class="picture" aria-label="{words}">'
-        f"{''.join(parts)}</svg>"
+        '<svg viewBox="0 0 740 400" preserveAspectRatio="xMinYMin" role="img" class="picture" '
+        f'aria-label="{words}">{parts}</svg>'
     )
 
 

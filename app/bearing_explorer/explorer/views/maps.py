@@ -45,9 +45,11 @@ GREATEST = 65534
 """Whole number of the upper end of a map's scale; the lower end is 0."""
 MOST_LEVELS_NAMED = 14
 """Most steps of the scale of loaded balls that are all numbered."""
-HEIGHT = 460
+HEIGHT = 385
 NARROWEST = 700
 """Width [px] below which the maps have no room for their values at the cross."""
+PHONE = 540
+"""Width [px] below which numbers beside the scales are upright and the legend is short."""
 
 _TO_TWO_SIGNS, _TO_ONE_SIGN = 0.03, 0.01
 """Ratio of the smaller to the greater sign: a map gets two signs above the first, one below the
@@ -110,7 +112,7 @@ class StiffnessMaps(View):
             ".bk-events.bk-events:focus { outline: none; }"  # a click needs no mark of the focus
         )
         plot = matrix_cells.matrix_figure(
-            (-0.12, 5.23), (-5.1, 0.09), looks, 560, height=HEIGHT, name="maps_drawing"
+            (-0.22, 5.25), (-5.25, 0.09), looks, height=HEIGHT, name="maps_drawing"
         )
         cells = packed.source("maps_cells", *_CELL_COLUMNS, *_PLACES_OF_CELLS)
         grid = packed.source("maps_grid", *_GRID)
@@ -142,7 +144,7 @@ class StiffnessMaps(View):
             greatest=GREATEST,
         )
         matrix_cells.axes_when_zoomed(plot, _CELLS, _SCALE_OF, [grid])
-        return matrix_cells.scrolled(plot)
+        return plot
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         """Points as whole numbers, their scales, and the positions of the sliders."""
@@ -396,11 +398,12 @@ def _images(plot: figure, points: ColumnDataSource) -> ColumnDataSource:
 
 
 _LEGEND = (
-    "Stiffness k of each displacement",
-    "(column) against each load (row).",
-    "Cross: current extent, cage angle.",
-    "Hatched: no answer.",
+    ("Stiffness k of each displacement", "Up: length Δφf"),
+    ("(column) against each load (row).", "Across: angle"),
+    ("Cross: current extent, cage angle.", "Cross: current"),
+    ("Hatched: no answer.", "Hatched: none"),
 )
+"""Lines, and what they say where there is less room."""
 
 
 def _names(plot: figure, grid: ColumnDataSource) -> None:
@@ -408,14 +411,16 @@ def _names(plot: figure, grid: ColumnDataSource) -> None:
     matrix_cells.write_names(plot, _CELLS)
     centered = {"text_align": "center", "text_color": style.INK}
     up = ColumnDataSource({"x": [_BALLS.left], "y": [0.5 * (_BALLS.bottom + _BALLS.top)]})
-    extent = "return 'Length of the defect Δφf (°)'"
-    matrix_cells.write(plot, up, extent, angle=0.5 * math.pi, x_offset=-31, **centered)
+    extent = "return narrow ? '' : 'Length of the defect Δφf (°)'"
+    beside = {"angle": 0.5 * math.pi, "x_offset": -31, "fitting": PHONE}
+    matrix_cells.write(plot, up, extent, **beside, **centered)
     words = "return row.of_shaft ? 'Shaft angle φs (°)' : 'Cage angle φc (°)'"
     at = {"x": 0.5 * (_BALLS.left + _BALLS.right), "y": _BALLS.bottom, "y_offset": 36}
     matrix_cells.write(plot, grid, words, text_font_size=style.TEXT_SIZE, **at, **centered)
     y = [-2.3 - 0.13 * line for line in range(len(_LEGEND))]
-    legend = {"x": [0.12] * len(y), "y": y, "text": _LEGEND}
-    matrix_cells.write(plot, ColumnDataSource(legend), "return row.text")
+    text, short = zip(*_LEGEND, strict=True)
+    legend = ColumnDataSource({"x": [0.12] * len(y), "y": y, "text": text, "short": short})
+    matrix_cells.write(plot, legend, "return narrow ? row.short : row.text", fitting=PHONE)
 
 
 _UNIT = f"""
@@ -423,13 +428,13 @@ const unit = {[*matrix_cells.UNITS, ""]}[row.unit]
 const e = power(Math.max(Math.abs(row.low), Math.abs(row.high)))
 """
 _END = f"""{_UNIT}
-if (!unit || row.kind == 3 || isNaN(row.low)) return ''
-return minus(String(Number((row.%s/10**e).toPrecision(4))))
+if (narrow !== %s || !unit || row.kind == 3 || isNaN(row.low)) return ''
+return minus(String(Number((row.%s/10**e).toPrecision(narrow ? 2 : 4))))
 """
 _NOW = f"""{_UNIT}
 if (narrow && unit) return ''  // it would lie on the symbol
 if (isNaN(row.now)) return 'no value'
-if (!unit) return row.now + (row.now == 1 ? ' ball' : ' balls') + ' at the cross'
+if (!unit) return row.now + (row.now == 1 ? ' ball' : ' balls') + (narrow ? '' : ' at the cross')
 return rounded(row.now/10**e, 3) + '\\u00a0' + names[e] + unit
 """
 _ZERO = f"{_UNIT}return unit && row.kind == 1 ? '0' : ''"
@@ -439,13 +444,14 @@ _ONLY = "return row.at == %d ? String(Number(row.value.toPrecision(4))) + '%s' :
 
 def _scales(plot: figure, cells: ColumnDataSource) -> None:
     """Write the numbers of the colour scales, values at the cross, and why a map is zero."""
-    for code, y, baseline in (
-        (_END % "low", "bottom", "bottom"),
-        (_END % "high", "top", "top"),
-        (_ZERO, "middle", "middle"),
-    ):
-        place = {"x": "bar", "y": y, "x_offset": 4}
-        matrix_cells.write(plot, cells, code, text_baseline=baseline, **place)
+    place = {"x": "bar", "x_offset": 4, "fitting": PHONE}
+    for end, side in (("low", "bottom"), ("high", "top")):
+        level = {"text_baseline": side, "y": side}
+        matrix_cells.write(plot, cells, _END % ("false", end), **place, **level)
+        upright = {"angle": 0.5 * math.pi, "text_align": "left" if end == "low" else "right"}
+        level |= {"text_baseline": "top"}
+        matrix_cells.write(plot, cells, _END % ("true", end), **place, **level, **upright)
+    matrix_cells.write(plot, cells, _ZERO, **place, y="middle", text_baseline="middle")
     above = {"x": "bar", "y": "top", "x_offset": 20, "y_offset": -6}
     matrix_cells.write(plot, cells, _NOW, fitting=NARROWEST, text_align="right", **above)
     inside = {"x": "left", "y": "top", "x_offset": 8, "y_offset": 8}

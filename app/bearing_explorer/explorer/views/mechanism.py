@@ -14,7 +14,8 @@ from bearing_explorer.explorer.views.folded_view import FoldedView
 from bearing_explorer.kit.plots import layers, style
 from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
-from bearingcore.model.dynamics import LOWEST_COMPARED
+from bearingcore.common import prefixed_span
+from bearingcore.model.dynamics import LOWEST_COMPARED, contact_resonance_band
 
 SHARE = style.AxisQuantity("Share that mass adds", "", "%")
 ROOM = 1.06
@@ -106,7 +107,7 @@ class WhichMechanism(FoldedView[Results]):
         mass = results.ball_mass
         if not np.isfinite(mass.share).any():
             return "There is no settled motion to compute the power from."
-        words = mechanism_words(mass)
+        words = f"{mechanism_words(mass)} {_why_mass_matters(mass)}".rstrip()
         if mass.comparison is None:
             return f"{words} The motion is too short to show where massless balls will do."
         up_to = mass.comparison.massless_up_to
@@ -114,6 +115,19 @@ class WhichMechanism(FoldedView[Results]):
             lowest = _hertz(LOWEST_COMPARED)
             return f"{words} The mass of the balls makes a difference from {lowest} on."
         return f"{words} Up to {_hertz(up_to)} the mass of the balls makes no difference."
+
+
+def _why_mass_matters(mass: BallMass) -> str:
+    """Say why massless balls are wrong at high frequencies; empty if no ball carries load."""
+    low, high = contact_resonance_band(mass.scene)
+    if not low > 0.0:
+        return ""
+    return (
+        "A massless ball is in balance with both races at every instant. A real one is a mass "
+        f"between two contact springs. It swings there at {prefixed_span(low, high, 'Hz')}, and a "
+        "strike lasts no longer than half a swing, so it reaches frequencies that massless balls "
+        "do not."
+    )
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         return results.ball_mass.share_table().named()

@@ -40,11 +40,11 @@ class PaperFigures(View[Results]):
     """The numbers of one figure of the paper, with a button for each figure."""
 
     name = "paper"
-    title = "Figures of the paper"
+    title = "Figures of the paper in numbers"
     about = (
-        "Figures 3 to 10 of the paper, computed anew. Petersen, Howard and Prime (2014). The scene "
-        "stays as it is until you open a figure or Section 4. Section 4 simulates the signal of a "
-        "spall and finds its length on the Diagnosis tab."
+        "What the paper prints, and what is computed here. Figures 3 to 10 of Petersen, Howard and "
+        "Prime (2014). The scene stays as it is until you open a figure or Section 4. Section 4 "
+        "simulates the signal of a spall and finds its length on the Diagnosis tab."
     )
     computes = True
 

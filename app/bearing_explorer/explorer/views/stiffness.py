@@ -95,7 +95,7 @@ class Stiffness(ComparingView):
         units = [*UNITS, ""]
         matrix_cells.axes_when_zoomed(plot, _FRAMES, _SCALE_OF, [cells, axis], units=units)
         matrix_cells.enlarge_on_click(plot)
-        return matrix_cells.scrolled(plot)
+        return plot
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         """Traces of all scenes, scaled to their cells, with limits and present values."""

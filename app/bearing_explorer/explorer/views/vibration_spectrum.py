@@ -122,7 +122,9 @@ class VibrationSpectra(ComparingView, LookView[Results]):
     about = (
         "Spectrum of the housing's acceleration. Power spectral density along x and y once the "
         "start has died away; it resolves 32 Hz. Grey: {grey}. Shaded: the bands of the natural "
-        "frequencies."
+        "frequencies. Massless balls are in balance with both races at every instant, so they "
+        "never strike one, and above some kilohertz they shake the housing too little. The card "
+        "on the two mechanisms, below, says from which frequency on."
     )
     needs = frozenset({"motion", "late_spectra", "reference", "bands", "ranges"})
     look_fields = (AXIS, GREY)

@@ -14,10 +14,11 @@ from bearing_explorer.diagnosis.simulated import simulated
 from bearing_explorer.diagnosis.views import part_words
 from bearing_explorer.diagnosis.views.diagnosis import PartDiagnosis, panel_state
 from bearing_explorer.diagnosis.views.next_steps import work_order
-from bearing_explorer.diagnosis.views.part_lines import FAINT, STRONG
+from bearing_explorer.diagnosis.views.part_lines import FAINT, STRONG, PartLines
 from bearing_explorer.kit.serve.packed_source import PackedSource
 
 from bearingcore import Diagnosis, Recording, presets
+from bearingcore.measured.diagnosis import LOUDEST
 from tests.helpers.measuring import at, measuring
 
 MOTOR = presets["6205"]
@@ -207,6 +208,12 @@ def test_lines_that_count_are_strong_where_found_and_others_faint_where_geometry
     orders = ranges["diagnosis_order"]
     assert orders[1] == pytest.approx(high / 29.95, rel=0.01)
     assert ranges["diagnosis_level"][1] > spectrum["level"][spectrum["frequency"] > 20.0].max()
+    cut, lines = dataclasses.replace(own, harmonics=np.full(6, LOUDEST)), diagnosis.spectrum
+    raised = dataclasses.replace(lines, level=lines.level + 60.0)
+    marks = PartLines(PackedSource())._of_lead(cut, raised)
+    near = np.abs(lines.frequency - own.frequency) < 0.3
+    level = marks[f"diagnosis_{truth.replace(' ', '_')}_points"]["level"]
+    assert level[0] == 60.0 + lines.level[near].max(), "a mark is on its peak"
 
 
 # -- the evidence ----------------------------------------------------------------------------------

@@ -38,6 +38,7 @@ def matches(text: str) -> list[tuple[str, str]]:
         ("nj 208", ("NJ 208", "estimated")),
         ("nj 2", ("NJ204", "estimated")),
         ("32208", ("32208", "estimated")),
+        ("320 08", ("32008", "estimated")),
         ("30308 face to face", ("30308 face to face", "estimated")),
         ("paderborn", ("6203, Paderborn", "")),
     ],

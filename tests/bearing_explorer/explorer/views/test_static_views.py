@@ -423,7 +423,7 @@ def test_the_picture_shows_what_a_kind_of_bearing_is_given_by(name: str) -> None
     """Well-formed, all balls in front, and arrows for no more than there are controls."""
     bearing = presets[name].bearing
     drawn = ElementTree.fromstring(bearing_picture(bearing))
-    groups = {group.get("data-name"): group for group in drawn.findall("g")}
+    groups = {group.get("data-name"): group for group in drawn.iter("g")}
     assert len(groups["n_balls"].findall("circle")) == bearing.n_balls
     assert ("inner_groove_radius_mm" in groups) == bearing.is_drawn
     assert ("roller_length_mm" in groups) == (bearing.kind.element == "roller")

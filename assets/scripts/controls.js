@@ -16,7 +16,7 @@ export function render({ model }) {
   const still = matchMedia("(prefers-reduced-motion: reduce)").matches
   const panel = make_rows(model, { changed: (name) => {
     count_changed()
-    if (name === spec.extent) show_spacings()
+    if (name === spec.extent) show_cue()
   } })
   const { rows, values, send } = panel
 
@@ -182,19 +182,24 @@ export function render({ model }) {
   const form = panel.form({ "aria-label": "Scene" }, search.root, main, tools, rest, all)
 
   // Ball spacings on the slider of the length, and a cue as a hand crosses one.
-  const cue = element("p", { class: "note cue", role: "status" })
+  const cue = element("p", { class: "cue", role: "status" })
   rows[spec.extent].root.append(cue)
   rows[spec.extent].slider.classList.add("spaced")
-  let inside_before = null, flash  // of its opacity, one at a time: else all of the page is painted at each frame
   const show_spacings = () => {
-    const { least, most } = panel.limits[spec.extent], count = Math.floor(values[spec.extent] / spacing + 1e-9)
+    const { least, most } = panel.limits[spec.extent]
     rows[spec.extent].slider.style.setProperty("--spacing", spacing / (most - least))
     rows[spec.extent].slider.title = `Ticks: rolling elements are ${spacing.toFixed(1)}\u00b0 apart`
+  }
+  let inside_before = null, flash  // one animation, of opacity: any other paints all of the page
+  const show_cue = () => {
+    const count = Math.floor(values[spec.extent] / spacing + 1e-9)
     if (count === inside_before) return
-    cue.hidden = !count
-    cue.textContent = `Now always at least ${count === 1 ? "one rolling element" : `${count} rolling elements`} inside`
-    flash?.cancel()
-    if (inside_before !== null) flash = cue.animate({ opacity: [0.7, 0] }, { duration: still ? 0 : 1200, pseudoElement: "::after" })
+    cue.textContent = count && `Now always at least ${count === 1 ? "one rolling element" : `${count} rolling elements`} inside`
+    if (inside_before !== null && !still) {
+      flash ??= cue.animate({ opacity: [0.7, 0] }, { duration: 1200, pseudoElement: "::after" })
+      flash.currentTime = 0
+      flash.play()
+    }
     inside_before = count
   }
 
@@ -241,6 +246,8 @@ export function render({ model }) {
       selected = state.defects.selected
       list_defects(state.defects)
     }
+    show_spacings()
+    show_cue()
     count_changed()
   }
   take(model.state)

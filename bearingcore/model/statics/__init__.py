@@ -32,6 +32,7 @@ from bearingcore.model.statics._life_words import (
     turns_in_words as turns_in_words,
 )
 from bearingcore.model.statics._limit import (
+    NO_DRAWING as NO_DRAWING,
     NO_OIL as NO_OIL,
     Limit as Limit,
     summary as summary,
@@ -70,7 +71,6 @@ from bearingcore.model.statics._ranges import (
 )
 from bearingcore.model.statics._usual import scene_of as scene_of
 from bearingcore.model.statics._validity import (
-    NO_DRAWING as NO_DRAWING,
     limits as limits,
     state_of_limits as state_of_limits,
 )

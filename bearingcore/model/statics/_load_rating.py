@@ -12,9 +12,9 @@ from __future__ import annotations
 import math
 
 from bearingcore.bearings import USUAL_GROOVES, Bearing, BearingLike, bearing_of
-from bearingcore.bearings._drawing import WIDEST_CONFORMITY
 from bearingcore.bearings._ratings import capacity_factor, dynamic_rating, roller_dynamic_rating
 from bearingcore.common import _checks as checks
+from bearingcore.fields import WIDEST_CONFORMITY
 
 GIVEN, OF_A_CATALOGUE = "given", "of a catalogue, by the bearing's number"
 """Origins of a rating."""

@@ -352,7 +352,7 @@ def _angle(basic: str, size: Boundary, stated: float | None, assumed: list[str])
     if stated is None:
         angle = number(math.degrees(rated))
         assumed.append(
-            f"a contact angle of {angle}°, as no letter says it (B is 40°, AC 25°, C 15°)"
+            f"a contact angle of {angle}°, as no letter states it (B is 40°, AC 25°, C 15°)"
         )
         return rated
     return math.radians(stated)

@@ -424,7 +424,7 @@ def _mount(
     """
     if not meaning.arrangement:
         if kind == TAPERED_ROLLERS:
-            assumed.append("neither clearance nor preload, which are set as it is mounted")
+            assumed.append("neither clearance nor preload, which are set at mounting")
         elif meaning.matched:
             assumed.append(f"no clearance, as {meaning.matched} is that of two such bearings")
         return bearing

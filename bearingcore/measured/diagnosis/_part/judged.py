@@ -639,8 +639,8 @@ def _race_or_ball(deviation: float, slip: float) -> float:
 def _lead_over_gaps(depth: NDArray[np.float64]) -> float:
     """Return the level [dB] of lines (HARMONICS,) between those of a comb at a multiple, over GAPS.
 
-    Blows show in all lines. Beats of tones, as of an inverter, at twice or three times the
-    frequency have lines with gaps between them.
+    Blows show in all lines. Beats of tones, such as those of an inverter, at twice or three times
+    the frequency leave gaps between their lines.
     """
     number = np.arange(1, len(depth) + 1)
     above = [

@@ -356,7 +356,7 @@ def _angle(basic: str, size: Boundary, stated: float | None, assumed: list[str])
     if stated is None:
         angle = number(math.degrees(rated))
         assumed.append(
-            f"a contact angle of {angle}°, as no letter says it (B is 40°, AC 25°, C 15°)"
+            f"a contact angle of {angle}°, as no letter states it (B is 40°, AC 25°, C 15°)"
         )
         return rated
     return math.radians(stated)
@@ -428,7 +428,7 @@ def _mount(
     """
     if not meaning.arrangement:
         if kind == TAPERED_ROLLERS:
-            assumed.append("neither clearance nor preload, which are set as it is mounted")
+            assumed.append("neither clearance nor preload, which are set at mounting")
         elif meaning.matched:
             assumed.append(f"no clearance, as {meaning.matched} is that of two such bearings")
         return bearing

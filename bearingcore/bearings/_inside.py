@@ -129,8 +129,8 @@ def accuracy(kind: Kind, contact_angle: float) -> str:
     if not contact_angle or not kind.has_drawing:
         return words
     return (
-        f"{words} Spindle bearings differ most: of {SPINDLE_BEARINGS} bearings of SNFA, "
-        f"{SAME_BALLS} have the estimated number and {ONE_OFF} one more or less. Count the balls."
+        f"{words} Spindle bearings differ most: of {SPINDLE_BEARINGS} of SNFA {SAME_BALLS} have "
+        f"the number estimated here, {ONE_OFF} one more or less. Count the balls."
     )
 
 

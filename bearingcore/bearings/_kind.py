@@ -67,8 +67,7 @@ class Kind:
     needed_directions
         directions that a general load moves if this bearing alone holds the shaft.
     carries
-        a clause on what a bearing without the other directions carries; empty if all five are
-        possible.
+        a clause on the loads that the bearing carries; empty if all five directions are possible.
     left_out
         the reason why fewer than five directions are possible; empty if all five are.
     shoulders

@@ -58,12 +58,12 @@ def change_rows(bearing: InRows, changes: Mapping[str, Any]) -> tuple[Row, ...]:
             wanted = "nothing where preload is given, and for rows in tandem"
             raise checks.refuse("preload_force", of_pair["preload_force"], wanted)
         preload = _displacement(bearing, of_pair["preload_force"])
-    made = pair(distance, arrangement, preload)
+    paired = pair(distance, arrangement, preload)
     if preload != 0.0 and bearing.contact_angle == 0.0:
         raise checks.refuse("preload", preload, "0 m at a contact angle of 0")
     return tuple(
         dataclasses.replace(row, place=new.place, offset=new.offset)
-        for row, new in zip((low, high), made, strict=True)
+        for row, new in zip((low, high), paired, strict=True)
     )
 
 

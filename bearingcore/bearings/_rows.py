@@ -55,9 +55,9 @@ class Rows(Ball):
         return (*names, "row_distance", *(("preload",) if arrangement != "tandem" else ()), *second)
 
     def contact(self, bearing: InRows) -> Contact:
-        """Contact of a row, whose inner groove centres lie where the line of contact meets r_d.
+        """Return the contact of a row; at r_d, lines of contact meet the inner groove centres.
 
-        They are (r_d − D_p/2) tan α0 beyond the centres of the balls; for a bearing with a drawing
+        These are (r_d − D_p/2) tan α0 beyond the centres of the balls; for a bearing with a drawing
         this is (r_i − D_b/2) sin α0.
         """
         beyond = bearing.groove_center_radius - 0.5 * bearing.pitch_diameter

@@ -69,7 +69,7 @@ GOST = (
     "a number of ISO, in Latin letters: with Cyrillic ones it is of GOST 3189, in which the same "
     "digits may be another bearing"
 )
-BORE = "one whose number says the bore: bores behind a slash, as in 32307/37, are not known"
+BORE = "one whose number states the bore: bores behind a slash, as in 32307/37, are not known"
 SPACED = (
     "one without spacers, as their width is not stated: take the pair and change the distance of "
     "its rows"

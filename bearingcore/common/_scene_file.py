@@ -80,7 +80,7 @@ def to_data(value: Any) -> dict[str, Any]:
 
 
 def from_data(kind: type[T], name: str, data: object, *, top: bool = False) -> T:
-    """Return the dataclass that `to_data` has made plain; errors call it `name`.
+    """Return the dataclass from plain data, as made by `to_data`; errors call it `name`.
 
     Errors about the `top` table of a file name only the fields.
 

@@ -205,12 +205,12 @@ def table_of(
 
     Instead of numbers a column may have the name of an attribute of the objects in `of`.
     """
-    made = []
+    table = []
     for name, unit, values, *meaning in columns:
         if isinstance(values, str):
             values = [getattr(item, values) for item in of]
-        made.append(Column(name, unit, np.asarray(values).ravel(), meaning[0] if meaning else ""))
-    return ResultTable(made)
+        table.append(Column(name, unit, np.asarray(values).ravel(), meaning[0] if meaning else ""))
+    return ResultTable(table)
 
 
 def shown_as_table(result: type[T]) -> type[T]:

@@ -270,6 +270,7 @@ def measure_extent(
 def _answer(
     knocks: Knocks, bearing: Bearing, race: str, offsets: tuple[float, float, float]
 ) -> MeasuredExtent:
+    """Return the extent by the knocks and the offsets (low, middle, high) [rad]."""
     spacing, (least, offset, most) = bearing.ball_spacing, offsets
     answer = MeasuredExtent(
         race,

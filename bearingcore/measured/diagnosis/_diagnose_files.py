@@ -169,6 +169,7 @@ def _diagnose_folder(
 def _diagnose_file(
     path: Path, bearing: BearingLike | None, shaft_speed: Any, choices: Any, more: Any
 ) -> Diagnosis:
+    """Diagnose a file; arguments that are missing are taken from the file if it is sure of them."""
     table = table_at(path)
     contents = table.contents
     finding, speed = contents.bearing, contents.shaft_speed

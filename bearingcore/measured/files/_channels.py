@@ -276,7 +276,7 @@ def _choose_by_direction(columns: Sequence[Column], signals: Sequence[int], why:
     if by_name:
         return Choice(by_name, why)
     if len(signals) == 1:
-        only = "the only signal there; its direction is not said"
+        only = "the only signal there; its direction is not stated"
         return Choice({"y": signals[0]}, f"{why}, {only}" if why else only)
     question = (
         f"The file holds {len(signals)} signals, and nothing says where or in which direction they "

@@ -377,6 +377,7 @@ def _moves(signal: Array) -> bool:
 def _rate(
     table: FileColumns, sampling: Sampling | None, named: Sequence[Named], known: Collection
 ) -> Finding[float] | None:
+    """Return the sample rate [Hz] by the format, by times and by facts; doubted if they differ."""
     if table.sample_rate is not None:
         return Finding(table.sample_rate, "the head of the file")
     fact = facts.sample_rate_in([*named, *_constants(table)], table.name)
@@ -395,6 +396,7 @@ def _rate(
 def _unit(
     table: FileColumns, columns: Sequence[Column], picked: Sequence[int], known: Collection
 ) -> Finding[str]:
+    """Return the unit of the picked columns by headings, lines, the collection, or their level."""
     with_unit = [columns[index] for index in picked if columns[index].unit]
     if len({column.unit for column in with_unit}) == 1:
         return Finding(with_unit[0].unit or "", f"the name “{with_unit[0].name}”")
@@ -435,6 +437,7 @@ def _unit_by_level(signals: Array, all_signals: Array) -> Finding[str]:
 def _speed(
     table: FileColumns, columns: Sequence[Column], named: Sequence[Named]
 ) -> Finding[float] | None:
+    """Return the shaft speed [rad/s] by a column of speeds, else by facts."""
     for index in shafts.angle_columns(columns):
         unit, words = columns[index].unit or "", f"the column “{columns[index].name}”"
         speeds = shafts.measured_speeds(table.columns[:, index]) if unit in SPEEDS else np.zeros(0)

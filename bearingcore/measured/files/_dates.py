@@ -61,6 +61,7 @@ def time_in(text: str) -> datetime | None:
 
 
 def _date(match: re.Match[str]) -> datetime | None:
+    """Return the date and time of a match of `_DATE`; None if it is ambiguous or none."""
     part = match.groupdict()
     hour, half = int(part["hour"] or 0), (part["half"] or "").lower()
     if half:

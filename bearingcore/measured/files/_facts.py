@@ -156,6 +156,7 @@ def _read_below(names: str, values: str) -> Iterator[Named]:
 
 
 def _read_line(line: str) -> Iterator[Named]:
+    """Yield the numbers with a name in one line."""
     single = _REMARK.fullmatch(line)
     cells = [cell.strip(' "') for cell in re.split("\t" if "\t" in line else "[;,]", line)]
     several = len(cells) > 2 and re.match(r"[^\W\d]", cells[0]) and _number(cells[1]) is not None

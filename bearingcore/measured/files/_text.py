@@ -95,8 +95,8 @@ def read_text(
     elif any(column_of(name).role == TIME for name in headings):
         columns = columns[~np.isnan(columns).all(axis=1)]  # the times still show the missing rows
     # leave out columns of words, which were read as gaps, but keep dates
-    filled = ~np.isnan(columns).all(axis=0)
-    kept = [i for i in range(columns.shape[1]) if i in style.stamps or filled[i]]
+    filled = [not np.isnan(column).all() for column in columns.T]
+    kept = [i for i, is_filled in enumerate(filled) if i in style.stamps or is_filled]
     if kept:
         columns, headings = columns[:, kept], headings and [headings[i] for i in kept]
     stamps = [kept.index(i) for i in style.stamps]
@@ -114,9 +114,8 @@ def _one_after_another(columns: Array, remarks: Sequence[str]) -> Array:
     width, samples = columns.shape[1], columns.ravel()
     counts = [item.value for item in facts.named_in(remarks) if _COUNT.match(item.name)]
     present = int(np.isfinite(samples).sum())
-    is_one = any(
-        present <= count < present + width for count in counts
-    )  # the last row may lack some
+    # the last row may lack some numbers
+    is_one = any(present <= count < present + width for count in counts)
     return samples[:present, None] if width > 1 and is_one else columns
 
 

@@ -458,8 +458,8 @@ def test_one_of_several_recordings_in_a_file_is_chosen_and_columns_that_are_not_
     assert [value for value, _ in made.state.recordings] == ["", "1", "2"]
     assert "holds 2 recordings" in made.state.remarks
     assert made.state.line.startswith("two.csv, recording 1 of 2 · ")
-    assert "“a z [g]” (along the shaft). The shaft's angle is" in made.state.remarks
-    assert "from the pulses in “tacho [V]”" in made.state.remarks
+    assert "“a z [g]” (along the shaft). The pulses in “tacho [V]”" in made.state.remarks
+    assert "give the shaft's angle" in made.state.remarks
     assert ["file", "from the tachometer: about 6000 rpm"] in made.state.speeds
     answer(made, part="2")
     assert made.measured.recording.acceleration.shape == (800, 2)

@@ -201,7 +201,7 @@ class Knocks:
     Attributes
     ----------
     passes
-        of the bands that were compared, the one that shows the knocks best first.
+        mean passes of the compared bands; the first shows the knocks best.
     frequency
         ball passes a second [Hz].
     n_passes
@@ -458,6 +458,7 @@ def two_peaks(mean_pass: MeanPass, frequency: float) -> Pair | None:
 
 
 def _two_peaks(envelope: Array, error: float, lobes: float) -> Pair | None:
+    """Return the two highest peaks of a smooth envelope; `lobes` is the reach of ripples."""
     from scipy.signal import find_peaks, peak_prominences
 
     shift = int(envelope.argmin())

@@ -88,6 +88,7 @@ def _diagnose(
     speed_source: str,
     measured: bool,
 ) -> Diagnosis:
+    """Diagnose a recording of a steady speed, and check the answer against the shaft's lines."""
     low, high, source = speeds
     signal = ListenedSignal(recording)
     if signal.unusable is not None:

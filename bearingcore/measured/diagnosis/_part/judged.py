@@ -106,7 +106,7 @@ SELDOM, SLIPS = 0.26, 0.25
 """Damaged balls for each damaged race (15 and 57 of the measured records), and the share of the
 slip on which the number of races falls by e: 2 % are beyond the slip. See `_race_or_ball`."""
 
-CARRIED_REACH = 15.0
+CAGE_REACH = 15.0
 """Greatest depth [dB] below a ball's lines at which the cage's sidebands are expected: a load zone
 of half a turn makes the first three on each side 5 to 8 dB fainter than the line, on average."""
 
@@ -207,7 +207,7 @@ def compare(
     compared = [_Comparison(combs, parts, slip, stated or shaft) for combs in resolutions]
     first, ball = compared[0], compared[0].lines_of(BALL)
     # where a ball's broad lines are, in the short segments of the first resolution
-    spin, deviations = find_spin(first.combs, parts, lambda at: first.explained(at, ball))
+    spin, deviations = find_spin(first.combs, parts, lambda hz: first.explained(hz, ball))
     if _cage_lead(compared, spin) < 0.0:
         deviations[BALL] = min(deviations[BALL], 0.0)
     evidence = []
@@ -437,12 +437,12 @@ class _Comparison:
             above = turning - other + SIDEBAND_LEAD + SIDEBAND_MARGIN
         # a line in the windows of a race and of a ball: cage sidebands decide
         place = int(np.abs(combs.frequency - part.frequency).argmin())
-        race = max(level - WEAK_SIDEBANDS, shaft - SIDEBAND_LEAD) - cage
+        as_race = max(level - WEAK_SIDEBANDS, shaft - SIDEBAND_LEAD) - cage
         ball = self.lines_of(BALL).order * combs.shaft
         if part.part != BALL and may_be_ball(part.frequency, ball):
-            above = min(above, race, LEAD + LEAD_SCALE * _race_or_ball(part.slip, self.slip))
+            above = min(above, as_race, LEAD + LEAD_SCALE * _race_or_ball(part.slip, self.slip))
         if part.part == BALL and self._windows_of(OUTER, INNER)[place]:
-            above = min(above, -race)
+            above = min(above, -as_race)
         return replace(part, modulation=modulation, lead=min(part.lead, above, modulation + LEAD))
 
     def lead_over_foreign(self, part: PartEvidence) -> tuple[float, float]:
@@ -474,8 +474,8 @@ class _Comparison:
         # spacings of this bearing's own sidebands, and of parts of the lines
         known = [k * self.cage for k in (1, 2)] + [k * combs.shaft for k in (0.5, 1.0)]
         known += [frequency / k for k in (2, 3, 4)]
-        for own in known:
-            level[np.abs(spacing - own) <= 1.5 * resolution + 0.005 * own] = -np.inf
+        for expected in known:
+            level[np.abs(spacing - expected) <= 1.5 * resolution + 0.005 * expected] = -np.inf
         best = int(level.argmax())
         if level[best] < noise_level(RARE / len(spacing), envelope.levels.averages):
             return math.inf, math.nan
@@ -507,7 +507,7 @@ class _Comparison:
         if math.isnan(shaft + cage):  # lines of the shaft hide the sidebands
             return -math.inf
         noise = noise_level(SIDEBAND_CHANCE, envelope.levels.averages)
-        return min(cage - shaft, cage - level + CARRIED_REACH, cage - noise)
+        return min(cage - shaft, cage - level + CAGE_REACH, cage - noise)
 
     def lead_over_source(self, frequency: float) -> float:
         """Return the lead [dB] of a race's lines over lines whose sidebands they may be.
@@ -542,6 +542,7 @@ class _Comparison:
     def _evidence(
         self, lines: PartLines, envelope: BandLines, frequency: float, others: float
     ) -> PartEvidence:
+        """Return the evidence of lines at a frequency [Hz] in a band; `others` [dB] are rivals."""
         combs = self.combs
         spacing = self.cage if lines.part == BALL else combs.shaft
         gaps = math.inf
@@ -638,8 +639,8 @@ def _race_or_ball(deviation: float, slip: float) -> float:
 def _lead_over_gaps(depth: NDArray[np.float64]) -> float:
     """Return the level [dB] of lines (HARMONICS,) between those of a comb at a multiple, over GAPS.
 
-    Blows show in all lines. Beats of tones, as of an inverter, at twice or three times the
-    frequency have lines with gaps between them.
+    Blows show in all lines. Beats of tones, such as those of an inverter, at twice or three times
+    the frequency leave gaps between their lines.
     """
     number = np.arange(1, len(depth) + 1)
     above = [

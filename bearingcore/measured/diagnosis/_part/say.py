@@ -50,7 +50,7 @@ def too_slow(rate: float, needed: float) -> str:
 def too_far(known: str, end: str, speed: float, why: str) -> str:
     """Sentence for a signal that is unfit at one end of the range of possible speeds [Hz]."""
     return (
-        f"The shaft speed {known}. At the {end} speed looked for, {number(60.0 * speed, 4)} rpm: "
+        f"The shaft speed {known}. At the {end} possible speed, {number(60.0 * speed, 4)} rpm: "
         f"{why} Give the shaft speed; this record may then be enough."
     )
 

@@ -227,7 +227,7 @@ def test_a_short_record_without_a_speed_asks_for_the_speed_and_not_for_a_longer_
     diagnosis = diagnose(half, MOTOR.bearing, None)
     assert diagnosis.status == DiagnosisStatus.SPEED_OPEN
     assert diagnosis.sentence.startswith("No clear result: the shaft speed is not known.")
-    assert "slowest speed looked for, 300 rpm: 0.5 s hold 8 ball passes" in diagnosis.sentence
+    assert "slowest possible speed, 300 rpm: 0.5 s hold 8 ball passes" in diagnosis.sentence
     assert diagnose(half, MOTOR.bearing, MOTOR.shaft_speed).fault == "outer race"
     hopeless = Recording(damaged["outer race"][:300], MOTOR.rate, ("y",))  # 9 at 6000 rpm, too
     assert diagnose(hopeless, MOTOR.bearing, None).status == DiagnosisStatus.TOO_SHORT

@@ -268,7 +268,7 @@ def _static_parts(plot: figure) -> ColumnDataSource:
     plot.segment(**upright, line_color=style.INK, line_alpha=0.45)
     plot.scatter([LEFT + 0.075], [y[2]], size=6, color=style.DEFECTIVE, line_color="white")
     legend = ColumnDataSource({"x": [LEFT + 0.195] * 3, "y": y, "text": ["", "", _NOW_WORDS]})
-    look = {"text_font_size": style.TEXT_SIZE, "text_color": style.INK, "fitting": NARROWEST}
+    look = {"text_font_size": style.TEXT_SIZE, "text_color": style.INK, "fitting": style.NARROW}
     words = "return narrow ? row.text.replace(/ bearing$|^cage /, '') : row.text"
     write(plot, legend, words, text_baseline="middle", **look)
     return legend

@@ -169,7 +169,12 @@ def read_designation(text: str) -> Designation:
         for a text that is no designation, or one of an unknown series or size.
     """
     checks.instance("designation", text, str, 'text such as "6205-2RS/C3"')
-    form, basic = _form_and_basic(text)
+    form, basic = _parse(text)
+    # steep tapered rollers are not in the table: with another angle they have another inside
+    steep = form and basic and _kind_of(basic) == TAPERED_ROLLERS and is_steep(form["suffix"] or "")
+    if not form or not basic or steep:
+        allowed = f"a bearing of the series {series_words()}; {BY_FREQUENCIES}"
+        raise checks.refuse("designation", text[:LONGEST_DESIGNATION], allowed)
     name, letters, suffix = form.string, form["letters"] or "", form["suffix"] or ""
     kind, size = _kind_of(basic), boundaries()[basic]
     meaning = read_suffix(name, kind, suffix, form["count"] or "", form["ceramic"] is not None)
@@ -223,17 +228,6 @@ def _parse(text: str) -> tuple[re.Match[str] | None, str | None]:
     name = re.sub(r"^(\d{2,3}) (\d{2})\b", r"\1\2", name)  # "320 08": series, then bore
     form = _FORM.fullmatch(name) if len(name) <= LONGEST_DESIGNATION else None
     return form, form and _basic(form["letters"] or "", form["number"])
-
-
-def _form_and_basic(text: str) -> tuple[re.Match[str], str]:
-    """Return the parts of a designation in capitals and its basic number; else ValueError."""
-    form, basic = _parse(text)
-    # steep tapered rollers are not in the table: with another angle they have another inside
-    steep = form and basic and _kind_of(basic) == TAPERED_ROLLERS and is_steep(form["suffix"] or "")
-    if not form or not basic or steep:
-        allowed = f"a bearing of the series {series_words()}; {BY_FREQUENCIES}"
-        raise checks.refuse("designation", text[:LONGEST_DESIGNATION], allowed)
-    return form, basic
 
 
 def _play(kind: str, size: Boundary, clearance_class: str, assumed: list[str]) -> float:

@@ -80,9 +80,10 @@ COLLISIONS = """(room) => {
       const middle = { left: 0.5, top: 0.5, center: 0, middle: 0 }
       const across = middle[glyph.text_align.get(i)] ?? -0.5
       const down = middle[glyph.text_baseline.get(i)] ?? -0.5
-      const x = glyph.sx[i] + glyph.x_offset.get(i) + across*width
-      const y = glyph.sy[i] + glyph.y_offset.get(i) + down*height
-      const turned = Math.abs(Math.sin(glyph.angle.get(i))) > 0.7
+      const turned = Math.abs(Math.sin(glyph.angle.get(i))) > 0.7  // upwards
+      const [right, below] = turned ? [down*height, -across*width] : [across*width, down*height]
+      const x = glyph.sx[i] + glyph.x_offset.get(i) + right
+      const y = glyph.sy[i] + glyph.y_offset.get(i) + below
       const [w, h] = turned ? [height, width] : [width, height]
       return [{ text: label.text, left: x - w/2, right: x + w/2, top: y - h/2, bottom: y + h/2 }]
     })

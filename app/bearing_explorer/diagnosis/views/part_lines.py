@@ -121,7 +121,7 @@ class PartLines:
         drawn = {"frequency": frequency, "level": np.maximum(level, LOWEST)}
         sources: Sources = {"diagnosis_spectrum": drawn}
         lead = leading(diagnosis)
-        name_row = ROW_PIXELS / (FRAME + self.plot.height - HEIGHT)
+        name_row = ROW_PIXELS / (FRAME + self.plot.min_height - HEIGHT)
         for row, part in enumerate(diagnosis.evidence):
             first = fundamental(diagnosis, part)
             alpha = EVEN if lead is None else STRONG if part is lead else FAINT

@@ -112,7 +112,7 @@ class StiffnessMaps(View):
             ".bk-events.bk-events:focus { outline: none; }"  # a click needs no mark of the focus
         )
         plot = matrix_cells.matrix_figure(
-            (-0.22, 5.25), (-5.25, 0.09), looks, height=HEIGHT, name="maps_drawing"
+            (-0.22, 5.25), (-5.25, 0.12), looks, height=HEIGHT, name="maps_drawing"
         )
         cells = packed.source("maps_cells", *_CELL_COLUMNS, *_PLACES_OF_CELLS)
         grid = packed.source("maps_grid", *_GRID)
@@ -335,7 +335,8 @@ def _tick_rows(grid: dict[str, float], least: int, most: int) -> dict[str, np.nd
             (_LEFT, grid["y_first"], grid["y_last"]),
             (_FOOT, grid["x_first"], grid["x_last"]),
         ):
-            for value in _round_numbers(first, last, 6 if large else 2):
+            parts = (4 if at_side == _FOOT else 6) if large else 2
+            for value in _round_numbers(first, last, parts):
                 share = np.array((value - first) / (last - first))
                 x = cell.left if side == _LEFT else float(cell.x(share))
                 y = cell.bottom if side == _FOOT else float(cell.y(share, (0.0, 1.0)))
@@ -417,7 +418,7 @@ def _names(plot: figure, grid: ColumnDataSource) -> None:
     words = "return row.of_shaft ? 'Shaft angle φs (°)' : 'Cage angle φc (°)'"
     at = {"x": 0.5 * (_BALLS.left + _BALLS.right), "y": _BALLS.bottom, "y_offset": 36}
     matrix_cells.write(plot, grid, words, text_font_size=style.TEXT_SIZE, **at, **centered)
-    y = [-2.3 - 0.13 * line for line in range(len(_LEGEND))]
+    y = [-2.3 - 0.18 * line for line in range(len(_LEGEND))]
     text, short = zip(*_LEGEND, strict=True)
     legend = ColumnDataSource({"x": [0.12] * len(y), "y": y, "text": text, "short": short})
     matrix_cells.write(plot, legend, "return narrow ? row.short : row.text", fitting=PHONE)
@@ -437,7 +438,7 @@ if (isNaN(row.now)) return 'no value'
 if (!unit) return row.now + (row.now == 1 ? ' ball' : ' balls') + (narrow ? '' : ' at the cross')
 return rounded(row.now/10**e, 3) + '\\u00a0' + names[e] + unit
 """
-_ZERO = f"{_UNIT}return unit && row.kind == 1 ? '0' : ''"
+_ZERO = f"{_UNIT}return unit && row.kind == 1 && !narrow ? '0' : ''"
 _FLAT = f"return row.zero && narrow ? '0' : {list(matrix_cells.ZEROS)}[row.zero]"
 _ONLY = "return row.at == %d ? String(Number(row.value.toPrecision(4))) + '%s' : ''"
 

@@ -71,7 +71,7 @@ class Stiffness(ComparingView):
         self._ball_limits = StickyRange(0.0, 1.0, shrink_below=0.0)
         self._lesson_term, self._lesson_limits = "", StickyRange(0.0, 1.0)
         plot = matrix_cells.matrix_figure(
-            (-0.05, 5.03), (-5.17, 0.11), height=350, name="stiffness_drawing"
+            (-0.12, 5.03), (-5.17, 0.11), height=350, name="stiffness_drawing"
         )
         self._legend = _static_parts(plot)
         cells = packed.source("stiffness_cells", *_CELL_COLUMNS)
@@ -266,8 +266,9 @@ def _static_parts(plot: figure) -> ColumnDataSource:
     plot.segment(**upright, line_color=style.INK, line_alpha=0.45)
     plot.scatter([LEFT + 0.075], [y[2]], size=6, color=style.DEFECTIVE, line_color="white")
     legend = ColumnDataSource({"x": [LEFT + 0.195] * 3, "y": y, "text": ["", "", _NOW_WORDS]})
-    look = {"text_font_size": style.TEXT_SIZE, "text_color": style.INK}
-    write(plot, legend, "return row.text", text_baseline="middle", **look)
+    look = {"text_font_size": style.TEXT_SIZE, "text_color": style.INK, "fitting": style.NARROW}
+    words = "return narrow ? row.text.replace(/ bearing$|^cage /, '') : row.text"
+    write(plot, legend, words, text_baseline="middle", **look)
     return legend
 
 
@@ -276,7 +277,7 @@ _LIMIT = f"""{_UNIT}
 const at_corners = narrow && !row.foot
 if (isNaN(row.low) || row.flat || at_corners !== %s) return ''
 const own = unit ? power(Math.max(Math.abs(row.low), Math.abs(row.high))) : 0
-return minus(String(Number((row.%s/10**(narrow ? row.power : own)).toPrecision(4))))
+return minus(String(Number((row.%s/10**(narrow ? row.power : own)).toPrecision(narrow ? 3 : 4))))
 """
 _SHARED_UNITS = f"""
 if (!narrow) return ''

@@ -19,6 +19,7 @@
     const place = owner(proto, name)
     return place && Object.getOwnPropertyDescriptor(place, name).get
   }
+  const redefine = (proto, name, get) => Object.defineProperty(owner(proto, name), name, { configurable: true, get })
   const part = (name, needed, change) => {
     if (without.includes(name) || without.includes("all")) return
     if (needed.every((one) => typeof one === "function")) change()
@@ -135,11 +136,6 @@
       }
       return kept
     }
-    const cells_of = (xs, ys, { left, right, bottom, top }) => {
-      let k = -1
-      const is_inside = (i, k) => xs[i] >= left[k] && xs[i] <= right[k] && ys[i] >= bottom[k] - 1e-4 && ys[i] <= top[k] + 1e-4
-      return ys.map((_, i) => is_inside(i, k) ? k : k = left.findIndex((_, k) => is_inside(i, k)))
-    }
     addEventListener("explorer-hand", ({ detail: held }) => {
       for (const view of before.keys()) view.request_paint()
       before.clear()
@@ -149,7 +145,10 @@
         const cells = name ? page.get_model_by_name(name) : null  // looks through the whole page
         const kept = spaced(data[x.field], view.glyph)
         const [xs, ys] = [x, y].map(({ field }) => kept.map((i) => data[field][i]))
-        before.set(view, { data, kept, xs, ys, cells, was: cells?.data })
+        const { left, right, bottom, top } = cells?.data ?? {}
+        const is_in = (x, y, k) => x >= left[k] && x <= right[k] && y >= bottom[k] - 1e-4 && y <= top[k] + 1e-4
+        const places = cells && ys.map((y, i) => left.findIndex((_, k) => is_in(xs[i], y, k)))
+        before.set(view, { data, kept, xs, ys, cells, places, was: cells?.data })
       }
     })
     const rescaled = ({ ys, was, places }, { left, bottom, top, low, high }) => {
@@ -177,7 +176,6 @@
       const { data } = this.model.data_source, old = before.get(this)
       if (old && old.data !== data) {
         const { cells, kept, xs, was } = old, now = data[this.glyph.model.y.field]
-        old.places ??= cells && cells_of(xs, old.ys, was)
         const ys = cells && cells.data !== was ? rescaled(old, cells.data) : old.ys
         const differs = (y, i) => Math.abs(y - now[kept[i]]) > 1e-3 || isNaN(y) !== isNaN(now[kept[i]])
         if (!cells || ys.some(differs)) {
@@ -201,26 +199,20 @@
     place.index_data = function () {
       waits.add(this)
     }
-    Object.defineProperty(owner(line, "index"), "index", {
-      configurable: true,
-      get() {
-        if (waits.delete(this)) index_data.call(this)
-        return index.call(this)
-      },
+    redefine(line, "index", function () {
+      if (waits.delete(this)) index_data.call(this)
+      return index.call(this)
     })
   })
 
   // ... and for ranges that follow the lines, which none here does: all are set.
   const followed = getter(figure, "auto_ranged_renderers")
   part("bounds of lines", [followed], () => {
-    Object.defineProperty(owner(figure, "auto_ranged_renderers"), "auto_ranged_renderers", {
-      configurable: true,
-      get() {
-        const all = followed.call(this)
-        const ranges = [...this.frame.x_ranges.values(), ...this.frame.y_ranges.values()]
-        const set = ranges.every(({ type }) => type === "Range1d")
-        return set && all.every(({ model }) => model.coordinates === null) ? [] : all
-      },
+    redefine(figure, "auto_ranged_renderers", function () {
+      const all = followed.call(this)
+      const ranges = [...this.frame.x_ranges.values(), ...this.frame.y_ranges.values()]
+      const set = ranges.every(({ type }) => type === "Range1d")
+      return set && all.every(({ model }) => model.coordinates === null) ? [] : all
     })
   })
 
@@ -248,26 +240,21 @@
       return [...view.ranges.flatMap(ends), view.loc, ...shown]
     }
     const known = (view) => {
-      const key = key_of(view)
+      const key = key_of(view).join()
       let found = kept.get(view)
       if (found === undefined) {
         const { model } = view
-        const forget = () => { kept.set(view, { key: [] }) }
+        const forget = () => { kept.set(view, {}) }
         view.connect(model.change, forget)
         view.connect(model.ticker.change, forget)
         view.connect(model.formatter.change, forget)
       }
-      if (!found || found.key.length !== key.length || found.key.some((v, i) => v !== key[i]))
-        kept.set(view, found = { key, labels: new Map() })
-      found.labels ??= new Map()
+      if (found?.key !== key) kept.set(view, found = { key, labels: new Map() })
       return found
     }
     const numeric = (view) => view.ranges.every((range) => typeof range.start === "number")
-    const keep = (name, compute) => Object.defineProperty(owner(axis, name), name, {
-      configurable: true,
-      get() {
-        return numeric(this) ? known(this)[name] ??= compute.call(this) : compute.call(this)
-      },
+    const keep = (name, compute) => redefine(axis, name, function () {
+      return numeric(this) ? known(this)[name] ??= compute.call(this) : compute.call(this)
     })
     keep("tick_coords", ticks)
     keep("extents", extents)
@@ -285,10 +272,7 @@
   const size = getter(figure, "base_font_size")
   part("size of letters", [size], () => {
     let found = null
-    Object.defineProperty(owner(figure, "base_font_size"), "base_font_size", {
-      configurable: true,
-      get() { return found ??= size.call(this) },
-    })
+    redefine(figure, "base_font_size", function () { return found ??= size.call(this) })
   })
 
   // A tab may be many screens long: a figure that is not nearly in sight is painted once all others
@@ -496,10 +480,7 @@
       gaps.get(this)?.remove()
       uninstall.call(this)
     }
-    Object.defineProperty(sheet, "css", {
-      configurable: true,
-      get() { return unwritten?.get(this) ?? text.call(this) },
-    })
+    redefine(sheet, "css", function () { return unwritten?.get(this) ?? text.call(this) })
   })
 
   // Each part of the page loads the style sheets of Panel for itself, a little later, and the page is
@@ -548,9 +529,8 @@
     const is = (view, name) => view.el.classList.contains(name)
     const is_layout = (view) => view instanceof place.constructor
     const closed = (view) => is_layout(view) && (is(view, "off-screen") || closed(view.parent))
-    Object.defineProperty(owner(column, "layoutable_views"), "layoutable_views", {
-      configurable: true,
-      get() { return laid_out.call(this).filter((view) => !is(view, "off-screen")) },
+    redefine(column, "layoutable_views", function () {
+      return laid_out.call(this).filter((view) => !is(view, "off-screen"))
     })
     const lay_out_all = (view) => {
       write_all(unwritten && new Map())

@@ -4,7 +4,7 @@
 export function render({ model }) {
   const root = markup(CAPTION, {
     png: async () => save_file(file("png"), await figures_as_png(views(), about())),
-    svg: () => save_file(file("svg"), figures_as_svg(views(), about()), "image/svg+xml"),
+    svg: () => save_file(file("svg"), drawing_of_all(views(), about()).text, "image/svg+xml"),
     "copy-picture": async () => {
       const done = await copy_image(figures_as_png(views(), about()))
       announce("said", done ? "The picture is copied." : "This browser does not copy pictures; save it as PNG.")

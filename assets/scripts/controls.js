@@ -182,24 +182,16 @@ export function render({ model }) {
   const form = panel.form({ "aria-label": "Scene" }, search.root, main, tools, rest, all)
 
   // Ball spacings on the slider of the length, and a cue as a hand crosses one.
-  const cue = element("p", { class: "cue", role: "status" })
-  rows[spec.extent].root.append(cue)
-  rows[spec.extent].slider.classList.add("spaced")
-  const show_spacings = () => {
-    const { least, most } = panel.limits[spec.extent]
-    rows[spec.extent].slider.style.setProperty("--spacing", spacing / (most - least))
-    rows[spec.extent].slider.title = `Ticks: rolling elements are ${spacing.toFixed(1)}\u00b0 apart`
-  }
-  let inside_before = null, flash  // one animation, of opacity: any other paints all of the page
+  const cue = element("p", { class: "cue", role: "status" }), row = rows[spec.extent]
+  row.root.append(cue)
+  row.slider.classList.add("spaced")
+  let inside_before = null, flash  // of its opacity, one at a time: else all of the page is painted at each frame
   const show_cue = () => {
     const count = Math.floor(values[spec.extent] / spacing + 1e-9)
     if (count === inside_before) return
-    cue.textContent = count && `Now always at least ${count === 1 ? "one rolling element" : `${count} rolling elements`} inside`
-    if (inside_before !== null && !still) {
-      flash ??= cue.animate({ opacity: [0.7, 0] }, { duration: 1200, pseudoElement: "::after" })
-      flash.currentTime = 0
-      flash.play()
-    }
+    cue.textContent = count ? `Now always at least ${count === 1 ? "one rolling element" : `${count} rolling elements`} inside` : ""
+    flash?.cancel()
+    if (inside_before !== null && !still) flash = cue.animate({ opacity: [0.7, 0] }, { duration: 1200, pseudoElement: "::after" })
     inside_before = count
   }
 
@@ -246,7 +238,9 @@ export function render({ model }) {
       selected = state.defects.selected
       list_defects(state.defects)
     }
-    show_spacings()
+    const { least, most } = panel.limits[spec.extent]
+    row.slider.style.setProperty("--spacing", spacing / (most - least))
+    row.slider.title = `Ticks: rolling elements are ${spacing.toFixed(1)}\u00b0 apart`
     show_cue()
     count_changed()
   }

@@ -19,6 +19,7 @@
     const place = owner(proto, name)
     return place && Object.getOwnPropertyDescriptor(place, name).get
   }
+  const redefine = (proto, name, get) => Object.defineProperty(owner(proto, name), name, { configurable: true, get })
   const part = (name, needed, change) => {
     if (without.includes(name) || without.includes("all")) return
     if (needed.every((one) => typeof one === "function")) change()
@@ -80,6 +81,29 @@
     }
   })
 
+  // Colours, widths and fonts are worked out with each change of the numbers, though only those that a
+  // column holds change with them.
+  const set_visuals = method(line, "set_visuals")
+  part("looks that stay", [set_visuals, method(line, "_iter_visuals")], () => {
+    const counts = new WeakMap()
+    owner(line, "set_visuals").set_visuals = function (source, indices) {
+      if (counts.get(this) === indices.count) return
+      set_visuals.call(this, source, indices)
+      if ([...this._iter_visuals()].some((look) => look.get_value().value === undefined)) return
+      if (!counts.has(this)) this.connect(this.model.change, () => counts.set(this, null))
+      counts.set(this, indices.count)
+    }
+  })
+
+  // All numbers of a column are copied one by one, to leave out those that are not shown.
+  const bits = module("core/util/bitset", "BitSet")
+  const select = method(bits, "select")
+  part("columns that are shown whole", [select], () => {
+    bits.select = function (column) {
+      return this.count === column.length ? column : select.call(this, column)
+    }
+  })
+
   // Words in a figure follow the numbers, and then ask for all that the numbers have asked for.
   const update_data = method(renderer, "update_data")
   part("one update for all that asks for it", [update_data], () => {
@@ -102,36 +126,39 @@
   const paint_glyph = method(renderer, "_paint")
   part("curves of before", [paint_glyph], () => {
     const FAINT = 0.5
-    const before = new Map()  // of each line: its numbers, the source of its cells and their numbers
+    const before = new Map()  // of each line: its numbers, its points and those of its cells
+    // Points a pixel apart: a curve in a cell has three in each.
+    const spaced = ({ length }, { sx = [], sy = [] }) => {
+      const kept = []
+      for (let i = 0, last = -1; i < length; i++) {
+        const is_near = Math.abs(sx[i] - sx[last]) + Math.abs(sy[i] - sy[last]) < 1
+        if (!is_near) kept.push(last = i)
+      }
+      return kept
+    }
     addEventListener("explorer-hand", ({ detail: held }) => {
       for (const view of before.keys()) view.request_paint()
       before.clear()
       const { index, documents: [page] } = globalThis.Bokeh
       for (const view of held ? index.query(({ glyph }) => glyph?.model.type === "Line") : []) {
-        const { data_source: { data }, tags: [name] } = view.model
+        const { data_source: { data }, tags: [name], glyph: { x, y } } = view.model
         const cells = name ? page.get_model_by_name(name) : null  // looks through the whole page
-        before.set(view, { data, cells, was: cells?.data })
+        const kept = spaced(data[x.field], view.glyph)
+        const [xs, ys] = [x, y].map(({ field }) => kept.map((i) => data[field][i]))
+        const { left, right, bottom, top } = cells?.data ?? {}
+        const is_in = (x, y, k) => x >= left[k] && x <= right[k] && y >= bottom[k] - 1e-4 && y <= top[k] + 1e-4
+        const places = cells && ys.map((y, i) => left.findIndex((_, k) => is_in(xs[i], y, k)))
+        before.set(view, { data, kept, xs, ys, cells, places, was: cells?.data })
       }
     })
-    const cells_of_points = new WeakMap()  // by the heights of a curve of before
-    const rescaled = (x, y, was, now) => {
-      if (was.left.length !== now.left.length) return []
-      if (!cells_of_points.has(y)) {
-        const is_inside = (i, k) => x[i] >= was.left[k] && x[i] <= was.right[k]
-          && y[i] >= was.bottom[k] - 1e-4 && y[i] <= was.top[k] + 1e-4
-        let k = -1
-        cells_of_points.set(y, Int16Array.from(y, (_, i) =>
-          is_inside(i, k) ? k : k = was.left.findIndex((_, k) => is_inside(i, k))))
-      }
-      const cells = cells_of_points.get(y), { bottom, top, low, high } = now
+    const rescaled = ({ ys, was, places }, { left, bottom, top, low, high }) => {
+      if (was.left.length !== left.length) return []
       const by = low.map((least, k) => (was.high[k] - was.low[k]) / (high[k] - least))
       const up = low.map((least, k) => bottom[k] + (was.low[k] - least) / (high[k] - least) * (top[k] - bottom[k]))
-      const heights = new Float32Array(y.length)
-      for (let i = 0; i < y.length; i++) {
-        const k = cells[i], height = up[k] + by[k] * (y[i] - bottom[k])
-        heights[i] = height >= bottom[k] && height <= top[k] ? height : NaN
-      }
-      return heights
+      return ys.map((y, i) => {
+        const k = places[i], height = up[k] + by[k] * (y - bottom[k])
+        return height >= bottom[k] && height <= top[k] ? height : NaN
+      })
     }
     // As thin as a pixel, which a browser paints ten times as fast as a line of two.
     const stroke = (ctx, xs, ys) => {
@@ -145,18 +172,17 @@
       }
       ctx.stroke()
     }
-    const differ = (before, now) => before.length !== now.length
-      || before.some((one, i) => Math.abs(one - now[i]) > 1e-3 || isNaN(one) !== isNaN(now[i]))
     renderer._paint = function (ctx) {
-      const { data } = this.model.data_source, { data: old = data, cells, was } = before.get(this) ?? {}
-      if (old !== data) {
-        const { x: { field: x }, y: { field: y } } = this.glyph.model
-        const ys = cells && cells.data !== was ? rescaled(old[x], old[y], was, cells.data) : old[y]
-        if (!cells || differ(ys, data[y])) {
+      const { data } = this.model.data_source, old = before.get(this)
+      if (old && old.data !== data) {
+        const { cells, kept, xs, was } = old, now = data[this.glyph.model.y.field]
+        const ys = cells && cells.data !== was ? rescaled(old, cells.data) : old.ys
+        const differs = (y, i) => Math.abs(y - now[kept[i]]) > 1e-3 || isNaN(y) !== isNaN(now[kept[i]])
+        if (!cells || ys.some(differs)) {
           ctx.save()
           ctx.globalAlpha = FAINT
           this.glyph.visuals.line.set_value(ctx)
-          stroke(ctx, this.xscale.v_compute(old[x]), this.yscale.v_compute(ys))
+          stroke(ctx, this.xscale.v_compute(xs), this.yscale.v_compute(ys))
           ctx.restore()
         }
       }
@@ -173,26 +199,20 @@
     place.index_data = function () {
       waits.add(this)
     }
-    Object.defineProperty(owner(line, "index"), "index", {
-      configurable: true,
-      get() {
-        if (waits.delete(this)) index_data.call(this)
-        return index.call(this)
-      },
+    redefine(line, "index", function () {
+      if (waits.delete(this)) index_data.call(this)
+      return index.call(this)
     })
   })
 
   // ... and for ranges that follow the lines, which none here does: all are set.
   const followed = getter(figure, "auto_ranged_renderers")
   part("bounds of lines", [followed], () => {
-    Object.defineProperty(owner(figure, "auto_ranged_renderers"), "auto_ranged_renderers", {
-      configurable: true,
-      get() {
-        const all = followed.call(this)
-        const ranges = [...this.frame.x_ranges.values(), ...this.frame.y_ranges.values()]
-        const set = ranges.every(({ type }) => type === "Range1d")
-        return set && all.every(({ model }) => model.coordinates === null) ? [] : all
-      },
+    redefine(figure, "auto_ranged_renderers", function () {
+      const all = followed.call(this)
+      const ranges = [...this.frame.x_ranges.values(), ...this.frame.y_ranges.values()]
+      const set = ranges.every(({ type }) => type === "Range1d")
+      return set && all.every(({ model }) => model.coordinates === null) ? [] : all
     })
   })
 
@@ -220,26 +240,21 @@
       return [...view.ranges.flatMap(ends), view.loc, ...shown]
     }
     const known = (view) => {
-      const key = key_of(view)
+      const key = key_of(view).join()
       let found = kept.get(view)
       if (found === undefined) {
         const { model } = view
-        const forget = () => { kept.set(view, { key: [] }) }
+        const forget = () => { kept.set(view, {}) }
         view.connect(model.change, forget)
         view.connect(model.ticker.change, forget)
         view.connect(model.formatter.change, forget)
       }
-      if (!found || found.key.length !== key.length || found.key.some((v, i) => v !== key[i]))
-        kept.set(view, found = { key, labels: new Map() })
-      found.labels ??= new Map()
+      if (found?.key !== key) kept.set(view, found = { key, labels: new Map() })
       return found
     }
     const numeric = (view) => view.ranges.every((range) => typeof range.start === "number")
-    const keep = (name, compute) => Object.defineProperty(owner(axis, name), name, {
-      configurable: true,
-      get() {
-        return numeric(this) ? known(this)[name] ??= compute.call(this) : compute.call(this)
-      },
+    const keep = (name, compute) => redefine(axis, name, function () {
+      return numeric(this) ? known(this)[name] ??= compute.call(this) : compute.call(this)
     })
     keep("tick_coords", ticks)
     keep("extents", extents)
@@ -257,10 +272,7 @@
   const size = getter(figure, "base_font_size")
   part("size of letters", [size], () => {
     let found = null
-    Object.defineProperty(owner(figure, "base_font_size"), "base_font_size", {
-      configurable: true,
-      get() { return found ??= size.call(this) },
-    })
+    redefine(figure, "base_font_size", function () { return found ??= size.call(this) })
   })
 
   // A tab may be many screens long: a figure that is not nearly in sight is painted once all others
@@ -468,10 +480,7 @@
       gaps.get(this)?.remove()
       uninstall.call(this)
     }
-    Object.defineProperty(sheet, "css", {
-      configurable: true,
-      get() { return unwritten?.get(this) ?? text.call(this) },
-    })
+    redefine(sheet, "css", function () { return unwritten?.get(this) ?? text.call(this) })
   })
 
   // Each part of the page loads the style sheets of Panel for itself, a little later, and the page is
@@ -520,9 +529,8 @@
     const is = (view, name) => view.el.classList.contains(name)
     const is_layout = (view) => view instanceof place.constructor
     const closed = (view) => is_layout(view) && (is(view, "off-screen") || closed(view.parent))
-    Object.defineProperty(owner(column, "layoutable_views"), "layoutable_views", {
-      configurable: true,
-      get() { return laid_out.call(this).filter((view) => !is(view, "off-screen")) },
+    redefine(column, "layoutable_views", function () {
+      return laid_out.call(this).filter((view) => !is(view, "off-screen"))
     })
     const lay_out_all = (view) => {
       write_all(unwritten && new Map())

@@ -127,8 +127,6 @@ function drawing_of_all(views, { title, key = "", scene = "", link = "" }) {
   return { text: new XMLSerializer().serializeToString(whole), width, height }
 }
 
-const figures_as_svg = (views, about) => drawing_of_all(views, about).text
-
 // Twice as fine as the screen, or as fine as it is where that is finer.
 async function figures_as_png(views, about) {
   const { text, width, height } = drawing_of_all(views, about)
@@ -142,16 +140,6 @@ async function figures_as_png(views, about) {
   return new Promise((done) => canvas.toBlob(done, "image/png"))
 }
 
-// Whether a picture that is on its way is on the clipboard.
-async function copy_image(png) {
-  try {
-    await navigator.clipboard.write([new ClipboardItem({ "image/png": png })])
-    return true
-  } catch {
-    return false
-  }
-}
-
 function save_file(name, content, type) {
   const link = document.createElement("a")
   link.href = URL.createObjectURL(content instanceof Blob ? content : new Blob([content], { type }))
@@ -160,11 +148,14 @@ function save_file(name, content, type) {
   setTimeout(() => URL.revokeObjectURL(link.href), 10000)
 }
 
-async function copy_text(text) {
+// Tells whether the clipboard has taken something, of which a picture may still be on its way.
+async function is_copied(copy) {
   try {
-    await navigator.clipboard.writeText(text)
+    await copy(navigator.clipboard)
     return true
   } catch {
     return false  // not allowed, or the page is not served safely: a person can copy by hand
   }
 }
+const copy_image = (png) => is_copied((clipboard) => clipboard.write([new ClipboardItem({ "image/png": png })]))
+const copy_text = (text) => is_copied((clipboard) => clipboard.writeText(text))

@@ -18,7 +18,6 @@ _INSIDE = """canvases => canvases.map((canvas) => {
   return [width, height, hash]
 })"""
 
-
 _COMPARED = {"overview": ["overview-bearing", "overview-stiffness"], "load": ["load-distribution"]}
 
 
@@ -39,9 +38,7 @@ def test_every_pixel_is_as_bokeh_paints_it(
             for degrees in (14, 31):
                 move(slider(page, "extent_deg"), degrees)
                 settle(page)
-            slider(page, "extent_deg").dispatch_event(
-                "change"
-            )  # the hand lets go: no curves of before
+            slider(page, "extent_deg").dispatch_event("change")  # lets go of the curves of before
             rest(page)
             canvases = [page.locator(f".view-{view} canvas") for view in views]
             pixels += [canvas.evaluate_all(_INSIDE) for canvas in canvases]

@@ -62,11 +62,11 @@ def diagnosed(measured: Measured, scene: Scene = OTHER) -> Measurement:
     extent.measure(made)
     question = extent.question()
     assert question is not None
-    made.extents.keep(question, extent_of(question))
+    made.extents.keep(question, measured_extent(question))
     return made
 
 
-diagnosis = cache(answered)
+diagnosis, measured_extent = cache(answered), cache(extent_of)
 
 
 def view_of(made: Measurement, support: str) -> WhichLength:

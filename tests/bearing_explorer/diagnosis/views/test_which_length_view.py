@@ -131,6 +131,7 @@ def test_verdict_summary_and_report_carry_the_length(view: WhichLength) -> None:
     assert "Which length" in page["html"]
 
 
+@pytest.mark.proof
 def test_of_a_file_it_needs_a_machine_that_is_said_to_be_known() -> None:
     made = diagnosed(of_file())
     view = view_of(made, "")

@@ -43,12 +43,13 @@ def test_the_requirements_are_some_of_the_package() -> None:
 def test_the_core_is_installed_alone_and_runs(tmp_path: Path) -> None:
     names = ("PYTHONPATH", "NUMBA_CACHE_DIR")
     environment = {key: text for key, text in os.environ.items() if key not in names}
-    python, install = str(tmp_path / "core/bin/python"), ["-m", "pip", "install", "--quiet"]
+    python = str(tmp_path / "core/bin/python")
+    install = [sys.executable, "-m", "pip", "--python", python, "install", "--quiet"]
     wanted = ["-r", str(ROOT / "requirements-core.txt")]
     for command in (
-        [sys.executable, "-m", "venv", "core"],
-        [python, *install, *wanted],
-        [python, *install, "--no-deps", str(ROOT)],
+        [sys.executable, "-m", "venv", "--without-pip", "core"],
+        [*install, *wanted],
+        [*install, "--no-deps", str(ROOT)],
         [python, "-c", SCRIPT],
     ):
         done = subprocess.run(

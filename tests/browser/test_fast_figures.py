@@ -79,8 +79,9 @@ def test_the_last_state_stays_faintly_while_a_hand_drags(desk: Visitor) -> None:
     assert sum(a != b for a, b in zip(held, released, strict=True)) > 0.8 * len(held)
 
 
-def test_buttons_of_a_figure_come_with_the_mouse(page: Page, explorer: Server) -> None:
-    open_page(page, explorer, "load")
+def test_buttons_of_a_figure_come_with_the_mouse(desk: Visitor) -> None:
+    page = desk.page
+    desk.begin("Load")
     buttons = page.locator(".view-load-distribution .bk-Toolbar .bk-OnOffButton")
     expect(buttons).to_have_count(0)
     page.locator(".view-load-distribution .bk-events").first.hover()

@@ -59,6 +59,7 @@ def _work_of(page: Page) -> Callable[[str], float]:
 
 
 @QUICK_ONLY
+@pytest.mark.proof
 def test_a_tab_costs_no_more_for_those_that_were_open(page: Page, explorer: Server) -> None:
     page.emulate_media(reduced_motion="no-preference")  # as people have it: the bearing turns
     page.goto(explorer.url)
@@ -87,6 +88,7 @@ _COUNT_PAINTS = """() => {
 
 
 @QUICK_ONLY
+@pytest.mark.proof
 def test_only_what_is_seen_is_laid_out_and_painted_and_not_once_a_change(
     page: Page, explorer: Server
 ) -> None:

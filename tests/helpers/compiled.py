@@ -14,21 +14,6 @@ def compile_once() -> None:
     Otherwise each of the parallel processes, and each server they start, would compile the same.
     """
     if DONE not in os.environ:
-        subprocess.run([sys.executable, "-m", "tests.helpers.compiled"], check=True)
+        print("Compiling what is not on disk yet of the kernels ...", flush=True)
+        subprocess.run([sys.executable, "-c", "import bearingcore; bearingcore.warm()"], check=True)
         os.environ[DONE] = "1"
-
-
-def main() -> None:
-    """What a server does at its start and when its first page is asked for."""
-    from bearing_explorer.kit.compute import compiling
-
-    if compiling.all_on_disk():
-        return
-    print("Compiling the kernels, kept on disk for the next time ...", flush=True)
-    import bearingcore
-
-    bearingcore.warm(report=lambda _: None)
-
-
-if __name__ == "__main__":
-    main()

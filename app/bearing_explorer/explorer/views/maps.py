@@ -335,7 +335,7 @@ def _tick_rows(grid: dict[str, float], least: int, most: int) -> dict[str, np.nd
             (_LEFT, grid["y_first"], grid["y_last"]),
             (_FOOT, grid["x_first"], grid["x_last"]),
         ):
-            parts = (4 if at_side == _FOOT else 6) if large else 2
+            parts = (4 if side == _FOOT else 6) if large else 2
             for value in _round_numbers(first, last, parts):
                 share = np.array((value - first) / (last - first))
                 x = cell.left if side == _LEFT else float(cell.x(share))

@@ -21,6 +21,7 @@ from tests.helpers.measuring import at, measuring
 
 SCENE = presets["6205"].replace(shaft_speed=SPEED)
 MODEL = Model(SCENE)
+diagnosis, measured_extent = cache(diagnosis_of), cache(extent_of)
 
 
 @cache
@@ -32,10 +33,10 @@ def view_of(entry: float = 1.0) -> SpallExtent:
     """The view with the answer it asks for."""
     made = SpallExtent(PackedSource())
     made.measure(measuring(measured(entry)))
-    about = diagnoses.Question.about(measured(entry))
-    made.measurement.diagnoses.keep(about, diagnoses.diagnosis_of(about))
+    about = Question.about(measured(entry))
+    made.measurement.diagnoses.keep(about, diagnosis(about))
     question = made.question()
-    made.measurement.extents.keep(question, diagnoses.extent_of(question))
+    made.measurement.extents.keep(question, measured_extent(question))
     made.say(MODEL, made.sentence(MODEL))
     return made
 
@@ -99,9 +100,9 @@ def test_it_waits_for_the_diagnosis_and_is_worked_on_once_it_is_there():
         view.measure(measuring(measured()))
         view.say(MODEL, view.sentence(MODEL))
         assert view.measurement.extents.wanted is None
-        assert view._sentence.text == diagnoses.BUSY
-        about = diagnoses.Question.about(measured())
-        view.measurement.diagnoses.keep(about, diagnoses.diagnosis_of(about))
+        assert view._sentence.text == BUSY
+        about = Question.about(measured())
+        view.measurement.diagnoses.keep(about, diagnosis(about))
         view.say(MODEL, view.sentence(MODEL))
         question = view.measurement.extents.wanted
         while view.measurement.extents.of(question) is None:

@@ -62,11 +62,11 @@ def diagnosed(measured: Measured, scene: Scene = OTHER) -> Measurement:
     extent.measure(made)
     question = extent.question()
     assert question is not None
-    made.extents.keep(question, extent_of(question))
+    made.extents.keep(question, measured_extent(question))
     return made
 
 
-diagnosis = cache(diagnosis_of)
+diagnosis, measured_extent = cache(diagnosis_of), cache(extent_of)
 
 
 def view_of(made: Measurement, support: str) -> WhichLength:
@@ -131,6 +131,7 @@ def test_verdict_summary_and_report_carry_the_length(view: WhichLength) -> None:
     assert "Which length" in page["html"]
 
 
+@pytest.mark.proof
 def test_of_a_file_it_needs_a_machine_that_is_said_to_be_known() -> None:
     made = diagnosed(of_file())
     view = view_of(made, "")

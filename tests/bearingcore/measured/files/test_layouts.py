@@ -30,9 +30,9 @@ REMARKS = ("Sample Rate\t8000", '"Sample rate","8000 Hz"', "fs 8000", "fs = 8000
 
 
 def rows(*columns: Any, heading: str = "", delimiter: str = ",", digits: int = 6) -> bytes:
-    lines = [
-        delimiter.join(f"{value:.{digits}f}" for value in row) for row in np.column_stack(columns)
-    ]
+    numbers = np.column_stack(columns).tolist()
+    line = delimiter.join([f"%.{digits}f"] * len(numbers[0]))
+    lines = [line % tuple(values) for values in numbers]
     return "\n".join([heading, *lines] if heading else lines).encode()
 
 

@@ -35,6 +35,7 @@ def test_equal_scenes_give_equal_records_and_a_seed_another_one() -> None:
         assert not np.allclose(other.acceleration, record.acceleration, rtol=0.1)
 
 
+@pytest.mark.proof
 def test_a_seed_of_a_sweep_keeps_the_path_and_several_are_a_dimension() -> None:
     """A path drawn anew for each scene hides what the length of a spall does to the level."""
     lengths = np.linspace(0.01, 0.12, 16)

@@ -6,7 +6,13 @@ import math
 from functools import cache
 
 import pytest
-from bearing_explorer.diagnosis import diagnoses
+from bearing_explorer.diagnosis.diagnoses import (
+    BUSY,
+    ExtentQuestion,
+    Question,
+    diagnosis_of,
+    extent_of,
+)
 from bearing_explorer.diagnosis.model import Model
 from bearing_explorer.diagnosis.signal import Measured
 from bearing_explorer.diagnosis.simulated import load_on_defect, simulated
@@ -69,8 +75,8 @@ def test_a_simulated_signal_is_measured_with_its_own_load_and_edges():
     assert made.true_load == pytest.approx(700.0)
 
     def held(about: Measured) -> list[bool]:
-        question = diagnoses.ExtentQuestion.about(about, whole=about.bearing, race="inner")
-        return [low <= truth <= high for _, low, high in diagnoses.extent_of(question).alternatives]
+        question = ExtentQuestion.about(about, whole=about.bearing, race="inner")
+        return [low <= truth <= high for _, low, high in extent_of(question).alternatives]
 
     assert held(made) == [True, False]
     assert held(dataclasses.replace(made, true_load=None, true_edge=None)) == [False, False]

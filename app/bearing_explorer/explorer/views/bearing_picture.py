@@ -35,7 +35,7 @@ def bearing_picture(bearing: Bearing) -> str:
     """
     enlarged = _line_contact if bearing.kind.picture.element == "roller" else _grooves
     details = "".join([*enlarged(bearing), *_front(bearing), *_law(bearing)])
-    parts = _shape("g", "".join(_section(bearing)), cls="section")
+    parts = _shape("g", "".join(_section(bearing)), cls="cross-section")
     parts += _shape("g", details, cls="details")
     words = "Cross-section of the bearing with its dimensions"
     return (

@@ -198,8 +198,8 @@ def test_lines_that_count_are_strong_where_found_and_others_faint_where_geometry
         beside = sources[f"diagnosis_{key}_sidebands"]["frequency"]
         assert bool(beside.size) == (own and truth == "inner race")
     own = diagnosis.of(truth)
-    points = sources[f"diagnosis_{truth.replace(' ', '_')}_points"]
-    np.testing.assert_allclose(points["level"], own.harmonics)
+    points = f"diagnosis_{truth.replace(' ', '_')}_points"
+    np.testing.assert_allclose(sources[points]["level"], own.harmonics)
     spectrum = sources["diagnosis_spectrum"]
     at = np.abs(spectrum["frequency"] - own.frequency).argmin()
     assert spectrum["level"][at - 2 : at + 3].max() > own.noise + 5.0
@@ -208,12 +208,11 @@ def test_lines_that_count_are_strong_where_found_and_others_faint_where_geometry
     orders = ranges["diagnosis_order"]
     assert orders[1] == pytest.approx(high / 29.95, rel=0.01)
     assert ranges["diagnosis_level"][1] > spectrum["level"][spectrum["frequency"] > 20.0].max()
-    cut, lines = dataclasses.replace(own, harmonics=np.full(6, LOUDEST)), diagnosis.spectrum
-    raised = dataclasses.replace(lines, level=lines.level + 60.0)
-    marks = PartLines(PackedSource())._of_lead(cut, raised)
-    near = np.abs(lines.frequency - own.frequency) < 0.3
-    level = marks[f"diagnosis_{truth.replace(' ', '_')}_points"]["level"]
-    assert level[0] == 60.0 + lines.level[near].max(), "a mark is on its peak"
+    cut = dataclasses.replace(own, harmonics=np.full(6, LOUDEST))
+    raised = dataclasses.replace(diagnosis.spectrum, level=diagnosis.spectrum.level + 60.0)
+    near = np.abs(raised.frequency - own.frequency) < 0.3
+    marks = PartLines(PackedSource())._of_lead(cut, raised)[points]
+    assert marks["level"][0] == raised.level[near].max(), "a mark is on its peak"
 
 
 # -- the evidence ----------------------------------------------------------------------------------

@@ -1,6 +1,10 @@
 """The page in a real browser behind a proxy, and what a browser shows when there is no room."""
 
+import asyncio
 import signal
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 import pytest
 from playwright.sync_api import BrowserContext, Page, expect
@@ -17,7 +21,31 @@ from tests.browser.helpers import (
     page_server,
     serving,
 )
-from tests.helpers.proxies import Proxy, running
+
+
+@contextmanager
+def forwarding(port: int, to: int) -> Iterator[None]:
+    """Hand on what comes at one port to another, as a proxy does that changes no path."""
+
+    async def pipe(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        while data := await reader.read(65536):
+            writer.write(data)
+        writer.close()
+
+    async def relay(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        there, back = await asyncio.open_connection("127.0.0.1", to)
+        await asyncio.gather(pipe(reader, back), pipe(there, writer), return_exceptions=True)
+
+    loop = asyncio.new_event_loop()  # the browser's runs in this thread
+    thread = threading.Thread(target=loop.run_forever, daemon=True)
+    thread.start()
+    server = asyncio.start_server(relay, "127.0.0.1", port)
+    asyncio.run_coroutine_threadsafe(server, loop).result(10)
+    try:
+        yield
+    finally:
+        loop.call_soon_threadsafe(loop.stop)
+        thread.join(10)
 
 
 @pytest.mark.proof
@@ -34,7 +62,7 @@ def test_the_page_works_behind_a_proxy_and_says_when_it_is_full(
     )
     server.path = "/bearing/liveness"  # waiting for the page itself would take a place
     url = f"http://localhost:{port}/bearing/"
-    with serving(server), running(Proxy(port, "/bearing/", server.port)):
+    with serving(server), forwarding(port, server.port):
         wait(page, lambda: "Ready after" in server.log)
         answer = page.goto(url)
         assert answer is not None

@@ -152,6 +152,8 @@ class WhichLength(JobView[Model, SizedDefect, Editor], MeasuredView):
         measured, race = self.measured, self.race
         if measured is None:
             return
+        # without the explorer no scene can be that of the machine
+        self.panel.visible = self.measurement.can_simulate
         self.hidden.visible = bool(race) or self.drawn
         self._spectra.visible = self._candidates.visible = self.drawn
         if self.drawn and self.job_result is not None:

@@ -31,15 +31,21 @@
   const welcome = part("welcome"), help = part("help"), help_button = part("help-button")
   let greet = true
   try { greet = localStorage.getItem(WELCOMED) === null } catch { /* each time, then */ }
+  // Figures keep their size under a hand: a line of warnings in the foot does not take it from them.
+  const footer = document.querySelector("footer")
+  let foot = 0, touched = false  // height of the foot [px] before anything was pressed
+  for (const event of ["pointerdown", "keydown"]) window.addEventListener(event, () => { touched = true }, true)
+  const room_anew = () => { touched = false; room() }
   const room = () => {
-    const height = main.clientHeight - 32 - (welcome.hidden ? 0 : welcome.getBoundingClientRect().height + 10)
+    if (!touched) foot = footer.offsetHeight
+    const height = main.clientHeight + footer.offsetHeight - foot - 32 - (welcome.hidden ? 0 : welcome.getBoundingClientRect().height + 10)
     root.style.setProperty("--room", `${height}px`)
     // a sheet is 700 px wide, and figures are as wide as on screen
     if (matchMedia("screen").matches) root.style.setProperty("--on-paper", Math.min(1, 700 / main.clientWidth))
   }
   const show_welcome = () => {
     welcome.hidden = !greet || root.dataset.tab !== "overview"
-    room()
+    room_anew()
   }
   const set_greet = (wanted) => {
     greet = wanted
@@ -59,6 +65,7 @@
     door.addEventListener("click", () => { help.close(); doors[door.dataset.door]() })
   on_event("tab", root, show_welcome)
   for (const box of [main, welcome]) new ResizeObserver(room).observe(box)
+  for (const event of ["resize", "explorer-projector", "explorer-lesson"]) window.addEventListener(event, room_anew)
 
   // A tab that is asked for is built on the server, which may take a while: the page says so at once.
   const waiting = part("waiting")
@@ -148,7 +155,8 @@
         part.classList.toggle("two-columns", alone && shown.length === 2 && !shown.some((view) => view.matches(".veiled:not(.in-part)")))
         part.classList.toggle("marked-only", alone)
       }
-      const parts = [...part.children, ...(part.shadowRoot?.children ?? [])].filter((one) => one.style)
+      // handles stand in pixels of their figure, which a zoom would move
+      const parts = [...part.children, ...(part.shadowRoot?.children ?? [])].filter((one) => one.style && !one.matches(".handle, .cue"))
       const drawn = new Set(parts.filter(has_figure))
       for (const one of drawn.size ? parts : []) one.style.zoom = large && !drawn.has(one) ? LARGER : ""
       return drawn.size > 0

@@ -2,7 +2,20 @@
 export function render({ model }) {
   const line = document.createElement("p")
   line.setAttribute("role", "status")
-  const write = () => { line.innerHTML = model.text }
+  // It stays as high as it has been at this width, to the part of a pixel, and its view grows downwards
+  // with it: the figure above keeps its size, so that nothing moves under a hand that drags in it.
+  let width, first = 0, longest = 0  // height [px] as it first stood at this width; most signs since
+  const height = () => line.textContent ? parseFloat(getComputedStyle(line).height) || 0 : 0
+  const set_longer = (longer) => {
+    const view = line.getRootNode().host?.getRootNode().host
+    for (const part of [view, view?.getRootNode().host]) part?.style.setProperty("--longer", `${longer}px`)
+  }
+  const write = () => {
+    line.innerHTML = model.text
+    if (!first || line.textContent.length <= longest) return
+    longest = line.textContent.length
+    if (height() > first) set_longer(height() - first)
+  }
   model.on("text", write)
   write()
   // the rolling elements that it names light up in the figures (see pointed.js); of several rows none
@@ -12,12 +25,15 @@ export function render({ model }) {
   }
   line.addEventListener("pointerenter", () => point(line.textContent))
   line.addEventListener("pointerleave", () => point(""))
-  // as high as it has been at this width, to the part of a pixel: a shorter one would have figures
-  // grow, and repaint
-  let width
-  new ResizeObserver(([{ contentRect, borderBoxSize: [{ blockSize }] }]) => {
-    line.style.minHeight = contentRect.width === width ? `${blockSize}px` : ""
-    width = contentRect.width
+  new ResizeObserver(([{ contentRect }]) => {
+    if (contentRect.width !== width) {
+      width = contentRect.width
+      line.style.minHeight = ""
+      first = longest = 0
+      set_longer(0)
+    }
+    first ||= height()
+    line.style.minHeight = `${height()}px`
   }).observe(line)
   return line
 }

@@ -159,7 +159,7 @@
       const parts = [...part.children, ...(part.shadowRoot?.children ?? [])].filter((one) => one.style && !one.matches(".handle, .cue"))
       const drawn = new Set(parts.filter(has_figure))
       for (const one of drawn.size ? parts : []) one.style.zoom = large && !drawn.has(one) ? LARGER : ""
-      return drawn.size > 0
+      return drawn.size > 0 || part === main  // its figures may not have come yet
     }
     has_figure(document.body)
     setTimeout(fit, 120)

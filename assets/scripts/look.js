@@ -80,26 +80,9 @@
       })
     }
   }
-  // Bokeh clears a canvas but for half a pixel along two of its edges, where the old paper would
-  // stay as a line: all of it is cleared before it is painted in other colours.
-  const clear_all = (where) => {
-    for (const part of where.querySelectorAll("*")) {
-      if (part.shadowRoot) clear_all(part.shadowRoot)
-      if (part.localName !== "canvas") continue
-      const context = part.getContext("2d")
-      context?.save()
-      context?.resetTransform()
-      context?.clearRect(0, 0, part.width, part.height)
-      context?.restore()
-    }
-  }
   const show = (next) => {
     root.dataset.theme = theme = next
     paint_all()
-    clear_all(document.body ?? root)
-    // closed tabs are not in the document
-    for (const { el } of window.Bokeh?.index.query(({ el }) => el && !el.isConnected) ?? [])
-      if (el.matches?.(".off-screen")) clear_all(el.shadowRoot)
     // colours that come out of a mapper are worked out with the numbers
     for (const doc of documents())
       for (const model of doc.all_models)

@@ -37,9 +37,8 @@ function hides_answers() {
 
 export function render({ model }) {
   const root = document.documentElement
-  const usable = (number) => model.titles[number]?.[1] === ""
   const next_of = (number, step) => {
-    for (let at = number + step; at in model.titles; at += step) if (usable(at)) return at
+    for (let at = number + step; at in model.titles; at += step) if (model.titles[at][1] === "") return at
     return -1
   }
   const began = () => model.lesson.title !== undefined

@@ -52,13 +52,11 @@
         value = changed(property.get_value(), (size) => resized(size, large ? LARGER : 1 / LARGER))
       if (value !== undefined) changes[property.attr] = value
     }
-    if (model.type === "ColumnDataSource" && was.theme !== theme) paint_data(model.data)
+    if (model.type === "ColumnDataSource" && was.theme !== theme)
+      for (const [column, items] of Object.entries(model.data))
+        if (COLOR.test(column) && Array.isArray(items))
+          model.data[column] = items.map((item) => changed(item, recolored) ?? item)
     if (Object.keys(changes).length) model.setv(changes, { sync: false })
-  }
-  const paint_data = (data) => {
-    for (const [column, items] of Object.entries(data))
-      if (COLOR.test(column) && Array.isArray(items))
-        data[column] = items.map((item) => changed(item, recolored) ?? item)
   }
   const followed = new WeakSet()
   const documents = () => window.Bokeh?.documents ?? []

@@ -104,7 +104,7 @@ function make_rows(model, { changed = () => {}, touched = () => {} } = {}) {
     const message = released ? { set: pending, released } : { set: pending }
     pending = null
     released = false
-    wait_no_more(send_now)
+    window.__waiting?.delete(send_now)
     send(message)
   }
   // The end of a drag: it is one step to undo. A key held down is one too.

@@ -5,16 +5,17 @@ export function render({ model }) {
   // It stays as high as it has been at this width, to the part of a pixel, and its view grows downwards
   // with it: the figure above keeps its size, so that nothing moves under a hand that drags in it.
   let width, first = 0, longest = 0  // height [px] as it first stood at this width; most signs since
-  const height = () => line.textContent ? parseFloat(getComputedStyle(line).height) || 0 : 0
-  const set_longer = (longer) => {
+  const keep_height = () => {
+    const height = parseFloat(getComputedStyle(line).height) || 0
+    first ||= height
+    longest = Math.max(longest, line.textContent.length)
+    line.style.minHeight = `${height}px`
     const view = line.getRootNode().host?.getRootNode().host
-    for (const part of [view, view?.getRootNode().host]) part?.style.setProperty("--longer", `${longer}px`)
+    for (const part of [view, view?.getRootNode().host]) part?.style.setProperty("--longer", `${height - first}px`)
   }
   const write = () => {
     line.innerHTML = model.text
-    if (!first || line.textContent.length <= longest) return
-    longest = line.textContent.length
-    if (height() > first) set_longer(height() - first)
+    if (first && line.textContent.length > longest) keep_height()
   }
   model.on("text", write)
   write()
@@ -27,13 +28,10 @@ export function render({ model }) {
   line.addEventListener("pointerleave", () => point(""))
   new ResizeObserver(([{ contentRect }]) => {
     if (contentRect.width !== width) {
-      width = contentRect.width
+      [width, first, longest] = [contentRect.width, 0, 0]
       line.style.minHeight = ""
-      first = longest = 0
-      set_longer(0)
     }
-    first ||= height()
-    line.style.minHeight = `${height()}px`
+    keep_height()
   }).observe(line)
   return line
 }

@@ -100,6 +100,7 @@ def matrix_figure(
     """
     plot = style.bare_figure(models.Range1d(*x), models.Range1d(*y), **options)
     plot.toolbar_location = "left"  # on the right it would lie on the last column
+    plot.toolbar.styles = {"background-color": "transparent"}  # a curve is seen through it
     # as a property of the figure Panel would give the width to the whole card
     plot.min_width = None
     least = f"min-width: var(--matrix-width, {least_width}px);"

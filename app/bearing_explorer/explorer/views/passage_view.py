@@ -36,6 +36,19 @@ BALL = "${row.roller ? 'roller' : 'ball'} ${row.ball}${row.row ? ` of row ${row.
 """The name of a ball in a template of JavaScript."""
 
 
+def words_with_room(words: str, width: str | float, short: str) -> str:
+    """JavaScript that writes `words` where `width`, a share of the frame's, has room for them.
+
+    Elsewhere it writes `short`; both are templates.
+    """
+    return f"""
+const words = `{words}`
+let room = Infinity
+try {{ room = {width}*plot.inner_width }} catch {{}}
+return words.length*5.8*larger < room ? words : `{short}`
+"""
+
+
 class PassageView(ComparingView):
     """A view of acceleration and of ball loads in time; subclasses fill in the layers."""
 
@@ -122,7 +135,11 @@ class PassageView(ComparingView):
             f"{self.prefix}_ball_names",
             "from",
             "at",
-            f"return narrow && row.row ? `${{row.ball}}, row ${{row.row}}` : `{BALL}`",
+            words_with_room(
+                BALL,
+                f"(row.row ? {LONG_NAME_WIDTH} : {NAME_WIDTH})",
+                "${row.ball}${row.row ? `, row ${row.row}` : ''}",
+            ),
             reads=(*NAMED, "slot"),
             x_share=True,
             y_share=True,

@@ -7,9 +7,7 @@ const LONGEST = 100  // ms that a picture stands for at most: a page that was no
 export function render({ model }) {
   const source_of = (name) => Bokeh.documents[0].get_model_by_name(`slow_${name}`)
   const data_of = (name) => source_of(name)?.data
-  const write = (name, columns) => {
-    source_of(name).data = { ...data_of(name), ...columns }
-  }
+  const write = (name, columns) => { source_of(name).data = { ...data_of(name), ...columns } }
   let frame = null, shown = null, playing = false, last = 0  // frame: its number, with a fraction
   const length = () => {
     const { time } = data_of("frames")

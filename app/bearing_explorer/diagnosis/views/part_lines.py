@@ -35,9 +35,6 @@ LOWEST = -6.0  # [dB] drawn
 STRONG, FAINT, EVEN = 0.95, 0.32, 0.6
 """Opacity of lines: of the leading part, of the others, of all where none leads."""
 
-FEW = 3
-"""Lines of each part where none stands out: there is nothing to mark."""
-
 NAMES = {"outer race": "BPFO", "inner race": "BPFI", "ball": "2 BSF"}
 COLORS = {part: family.color for part, family in zip(PARTS, FAMILIES, strict=False)}
 """Colours of the parts: those that their lines have on all figures."""
@@ -128,8 +125,8 @@ class PartLines:
         for row, part in enumerate(diagnosis.evidence):
             first = fundamental(diagnosis, part)
             alpha = EVEN if lead is None else STRONG if part is lead else FAINT
-            size = len(part.harmonics) if lead is not None else min(FEW, len(part.harmonics))
-            multiples = np.arange(1.0, size + 1.0)
+            multiples = np.arange(1.0, len(part.harmonics) + 1.0)
+            size = multiples.size
             labels = named(multiples, first, high)
             sources[source_of(part.part, "lines")] = {
                 "frequency": multiples * first,

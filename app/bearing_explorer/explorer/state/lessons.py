@@ -364,14 +364,12 @@ class _Checks:
 
     def scene(self) -> tuple[dict[str, float], dict[str, str]]:
         """The numbers and choices that change the scene of the preset."""
-        changes = {name: str(value) for name, value in self.head.scene.items()}
-        return _changes(SceneEditor(self.head.preset), changes, self.error)
+        return _changes(SceneEditor(self.head.preset), self.head.scene, self.error)
 
     def result(self) -> dict[str, Any]:
         """The message that sets the scene of the answer; empty where the head has none."""
-        changes = {name: str(value) for name, value in self.head.result.items()}
-        values, choices = _changes(self.editor(), changes, self.error)
-        return {"choose": choices, "typed": values} if changes else {}
+        values, choices = _changes(self.editor(), self.head.result, self.error)
+        return {"choose": choices, "typed": values} if self.head.result else {}
 
     def prediction(self) -> Prediction | None:
         """The prediction; LessonError where none of its choices is right."""
@@ -407,12 +405,13 @@ def _hint(name: str, known: Sequence[str]) -> str:
 
 
 def _changes(
-    editor: SceneEditor, changes: Mapping[str, str], error: Callable[[str, str], LessonError]
+    editor: SceneEditor, values: Mapping[str, Any], error: Callable[[str, str], LessonError]
 ) -> tuple[dict[str, float], dict[str, str]]:
     """Changes of a scene as numbers and choices, tried on `editor`.
 
     For a change that fails, raise what `error` makes of its name and a sentence.
     """
+    changes = {name: str(value) for name, value in values.items()}
     choices = {name: value for name, value in changes.items() if name in (*CHOICES, "preset")}
     for name, value in choices.items():
         options = CHOICES.get(name, list(presets))

@@ -98,8 +98,7 @@ let [unit, start] = fitted(0)
 // the words on the load, top left, are above a ring whose numbers would reach into them
 const right = w/2 - unit/2*(shown.end - (several ? {OF_A_ROW} : half)) - {WORDS_WIDE}*larger
 const down = h + start*unit/2 - {WORDS_HIGH}*larger
-const numbers = {SIDE}*unit/2 + {NUMBER_HALF}*larger
-if (Math.hypot(Math.max(right, 0), Math.max(down, 0)) < numbers)
+if (Math.hypot(Math.max(right, 0), Math.max(down, 0)) < {SIDE}*unit/2 + {NUMBER_HALF}*larger)
   [unit, start] = fitted({WORDS_HIGH}*larger)
 const x = w/unit, end = start + 2*h/unit
 plot.x_range.setv({{start: -x, end: x, reset_start: -x, reset_end: x}})

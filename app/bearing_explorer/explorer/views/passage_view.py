@@ -36,19 +36,6 @@ BALL = "${row.roller ? 'roller' : 'ball'} ${row.ball}${row.row ? ` of row ${row.
 """The name of a ball in a template of JavaScript."""
 
 
-def words_with_room(words: str, width: str | float, short: str) -> str:
-    """JavaScript that writes `words` where `width`, a share of the frame's, has room for them.
-
-    Elsewhere it writes `short`; both are templates.
-    """
-    return f"""
-const words = `{words}`
-let room = Infinity
-try {{ room = {width}*plot.inner_width }} catch {{}}
-return words.length*5.8*larger < room ? words : `{short}`
-"""
-
-
 class PassageView(ComparingView):
     """A view of acceleration and of ball loads in time; subclasses fill in the layers."""
 
@@ -135,11 +122,9 @@ class PassageView(ComparingView):
             f"{self.prefix}_ball_names",
             "from",
             "at",
-            words_with_room(
-                BALL,
-                f"(row.row ? {LONG_NAME_WIDTH} : {NAME_WIDTH})",
-                "${row.ball}${row.row ? `, row ${row.row}` : ''}",
-            ),
+            # numbers alone where large type has no room for more
+            f"return narrow && row.row ? `${{row.ball}}, row ${{row.row}}` "
+            f": narrow && larger > 1 ? row.ball : `{BALL}`",
             reads=(*NAMED, "slot"),
             x_share=True,
             y_share=True,

@@ -44,6 +44,8 @@ AXIS: FieldSpec = {
 
 NAMED_IN_FULL = 580.0
 """Width [px] of a frame from which the names of bands have room for their frequencies."""
+FEW = 3
+"""Marks of a healthy bearing's ball-pass frequency."""
 LOWEST = 100.0
 """Lowest frequency [Hz] of the logarithmic axis."""
 WIDE_DEPTH = 90.0
@@ -304,6 +306,8 @@ def passed(scene: Scene) -> list[tuple[str, int, float]]:
 def pass_frequencies(scene: Scene, top: float) -> dict[str, NDArray[np.float64]]:
     """Frequencies [Hz] at which balls pass the defects, with harmonics up to `top`.
 
+    Without a defect nothing strikes, and only the first few are marked.
+
     Columns: frequency, whether it belongs to the inner race, the number of the row, 0 where rows
     are alike, and the error [Hz] that an estimated inside may give; the outer race comes first.
     """
@@ -312,7 +316,7 @@ def pass_frequencies(scene: Scene, top: float) -> dict[str, NDArray[np.float64]]
     for race, row, first in passed(scene):
         own = scene.bearing.of_row(max(row - 1, 0))
         spread = first * own.frequency_spread("bpfo" if race == "outer" else "bpfi")
-        count = int(top / first) if first > 0.0 else 0
+        count = int(min(top / first, np.inf if scene.defects else FEW)) if first > 0.0 else 0
         frequencies.append(first * np.arange(1.0, count + 1.0))
         inner.append(np.full(count, float(race == "inner")))
         rows.append(np.full(count, float(row)))

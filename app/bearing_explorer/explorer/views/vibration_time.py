@@ -20,9 +20,13 @@ from bearing_explorer.kit.views.base import Ranges, Sources
 from bearingcore import Bearing
 
 ACCELERATION = style.AxisQuantity("Acceleration", "a", "m/s²", prefixed=True)
-EVENT_WORDS = "const does = row.enters ? 'enters' : 'leaves'" + passage_view.words_with_room(
-    f"{passage_view.BALL} ${{does}}", passage_view.LABEL_WIDTH, "${row.ball} ${does}"
-)
+EVENT_WORDS = f"""
+const does = row.enters ? 'enters' : 'leaves'
+const words = `{passage_view.BALL} ${{does}}`
+let room = Infinity
+try {{ room = {passage_view.LABEL_WIDTH}*plot.inner_width }} catch {{}}
+return words.length*5.8*larger < room ? words : `${{row.ball}} ${{does}}`
+"""
 
 
 class VibrationInTime(passage_view.PassageView):

@@ -606,6 +606,9 @@ watch = ["bearing"]
 extent_deg = 64
 edge = "chord"
 
+[result]
+extent_deg = 40
+
 [predict]
 ask = "Which?"
 choose = ["this", "that"]
@@ -628,6 +631,7 @@ def test_a_lesson_sets_a_scene_and_its_buttons_change_it() -> None:
     editor = SceneEditor("liew-lim")
     lesson.begin(editor)
     assert editor.scene == FAN.replace(extent=math.radians(64.0), edge="chord")
+    assert lesson.browser_data(0)["result"] == {"choose": {}, "typed": {"extent_deg": 40.0}}
     question, answer = lesson.parts
     buttons = ElementTree.fromstring(f"<div>{question.html}</div>").iter("button")
     assert [json.loads(button.attrib["data-ask"]) for button in buttons] == [

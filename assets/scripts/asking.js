@@ -9,4 +9,3 @@ function ask(model, message) {
 function keep_waiting(send_now) {
   (window.__waiting ??= new Set()).add(send_now)
 }
-

@@ -39,7 +39,8 @@ function enlarging(model, root) {
     const [left, right, bottom, top] = cell < 0 ? home : sides
     x_range.setv({ start: left, end: right })
     y_range.setv({ start: bottom, end: top })
-    name.innerHTML = cell < 0 ? words : `${words.replace(/^k (.+)/, "k<sub>$1</sub>")}, ${cell + 1} of ${model.cells.length}`
+    const terms = model.cells.filter(([symbol]) => symbol.startsWith("k ")).length  // the number of loaded balls is none
+    name.innerHTML = words.replace(/^k (.+)/, `k<sub>$1</sub>, ${cell + 1} of ${terms}`)
     explain()
   }
   const step = (by) => show_cell(cell < 0 ? (by > 0 ? 0 : model.cells.length - 1) : (cell + by + model.cells.length) % model.cells.length)

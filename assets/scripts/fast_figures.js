@@ -593,6 +593,13 @@
     }
   })
 
+  // Bokeh clears a canvas but for half a pixel along two of its edges, where a longer axis label or the
+  // paper of the other theme would stay.
+  const canvas_layer = module("core/util/canvas", "CanvasLayer")
+  part("whole canvas", [method(canvas_layer, "clear")], () => {
+    canvas_layer.clear = function () { this.ctx.clearRect(-1, -1, this.bbox.width + 2, this.bbox.height + 2) }
+  })
+
   // Bokeh zooms by the whole of a pinch at each of its steps: a figure runs away where fingers part,
   // and jumps where they come together. Here it stays under them.
   const wheel = module("models/tools/gestures/wheel_zoom_tool", "WheelZoomToolView")

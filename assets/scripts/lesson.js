@@ -37,15 +37,15 @@ function hides_answers() {
 
 export function render({ model }) {
   const root = document.documentElement
-  const usable = (number) => model.titles[number]?.[1] === ""
   const next_of = (number, step) => {
-    for (let at = number + step; at in model.titles; at += step) if (usable(at)) return at
+    for (let at = number + step; at in model.titles; at += step) if (model.titles[at][1] === "") return at
     return -1
   }
   const began = () => model.lesson.title !== undefined
   const place = () => lesson.getRootNode().host?.closest(".lesson-place")
   const key = () => `said.${model.lesson.name || model.lesson.number}`
   const answers = () => Object(remembered()[key()])
+  const show_result = () => { if (Object.keys(model.lesson.result).length) ask(model, model.lesson.result) }
   const remember_answer = (answer) => remember({ [key()]: { ...answers(), ...answer } })
 
   const hides = hides_answers()
@@ -138,7 +138,7 @@ export function render({ model }) {
       element("input", { type: "radio", name: "prediction", value: String(index) }))
     const best = boxes.length ? right - 1 : right  // choices are counted from 1
     const box = element("input", { type: "text", inputmode: "decimal", autocomplete: "off", "aria-label": question })
-    const settle = (given) => {
+    const settle = (given, anew = true) => {
       const is_right = boxes.length ? given === best : Math.abs(given - best) <= within
       const said = (answer) => boxes.length ? `“${choices[answer]}”` : `${answer} ${unit}`.trim().replace("-", "−")
       if (helps && !is_right) {
@@ -153,6 +153,7 @@ export function render({ model }) {
       remember_answer({ given })
       settled()
       announce("predicted")
+      if (anew) show_result()
     }
     boxes.forEach((one, index) => {
       one.addEventListener("change", () => settle(index))
@@ -179,7 +180,7 @@ export function render({ model }) {
     if (boxes[given]) boxes[given].checked = true
     else if (!boxes.length && Number.isFinite(given)) box.value = String(given)
     else return form
-    settle(given)
+    settle(given, false)
     return form
   }
   const show = () => {
@@ -201,6 +202,7 @@ export function render({ model }) {
     reads = false
     // To a part: those before the answer come with the controls, and the answer is uncovered.
     const go_on = (at) => {
+      if (asks && made[at] === answer && answers().given === undefined) show_result()
       asks &&= at === 0
       reads = made[at] === answer
       if (reads) answer.hidden = false

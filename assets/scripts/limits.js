@@ -18,7 +18,7 @@ export function render({ model }) {
   const write = () => {
     const crossed = model.rows.filter(({ state }) => state === "crossed")
     const text = crossed.map(({ short }) => short).join("; ")
-    if (warnings.textContent !== text) warnings.textContent = text
+    if (warnings.textContent !== text) warnings.replaceChildren(...text.split(/(?=; )/).map((one) => element("span", {}, one)))
     strip.dataset.crossed = String(crossed.length)
     // beside the status line where all is well, a line of its own where it is not
     strip.getRootNode().host?.closest("footer")?.toggleAttribute("data-crossed", crossed.length > 0)

@@ -52,13 +52,11 @@
         value = changed(property.get_value(), (size) => resized(size, large ? LARGER : 1 / LARGER))
       if (value !== undefined) changes[property.attr] = value
     }
-    if (model.type === "ColumnDataSource" && was.theme !== theme) paint_data(model.data)
+    if (model.type === "ColumnDataSource" && was.theme !== theme)
+      for (const [column, items] of Object.entries(model.data))
+        if (COLOR.test(column) && Array.isArray(items))
+          model.data[column] = items.map((item) => changed(item, recolored) ?? item)
     if (Object.keys(changes).length) model.setv(changes, { sync: false })
-  }
-  const paint_data = (data) => {
-    for (const [column, items] of Object.entries(data))
-      if (COLOR.test(column) && Array.isArray(items))
-        data[column] = items.map((item) => changed(item, recolored) ?? item)
   }
   const followed = new WeakSet()
   const documents = () => window.Bokeh?.documents ?? []
@@ -80,26 +78,9 @@
       })
     }
   }
-  // Bokeh clears a canvas but for half a pixel along two of its edges, where the old paper would
-  // stay as a line: all of it is cleared before it is painted in other colours.
-  const clear_all = (where) => {
-    for (const part of where.querySelectorAll("*")) {
-      if (part.shadowRoot) clear_all(part.shadowRoot)
-      if (part.localName !== "canvas") continue
-      const context = part.getContext("2d")
-      context?.save()
-      context?.resetTransform()
-      context?.clearRect(0, 0, part.width, part.height)
-      context?.restore()
-    }
-  }
   const show = (next) => {
     root.dataset.theme = theme = next
     paint_all()
-    clear_all(document.body ?? root)
-    // closed tabs are not in the document
-    for (const { el } of window.Bokeh?.index.query(({ el }) => el && !el.isConnected) ?? [])
-      if (el.matches?.(".off-screen")) clear_all(el.shadowRoot)
     // colours that come out of a mapper are worked out with the numbers
     for (const doc of documents())
       for (const model of doc.all_models)

@@ -31,14 +31,20 @@
   const welcome = part("welcome"), help = part("help"), help_button = part("help-button")
   let greet = true
   try { greet = localStorage.getItem(WELCOMED) === null } catch { /* each time, then */ }
+  // Figures keep their size under a hand: a line of warnings in the foot does not take it from them.
+  const footer = document.querySelector("footer")
+  let foot = 0, touched = false  // height of the foot [px] before anything was pressed
+  for (const press of ["pointerdown", "keydown"]) window.addEventListener(press, () => { touched = true }, true)
   const room = () => {
-    const height = main.clientHeight - 32 - (welcome.hidden ? 0 : welcome.getBoundingClientRect().height + 10)
+    if (!touched) foot = footer.offsetHeight
+    const height = main.clientHeight + footer.offsetHeight - foot - 32 - (welcome.hidden ? 0 : welcome.getBoundingClientRect().height + 10)
     root.style.setProperty("--room", `${height}px`)
     // a sheet is 700 px wide, and figures are as wide as on screen
     if (matchMedia("screen").matches) root.style.setProperty("--on-paper", Math.min(1, 700 / main.clientWidth))
   }
   const show_welcome = () => {
     welcome.hidden = !greet || root.dataset.tab !== "overview"
+    touched = false
     room()
   }
   const set_greet = (wanted) => {
@@ -57,7 +63,8 @@
   }
   for (const door of help.querySelectorAll("[data-door]"))
     door.addEventListener("click", () => { help.close(); doors[door.dataset.door]() })
-  on_event("tab", root, show_welcome)
+  for (const event of ["tab", "projector", "lesson"]) on_event(event, root, show_welcome)
+  window.addEventListener("resize", show_welcome)
   for (const box of [main, welcome]) new ResizeObserver(room).observe(box)
 
   // A tab that is asked for is built on the server, which may take a while: the page says so at once.
@@ -135,6 +142,7 @@
   // For a projector all words are larger: parts without figures as a whole, while figures have type of
   // their own (look.js), and views are below one another. With a lesson only the views that it marks
   // are there, two of them side by side, and their figures have the height that there is.
+  // Handles in a figure stand in its pixels.
   const LARGER = 1.64, WIDTH_OF_SIGN = 12  // px
   const enlarge_words = () => {
     const large = root.hasAttribute("data-projector")
@@ -148,10 +156,10 @@
         part.classList.toggle("two-columns", alone && shown.length === 2 && !shown.some((view) => view.matches(".veiled:not(.in-part)")))
         part.classList.toggle("marked-only", alone)
       }
-      const parts = [...part.children, ...(part.shadowRoot?.children ?? [])].filter((one) => one.style)
+      const parts = [...part.children, ...(part.shadowRoot?.children ?? [])].filter((one) => one.style && !one.matches(".handle, .cue"))
       const drawn = new Set(parts.filter(has_figure))
       for (const one of drawn.size ? parts : []) one.style.zoom = large && !drawn.has(one) ? LARGER : ""
-      return drawn.size > 0
+      return drawn.size > 0 || part === main  // its figures may not have come yet
     }
     has_figure(document.body)
     setTimeout(fit, 120)

@@ -6,14 +6,13 @@ async function make_report({ name, html, items, figures, width }) {
   place.inert = true
   place.style.cssText = `position: fixed; left: -20000px; top: 0; width: ${width}px`
   document.body.append(place)
-  const wait = (ms) => new Promise((done) => setTimeout(done, ms))
   const managers = []
   try {
     for (const item of items) {
       const own = place.appendChild(document.createElement("div"))
       managers.push(await window.Bokeh.embed.embed_item(item, own))
     }
-    await wait(500)
+    await new Promise((done) => setTimeout(done, 500))
     let page = html
     for (const [i, id] of figures.entries()) {
       const view = managers.map((manager) => manager.find_one_by_id(id)).find((found) => found)

@@ -2,7 +2,21 @@
 export function render({ model }) {
   const line = document.createElement("p")
   line.setAttribute("role", "status")
-  const write = () => { line.innerHTML = model.text }
+  // It stays as high as it has been at this width, to the part of a pixel, and its view grows downwards
+  // with it: the figure above keeps its size, so that nothing moves under a hand that drags in it.
+  let width, first = 0, longest = 0  // height [px] as it first stood at this width; most signs since
+  const keep_height = () => {
+    const height = parseFloat(getComputedStyle(line).height) || 0
+    first ||= height
+    longest = Math.max(longest, line.textContent.length)
+    line.style.minHeight = `${height}px`
+    const view = line.getRootNode().host?.getRootNode().host
+    for (const part of [view, view?.getRootNode().host]) part?.style.setProperty("--longer", `${height - first}px`)
+  }
+  const write = () => {
+    line.innerHTML = model.text
+    if (first && line.textContent.length > longest) keep_height()
+  }
   model.on("text", write)
   write()
   // the rolling elements that it names light up in the figures (see pointed.js); of several rows none
@@ -12,12 +26,12 @@ export function render({ model }) {
   }
   line.addEventListener("pointerenter", () => point(line.textContent))
   line.addEventListener("pointerleave", () => point(""))
-  // as high as it has been at this width, to the part of a pixel: a shorter one would have figures
-  // grow, and repaint
-  let width
-  new ResizeObserver(([{ contentRect, borderBoxSize: [{ blockSize }] }]) => {
-    line.style.minHeight = contentRect.width === width ? `${blockSize}px` : ""
-    width = contentRect.width
+  new ResizeObserver(([{ contentRect }]) => {
+    if (contentRect.width !== width) {
+      [width, first, longest] = [contentRect.width, 0, 0]
+      line.style.minHeight = ""
+    }
+    keep_height()
   }).observe(line)
   return line
 }

@@ -18,11 +18,6 @@ function read_kept() {
 
 export function render({ model }) {
   const asks = (message) => () => ask(model, message)
-  const asks_report = () => {
-    say("Making the report …")
-    const words = Object.fromEntries(new FormData(part("about")))
-    model.send_msg({ report: location.origin + location.pathname, ...words })
-  }
   const copy = async () => {
     const copied = await copy_text(link.value)
     if (!copied) link.focus()
@@ -147,7 +142,11 @@ export function render({ model }) {
   })
   on_event("said", root, say)
   on_event("done", root, () => say(""))
-  on_event("measured-report", root, asks_report)
+  on_event("measured-report", root, () => {
+    say("Making the report …")
+    const words = Object.fromEntries(new FormData(part("about")))
+    model.send_msg({ report: location.origin + location.pathname, ...words })
+  })
   on_event("asked", root, (tab) => { if (tab.name !== going) going = null })
   const failed = (error) => {
     console.warn("the report could not be made", error)

@@ -5,11 +5,9 @@ const SLOWNESS = [1, 10, 30, 100, 300, 1000]  // times slower than the machine
 const LONGEST = 100  // ms that a picture stands for at most: a page that was not looked at does not jump
 
 export function render({ model }) {
-  const data_of = (name) => Bokeh.documents[0].get_model_by_name(`slow_${name}`)?.data
-  const write = (name, columns) => {
-    const source = Bokeh.documents[0].get_model_by_name(`slow_${name}`)
-    source.data = { ...source.data, ...columns }
-  }
+  const source_of = (name) => Bokeh.documents[0].get_model_by_name(`slow_${name}`)
+  const data_of = (name) => source_of(name)?.data
+  const write = (name, columns) => { source_of(name).data = { ...data_of(name), ...columns } }
   let frame = null, shown = null, playing = false, last = 0  // frame: its number, with a fraction
   const length = () => {
     const { time } = data_of("frames")

@@ -101,6 +101,8 @@ def test_handles_are_sliders_for_keys_and_screen_readers(page: Page) -> None:
         return page.get_by_role("main").get_by_role("slider", name=name, exact=True)
 
     end = handle("End of the defect")
+    drawing = page.locator(".view-bearing canvas").first
+    before = drawing.bounding_box()
     expect(end).to_have_attribute("aria-valuetext", "at 276°; defect 12.9° long")
     handle("Beginning of the defect").focus()
     page.keyboard.press("Tab")
@@ -131,6 +133,7 @@ def test_handles_are_sliders_for_keys_and_screen_readers(page: Page) -> None:
     end.press("End")
     settle(page)
     assert value(page, "extent_deg") == 120.0
+    assert drawing.bounding_box() == before, "warnings and longer sentences leave it its size"
     end.press("Home")
     settle(page)
     assert 0.0 < value(page, "extent_deg") < 1.0, "its ends can still be held"

@@ -197,8 +197,9 @@ class PartDiagnosis(MeasuredView):
             return answer
         measurement, length = self.measurement, ""
         extent = measurement.extent() if answer.fault in RACES_NAMED else None
-        if extent is not None and extent.size:
-            length = part_words.length(extent, measurement.sizing())
+        sizing = measurement.sizing()
+        if extent is not None and (extent.size or (sizing is not None and sizing.conclusive)):
+            length = part_words.length(extent, sizing)
         # made here, in a thread: the severity takes too long for the loop of the session
         self._work_order = work_order(measurement, question, answer, length)
         return part_words.sentence(answer, question)

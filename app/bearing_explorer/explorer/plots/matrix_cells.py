@@ -95,6 +95,7 @@ def matrix_figure(
     """Make a figure for cells, as wide as its card; `looks` are further styles."""
     plot = style.bare_figure(models.Range1d(*x), models.Range1d(*y), **options)
     plot.toolbar_location = "left"  # on the right it would lie on the last column
+    plot.toolbar.styles = {"background-color": "transparent"}  # a curve is seen through it
     # Panel would give a `min_width` of the figure to the whole card, so a style sheet sets it
     plot.min_width = None
     plot.stylesheets = [looks]

@@ -14,6 +14,9 @@ A lesson is a text file in Markdown with a head in TOML::
     extent_deg = 0
     edge = "chord"
 
+    [result]                           # ... and then, once a prediction is made; may be left out
+    extent_deg = 40
+
     [predict]                          # before the answer; may be left out
     ask = "Which ball carries most?"
     choose = ["the first", "the lowest", "all the same"]
@@ -156,6 +159,7 @@ class _Head(msgspec.Struct):
     watch: tuple[str, ...] = ()
     term: str = ""
     scene: dict[str, str | int | float] = {}
+    result: dict[str, str | int | float] = {}
     predict: dict[str, Any] | None = None
 
 
@@ -163,7 +167,8 @@ class _Head(msgspec.Struct):
 class Lesson:
     """One lesson. `values` and `choices` change the scene of `preset`, by names of the page.
 
-    The page's address contains its `name`.
+    `result` is the message that changes it further, to show the answer of the prediction; it is
+    empty if the scene shows the answer already. The page's address contains the lesson's `name`.
     """
 
     title: str
@@ -174,6 +179,7 @@ class Lesson:
     drag: tuple[str, ...]
     watch: tuple[str, ...]
     parts: tuple[Part, ...]
+    result: Mapping[str, Any]
     predict: Prediction | None = None
     term: str = ""
     name: str = ""
@@ -193,6 +199,7 @@ class Lesson:
             "watch": list(self.watch),
             "parts": [asdict(part) for part in self.parts],
             "predict": msgspec.to_builtins(self.predict),
+            "result": self.result,
             "cell": CELLS[self.term],
             "name": self.name,
         }
@@ -288,6 +295,7 @@ def read_lesson(text: str, tabs: Tabs) -> Lesson:
         values=values,
         choices=choices,
         parts=_parts("\n".join(lines[ends[0] + 1 :]), ends[0] + 1, checks),
+        result=checks.result(),
         predict=checks.prediction(),
     )
 
@@ -348,8 +356,12 @@ class _Checks:
 
     def scene(self) -> tuple[dict[str, float], dict[str, str]]:
         """The numbers and choices that change the scene of the preset."""
-        changes = {name: str(value) for name, value in self.head.scene.items()}
-        return _changes(SceneEditor(self.head.preset), changes, self.error)
+        return _changes(SceneEditor(self.head.preset), self.head.scene, self.error)
+
+    def result(self) -> dict[str, Any]:
+        """The message that sets the scene of the answer; empty where the head has none."""
+        values, choices = _changes(self.editor(), self.head.result, self.error)
+        return {"choose": choices, "typed": values} if self.head.result else {}
 
     def prediction(self) -> Prediction | None:
         """The prediction; LessonError if none of its choices is right."""
@@ -385,12 +397,13 @@ def _hint(name: str, known: Sequence[str]) -> str:
 
 
 def _changes(
-    editor: SceneEditor, changes: Mapping[str, str], error: Callable[[str, str], LessonError]
+    editor: SceneEditor, values: Mapping[str, Any], error: Callable[[str, str], LessonError]
 ) -> tuple[dict[str, float], dict[str, str]]:
     """Numbers and choices of the changes of a scene, tried on `editor`.
 
     If a change fails, `error` makes the exception from its name and a sentence.
     """
+    changes = {name: str(value) for name, value in values.items()}
     choices = {name: value for name, value in changes.items() if name in (*CHOICES, "preset")}
     for name, value in choices.items():
         options = CHOICES.get(name, list(presets))

@@ -40,6 +40,7 @@ NUMBER_RIGHT, NUMBER_UP = 20.0, 13.0  # [px] from the end of a bar to the middle
 NUMBER_HALF, SIDE = 30.0, 1.25  # [px] half the width of a number; start of its bar from the middle
 MOST_NAMED = 4  # balls in a defect that are named; more are counted
 LINE_PIXELS = 16.0
+WORDS_WIDE, WORDS_HIGH = 95.0, 50.0  # [px] of three lines on the load
 KEYWAY = 0.09  # [rad] half its width
 ARROW_SHORTEST, ARROW_LONGEST = 0.3, 0.88  # shares of the radius of the bore, after a drag
 ARROW_END = 1.45  # from the middle; a longer arrow would leave the figure
@@ -81,17 +82,25 @@ let w = 0, h = 0
 try {{ w = plot.inner_width; h = plot.inner_height }} catch {{ return }}  // not laid out yet
 if (!(w > 0 && h > 0)) return
 // the names of several rows are below them
-const of_rows = shown.end > 1.01*half ? (h - 68*larger)/{ROW_NAMES} : Infinity
-// the words on the load, top left, are above a ring that has no corner for them
-const above = w < Math.min(420, 1.2*h) ? 50*larger : 0
-const high = above ? {HIGHEST} : half
+const several = shown.end > 1.01*half, of_rows = several ? (h - 68*larger)/{ROW_NAMES} : Infinity
 // the number on the lowest bar is below it, and larger numbers need more
 const low = 21*larger
-const room = 2*(h - above - low - 35*(larger - 1))/(high + {LOWEST})
 // so does the number at 0°, which stands beside the ring
 const beside = (w - 2*({NUMBER_RIGHT} + {NUMBER_HALF})*larger)/(shown.end - half + {SIDE})
-const unit = Math.min(w/shown.end, room, of_rows, Math.max(beside, 0.3*w)), x = w/unit
-const start = (high - {LOWEST})/2 - (h - above + low)/unit, end = start + 2*h/unit
+// the pixels of two lengths, and the lower edge, with this room [px] above the ring
+const fitted = (above) => {{
+  const high = above ? {HIGHEST} : half
+  const room = 2*(h - above - low - 35*(larger - 1))/(high + {LOWEST})
+  const unit = Math.min(w/shown.end, room, of_rows, Math.max(beside, 0.3*w))
+  return [unit, (high - {LOWEST})/2 - (h - above + low)/unit]
+}}
+let [unit, start] = fitted(0)
+// the words on the load, top left, are above a ring whose numbers would reach into them
+const right = w/2 - unit/2*(shown.end - (several ? {OF_A_ROW} : half)) - {WORDS_WIDE}*larger
+const down = h + start*unit/2 - {WORDS_HIGH}*larger
+if (Math.hypot(Math.max(right, 0), Math.max(down, 0)) < {SIDE}*unit/2 + {NUMBER_HALF}*larger)
+  [unit, start] = fitted({WORDS_HIGH}*larger)
+const x = w/unit, end = start + 2*h/unit
 plot.x_range.setv({{start: -x, end: x, reset_start: -x, reset_end: x}})
 plot.y_range.setv({{start, end, reset_start: start, reset_end: end}})
 """

@@ -122,7 +122,9 @@ class PassageView(ComparingView):
             f"{self.prefix}_ball_names",
             "from",
             "at",
-            f"return narrow && row.row ? `${{row.ball}}, row ${{row.row}}` : `{BALL}`",
+            # numbers alone where large type has no room for more
+            f"return narrow && row.row ? `${{row.ball}}, row ${{row.row}}` "
+            f": narrow && larger > 1 ? row.ball : `{BALL}`",
             reads=(*NAMED, "slot"),
             x_share=True,
             y_share=True,

@@ -44,6 +44,8 @@ AXIS: FieldSpec = {
 
 NAMED_IN_FULL = 580.0
 """Least width [px] of a frame at which the names of bands include their frequencies."""
+FEW = 3
+"""Number of marks at the ball-pass frequency and its harmonics for a healthy bearing."""
 LOWEST = 100.0
 """Lowest frequency [Hz] of the logarithmic axis."""
 WIDE_DEPTH = 90.0
@@ -306,14 +308,17 @@ def passed_races(scene: Scene) -> list[tuple[str, int, float]]:
 def pass_frequencies(scene: Scene, top: float) -> dict[str, NDArray[np.float64]]:
     """Frequencies [Hz] at which balls pass the defects, with harmonics up to `top`.
 
+    Without a defect nothing strikes, and only the first few are marked.
+
     Columns: the frequency, 1 for the inner race, the number of the row (0 if rows are alike), and
     the error [Hz] if the inside is estimated. The outer race comes first.
     """
+    most = np.inf if scene.defects else FEW
     lines = [np.empty((0, 4))]
     for race, row, first in passed_races(scene):
         bearing = scene.bearing.of_row(max(row - 1, 0))
         spread = first * bearing.frequency_spread("bpfo" if race == "outer" else "bpfi")
-        count = int(top / first) if first > 0.0 else 0
+        count = int(min(top / first, most)) if first > 0.0 else 0
         line = np.tile([0.0, float(race == "inner"), float(row), spread], (count, 1))
         line[:, 0] = first * np.arange(1.0, count + 1.0)
         lines.append(line)

@@ -621,13 +621,13 @@ So $x < y$ it is.
 
 
 def test_a_lesson_sets_a_scene_and_its_buttons_change_it() -> None:
-    lesson = read_lesson(GOOD, TABS)
-    assert (lesson.title, lesson.tab, lesson.drag, lesson.watch) == (
-        "A title", "load", ("fy_n",), ("bearing",),
-    )  # fmt: skip
+    lesson = read_lesson(GOOD.replace("[predict]", "[result]\nextent_deg = 40\n[predict]"), TABS)
+    assert (lesson.title, lesson.tab) == ("A title", "load")
+    assert (lesson.drag, lesson.watch) == (("fy_n",), ("bearing",))
     editor = SceneEditor("liew-lim")
     lesson.begin(editor)
     assert editor.scene == FAN.replace(extent=math.radians(64.0), edge="chord")
+    assert lesson.browser_data(0)["result"] == {"choose": {}, "typed": {"extent_deg": 40.0}}
     question, answer = lesson.parts
     buttons = ElementTree.fromstring(f"<div>{question.html}</div>").iter("button")
     assert [json.loads(button.attrib["data-ask"]) for button in buttons] == [

@@ -102,7 +102,7 @@ class Read:
     cut
         sentence on rows that were left out.
     kept
-        answers for the file before that the form takes over.
+        answers for the previous file that the form takes over.
     """
 
     table: Table
@@ -172,7 +172,7 @@ def read_file(
 ) -> Read:
     """Read a file and guess at its contents. For any thread; ValueError with a sentence.
 
-    `kept`: answers on the machine for the file before, used where this file states nothing.
+    `kept`: answers on the machine for the previous file, used where this file states nothing.
     """
     try:
         whole = read_table(name, content, give_up)

@@ -30,14 +30,14 @@ LOST_REACH = 8
 `squared_envelopes`."""
 
 STRAIGHT = 1e-12
-"""Greatest bend of a straight line, over the greatest swing: rounding bends it as much."""
+"""Greatest bend of a straight line, relative to the greatest swing: rounding bends it as much."""
 
 LONGEST_WORD = 64
 """Most samples that are compared to find repeats. A signal that needs more has so few different
 numbers that it repeats by itself."""
 
 RAIL = 1e-6
-"""Greatest distance of a sample at an extreme, over the greatest swing."""
+"""Greatest distance of a sample at an extreme, relative to the greatest swing."""
 
 FEWEST_CUT, CUT_PILE = 10, 5
 """Peaks are cut off if at least this many samples are at one limit, and this many times as many as

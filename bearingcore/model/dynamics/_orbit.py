@@ -80,7 +80,7 @@ class Orbit:
     multipliers : (4 len(dofs),)
         Floquet multipliers, the largest first: growth factors of disturbances over a period.
     residual
-        distance between end and beginning of the period, over the size of the orbit.
+        distance between end and beginning of the period, relative to the size of the orbit.
     iterations, right_hand_side_calls
         numbers of Newton steps and of evaluations of the accelerations, with or without tangent.
     history : (steps + 1, 6, len(dofs))

@@ -57,7 +57,7 @@ class PartEvidence:
         [Hz] of sidebands that neither the shaft nor the cage makes; NaN if there are none. They are
         searched at the outer race, which makes no sidebands of its own.
     depth
-        swing of the envelope at these lines, over its mean.
+        swing of the envelope at these lines, relative to its mean.
     swing
         the swing including the first sidebands.
     deviations

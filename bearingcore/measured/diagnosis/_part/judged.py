@@ -83,10 +83,10 @@ WEAK_SIDEBANDS = 14.0
 
 SLOWER, FAINTER = (2, 3), 0.7
 """Divisors of a comb's frequency at which the comb may also show, and the greatest height of the
-lines in between, over its own, if it does."""
+lines in between, relative to its own, if it does."""
 
 GAPS = 0.25
-"""Least height of the lines in between that belong to a comb, over its own."""
+"""Least height of the lines in between that belong to a comb, relative to its own."""
 
 ALIKE = 7.0
 """Amount [dB] by which lines of a second damaged race may be below those of the first. In 51
@@ -129,7 +129,7 @@ class Judged:
     other_above_noise, other_swing
         height [dB] of these lines above noise, and their swing of the envelope.
     detectable
-        the least detectable swing of the envelope, over its mean.
+        the least detectable swing of the envelope, relative to its mean.
     resolutions
         the combs at all resolutions on which the evidence rests.
     """

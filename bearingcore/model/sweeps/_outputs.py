@@ -259,8 +259,8 @@ class Settings:
     cage_angles
         number of cage angles in a period, ends included. With an inner-race defect, a quarter as
         many per ball spacing over a whole turn, for each defect angle with a ball at an edge; least
-        and greatest values are then searched between the angles too. Otherwise they are those at the
-        angles. If few balls carry load, as under a light or tilting load, stiffness may vary by
+        and greatest values are then searched between the angles too. Otherwise they are those at
+        the angles. If few balls carry load, as under a light or tilting load, stiffness may vary by
         a few per cent more between the angles.
     duration
         [s] of simulated motions and records; the first half of a motion is left out as transient.

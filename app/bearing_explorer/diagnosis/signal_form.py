@@ -321,12 +321,12 @@ class SignalForm:
 
     def _confirmed(self, machine: Machine) -> Machine:
         """Return the machine, marked with what is kept from the previous file and what is given."""
-        answered, by = self._answered, machine.bearing_source
+        answered, source = self._answered, machine.bearing_source
         return replace(
             machine,
             kept=frozenset(GROUPS) & set(self._kept),
             guessed=machine.guessed - answered,
-            bearing_source=GIVEN if "bearing" in answered and by == FILE else by,
+            bearing_source=GIVEN if "bearing" in answered and source == FILE else source,
         )
 
     def _take_as_given(self, *names: str) -> None:

@@ -168,13 +168,13 @@ def cut_off(signal: Array) -> str:
         side = sign * signal
         limit = side.max(initial=-np.inf)
         inside = side[side < limit]
-        at = side.size - inside.size
-        if not inside.size or at < FEWEST_CUT:
+        pile = side.size - inside.size
+        if not inside.size or pile < FEWEST_CUT:
             continue
-        at_next = np.count_nonzero(inside == inside.max())
+        next_pile = np.count_nonzero(inside == inside.max())
         # a signal that rests at its limit, as between pulses, is not cut off
-        if at >= CUT_PILE * at_next and limit - np.median(side) > 0.2 * (limit - inside.min()):
-            reaching += at
+        if pile >= CUT_PILE * next_pile and limit - np.median(side) > 0.2 * (limit - inside.min()):
+            reaching += pile
             limits.append(number(sign * limit, 4))
     if not reaching:
         return ""

@@ -111,12 +111,12 @@ _LOWERED = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 
 def _table() -> dict[str, Output]:
     table: dict[str, Output] = {}
-    over = "over all positions of the balls and of a defect that turns"
+    positions = "over all positions of the balls and of a defect that turns"
     for term in STIFFNESS_TERMS:
         for which in ("mean", "least", "greatest"):
             table[f"{term}_{which}"] = Output(
                 TERM_UNITS[term],
-                f"{which} stiffness {term} {over}",
+                f"{which} stiffness {term} {positions}",
                 f"Stiffness, {which}",
                 f"{TERM_SYMBOLS[term]}, {which}",
                 STATICS,
@@ -124,13 +124,13 @@ def _table() -> dict[str, Output]:
     for which in ("mean", "least", "greatest"):
         table[f"loaded_balls_{which}"] = Output(
             "1",
-            f"{which} number of balls that carry load {over}",
+            f"{which} number of balls that carry load {positions}",
             "Balls",
             f"loaded balls, {which}",
             STATICS,
         )
     table["ball_load_greatest"] = Output(
-        "N", f"greatest load of a ball {over}", "Balls", "greatest ball load", STATICS
+        "N", f"greatest load of a ball {positions}", "Balls", "greatest ball load", STATICS
     )
     table["converged_share"] = Output(
         "1",
@@ -142,7 +142,7 @@ def _table() -> dict[str, Output]:
     for race in ("inner", "outer"):
         table[f"contact_pressure_{race}"] = Output(
             "Pa",
-            f"greatest contact pressure of a ball on the {race} race {over}",
+            f"greatest contact pressure of a ball on the {race} race {positions}",
             "Balls",
             f"contact pressure, {race} race",
             PRESSURE,
@@ -158,7 +158,7 @@ def _table() -> dict[str, Output]:
     for which in ("least", "greatest"):
         table[f"band_{which}"] = Output(
             "Hz",
-            f"{which} natural frequency of each mode, damping left out, {over}",
+            f"{which} natural frequency of each mode, damping left out, {positions}",
             "Natural frequencies",
             f"mode {{}}, {which}",
             MODES,

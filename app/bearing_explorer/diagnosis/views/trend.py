@@ -87,10 +87,10 @@ class TrendOfFiles(JobView[Model, ComputedTrend, Editor], MeasuredView):
     name = "trend"
     title = "Trend of several files"
     about = (
-        "Several files of one machine, or a folder of them, chosen in step 1. Dashed: the first "
-        "file. Bars: 95 % intervals; a bar without a dot is an upper bound. The rest of this tab "
-        "shows the last file. Lines of the parts are drawn where they are above noise, all in the "
-        "band of the last file; such a line need not come from the bearing. The length of the "
+        "Several files of one machine, or a folder of them. They are chosen in step 1. Dashed: the "
+        "first file. Bars: 95 % intervals; a bar without a dot is an upper bound. The rest of this "
+        "tab shows the last file. Lines of the parts are drawn where they are above noise, all in "
+        "the band of the last file; such a line need not come from the bearing. The length of the "
         "defect is drawn for files whose diagnosis names a damaged race."
     )
     finds_speed = True

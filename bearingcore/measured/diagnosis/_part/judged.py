@@ -383,9 +383,9 @@ class _Comparison:
                 continue
             column = int(near[combs.level[:, near].max(axis=0).argmax()])
             loudest = combs.envelopes[int(combs.level[:, column].argmax())]
-            frequency = np.array([combs.frequency[column]])
+            loudest_line = np.array([combs.frequency[column]])
             count = part * (HARMONICS // part)
-            depth = lines_at(loudest.levels.depth, loudest.levels.step, frequency, count)[:, 0]
+            depth = lines_at(loudest.levels.depth, loudest.levels.step, loudest_line, count)[:, 0]
             shared = np.arange(1, len(depth) + 1) % part == 0
             if depth[~shared].mean() < FAINTER * depth[shared].mean():
                 slower[near] = True

@@ -11,10 +11,10 @@ from bearingcore.common import Array
 from bearingcore.recordings._spectrum import Spectrum, spectrum
 
 BAND = 1.25
-"""Highest frequency of a motion that counts, over its highest natural frequency."""
+"""Highest frequency of a motion that counts, relative to its highest natural frequency."""
 
 COUNTS = 1e-4
-"""Least density of a line or band that counts, over the greatest of its direction."""
+"""Least density of a line or band that counts, relative to the greatest of its direction."""
 
 RESOLUTION = 32.0
 """Resolution [Hz] of spectra that are compared; coarser where signals are short."""

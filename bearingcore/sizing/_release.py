@@ -30,8 +30,8 @@ RELEASE_PLACES = 241
 
 TYPICAL_LOAD, LOAD_SPREAD = 0.007, 1.0
 """Radial load as a share of the dynamic load rating if no load is given, and the standard deviation
-of its logarithm: nineteen of twenty bearings carry 0.1 % to 5 %. Balls roll well above 1 %, but
-test rigs and idle machines carry less."""
+of its logarithm: nineteen of twenty bearings carry 0.1 % to 5 %. Balls need 1 % to roll without
+sliding, but test rigs and idle machines carry less."""
 
 GIVEN_LOAD_SPREAD = 0.2
 """Standard deviation of the logarithm of the load on the spall if the load on the bearing is given:
@@ -41,17 +41,17 @@ CLEARANCE_SPREAD = 0.25
 """Relative standard deviation of a given clearance."""
 
 LEAST_CLEARANCE = 3e-4
-"""Typical radial clearance over the ball diameter, for a bearing without a clearance."""
+"""Least clearance, relative to the ball diameter, that is assumed where no clearance is stated."""
 
 EDGE_WEIGHTS = {"exact": 0.48, "chord": 0.48, "published": 0.04}
 """Probability of each edge model. The first two are geometry and nearly agree. `published` halves
-the arc; the offsets measured on a rig agree with it at a load only that the rig does not carry, so
+the arc. It agrees with the offsets measured on a rig only at a load that the rig does not carry, so
 it stays in the tail of the interval."""
 
 SEEN_SHARES = {1.0: 0.5, 0.75: 0.25, 0.5: 0.15, 0.25: 0.1}
-"""Probability that a sensor shows this share of the offset. The load falls from the edge on and is
-gone one offset later; a ball with mass strikes between that place and the far edge. So the peaks
-lie somewhere on this way, and mostly where the load is gone."""
+"""Probability that a sensor shows this share of the offset. The load begins to fall at the edge and
+is gone one offset later; a ball with mass strikes between that place and the far edge. So the peaks
+lie somewhere between, and mostly where the load is gone."""
 
 _NORMAL = (-1.96, -1.2816, -0.6745, 0.0, 0.6745, 1.2816, 1.96)
 _WEIGHTS = (0.05, 0.125, 0.2, 0.25, 0.2, 0.125, 0.05)
@@ -90,7 +90,7 @@ def release_offset(
     place = np.linspace(-0.5 * extent, 0.5 * extent, RELEASE_PLACES)  # of the ball, from the middle
     scene = Scene(bearing, spall, Load(fy=-load), 0.0, FAN_RIG_SUPPORT, dofs=("x", "y"))
     state = equilibrium(scene, under + place / (1.0 - turn))
-    compression = np.asarray(state.ball_load[:, 0]) ** (2.0 / 3.0)  # falls to 0 along a line
+    compression = np.asarray(state.ball_load[:, 0]) ** (2.0 / 3.0)  # falls to 0 linearly
     free = np.flatnonzero(compression <= 0.0)
     if free.size < 2 or free[0] < 2 or free[-1] > RELEASE_PLACES - 3:
         return math.nan

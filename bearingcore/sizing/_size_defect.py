@@ -34,7 +34,7 @@ from bearingcore.model.scene import MASSLESS, Scene
 from bearingcore.recordings import Recording
 
 BAND, FEWEST_LINES = (0.25, 1.35), 6.0
-"""Ends of the compared band, over the lowest and the highest natural frequency without the defect;
+"""Ends of the compared band, relative to the lowest and highest natural frequency without defect;
 fewest lines of the mean ball pass up to the upper end."""
 
 STEP = math.radians(0.5)

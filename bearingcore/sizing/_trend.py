@@ -24,7 +24,7 @@ LINES_A_TURN = 16.0
 """Resolution of the envelope spectrum in parts of the shaft speed, if the signal is so long."""
 
 LOWEST_LINE = 3.0
-"""Lowest frequency of a line that is searched, over the resolution."""
+"""Lowest frequency of a line that is searched, relative to the resolution."""
 
 SURROUNDINGS, FEWEST_AROUND = 2.0, 9
 """Width over which the median is the background, in shaft frequencies; fewest lines in it."""

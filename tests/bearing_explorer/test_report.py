@@ -134,11 +134,11 @@ def test_a_measured_signal_has_its_answer_pictures_and_assumptions_on_one_page()
         ("outer race", "C", None, "Soon: the vibration is in zone C", "measure every day"),
         ("outer race", "A", None, "Measure again within a week", "does not clear a bearing"),
         ("outer race", "", 2.5, "Soon: the vibration has clearly grown", "is 2.5 times"),
-        ("outer race", "", 1.1, "Soon: the vibration has clearly grown", "outer race became 4.4"),
+        ("outer race", "", 1.1, "Soon: the vibration has clearly grown", "outer race grew to 4.4"),
         ("outer race", "", 1.2, "Soon: the vibration has clearly grown", "May 2026, 9 days before"),
         ("none seen", "A", None, "Measure again at the usual interval.", ""),
         ("none seen", "D", None, "Measure again at the usual", "look now for its cause"),
-        ("cannot tell", "", 3.0, "This record decides nothing", "became 3 times"),
+        ("cannot tell", "", 3.0, "This record decides nothing", "grew to 3 times"),
     ],
 )
 def test_the_next_step_rests_on_part_zone_and_growth(

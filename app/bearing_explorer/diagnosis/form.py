@@ -544,7 +544,7 @@ def _doubts(table: Table, chosen: Sequence[int], unit: str | None) -> list[str]:
 
 
 def _refusal(error: ValueError) -> str:
-    """Word the refusal of a signal."""
+    """Return the refusal of a signal in words."""
     if isinstance(error, FieldError) and error.field == "acceleration":
         return f"the acceleration is {error.value}; allowed: {error.allowed_text}"
     return str(error)

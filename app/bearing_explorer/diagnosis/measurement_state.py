@@ -17,7 +17,7 @@ FIRST_WORDS = (
     "indicators and spectra appear here."
 )
 
-REFUSED = "An answer on bearing, speed or columns is refused; this uses the one before."
+REFUSED = "An answer on bearing, speed or columns is refused; this uses the previous one."
 CHANGED = "Your answers have changed since."
 NOT_YET = "The signal is being analysed with the newest answers."
 """Reasons why an answer is out of date, or not there yet."""
@@ -60,7 +60,7 @@ class MeasurementState:
     speeds: list[list[str]] = field(default_factory=list)
     #: True while changed answers are being read
     settling: bool = False
-    #: name of the file before, if bearing or speed are kept from it
+    #: name of the previous file, if bearing or speed are kept from it
     kept_from: str = ""
     #: the drawn signal in a line; a guess has a question mark. Empty without a signal
     line: str = ""
@@ -132,8 +132,8 @@ def line_and_remarks(
     if measured is None:
         return {"line": "", "whole_name": "", "remarks": ""}
     recording, machine = measured.recording, measured.machine
-    long = len(recording.name) if table is None else NAME_IN_LINE
-    name = without_middle(recording.name, long)
+    longest = len(recording.name) if table is None else NAME_IN_LINE
+    name = without_middle(recording.name, longest)
     sure = set(SIGNAL_FIELDS) if table is None else _known_fields(table, form, first)
     unit = form.get("unit", "m/s²") or "unit"
     speed = "speed"

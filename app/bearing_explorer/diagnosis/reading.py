@@ -53,8 +53,8 @@ class Arrival:
         """Number of the file and of all, in words; empty for a single file."""
         if self.count == 1:
             return ""
-        of = f" (some of {self.chosen}, from first to last)" if self.chosen > self.count else ""
-        return f"{self.number} of {self.count} files{of}: "
+        some = f" (some of {self.chosen}, from first to last)" if self.chosen > self.count else ""
+        return f"{self.number} of {self.count} files{some}: "
 
     @property
     def which(self) -> str:
@@ -102,7 +102,7 @@ class Read:
     cut
         sentence on rows that were left out.
     kept
-        answers for the file before that the form takes over.
+        answers for the previous file that the form takes over.
     """
 
     table: Table
@@ -172,14 +172,14 @@ def read_file(
 ) -> Read:
     """Read a file and guess at its contents. For any thread; ValueError with a sentence.
 
-    `kept`: answers on the machine for the file before, used where this file states nothing.
+    `kept`: answers on the machine for the previous file, used where this file states nothing.
     """
     try:
         whole = read_table(name, content, give_up)
         table, words = cut(whole, MOST_NUMBERS), ""
         if table is not whole:
-            count, of = (thousands(len(rows.columns)) for rows in (table, whole))
-            words = f"Only the first {count} of {of} rows are used."
+            used, total = (thousands(len(rows.columns)) for rows in (table, whole))
+            words = f"Only the first {used} of {total} rows are used."
     except FieldError as error:
         names_file = error.field == "file" and error.value == name
         why = f"needed is {error.allowed_text}" if names_file else str(error)

@@ -4,7 +4,7 @@
 `Measurement` here adds uploads and simulations. `reading` reads a file, `simulated` makes a signal,
 and `measurement_state` has the words that are shown. None of them uses Panel or draws. A file
 arrives in pieces, is read in a thread of its own, and opens a form with questions. If it cannot be
-read, a sentence says why, and the signal before it stays.
+read, a sentence says why, and the previous signal stays.
 """
 
 from __future__ import annotations
@@ -85,7 +85,7 @@ class Measurement(SignalForm):
             self.want(0, self._uploads)
 
     def cancel(self) -> None:
-        """Give up the files that are being uploaded or read; the signal before them stays."""
+        """Give up the files that are being uploaded or read; the previous signal stays."""
         self._jobs.drop(READING)
         self._uploads += 1
         self._upload = self._arrival = None

@@ -1,4 +1,4 @@
-"""The current signal of a session, the answers of a person, and the known facts on it.
+"""The current signal of a session, the known facts on it, and a person's answers about it.
 
 Nothing here uses Panel or draws.
 """
@@ -69,7 +69,7 @@ class SignalForm:
     Parameters
     ----------
     scene
-        returns the current scene, which may be measured.
+        returns the current scene, which a person can measure instead of a machine.
     jobs
         the background jobs of the session.
     draw
@@ -85,14 +85,14 @@ class SignalForm:
     _arrival: Arrival | None = None
     _as_read: Table | None = None
     # the form as the file filled it in, guesses that a person agreed to, answers that are kept from
-    # the file before, and the form of the drawn signal
+    # the previous file, and the form of the drawn signal
     _first: Mapping[str, str] = MappingProxyType({})
     _agreed: Mapping[str, str] = MappingProxyType({})
     _kept: Mapping[str, str] = MappingProxyType({})
     _taken: Mapping[str, str] = MappingProxyType({})
     #: "bearing" and "speed" where a person has answered them for this file
     _answered: frozenset[str] = frozenset()
-    _cut = ""
+    _cut_words = ""  # a sentence on rows that were left out
 
     def __init__(
         self,
@@ -115,7 +115,7 @@ class SignalForm:
         #: the newest trend of files, and the kind of the machine for the zone of its vibration
         self.trend: ComputedTrend | None = None
         self.machine_kind = ""
-        #: the newest choice between lengths of the spall, for this signal or one before
+        #: the newest choice between lengths of the spall, for this signal or a previous one
         self.sized: SizedDefect | None = None
         self._scene = scene_machine(scene())
         self._table: Table | None = None  # with the current roles of its columns
@@ -189,15 +189,15 @@ class SignalForm:
 
     @property
     def at_work(self) -> str:
-        """Work that is under way, or a refusal, for the status line; empty where nothing is."""
+        """Work that is under way, or a refusal, for the status line; empty without either."""
         if self.state.busy:
             return "Reading the signal"
         if self.out_of_date in (CHANGED, NOT_YET) or self.extents.busy:
             return "Analysing the signal"
         state = self.state
-        drawn = self._table is None or state.line
-        missing = not any(state.values.get(name) for name in state.refused)
-        if not drawn and missing and (state.refused or not state.bad):
+        undrawn = self._table is not None and not state.line
+        unanswered = not any(state.values.get(name) for name in state.refused)
+        if undrawn and unanswered and (state.refused or not state.bad):
             return WANTED
         if state.bad:  # step 2 shows the refusals of the machine's form, step 1 all others
             return NOT_TAKEN.format(2 if state.line and set(state.refused) & set(FIELDS) else 1)
@@ -212,7 +212,7 @@ class SignalForm:
     # States and jobs
 
     def _refuse(self, sentence: str, lines: str = "") -> None:
-        """Show what is wrong with a file, above its first lines; the signal before it stays."""
+        """Show what is wrong with a file, above its first lines; the previous signal stays."""
         self._update(words=f"{sentence}{self._what_stays()}", bad=True, busy=False, lines=lines)
 
     def _what_stays(self) -> str:
@@ -302,7 +302,7 @@ class SignalForm:
         value = self.state.values.get(name, "")
         if not is_unchanged(name, value, self._first.get(name, "")):
             kept = self.state.kept_from if self._kept.get(name) == value else ""
-            return f"Assumed, kept from the file before, {kept}" if kept else "Given"
+            return f"Assumed, kept from the previous file, {kept}" if kept else "Given"
         return "" if name in self.state.open else self.state.reasons.get(name, "")
 
     @property
@@ -320,13 +320,13 @@ class SignalForm:
         return {field: values[field] for name in answered for field in GROUPS[name]}
 
     def _confirmed(self, machine: Machine) -> Machine:
-        """Return the machine, marked with what is kept from the file before and what is given."""
-        answered, by = self._answered, machine.bearing_source
+        """Return the machine, marked with what is kept from the previous file and what is given."""
+        answered, source = self._answered, machine.bearing_source
         return replace(
             machine,
             kept=frozenset(GROUPS) & set(self._kept),
             guessed=machine.guessed - answered,
-            bearing_source=GIVEN if "bearing" in answered and by == FILE else by,
+            bearing_source=GIVEN if "bearing" in answered and source == FILE else source,
         )
 
     def _take_as_given(self, *names: str) -> None:
@@ -341,9 +341,9 @@ class SignalForm:
         self.take_form(self.state.values)
 
     def forget_machine(self) -> None:
-        """Ask for bearing and speed again, which were given for the file before.
+        """Ask for bearing and speed again, which were given for the previous file.
 
-        Files of the machine before are no series with this one.
+        Files of the previous machine are no series with this one.
         """
         self.series = Series() if self._table is None else Series().with_table(self._table)
         names = [name for name in GROUPS if name in self._kept]
@@ -351,13 +351,13 @@ class SignalForm:
         self.take_form({**self.state.values, **dict.fromkeys(names, NOT_KNOWN)})
 
     def _take_read(self, read: Read) -> None:
-        """Show a file that was read in place of the one before.
+        """Show a file that was just read in place of the previous one.
 
-        Its figures leave with the file before, so that none is shown under the name of another.
+        The figures of the previous file go with it: none may appear under the new file's name.
         """
         table, before = read.table, "" if self._table is None else self._table.name
         self._table = self._as_read = table
-        self._cut, self._first, self._agreed = read.cut, read.first, {}
+        self._cut_words, self._first, self._agreed = read.cut, read.first, {}
         self._kept, self._answered = read.kept, frozenset()
         self._taken = read.form
         self.measured = None
@@ -471,8 +471,8 @@ class SignalForm:
 
     def _summary(self, *more: str) -> str:
         notes = self.measured.recording.notes if self.measured is not None else ()
-        words = (summary(self.measured), self._cut, *notes, *more)
+        words = (summary(self.measured), self._cut_words, *notes, *more)
         return " ".join(filter(None, words))
 
     def _in_short(self, form: Mapping[str, str]) -> dict[str, str]:
-        return line_and_remarks(self.measured, self._table, form, self._first, self._cut)
+        return line_and_remarks(self.measured, self._table, form, self._first, self._cut_words)

@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 MOST_BYTES = 24 * 2**20
-"""Size of the largest file that is taken from a browser."""
+"""Size of the largest file that is accepted from a browser."""
 
 PIECE = 2**20
 """Size [bytes] of the pieces that the browser sends; far below the limit of the websocket."""
@@ -27,7 +27,7 @@ class Upload:
     Parameters
     ----------
     name, size
-        of the file [bytes], as the browser gives them.
+        of the file, as the browser gives them; the size in bytes.
 
     Raises
     ------
@@ -67,8 +67,8 @@ class Upload:
 
 def first_lines(content: bytes) -> str:
     """The first lines of a refused text, which may show the reason; empty for other files."""
-    coded = "utf-16" if content[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8"
-    text = content[:20_000].decode(coded, "replace")
+    encoding = "utf-16" if content[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8"
+    text = content[:20_000].decode(encoding, "replace")
     lines = [line.expandtabs(4)[:LONGEST_LINE] for line in text.splitlines()[:FIRST_LINES]]
     return "\n".join(lines) if all(line.isprintable() for line in lines) else ""
 

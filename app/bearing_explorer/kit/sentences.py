@@ -20,7 +20,7 @@ _GROOVES = ("inner_groove_radius", "outer_groove_radius")
 
 
 def sentence_of(error: ValueError) -> str:
-    """Word a refusal as a sentence. A refusal of the page itself is a sentence already."""
+    """Return a refusal as a sentence. A refusal of the page itself is a sentence already."""
     words = words_of(error)
     whole = str(error) == f"{words}."
     return str(error) if whole else f"Not possible: {words}."

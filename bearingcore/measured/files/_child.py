@@ -41,7 +41,7 @@ _TICK = 0.1
 
 _PROGRAM = Path(__file__).with_name("_child_program.py")
 _ENVIRONMENT = {
-    "HDF5_PLUGIN_PATH": "::",  # none is loaded
+    "HDF5_PLUGIN_PATH": "::",  # no plugin is loaded
     "OPENBLAS_NUM_THREADS": "1",
     "OMP_NUM_THREADS": "1",
 }
@@ -82,7 +82,7 @@ def read_file(
             env={**os.environ, **_ENVIRONMENT},
         )
     except OSError:
-        raise checks.refuse("file", name, "one; the system starts no process to read it") from None
+        raise checks.refuse("file", name, "one for which the system can start a process") from None
     assert child.stdin is not None
     assert child.stdout is not None
     head = json.dumps([name, PROCESSOR_SECONDS, MEMORY]).encode() + b"\n"

@@ -206,9 +206,9 @@ def contents_of(table: FileColumns) -> FileContents:
         known.name,
         known.guess("bearing"),
         facts.designation_in(lines),
-        dates.recorded_in(lines, table.name),
-        dates.named_in("machine", lines, table.name),
-        dates.named_in("point", lines, table.name),
+        dates.recording_time(lines, table.name),
+        dates.machine_or_point("machine", lines, table.name),
+        dates.machine_or_point("point", lines, table.name),
     )
 
 

@@ -12,10 +12,10 @@ _DATE = re.compile(
     r"(?<!\d)(?:"
     r"(?P<year>(?:19|20)\d\d)(?:(?P<mark>[-_./ ])(?P<month>\d\d?)(?P=mark)(?P<day>\d\d?)"
     r"|(?P<joined_month>\d\d)(?P<joined_day>\d\d))"
-    r"|(?P<one>\d\d?)(?P<between>[-./ ])(?P<two>\d\d?|[A-Za-z]{3,9})(?P=between)"
+    r"|(?P<first>\d\d?)(?P<between>[-./ ])(?P<mid>\d\d?|[A-Za-z]{3,9})(?P=between)"
     r"(?P<last_year>(?:19|20)?\d\d)"
     r")(?:[-_. T,;\t]+(?P<hour>[012]?\d)[-_.:h ]?(?P<minute>[0-5]\d)"
-    r"(?:[-_.: ]?(?P<second>[0-5]\d))?(?:[.,]\d+)?(?:\s?(?P<half>[AaPp])[Mm])?"
+    r"(?:[-_.: ]?(?P<second>[0-5]\d))?(?:[.,]\d+)?(?:\s?(?P<am_pm>[AaPp])[Mm])?"
     r"(?!\d|[A-Za-z]{2}|[-/]\d))?(?!\d)"
 )
 """A date with its time of day, if there is one: "12-Mar-24  09:14", "2004.02.12.10.32.39"."""
@@ -61,19 +61,19 @@ def time_in(text: str) -> datetime | None:
 
 
 def _date(match: re.Match[str]) -> datetime | None:
-    """Return the date and time of a match of `_DATE`; None if it is ambiguous or none."""
+    """Return the date and time of a match of `_DATE`; None if it is ambiguous or no date."""
     part = match.groupdict()
-    hour, half = int(part["hour"] or 0), (part["half"] or "").lower()
-    if half:
-        hour = hour % 12 + 12 * (half == "p")
+    hour, am_pm = int(part["hour"] or 0), (part["am_pm"] or "").lower()
+    if am_pm:
+        hour = hour % 12 + 12 * (am_pm == "p")
     if part["year"]:
         year, month = int(part["year"]), int(part["month"] or part["joined_month"])
         day = int(part["day"] or part["joined_day"])
     else:
         year = int(part["last_year"])
-        month, day = _month_and_day(part, is_american=bool(half))
-        if part["two"].isdigit() and year < 100 and not (part["between"] == "." and part["minute"]):
-            return None  # it may be the number of a version
+        month, day = _month_and_day(part, is_american=bool(am_pm))
+        if part["mid"].isdigit() and year < 100 and not (part["between"] == "." and part["minute"]):
+            return None  # it may be a version number
         year += 2000 * (year < 100)
     try:
         return datetime(year, month, day, hour, int(part["minute"] or 0), int(part["second"] or 0))
@@ -83,7 +83,7 @@ def _date(match: re.Match[str]) -> datetime | None:
 
 def _month_and_day(part: Mapping[str, str], *, is_american: bool) -> tuple[int, int]:
     """Return month and day before a year; month 0 if it is ambiguous."""
-    day, word = int(part["one"]), part["two"]
+    day, word = int(part["first"]), part["mid"]
     if not word.isdigit():
         return _MONTHS.get(word[:3].lower(), 0), day
     month = int(word)
@@ -99,12 +99,12 @@ def remove_dates(line: str) -> str:
 
 
 def _is_date(match: re.Match[str]) -> bool:
-    """Return True if numbers are a date; its month may be ambiguous."""
+    """Return True if a match of `_DATE` is a date, even one with an ambiguous month."""
     return bool(_date(match)) or len(match["year"] or match["last_year"]) == 4
 
 
 def named_dates(lines: Iterable[str]) -> dict[str, str]:
-    """Return the text of dates in lines, by the words before each."""
+    """Return the dates in lines as text; the key of each is the words before it."""
     dates = {}
     for line in lines:
         for match in _DATE.finditer(line):
@@ -114,8 +114,8 @@ def named_dates(lines: Iterable[str]) -> dict[str, str]:
     return dates
 
 
-def recorded_in(lines: Iterable[str], file_name: str) -> Finding[datetime] | None:
-    """Return the time of a recording by remarks of its file, else by the file's name.
+def recording_time(lines: Iterable[str], file_name: str) -> Finding[datetime] | None:
+    """Return the time of a recording from the remarks in its file, else from the file's name.
 
     Several dates in remarks count only if they are within a day.
     """
@@ -132,12 +132,12 @@ def recorded_in(lines: Iterable[str], file_name: str) -> Finding[datetime] | Non
     return None if date is None else Finding(date, "the file's name", stated=False, strong=True)
 
 
-def named_in(thing: str, lines: Iterable[str], file_name: str) -> Finding[str] | None:
-    """Return the name of a "machine" or measuring "point" by remarks, else by the file's name.
+def machine_or_point(kind: str, lines: Iterable[str], file_name: str) -> Finding[str] | None:
+    """Return the name of a "machine" or measuring "point" from remarks or the file's name.
 
     The file's name may have a tag, such as P-101 for a machine or MDE-H for a point.
     """
-    labels, tag = (_MACHINES, _TAG) if thing == "machine" else (_POINTS, _POINT_TAG)
+    labels, tag = (_MACHINES, _TAG) if kind == "machine" else (_POINTS, _POINT_TAG)
     for line in lines:
         for part in re.split(r"[;|](?=[^;|]*[:=])", line):
             match = _LABELLED.match(part)

@@ -27,7 +27,7 @@ SHORTEST_PART = 0.1
 """Least length of a part that is a recording by itself, over the longest part without a jump."""
 
 JUMP = 1.5
-"""Longest step without missing samples, over the usual step."""
+"""Longest step without missing samples, relative to the usual step."""
 
 PARTS, DRIFT = 10, 5e-3
 """Number of parts of a recording, and the largest relative difference of their mean rates if a

@@ -30,14 +30,14 @@ LOST_REACH = 8
 `squared_envelopes`."""
 
 STRAIGHT = 1e-12
-"""Greatest bend of a straight line, over the greatest swing: rounding bends it as much."""
+"""Greatest bend of a straight line, relative to the greatest swing: rounding bends it as much."""
 
 LONGEST_WORD = 64
 """Most samples that are compared to find repeats. A signal that needs more has so few different
 numbers that it repeats by itself."""
 
 RAIL = 1e-6
-"""Greatest distance of a sample at an extreme, over the greatest swing."""
+"""Greatest distance of a sample at an extreme, relative to the greatest swing."""
 
 FEWEST_CUT, CUT_PILE = 10, 5
 """Peaks are cut off if at least this many samples are at one limit, and this many times as many as
@@ -168,13 +168,13 @@ def cut_off(signal: Array) -> str:
         side = sign * signal
         limit = side.max(initial=-np.inf)
         inside = side[side < limit]
-        at = side.size - inside.size
-        if not inside.size or at < FEWEST_CUT:
+        pile = side.size - inside.size
+        if not inside.size or pile < FEWEST_CUT:
             continue
-        at_next = np.count_nonzero(inside == inside.max())
+        next_pile = np.count_nonzero(inside == inside.max())
         # a signal that rests at its limit, as between pulses, is not cut off
-        if at >= CUT_PILE * at_next and limit - np.median(side) > 0.2 * (limit - inside.min()):
-            reaching += at
+        if pile >= CUT_PILE * next_pile and limit - np.median(side) > 0.2 * (limit - inside.min()):
+            reaching += pile
             limits.append(number(sign * limit, 4))
     if not reaching:
         return ""

@@ -26,7 +26,7 @@ FEWEST = 24.0
 """Fewest independent values of the envelope in a piece; narrower bands are left out."""
 
 DYNAMIC_RANGE = 1e-4
-"""Least density of a band that may be chosen, over that of the strongest one (40 dB)."""
+"""Least density of a band that may be chosen, relative to that of the strongest one (40 dB)."""
 
 CHANCE = 7.0
 """Standard deviations that are subtracted from the kurtosis of a band before the choice. Among many

@@ -12,7 +12,7 @@ from bearingcore.measured.signals._whitening import local_median
 
 
 class LineLevels(NamedTuple):
-    """The spectrum of an envelope, over the level of its surroundings.
+    """The spectrum of an envelope, relative to the level of its surroundings.
 
     Attributes
     ----------
@@ -21,7 +21,7 @@ class LineLevels(NamedTuple):
     level : (m,) [dB]
         over the surroundings' mean.
     depth : (m,)
-        swing of the envelope at a frequency, over its mean.
+        swing of the envelope at a frequency, relative to its mean.
     averages
         equivalent number of independent spectra in the mean.
     floor : (m,)

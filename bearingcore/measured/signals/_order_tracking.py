@@ -77,7 +77,7 @@ def _align(cut: Callable[[Array], NDArray[np.complex128]], lags: Array) -> tuple
 
 
 def smooth_lag(lags: Array) -> Callable[[Array], Array]:
-    """Return the lag [rad] as a function of place, counted in passes from the first begin.
+    """Return the lag [rad] as a function of place, counted in passes from the first one's start.
 
     Beyond the middles of the first and the last pass it is a straight line.
     """

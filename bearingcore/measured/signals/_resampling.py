@@ -32,10 +32,10 @@ def resample_over_turns(signal: Array, turns: Array, per_turn: float) -> Array:
     from scipy.ndimage import map_coordinates  # imported late: see `spectrum`
 
     places = np.arange(turns[0], turns[-1], 1.0 / per_turn)
-    at = np.interp(places, turns, np.arange(len(turns), dtype=float))
+    samples = np.interp(places, turns, np.arange(len(turns), dtype=float))
     # a spline through the samples themselves would damp the highest frequencies
     fine = oversample(signal, OVERSAMPLED)
-    return np.asarray(map_coordinates(fine, [OVERSAMPLED * at], order=3, mode="mirror"))
+    return np.asarray(map_coordinates(fine, [OVERSAMPLED * samples], order=3, mode="mirror"))
 
 
 def oversample(signal: Array, factor: int) -> Array:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from bearingcore.common import Array
 
 LOUDEST = 3.0
-"""Greatest level of a single frequency, over the root mean square of its surroundings."""
+"""Greatest level of a single frequency, relative to the root mean square of its surroundings."""
 
 
 def local_median(values: Array, width: int) -> Array:

@@ -446,7 +446,7 @@ def _refusal(
     if shown > most_steps:
         return MotionStatus.TOO_MANY_STEPS, (
             f": {thousands(shown)} of {with_prefix(1.0 / step_rate, 's')} each, "
-            f"allowed are most_steps = {thousands(most_steps)}"
+            f"the limit is most_steps = {thousands(most_steps)}"
         )
     return None
 

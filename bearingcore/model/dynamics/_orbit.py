@@ -80,7 +80,7 @@ class Orbit:
     multipliers : (4 len(dofs),)
         Floquet multipliers, the largest first: growth factors of disturbances over a period.
     residual
-        distance between end and beginning of the period, over the size of the orbit.
+        distance between end and beginning of the period, relative to the size of the orbit.
     iterations, right_hand_side_calls
         numbers of Newton steps and of evaluations of the accelerations, with or without tangent.
     history : (steps + 1, 6, len(dofs))
@@ -244,7 +244,7 @@ def orbit(
     # an orbit needs at least two periods: one to see whether it closes, one after a Newton step
     if 2 * steps > most_steps:
         most = thousands(most_steps)
-        cost = f"{thousands(steps)} steps a period, allowed are most_steps = {most} in all"
+        cost = f"{thousands(steps)} steps a period, the limit is most_steps = {most} in all"
         return replace(nothing, status=OrbitStatus.TOO_MANY_STEPS, period=period, cost=cost)
     shooting = _Shooting(packed, period, steps, most_steps, progress)
     rest = equilibrium_of(packed, [0.0])
@@ -355,7 +355,7 @@ class _Shooting:
         if answer.status != OrbitStatus.NOT_CONVERGED or not self.too_many:
             return answer
         cost = (
-            f"no orbit after {self.calls // 4} steps, {self.steps} a period; allowed are "
+            f"no orbit after {self.calls // 4} steps, {self.steps} a period; the limit is "
             f"most_steps = {self._most_steps}"
         )
         return replace(answer, status=OrbitStatus.TOO_MANY_STEPS, cost=cost)

@@ -80,7 +80,7 @@ class PathEffects:
         peak of the ringing after a ball strikes the far edge, over the peak of the motion; its
         frequency [Hz] and damping ratio. On an inner race it is proportional to the load there.
     shaft_tones
-        root mean square of the shaft's first harmonic, over that of the signal.
+        root mean square of the shaft's first harmonic, relative to that of the signal.
     noise
         level [dB] of the power of pink noise below that of the signal; None for no noise.
     background

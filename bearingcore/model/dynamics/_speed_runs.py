@@ -150,7 +150,7 @@ def speed_run(
     steps = _steps_of_marching(scene, speeds, lasting, sample_rate, most_steps)
     checks.whole_number("most_steps_in_all", most_steps_in_all, at_least=1, at_most=10**15)
     if steps > most_steps_in_all:
-        most_words = f"allowed are most_steps_in_all = {thousands(most_steps_in_all)}"
+        most_words = f"the limit is most_steps_in_all = {thousands(most_steps_in_all)}"
         words = f"fewer: they take about {thousands(steps)} steps, {most_words}"
         raise checks.refuse("shaft_speeds", f"{speeds.size} speeds", words)
     # each speed: the orbit, starting from that of the last stable speed, or else a march

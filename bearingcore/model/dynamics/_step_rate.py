@@ -23,8 +23,8 @@ beyond, 26 leave 0.005 dB."""
 
 LEAST_STEPS_A_SAMPLE = 0.45
 """Least number of steps per sample, also for slow modes, as contacts that open and close vibrate
-faster. A heavy rotor on few balls had an error of 4 dB with an eighth. As a whole fraction it is a
-half, or a quarter if a `part` just over a half is requested."""
+faster. A heavy rotor on few balls had an error of 4 dB with an eighth. Rounded up to a whole
+fraction, this is a half, or a quarter if a `part` just over a half is requested."""
 
 
 def default_step_rate(scene: Scene, sample_rate: float, part: float = 1.0) -> float:
@@ -69,7 +69,7 @@ def _highest_loaded_frequency(packed: PackedMotion) -> float:
 
 
 def _greatest_decay(packed: PackedMotion) -> float:
-    """Return a bound [1/s] of the decay of the rings: the trace of M⁻¹C with all balls loaded.
+    """Return a bound [1/s] on the decay of the rings: the trace of M⁻¹C with all balls loaded.
 
     If the decay is too fast for the steps, a motion diverges, or is wrong without tension.
     """

@@ -27,7 +27,7 @@ DOF_SYMBOLS = {"x": "x", "y": "y", "z": "z", "rx": "θx", "ry": "θy"}
 TILTS = ("rx", "ry")
 TILT_HELD, TILT_FREE = "tilt held", "tilt free"
 """Choices of directions. `tilt free`: all that the scene needs, as if this bearing alone held the
-shaft. `tilt held`: these without tilts, as for a shaft on two bearings."""
+shaft. `tilt held`: the same without tilts, as for a shaft on two bearings."""
 
 FREE_TILT_WORDS = (
     "The shaft may tilt, as if this bearing alone held it; a second bearing would hold the tilt."
@@ -192,7 +192,7 @@ class Scene:
     def tilt_words(self, dofs: Iterable[str] | None = None) -> str:
         """Return sentences on free or held tilts, and on loads that this bearing does not carry.
 
-        They are empty if the load causes no tilt and is carried.
+        The text is empty if the load causes no tilt and this bearing carries all of it.
         """
         free = self.free_dofs(dofs)
         if set(TILTS) & set(free):
@@ -202,7 +202,7 @@ class Scene:
         loads = {name: getattr(self.load, LOAD_ALONG[name]) for name in DOF_NAMES}
         held = [LOAD_ALONG[name] for name in DOF_NAMES if loads[name] and name not in free]
         if held:
-            words += f" What holds the shaft carries {' and '.join(held)}, not this bearing."
+            words += f" Other parts of the machine carry {' and '.join(held)}, not this bearing."
         return words.lstrip()
 
     @property
@@ -216,7 +216,7 @@ class Scene:
     def free_dofs(self, dofs: Iterable[str] | None = None) -> tuple[str, ...]:
         """Return the free directions of a computation: `dofs` if given, else `active_dofs`.
 
-        "tilt free" means all directions that the scene needs, "tilt held" these without tilts.
+        "tilt free" means all directions that the scene needs, "tilt held" the same without tilts.
 
         Raises ValueError for unknown names, or directions in which the kind of bearing cannot move.
         """
@@ -249,10 +249,10 @@ class Scene:
         return self.dofs is None and self.active_dofs != self.needed_dofs
 
     def with_tilts_as(self, choice: object) -> Self:
-        """Return the scene of a file or link whose text of `dofs` is `choice`.
+        """Return this scene with the tilts of its file or link, whose text of `dofs` is `choice`.
 
-        A file without `dofs` has free tilts, as before held tilts became the default; newer files
-        state that tilts are held.
+        Older files without `dofs` mean free tilts, the default of their time; newer files state
+        that tilts are held.
         """
         if choice is None and self.holds_tilt_unasked:
             return dataclasses.replace(self, dofs=TILT_FREE)

@@ -32,7 +32,7 @@ from bearingcore.model.statics._shortage import explanation
 from bearingcore.model.statics._status import StaticStatus
 
 BALANCED = 1e-8
-"""Greatest unbalanced force on a settled ball, over the greatest load."""
+"""Greatest unbalanced force on a settled ball, relative to the greatest load."""
 
 CARRYING = 0.05
 """Share of the heaviest load above which a ball counts as loaded."""
@@ -339,7 +339,7 @@ def centrifugal_effect(
 
 
 def _unbalanced(races: kernels.Races, load: Array, angle: Array) -> Array:
-    """Return the greatest unbalanced force (n,) on a ball, over the greatest load at that angle.
+    """Return the greatest unbalanced force (n,) on a ball as a share of the angle's greatest load.
 
     This checks the answer of the kernel independently, so that no unsettled ball is accepted.
     """

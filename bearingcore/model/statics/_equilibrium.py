@@ -29,7 +29,7 @@ from bearingcore.model.scene import (
     Scene,
     _packing as packing,
 )
-from bearingcore.model.statics._shortage import explanation, is_unbounded, moved
+from bearingcore.model.statics._shortage import contact_motion, explanation, is_unbounded
 from bearingcore.model.statics._status import StaticStatus
 
 TERM_INDICES = {
@@ -154,7 +154,7 @@ class Equilibrium:
     def contact_angle(self) -> Array:
         """(n, N_b) [rad] loaded contact angle α_j (Eq. 14); NaN for balls that carry nothing."""
         contacts = packing.contacts(self.scene.bearing)
-        along, across = moved(self.scene, self.cage_angles, self.state, self.leads)
+        along, across = contact_motion(self.scene, self.cage_angles, self.state, self.leads)
         # Equation (8), in which the part along the unloaded line counts only while positive
         along += contacts.distance
         turned = np.arctan2(across, np.maximum(along, 0.0))

@@ -23,8 +23,8 @@ Displacement, stiffness and load distribution of a scene are those of straight r
 roller is softer under a light load, so that fewer rollers share the load. For life alone the
 equilibrium is therefore solved again with profiles, and gives the compressions here.
 
-Source: ISO/TS 16281:2008, sections 5.2 and 5.3, as the public programs minzhun/ISO16281 and
-AxisForge have its equations. The former has a mistake in Eq. (60): its factors of the outer race
+Source: ISO/TS 16281:2008, sections 5.2 and 5.3; its equations are taken from the public programs
+minzhun/ISO16281 and AxisForge. The former has a mistake in Eq. (60): its factors of the outer race
 are about 2 everywhere, and its lives 0.2 to 0.3 of those of the standard.
 """
 
@@ -145,7 +145,7 @@ def compressions(state: Equilibrium) -> Array:
     return result
 
 
-def carried(state: Equilibrium) -> Array:
+def loads_or_compressions(state: Equilibrium) -> Array:
     """Return compressions [m] of rollers or loads [N] of balls, as `strips` takes them.
 
     They are (2, n, elements), at the inner and the outer race: balls with mass press the outer race
@@ -162,8 +162,8 @@ def strips(bearing: Bearing, carried: Array, power: float) -> Iterator[Array]:
 
     A race of balls has one part, with the loads of the balls. A race of rollers has a part for each
     pair of laminae, with the loads f_k q_k n_s^(7/9) (Eqs. (56), (57)) times 2^(1/power) for two
-    laminae. Under this load, spread evenly, a whole roller would give its race the same life as the
-    lamina gives its part.
+    laminae. If a whole roller carried this load evenly, its race would have the life that the
+    lamina's part has.
     """
     if not bearing.kind.line_contact:
         yield carried

@@ -12,9 +12,9 @@ never repeat: in time all pairs (c, ψ) occur equally often. Least, greatest and
 those over both angles, and do not depend on the first position of the defect.
 
 Only c modulo the bearing's period and ψ modulo 2π count. Here u runs over the period and c over a
-whole turn. At constant u, balls and defects turn together relative to the load. Sharp bends, from
-the path of a ball over the edges, are therefore along u. Nodes in u are at the edges; nodes with
-the same drops are solved once.
+whole turn. At constant u, balls and defects turn together relative to the load. Results therefore
+bend sharply along u, where a ball passes an edge. Nodes in u are at the edges; nodes with the
+same drops are solved once.
 
 Cages of unlike rows turn at different speeds. The position of one row relative to another is then a
 further angle. It is sampled at ROW_PLACES places, after whole ball spacings of the first row.
@@ -50,17 +50,17 @@ from bearingcore.model.statics._equilibrium import (
 TWO_PI = 2.0 * math.pi
 
 ALL_AROUND = {"balls": 4, "rollers": 1}
-"""Divisors of the number of cage angles per ball spacing if these go all around. The stiffness
-jumps when a roller takes up load, so the number for rollers is not reduced."""
+"""Divisor of the number of cage angles per ball spacing where they cover a whole turn, not a single
+spacing. The stiffness jumps when a roller takes up load, so rollers keep the full number."""
 
 SINKING = (0.0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1.0, 1.25, 1.5, 2.0, 3.0)
-"""Drops at which edges get nodes, over the greatest compression of a ball in the bearing without
-defects: near 1 a ball loses contact. In a clearance a lightly loaded ring follows it further."""
+"""Drops at which edges get nodes, as multiples of a ball's greatest compression without defects:
+near 1 a ball loses contact. In a clearance a lightly loaded ring follows it further."""
 
 FARTHEST_ASIDE = math.radians(80.0)
 """Greatest angle from the load's line at which a ball beside a defect is assumed to carry load."""
 
-ON_A_FLOOR = 96
+FLOOR_NODES = 96
 """Nodes per ball spacing if a floor is not flat, so that the path bends everywhere, or if rows turn
 relative to each other."""
 
@@ -74,14 +74,14 @@ parts into which a round divides the distance to each neighbour."""
 
 @dataclass(frozen=True)
 class Positions:
-    """Grid of r rows and n columns of pairs of cage and shaft angle that represents all positions.
+    """Grid of cage and shaft angles for all positions; its r rows are not those of the bearing.
 
     Attributes
     ----------
     columns : (n,) [rad]
         cage angles, rising.
     rows : (r,) [rad]
-        shaft relative to cage, rising, within `period`; a single number if no defect turns.
+        shaft angle relative to the cage, rising, within `period`; one value if no defect turns.
     alike : (r,)
         index of each row among the m different rows.
     cage_angles, shaft_angles : (m·n,) [rad]
@@ -157,7 +157,7 @@ def positions(scene: Scene, n: int) -> Positions:
     """Return the positions of a scene.
 
     n is the number of cage angles in the bearing's period, ends included. If a defect turns with
-    the shaft, cage angles go all around, (n − 1)/ALL_AROUND of them per ball spacing, at least 8.
+    the shaft, cage angles cover a turn, (n − 1)/ALL_AROUND of them per ball spacing, at least 8.
     They include angles with a ball on the line of the load, or at an edge of the outer race.
     """
     packed, bearing = pack(scene), scene.bearing
@@ -182,8 +182,8 @@ def positions(scene: Scene, n: int) -> Positions:
         columns = np.unique(np.round(all_columns, 12))
         steps = _steps(columns, TWO_PI)
         # Under a light load in a clearance, the ring is nearly free sideways only while a ball is
-        # on the line of the load: k_xx goes with |x|^(1/3). The mean of this function up to the
-        # next nodes is right if this node has half of its time, and its neighbours the other half.
+        # on the line of the load: k_xx is proportional to |x|^(1/3). The mean of this function up
+        # to the next nodes is right if this node gives half of its time to its neighbours.
         balls = line + bearing.ball_spacing * np.arange(bearing.n_balls)
         off_line = ~np.isin(columns, np.round(balls % TWO_PI, 12))
         column_shares = 0.5 * steps.mean(axis=0)
@@ -193,7 +193,7 @@ def positions(scene: Scene, n: int) -> Positions:
         column_shares = steps[0]
         columns = np.add.outer(_row_places(packed), even).ravel()
         period = bearing.ball_spacing
-        rows = np.linspace(0.0, period, ON_A_FLOOR, endpoint=False)
+        rows = np.linspace(0.0, period, FLOOR_NODES, endpoint=False)
     # rows with the same drops into the inner race are solved once, with their common share
     share = _steps(rows, period).mean(axis=0)
     zeros, turned = np.zeros(rows.size), ratio * rows
@@ -244,7 +244,7 @@ def _row_places(packed: PackedScene) -> Array:
     others = speeds != speeds[0]
     turned = speeds[others] / spacings[others] * spacing
     reached = np.arange(FARTHEST)[:, None] * turned % 1.0
-    odd = 2 * np.arange(turned.size) + 1  # a lattice rule, if there are several
+    odd = 2 * np.arange(turned.size) + 1  # a lattice rule, if several rows differ
     targets = np.arange(ROW_PLACES)[:, None] * odd / ROW_PLACES % 1.0
     distance = np.abs((reached - targets[:, None] + 0.5) % 1.0 - 0.5).max(axis=2)
     return np.asarray(distance.argmin(axis=1) * spacing)
@@ -264,7 +264,7 @@ def _nodes(packed: PackedScene, race: str) -> Array:
         angles.append((balls[:, None] - places).ravel())
         if defect.floor is not None:
             spacings = round(period / row_bearing.ball_spacing)
-            angles.append(np.linspace(0.0, period, ON_A_FLOOR * spacings + 1))
+            angles.append(np.linspace(0.0, period, FLOOR_NODES * spacings + 1))
     nodes = np.unique(np.round(np.concatenate(angles) % period, 12))
     return nodes[nodes < period - 1e-11]
 

@@ -54,7 +54,7 @@ from bearingcore.common import Array, _checks as checks
 from bearingcore.model.scene import Defect, Scene
 from bearingcore.model.statics._ball_positions import static_state
 from bearingcore.model.statics._equilibrium import Equilibrium
-from bearingcore.model.statics._laminae import carried, strips
+from bearingcore.model.statics._laminae import loads_or_compressions, strips
 from bearingcore.model.statics._status import StaticStatus
 
 PANELS, PANELS_ON_AN_EDGE = 16, 6
@@ -109,7 +109,7 @@ def snapshot_loads(
     have known loads too.
     """
     state = static_state(scene, [cage_angle, cage_angle + 0.5 * scene.bearing.ball_spacing])
-    loads = carried(state)
+    loads = loads_or_compressions(state)
     if unknown := _unknown(state, loads):
         return unknown
     heaviest = float(state.ball_load[0].max())
@@ -128,7 +128,7 @@ def race_loads(scene: Scene, load_exponent: float, scatter: float) -> RaceLoads:
     for defect in turned:
         places, weight = _panels(defect, "outer")
         state = static_state(defect, places)
-        loads.append(carried(state))
+        loads.append(loads_or_compressions(state))
         if unknown := _unknown(state, loads[-1]):
             return unknown
         heaviest = max(heaviest, float(state.ball_load.max()))
@@ -263,7 +263,7 @@ def _average_turning_defects(scene: Scene, load_exponent: float, scatter: float)
     for k, psi_0 in enumerate(first):
         turned = dataclasses.replace(scene, defect=_turned(scene, float(psi_0)))
         state = static_state(turned, (places + psi_0) * ratio / (ratio - 1.0))
-        loads[:, k] = carried(state)
+        loads[:, k] = loads_or_compressions(state)
         if unknown := _unknown(state, loads[:, k]):
             return unknown
         heaviest = max(heaviest, float(state.ball_load.max()))

@@ -22,7 +22,7 @@ from bearingcore.model.statics._passes import drops_at
 from bearingcore.model.statics._status import StaticStatus
 
 _Z, _TILTS = 2, (3, 4)
-_TILTS_HELD = "the shaft's other bearing, or tilts that are held"
+_TILTS_HELD = "its other bearing, or tilts that are held"
 
 ROUNDING = 1e-13
 """Size below which a gradient is rounding: the ball is exactly across the direction."""
@@ -45,18 +45,18 @@ def explanation(
     if status == StaticStatus.BEYOND_GEOMETRY:
         return "" if state is None else f": {_bound_exceeded(scene, cage_angle, state)}"
     if status == StaticStatus.NOT_CARRIED:
-        lacks = _lacks(scene, cage_angle, dofs)
-        return f"; missing is {lacks}" if lacks else ""
+        remedy = _remedy(scene, cage_angle, dofs)
+        return f"; the shaft needs {remedy}" if remedy else ""
     lone = len(scene.bearing.all_rows) == 1 and packing.contacts(scene.bearing).fixed.all()
     if status == StaticStatus.FREE_DIRECTION and lone and {"rx", "ry"} & set(dofs):
         return (
             ", as the lines of contact of one row of tapered rollers meet in a point of the shaft; "
-            f"missing is {_TILTS_HELD}"
+            f"the shaft needs {_TILTS_HELD}"
         )
     return ""
 
 
-def moved(
+def contact_motion(
     scene: Scene, cage_angles: Array, state: Array, leads: Array | None = None
 ) -> tuple[Array, Array]:
     """Return displacements (n, N_b) [m] along and across unloaded lines of contact (Eqs. 9-12).
@@ -74,32 +74,32 @@ def moved(
     return along, a * contacts.line_r - r * contacts.line_z
 
 
-def _lacks(scene: Scene, cage_angle: float, dofs: tuple[str, ...]) -> str:
-    """Return words on the held tilts, the thrust, or both, with which contacts carry the load."""
+def _remedy(scene: Scene, cage_angle: float, dofs: tuple[str, ...]) -> str:
+    """Return words on held tilts, a thrust, or both, if contacts would then carry the load."""
     packed = packing.pack(scene, dofs)
     force, active = packed.load
     facing = float(np.sign(packed.contacts.line_z.sum()))
     pressed = force.copy()
     pressed[_Z] = facing * 1e3 * np.abs(force).max()
-    level = np.setdiff1d(active, _TILTS)
+    untilted = np.setdiff1d(active, _TILTS)
 
     def carries(free: NDArray[np.int64], load: Array) -> bool:
         return not is_unbounded(packed.contacts, cage_angle, free, load[free])
 
-    if level.size < active.size and carries(level, force):
+    if untilted.size < active.size and carries(untilted, force):
         return _TILTS_HELD
     if facing == 0.0 or _Z not in active:
         return ""
     thrust = _thrust(scene, cage_angle, facing * force[_Z])
     if carries(active, pressed):
-        return f"the shaft's other bearing, or {thrust}"
-    if level.size < active.size and carries(level, pressed):
+        return f"its other bearing, or {thrust}"
+    if untilted.size < active.size and carries(untilted, pressed):
         return f"{_TILTS_HELD}, and {thrust}"
     return ""
 
 
 def _thrust(scene: Scene, cage_angle: float, thrust: float) -> str:
-    """Return a clause on the thrust that rows need in addition to a thrust [N] one way.
+    """Return a clause on the thrust that rows need, if they already have `thrust` [N].
 
     With one element on the line of the radial load F_r, a row needs the thrust F_r tan α. If the
     line is between two elements, it needs cos(β/2 − γ)/cos(β/2) times as much, where β is their
@@ -126,14 +126,14 @@ def _bound_exceeded(scene: Scene, cage_angle: float, state: Array) -> str:
     tilt = float(np.abs(state[3:]).max()) / scene.bearing.groove_center_radius
     if tilt > packing.SMALL_TILT:
         most, tilted = (number(math.degrees(angle)) for angle in (packing.SMALL_TILT, tilt))
-        return f"the ring would tilt by {tilted}°, and tilts are small here, up to {most}°"
-    along, across = (part[0] for part in moved(scene, np.array([cage_angle]), state[None]))
+        return f"the ring would tilt by {tilted}°, but the model holds for tilts up to {most}°"
+    along, across = (part[0] for part in contact_motion(scene, np.array([cage_angle]), state[None]))
     distance = np.hypot(np.maximum(contacts.distance + along, 0.0), across)
     pressed = np.where(contacts.fixed, along, distance - contacts.distance)
     deepest = int(np.argmax(pressed - contacts.room))
     if pressed[deepest] > contacts.room[deepest]:
         size, most = (with_prefix(float(a[deepest]), "m") for a in (pressed, contacts.room))
-        return f"a {element} would be compressed by {size}, and {most} is more than any can be"
+        return f"a {element} would be compressed by {size}, and none can be by more than {most}"
     outside = np.where(contacts.fixed & (pressed > 0.0), np.abs(across), 0.0)
     if (outside > contacts.room).any():
         return (

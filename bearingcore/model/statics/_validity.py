@@ -82,8 +82,8 @@ CENTRIFUGAL_SHARE = 1.0
 race."""
 
 CENTRIFUGAL_CHANGE = 0.1
-"""Limit on the change of loads, over the heaviest, and of stiffness by centrifugal force. Both are
-rarely known better than to a tenth."""
+"""Limit on changes by centrifugal force: of loads relative to the heaviest, and of stiffness. Both
+are rarely known better than to a tenth."""
 
 _CHANGE_ANGLES, _MOST_CHANGES = 31, 240
 

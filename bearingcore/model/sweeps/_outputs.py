@@ -111,12 +111,12 @@ _LOWERED = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 
 def _table() -> dict[str, Output]:
     table: dict[str, Output] = {}
-    over = "over all positions of the balls and of a defect that turns"
+    positions = "over all positions of the balls and of a defect that turns"
     for term in STIFFNESS_TERMS:
         for which in ("mean", "least", "greatest"):
             table[f"{term}_{which}"] = Output(
                 TERM_UNITS[term],
-                f"{which} stiffness {term} {over}",
+                f"{which} stiffness {term} {positions}",
                 f"Stiffness, {which}",
                 f"{TERM_SYMBOLS[term]}, {which}",
                 STATICS,
@@ -124,13 +124,13 @@ def _table() -> dict[str, Output]:
     for which in ("mean", "least", "greatest"):
         table[f"loaded_balls_{which}"] = Output(
             "1",
-            f"{which} number of balls that carry load {over}",
+            f"{which} number of balls that carry load {positions}",
             "Balls",
             f"loaded balls, {which}",
             STATICS,
         )
     table["ball_load_greatest"] = Output(
-        "N", f"greatest load of a ball {over}", "Balls", "greatest ball load", STATICS
+        "N", f"greatest load of a ball {positions}", "Balls", "greatest ball load", STATICS
     )
     table["converged_share"] = Output(
         "1",
@@ -142,7 +142,7 @@ def _table() -> dict[str, Output]:
     for race in ("inner", "outer"):
         table[f"contact_pressure_{race}"] = Output(
             "Pa",
-            f"greatest contact pressure of a ball on the {race} race {over}",
+            f"greatest contact pressure of a ball on the {race} race {positions}",
             "Balls",
             f"contact pressure, {race} race",
             PRESSURE,
@@ -158,7 +158,7 @@ def _table() -> dict[str, Output]:
     for which in ("least", "greatest"):
         table[f"band_{which}"] = Output(
             "Hz",
-            f"{which} natural frequency of each mode, damping left out, {over}",
+            f"{which} natural frequency of each mode, damping left out, {positions}",
             "Natural frequencies",
             f"mode {{}}, {which}",
             MODES,
@@ -258,10 +258,10 @@ class Settings:
     ----------
     cage_angles
         number of cage angles in a period, ends included. With an inner-race defect, a quarter as
-        many per ball spacing all around, at each place where a ball meets an edge; least and
-        greatest values are then searched between the angles too. Otherwise they are those at the
-        angles. If few balls carry load, as under a light or tilting load, stiffness may vary by
-        some per cent more between the angles.
+        many per ball spacing over a whole turn, for each defect angle with a ball at an edge; least
+        and greatest values are then searched between the angles too. Otherwise they are those at
+        the angles. If few balls carry load, as under a light or tilting load, stiffness may vary by
+        a few per cent more between the angles.
     duration
         [s] of simulated motions and records; the first half of a motion is left out as transient.
     sample_rate

@@ -139,7 +139,7 @@ def no_zone(measured: Measured, machine: str) -> str:
 
 
 def severity(measured: Measured, machine: str) -> str:
-    """Word the zone of the greatest velocity, or the reason why there is none."""
+    """Return words on the zone of the greatest velocity, or the reason why there is none."""
     if why := no_zone(measured, machine):
         return f"No zone of ISO 20816-3: {why}."
     velocity, zone = float(measured.indicators.velocity_rms.max()), zone_of(measured, machine)

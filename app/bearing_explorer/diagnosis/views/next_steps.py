@@ -167,6 +167,6 @@ def _without_a_part(diagnosis: Diagnosis, zone: str, change: float) -> str:
         )
     elif change >= GROWN:
         words += (
-            f" The vibration became {number(change, 2)} times that of the baseline: find out why."
+            f" The vibration grew to {number(change, 2)} times that of the baseline: find out why."
         )
     return words

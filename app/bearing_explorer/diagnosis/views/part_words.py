@@ -91,19 +91,19 @@ def length(measured: MeasuredExtent, sizing: Sizing | None = None) -> str:
 
 
 def swing(depth: float) -> str:
-    """Word a share of the envelope's mean."""
+    """Return a share of the envelope's mean in words."""
     return f"{style.number(100.0 * depth, 1 if depth < 0.095 else 2)} %"
 
 
 def turns(answer: Diagnosis) -> str:
-    """Word the shaft's mean speed; empty where none is known."""
+    """Return the shaft's mean speed in words; empty where none is known."""
     if answer.shaft_speed is None:
         return ""
     return f"{30.0 / math.pi * answer.shaft_speed:.0f} turns a minute"
 
 
 def speed_range(answer: Diagnosis, measured: Measured) -> str:
-    """Word the shaft's speed; from least to greatest where it was measured and changes."""
+    """Return the shaft's speed in words; from least to greatest if it was seen to change."""
     if measured.speed_limits is None or answer.shaft_speed is None:
         return turns(answer)
     least, most = (30.0 / math.pi * speed for speed in measured.speed_limits)
@@ -133,7 +133,7 @@ def assumptions(question: Question) -> str:
     words = ""
     for why, assumed in (
         ("Assumed from the look of the file", machine.guessed),
-        ("Assumed to be as for the file before", machine.kept),
+        ("Assumed to be as for the previous file", machine.kept),
     ):
         if listed := [text for name, text in names.items() if name in assumed]:
             words += f" {why}: {style.list_words(listed)}."

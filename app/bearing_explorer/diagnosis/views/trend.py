@@ -87,15 +87,15 @@ class TrendOfFiles(JobView[Model, ComputedTrend, Editor], MeasuredView):
     name = "trend"
     title = "Trend of several files"
     about = (
-        "Several files of one machine, or a folder of them. They are chosen in step 1, in their "
-        "order. Dashed: the first file. Bars: intervals of 95 %, without a dot an upper bound. The "
-        "last file is the one that the rest of this tab shows. Lines of the parts are drawn where "
-        "they are more than noise, all in the band of the last file; such a line need not come "
-        "from the bearing. There is an extent where a damaged race is named."
+        "Several files of one machine, or a folder of them. They are chosen in step 1. Dashed: the "
+        "first file. Bars: 95 % intervals; a bar without a dot is an upper bound. The rest of this "
+        "tab shows the last file. Lines of the parts are drawn where they are above noise, all in "
+        "the band of the last file; such a line need not come from the bearing. The length of the "
+        "defect is drawn for files whose diagnosis names a damaged race."
     )
     finds_speed = True
     start = "Compute the trend"
-    bounds = "Takes up to some seconds a file."
+    bounds = "Takes up to a few seconds per file."
 
     def build(self, packed: PackedSource) -> Any:
         #: series and signal of the job that began by itself
@@ -144,7 +144,7 @@ class TrendOfFiles(JobView[Model, ComputedTrend, Editor], MeasuredView):
                 )  # fmt: skip
             except FieldError as error:
                 raise ValueError(sentence_of(error)) from error
-            return f"{len(done.points)} of {len(gathered.recordings)} files are in it."
+            return f"{len(done.points)} of {len(gathered.recordings)} files are in the trend."
 
         return work
 
@@ -275,11 +275,11 @@ def time_axis(shown: Trend) -> tuple[style.AxisQuantity, np.ndarray]:
     return (DAYS, hours / 24.0) if np.ptp(hours) > MOST_HOURS else (HOURS, hours)
 
 
-NO_LEVELS = "Their units are not known, so that their levels are not compared: say the unit."
+NO_LEVELS = "Their units are not known, so their levels are not compared: state the unit."
 
 
 def trend_words(shown: Trend, in_si: bool, along: str = "") -> str:
-    """Word the trend: growth, kurtosis, and the last recording.
+    """Put a trend into words: growth, kurtosis, and the last recording.
 
     Levels are compared in SI units only.
     """
@@ -294,7 +294,7 @@ def trend_words(shown: Trend, in_si: bool, along: str = "") -> str:
 
 
 def growth(shown: Trend) -> str:
-    """Word the growth of the named part's line, its first recording, and the level's growth."""
+    """Return words on the growth of the named part's line, its start, and the level's growth."""
     most, change = int(shown.rms_change.argmax()), shown.rms_change
     level = (
         f"Root mean square of the last is {style.number(float(change[-1]), 3)} times that of the "
@@ -307,15 +307,15 @@ def growth(shown: Trend) -> str:
 
 
 def line_growth(shown: Trend) -> str:
-    """Word the growth of the line of the part named in the last recording, if any."""
+    """Return words on the growth of the line of the part that the last recording names, if any."""
     part = shown.points[-1].fault
     change = float(shown.line_change(part)[-1]) if part in PARTS else math.nan
     if not math.isfinite(change):
         return ""
     seen = np.isfinite(shown.line_change(part)[shown.baseline])
     least = "" if seen else "at least "
-    reference = "that of the baseline" if seen else "what noise hides in the baseline"
-    return f"The line of the {part} became {least}{style.number(change, 2)} times {reference}."
+    reference = "that of the baseline" if seen else "the most that noise hides in the baseline"
+    return f"The line of the {part} grew to {least}{style.number(change, 2)} times {reference}."
 
 
 def since_when(shown: Trend) -> str:
@@ -327,14 +327,14 @@ def since_when(shown: Trend) -> str:
     days = float(shown.hours[-1] - shown.hours[first]) / 24.0
     before = f", {style.number(days, 2)} days before the last" if days > 0.0 else ""
     if first == 0:
-        return f"It stands out since the first{before}."
+        return f"It has stood out since the first{before}."
     recorded = shown.points[first].recorded
     date = "" if recorded is None else f" of {recorded:%d %B %Y}"
-    return f"It stands out since {shown.points[first].name}{date}{before}."
+    return f"It has stood out since {shown.points[first].name}{date}{before}."
 
 
 def last_words(shown: Trend) -> str:
-    """Word the part named as damaged in the last recording, and the lines above noise."""
+    """Return words on the part that the last recording names, and on the lines above noise."""
     last = shown.points[-1]
     clear = [
         LABELS[line] for k, line in enumerate(LINES) if np.isfinite(shown.clear_lines[:, k]).any()
@@ -346,7 +346,7 @@ def last_words(shown: Trend) -> str:
         return f"{seen} In the last: {last.extent.sentence}"
     named = last.fault if last.fault not in (CANNOT_TELL, NONE_SEEN) else ""
     if not math.isfinite(last.probability):
-        return "Which part is damaged is not known before the bearing is."
+        return "The damaged part is not known before the bearing is."
     if not named:
         return f"{seen} No part is named in the last ({last.fault})."
     return f"{seen} In the last: {named}, {100.0 * last.probability:.0f} % probable."

@@ -81,7 +81,7 @@ class WhichLength(JobView[Model, SizedDefect, Editor], MeasuredView):
         "0 where measured and simulated ball pass are alike and 1 where they are not."
     )
     start = "Compare the lengths"
-    bounds = "Takes some seconds."
+    bounds = "Takes a few seconds."
     at_once = True
     kind = SIZING
 

@@ -38,7 +38,7 @@ LOWEST_OCTAVE = 250.0
 """Frequency [Hz] at which the lowest octave begins, eight lines of the spectra above zero."""
 
 BEFORE, AFTER = 0.4, 1.1
-"""Time shown before a ball enters and after it leaves, over its time in the defect."""
+"""Time shown before a ball enters and after it leaves, relative to its time in the defect."""
 SHORTEST_LOOK = 1e-3
 """Shortest time [s] that is shown."""
 
@@ -47,7 +47,7 @@ PARTS = 4
 SHORTEST_PART = 4096  # samples
 
 LATE = 1.5
-"""Latest strike that a ball's way through the defect causes, over its time in the defect."""
+"""Latest strike that a ball's way through the defect causes, relative to its time in the defect."""
 
 HARD, MOST_STRIKES = 0.4, 2
 """Least load of a shown strike over the hardest one on its race, and most strikes of a race. These

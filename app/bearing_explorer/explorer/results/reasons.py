@@ -259,11 +259,11 @@ def _stiffness_against(results: Results, now: tuple[dict[str, float], float], br
         return ""
     if abs(grown[term]) >= LEAST:
         verb = "rises" if grown[term] > 0.0 else "falls"
-        by = style.number(100.0 * abs(grown[term]), 2)
+        percent = style.number(100.0 * abs(grown[term]), 2)
         why = why_softer(term, now, before, briefly)
         if briefly and why:
             return f"{term} {verb}: {why}."
-        text = f"With the defect {term} {verb} by {by} % on average"
+        text = f"With the defect {term} {verb} by {percent} % on average"
         return f"{text}: {why}." if why else f"{text}."
     if abs(now[1] - before[1]) < LEAST * before[1]:
         many = style.number(now[1])

@@ -28,7 +28,7 @@ class Verdict(NamedTuple):
 
 
 def statics_words(state: Equilibrium) -> str:
-    """Number of cage angles of the curves without a static equilibrium, in words; or empty."""
+    """Say at how many cage angles of the curves there is no static equilibrium; empty if none."""
     bad = np.flatnonzero(~state.converged)
     if not bad.size:
         return ""
@@ -39,7 +39,7 @@ def statics_words(state: Equilibrium) -> str:
 
 
 def chain_words(chain: Chain) -> str:
-    """Share of all positions without an equilibrium, in words; or empty."""
+    """Say at which share of all positions there is no equilibrium; empty if there always is one."""
     if chain.answered == 1.0:
         return ""
     share = number(100.0 * (1.0 - chain.answered), 2)

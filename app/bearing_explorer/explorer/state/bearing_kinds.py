@@ -30,8 +30,8 @@ def convert_to_kind(bearing: Bearing, variant: str) -> Bearing:
 def scene_with(scene: Scene, bearing: Bearing) -> Scene:
     """Put another bearing into a scene, and drop what this bearing cannot have.
 
-    Loads and directions that its kind lacks are left out; a defect of a row that is missing now
-    lies in all rows. ValueError for a defect that the bearing cannot have.
+    Loads and directions that its kind lacks are left out. If it lacks the row of a defect, the
+    defect lies in all rows. ValueError for a defect that the bearing cannot have.
     """
     rows = len(bearing.all_rows)
     defects = tuple(
@@ -41,14 +41,14 @@ def scene_with(scene: Scene, bearing: Bearing) -> Scene:
         for defect in defects_of(scene)
     )
     before, now = scene.bearing.kind.directions, bearing.kind.directions
-    dofs = scene.dofs if bearing.rows or scene.dofs != TILT_FREE else None  # one row may tip over
-    if isinstance(dofs, tuple):  # chosen for a kind with fewer directions, they are no choice now
+    dofs = scene.dofs if bearing.rows or scene.dofs != TILT_FREE else None  # one row alone may tip
+    if isinstance(dofs, tuple):  # a choice among fewer directions is void
         dofs = None if set(now) - set(before) else tuple(name for name in dofs if name in now)
     return dataclasses.replace(
         scene,
         bearing=bearing,
         defect=defects[0] if len(defects) == 1 else defects,
-        load=dataclasses.replace(scene.load, **dict.fromkeys(_loads_without(bearing), 0.0)),
+        load=dataclasses.replace(scene.load, **dict.fromkeys(_loads_not_carried(bearing), 0.0)),
         dofs=dofs or None,
         balls=MASSLESS if bearing.kind.mass_unknown else scene.balls,
     )
@@ -57,15 +57,15 @@ def scene_with(scene: Scene, bearing: Bearing) -> Scene:
 def add_thrust(scene: Scene) -> tuple[Scene, str]:
     """Add an axial load to a scene whose rows face one way; return a sentence on it too.
 
-    A row with a contact angle, and rows in tandem, carry a radial load only with an axial one. It
+    A row with a contact angle, and rows in tandem, carry a radial load only with an axial one. This
     is added if the scene has none, and tilts are held, as by the shaft's other bearing. If nothing
     is added the sentence is empty.
     """
     bearing, load = scene.bearing, scene.load
     thrust = 2.0 * math.tan(bearing.contact_angle) * math.hypot(load.fx, load.fy)
     one_way = not bearing.rows or bearing.arrangement == "tandem"
-    alone = one_way and "z" in bearing.kind.directions
-    if load.fz != 0.0 or not (alone and thrust > 0.0):
+    needs_thrust = one_way and "z" in bearing.kind.directions and thrust > 0.0
+    if load.fz != 0.0 or not needs_thrust:
         return scene, ""
     words = (
         f"Added, as such a bearing needs it: an axial load of {number(thrust)} N, and a shaft that "
@@ -74,21 +74,21 @@ def add_thrust(scene: Scene) -> tuple[Scene, str]:
     return scene.replace(fz=float(f"{thrust:.3g}"), dofs=None), words
 
 
-def _loads_without(bearing: Bearing) -> list[str]:
+def _loads_not_carried(bearing: Bearing) -> list[str]:
     """Fields of the load that a kind of bearing cannot carry."""
-    able = bearing.kind.directions
-    return [load for direction, load in LOAD_ALONG.items() if direction not in able]
+    carried = bearing.kind.directions
+    return [load for direction, load in LOAD_ALONG.items() if direction not in carried]
 
 
 def hidden_of(bearing: Bearing) -> list[str]:
     """Names of the controls that this kind of bearing does not have."""
     inputs = bearing.kind.inputs(bearing)
-    without = _loads_without(bearing)
+    not_carried = _loads_not_carried(bearing)
     hidden = [
         field.key
         for field in SHOWN_FIELDS
         if (field.group in BEARING_GROUPS and field.full_name not in inputs)
-        or field.full_name in without
+        or field.full_name in not_carried
     ]
     choices = {
         "row": len(bearing.all_rows) > 1,

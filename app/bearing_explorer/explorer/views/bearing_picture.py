@@ -228,9 +228,9 @@ def _section(bearing: Bearing) -> Iterable[str]:
     yield from map(cut.element, cut.rows)
     if len(cut.rows) > 1 and look.outer != "sphere" and any(row.lean for row in cut.rows):
         for row in cut.rows:  # lines of contact, down to the middle of the shaft
-            over = 1.5 * row.ball
+            rise = 1.5 * row.ball
             foot = row.x - (AXIS - row.centre) * row.lean
-            yield _line("line dashed", row.x + over * row.lean, row.centre - over, foot, AXIS)
+            yield _line("line dashed", row.x + rise * row.lean, row.centre - rise, foot, AXIS)
     yield _line("axis", 14.0, AXIS, 296.0, AXIS)
     # dimensions, at the first row if rows are unlike, else at the right one
     by_number = {row.number: row for row in cut.rows}
@@ -404,8 +404,8 @@ def _angle(angle: float, ball: float) -> str:
         end = x + arc * sine, y - arc * cosine
         parts.append(_path("line", "M", x, y - arc, "A", arc, arc, 0, 0, 1, *end))
     half = 0.5 * angle
-    at = x + arc * math.sin(half) + 4.0, y - arc * math.cos(half) - 5.0
-    return _dimension("contact_angle", *parts, _label(*at, "α", "0", anchor="start"))
+    place = x + arc * math.sin(half) + 4.0, y - arc * math.cos(half) - 5.0
+    return _dimension("contact_angle", *parts, _label(*place, "α", "0", anchor="start"))
 
 
 # All elements seen along the shaft, and the load of an element over its compression

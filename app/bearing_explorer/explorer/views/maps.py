@@ -416,8 +416,8 @@ def _names(plot: figure, grid: ColumnDataSource) -> None:
     beside = {"angle": 0.5 * math.pi, "x_offset": -31, "fitting": PHONE}
     matrix_cells.write(plot, up, extent, **beside, **centered)
     words = "return row.of_shaft ? 'Shaft angle φs (°)' : 'Cage angle φc (°)'"
-    at = {"x": 0.5 * (_BALLS.left + _BALLS.right), "y": _BALLS.bottom, "y_offset": 36}
-    matrix_cells.write(plot, grid, words, text_font_size=style.TEXT_SIZE, **at, **centered)
+    below = {"x": 0.5 * (_BALLS.left + _BALLS.right), "y": _BALLS.bottom, "y_offset": 36}
+    matrix_cells.write(plot, grid, words, text_font_size=style.TEXT_SIZE, **below, **centered)
     y = [-2.3 - 0.18 * line for line in range(len(_LEGEND))]
     text, short = zip(*_LEGEND, strict=True)
     legend = ColumnDataSource({"x": [0.12] * len(y), "y": y, "text": text, "short": short})

@@ -116,6 +116,9 @@ class WhichMechanism(FoldedView[Results]):
             return f"{words} The mass of the balls makes a difference from {lowest} on."
         return f"{words} Up to {_hertz(up_to)} the mass of the balls makes no difference."
 
+    def table(self, results: Results) -> dict[str, np.ndarray]:
+        return results.ball_mass.share_table().named()
+
 
 def _why_mass_matters(mass: BallMass) -> str:
     """Say why massless balls are wrong at high frequencies; empty if no ball carries load."""
@@ -128,9 +131,6 @@ def _why_mass_matters(mass: BallMass) -> str:
         "strike lasts no longer than half a swing, so it reaches frequencies that massless balls "
         "do not."
     )
-
-    def table(self, results: Results) -> dict[str, np.ndarray]:
-        return results.ball_mass.share_table().named()
 
 
 def mechanism_words(mass: BallMass) -> str:

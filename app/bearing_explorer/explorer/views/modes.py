@@ -154,8 +154,8 @@ class NaturalFrequencies(ComparingView):
         return f"{why} {text}.".lstrip()
 
     def show(self, results: Results) -> None:
-        over = style.SHAFT_ANGLE if results.over_shaft else style.CAGE_ANGLE
-        self._axis.axis_label = over.label()
+        quantity = style.SHAFT_ANGLE if results.over_shaft else style.CAGE_ANGLE
+        self._axis.axis_label = quantity.label()
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
         modes, healthy = results.modes, results.reference.modes

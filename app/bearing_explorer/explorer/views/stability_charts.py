@@ -1,4 +1,4 @@
-"""Charts of failures: growth of a disturbance over shaft speed, amplitude over step rate."""
+"""Charts of stability: growth of a disturbance over shaft speed, amplitude over step rate."""
 
 from __future__ import annotations
 
@@ -18,19 +18,19 @@ from bearingcore.model.experiments import DIVERGED, OrbitAtSpeed, StabilityChart
 HEIGHT = 340
 UNSTABLE = "#D55E00"
 LEAST = 1e-6
-"""Least value that is drawn; smaller ones are drawn there too, as the axis has no zero."""
+"""Least drawn value; smaller values are raised to it, because a logarithmic axis has no zero."""
 STABLE_PAPER, STABLE_INK = "#E6F3EE", "#00704F"
 
 
 class Mark(NamedTuple):
-    """A point: place, colour (index of COLORS), marker, words beside it and in its tooltip."""
+    """A point: place, colour (index of COLORS), marker, words beside it, tooltip, curve."""
 
     x: float
     y: float
     slot: int
     marker: str
     words: str
-    why: str
+    tooltip: str
     line: int = 0
     align: str = "right"
     right: float = -9.0
@@ -81,7 +81,7 @@ class StabilityPicture:
         plot.text("x", "y", text="words", source=self._marks, text_color=style.INK,
                   text_font=value(style.FONT), text_font_size=style.SMALL_TEXT_SIZE,
                   text_align="align", x_offset="right", y_offset="down")  # fmt: skip
-        plot.add_tools(HoverTool(renderers=[marks], visible=False, tooltips="@why"))
+        plot.add_tools(HoverTool(renderers=[marks], visible=False, tooltips="@tooltip"))
         self._sentence = work_precision.prose()
         self.panel = stack(work_precision.prose(f"<h4>{title}</h4>"), plot, self._sentence)
 
@@ -99,9 +99,9 @@ class StabilityPicture:
         bottom, top = min([*ys, 0.5]) / 2.0, max([*ys, 1.5]) * 4.0
         work_precision.set_range(self.plot.x_range, left, right)
         work_precision.set_range(self.plot.y_range, bottom, top)
-        other = {"top": "bottom", "left": "right"}
+        opposite = {"top": "bottom", "left": "right"}
         self._areas[0].update(**stable)
-        self._areas[1].update(**{other[side]: place for side, place in stable.items()})
+        self._areas[1].update(**{opposite[side]: place for side, place in stable.items()})
         self._words[0].update(x=stable.get("left", left), y=bottom)
         self._words[1].update(x=left, y=stable.get("top", bottom))
         self._now.location = now[0]
@@ -124,11 +124,11 @@ def orbit_marks(orbits: tuple[OrbitAtSpeed, ...], shaft_speed: float) -> Picture
         size = orbit.size if orbit.multipliers else math.inf
         speed = orbit.shaft_speed / (2.0 * math.pi)
         words = "" if state in (before, "stable") else state
-        why = f"{style.number(speed, 3)} Hz: {state}"
+        tooltip = f"{style.number(speed, 3)} Hz: {state}"
         if orbit.multipliers:
-            why += f", factor {style.number(size, 3)}"
-        higher = sum(1 for mark in marks if mark.words) % 2  # in turn, so that names do not overlap
-        mark = Mark(speed, size, int(state != "stable"), "circle", words, why)
+            tooltip += f", factor {style.number(size, 3)}"
+        higher = sum(1 for mark in marks if mark.words) % 2  # so that names do not overlap
+        mark = Mark(speed, size, int(state != "stable"), "circle", words, tooltip)
         marks.append(mark._replace(down=4.0 - 14.0 * higher))
         before = state
     now = shaft_speed / (2.0 * math.pi), "this scene"
@@ -136,26 +136,26 @@ def orbit_marks(orbits: tuple[OrbitAtSpeed, ...], shaft_speed: float) -> Picture
 
 
 def step_marks(chart: StabilityChart | None, in_use: float) -> Picture:
-    """Amplitude over the steps a second; `in_use` [Hz] is the step rate of the page."""
+    """Amplitude over steps per second; `in_use` [Hz] is the step rate of the page."""
     if chart is None:
         return [], {}, (in_use, ""), steps_sentence(chart)
     marks = []
     for slot, method in enumerate(dict.fromkeys(trial.method for trial in chart.trials)):
         color, marker = work_precision.look(slot)
         trials = sorted((t for t in chart.trials if t.method == method), key=lambda t: t.step_rate)
-        states = [trial.verdict == DIVERGED for trial in trials]
+        diverged = [trial.verdict == DIVERGED for trial in trials]
         for i, trial in enumerate(trials):
-            # a method is named at its first trial that diverged and at its first other one
-            broken, first = states[i], not any(s == states[i] for s in states[:i])
-            state = DIVERGED if broken else f"{style.number(trial.amplitude, 3)} of the amplitude"
-            why = f"{method}, {style.number(trial.step_rate, 4)} steps/s: {state}"
+            # a method is named at its first trial that diverged and at its first that did not
+            broken, is_first = diverged[i], diverged[i] not in diverged[:i]
+            state = DIVERGED if broken else f"amplitude ratio {style.number(trial.amplitude, 3)}"
+            tooltip = f"{method}, {style.number(trial.step_rate, 4)} steps/s: {state}"
             if broken:
-                why += f", with {_steps_in_period(chart, trial.step_rate)} steps in a period of "
-                why += f"{style.with_prefix(chart.highest_frequency, 'Hz')}"
-            words = "" if not first else f"{method} {DIVERGED}" if broken else method
+                tooltip += f", with {_steps_in_period(chart, trial.step_rate)} steps in a period "
+                tooltip += f"of {style.with_prefix(chart.highest_frequency, 'Hz')}"
+            words = "" if not is_first else f"{method} {DIVERGED}" if broken else method
             size = math.inf if broken else trial.amplitude
             place = ("left", -5.0, 18.0 if slot else -7.0)
-            marks.append(Mark(trial.step_rate, size, color, marker, words, why, color, *place))
+            marks.append(Mark(trial.step_rate, size, color, marker, words, tooltip, color, *place))
     rates = [trial.step_rate for trial in chart.trials]
     limit = min(max(next(iter(chart.linear_limit.values())), min(rates) / 2.0), 2.0 * max(rates))
     return marks, {"left": limit}, (in_use, "in use"), steps_sentence(chart)
@@ -164,7 +164,7 @@ def step_marks(chart: StabilityChart | None, in_use: float) -> Picture:
 def steps_sentence(chart: StabilityChart | None) -> str:
     """Say below which step rates methods diverge, and why."""
     if chart is None:
-        return "Stability of the steps is not measured yet."
+        return "The stability of the steps is not measured yet."
     words: dict[str, list[str]] = {}
     for name in dict.fromkeys(t.method for t in chart.trials):
         if not any(t.verdict == DIVERGED for t in chart.trials if t.method == name):
@@ -194,7 +194,7 @@ def orbits_sentence(orbits: tuple[OrbitAtSpeed, ...]) -> str:
     known = [orbit for orbit in orbits if orbit.multipliers]
     if not known:
         why = orbits[0].status if orbits else "not measured yet"
-        return f"No periodic motion over the shaft speed: {why}."
+        return f"No periodic motion is known at any shaft speed: {why}."
 
     def speed_words(orbit: OrbitAtSpeed) -> str:
         return f"{style.number(orbit.shaft_speed / (2.0 * math.pi), 3)} Hz"

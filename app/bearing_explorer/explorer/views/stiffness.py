@@ -31,7 +31,7 @@ from bearingcore.model.statics import TERM_UNITS
 NARROWEST = 920
 """Least width [px] at which a cell has room for its symbol and its value."""
 NARROWEST_WITH_UNITS = 740
-"""Least width [px] at which a cell has room for its unit, and beside it for its limits."""
+"""Least width [px] at which a cell has room for its unit above and its limits to the left."""
 LEFT = 0.31
 """Room for the numbers left of a cell."""
 
@@ -100,8 +100,8 @@ class Stiffness(ComparingView):
     def data(self, results: Results) -> tuple[Sources, Ranges]:
         """Traces of all scenes, scaled to their cells, with limits and present values."""
         states, now = results.equilibrium, results.now
-        alike = [results.reference, *(results.against(other) for other in results.compared)]
-        answers = [states, *(other.equilibrium for other in alike)]
+        references = [results.reference, *(results.against(other) for other in results.compared)]
+        answers = [states, *(other.equilibrium for other in references)]
         first, last, _ = results.stretch
         shares = [(e.cage_angles - first) / (last - first) for e in answers]
         now_share = (results.cage_angle - first) % (last - first) / (last - first)

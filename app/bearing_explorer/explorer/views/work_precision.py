@@ -215,8 +215,8 @@ class WorkPrecision:
             line = [place(p) for p in good if p.method == method]
             lines.append((*columns_of(("cost", "error"), line).values(), color))
             for p in (p for p in known if p.method == method):
-                at = _shown_place(place(p), p in good, right / 1.3, top / 2.0)
-                rows.append(_point_row(p, at, p in good, p in frontier, color, marker))
+                shown_place = _shown_place(place(p), p in good, right / 1.3, top / 2.0)
+                rows.append(_point_row(p, shown_place, p in good, p in frontier, color, marker))
         self._best.data = columns_of(("cost", "error"), [place(p) for p in frontier])
         self._used.data = columns_of(("cost", "error"), [place(p) for p in good if p.in_use])
         # always as many rows: Bokeh paints a longer text source before it has the new colours

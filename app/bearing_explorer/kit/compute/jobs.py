@@ -359,7 +359,7 @@ class _Job:
 
 
 def _progress_words(part: float, spent: float) -> str:
-    """Word the share that is done, and the time that the rest may take at the same rate."""
+    """Say which share is done, and the time that the rest may take at the same rate."""
     if part < 0.02 or spent < 1.0:
         return "Computing."
     left = spent * (1.0 - part) / part

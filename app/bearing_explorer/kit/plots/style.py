@@ -307,7 +307,7 @@ def fixed_ticks(axis: LinearAxis, ticks: Sequence[float]) -> None:
 
 
 def in_degrees(angle: float, digits: int = 1) -> str:
-    """Word an angle [rad] between 0° and 360°, for a sentence."""
+    """Write an angle [rad] as one between 0° and 360°, for a sentence."""
     turned = math.degrees(angle) % 360.0
     text = f"{turned:.{digits}f}"
     whole = f"{360.0:.{digits}f}"

@@ -32,7 +32,7 @@ _EVENTS = {
 
 
 def is_costly(text: str) -> bool:
-    """True if parsing a frame would hold up everybody: 2.6 s for a million empty lists.
+    """True if parsing a frame would delay all sessions: 2.6 s for a million empty lists.
 
     Strings do not count: text that people wrote may hold any number of commas and brackets.
     """
@@ -50,14 +50,14 @@ _STRING = re.compile(r'"[^"\\]*(?:\\.[^"\\]*)*"')
 def component_message(event: Any, buffers: Mapping[str, bytes]) -> tuple[str, Any] | None:
     """Return the id of a model, and the plain data that a component's script sends it.
 
-    None if `event` is no such message; ValueError if its data are more than plain. `buffers` are
+    None if `event` is no such message; ValueError if its data are not plain. `buffers` are
     the blocks of bytes that belong to the message, by their ids.
     """
     data = event.get("msg_data") if isinstance(event, dict) else None
     if not isinstance(data, dict) or data.get("name") != "data_event":
         return None
     try:
-        # BokehJS writes out in full a model that it believes to be new; the id is enough
+        # BokehJS writes a model in full if it takes it for a new one; the id is enough
         values = dict(data["values"]["entries"])
         return str(values["model"]["id"]), _Reader(buffers).read(values["data"])
     except (TypeError, KeyError) as error:
@@ -67,7 +67,7 @@ def component_message(event: Any, buffers: Mapping[str, bytes]) -> tuple[str, An
 def name_model_by_id(event: Any) -> Any:
     """Return an event that names its model by the id alone.
 
-    BokehJS writes out in full a model that it believes to be new, as after a tab has been added.
+    BokehJS writes a model in full if it takes it for a new one, as after a tab has been added.
     """
     try:
         values = event["msg_data"]["values"]
@@ -108,7 +108,7 @@ def _is_offered(model: Any, attribute: str, new: Any) -> bool:
         return new in [option[0] if isinstance(option, tuple) else option for option in options]
     if attribute == "active" and "labels" in offers:
         chosen = new if isinstance(new, list) else [new]
-        return all(type(name) is int and 0 <= name < len(model.labels) for name in chosen)
+        return all(type(i) is int and 0 <= i < len(model.labels) for i in chosen)
     return True
 
 

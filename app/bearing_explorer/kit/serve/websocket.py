@@ -22,7 +22,7 @@ from bearing_explorer.kit.serve.log import log_warning
 from bearing_explorer.kit.serve.pages import SERVER_IS_FULL, PageHandler
 
 MOST_SOCKETS = 4
-"""Most sockets of one session: a page has one, and for a moment two as it connects again."""
+"""Most sockets of one session: a page has one, and for a moment two while it reconnects."""
 
 
 class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
@@ -76,7 +76,7 @@ class LiveSocket(panel_server.WSHandler):  # type: ignore[misc]
         return signed and get_token_payload(token).get("session_expiry", 0.0) > time.time()
 
     async def _has_place(self) -> bool:
-        """Return True if there is room for and in the session; otherwise close the connection."""
+        """Return True if server and session have room for this socket; otherwise close it."""
         token, context = self._named_token, self.application_context
         name = get_session_id(token)
         if await PageHandler.make_session(context, name, self.request, token) is None:

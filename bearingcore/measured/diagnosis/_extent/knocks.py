@@ -67,7 +67,7 @@ THIRD = 0.6
 """Height of a third peak over the second above which the peaks are a train: ringing."""
 
 LEAST_DIP = 0.25
-"""Least fall of the envelope between two separate peaks, over the lower one."""
+"""Least fall of the envelope between two separate peaks, relative to the lower one."""
 
 SIDE_LOBES, LEAST_NEAR = 3.0, 0.3
 """A filter responds to a knock with ripples of a fifth of its height. They last a few times the

@@ -26,14 +26,14 @@ NAMED = 0.5
 """Least probability of a part that is named."""
 
 LEAST_SWING = 0.03
-"""Least swing of the envelope, over its mean, at lines that count. Lines of healthy bearings swing
-it by 1 or 2 %."""
+"""Least swing of the envelope at lines that count, relative to its mean. Lines of healthy bearings
+swing it by 1 or 2 %."""
 
 ENOUGH_SWING = 0.06
 """Greatest detectable swing with which the absence of lines means that there is no damage."""
 
 SURELY = 2.0
-"""Swing that nine of ten signals show, over the swing whose lines just reach the level that counts:
+"""Ratio of the swing that nine of ten signals show to that whose lines just reach the least level:
 lines of noise scatter, and the loudest of a comb does not count. Measured with noise of 2 to 20 s
 whose power swings at six harmonics."""
 

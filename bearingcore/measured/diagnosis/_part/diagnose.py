@@ -39,7 +39,7 @@ TONES_COUNT = 0.6
 """Factor of a swing that was measured without whitening, which leaves tones in it."""
 
 ELSEWHERE = (0.5, 1.9)
-"""Range in which the shaft's lines are searched if none are at the stated speed, over that speed.
+"""Range, relative to the stated speed, in which the shaft's lines are searched if none are there.
 Lines at twice the speed and below half of it may be multiples and parts of the shaft's own."""
 
 CONTRADICTED = 0.5

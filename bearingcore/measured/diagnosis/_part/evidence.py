@@ -17,7 +17,7 @@ from bearingcore.recordings import Recording
 
 NONE_SEEN, CANNOT_TELL = "none seen", "cannot tell"
 BESIDE = 0.5
-"""Least probability of a race with which the other race may count as damaged too."""
+"""Least probability of the other race at which it counts as damaged too."""
 
 LIKELY = 0.9
 """Least probability of a part that is called damaged without a "probably"."""
@@ -45,19 +45,19 @@ class PartEvidence:
         [dB] level that noise alone reaches in one of a thousand signals.
     lead
         [dB] least of four margins: above noise, above all other lines in the band, above the lines
-        of the other race, and of the sidebands that the part should make. Below 0 the part's lines
+        of the other race, and that of the sidebands that the part should make. Below 0 its lines
         are absent.
     line_lead
         [dB] the same for the lines alone, without sidebands.
     modulation
-        negative logarithm of the chance that noise reaches the sidebands of the part's own
-        rotation, relative to 1 %: above 0 they are present. Infinite for an outer race, which does
+        −ln(p/1 %), where p is the chance that noise alone reaches the height of the sidebands of
+        the part's own rotation: above 0 they are present. Infinite for an outer race, which does
         not turn.
     foreign_spacing
         [Hz] of sidebands that neither the shaft nor the cage makes; NaN if there are none. They are
         searched at the outer race, which makes no sidebands of its own.
     depth
-        swing of the envelope at these lines, over its mean.
+        swing of the envelope at these lines, relative to its mean.
     swing
         the swing including the first sidebands.
     deviations
@@ -125,7 +125,7 @@ def rank(part: PartEvidence) -> tuple[float, float]:
 
 @dataclass(frozen=True)
 class OtherLines:
-    """The strongest lines in the signal that are none of this bearing's.
+    """The strongest lines in the signal that are not this bearing's.
 
     Attributes
     ----------
@@ -171,8 +171,8 @@ class Diagnosis:
     fault
         "outer race", "inner race", "ball", "none seen" or "cannot tell".
     probability
-        probability that the named fault is the true one, always below 1; without a clear result
-        that of the leading part.
+        probability that the named fault is the true one, always below 1; that of the
+        leading part if nothing is clear.
     status
         the outcome.
     detail
@@ -186,7 +186,7 @@ class Diagnosis:
     bearing_source
         source of the bearing, likewise.
     shaft_ratio
-        turns of the bearing's shaft, that of `shaft_speed`, for each turn of the measured one.
+        turns of the bearing's shaft (whose speed is `shaft_speed`) per turn of the measured shaft.
     other
         the strongest clear lines of another source, if any.
     detectable_depth
@@ -195,8 +195,8 @@ class Diagnosis:
     spectrum
         spectrum of the envelope in the band of the best evidence; None without evidence.
     steady_recording
-        the signal over the angle of a shaft whose changing speed was measured with it: that of a
-        shaft that turns at its mean speed. None if the speed is steady or was not measured.
+        the signal as if the shaft turned at its mean speed, if its speed changed and was measured
+        with the signal. None if the speed is steady or was not measured.
     """
 
     fault: str
@@ -298,7 +298,7 @@ class Diagnosis:
             ("swing_with_sidebands", "1", each("swing")),
             ("lead", "dB", each("lead"), "above noise and all other lines"),
             ("deviations", "1", each("deviations"), "in all bands together"),
-            ("magnetic_noise", "1", each("magnetic"), "share of twice the mains"),
+            ("magnetic_noise", "1", each("magnetic"), "probability of magnetic noise"),
             ("probability", "1", each("probability")),
             ("band_low", "Hz", each("band.low")),
             ("band_high", "Hz", each("band.high")),

@@ -83,10 +83,10 @@ WEAK_SIDEBANDS = 14.0
 
 SLOWER, FAINTER = (2, 3), 0.7
 """Divisors of a comb's frequency at which the comb may also show, and the greatest height of the
-lines in between, over its own, if it does."""
+lines in between, relative to its own, if it does."""
 
 GAPS = 0.25
-"""Least height of the lines in between that belong to a comb, over its own."""
+"""Least height of the lines in between that belong to a comb, relative to its own."""
 
 ALIKE = 7.0
 """Amount [dB] by which lines of a second damaged race may be below those of the first. In 51
@@ -129,7 +129,7 @@ class Judged:
     other_above_noise, other_swing
         height [dB] of these lines above noise, and their swing of the envelope.
     detectable
-        the least detectable swing of the envelope, over its mean.
+        the least detectable swing of the envelope, relative to its mean.
     resolutions
         the combs at all resolutions on which the evidence rests.
     """
@@ -383,9 +383,9 @@ class _Comparison:
                 continue
             column = int(near[combs.level[:, near].max(axis=0).argmax()])
             loudest = combs.envelopes[int(combs.level[:, column].argmax())]
-            at = np.array([combs.frequency[column]])
+            loudest_line = np.array([combs.frequency[column]])
             count = part * (HARMONICS // part)
-            depth = lines_at(loudest.levels.depth, loudest.levels.step, at, count)[:, 0]
+            depth = lines_at(loudest.levels.depth, loudest.levels.step, loudest_line, count)[:, 0]
             shared = np.arange(1, len(depth) + 1) % part == 0
             if depth[~shared].mean() < FAINTER * depth[shared].mean():
                 slower[near] = True

@@ -23,7 +23,7 @@ MOST_DROPPED = 0.5
 """Greatest share of dropped samples in a direction that is analysed."""
 
 NOISE_FLOOR = 1e-4
-"""Deviation of the noise that is added to a signal, over its own (-80 dB)."""
+"""Deviation of the noise that is added to a signal, relative to its own (-80 dB)."""
 
 ABOVE_ROUNDING = 4.0
 """Density that a tenth of all frequencies exceed while a bearing runs, over that of rounding."""

@@ -23,8 +23,8 @@ STEADY = 0.05
 of a column of speeds adds up to as much."""
 
 SLOWEST = 0.5
-"""Least speed that is kept, over the highest one. Each turn gets as many samples as the slowest one
-has, which are then at most twice those that were measured."""
+"""Least speed that is kept, relative to the highest. Each turn gets as many samples as the slowest
+one has, which are then at most twice those that were measured."""
 
 KEPT_OF = 64
 """Denominator of the ratio by which the resampled turns return to about the measured rate."""
@@ -37,8 +37,8 @@ LEAST_CHANGE = 0.05
 lines of a steady shaft by up to 0.03."""
 
 WINDOW, NEAR = 8.0, (0.7, 1.4)
-"""Turns in a spectrum in which the shaft's lines are followed; range of the search, over the speed.
-"""
+"""Turns in a spectrum in which the shaft's lines are followed; range of the search, relative to the
+speed."""
 
 JUMP, FOLLOWED = 0.03, 0.9
 """Largest relative deviation of a speed from the mean of its neighbours, and least share of the

@@ -1,7 +1,7 @@
 """The lines of a damaged ball, in all bands together.
 
 A ball slips where it carries little load, and its axis wanders. Its lines are therefore broad, and
-up to some per cent slower than by rolling. So only the first harmonics in short segments are used,
+up to 6 % slower than in pure rolling. So only the first harmonics in short segments are used,
 and the mean level of all bands, because a blow excites all of them. The height of a comb is counted
 in deviations of the combs at all other frequencies in the same signal.
 """

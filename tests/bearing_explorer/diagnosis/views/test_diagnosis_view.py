@@ -211,7 +211,7 @@ def test_lines_that_count_are_strong_where_found_and_others_faint_where_geometry
     cut = dataclasses.replace(own, harmonics=np.full(6, LOUDEST))
     raised = dataclasses.replace(diagnosis.spectrum, level=diagnosis.spectrum.level + 60.0)
     near = np.abs(raised.frequency - own.frequency) < 0.3
-    marks = PartLines(PackedSource())._of_lead(cut, raised)[points]
+    marks = PartLines(PackedSource())._lead_sources(cut, raised)[points]
     assert marks["level"][0] == raised.level[near].max(), "a mark is on its peak"
 
 

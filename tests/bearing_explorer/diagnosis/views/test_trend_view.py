@@ -92,7 +92,7 @@ def view_of(made: Measurement) -> TrendOfFiles:
 @pytest.fixture(scope="module")
 def view() -> TrendOfFiles:
     made = view_of(brought())
-    assert computed(made) == "3 of 3 files are in it."
+    assert computed(made) == "3 of 3 files are in the trend."
     return made
 
 

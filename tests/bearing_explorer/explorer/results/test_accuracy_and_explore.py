@@ -327,13 +327,13 @@ def test_pictures_of_stability_show_each_measured_number_and_a_cross_for_each_fa
     assert now[0] == pytest.approx(7.0)
     (lost,) = orbit_marks((OrbitAtSpeed(30.0, "not converged"),), 1.0)[0]
     assert math.isinf(lost.y)
-    assert "not converged" in lost.why
+    assert "not converged" in lost.tooltip
     assert measured.stability is not None
     marks, stable, _, _ = step_marks(measured.stability, 32768.0)
     broken = [mark for mark in marks if math.isinf(mark.y)]
     assert len(marks) == len(measured.stability.trials)
     assert broken
-    assert all(mark.x < stable["left"] and "diverged" in mark.why for mark in broken)
+    assert all(mark.x < stable["left"] and "diverged" in mark.tooltip for mark in broken)
 
 
 def test_an_experiment_is_shown_point_by_point_and_read_from_its_file(

@@ -69,7 +69,7 @@ def test_a_run_of_too_many_steps_in_all_is_not_begun_and_says_what_it_would_cost
     speeds = np.linspace(200.0, 400.0, 1000)
     with pytest.raises(FieldError, match="fewer: they take about") as refused:
         speed_run(rig, speeds, resolution=1.0, duration=60.0, most_steps=10**8)
-    assert f"allowed are most_steps_in_all = {thousands(1e9)}" in str(refused.value)
+    assert f"the limit is most_steps_in_all = {thousands(1e9)}" in str(refused.value)
     with pytest.raises(FieldError, match="most_steps_in_all"):
         speed_run(rig, speeds, most_steps_in_all=0)
 
@@ -80,7 +80,7 @@ def test_the_bound_is_an_argument() -> None:
     assert orbit(rig, most_steps=steps).stable
     short = orbit(rig, most_steps=steps - 1)
     assert short.status == OrbitStatus.TOO_MANY_STEPS
-    assert f"allowed are most_steps = {steps - 1}" in short.cost
+    assert f"the limit is most_steps = {steps - 1}" in short.cost
     assert short.right_hand_side_calls // 4 < steps
     assert simulate(rig, 0.01, most_steps=10).status is MotionStatus.TOO_MANY_STEPS
     assert simulate(rig, 0.01, most_steps=1000).completed

@@ -94,7 +94,7 @@ def find_touching(passage, instant, contacts, work):
 
 @inlined
 def push_of_contacts(passage, instant, rotor, contacts, work, smooth):
-    """Write the force of all contacts on the outer ring [N], moments over r_d, into work.f.
+    """Write the force of all contacts on the outer ring [N], moments divided by r_d, into work.f.
 
     Every loaded ball pushes with K δ^n + c δ̇ (Eq. 18) along its contact. δ̇ is the full time
     derivative, due to velocities of the rings, turning of the ball and slope of the path. If

@@ -93,7 +93,7 @@ class Machine:
     guessed
         "bearing" and "speed", if a file only suggests them.
     kept
-        "bearing" and "speed", if a person gave them for the file before.
+        "bearing" and "speed", if a person gave them for the previous file.
     by_frequencies
         True where only the frequencies of the bearing's parts are known; it then has no size.
     unread
@@ -140,7 +140,7 @@ class Machine:
         if name in self.guessed:
             return "assumed, a guess from the file"
         if name in self.kept:
-            return "assumed, kept from the file before"
+            return "assumed, kept from the previous file"
         source = self.bearing_source if name == "bearing" else self.speed_source
         return (BEARING_SOURCES if name == "bearing" else SPEED_SOURCES).get(source, "")
 

@@ -60,7 +60,7 @@ class MeasurementState:
     speeds: list[list[str]] = field(default_factory=list)
     #: True while changed answers are being read
     settling: bool = False
-    #: name of the file before, if bearing or speed are kept from it
+    #: name of the previous file, if bearing or speed are kept from it
     kept_from: str = ""
     #: the drawn signal in a line; a guess has a question mark. Empty without a signal
     line: str = ""

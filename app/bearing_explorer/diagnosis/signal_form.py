@@ -85,7 +85,7 @@ class SignalForm:
     _arrival: Arrival | None = None
     _as_read: Table | None = None
     # the form as the file filled it in, guesses that a person agreed to, answers that are kept from
-    # the file before, and the form of the drawn signal
+    # the previous file, and the form of the drawn signal
     _first: Mapping[str, str] = MappingProxyType({})
     _agreed: Mapping[str, str] = MappingProxyType({})
     _kept: Mapping[str, str] = MappingProxyType({})
@@ -302,7 +302,7 @@ class SignalForm:
         value = self.state.values.get(name, "")
         if not is_unchanged(name, value, self._first.get(name, "")):
             kept = self.state.kept_from if self._kept.get(name) == value else ""
-            return f"Assumed, kept from the file before, {kept}" if kept else "Given"
+            return f"Assumed, kept from the previous file, {kept}" if kept else "Given"
         return "" if name in self.state.open else self.state.reasons.get(name, "")
 
     @property
@@ -320,7 +320,7 @@ class SignalForm:
         return {field: values[field] for name in answered for field in GROUPS[name]}
 
     def _confirmed(self, machine: Machine) -> Machine:
-        """Return the machine, marked with what is kept from the file before and what is given."""
+        """Return the machine, marked with what is kept from the previous file and what is given."""
         answered, by = self._answered, machine.bearing_source
         return replace(
             machine,
@@ -341,7 +341,7 @@ class SignalForm:
         self.take_form(self.state.values)
 
     def forget_machine(self) -> None:
-        """Ask for bearing and speed again, which were given for the file before.
+        """Ask for bearing and speed again, which were given for the previous file.
 
         Files of the machine before are no series with this one.
         """
@@ -353,7 +353,7 @@ class SignalForm:
     def _take_read(self, read: Read) -> None:
         """Show a file that was read in place of the one before.
 
-        Its figures leave with the file before, so that none is shown under the name of another.
+        Its figures leave with the previous file, so that none is shown under the name of another.
         """
         table, before = read.table, "" if self._table is None else self._table.name
         self._table = self._as_read = table

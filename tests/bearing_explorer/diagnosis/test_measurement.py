@@ -358,10 +358,10 @@ def test_bearing_and_speed_are_kept_for_the_next_file_unless_that_says_otherwise
         assert made.state.kept_from == ""
         await bring(made, "second.csv", csv_of(NOISE[::-1, :1], "time [s],a [g]"))
         assert made.measured.machine.kept == {"bearing", "speed"}
-        assert made.measured.machine.source_of("speed") == "assumed, kept from the file before"
-        assert made.source_of("designation") == "Assumed, kept from the file before, first.csv"
+        assert made.measured.machine.source_of("speed") == "assumed, kept from the previous file"
+        assert made.source_of("designation") == "Assumed, kept from the previous file, first.csv"
         assert "1500 rpm? · g · 6205?" in made.state.line
-        assert "as for the file before: the bearing (6205) and" in assumptions(made.question())
+        assert "as for the previous file: the bearing (6205) and" in assumptions(made.question())
         content = b"# rpm = 1797\n" + csv_of(NOISE[:, :1], "time [s],a [g]")
         await bring(made, "third.csv", content)
         assert made.measured.machine.kept == {"bearing"}

@@ -133,7 +133,7 @@ def assumptions(question: Question) -> str:
     words = ""
     for why, assumed in (
         ("Assumed from the look of the file", machine.guessed),
-        ("Assumed to be as for the file before", machine.kept),
+        ("Assumed to be as for the previous file", machine.kept),
     ):
         if listed := [text for name, text in names.items() if name in assumed]:
             words += f" {why}: {style.list_words(listed)}."

@@ -40,13 +40,13 @@ NO_OPTIONS = {"bearing": [["", "choose", WAYS]], "speed": [["", ""]]}
 HINTS = {"designation": "6205-2RS", "shaft_speed": "1797 rpm", "ratio": "1, or 23/47"}
 
 KEPT_WORDS = (
-    "<p>Bearing or speed is kept from the file before, {}, and assumed for this one: is it the "
+    "<p>Bearing or speed is kept from the previous file, {}, and assumed for this one: is it the "
     "same machine?</p>"
 )
 
 
 def kept_html(state: MeasurementState) -> str:
-    """Say which answers are kept from the file before, and what this file has instead."""
+    """Say which answers are kept from the previous file, and what this file has instead."""
     if not state.kept_from:
         return ""
     of_file = dict(state.speeds).get(FILE, "")

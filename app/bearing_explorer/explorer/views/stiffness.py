@@ -177,7 +177,7 @@ class Stiffness(ComparingView):
         return self._lesson_limits
 
     def sentence(self, results: Results) -> str:
-        """Say why the radial stiffness is so large; then its range, and how many balls are loaded."""
+        """Explain the size of the radial stiffness; add its range and how many balls carry load."""
         ranges, healthy = results.ranges, results.reference.ranges
         states = ranges.state
         if not states.converged.any():

@@ -187,7 +187,7 @@ class Answers(Generic[Result]):
         self._known = kept | {question: answer}
 
     def want(self, question: Question) -> None:
-        """Have a question answered in place of the one before; needs a running event loop."""
+        """Have a question answered in place of the previous one; needs a running event loop."""
         before, self.wanted = self.wanted, question
         if question in self._known or (question == before and self._jobs.busy(self._kind)):
             return

@@ -17,7 +17,7 @@ FIRST_WORDS = (
     "indicators and spectra appear here."
 )
 
-REFUSED = "An answer on bearing, speed or columns is refused; this uses the one before."
+REFUSED = "An answer on bearing, speed or columns is refused; this uses the previous one."
 CHANGED = "Your answers have changed since."
 NOT_YET = "The signal is being analysed with the newest answers."
 """Reasons why an answer is out of date, or not there yet."""

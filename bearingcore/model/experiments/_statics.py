@@ -234,7 +234,7 @@ def _scipy(
 def _compiled(problem: StaticProblem, tolerance: float, warm: bool = True) -> Solved:
     """Solve by the program's own solver, whose tolerance is fixed.
 
-    Each angle starts from the one before, or without `warm` from the guess. The latter takes one
+    Each angle starts from the previous one, or without `warm` from the guess. The latter takes one
     call for each angle, and the time includes these calls.
     """
     load = kernels.StaticLoad(problem.force, problem.active)

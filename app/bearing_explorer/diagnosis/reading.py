@@ -182,8 +182,8 @@ def read_file(
             words = f"Only the first {count} of {of} rows are used."
     except FieldError as error:
         names_file = error.field == "file" and error.value == name
-        why = f"the program needs {error.allowed_text}" if names_file else str(error)
-        raise ValueError(f"{name} cannot be used: {why}.") from None
+        why = f"; allowed: {error.allowed_text}" if names_file else f": {error}"
+        raise ValueError(f"{name} cannot be used{why}.") from None
     except ValueError as error:
         raise ValueError(f"{name} cannot be used: {error}.") from None
     except MemoryError:

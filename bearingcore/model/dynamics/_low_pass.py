@@ -58,7 +58,7 @@ _BETWEEN = [
     (QUINTIC * five.deriv(2) + (1.0 - QUINTIC) * three.deriv(2))
     for five, three in zip(_QUINTIC, _CUBIC, strict=True)
 ]
-"""Acceleration within a step of length 1, for a unit of x, v, a at its begin and at its end."""
+"""Acceleration within a step of length 1, for a unit of x, v, a at its start and at its end."""
 
 
 def hermite_weights(fraction: Array, derivative: int, h: float) -> Array:

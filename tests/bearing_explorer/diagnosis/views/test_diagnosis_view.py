@@ -210,7 +210,7 @@ def test_lines_that_count_are_strong_where_found_and_others_faint_where_geometry
     assert ranges["diagnosis_level"][1] > spectrum["level"][spectrum["frequency"] > 20.0].max()
     cut, lines = dataclasses.replace(own, harmonics=np.full(6, LOUDEST)), diagnosis.spectrum
     raised = dataclasses.replace(lines, level=lines.level + 60.0)
-    marks = PartLines(PackedSource())._of_lead(cut, raised)
+    marks = PartLines(PackedSource())._lead_sources(cut, raised)
     near = np.abs(lines.frequency - own.frequency) < 0.3
     level = marks[f"diagnosis_{truth.replace(' ', '_')}_points"]["level"]
     assert level[0] == 60.0 + lines.level[near].max(), "a mark is on its peak"

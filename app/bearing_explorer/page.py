@@ -41,11 +41,11 @@ _LAST = ("accuracy", "explore", "over-speed", "paper")
 
 
 def _ordered_sections() -> tuple[Section, ...]:
-    of_scene = scene.SECTIONS if scene else ()
+    scene_sections = scene.SECTIONS if scene else ()
     return (
-        *(section for section in of_scene if section.name not in _LAST),
+        *(section for section in scene_sections if section.name not in _LAST),
         *(signal.SECTIONS if signal else ()),
-        *(section for section in of_scene if section.name in _LAST),
+        *(section for section in scene_sections if section.name in _LAST),
     )
 
 
@@ -85,14 +85,14 @@ class Halves:
 
 def half_of(view: type[View]) -> Any:
     """Return the half to which a view belongs."""
-    of_signal = signal is not None and any(view in tab.views for tab in signal.SECTIONS)
-    return signal if of_signal else scene
+    is_of_signal = signal is not None and any(view in tab.views for tab in signal.SECTIONS)
+    return signal if is_of_signal else scene
 
 
-def address() -> str:
+def page_query() -> str:
     """Return the query of this page's address: the part behind the question mark."""
-    query = pn.state.session_args or {}
-    return urlencode([(name, value) for name, values in query.items() for value in values])
+    arguments = pn.state.session_args or {}
+    return urlencode([(name, value) for name, values in arguments.items() for value in values])
 
 
 @cache
@@ -112,7 +112,7 @@ def page(lessons: Path | None = None) -> PageTemplate:
     """Make the page of a new session; lessons of the folder `lessons` replace the program's own."""
     if scene is not None:
         scene.begin_compiling()
-    halves = Halves(address(), lessons_of(lessons))
+    halves = Halves(page_query(), lessons_of(lessons))
     session, explorer = halves.session, halves.explorer
     template = PageTemplate(_frame())
     style = "".join(map(asset_text, ("page.css", "picture.css"))) + dark_properties()

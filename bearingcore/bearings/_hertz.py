@@ -144,15 +144,15 @@ def race_contact(
     gamma = ball_diameter * math.cos(contact_angle) / pitch_diameter
     side = 1.0 if race == "inner" else -1.0
     # Σρ = two of the ball, the race around the shaft (inner convex, outer concave), the groove
-    around = side * 2.0 * gamma / ((1.0 - side * gamma) * ball_diameter)
-    groove = 1.0 / groove_radius
-    total = 4.0 / ball_diameter + around - groove
-    if not groove + around > 0.0:
+    race_curvature = side * 2.0 * gamma / ((1.0 - side * gamma) * ball_diameter)
+    groove_curvature = 1.0 / groove_radius
+    total = 4.0 / ball_diameter + race_curvature - groove_curvature
+    if not groove_curvature + race_curvature > 0.0:
         raise checks.refuse(
             name,
             groove_radius,
             "below {most:m}, the radius of the race itself",
-            most=1.0 / -around,
+            most=-1.0 / race_curvature,
         )
     from scipy.special import ellipe, ellipkm1  # imported late, as scipy.special is slow to import
 

@@ -34,7 +34,7 @@ MOST_NAMED = 3
 
 @dataclass
 class Arrival:
-    """Files that arrive one after the other, and their contents.
+    """Files that arrive one after the other: file `number` of `count`, out of all `chosen` ones.
 
     `why`: the sentence on the first file that cannot be read. `lines`: its first lines, if it came
     alone.
@@ -53,12 +53,12 @@ class Arrival:
         """Number of the file and of all, in words; empty for a single file."""
         if self.count == 1:
             return ""
-        some = f" (some of {self.chosen}, from first to last)" if self.chosen > self.count else ""
-        return f"{self.number} of {self.count} files{some}: "
+        of = f" (out of {self.chosen}, evenly spread)" if self.chosen > self.count else ""
+        return f"{self.number} of {self.count} files{of}: "
 
     @property
-    def which(self) -> str:
-        """Sentences on left-out rows; for several files, also on the shown and on left-out ones."""
+    def notes(self) -> str:
+        """Sentences on left-out rows; for several files, also on the shown and left-out files."""
         if self.newest is None:
             return ""
         words, count = [self.newest.cut], len(self.series.tables)
@@ -98,7 +98,7 @@ class Read:
     signal
         None where the form describes none.
     refused
-        sentences on answers that cannot be, by field.
+        sentences on answers that cannot be used, by field.
     cut
         sentence on rows that were left out.
     kept
@@ -115,17 +115,17 @@ class Read:
 
     @property
     def asks(self) -> dict[str, str]:
-        """Questions before the signal can be drawn."""
+        """Questions to answer before the signal can be drawn."""
         return questions(self.table)
 
     @property
     def sizes(self) -> dict[str, str]:
-        """Questions before it has a size."""
+        """Questions to answer before its unit is known."""
         return size_questions(self.table, self.form)
 
     @property
     def recorded(self) -> datetime:
-        """The date of the recording; the least one where the file says none."""
+        """The date of the recording; the earliest possible one if the file states none."""
         recorded = self.table.contents.recorded
         return datetime.min if recorded is None else recorded.value
 
@@ -149,7 +149,7 @@ def read_files(
         names = [name]  # reading it gives the reason
     for file in names:
         if give_up():
-            why = f"{file} was not read: there is a minute for all files of an upload."
+            why = f"{file} was not read: all files of an upload have one minute together."
             yield file, why, len(names)
             continue
         read: Read | str
@@ -182,8 +182,8 @@ def read_file(
             words = f"Only the first {used} of {total} rows are used."
     except FieldError as error:
         names_file = error.field == "file" and error.value == name
-        why = f"needed is {error.allowed_text}" if names_file else str(error)
-        raise ValueError(f"{name} cannot be used: {why}.") from None
+        why = f"; allowed: {error.allowed_text}" if names_file else f": {error}"
+        raise ValueError(f"{name} cannot be used{why}.") from None
     except ValueError as error:
         raise ValueError(f"{name} cannot be used: {error}.") from None
     except MemoryError:

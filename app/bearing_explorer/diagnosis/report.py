@@ -87,7 +87,7 @@ def _drawings(
             continue
         if not any(column.size for columns in data.values() for column in columns.values()):
             continue
-        # the report words the trend above
+        # the table above the figures has the sentence on the trend
         caption = "" if view is TrendOfFiles else html_text(figure.sentence)
         drawn.append(first.id)
         items.append(json_item(figure.layout))
@@ -101,7 +101,7 @@ def _drawings(
 
 
 def _prepare(view: Any, measurement: Measurement) -> None:
-    """Have a view draw the signal with the report's height, on which the places of names depend."""
+    """Give a view the signal and the report's height; the places of names depend on the height."""
     view.measure(measurement)
     for plot in view.figures:
         plot.height = plot.min_height = plot.max_height = HEIGHT
@@ -209,7 +209,7 @@ def findings(
         grown = trend_words(whole, measured.in_si, measured.along(whole.direction))
     elif files > 1 and measurement.series.together:
         done = 0 if trend is None else len(trend.trend.points)
-        grown = f"not finished: {done} of {files} files are done; make the report again then"
+        grown = f"not finished: {done} of {files} files are done; make the report again later"
     return [
         ("Severity", f"{level}. {severity(measured, measurement.machine_kind)}"),
         ("Frequencies", frequencies),
@@ -238,8 +238,8 @@ def assumptions(
     load = measured.true_load or measurement.state.load
     typed = [f"{name.upper()} {values[name]}" for name in FREQUENCIES if values.get(name)]
     clearance = with_prefix(bearing.radial_clearance, "m")
-    unknown, made = machine.exact_speed is None, BEARING_SOURCES[SIMULATED].capitalize()
-    no_kind = "zone D for any of them" if zone_of(measured, "") else "no zone"
+    unknown, simulated = machine.exact_speed is None, BEARING_SOURCES[SIMULATED].capitalize()
+    no_kind = "zone D for every kind of machine" if zone_of(measured, "") else "no zone"
     return [
         ("File", name_of(measured), "" if measured.origin else "Simulated"),
         ("Signal", with_prefix(recording.duration, "s")
@@ -257,9 +257,9 @@ def assumptions(
         ("Machine and support", kind or f"not said: {no_kind}", "Given" if kind else ""),
         ("Load", "typical loads, used for the extent" if load is None
          else with_prefix(load, "N"),
-         "Assumed" if load is None else made if measured.true_load else "From the file"),
+         "Assumed" if load is None else simulated if measured.true_load else "From the file"),
         ("Radial clearance", f"{clearance}, used for the extent",
-         made if measured.true_edge else "Assumed: usual of the bearing"),
+         simulated if measured.true_edge else "Assumed: usual for the bearing"),
         ("Demodulation band", facts.get("Demodulation band", "none"), "Chosen"),
     ]  # fmt: skip
 

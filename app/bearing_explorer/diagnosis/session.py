@@ -142,7 +142,7 @@ class Measurement(SignalForm):
             self._refuse(f"{none if arrival.count > 1 else ''}{arrival.why}", arrival.lines)
             return
         self.series = arrival.series
-        self._take_read(replace(arrival.newest, cut=arrival.which))
+        self._take_read(replace(arrival.newest, cut=arrival.notes))
 
     def recordings(self, shown: Measured, direction: str) -> SeriesRecordings:
         """Return the recordings of the series. For any thread."""

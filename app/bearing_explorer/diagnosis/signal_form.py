@@ -115,7 +115,7 @@ class SignalForm:
         #: the newest trend of files, and the kind of the machine for the zone of its vibration
         self.trend: ComputedTrend | None = None
         self.machine_kind = ""
-        #: the newest choice between lengths of the spall, for this signal or a previous one
+        #: the newest choice between lengths of the spall, for this signal or an earlier one
         self.sized: SizedDefect | None = None
         self._scene = scene_machine(scene())
         self._table: Table | None = None  # with the current roles of its columns
@@ -313,7 +313,7 @@ class SignalForm:
 
     @property
     def _given_machine(self) -> dict[str, str]:
-        """The answers on the machine that a person gave for this file or for one before."""
+        """The answers on the machine that a person gave for this file or an earlier one."""
         values = self.state.values if self._table is not None else {}
         names = {*self._answered, *self._kept} & set(GROUPS) & set(values)
         answered = [name for name in names if values[name] not in (NOT_KNOWN, FILE)]

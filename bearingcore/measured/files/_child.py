@@ -64,7 +64,7 @@ def read_file(
     Returns
     -------
     about
-        the other fields of `_contents.FileColumns` by name.
+        the fields of `_contents.FileColumns` by name, without the columns.
     columns : (n, c)
         the numbers; gaps are NaN.
 
@@ -82,7 +82,7 @@ def read_file(
             env={**os.environ, **_ENVIRONMENT},
         )
     except OSError:
-        raise checks.refuse("file", name, "one for which the system can start a process") from None
+        raise checks.refuse("file", name, "one that a process can read; none can start") from None
     assert child.stdin is not None
     assert child.stdout is not None
     head = json.dumps([name, PROCESSOR_SECONDS, MEMORY]).encode() + b"\n"

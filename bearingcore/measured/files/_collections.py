@@ -24,13 +24,13 @@ class Collection:
     name
         name of the collection.
     clue
-        the mark that is named as the reason.
+        words for the mark that is stated as the reason: "columns" as in the collection.
     variable
         regular expression of the whole name of a column.
     scalars
         last parts of the names of required single numbers.
     width, clock
-        number of columns, and of those that are hours, minutes, seconds and their parts.
+        number of columns, and of those with hours, minutes, seconds, fractions of seconds.
     unit, sample_rate, rpm
         unit of the acceleration, sample rate [Hz], shaft speed [turns a minute].
     bearing
@@ -104,14 +104,14 @@ COLLECTIONS = (
 
 
 def recognize(names: Sequence[str], clock: int, named: Sequence[Named]) -> Collection:
-    """Return the collection of a file with such marks; one without a name if there is none.
+    """Return the collection whose marks a file has; an empty one if there is none.
 
     Parameters
     ----------
     names
         names of all columns.
     clock
-        number of first columns that are hours, minutes, seconds and their parts.
+        number of first columns with hours, minutes, seconds and fractions of seconds.
     named
         the single numbers of the file.
     """

@@ -19,7 +19,7 @@ LEAST_SHARE = 0.9
 """Least share of the rows that speeds cover; shorter columns have another sample rate."""
 
 STEP = 0.2
-"""Largest relative difference of a turn from the one before. A missed pulse doubles a turn, and
+"""Largest relative difference of a turn from the previous one. A missed pulse doubles a turn, and
 noise on a tachometer's signal makes short ones."""
 
 MOST_MEDIANS = 8.0
@@ -90,7 +90,7 @@ def measured_speeds(values: Array) -> Array:
 def pulse_begins(values: Array) -> Array:
     """Return the fractional rows at which pulses of a tachometer begin; none for irregular ones.
 
-    A turn of a shaft is not a fifth longer or shorter than the one before.
+    A turn of a shaft is not a fifth longer or shorter than the previous one.
     """
     if not np.isfinite(values).all():
         return np.zeros(0)

@@ -24,18 +24,18 @@ NEIGHBOURS = 3.0
 """Pairs of passes over which their delay is smoothed (standard deviation of a Gaussian)."""
 
 TOGETHER = 1.5
-"""Neighbouring passes that are aligned with the mean together (standard deviation)."""
+"""Passes over which their lag to the mean is smoothed (standard deviation of a Gaussian)."""
 
 ROUNDS = 4
-"""Number of rounds of alignment with the mean before the passes are cut again."""
+"""Number of rounds of alignment with the mean before the signal is cut into passes again."""
 
 WIDEST = 0.5
 """Largest angle [rad] by which a pass is moved in the first round."""
 
-GRID = 201
+TRIAL_LAGS = 201
 
 MOST_CUTS = 8
-"""Greatest number of times that passes are cut again after an alignment."""
+"""Greatest number of times that the signal is cut again after an alignment."""
 
 LEAST_GAIN = 0.01
 """Least rise of the share of power that repeats: noise alone stays below it."""
@@ -49,12 +49,12 @@ def follow_lags(
     Parameters
     ----------
     cut
-        returns the coefficients (passes, N, d) of passes that are late by some lags (passes,).
+        returns the coefficients (passes, N harmonics, d directions) of passes cut late by lags.
     slip
         largest relative deviation of the ball-pass frequency.
     """
     steady = cut(np.zeros(n_passes))
-    # no lags are the best start for a nearly steady cage, summed delays for any other
+    # zero lags are the best start for a nearly steady cage, summed delays for any other
     starts = np.zeros(n_passes), _sum_delays(steady, slip)
     share, lags = max((_align(cut, start) for start in starts), key=lambda fit: fit[0])
     return lags if share >= _repeating_share(steady) + LEAST_GAIN else None
@@ -65,21 +65,21 @@ def _align(cut: Callable[[Array], NDArray[np.complex128]], lags: Array) -> tuple
     passes = cut(lags)
     share = _repeating_share(passes)
     for _ in range(MOST_CUTS):
-        closer = lags + _lags_to_mean(passes)
-        passes = cut(closer)
+        new_lags = lags + _lags_to_mean(passes)
+        passes = cut(new_lags)
         new_share = _repeating_share(passes)
         if new_share < share:
             break
-        gain, share, lags = new_share - share, new_share, closer
+        gain, share, lags = new_share - share, new_share, new_lags
         if gain < 0.2 * LEAST_GAIN:
             break
     return share, lags
 
 
 def smooth_lag(lags: Array) -> Callable[[Array], Array]:
-    """Return the lag [rad] as a function of place, counted in passes from the first one's start.
+    """Return the lag [rad] as a function of place, counted in passes from the start.
 
-    Beyond the middles of the first and the last pass it is a straight line.
+    Beyond the middles of the first and the last pass the lag is a straight line.
     """
     from scipy.interpolate import CubicSpline  # imported late: see `spectrum`
 
@@ -110,7 +110,7 @@ def _sum_delays(passes: NDArray[np.complex128], slip: float) -> Array:
     coherence = np.abs(cross.mean(axis=0)) / passes.shape[2]
     cross = _smooth_rows(cross * coherence, NEIGHBOURS)
     reach = 2.0 * math.pi * (slip + 0.01)
-    delay = _best_lag(cross, np.linspace(-reach, reach, GRID))
+    delay = _best_lag(cross, np.linspace(-reach, reach, TRIAL_LAGS))
     return np.concatenate(([0.0], np.cumsum(delay)))
 
 
@@ -125,7 +125,7 @@ def _lags_to_mean(passes: NDArray[np.complex128]) -> Array:
         variance += 1e-3 * (np.abs(mean) ** 2).max(axis=0)
         cross = (turned * mean.conj() / variance).sum(axis=2)
         reach = WIDEST / 2.0**number
-        lags = lags + _best_lag(_smooth_rows(cross, TOGETHER), np.linspace(-reach, reach, GRID))
+        lags += _best_lag(_smooth_rows(cross, TOGETHER), np.linspace(-reach, reach, TRIAL_LAGS))
         lags -= lags.mean()
     return lags
 

@@ -58,9 +58,9 @@ def compression(m, w, A0):
             return 0.0, 1.0, 0.0, 0.0
         if A0 == 0.0:
             return m, 1.0, 0.0, 0.0
-        A = math.sqrt(p * p + w * w)
-        bend = 1.0 / A
-        return rise / (A + A0), p * bend, w * bend, bend if p > GUARD * A0 else 0.0  # Equation (7)
+        A = math.sqrt(p * p + w * w)  # Equation (7): δ = A − A0
+        inverse_A = 1.0 / A
+        return rise / (A + A0), p * inverse_A, w * inverse_A, inverse_A if p > GUARD * A0 else 0.0
     if A0 == 0.0:
         return 0.0, 1.0, 0.0, 0.0
     return max(abs(w) - A0, 0.0), 0.0, 1.0 if w > 0.0 else -1.0, 0.0
@@ -87,8 +87,8 @@ def race_touch(r, z, drop, A, j, contacts):
     ca = contacts.line_r[j]
     sa = contacts.line_z[j]
     along = r * ca + z * sa - drop
-    delta, eu, ew, bend = compression(along, z * ca - r * sa, A)
-    return delta, eu * ca - ew * sa, eu * sa + ew * ca, bend
+    delta, eu, ew, inverse_A = compression(along, z * ca - r * sa, A)
+    return delta, eu * ca - ew * sa, eu * sa + ew * ca, inverse_A
 
 
 @inlined

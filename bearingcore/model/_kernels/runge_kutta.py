@@ -31,7 +31,7 @@ def stepper(
     changed: Callable[..., Any],
     record: Callable[..., Any],
 ) -> Any:
-    """Return compiled steps of a system, made of four compiled functions.
+    """Return a compiled function that steps a system, from four compiled functions.
 
     * `lay_out(angle, turn, count, system, work)` writes the balls at `count` instants to work.
     * `rates(y, part, before, k, instant, system, work)` writes the rate of y + part·before to k.
@@ -42,7 +42,7 @@ def stepper(
 
     @inlined
     def runge_kutta(y, h, start_angle, stride, system, out, work, span):
-        """March in steps of h [s] from y, which is moved to the end, and the cage from start_angle.
+        """March in steps of h [s] from the state y and start_angle of the cage; y becomes the last.
 
         Every `stride` steps a sample is recorded, as many as out.history has. span holds the first
         step and the step before which to end, both multiples of half a BLOCK; see `parts`. Returns
@@ -59,17 +59,17 @@ def stepper(
                     return max(step - BLOCK // 2, 0)
                 instants = min(BLOCK, 2 * (n_steps - step)) + 1
                 lay_out(start_angle + 2 * step * half_turn, half_turn, instants, system, work)
-            # Each call of an inlined function repeats its code, so each is called at one place. A
-            # state that `changed` has changed gets its rate of stage 0 a second time.
-            searched = False
+            # Each call of an inlined function repeats its code, so each is called at one place. If
+            # `changed` returns True, the rate of stage 0 is computed again for the new state.
+            is_new = False
             stage = 0
             while stage < 4:
                 instant = i + (stage + 1) // 2
                 part = 0.0 if stage == 0 else (h if stage == 3 else 0.5 * h)
                 rates(y, part, k[max(stage - 1, 0)], k[stage], instant, system, work)
                 if stage == 0:
-                    if not searched and changed(y, instant, system, work):
-                        searched = True
+                    if not is_new and changed(y, instant, system, work):
+                        is_new = True
                         continue
                     if step % stride == 0:
                         record(step // stride, y, instant, system, out, work)

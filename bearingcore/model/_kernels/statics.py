@@ -93,11 +93,11 @@ def energy_gradient_hessian(q, force, place, contacts, g, H):
     for j in range(c.size):
         cj = c[j]
         sj = s[j]
-        delta, er, ez, bend = touch(x, cj, sj, d[j], j, contacts)  # Equations (7)-(14)
+        delta, er, ez, inverse_A = touch(x, cj, sj, d[j], j, contacts)  # Equations (7)-(14)
         if delta <= 0.0:
             continue
         stored, Q, k1 = contact_load(delta, contacts.factor[j], contacts.exponent[j])
-        k2 = Q * bend
+        k2 = Q * inverse_A
         et = tilting(er, ez, j, contacts)
         nt = tilting(-ez, er, j, contacts)  # (−ez, er) is across the contact
         energy += stored
@@ -666,14 +666,14 @@ def keep_answer(e, k, now, contacts, work, memory, answers):
     x = components(work.state)
     beyond = settled and max(abs(x[3]), abs(x[4])) > contacts.most_tilt
     for j in range(contacts.angle.size):
-        delta, _, _, bend = touch(x, place.c[j], place.s[j], place.d[j], j, contacts)
+        delta, _, _, inverse_A = touch(x, place.c[j], place.s[j], place.d[j], j, contacts)
         loads[k, j] = 0.0
         if delta > 0.0:
             _, loads[k, j], _ = contact_load(delta, contacts.factor[j], contacts.exponent[j])
             count += 1
             most = max(most, loads[k, j])
             beyond = beyond or delta > contacts.room[j]
-            if settled and bend == 0.0:
+            if settled and inverse_A == 0.0:
                 beyond = beyond or has_left(x, place.c[j], place.s[j], j, contacts)
     if beyond and (settled or status[e, k] == FREE_DIRECTION):
         status[e, k] = BEYOND

@@ -3,7 +3,7 @@
 Quantity                                          | Symbol            | Unit
 ------------------------------------------------- | ----------------- | --------
 displacement of the inner ring, tilts times r_d   | q = (x, y, z, r_d θx, r_d θy) | m
-loads on the inner ring, moments over r_d         | F                 | N
+loads on the inner ring, moments divided by r_d   | F                 | N
 cosine and sine of a ball's angle φ_j             | c, s              |
 cosine and sine of the unloaded contact angle α0  | ca, sa            |
 drop of the ball's centre, its rate               | d, d_rate         | m, m/s
@@ -133,7 +133,7 @@ class Passage(NamedTuple):
     c, s, d [m], d_rate [m/s] : (instants, n)
         cosine, sine, drop and its rate.
     push : (instants, 5) [N]
-        force on the inner ring from unbalance and from samples; moments over r_d.
+        force on the inner ring from unbalance and from samples; moments divided by r_d.
     circle_c, circle_s : (n,)
         cosine and sine of each contact's angle from the first ball.
     """
@@ -148,7 +148,7 @@ class Passage(NamedTuple):
 
 
 class StaticLoad(NamedTuple):
-    """Loads (5,) [N], moments over r_d, and numbers of the free directions, 0 to 4, rising."""
+    """Loads (5,) [N], moments divided by r_d; numbers of the free directions, 0 to 4, rising."""
 
     force: Array
     active: Integers
@@ -279,7 +279,7 @@ class Rotor(NamedTuple):
     shaft_ratio
         speed of the shaft over that of the cage.
     samples : (m, 5) [N]
-        of a force on the inner ring, moments over r_d, the last one 0; m is 0 or at least 2.
+        of a force on the inner ring, moments divided by r_d, the last one 0; m is 0 or at least 2.
     samples_a_radian [1/rad]
         number of samples per radian of the cage; the first one is at cage angle 0.
     """

@@ -73,7 +73,7 @@ def ball_start(packed: PackedMotion, massless: Equilibrium) -> Array | None:
     angle = system.contacts.angle
     c, s = np.cos(angle), np.sin(angle)
     radial = system.races.centrifugal - system.races.weight * s
-    # the balls' own load on the outer ring, with its moments over r_d
+    # the balls' own load on the outer ring, with its moments divided by r_d
     arm = system.contacts.arm
     carried = np.array([radial @ c, radial @ s, 0.0, -(radial * arm) @ s, (radial * arm) @ c])
     outer = np.zeros(5)  # the housing sinks into its support, under the load of the balls too

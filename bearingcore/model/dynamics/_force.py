@@ -54,7 +54,7 @@ class ForceSamples:
 
 
 def with_force(packed: PackedMotion, force: ForceSamples) -> PackedMotion:
-    """Return the motion with a force in time; FieldError if it cannot move along that force."""
+    """Return the motion with a force added; FieldError if the scene does not move along it."""
     checks.instance("force", force, ForceSamples)
     if not set(force.dofs) <= set(packed.dofs):
         allowed = f"directions in which the scene moves: {', '.join(packed.dofs)}"
@@ -62,11 +62,11 @@ def with_force(packed: PackedMotion, force: ForceSamples) -> PackedMotion:
     samples = np.zeros((len(force.samples) + 1, len(DOF_NAMES)))
     units = length_units(packed.scene, force.dofs)
     samples[:-1, direction_numbers(force.dofs)] = force.samples / units
-    a_radian = force.sample_rate / packed.scene.cage_speed
-    rotor = packed.rotor._replace(samples=samples, samples_a_radian=a_radian)
+    per_radian = force.sample_rate / packed.scene.cage_speed
+    rotor = packed.rotor._replace(samples=samples, samples_a_radian=per_radian)
     return replace(packed, rotor=rotor)
 
 
 def peak_force(packed: PackedMotion) -> float:
-    """Return the greatest size [N] of a motion's force in time, moments over r_d."""
+    """Return the greatest size [N] of a motion's added force, with moments divided by r_d."""
     return float(np.linalg.norm(packed.rotor.samples, axis=1).max(initial=0.0))

@@ -58,7 +58,7 @@ _BETWEEN = [
     (QUINTIC * five.deriv(2) + (1.0 - QUINTIC) * three.deriv(2))
     for five, three in zip(_QUINTIC, _CUBIC, strict=True)
 ]
-"""Acceleration within a step of length 1, for a unit of x, v, a at its begin and at its end."""
+"""Acceleration within a step of length 1, for a unit of x, v, a at its start and at its end."""
 
 
 def hermite_weights(fraction: Array, derivative: int, h: float) -> Array:
@@ -101,7 +101,7 @@ def acceleration_lines(history: Array, body: int, step: float, count: int) -> Ar
     lines = np.zeros((count, history.shape[2]), dtype=complex)
     for column, (polynomial, power) in enumerate(zip(_BETWEEN, _POWERS, strict=True)):
         moment = waves @ polynomial(part) * step ** (power - 2)
-        if column >= 3:  # numbers at the end of a step are those at the begin of the next
+        if column >= 3:  # numbers at the end of a step are those at the start of the next
             moment = moment * np.exp(turn)
         lines += moment[:, None] * sums[:, column % 3]
     return lines
@@ -137,7 +137,7 @@ def _filter(sample_rate: float, step_rate: float) -> _Filter:
     for phase in range(a_step):
         weighted = _kernel((step[:, None] + part) * samples - phase) * weight * samples
         for number, (polynomial, power) in enumerate(zip(_BETWEEN, _POWERS, strict=True)):
-            rows = slice(number // 3, number // 3 + len(step))  # the begin of steps, or their end
+            rows = slice(number // 3, number // 3 + len(step))  # the start of steps, or their end
             scale = step_rate ** (2 - power)
             weights[phase, rows, number % 3] += weighted @ (polynomial(part) * scale)
     return _Filter(weights, before, stride)

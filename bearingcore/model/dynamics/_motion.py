@@ -283,9 +283,9 @@ def simulate(
     sample_rate
         [Hz] of the returned samples.
     force
-        a force in time on the inner ring, in addition to the scene's load. The static state at the
+        a varying force on the inner ring, in addition to the scene's load. The static state at the
         start does not include it. Its sample rate is at most twice the step rate, as each step
-        takes the force at its begin, middle and end. The filter looks REACH samples ahead: a force
+        takes the force at its start, middle and end. The filter looks REACH samples ahead: a force
         that is not zero at the end of the motion should last that much longer, or accelerations
         include its fall to zero.
     step_rate

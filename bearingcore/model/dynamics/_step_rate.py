@@ -23,8 +23,8 @@ beyond, 26 leave 0.005 dB."""
 
 LEAST_STEPS_A_SAMPLE = 0.45
 """Least number of steps per sample, also for slow modes, as contacts that open and close vibrate
-faster. A heavy rotor on few balls had an error of 4 dB with an eighth. Rounded up to a whole
-fraction, this is a half, or a quarter if a `part` just over a half is requested."""
+faster. A heavy rotor on few balls had an error of 4 dB with an eighth. Rounding to a whole fraction
+makes it a half, or a quarter if a `part` just over a half is requested."""
 
 
 def default_step_rate(scene: Scene, sample_rate: float, part: float = 1.0) -> float:
@@ -33,7 +33,7 @@ def default_step_rate(scene: Scene, sample_rate: float, part: float = 1.0) -> fl
     It has at least STEPS_A_CYCLE steps in a period of the highest natural frequency, also under
     unbalance, and LEAST_STEPS_A_SAMPLE steps per sample, or a `part` of both. It has at least
     STEPS_A_PASSAGE steps while a ball passes the defect, and enough for the decay by dampers. Balls
-    with mass take a multiple, see `ball_step_rate`. Raises ValueError if no finite rate suffices.
+    with mass need more, see `ball_step_rate`. Raises ValueError if no finite rate suffices.
     """
     return step_rate_of(packed_motion(scene), sample_rate, part)
 
@@ -57,7 +57,7 @@ def step_rate_of(packed: PackedMotion, sample_rate: float, part: float = 1.0) ->
 
 
 def _highest_loaded_frequency(packed: PackedMotion) -> float:
-    """Return `highest_frequency_of`, or that under a load with unbalance and samples if higher."""
+    """Return the highest natural frequency, under the load alone or with unbalance and samples."""
     scene, highest = packed.scene, highest_frequency_of(packed)
     if not (force := scene.turning_force + peak_force(packed)):
         return highest
@@ -71,7 +71,7 @@ def _highest_loaded_frequency(packed: PackedMotion) -> float:
 def _greatest_decay(packed: PackedMotion) -> float:
     """Return a bound [1/s] on the decay of the rings: the trace of M⁻¹C with all balls loaded.
 
-    If the decay is too fast for the steps, a motion diverges, or is wrong without tension.
+    If the decay is too fast for the steps, a motion diverges, or is wrong if contacts cannot pull.
     """
     contacts, line_r, line_z = packed.contacts, packed.contacts.line_r, packed.contacts.line_z
     tilting = contacts.reach * line_z - contacts.arm * line_r
@@ -84,6 +84,6 @@ def _greatest_decay(packed: PackedMotion) -> float:
 
 
 def fine_step_rate(scene: Scene, sample_rate: float) -> float:
-    """Return a step rate [Hz] of at least the sample rate, so that 0.4 of it is the bandwidth."""
+    """Return a step rate [Hz] not below the sample rate, 0.4 of which is then the bandwidth."""
     packed = packed_motion(scene)
     return max(step_rate_of(packed, sample_rate), sample_rate)

@@ -50,7 +50,7 @@ the stiffness of an answer that it calls solved is wrong by more than WRONG_STIF
 
 @dataclass(frozen=True)
 class StaticProblem:
-    """Static equilibrium of a scene at m cage angles, rotations times r_d, moments over r_d.
+    """Static equilibrium of a scene at m cage angles, rotations times r_d, moments divided by r_d.
 
     `c`, `s`, `d` (m, N_b) are cosine, sine [-] and drop [m] of each ball; `force` (5,) [N] is the
     load, `active` the free directions, `packed` all contacts, `guess` (5,) [m] the first guess.
@@ -234,7 +234,7 @@ def _scipy(
 def _compiled(problem: StaticProblem, tolerance: float, warm: bool = True) -> Solved:
     """Solve by the program's own solver, whose tolerance is fixed.
 
-    Each angle starts from the one before, or without `warm` from the guess. The latter takes one
+    Each angle starts from the previous one, or without `warm` from the guess. The latter takes one
     call for each angle, and the time includes these calls.
     """
     load = kernels.StaticLoad(problem.force, problem.active)

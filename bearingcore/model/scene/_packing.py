@@ -1,7 +1,7 @@
 """A scene as structs of numbers for the kernels; only this module fills them.
 
 `pack` makes all structs of a scene at rest, and solvers need nothing else. Tilts are times r_d and
-moments over r_d, where r_d is `Bearing.groove_center_radius`.
+moments divided by r_d, where r_d is `Bearing.groove_center_radius`.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 Quantity                                                        | Symbol | Name     | Unit
 --------------------------------------------------------------- | ------ | -------- | ----
-load, moments over r_d                                          | F      | load     | N
+load, moments divided by r_d                                    | F      | load     | N
 direction in which the ring moves, tilts times r_d              | w      |          |
 gradients of a ball's motion along its unloaded line of contact | e_j    | pressing |
 gradients of a ball's motion across this line                   | t_j    | across   |

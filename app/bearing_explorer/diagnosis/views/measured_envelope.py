@@ -115,7 +115,7 @@ class MeasuredEnvelope(FrequencyView):
     def choices(self) -> dict[str, Any]:
         measured = self.measured
         chosen = super().choices()
-        if measured is None or self.diagnosed() is None:
+        if measured is None or self.diagnosed_envelope() is None:
             return chosen
         # exported lines make no diagnosis that would give the band
         low, high = self.band(measured, chosen["direction"]).band

@@ -89,7 +89,7 @@ class MeasuredKurtogram(MeasuredView):
             f"{band.high:.0f} Hz. Envelopes are taken from {chosen.band[0]:.0f} to "
             f"{chosen.band[1]:.0f} Hz, {chosen.reason}"
         )
-        if self.diagnosed() is None or chosen.band == (band.low, band.high):
+        if self.diagnosed_envelope() is None or chosen.band == (band.low, band.high):
             return f"{words}."
         return f"{words}: that is chosen by the bearing's lines, not by the kurtosis."
 

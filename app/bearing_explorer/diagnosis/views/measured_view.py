@@ -51,7 +51,7 @@ class Demodulation:
 NO_MEASUREMENT = measurement_of(None, next(iter(presets.values())))
 """An empty measurement, for views without a session."""
 NOTHING = "There is no signal yet: choose a file or simulate one above."
-WITHOUT_BEARING = "Say in step 2 which bearing it is to see this."
+WITHOUT_BEARING = "To see this, say in step 2 which bearing it is."
 
 
 class MeasuredView(View[Model]):
@@ -127,21 +127,21 @@ class MeasuredView(View[Model]):
             return None
         return Turning(measured.bearing, speed)
 
-    def diagnosed(self) -> EnvelopeLines | None:
+    def diagnosed_envelope(self) -> EnvelopeLines | None:
         """Return the envelope on which the diagnosis rests, once there is one."""
         diagnosis = self.measurement.diagnosis()
         return None if diagnosis is None else diagnosis.spectrum
 
     def direction_of(self, measured: Measured, chosen: str = "") -> str:
         """Return the direction to show: the chosen one, or that of the diagnosis, or y."""
-        diagnosed = self.diagnosed()
+        diagnosed = self.diagnosed_envelope()
         wanted = (chosen, diagnosed.direction if diagnosed else "", "y", *measured.directions)
         return next(direction for direction in wanted if direction in measured.directions)
 
     def demodulation(self, measured: Measured, direction: str) -> Demodulation:
         """Return the band for envelopes: that of the diagnosis, or the kurtogram's best."""
         highest = HIGHEST_SHARE * measured.recording.sample_rate
-        diagnosed = self.diagnosed()
+        diagnosed = self.diagnosed_envelope()
         if diagnosed is not None:
             low, high = diagnosed.band
             along = f", along {diagnosed.direction}" if diagnosed.direction != direction else ""

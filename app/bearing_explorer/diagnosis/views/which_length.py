@@ -161,7 +161,7 @@ class WhichLength(JobView[Model, SizedDefect, Editor], MeasuredView):
             for dof, plot in self._plots.items():
                 plot.visible = dof in measured.directions
         if self._answer_of != self.measurement.state.arrival:
-            # the answer on the support belongs to the file before
+            # the answer on the support belongs to the previous file
             self._answer_of = self.measurement.state.arrival
             self.job.fill({"support": "" if measured.true_scene is None else KNOWN}, {})
         if race and model is not None and self._began != (measured, race):

@@ -31,8 +31,8 @@ class Displacement(View):
     title = "Displacement of the inner ring"
     about = (
         "How far the load moves the inner ring. It is measured from the middle of the outer ring; "
-        "y counts upwards. Least, mean in time and greatest are those of one period; for an "
-        "inner-race defect they are those of all turns of the shaft."
+        "y counts upwards. Least, mean in time and greatest are over one period; for an inner-race "
+        "defect, over all turns of the shaft."
     )
     needs = frozenset({"equilibrium", "now", "ranges"})
 
@@ -94,8 +94,8 @@ class OperatingPoint(Displacement):
     title = "Operating point"
     about = (
         "Displacement, and stiffness to copy, in N, m and rad. A row is a load on the inner ring, "
-        "a column the displacement that it resists: at this cage angle, and the mean in time over "
-        "a period, as rotor programs want it. "
+        "a column the displacement that it resists. The values are those at this cage angle, and "
+        "the mean in time over a period, which rotor programs need. "
         f"{reasons.STIFF_WHERE_HELD}"
     )
 
@@ -109,10 +109,10 @@ class OperatingPoint(Displacement):
         return state.sentence if state.converged.any() else super().sentence(results)
 
     def table(self, results: Results) -> dict[str, np.ndarray]:
-        state = results.ranges.state
-        mean = state.stiffness_table().named()
+        ranges = results.ranges.state
+        mean = ranges.stiffness_table().named()
         now = results.now.stiffness_table(0).named()
-        moved = state.displacement_table().named()["mean"], results.now.displacement[0]
+        moved = ranges.displacement_table().named()["mean"], results.now.displacement[0]
         return {
             "when": np.repeat(["mean", _WHEN[0]], len(DOF_NAMES)),
             **{column: np.append(mean[column], now[column]) for column in mean},
@@ -138,9 +138,9 @@ def _drop_noise(values: np.ndarray, least: float = 1e-9) -> np.ndarray:
 
 
 def displacements(results: Results) -> np.ndarray:
-    """Displacements (4, 5) [µm, mrad]: at this cage angle; least, mean, greatest over positions."""
-    columns = results.ranges.state.displacement_table().named()
-    rows = [results.now.displacement[0], *(columns[when] for when in _WHEN[1:])]
+    """Displacements (4, 5) [µm, mrad]: at this cage angle; least, mean, greatest of a period."""
+    ranges = results.ranges.state.displacement_table().named()
+    rows = [results.now.displacement[0], *(ranges[when] for when in _WHEN[1:])]
     return _drop_noise(np.array(rows, dtype=float) * _FACTORS)
 
 

@@ -39,7 +39,7 @@ FIRST_COUNT = 25
 """Speeds of the first picture."""
 FAINT = 0.35
 """Opacity of a run of another scene."""
-RESOLUTION = 16.0  # [Hz]: separates half ball-pass frequencies, 20 Hz on the fan rig at 7 Hz
+RESOLUTION = 16.0  # [Hz]: below half a ball-pass frequency, 20 Hz on the fan rig at 7 turns/s
 DEPTH_OF_VIEW = 60.0  # [dB] below the loudest point
 HARMONICS = 8
 HEIGHT = 330
@@ -109,7 +109,7 @@ ALL_LAYERS = [*(layer for dof in SHOWN for layer in expected_layers(dof)), *SCEN
 
 @dataclass(frozen=True)
 class SweptRun:
-    """A run, and its speeds [Hz] as a sweep of the field."""
+    """A speed run, and its speeds [Hz] as a sweep of the field `shaft_speed_hz`."""
 
     run: SpeedRun
     speeds: value_range.Sweep
@@ -128,7 +128,7 @@ class SpeedRunSpectra(SceneJobView[SweptRun]):
     )
     noun = "run"
     start = "Compute all speeds"
-    bounds = f"At most {COUNTS[-1]} speeds; a coarse picture comes by itself."
+    bounds = f"At most {COUNTS[-1]} speeds; a coarse picture is computed by itself."
 
     _first_run_began = False
 
@@ -230,7 +230,7 @@ class SpeedRunSpectra(SceneJobView[SweptRun]):
             return self.words_of_nothing
         words = words_of(self.job_result)
         if self._is_of_another_scene(results, self.job_result):
-            return f"Faint, as the scene has changed since this was computed. Then: {words}"
+            return f"Faint: computed before the scene changed. For the earlier scene: {words}"
         return words
 
     def say(self, results: Results | None, sentence: str) -> None:
@@ -304,7 +304,7 @@ def compute(job: Work, scene: Scene, speeds: value_range.Sweep) -> str:
         except FieldError as error:
             if not done or error.field != "shaft_speeds":
                 raise
-            return f"{shown} Finer was not begun: speeds must be {error.allowed}."
+            return f"{shown} A finer run was not begun: speeds must be {error.allowed}."
         if run.completed or not done:
             job.show(SweptRun(run, grid))
             shown = f"{size} speeds after {time.perf_counter() - started:.1f} s."

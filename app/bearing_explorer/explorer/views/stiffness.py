@@ -31,7 +31,7 @@ from bearingcore.model.statics import TERM_UNITS
 NARROWEST = 920
 """Least width [px] at which a cell has room for its symbol and its value."""
 NARROWEST_WITH_UNITS = 740
-"""Least width [px] at which a cell has room for its unit above and its limits to the left."""
+"""Least width [px] at which a cell has room for its unit inside and its limits beside it."""
 LEFT = 0.31
 """Room for the numbers left of a cell."""
 
@@ -98,7 +98,7 @@ class Stiffness(ComparingView):
         return plot
 
     def data(self, results: Results) -> tuple[Sources, Ranges]:
-        """Traces of all scenes, scaled to their cells, with limits and present values."""
+        """Traces of all scenes, scaled to their cells, with limits and current values."""
         states, now = results.equilibrium, results.now
         references = [results.reference, *(results.against(other) for other in results.compared)]
         answers = [states, *(other.equilibrium for other in references)]
@@ -110,7 +110,7 @@ class Stiffness(ComparingView):
         )
         lines: list[list[tuple[np.ndarray, np.ndarray]]] = [[] for _ in shares]
         marks: list[tuple[float, float, float, float]] = []
-        heads: list[tuple[float, float, float, float]] = []
+        cell_numbers: list[tuple[float, float, float, float]] = []
         flat: list[bool] = []
 
         def put(
@@ -134,7 +134,7 @@ class Stiffness(ComparingView):
             zero = float(np.clip(cell.y(np.array(0.0), limits), cell.bottom, cell.top))
             known = [term[np.isfinite(term)] for term in terms]
             flat.append(any(map(len, known)) and not np.concatenate(known).any())
-            heads.append((*limits, value, zero))
+            cell_numbers.append((*limits, value, zero))
 
         # the last cell: numbers of loaded balls, drawn as steps
         counts = [np.where(e.converged, e.loaded_balls, np.nan) for e in answers]
@@ -145,11 +145,11 @@ class Stiffness(ComparingView):
         balls = float(now.loaded_balls[0]) if now.converged[0] else math.nan
         height = float(_BALLS.y(np.array(balls), limits))
         marks.append((float(_BALLS.x(np.array(now_share))), height, _BALLS.bottom, _BALLS.top))
-        heads.append((*limits, balls, _BALLS.bottom))
+        cell_numbers.append((*limits, balls, _BALLS.bottom))
 
-        powers = _shared_powers(np.array(heads[:-1])[:, :2], np.array(flat))
+        powers = _shared_powers(np.array(cell_numbers[:-1])[:, :2], np.array(flat))
         drawn, reference, *others = (layers.with_gaps(line, "x", "y") for line in lines)
-        mark, head = np.array(marks).T, np.array(heads).T
+        mark, numbers = np.array(marks).T, np.array(cell_numbers).T
         return {
             **compared_curves.sources("stiffness", ("x", "y"), others, lambda line: line),
             "stiffness_defective": drawn,
@@ -158,7 +158,7 @@ class Stiffness(ComparingView):
             "stiffness_cells": {
                 **_PLACE_COLUMNS,
                 "foot": _IS_FOOT * float(results.along(last)),
-                **dict(zip(("low", "high", "now", "zero"), head, strict=True)),
+                **dict(zip(("low", "high", "now", "zero"), numbers, strict=True)),
                 "flat": np.array([*matrix_cells.zero_kinds(flat), 0]),
                 "power": np.array([*(powers[unit] for unit in TERM_UNITS.values()), 0]),
             },
@@ -177,7 +177,7 @@ class Stiffness(ComparingView):
         return self._lesson_limits
 
     def sentence(self, results: Results) -> str:
-        """Say why the radial stiffness has its size, its range, and the number of loaded balls."""
+        """Explain the size of the radial stiffness; add its range and how many balls carry load."""
         ranges, healthy = results.ranges, results.reference.ranges
         states = ranges.state
         if not states.converged.any():
@@ -276,8 +276,8 @@ _UNIT = f"const unit = {[*UNITS, '']}[row.unit]\n"
 _LIMIT = f"""{_UNIT}
 const at_corners = narrow && !row.foot
 if (isNaN(row.low) || row.flat || at_corners !== %s) return ''
-const own = unit ? power(Math.max(Math.abs(row.low), Math.abs(row.high))) : 0
-return minus(String(Number((row.%s/10**(narrow ? row.power : own)).toPrecision(narrow ? 3 : 4))))
+const e = unit ? power(Math.max(Math.abs(row.low), Math.abs(row.high))) : 0
+return minus(String(Number((row.%s/10**(narrow ? row.power : e)).toPrecision(narrow ? 3 : 4))))
 """
 _SHARED_UNITS = f"""
 if (!narrow) return ''

@@ -31,7 +31,7 @@ def row_words(bearing: Bearing, row: int | None) -> str:
 
 
 def with_elements_of(bearing: Bearing, text: str) -> str:
-    """Return a text about balls for a bearing, whose elements may be rollers.
+    """Return a text about balls in the words of a bearing, whose elements may be rollers.
 
     "Ball pass" stays: it is the term for rollers too.
     """

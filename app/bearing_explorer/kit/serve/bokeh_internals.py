@@ -1,6 +1,6 @@
 """Private names of Bokeh, which make the page quicker; no other file uses any.
 
-The list says what each name serves, measured on two busy cores, and what happens without it.
+The list says what each name is for, measured on two busy cores, and what happens without it.
 
 * Those in `_WALK_NAMES`, `_property_values`, `_unstable_default_values`: opening three tabs holds
   the event loop for 253 ms (`find_models_quickly`). Without: 1,231 ms.

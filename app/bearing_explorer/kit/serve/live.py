@@ -88,7 +88,7 @@ def send_at_once(doc: Document | None) -> int:
     """Set TCP_NODELAY on the websockets of `doc`, and return their number.
 
     A Bokeh message is several small frames. Otherwise the kernel would hold them back until
-    the browser acknowledges the one before (about 30 ms a drawing).
+    the browser acknowledges the previous one (about 30 ms a drawing).
     """
     context = getattr(doc, "session_context", None)
     count = 0

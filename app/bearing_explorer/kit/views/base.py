@@ -406,7 +406,7 @@ _IS_KEY = re.compile(r"[A-Z][^:.]{0,26}: ")
 
 
 def _sentences(text: str) -> list[str]:
-    """Split a text into sentences; one that begins with a number stays with the one before."""
+    """Split a text into sentences; one that begins with a number stays with the previous one."""
     return re.split(r"(?<=[.!?])\s+(?=\D)", text)
 
 

@@ -38,10 +38,10 @@ def figure_lines(
     if not has_numbers:
         body.append(NOTHING_YET)
     else:
-        given = ["scene", *(f"{name}={code}" for name, code in arguments.items())]
-        call = f"drawn = figures.{figure.replace('-', '_')}({', '.join(given)})"
+        parameters = ["scene", *(f"{name}={code}" for name, code in arguments.items())]
+        call = f"drawn = figures.{figure.replace('-', '_')}({', '.join(parameters)})"
         if len(call) > 88 or "\n" in call:
-            lines = "".join(f"    {code},\n" for code in given)
+            lines = "".join(f"    {code},\n" for code in parameters)
             call = f"{call.partition('(')[0]}(\n{lines})"
         body += [call, "print(drawn.sentence)", "columns = drawn.table()  # as in the CSV file"]
         if is_shown:
@@ -119,7 +119,7 @@ def _differences(scene: Scene, base: Scene) -> dict[str, Any]:
 
 
 def _field_code(name: str, value: Any) -> str:
-    """Write a value of a scene as people do, if that is exactly the same number."""
+    """Write a value of a scene, in degrees or hertz if that gives exactly the same number."""
     if isinstance(value, float):
         degrees = float(f"{math.degrees(value):.12g}")
         if name in _DEGREES and math.radians(degrees) == value:

@@ -1,7 +1,7 @@
 """Signals of the mains: lines at multiples of 50 or 60 Hz, and noise of the motor.
 
-The magnetic pull of a motor, and its noise, is greatest twice a period of the mains. Its modulation
-is like that of a damaged part whose impacts come at 100 or 120 Hz.
+The magnetic pull of a motor, and its noise, is greatest twice a period of the mains. The modulation
+of that noise is like that of a damaged part whose impacts come at 100 or 120 Hz.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ MAINS = (50.0, 60.0)
 """Frequencies [Hz] of the mains."""
 
 MAINS_DEVIATION = 0.002
-"""Largest relative deviation of the mains during a signal. Large grids leave half of that only for
+"""Largest relative deviation of the mains during a signal. Large grids exceed half of that only for
 minutes (standard range 50 mHz of 50 Hz, EU 2017/1485); the clock of a recorder adds to it."""
 
 
@@ -46,7 +46,7 @@ WITHIN = 0.01
 per cent of a year."""
 
 SCALE = WITHIN / math.log(1.0 / 0.005)
-"""Scale on which the odds fall by e with the deviation: half a per cent lie beyond `WITHIN`."""
+"""Deviation over which the probability density falls by e: 0.5 % lie beyond `WITHIN`."""
 
 
 def twice_mains(frequency: float) -> float | None:

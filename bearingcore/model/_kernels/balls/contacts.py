@@ -62,14 +62,14 @@ def find_contacts(y, first, passage, inner, instant, system, work):
                 z = bz - z
                 drop = passage.d[instant, j]
             # δ_i or δ_e and its direction, see `motion`
-            delta, er, ez, bend = race_touch(r, z, drop, races.distance[race, j], j, contacts)
+            delta, er, ez, inverse_A = race_touch(r, z, drop, races.distance[race, j], j, contacts)
             if delta <= 0.0 or work.released[race, j]:
                 work.contact[race, j, 0] = 0.0
                 continue
             work.contact[race, j, 0] = delta
             work.contact[race, j, 1] = er
             work.contact[race, j, 2] = ez
-            work.contact[race, j, 3] = bend
+            work.contact[race, j, 3] = inverse_A
             damped = races.damping[race, j] * delta
             et = damped * tilting(er, ez, j, contacts)
             S[race, 0] += damped * er * cj
@@ -225,7 +225,7 @@ def planar_contacts(y, first, passage, inner, instant, system, work):
 
 @inlined
 def planar_push(k, first, passage, inner, instant, system, work):
-    """Do what `push_contacts` does with velocities, for contacts that stay in the plane."""
+    """Do `push_contacts` without `smooth` for contacts that stay in the plane: Q e + c δ̇ e."""
     rotor = system.rotor
     contacts = system.contacts
     races = system.races

@@ -105,11 +105,11 @@ class BallPlaces(NamedTuple):
 def contact_terms(r, z, drop, race, j, balls):
     """Return energy, load, e and stiffness (rr, rz, zz) of one contact, which (r, z) closes."""
     races = balls.races
-    delta, er, ez, bend = race_touch(r, z, drop, races.distance[race, j], j, balls.contacts)
+    delta, er, ez, inverse_A = race_touch(r, z, drop, races.distance[race, j], j, balls.contacts)
     if delta <= 0.0:
         return 0.0, 0.0, er, ez, 0.0, 0.0, 0.0
     energy, Q, k1 = contact_load(delta, races.factor[race, j], balls.contacts.exponent[j])
-    k2 = Q * bend
+    k2 = Q * inverse_A
     return (
         energy,
         Q,

@@ -68,7 +68,7 @@ def find_touching(passage, instant, contacts, work):
     for j in range(contacts.angle.size):
         cj = passage.c[instant, j]
         sj = passage.s[instant, j]
-        delta, er, ez, bend = touch(
+        delta, er, ez, inverse_A = touch(
             x, cj, sj, passage.d[instant, j], j, contacts
         )  # Equations (7)-(14)
         if delta <= 0.0:
@@ -77,7 +77,7 @@ def find_touching(passage, instant, contacts, work):
         contact[count, 0] = delta
         contact[count, 1] = er
         contact[count, 2] = ez
-        contact[count, 3] = bend
+        contact[count, 3] = inverse_A
         count += 1
         et = delta * tilting(er, ez, j, contacts)
         er *= delta
@@ -94,7 +94,7 @@ def find_touching(passage, instant, contacts, work):
 
 @inlined
 def push_of_contacts(passage, instant, rotor, contacts, work, smooth):
-    """Write the force of all contacts on the outer ring [N], moments over r_d, into work.f.
+    """Write the force of all contacts on the outer ring [N], moments divided by r_d, into work.f.
 
     Every loaded ball pushes with K δ^n + c δ̇ (Eq. 18) along its contact. δ̇ is the full time
     derivative, due to velocities of the rings, turning of the ball and slope of the path. If

@@ -73,7 +73,7 @@ def swivelling_slopes(passage, instant, rotor, contacts, work, slopes):
         delta = work.contact[i, 0]
         er = work.contact[i, 1]
         ez = work.contact[i, 2]
-        bend = work.contact[i, 3]
+        inverse_A = work.contact[i, 3]
         cj = passage.c[instant, j]
         sj = passage.s[instant, j]
         if contacts.relative_speed[j] != relative_speed:  # another row
@@ -84,18 +84,18 @@ def swivelling_slopes(passage, instant, rotor, contacts, work, slopes):
         directions_in_q(er, ez, cj, sj, tilting(er, ez, j, contacts), e, e_turn)
         directions_in_q(-ez, er, cj, sj, tilting(-ez, er, j, contacts), t, t_turn)
         _, Q, k1 = contact_load(delta, contacts.factor[j], contacts.exponent[j])
-        sigma = bend * (er * z_rate - ez * r_rate)
+        sigma = inverse_A * (er * z_rate - ez * r_rate)
         along = er * r_rate + ez * z_rate
-        k2 = Q * bend
-        damped = damping * delta * bend
+        k2 = Q * inverse_A
+        damped = damping * delta * inverse_A
         for b in range(5):
             # derivative of the swivelling force c δ σ, which acts along −t
-            swivel = damping * sigma * (1.0 - delta * bend) * e[b] + damped * (
-                w * t_turn[b] - along * bend * t[b]
+            swivel = damping * sigma * (1.0 - delta * inverse_A) * e[b] + damped * (
+                w * t_turn[b] - along * inverse_A * t[b]
             )
             for a in range(5):
                 # d(δ e)/dx, dp/dx and dp/dv, by the derivatives above
-                Sx[a, b] += e[a] * e[b] + delta * bend * t[a] * t[b]
+                Sx[a, b] += e[a] * e[b] + delta * inverse_A * t[a] * t[b]
                 Px[a, b] += (
                     k1 * e[a] * e[b]
                     + (k2 * t[a] + damped * sigma * e[a]) * t[b]

@@ -377,4 +377,4 @@ def test_a_run_that_would_take_too_many_steps_is_said_not_begun(
     monkeypatch.setattr("bearing_explorer.explorer.views.speed_run.speed_run", enough)
     words = compute(Work(), RIG, speeds)
     assert "speeds after" in words
-    assert "Finer was not begun: speeds must be fewer: they take about" in words
+    assert "A finer run was not begun: speeds must be fewer: they take about" in words

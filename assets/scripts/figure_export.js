@@ -39,10 +39,9 @@ function svg_of(view) {
   const svg = view.export("svg", false).ctx.get_svg().cloneNode(true)
   // the lines in the key of compared scenes are bitmaps there, as coarse as the screen
   const key = view.model.above.find((part) => part.items)
-  const named = key?.items.filter(({ visible }) => visible) ?? []
   const [w, h] = [key?.glyph_width, key?.glyph_height].map(String)
   const coarse = [...svg.querySelectorAll(`image[width="${w}"][height="${h}"]`)]
-  named.forEach(({ renderers: [{ glyph }] }, i) => {
+  key?.items.filter(({ visible }) => visible).forEach(({ renderers: [{ glyph }] }, i) => {
     const [stroke, wide, dash] = [glyph.line_color, glyph.line_width, glyph.line_dash].map(({ value }) => value)
     coarse[i].replaceWith(set_all(document.createElementNS(SVG, "line"), {
       x2: w, y1: h / 2, y2: h / 2, stroke, "stroke-width": wide, "stroke-dasharray": dash,

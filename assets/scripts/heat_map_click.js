@@ -10,9 +10,8 @@ const is_zoomed = ({x_range, y_range}) => [x_range, y_range].some((range) =>
 const go = () => {
   const at = place_on(image, stands, count, cb_obj.x, cb_obj.y)
   if (!at) return
-  const whole = (value) => Number(Math.max(0, value).toFixed(digits))
   const of = (side, turned) => digits === null ? Number(turned(side.middle).toPrecision(6))
-    : whole(turned(Math.max(0, side.value)))
+    : Number(Math.max(0, turned(Math.max(0, side.value))).toFixed(digits))
   const typed = {}
   const {name: x, sign: turns_x} = sides[at.x.which], {name: y, sign: turns_y} = sides[at.y.which]
   if (x) typed[x] = turns_x*of(at.x, (value) => at.start + value/at.turn)

@@ -118,9 +118,8 @@
   const GROWN = 150  // px
   let followed = null, height = 0, opened = null  // the last that was opened, of those that are folded
   const growth = new ResizeObserver(([{ contentRect: now }]) => {
-    const answered = height > 0 && now.height > height + GROWN
+    if (height > 0 && now.height > height + GROWN) show_marked()
     height = now.height
-    if (answered) show_marked()
   })
   // The first of the marked figures, or one that was opened, is brought into view: its head, where there
   // is no room for all.

@@ -81,9 +81,8 @@ export function render({ model }) {
   const take = () => {
     const frames = root.isConnected && data_of("frames")
     if (!frames?.time.length || frames === shown) return
-    const zero = frames.time.findIndex((one) => one >= -1e-9)
     shown = frames
-    show(frame ?? Math.max(zero, 0))
+    show(frame ?? Math.max(frames.time.findIndex((one) => one >= -1e-9), 0))
   }
   on_event("drawn", root, take)
   requestAnimationFrame(take)

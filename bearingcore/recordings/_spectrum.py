@@ -103,7 +103,7 @@ def envelope_spectrum(
     sample_rate
         [Hz].
     band
-        (from, to) [Hz], inside 0 and half the sample rate.
+        (from, to) [Hz], between 0 and half the sample rate.
     resolution
         [Hz]; None takes the whole signal as one segment, which is the finest resolution.
 

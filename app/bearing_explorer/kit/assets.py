@@ -28,7 +28,7 @@ def asset_text(name: str) -> str:
 
 
 def scripts(*names: str) -> str:
-    """Join assets to the script of a component; its own script comes after those that it calls.
+    """Join assets into one script of a component: its own comes after those that it calls.
 
     Comments are left out, because each page loads the script of each component. An HTML file
     becomes a constant that the script fills: ``caption.html`` is ``CAPTION``.

@@ -23,7 +23,7 @@ STEP = 0.2
 noise on a tachometer's signal makes short ones."""
 
 MOST_MEDIANS = 8.0
-"""Greatest speed over those around it; above, it is an overflow or marks a missing number."""
+"""Greatest ratio of a speed to the median around it; a higher one is an overflow or a gap."""
 
 LOW, HIGH = 0.35, 0.65
 """Shares of its range that a tachometer's signal crosses from pulse to pulse."""
@@ -68,9 +68,9 @@ def shaft_angle(values: Array, unit: str | None, sample_rate: float) -> Array | 
 
 
 def measured_speeds(values: Array) -> Array:
-    """Return the speeds (n,) of a shaft, positive as it turns; NaN where they were not measured.
+    """Return the speeds (n,) of a shaft, made positive; NaN where they were not measured.
 
-    A sensor that loses its mark gives zeros. A shaft that stops passes through all lower speeds.
+    Zeros without low speeds come from a sensor that lost its mark: a shaft that stops has both.
     """
     from scipy.ndimage import median_filter  # imported late: see `spectrum`
 
@@ -90,7 +90,7 @@ def measured_speeds(values: Array) -> Array:
 def pulse_begins(values: Array) -> Array:
     """Return the fractional rows at which pulses of a tachometer begin; none for irregular ones.
 
-    A turn of a shaft is not a fifth longer or shorter than the previous one.
+    Pulses are irregular if a turn is a fifth longer or shorter than the previous one.
     """
     if not np.isfinite(values).all():
         return np.zeros(0)

@@ -69,8 +69,8 @@ class Kurtogram(NamedTuple):
         """
         loud = self.density >= DYNAMIC_RANGE * self.density.max()
         high = np.array([band.low >= lowest for band in self.bands])
-        known = loud & high if (loud & high).any() else loud
-        surplus = np.where(known, self.kurtosis - CHANCE * self.deviation, -math.inf)
+        allowed = loud & high if (loud & high).any() else loud
+        surplus = np.where(allowed, self.kurtosis - CHANCE * self.deviation, -math.inf)
         return self.bands[int(surplus.argmax())]
 
     def table(self) -> ResultTable:

@@ -194,7 +194,7 @@ def dynamic_load(scene: Scene, how: Marching) -> float:
 
 
 def match_bandwidth(light: Scene, how: Marching) -> Marching:
-    """Marching of massless balls with a spectrum that is known as far as that with mass."""
+    """Marching of massless balls, so that their spectrum reaches as high as that with mass."""
     if how.coarse:
         return how
     return dataclasses.replace(how, step_rate=fine_step_rate(light, how.sample_rate))

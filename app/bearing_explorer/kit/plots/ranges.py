@@ -30,7 +30,7 @@ class StickyRange:
         smallest width of a fitted range, so that rounding noise is not blown up to full height.
     room
         part of the numbers' span that is kept free above and below them, so that no curve touches
-        the edge; it ends at zero.
+        the edge; it does not extend past zero.
     """
 
     def __init__(

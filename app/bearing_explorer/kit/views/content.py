@@ -13,7 +13,7 @@ from bearingcore import Scene
 
 @dataclass(frozen=True)
 class Warnings:
-    """The strip of warnings below the page: its rows, crossed limits first, and all in a line."""
+    """The strip of warnings below the page: its rows, crossed limits first, and a summary."""
 
     rows: tuple[dict[str, Any], ...] = ()
     summary: str = ""
@@ -60,7 +60,7 @@ class Content:
         return Warnings()
 
     def prefetch(self, needed: frozenset[str]) -> None:
-        """Begin computations in other threads that views with these needs can share."""
+        """Begin, in other threads, the computations that views with these needs can share."""
 
     def status(self, seconds: float, needed: frozenset[str]) -> dict[str, Any]:
         """Return the status line, after `seconds` [s] of computing for views with these needs."""

@@ -32,7 +32,7 @@ def figure_lines(
     figure, arguments
         name of its view, and its parameters with their expressions.
     has_numbers, is_shown
-        True if the figure has numbers already, and if it has a picture to show.
+        the first is True if the figure has numbers, the second if it has a picture to show.
     """
     body = [f"scene = {scene_code(scene)}", *before]
     if not has_numbers:

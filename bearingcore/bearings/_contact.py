@@ -25,7 +25,7 @@ class Contact(NamedTuple):
     lever
         r_d [m], from the shaft to the point of the line that a tilt of the inner ring moves.
     beyond
-        [m] from the place of the row to that point along the shaft, positive as the row faces.
+        [m] along the shaft from the place of the row to that point, positive the way the row faces.
     factor, exponent
         of load over compression, Q = K δ^n [N/m^n].
     room

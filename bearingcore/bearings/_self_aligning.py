@@ -2,7 +2,7 @@
 
 All outer groove centres are in the middle of the bearing. A0 = R_e + r_i − D_b is therefore the
 distance of the inner ones from the middle, with r_d = A0 cos α0 and z_k = ± A0 sin α0. An inner
-ring that turns about the middle moves no ball.
+ring that tilts about the middle compresses no ball.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ POISSON = 0.3
 
 ASSUMED_ANGLE = math.radians(10.0)
 USUAL_GROOVE = 0.53
-"""Contact angle [rad] and inner groove radius over the ball that are assumed for a new one."""
+"""Contact angle [rad], and inner groove radius over ball diameter, of a new bearing."""
 
 _DRAWN_BY = ("ball_diameter", "outer_raceway_radius", "inner_groove_radius", "contact_angle")
 _DERIVED = (
@@ -163,7 +163,7 @@ class SelfAligning(Kind):
         if not any(inputs.get(name) is not None for name in _DRAWN_BY):
             return inputs
         new = _numbers_with(bearing, inputs)
-        # a factor that differs from the one by the drawing keeps its ratio to it
+        # K may differ from the factor of the drawing: their ratio is kept
         ratio = bearing.load_deflection_factor
         ratio /= _numbers_with(bearing, {})["load_deflection_factor"]
         new["load_deflection_factor"] *= ratio

@@ -87,7 +87,7 @@ class Recording:
         for direction, swing in zip(self.directions, swings, strict=True):
             if not swing:
                 what = f"the same number throughout along {direction}"
-                raise checks.refuse("acceleration", what, "a signal")
+                raise checks.refuse("acceleration", what, "a signal that varies")
             if not SWINGS[0] <= swing <= SWINGS[1]:
                 what = f"swinging by {swing:.1g} along {direction}"
                 raise checks.refuse("acceleration", what, "from {:g} to {:g}".format(*SWINGS))

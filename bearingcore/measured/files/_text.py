@@ -55,7 +55,7 @@ MOST_MISSING, MOST_MISSING_WORDS = 0.5, 8
 """Greatest share of lines with words in place of numbers, and most different words."""
 
 MOST_CHANGES = 0.1
-"""Greatest share of rows with another word than the row before; above, rows mix several signals."""
+"""Greatest share of rows with another word than the row before; with more, they mix signals."""
 
 MOST_SIGNALS_MIXED = 32
 """Most different words in such a column."""

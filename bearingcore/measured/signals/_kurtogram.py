@@ -107,7 +107,7 @@ def kurtogram(signal: ArrayLike, sample_rate: float, narrowest: float = 0.0) -> 
     least = checks.real_number("narrowest", narrowest, at_least=0.0, unit="Hz")
     samples = checks.samples_of(signal, 32 * PIECES, "in a row", (1,))[:MOST_JUDGED]
     if not np.ptp(samples):
-        raise checks.refuse("signal", "the same number throughout", "a signal")
+        raise checks.refuse("signal", "the same number throughout", "a signal that varies")
     duration = len(samples) / rate
     least = max(least, FEWEST * PIECES / duration)
     numbers = {band: parts for parts in BAND_COUNTS for band in split(rate, least, (parts,))}

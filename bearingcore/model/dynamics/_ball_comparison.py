@@ -30,7 +30,7 @@ LOWEST_COMPARED = 300.0
 """Lowest third octave [Hz] that is compared, the lower end of the paper's band."""
 
 QUIETEST_COMPARED = 1e-4
-"""Power over the greatest power of all bands and directions, below which a band does not count."""
+"""Share of the greatest power of all bands and directions below which a band does not count."""
 
 
 @shown_as_table
@@ -62,7 +62,7 @@ class BallComparison:
         """Sentence with the frequency up to which massless balls suffice."""
         if math.isnan(self.massless_up_to):
             lowest = with_prefix(LOWEST_COMPARED, "Hz")
-            return f"massless: more than {number(self.budget)} dB off from {lowest} on"
+            return f"massless: off by more than {number(self.budget)} dB from {lowest} on"
         up_to = with_prefix(self.massless_up_to, "Hz", 2)
         return f"massless: within {number(self.budget)} dB up to {up_to}"
 
@@ -108,7 +108,7 @@ def compare_motions(massless: Motion, with_mass: Motion, budget: float = BUDGET)
     for motion in (massless, with_mass):
         if not motion.completed:
             balls = motion.scene.balls
-            raise checks.refuse("scene", motion.reason, f"one that moves with balls {balls}")
+            raise checks.refuse("scene", motion.reason, f"one that moves with balls={balls!r}")
         powers.append(band_powers(motion, edges))
     added = level_difference(powers[1], powers[0])
     loudest = max(float(power.max(initial=0.0)) for power in powers)

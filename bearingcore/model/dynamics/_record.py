@@ -78,7 +78,7 @@ class PathEffects:
         resonances of the path between housing and sensor.
     knock, knock_frequency, knock_damping
         peak of the ringing after a ball strikes the far edge, over the peak of the motion; its
-        frequency [Hz] and damping ratio. On an inner race it is proportional to the load there.
+        frequency [Hz] and damping ratio. On inner races the peak is proportional to the load there.
     shaft_tones
         root mean square of the shaft's first harmonic, relative to that of the signal.
     noise
@@ -146,7 +146,7 @@ def simulated_record(
     start = SETTLING + float(rng.uniform(0.05, 0.25))
     motion = simulate(scene, start + 1.02 * duration + 0.05, sample_rate, progress=progress)
     if not motion.completed:
-        raise checks.refuse("scene", motion.reason, "one whose motion is computed")
+        raise checks.refuse("scene", motion.reason, "one whose motion can be computed")
     directions = tuple(name for name in DIRECTIONS if name in motion.dofs)
     columns = [motion.dofs.index(name) for name in directions]
     count = round(duration * sample_rate)
@@ -191,7 +191,7 @@ def wandering_clock(time: Array, wander: float, scene: Scene, rng: np.random.Gen
 
 
 def pink_noise(count: int, columns: int, rng: np.random.Generator) -> Array:
-    """Return noise (count, columns) of standard deviation 1 whose power is that of 1/frequency."""
+    """Return noise (count, columns) of standard deviation 1 whose power falls as 1/frequency."""
     transform = np.fft.rfft(rng.standard_normal((count, columns)), axis=0)
     number = np.arange(len(transform), dtype=float)
     number[0] = math.inf

@@ -167,7 +167,7 @@ def stability_chart(
     problem = motion_problem(scene)
     highest = highest_natural_frequency(scene)
     usual = default_step_rate(scene, 65536.0)
-    good = _size(METHODS["RK4"].march(problem, usual, duration, usual))
+    reference = _rms_acceleration(METHODS["RK4"].march(problem, usual, duration, usual))
     limits = linear_limits(scene)
     # steps per period of the highest natural frequency: powers of √2 around the limits 2.2 and π
     rates = highest * 2.0 ** np.arange(0.0, 6.01, 0.5)
@@ -175,11 +175,11 @@ def stability_chart(
     trials = []
     for name, rate in watch.in_turn(tasks, lambda task: f"{task[0]}, {task[1]:.0f} steps/s"):
         with np.errstate(all="ignore"):
-            size = _size(METHODS[name].march(problem, rate, duration, rate))
-        trials.append(Trial(name, rate, size / max(good, 1e-300)))
+            amplitude = _rms_acceleration(METHODS[name].march(problem, rate, duration, rate))
+        trials.append(Trial(name, rate, amplitude / max(reference, 1e-300)))
     return StabilityChart(limits, highest, tuple(trials), len(trials) == len(tasks))
 
 
-def _size(march: March) -> float:
+def _rms_acceleration(march: March) -> float:
     """Return the root mean square of the housing's acceleration; inf if the motion broke off."""
     return math.inf if march.failure else math.sqrt(float(np.mean(march.history[:, 5] ** 2)))

@@ -32,7 +32,7 @@ from bearingcore.model.statics._limit import Limit, unknown
 _ANGLES = 31
 
 _NOTICED = 1e-6
-"""Thrust the wrong way over the loads of a row, above which it is more than rounding."""
+"""Share of a row's loads above which thrust the wrong way is more than rounding."""
 
 
 def thrust_limits(scene: Scene, state: Equilibrium) -> Iterator[Limit]:

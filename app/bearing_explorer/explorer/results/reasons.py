@@ -43,7 +43,7 @@ AT_AN_EDGE = 0.07
 KEPT = 0.25
 """Share of its greatest load that a ball must carry throughout, or it counts as unloaded."""
 LARGE_SWING = 1.25
-"""Greatest load in motion over that at rest above which a swing is not small."""
+"""Ratio of the greatest load in motion to that at rest, above which a swing is not small."""
 _ACROSS = {"x": "the horizontal", "y": "the vertical"}
 _OTHER = {"x": "up and down", "y": "sideways"}
 RADIAL = ("k_xx", "k_yy")

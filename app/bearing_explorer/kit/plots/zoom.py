@@ -21,7 +21,7 @@ _STAY = "if (cb_obj.start != start || cb_obj.end != end) cb_obj.setv({start, end
 
 
 def make_zoomable(plot: Plot) -> None:
-    """Give a figure the tools to zoom. Its ranges for places of words do not zoom.
+    """Give a figure tools to zoom. Extra ranges, which place words, zoom only if tagged `MOVES`.
 
     With `active_drag` None, as in a drawing with handles, no drag zooms or pans the figure.
     """

@@ -45,8 +45,8 @@ LOW_PARTS = (12, 24)
 
 PREDICTED_FROM = 50
 """Samples from which the next one is predicted: two for each of 25 resonances. Ringing can be
-predicted and knocks cannot, so compact knocks remain, see `remove_ringing`. From further back one
-knock would predict the next."""
+predicted and knocks cannot, so compact knocks remain, see `remove_ringing`. With more samples
+one knock would predict the next."""
 
 MOST_PASSES_HEARD = 440.0
 """Greatest number of ball passes of a recording that are used; the average takes no more."""
@@ -61,10 +61,10 @@ FAINTEST = 0.1
 """Least height of the second peak over the first: prediction and filter leave smaller ripples."""
 
 LEAST_SEEN = 4.0
-"""Least height, in standard errors, of such a faint peak if its absence is to count."""
+"""Least height, in standard errors, of a peak at `FAINTEST` for its absence to count."""
 
 THIRD = 0.6
-"""Height of a third peak over the second above which the peaks are a train: ringing."""
+"""Greatest ratio of a third peak's height to the second's; higher ones are a train: ringing."""
 
 LEAST_DIP = 0.25
 """Least fall of the envelope between two separate peaks, relative to the lower one."""
@@ -78,8 +78,8 @@ SMOOTHING = (0.015, 0.007, 0.001)
 """Shares of a ball pass over which a mean pass is smoothed before its peaks are searched."""
 
 AGREE = (0.06, 0.002)
-"""Greatest difference of separations between bands: a share of it, and of a ball pass. A release is
-gradual: its peak moves a little with frequency, and peaks are no sharper than the mean pass."""
+"""Greatest shift of a peak between bands: a share of the separation, plus one of a ball pass. A
+release is gradual: its peak moves a little with frequency. No peak is sharper than a mean pass."""
 
 AGREEING, SHOWING = 0.6, 0.4
 """Least share of the second peaks, by their heights, that agree, and of the bands that show them.
@@ -95,8 +95,8 @@ the bands (four fifths of its natural logarithms lie within the first number) an
 equally high (the logarithm of their ratio is above the second)."""
 
 RARE = 5.0
-"""Least ratio of the longer way between both peaks to the shorter one with which the shorter is
-taken: spalls that nearly reach the next ball are rare. Below, either way may be from entry to exit.
+"""Least ratio of the longer way between both peaks to the shorter at which the shorter is the
+spall: one that nearly reaches the next ball is rare. Below, either way may be from entry to exit.
 Spectra do not decide it: real structures ring higher as a ball leaves. In the model without mass
 the entry is mostly the sharper peak, and with mass it may be either."""
 
@@ -105,10 +105,10 @@ FADES = 0.75
 entry and exit, but a blow with a duller echo or rebound."""
 
 STEADY, LEAST_LEFT, MOST_CUTS = 0.05, 0.3, 4
-"""Share of a ball pass by which one may be longer than the mean: a cage has inertia. Where passes
-seem to jump by more, some were aligned with the wrong knock, and one knock looks like two. Then the
-longer part beside the jump is averaged alone, if it has at least this share of the signal; at most
-this many times."""
+"""Greatest relative deviation of a ball pass from the mean: a cage has inertia. Where passes seem
+to jump by more, some were aligned with the wrong knock, and one knock looks like two. Then the
+longer part beside the jump is averaged alone, if it has at least the second number as its share of
+the signal; the third is the greatest number of such cuts."""
 
 
 @dataclass(frozen=True)
@@ -145,7 +145,7 @@ class Pair:
     Attributes
     ----------
     first, second
-        their places as shares of a ball pass; the second follows by less than half a one.
+        their places as shares of a ball pass; the second follows within half a pass.
     ratio
         height of the second over that of the first.
     third
@@ -213,7 +213,7 @@ class Knocks:
         deviation; NaN where there are no two knocks.
     entry, exit
         places of the two peaks in the first of `passes`, as shares of a ball pass, the shorter way
-        round; NaN without.
+        round; NaN without two peaks.
     hidden
         share of a ball pass within which a second knock may hide in the ringing of the first; NaN
         where it may be anywhere, or where there are two.

@@ -31,7 +31,7 @@ def test_up_to_where_massless_balls_will_do() -> None:
     assert "0.1 dB" in compare_motions(*motions).sentence  # as everywhere else
     strict = compare_motions(*motions, budget=1e-6)
     assert math.isnan(strict.massless_up_to)
-    assert "more than 1·10⁻⁶ dB off from 300 Hz on" in strict.sentence
+    assert "off by more than 1·10⁻⁶ dB from 300 Hz on" in strict.sentence
 
 
 def test_bands_without_power_do_not_count() -> None:

@@ -64,7 +64,7 @@ _ANGLES, _ROUNDS = 13, 3
 
 
 class _Gyroscopic(NamedTuple):
-    """The ball with the greatest T/Q_o: this share, M_g [N·m], Q_o [N]; greatest turn [rad]."""
+    """The ball with the greatest T/Q_o: that ratio, M_g [N·m], Q_o [N]; greatest turn [rad]."""
 
     share: float
     moment: float

@@ -50,7 +50,7 @@ LATE = 1.5
 """Latest strike that a ball's way through the defect causes, relative to its time in the defect."""
 
 HARD, MOST_STRIKES = 0.4, 2
-"""Least load of a shown strike over the hardest one on its race, and most strikes of a race. These
+"""Least load of a shown strike relative to the hardest on its race; most strikes of a race. These
 loads are elastic: the dashpot of a contact adds most of the force on the housing."""
 
 ENOUGH_PASSES = (3.0, 1.0, 0.6)

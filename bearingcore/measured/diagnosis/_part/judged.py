@@ -69,8 +69,8 @@ SIDEBAND_CHANCE = 0.01
 hundred, because the band is chosen by the lines and not by the sidebands."""
 
 SIDEBAND_SCALE = 0.77
-"""Scale [dB] on which that probability falls by e in a single spectrum: a line of noise has 1 % at
-6.6 dB and 0.1 % at 8.4 dB. The scatter of noise falls with the root of the averages."""
+"""Scale [dB] over which that probability falls by a factor e in one spectrum: a line of noise
+has 1 % at 6.6 dB and 0.1 % at 8.4 dB. The scatter of noise falls with the root of the averages."""
 
 SIDEBAND_EXCESS = 2.5
 """Greatest height [dB] of a comb at a sideband above the lines that it follows from."""
@@ -104,7 +104,7 @@ slower shaft are about as strong as their sidebands."""
 
 SELDOM, SLIPS = 0.26, 0.25
 """Damaged balls for each damaged race (15 and 57 of the measured records), and the share of the
-slip on which the number of races falls by e: 2 % are beyond the slip. See `_race_or_ball`."""
+slip over which the number of races falls by a factor e: 2 % slip more. See `_race_or_ball`."""
 
 CAGE_REACH = 15.0
 """Greatest depth [dB] below a ball's lines at which the cage's sidebands are expected: a load zone

@@ -46,7 +46,7 @@ WITHIN = 0.01
 per cent of a year."""
 
 SCALE = WITHIN / math.log(1.0 / 0.005)
-"""Deviation over which the probability density falls by e: 0.5 % lie beyond `WITHIN`."""
+"""Deviation over which the probability density falls by a factor e: 0.5 % lie beyond `WITHIN`."""
 
 
 def twice_mains(frequency: float) -> float | None:

@@ -21,8 +21,8 @@ SURE = 0.99
 """The greatest probability: a cause outside the model is always possible."""
 
 LEAD, LEAD_SCALE = 1.2, 1.0
-"""Lead [dB] at which the odds that lines are there are even; scale [dB] on which they grow by e.
-A lead is 0 at the level that chance reaches once in a thousand signals."""
+"""Lead [dB] at which the odds that lines are there are even; scale [dB] over which they grow by a
+factor e. A lead is 0 at the level that chance reaches once in a thousand signals."""
 
 
 DEVIATIONS, DEVIATIONS_SCALE = 2.8, 0.6
@@ -38,7 +38,7 @@ class Calibration(NamedTuple):
     swing
         swing of the envelope at which the odds that damage of a race makes its lines are even.
     swing_scale
-        scale [dB] on which these odds grow by e.
+        scale [dB] over which these odds grow by a factor e.
     """
 
     swing: float

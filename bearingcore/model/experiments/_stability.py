@@ -175,8 +175,8 @@ def stability_chart(
     trials = []
     for name, rate in watch.in_turn(tasks, lambda task: f"{task[0]}, {task[1]:.0f} steps/s"):
         with np.errstate(all="ignore"):
-            amplitude = _rms_acceleration(METHODS[name].march(problem, rate, duration, rate))
-        trials.append(Trial(name, rate, amplitude / max(reference, 1e-300)))
+            rms = _rms_acceleration(METHODS[name].march(problem, rate, duration, rate))
+        trials.append(Trial(name, rate, rms / max(reference, 1e-300)))
     return StabilityChart(limits, highest, tuple(trials), len(trials) == len(tasks))
 
 

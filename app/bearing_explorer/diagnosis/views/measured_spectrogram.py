@@ -37,8 +37,8 @@ class MeasuredSpectrogram(MeasuredView):
     name = "measured-spectrogram"
     title = "Spectrogram"
     about = (
-        "Spectra over time. Level lines belong to a steady speed. Lines that slope together follow "
-        "a changing speed; `order_map` in Python draws them over turns of the shaft instead."
+        "Spectra over time. Horizontal lines belong to a steady speed. Lines that slope together "
+        "follow a changing speed; `order_map` in Python draws them over turns of the shaft instead."
     )
 
     def build(self, packed: PackedSource) -> Any:

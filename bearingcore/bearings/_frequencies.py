@@ -75,7 +75,7 @@ def _balls_and_ratio(known: Mapping[str, float]) -> tuple[int, float]:
             "BPFO and BPFI, or one of them with FTF (below half the shaft's)",
         )  # fmt: skip
     if inner <= outer:
-        raise checks.refuse("BPFI", f"{number(inner, 4)} of the shaft's", "more than BPFO")
+        raise checks.refuse("BPFI", f"{number(inner, 4)} times the shaft's", "more than BPFO")
     total = outer + inner
     balls = round(total)
     if balls < 3 or abs(total - balls) > WHOLE * balls:

@@ -52,7 +52,7 @@ TIGHTEST = 1.02
 """Least chord between neighbouring balls over the ball diameter: the cage needs room."""
 
 ROLLER_FILL = (0.72, 0.90, 0.815, 0.03)
-"""Rollers of a row over those that would touch each other: least, most, usual, and the spread."""
+"""Number of rollers in a row over that of a full circle: least, most, usual, and the spread."""
 
 TAPERED_FILL = 0.90
 """Usual fill of tapered rollers, assumed for a cage of pressed steel."""
@@ -129,8 +129,8 @@ def accuracy(kind: Kind, contact_angle: float) -> str:
     if not contact_angle or not kind.has_drawing:
         return words
     return (
-        f"{words} Spindle bearings differ most: of {SPINDLE_BEARINGS} of SNFA {SAME_BALLS} have "
-        f"the number estimated here, {ONE_OFF} one more or less. Count the balls."
+        f"{words} Spindle bearings differ most: of SNFA's {SPINDLE_BEARINGS}, {SAME_BALLS} have "
+        f"the number estimated here and {ONE_OFF} one more or less. Count the balls."
     )
 
 

@@ -287,7 +287,7 @@ def test_balls_of_spindle_bearings_differ_as_the_note_says() -> None:
             note = designation.entry.note
     known = inside.SPINDLE_BEARINGS, inside.SAME_BALLS, inside.ONE_OFF
     assert (len(off), off.count(0), off.count(1)) == known
-    assert f"of {len(off)} of SNFA {off.count(0)} have the number estimated here" in note
+    assert f"of SNFA's {len(off)}, {off.count(0)} have the number estimated here" in note
     assert all("SNFA" not in read_designation(one).entry.note for one in ("6208", "1208", "30206"))
 
 

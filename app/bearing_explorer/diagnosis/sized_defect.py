@@ -20,7 +20,7 @@ WITHOUT_DEFECT = (
     "The scene has no defect: give it one on the outer race, because its place, depth and edges "
     "are needed."
 )
-CLEARLY = 1.5
+CLEAR_RATIO = 1.5
 """Ratio of two misfits from which the length with the smaller one is likelier."""
 
 
@@ -131,7 +131,7 @@ def likelier(sizing: Sizing, extent: MeasuredExtent) -> str:
         )
     if other < least:
         first, second, least, other = second, first, other, least
-    if other < CLEARLY * least:
+    if other < CLEAR_RATIO * least:
         return f"{first} and {second} explain the signal about equally well."
     return (
         f"Of {first} and {second}, each also with whole ball spacings more, {first} is likelier: "

@@ -27,7 +27,7 @@ def read(kind: type[Kind], data: Any) -> Kind | None:
 
 
 def take(act: Callable[[dict[str, Any]], None], kind: type[msgspec.Struct], data: Any) -> None:
-    """Call `act` with a message of a kind, as a dictionary of its fields without their defaults."""
+    """Call `act` with a message of a kind as a dictionary, where defaults may be absent."""
     message = read(kind, data)
     if message is not None:
         act(msgspec.to_builtins(message))

@@ -1,8 +1,8 @@
 """Reading of foreign files in a separate process, with limits of time and memory.
 
 Libraries read every format. On damaged or crafted files they may crash, unpack without end or need
-hours. The process is then ended, and a sentence says so. It returns only a line of JSON and one
-matrix of numbers, which cannot run any code here.
+hours. The process is then ended, and a sentence says so. A process returns only a line of JSON and
+one matrix of numbers, which cannot run any code here.
 """
 
 from __future__ import annotations
@@ -82,7 +82,7 @@ def read_file(
             env={**os.environ, **_ENVIRONMENT},
         )
     except OSError:
-        raise checks.refuse("file", name, "one that a process can read; none can start") from None
+        raise checks.refuse("file", name, "read by a process (none could start)") from None
     assert child.stdin is not None
     assert child.stdout is not None
     head = json.dumps([name, PROCESSOR_SECONDS, MEMORY]).encode() + b"\n"

@@ -23,7 +23,7 @@ from bearingcore.common import Array, summit
 NEIGHBOURS = 3.0
 """Pairs of passes over which their delay is smoothed (standard deviation of a Gaussian)."""
 
-TOGETHER = 1.5
+SMOOTHING = 1.5
 """Passes over which their lag to the mean is smoothed (standard deviation of a Gaussian)."""
 
 ROUNDS = 4
@@ -125,7 +125,7 @@ def _lags_to_mean(passes: NDArray[np.complex128]) -> Array:
         variance += 1e-3 * (np.abs(mean) ** 2).max(axis=0)
         cross = (turned * mean.conj() / variance).sum(axis=2)
         reach = WIDEST / 2.0**number
-        lags += _best_lag(_smooth_rows(cross, TOGETHER), np.linspace(-reach, reach, TRIAL_LAGS))
+        lags += _best_lag(_smooth_rows(cross, SMOOTHING), np.linspace(-reach, reach, TRIAL_LAGS))
         lags -= lags.mean()
     return lags
 

@@ -31,7 +31,7 @@ stability."""
 RACES_OF_LOADS = ("inner", "outer")
 """Races, in the order of the loads."""
 
-LIGHTLY = 0.1
+LEAST_SHARE = 0.1
 """Share of the heaviest load above which a ball counts for the band of contact resonances."""
 
 
@@ -120,13 +120,13 @@ def heaviest_load(packed: PackedScene) -> float:
 
 @lru_cache(maxsize=512)
 def contact_resonance_band(scene: Scene) -> tuple[float, float]:
-    """Return the band of contact resonances [Hz] of balls under LIGHTLY to 1 of the heaviest load.
+    """Return the band of contact resonances [Hz] for LEAST_SHARE to all of the heaviest load.
 
     The resonance of a ball goes with the sixth root of its load (Hertz), so the band is narrow even
     if loads differ much. Both ends are 0 if no ball is known to carry load.
     """
     heaviest = heaviest_load(pack(scene))
-    return min(resonances(scene, LIGHTLY * heaviest)), max(resonances(scene, heaviest))
+    return min(resonances(scene, LEAST_SHARE * heaviest)), max(resonances(scene, heaviest))
 
 
 def ball_step_rate(packed: PackedMotion, sample_rate: float) -> float:

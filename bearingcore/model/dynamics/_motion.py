@@ -52,8 +52,8 @@ SETTLING = 0.12
 """Time [s] after which a motion counts as steady: several times the decay of the slowest mode."""
 
 MOST_STEPS = 1_000_000
-"""Default limit on the steps of a motion, or of all periods of an orbit: up to 15 s of marching in
-five directions, 40 s with the tangent."""
+"""Default limit on the steps of a motion, or of all periods of an orbit. In five directions they
+take up to 15 s of computing, 40 s with the tangent."""
 
 MOST_SAMPLES = 10_000_000
 """Greatest number of samples of a motion."""
@@ -62,11 +62,11 @@ SAME_BANDS = 1.0
 """Difference [dB] up to which two motions have the same spectrum in third octaves."""
 
 MOST_DOUBLINGS, SAME_LEVEL, QUIET = 4, 0.1, 1e-7
-"""Limits for contacts without tension: most doublings of the step rate; the part of a level up to
-which two motions are alike; and the level [m/s] below which a motion counts as rest."""
+"""Limits for contacts without tension: most doublings of the step rate; relative difference of the
+levels of two motions that are alike; and the level [m/s] below which a motion counts as rest."""
 
 KEPT = 4
-"""Greatest number of rows per sample from which a motion of balls with mass is filtered."""
+"""Greatest number of rows per sample that the filter takes for a motion of balls with mass."""
 
 
 @shown_as_table
@@ -348,8 +348,8 @@ def simulate(
         watch = None if progress is None else lambda part: progress(part, words)
         return _marched(packed, rest, duration, sample_rate, rate, most_steps, watch)
 
-    lets_go = scene.balls != WITH_MASS and scene.contact_law != CONTACT_LAWS[0]
-    if step_rate is None and lets_go:
+    without_tension = scene.balls != WITH_MASS and scene.contact_law != CONTACT_LAWS[0]
+    if step_rate is None and without_tension:
         return _double_steps(march, rate, sample_rate)
     return march(rate)
 
@@ -471,8 +471,8 @@ def _double_steps(march: Callable[[float], Motion], rate: float, sample_rate: fl
     return replace(
         motion,
         status=MotionStatus.DIVERGED,
-        detail=f": {thousands(motion.step_rate)} steps a second are too few, half of them change "
-        "the vibration by more than a tenth",
+        detail=f": {thousands(motion.step_rate)} steps a second are too few; with half as many "
+        "the vibration differs by more than a tenth",
         history=np.full_like(motion.history, math.nan),
     )
 

@@ -276,7 +276,7 @@ class StaticReference:
     reference: Reference
 
 
-GRAZING = 1e-14
+ROUNDING_SHARE = 1e-14
 """Share of the greatest load of a ball below which a load is rounding."""
 
 
@@ -300,7 +300,7 @@ def static_reference(problem: StaticProblem) -> StaticReference:
     active = np.ix_(np.arange(len(exact.q)), problem.active, problem.active)
     least = np.linalg.eigvalsh(state.stiffness.astype(float)[active])[:, 0]
     greatest = np.abs(state.stiffness.astype(float)[active]).max(axis=(1, 2))
-    faint = GRAZING * state.load.max(axis=1, keepdims=True)
+    faint = ROUNDING_SHARE * state.load.max(axis=1, keepdims=True)
     grazed = ((state.load > 0.0) & (state.load < faint)).any(axis=1)
     unique = exact.solved & (least > 1e-10 * greatest)
     known = unique & ~grazed

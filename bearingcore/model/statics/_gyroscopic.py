@@ -91,8 +91,8 @@ def gyroscopic_limit(scene: Scene) -> Limit | None:
     fact = (
         "The gyroscopic moment of a heavily loaded ball, "
         f"{with_prefix(worst.moment, 'N·m')}, takes a force across the groove of "
-        f"{percent(worst.share, 3)} of its load of {with_prefix(worst.load, 'N')}; left out, it "
-        f"would turn the outer contact by {_turn_words(worst)}"
+        f"{percent(worst.share, 3)} of its load of {with_prefix(worst.load, 'N')}; if the model "
+        f"had it, the outer contact would turn by {_turn_words(worst)}"
     )
     speed = _speed_of_limit(scene, worst.share)
     if worst.share <= LIMIT and math.isfinite(speed):

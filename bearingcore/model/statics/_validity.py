@@ -20,8 +20,8 @@ These effects are left out of the model and checked here:
   at the far edge of a defect is left out and not checked;
 - gyroscopic moments of the balls, compared with their loads (`gyroscopic`);
 - the size of the contact, which Hertz's theory assumes to be small compared with the ball;
-- thrust: a row that carries thrust one way only, under thrust the other way, or under less than its
-  radial load induces (`thrust`);
+- thrust: a row that carries thrust one way only, if the thrust acts the other way or is less than
+  that induced by the radial load (`thrust`);
 - tilts: the moment that the shaft's other bearing must carry if the scene holds them, and the tilt
   of the shaft if they are free (`tilts`);
 - inconsistent stiffness: a load-deflection factor that does not agree with the drawing;
@@ -105,7 +105,7 @@ def usual_shoulder_height(contact_angle: float) -> float:
 
 
 def state_of_limits(scene: Scene) -> Equilibrium:
-    """Return the static equilibrium for `limits` at all positions, which are always the same.
+    """Return the static equilibrium for `limits`, at all positions of a fixed grid.
 
     A verdict must not depend on the resolution of a figure, nor on the first position of a defect
     that turns with the shaft: see `bearingcore.model.statics._positions`.
@@ -211,8 +211,8 @@ def _estimate(scene: Scene) -> Limit | None:
     if not bearing.estimated:
         return None
     spread = bearing.frequency_spread("bpfo")
-    counted = bearing.kind.estimate_spread is not None
-    right = ", the number one more or less" if counted else " if the number is right"
+    count = f"the number of {bearing.kind.elements} is"
+    right = f" even if {count} off by one" if bearing.kind.estimate_spread else f" if {count} right"
     good = f" BPFO is good to ±{percent(spread, 2)}{right}." if spread else ""
     return unknown(
         "inside dimensions",
@@ -231,8 +231,8 @@ def _known(state: Equilibrium) -> NDArray[np.bool_]:
 
 NOT_IN_STATICS = "the static model leaves it out"
 NOT_IN_STATICS_WITH_MASS = (
-    "the loads, stiffness and life of balls with mass hold it, these limits, maps and natural "
-    "frequencies leave it out"
+    "the loads, stiffness and life of balls with mass include it, but these limits, maps and "
+    "natural frequencies leave it out"
 )
 
 NO_STATE = "no cage angle has a static equilibrium"
@@ -370,7 +370,7 @@ def _centrifugal_change(scene: Scene) -> Limit:
     except ValueError as error:
         return unknown(name, limit, "", str(error))
     if not effect.converged:
-        return unknown(name, limit, "", "a cage angle has no static state with it, or without")
+        return unknown(name, limit, "", "a cage angle lacks a static state with it or without it")
     value = max(effect.load, effect.stiffness)
     fact = (
         f"The centrifugal force of a {scene.bearing.kind.element}, {with_prefix(force, 'N')}, "
@@ -407,8 +407,8 @@ def _compressed(bearing: Bearing, name: str, load: float, subject: str) -> Limit
         f"{with_prefix(distance, 'm')} between the groove centres"
     )
     beyond = (
-        f": above {most} grooves so close around the ball touch it far up their sides, and "
-        "Hertz's small contact no longer holds."
+        f": above {most} the grooves, which fit closely around the ball, touch it far up their "
+        "sides, and Hertz's small contact no longer holds."
     )
     within = f"; up to {most} the contact is small against the ball, as Hertz assumes."
     return upper_limit(name, share, GREATEST_COMPRESSION, "", fact, beyond, within)

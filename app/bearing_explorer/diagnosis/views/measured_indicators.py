@@ -28,7 +28,7 @@ MACHINE: FieldSpec = {
     "name": "machine",
     "label": "Machine and its support",
     "options": [
-        ["", "choose for a zone"],
+        ["", "needed for a zone"],
         *([name, ", ".join(_WORDS[part] for part in name.split(", "))] for name in ZONES),
     ],
 }
@@ -127,7 +127,7 @@ def no_zone(measured: Measured, machine: str) -> str:
     why = no_velocity(measured)
     speed = measured.shaft_speed
     if not why and speed is None:
-        unknown = "it is not said how many pulses of the tachometer make a turn"
+        unknown = "the number of tachometer pulses per turn is not known"
         why = "the shaft speed is not known" if measured.speeds is None else unknown
         why += ", and the band of the velocity depends on it"
     shaft = 0.0 if speed is None else speed / (2.0 * math.pi)
@@ -147,8 +147,8 @@ def severity(measured: Measured, machine: str) -> str:
         return (
             "Zone D of ISO 20816-3 for every machine, with "
             f"{style.number(1e3 * velocity, 3)} mm/s: {MEANING[zone]}. "
-            f"The highest boundary is {style.number(1e3 * HIGHEST, 3)} mm/s of "
-            "ISO 10816-3:2009, which it replaced; check it there before you act on it."
+            f"The highest boundary, {style.number(1e3 * HIGHEST, 3)} mm/s, is from its "
+            "predecessor ISO 10816-3:2009; check it in ISO 20816-3 before you act on it."
         )
     power, support = (_WORDS[part] for part in machine.split(", "))
     size = f"{style.number(1e3 * velocity, 3)} mm/s"
@@ -160,6 +160,6 @@ def severity(measured: Measured, machine: str) -> str:
         ends += f" and {style.list_words(limits)} µm, the worse of which counts,"
     return (
         f"Zone {zone} of ISO 20816-3 with {size}: {MEANING[zone]}. For "
-        f"machines of {power} on a {support} support, boundaries {ends} of ISO 10816-3:2009, "
-        "which it replaced; check them there before you act on them."
+        f"machines of {power} on a {support} support, boundaries {ends} from its predecessor "
+        "ISO 10816-3:2009; check them in ISO 20816-3 before you act on them."
     )

@@ -22,7 +22,7 @@ COUNTED = (
 )
 """Warning after "no damage seen" if the number of balls or rollers is an estimate."""
 
-CHANGES = 1.05
+LEAST_SPEED_RATIO = 1.05
 """Ratio of highest to lowest speed above which both are stated: noise scatters by less."""
 
 LENGTH_HIDDEN = "the length of the spall does not show"
@@ -107,7 +107,7 @@ def speed_range(answer: Diagnosis, measured: Measured) -> str:
     if measured.speed_limits is None or answer.shaft_speed is None:
         return turns(answer)
     least, most = (30.0 / math.pi * speed for speed in measured.speed_limits)
-    if most <= CHANGES * least:
+    if most <= LEAST_SPEED_RATIO * least:
         return turns(answer)
     return f"{span(least, most, 'turns a minute', 3)} (measured)"
 

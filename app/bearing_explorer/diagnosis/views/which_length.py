@@ -68,11 +68,11 @@ class WhichLength(JobView[Model, SizedDefect, Editor], MeasuredView):
     name = "which-length"
     title = "Which of these lengths?"
     about = (
-        "Spectra of simulated lengths over the measured one. Shaded: natural frequencies of the "
-        "best length as balls pass. Upright lines are the harmonics of the mean ball pass as "
-        "measured, curves those of the lengths that come nearest, scaled to the same size; the "
-        "bars above are the natural frequencies of each. Entry and exit give the length up to "
-        "whole ball spacings; a longer spall leaves fewer balls to carry the load, so that the "
+        "Measured spectrum, and over it those simulated for each length. Shaded: natural "
+        "frequencies of the best length as balls pass. Vertical lines: harmonics of the measured "
+        "mean ball pass. Curves: the same for the best lengths, scaled to the same size. Bars at "
+        "the top: natural frequencies of each length. Entry and exit give the length up to whole "
+        "ball spacings; a longer spall leaves fewer balls to carry the load, so that the "
         "machine rings at other frequencies (Petersen, Howard and Prime 2014, Section 4). For that "
         "the machine has to be known, with load, clearance, mass and stiffness of rotor and "
         "support, and with place, depth and edges of the defect. A simulated signal has all of "
@@ -86,9 +86,9 @@ class WhichLength(JobView[Model, SizedDefect, Editor], MeasuredView):
     kind = SIZING
 
     def build(self, packed: PackedSource) -> Any:
-        #: signal and race of the job that began by itself, and the file of the answer in the form
+        #: signal and race for which a job has started by itself
         self._began: tuple[Measured, str] | None = None
-        self._answer_of = -1
+        self._answer_of = -1  # arrival of the file to which the form's answer belongs
         self._heights = {dof: StickyRange(0.0, 1.0, anchor="zero") for dof in SHOWN}
         frequency = packed.range("length_frequency", 0.0, 2500.0)
         self._plots = {dof: _plot(packed, dof, frequency) for dof in reversed(SHOWN)}
@@ -100,7 +100,7 @@ class WhichLength(JobView[Model, SizedDefect, Editor], MeasuredView):
         )  # fmt: skip
         return self.hidden
 
-    is_empty = MeasuredView.is_empty  # without candidates a job has shown nothing
+    is_empty = MeasuredView.is_empty  # a result without candidates has no figure
 
     # The job
 
@@ -269,7 +269,7 @@ def _layers(dof: str) -> list[Layer]:
 
 
 def _bands(candidate: Candidate, dof: str, number: int, top: float) -> dict[str, np.ndarray]:
-    """The natural frequencies of a candidate along a direction; the lowest bears its extent."""
+    """The natural frequencies of a candidate along a direction; the lowest has its label."""
     ends = [span for label, span in candidate.bands.items() if label[:-1] == dof and span[0] < top]
     low, high = np.array(ends).reshape(-1, 2).T
     place = np.full_like(low, 1.0 - BAND_ROW * (number + 0.6))

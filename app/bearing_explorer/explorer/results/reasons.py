@@ -40,7 +40,7 @@ LOADED = 0.01
 """Share of the greatest load at rest from which a ball counts as loaded."""
 AT_AN_EDGE = 0.07
 """Share of an excerpt, a tenth of a ball pass: a jolt farther from an edge has another cause."""
-KEPT = 0.25
+LEAST_KEPT_SHARE = 0.25
 """Share of its greatest load that a ball must carry throughout, or it counts as unloaded."""
 LARGE_SWING = 1.25
 """Ratio of the greatest load in motion to that at rest, above which a swing is not small."""
@@ -542,7 +542,7 @@ def jolt(shown: Excerpt, bearing: Bearing) -> str:
     verb, then = ("enters", "loses") if nearest.enters else ("leaves", "takes back")
     when = f"{style.with_prefix(abs(apart), 's', 2)} {'after' if apart >= 0.0 else 'before'}"
     text = f"The largest jolt comes {when} {element_name(bearing, nearest.ball)} {verb} the defect"
-    if around.min() > KEPT * load.max():
+    if around.min() > LEAST_KEPT_SHARE * load.max():
         return f"{text}; it carries at least {style.with_prefix(around.min(), 'N', 2)} then."
     return f"{text} and {then} its load ({style.with_prefix(around.max(), 'N', 2)} at most)."
 

@@ -25,7 +25,7 @@ START, END, MIDDLE, LOAD = range(4)
 
 
 def points(radius: Any, angle: NDArray[np.float64], end: str = "") -> dict[str, np.ndarray]:
-    """Columns of points in polar coordinates, such as `x0` and `y0` for the `end` "0"."""
+    """Cartesian columns of points at a radius and angles: `x0` and `y0` for the `end` "0"."""
     return {f"x{end}": radius * np.cos(angle), f"y{end}": radius * np.sin(angle)}
 
 

@@ -18,7 +18,7 @@ from bearing_explorer.kit.serve.packed_source import PackedSource
 from bearing_explorer.kit.views.base import Ranges, Sources
 
 DEPTH = style.AxisQuantity("Depth", "d", "m", prefixed=True)
-BRIDGED = 10e-6
+BRIDGED_LENGTH = 10e-6
 """Length [m] of a defect that a contact bridges: contacts are some tenths of a millimetre long."""
 EDGE_WORDS = {
     "published": "an edge as in the paper",
@@ -136,7 +136,7 @@ class DepthProfile(ComparingView):
             f"The {defect.race}-race defect is {length} long; "
             f"with {EDGE_WORDS[defect.edge]} {reaches}{turning}."
         )
-        if 0.0 < defect.extent * defect.raceway_radius(scene.bearing) < BRIDGED:
+        if 0.0 < defect.extent * defect.raceway_radius(scene.bearing) < BRIDGED_LENGTH:
             text += " A contact under a usual load is longer and bridges it; here it has no length."
         return text
 

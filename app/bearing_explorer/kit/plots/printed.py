@@ -64,7 +64,7 @@ def print_figures(document: Document, note: str, path: Path, width: float | None
     if width is None:
         width = TWO_COLUMNS if any(WIDE in plot.tags for plot in plots) else COLUMN
     pixels = width / 25.4 * 72.0 / POINT
-    # drawings with circles are to scale: higher than wide, they would have empty margins
+    # drawings with circles are to scale: a frame taller than wide would be partly empty
     limits = [0.9 * pixels if _has_circles(plot) else math.inf for plot in plots]
     heights = [min(plot.min_height, limit) for plot, limit in zip(plots, limits, strict=True)]
     frame_sizes = {
@@ -76,7 +76,7 @@ def print_figures(document: Document, note: str, path: Path, width: float | None
     lines = wrap(note, int(pixels / (0.52 * 10)))
     scripts = Scripts(document.models, frame_sizes)
     scripts.follow()
-    fonts = [name for name in _FONTS if name in get_font_names()]  # the first that has a sign
+    fonts = [name for name in _FONTS if name in get_font_names()]  # the first with the character
     look = {"font.family": fonts, "svg.fonttype": "none", "pdf.fonttype": 42}
     look |= {"font.size": 11 * POINT, "axes.linewidth": 0.6}
     with matplotlib.rc_context(look):
@@ -257,7 +257,7 @@ class _Printed:
         return self._polygons(corners.reshape(-1, 4, 2), color, place, line)
 
     def _across(self, place: Any, up: bool) -> Any:
-        """Return `place` for shapes through the whole frame; `up`: their values are heights."""
+        """Return `place` for shapes that span the frame: at values of y if `up`, else of x."""
         axes = self.axes
         return {
             **place, "transform": axes.get_yaxis_transform() if up else axes.get_xaxis_transform()

@@ -100,7 +100,7 @@ spall: one that nearly reaches the next ball is rare. Below, either way may be f
 Spectra do not decide it: real structures ring higher as a ball leaves. In the model without mass
 the entry is mostly the sharper peak, and with mass it may be either."""
 
-FADES = 0.75
+MOST_FADING = 0.75
 """Power of frequency with which the later peak fades against the earlier. Above it the two are not
 entry and exit, but a blow with a duller echo or rebound."""
 
@@ -378,7 +378,7 @@ def compare_bands(passes: Sequence[MeanPass], frequency: float, n_passes: int) -
     trend = _trend([mean_pass.band for mean_pass, _ in agreeing], ratios, height)
     rare = 1.0 - separation > RARE * separation
     # a later peak that fades with frequency is an echo, not an exit
-    if rare and (trend < -FADES or (trend < 0.0 and _fades(passes, highest, ratios))):
+    if rare and (trend < -MOST_FADING or (trend < 0.0 and _fades(passes, highest, ratios))):
         return Knocks(passes, frequency, n_passes, ExtentStatus.BOUNCES)
     best, pair = max(agreeing, key=lambda agreeing_pair: agreeing_pair[1].height)
     return Knocks(

@@ -35,7 +35,7 @@ SLIP = 0.02
 SPEEDS = (2.0 * math.pi * 5.0, 2.0 * math.pi * 100.0)
 """Least and greatest speed [rad/s] in the search for an unknown one."""
 
-TONES_COUNT = 0.6
+UNWHITENED_FACTOR = 0.6
 """Factor of a swing that was measured without whitening, which leaves tones in it."""
 
 ELSEWHERE = (0.5, 1.9)
@@ -127,7 +127,7 @@ def _diagnose_between(
     """Return the diagnosis at a speed between two [Hz], which may be equal."""
     if high <= low * (1.0 + 1e-9):
         return _diagnose_at(signal, bearing, low * (1.0 - slip), low * (1.0 + slip), slip, source)
-    if high <= low * (1.0 + 2.0 * slip):  # as slip is as large, lines of a part give none better
+    if high <= low * (1.0 + 2.0 * slip):  # slip is as large: a part's lines give no better speed
         source = f"{speed_source} as a range"
         return _diagnose_at(signal, bearing, low, high, slip, source, 0.5 * (high / low - 1.0))
     answer = diagnose_in_range(signal, bearing, low, high, slip, source)
@@ -142,10 +142,10 @@ def _check_against_shaft(
 ) -> Diagnosis:
     """Check an answer against lines of the shaft at another speed than the stated one [Hz].
 
-    If the lines of the shaft are elsewhere and none at the stated speed, speed or sample rate are
-    wrong: no part is named, and the answer says which speed the lines show. At 60 times the speed
-    or a 60th of it, Hz and rpm were probably confused. Lines of the shaft that drives this one by a
-    gear, at `driving` [Hz], contradict nothing.
+    If the lines of the shaft are elsewhere and none is at the stated speed, either that speed or
+    the sample rate is wrong: no part is named, and the answer says which speed the lines show. At
+    60 times the speed or a 60th of it, Hz and rpm were probably confused. Lines of the shaft that
+    drives this one by a gear, at `driving` [Hz], contradict nothing.
     """
     stated = signal.shaft(speed * (1.0 - reach), speed * (1.0 + reach))
     if stated.clear:
@@ -208,9 +208,9 @@ def _diagnose_at(
     source: str,
     reach: float = 0.0,
 ) -> Diagnosis:
-    """Return the diagnosis at the speed of the shaft's lines between two [Hz], or at the middle.
+    """Return the diagnosis at the speed between two [Hz] that the shaft's lines show.
 
-    `reach` is the largest relative error of the middle.
+    Without such lines it is at the middle; `reach` is the largest relative error of the middle.
     """
     parts = part_lines(bearing)
     shaft = 0.5 * (low + high)
@@ -249,7 +249,7 @@ _INSTEAD_OF = {
         ),
     ),
 }
-"""Outcomes of a second opinion that replace one without lines."""
+"""For outcomes without lines: those of a second opinion that replace them."""
 
 
 def _second_opinion(
@@ -268,7 +268,7 @@ def _second_opinion(
     """
     if answer.fault in (OUTER, INNER) or answer.status == DiagnosisStatus.OTHER_SHAFT:
         return answer
-    judged = judge(signal.unwhitened(), parts, shaft, slip, stated).scale_swings(TONES_COUNT)
+    judged = judge(signal.unwhitened(), parts, shaft, slip, stated).scale_swings(UNWHITENED_FACTOR)
     second = decide(signal, judged, shaft, answer.speed_source)
     if answer.fault == BALL:  # sharp lines without modulation are not a ball's
         foreign = second.status == DiagnosisStatus.UNMODULATED and not second.of(BALL).modulated

@@ -26,7 +26,7 @@ SLOWEST = 0.5
 """Least speed that is kept, relative to the highest. Each turn gets as many samples as the slowest
 one has, which are then at most twice those that were measured."""
 
-KEPT_OF = 64
+DENOMINATOR = 64
 """Denominator of the ratio by which the resampled turns return to about the measured rate."""
 
 USUAL = 5.0, 100.0
@@ -40,15 +40,15 @@ WINDOW, NEAR = 8.0, (0.7, 1.4)
 """Turns in a spectrum in which the shaft's lines are followed; range of the search, relative to the
 speed."""
 
-JUMP, FOLLOWED = 0.03, 0.9
+LARGEST_JUMP, FOLLOWED = 0.03, 0.9
 """Largest relative deviation of a speed from the mean of its neighbours, and least share of the
 spectra within it: lines of a shaft reach 0.95, those of noise 0.4, of single tones 0.8."""
 
-FEWEST_PIECES, TOGETHER, LEAST_SHARED_CHANGE = 12, 0.75, 0.02
+FEWEST_PIECES, LEAST_CORRELATION, LEAST_SHARED_CHANGE = 12, 0.75, 0.02
 """Fewest pieces of a signal whose lines are followed by phase; least rank correlation of the speeds
 by three lines, which is up to 0.6 for noise and single blows; and least change that they show."""
 
-BESIDE = 0.02
+MARGIN = 0.02
 """Largest relative distance of a given speed from the range of the measured ones."""
 
 
@@ -94,14 +94,14 @@ def resample_to_steady_speed(
         for column in recording.acceleration[part].T
     ]
     # return to the measured rate: at the mean speed, nothing was measured above half of it
-    kept = math.floor(KEPT_OF * rate / (per_turn * mean))
+    kept = math.floor(DENOMINATOR * rate / (per_turn * mean))
     steady = replace(
         recording,
-        acceleration=resample_poly(np.stack(columns, axis=1), kept, KEPT_OF, padtype="line"),
-        sample_rate=per_turn * mean * kept / KEPT_OF,
+        acceleration=resample_poly(np.stack(columns, axis=1), kept, DENOMINATOR, padtype="line"),
+        sample_rate=per_turn * mean * kept / DENOMINATOR,
         shaft_angle=None,
     )
-    agrees = low <= (1.0 + BESIDE) * speed.max() and high >= (1.0 - BESIDE) * speed.min()
+    agrees = low <= (1.0 + MARGIN) * speed.max() and high >= (1.0 - MARGIN) * speed.min()
     if agrees and not is_unknown:
         low = high = mean
     least, most = (100.0 * float(end) / mean for end in (speed[part].min(), speed[part].max()))
@@ -180,7 +180,7 @@ def _small_change(values: Array, rate: float, shaft: float) -> float:
         return 0.0
     ranks = np.argsort(np.argsort(speeds, axis=1), axis=1)
     change = float(np.ptp(np.median(speeds, axis=0)) / np.mean(speeds))
-    is_shared = np.corrcoef(ranks).min() >= TOGETHER and change >= LEAST_SHARED_CHANGE
+    is_shared = np.corrcoef(ranks).min() >= LEAST_CORRELATION and change >= LEAST_SHARED_CHANGE
     return change if is_shared else 0.0
 
 
@@ -200,7 +200,7 @@ def _change(values: Array, rate: float, shaft: float, speeds: Array) -> float:
         place = np.round(order * speeds / step).astype(int)
         lines += np.log(np.maximum(spectra[:, place] / np.maximum(background, 1e-300), 1.0))
     best = speeds[lines.argmax(axis=1)]
-    near = np.abs(2.0 * best[1:-1] / (best[2:] + best[:-2]) - 1.0) < JUMP
+    near = np.abs(2.0 * best[1:-1] / (best[2:] + best[:-2]) - 1.0) < LARGEST_JUMP
     smooth = np.median(np.lib.stride_tricks.sliding_window_view(best, 3), axis=1)
     change = float(np.ptp(smooth) / smooth.mean())
     if near.mean() < FOLLOWED or change < LEAST_CHANGE or _is_steady(values, rate, shaft, change):

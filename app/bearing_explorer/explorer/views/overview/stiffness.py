@@ -23,7 +23,7 @@ from bearing_explorer.kit.views.base import Ranges, Sources
 from bearingcore import STIFFNESS_TERMS, Equilibrium
 from bearingcore.model.statics import TERM_UNITS
 
-LIVELY = 0.02
+LEAST_VARIATION = 0.02
 """Share of a term's size by which it must vary, or differ from the healthy term, to matter."""
 MOST_POINTS = 61
 """Most points of a trace: a cell is little more than a hundred pixels wide."""
@@ -193,4 +193,4 @@ def is_lively(values: NDArray[np.float64], healthy: NDArray[np.float64], scale: 
     if not known.size:
         return False
     ends = [known.min(), known.max(), *([usual.min(), usual.max()] if usual.size else [])]
-    return bool(max(ends) - min(ends) > LIVELY * scale)
+    return bool(max(ends) - min(ends) > LEAST_VARIATION * scale)

@@ -69,7 +69,7 @@ class TrendPoint:
     extent
         extent of the spall if a race is named.
     recorded
-        date and time of the recording, or those in its name; None without.
+        date and time of the recording, or those in its name; None if it has neither.
     """
 
     name: str

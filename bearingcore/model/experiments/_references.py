@@ -28,7 +28,7 @@ KINK_SLIVER = 1e-13
 MOTION_ERRORS = {
     "spectrum": "greatest error of the housing's spectrum [dB], up to 1.25 times the highest "
     "natural frequency, where a direction is within 40 dB of its greatest level",
-    "third octaves": "greatest error of the housing's level in a third octave [dB], up to as high",
+    "third octaves": "greatest error of the housing's level in a third octave [dB], in that band",
     "series L2": "root mean square error of the housing's acceleration over its root mean square",
     "displacement": "greatest error of a displacement over the greatest swing about the mean",
     "final state": "greatest error of a displacement at the end, over the same swing",
@@ -143,9 +143,9 @@ def _multistep(rates: Rates, time: Array) -> Array:
 
 
 def _embedded_pair(rates: Rates, time: Array) -> Array:
-    """Return scaled states at times [s] by DOP853, up to a failure; each step is smooth.
+    """Return scaled states at times [s] by DOP853, up to a failure.
 
-    A very short step crosses each kink, so that the steps before and after it stay on their side.
+    A very short step crosses each kink, so that the rates are smooth within all other steps.
     """
     from scipy.integrate import DOP853  # imported late: slow to import
 

@@ -1,6 +1,6 @@
 """Basic dynamic load rating C_r of a bearing: from its dimensions by ISO 281, or from a catalogue.
 
-C_r is the rating of all i rows together. Each of several rows alike has the rating C_r/i^0.7 alone
+C_r is the rating of all i rows together. Alone, each of i identical rows has the rating C_r/i^0.7
 (i^(7/9) for rollers); if they carry equal parts of the load, the bearing has the life by C_r.
 ISO 16281 does not treat unlike rows. Here they share C_r in proportion to C_k, the ISO 281 rating
 of each row: alone, row k has the rating C_r i^0.3 C_k/Σ C, and all rows together have

@@ -29,7 +29,7 @@ ENVELOPE_LINES = 1600
 """Largest number of frequencies of an envelope spectrum that are drawn."""
 
 MOST_KEPT = 12
-"""Greatest number of spectra, envelopes and kurtograms that are kept for a signal."""
+"""Largest number of spectra, envelopes and kurtograms that are kept for a signal."""
 
 
 @dataclass(frozen=True)

@@ -28,7 +28,7 @@ KINK_SLIVER = 1e-13
 MOTION_ERRORS = {
     "spectrum": "greatest error of the housing's spectrum [dB], up to 1.25 times the highest "
     "natural frequency, where a direction is within 40 dB of its greatest level",
-    "third octaves": "greatest error of the housing's level in a third octave [dB], in that band",
+    "third octaves": "greatest error of the housing's level in a third octave [dB], up to as high",
     "series L2": "root mean square error of the housing's acceleration over its root mean square",
     "displacement": "greatest error of a displacement over the greatest swing about the mean",
     "final state": "greatest error of a displacement at the end, over the same swing",

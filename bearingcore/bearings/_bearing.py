@@ -371,7 +371,7 @@ class Bearing(InRows):
             for a bearing that has rows already, or without a contact angle for a preload.
         """
         if self.rows:
-            raise checks.refuse("rows", len(self.rows), "none yet, where a bearing is paired")
+            raise checks.refuse("rows", len(self.rows), "none: only a single row can be paired")
         return self.replace(rows=pair(distance, arrangement)).replace(preload=preload)
 
     @property
@@ -401,7 +401,7 @@ class Bearing(InRows):
 
         `name` is "bpfo", "bpfi", "ftf" or "bsf". The error is that of the estimated ratio of ball
         and pitch diameter; it is 0 without an estimate. An estimated number of balls may also be
-        wrong by one, which changes BPFO and BPFI by one part in that number. This is included for
+        wrong by one, which changes BPFO and BPFI by the fraction 1/n_balls. This is included for
         tapered rollers only, whose number is less sure.
         """
         checks.choice("name", name, ("bpfo", "bpfi", "ftf", "bsf"))
@@ -451,8 +451,8 @@ class Bearing(InRows):
         """Return the Hertzian contact of a ball or roller with a race, "outer" or "inner".
 
         Rollers are of steel. For a self-aligning bearing groove radius and modulus follow from its
-        numbers, with a Poisson's ratio of 0.3. Raises ValueError if a bearing does not carry its
-        drawing.
+        numbers, with a Poisson's ratio of 0.3. Raises ValueError for a bearing whose drawing is not
+        known.
         """
         return self.kind.race_contact(self, checks.choice("race", race, ("outer", "inner")))
 

@@ -39,7 +39,7 @@ fewest lines of the mean ball pass up to the upper end."""
 
 STEP = math.radians(0.5)
 SHORTEST, LONGEST = math.radians(0.5), math.radians(90.0)
-"""Step [rad] between simulated extents, small as the misfit is steep; first and last extent."""
+"""Step [rad] between simulated extents (small: the misfit is steep); first and last extent."""
 
 APART = 0.16
 """Extents closer than this share of a ball spacing are one candidate."""

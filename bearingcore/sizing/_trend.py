@@ -69,7 +69,7 @@ class TrendPoint:
     extent
         extent of the spall if a race is named.
     recorded
-        date and time of the recording, or those in its name; None without.
+        date and time of the recording, or those in its name; None if it has neither.
     """
 
     name: str
@@ -310,17 +310,17 @@ def _line_amplitudes(
     """Return amplitudes (4,) of `LINES` in the envelope, and the levels of noise there [m/s²]."""
     from scipy.special import gammaincinv  # imported late: see `spectrum`
 
-    turn = shaft_speed / (2.0 * math.pi)
+    shaft = shaft_speed / (2.0 * math.pi)
     orders = [*(line.order for line in part_lines(bearing)), bearing.ftf(2.0 * math.pi)]
     unknown = np.full(len(LINES), math.nan)
     if band[1] > HIGHEST_SHARE * recording.sample_rate:
         return unknown, unknown
-    step = max(1.0 / recording.duration, turn / LINES_A_TURN)
+    step = max(1.0 / recording.duration, shaft / LINES_A_TURN)
     signal = recording.acceleration[:, column]
     frequency, density = envelope_spectrum(signal, recording.sample_rate, band, step)
     step = float(frequency[1] - frequency[0])
     averages = max(1, math.floor(recording.duration * step))
-    around = max(round(SURROUNDINGS * turn / step), FEWEST_AROUND) | 1
+    around = max(round(SURROUNDINGS * shaft / step), FEWEST_AROUND) | 1
     if len(frequency) < around:
         return unknown, unknown
     # means of so many spectra of noise have a gamma distribution, whose median is not its mean
@@ -328,11 +328,11 @@ def _line_amplitudes(
     finest = envelope_spectrum(signal, recording.sample_rate, band)
     lines, noise = unknown.copy(), unknown.copy()
     for k, order in enumerate(orders):
-        middle, reach = order * turn / step, order * turn * SLIP / step + 1.0
+        middle, reach = order * shaft / step, order * shaft * SLIP / step + 1.0
         first, last = math.floor(middle - reach), math.ceil(middle + reach) + 1
         if middle < LOWEST_LINE or last > len(density):
             continue
-        if _is_shaft_line(finest, order * turn, turn):
+        if _is_shaft_line(finest, order * shaft, shaft):
             continue
         limit = float(gammaincinv(averages, 1.0 - CHANCE / (last - first)))
         peak = first + int(density[first:last].argmax())
@@ -344,12 +344,12 @@ def _line_amplitudes(
     return lines, noise
 
 
-def _is_shaft_line(finest: Spectrum, line: float, turn: float) -> bool:
+def _is_shaft_line(finest: Spectrum, line: float, shaft: float) -> bool:
     """Return True if the highest line near one of the bearing [Hz] is a multiple of the shaft's.
 
     Such lines come from gears, vanes and loose parts, not from damage of the bearing.
     """
     first, last = np.searchsorted(finest.frequency, line * np.array([1.0 - SLIP, 1.0 + SLIP]))
     peak = finest.frequency[first + int(finest.density[first : last + 1].argmax())]
-    multiple = round(peak / turn) * turn
+    multiple = round(peak / shaft) * shaft
     return bool(multiple and abs(peak - multiple) <= OF_THE_SHAFT * finest.frequency[1])

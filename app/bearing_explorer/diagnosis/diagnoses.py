@@ -31,7 +31,7 @@ FAILED = "The signal could not be analysed."
 BUSY = "The signal is being analysed."
 
 MOST_KNOWN = 12
-"""Answers about one recording that are kept."""
+"""Largest number of answers about one recording that are kept."""
 
 
 @dataclass(frozen=True)

@@ -82,7 +82,7 @@ LONGEST_HEADING = 24  # characters
 SHOWN_LINES = 5
 
 MOST_SAID = 12
-"""Numbers and words of a file that are shown."""
+"""Most numbers and words of a file that are shown."""
 
 _WORDS = {
     "sample_rate": ("The sample rate", "Hz", 1.0, 1e7),

@@ -29,7 +29,7 @@ ENVELOPE_LINES = 1600
 """Largest number of frequencies of an envelope spectrum that are drawn."""
 
 MOST_KEPT = 12
-"""Spectra, envelopes and kurtograms of a signal that are kept."""
+"""Largest number of spectra, envelopes and kurtograms that are kept for a signal."""
 
 
 @dataclass(frozen=True)
@@ -177,7 +177,7 @@ class Measured:
 
     @cached_property
     def speed_limits(self) -> tuple[float, float] | None:
-        """Least and greatest [rad/s] of `speeds`; None without."""
+        """Least and greatest [rad/s] of `speeds`; None without them."""
         speeds = self.speeds
         return None if speeds is None else (float(speeds.min()), float(speeds.max()))
 

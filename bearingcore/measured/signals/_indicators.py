@@ -250,9 +250,9 @@ def shaft_share(recording: Recording, shaft_speed: float) -> Array:
         for a shaft speed that is not positive.
     """
     level = indicators(recording, shaft_speed)
-    turn = shaft_speed / (2.0 * math.pi)
+    shaft = shaft_speed / (2.0 * math.pi)
     squares = np.zeros(len(level.velocity_rms))
-    for line in turn * np.arange(1, SHAFT_LINES + 1):
+    for line in shaft * np.arange(1, SHAFT_LINES + 1):
         if not level.velocity_reason and level.band[0] < line < level.band[1]:
             ends = line * (1.0 - SHAFT_WIDTH), line * (1.0 + SHAFT_WIDTH)
             squares += velocity_rms(recording.acceleration, recording.sample_rate, ends) ** 2

@@ -24,10 +24,10 @@ from bearingcore.model import _kernels as kernels
 PASSED = 0.4
 """Share of the sample rate, and of the step rate, up to which spectra of accelerations are right
 within 0.1 dB at the default steps (fan-rig, liew-lim, 6205, nu208, 7208-25deg; the 6203's loudest
-direction within 0.14 dB). Fewer steps, set by hand, have errors up to 0.25 dB near the end. Above
-half the sample rate the filter leaves a thousandth of an amplitude."""
+direction within 0.14 dB). Fewer steps, set by hand, have errors up to 0.25 dB near this frequency.
+Above half the sample rate the filter leaves a thousandth of an amplitude."""
 
-# share of the sample rate, and [dB]: Kaiser's window falls between 0.4 and 0.5 of the rate
+# share of the sample rate, and [dB]: the filter's gain falls between 0.4 and 0.5 of the rate
 _CUTOFF, _ATTENUATION = 0.45, 60.0
 _BETA = 0.1102 * (_ATTENUATION - 8.7)
 REACH = math.ceil((_ATTENUATION - 7.95) / (2.285 * 2.0 * math.pi * (0.5 - PASSED)) / 2.0)
@@ -55,8 +55,8 @@ _CUBIC = [
     for coefficients in ([1, 0, -3, 2], [0, 1, -2, 1], [0], [0, 0, 3, -2], [0, 0, -1, 1], [0])
 ]
 _BETWEEN = [
-    (QUINTIC * five.deriv(2) + (1.0 - QUINTIC) * three.deriv(2))
-    for five, three in zip(_QUINTIC, _CUBIC, strict=True)
+    (QUINTIC * quintic.deriv(2) + (1.0 - QUINTIC) * cubic.deriv(2))
+    for quintic, cubic in zip(_QUINTIC, _CUBIC, strict=True)
 ]
 """Acceleration within a step of length 1, for a unit of x, v, a at its start and at its end."""
 
@@ -89,14 +89,14 @@ def acceleration_lines(history: Array, body: int, step: float, count: int) -> Ar
     """Return Fourier coefficients (count, directions) of a body's periodic acceleration, from 0 on.
 
     history (steps + 1, 6, directions) is a period in steps of `step` [s], with equal ends. The
-    coefficients belong to the polynomials between steps, not to samples, so nothing folds back.
+    coefficients belong to the polynomials within steps, not to samples, so nothing folds back.
     """
     steps = len(history) - 1
     number = np.arange(count)
     turn = 2j * math.pi * number / steps
     part, weight = _step_quadrature()
     waves = np.exp(-np.outer(turn, part)) * weight
-    first = history[0, body : body + 3] * np.array([[1.0], [0], [0]])  # displacement alone
+    first = history[0, body : body + 3] * np.array([[1.0], [0], [0]])  # constant: no acceleration
     sums = np.fft.fft(history[:-1, body : body + 3] - first, axis=0)[number % steps] / steps
     lines = np.zeros((count, history.shape[2]), dtype=complex)
     for column, (polynomial, power) in enumerate(zip(_BETWEEN, _POWERS, strict=True)):
@@ -114,7 +114,7 @@ def _step_quadrature() -> tuple[Array, Array]:
 
 
 class _Filter(NamedTuple):
-    """Weights (samples per step, rows, 3) of x, v, a in the rows around the step of a sample.
+    """Weights (phases, rows, 3) of x, v, a around a sample, for each phase of samples in a step.
 
     `before` of the rows precede the step; the next group of samples is `stride` rows later.
     """
@@ -127,14 +127,14 @@ class _Filter(NamedTuple):
 @lru_cache(maxsize=32)
 def _filter(sample_rate: float, step_rate: float) -> _Filter:
     """Return the filter of a history with a row per step; one rate is a multiple of the other."""
-    a_step = max(round(sample_rate / step_rate), 1)
+    phases = max(round(sample_rate / step_rate), 1)
     stride = max(round(step_rate / sample_rate), 1)
     samples = sample_rate / step_rate  # in a step
     before = math.ceil(REACH / samples) + 1
     part, weight = _step_quadrature()
     step = np.arange(-before, before + 1)
-    weights = np.zeros((a_step, len(step) + 1, 3))
-    for phase in range(a_step):
+    weights = np.zeros((phases, len(step) + 1, 3))
+    for phase in range(phases):
         weighted = _kernel((step[:, None] + part) * samples - phase) * weight * samples
         for number, (polynomial, power) in enumerate(zip(_BETWEEN, _POWERS, strict=True)):
             rows = slice(number // 3, number // 3 + len(step))  # the start of steps, or their end
@@ -151,10 +151,10 @@ def _kernel(time: Array) -> Array:
 
 
 def rows_needed(n: int, sample_rate: float, step_rate: float) -> int:
-    """Return the number of rows that n filtered samples need, some of them after the last one."""
-    a_step = max(round(sample_rate / step_rate), 1)
+    """Return the number of rows that n filtered samples need, with those after the last sample."""
+    phases = max(round(sample_rate / step_rate), 1)
     low_pass = _filter(sample_rate, step_rate)
-    return (n - 1) // a_step * low_pass.stride + low_pass.weights.shape[1] - low_pass.before
+    return (n - 1) // phases * low_pass.stride + low_pass.weights.shape[1] - low_pass.before
 
 
 def low_passed(history: Array, body: int, n: int, sample_rate: float, step_rate: float) -> Array:
@@ -166,20 +166,20 @@ def low_passed(history: Array, body: int, n: int, sample_rate: float, step_rate:
     NaN.
     """
     low_pass = _filter(sample_rate, step_rate)
-    a_step, taps = low_pass.weights.shape[:2]
+    phases, taps = low_pass.weights.shape[:2]
     if not np.isfinite(history[0]).all():
         return np.full((n, history.shape[2]), math.nan)
-    groups = -(-n // a_step)
+    groups = -(-n // phases)
     nd, stride, columns = history.shape[2], low_pass.stride, -(-taps // low_pass.stride)
-    out = np.empty((groups, a_step, nd))
+    out = np.empty((groups, phases, nd))
     rows = np.zeros((nd, 3 * stride, groups + columns))
     kernels.lay_side_by_side(history, body, low_pass.before, rows)
-    # weights by column and row of a column, in the order in which `lay_side_by_side` has the rows
+    # weights (phases, 3 stride, columns) in the order in which `lay_side_by_side` puts the rows
     padded = np.pad(low_pass.weights, ((0, 0), (0, columns * stride - taps), (0, 0)))
-    joined = padded.reshape(a_step, columns, stride, 3).transpose(0, 3, 2, 1)
-    weights = joined.reshape(a_step, 3 * stride, columns)
+    joined = padded.reshape(phases, columns, stride, 3).transpose(0, 3, 2, 1)
+    weights = joined.reshape(phases, 3 * stride, columns)
     for direction in range(nd):
-        for phase in range(a_step):
+        for phase in range(phases):
             sums = np.zeros(groups)
             kernels.sliding_sums(rows[direction], weights[phase], sums)
             out[:, phase, direction] = sums

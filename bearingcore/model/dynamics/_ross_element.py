@@ -31,8 +31,8 @@ def to_ross(scene: Scene, speeds: ArrayLike, *, node: int = 0, **more: Any) -> A
     At each speed the balls carry their centrifugal load, also if the scene has massless balls
     (`ball_positions`). Rollers have no known mass; their stiffness is the same at all speeds. The
     coefficients along x, y and z are means over the cage angles, because balls pass faster than the
-    rotor turns: K_b (Eq. 17) and c Σ e e' of the loaded balls (Eq. 27). ROSS has no tilts, which
-    are taken to be held by the shaft, and no k_xz and k_yz. The support is not included: link the
+    rotor turns: K_b (Eq. 17) and c Σ e e' of the loaded balls (Eq. 27). ROSS has neither k_xz and
+    k_yz nor tilts, which the shaft is assumed to prevent. The support is not included: link the
     element to a node of the housing.
 
     Parameters

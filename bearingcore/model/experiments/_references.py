@@ -143,9 +143,9 @@ def _multistep(rates: Rates, time: Array) -> Array:
 
 
 def _embedded_pair(rates: Rates, time: Array) -> Array:
-    """Return scaled states at times [s] by DOP853, up to a failure; each step is smooth.
+    """Return scaled states at times [s] by DOP853, up to a failure.
 
-    A very short step crosses each kink, so that the steps before and after it stay on their side.
+    A very short step crosses each kink, so that the rates are smooth within all other steps.
     """
     from scipy.integrate import DOP853  # imported late: slow to import
 

@@ -45,8 +45,8 @@ WIDTH_7208 = 18e-3
 
 ASSUMED = (
     "groove radii of 0.52 (inner) and 0.53 (outer) ball diameters, steel with 210 GPa and 0.3, "
-    "speed unless stated otherwise, and the rotor and support of the fan rig, with which no rig of "
-    "this bearing has been measured."
+    "speed unless stated otherwise, and the rotor and support of the fan rig: no measured rig has "
+    "this bearing on this support."
 )
 """End of every note."""
 
@@ -127,8 +127,8 @@ def _7208(angle_deg: int, rating_kn: int, thrust_kn: float) -> Preset:
         f"which by ISO 281 give a dynamic rating of about {rating_kn} kN, as catalogues do; no "
         "clearance on top of the contact angle; load 1.5 kN down and "
         f"{thrust_kn:.1f} kN along the shaft, an equivalent load of 5 to 6 % of that rating; a "
-        "shaft kept from tilting, as a second bearing does, without which this one would tilt by "
-        f"some milliradian; the defect; {ASSUMED}",
+        "second bearing that keeps the shaft from tilting (this one alone lets it tilt by some "
+        f"milliradians); the defect; {ASSUMED}",
     )
 
 
@@ -322,7 +322,7 @@ _PRESETS: Mapping[str, Preset] = {
         "grooves of 0.53 ball diameters, a radial clearance of 5 µm, load, speed and the "
         "defect, in the first row; steel with 210 GPa and 0.3, and the rotor and support of "
         "the fan rig. Computed: rows 10.5 mm apart on a pitch diameter of 59.2 mm. Its inner "
-        "ring tilts freely, so the shaft is taken to be kept from tilting by another bearing.",
+        "ring tilts freely, so it is assumed that another bearing keeps the shaft from tilting.",
     ),
     "nu208": Preset(
         "NU 208, cylindrical rollers",
@@ -361,9 +361,9 @@ _PRESETS: Mapping[str, Preset] = {
         ),
         "Two tapered roller bearings back to back. By ISO 355: bore 30 mm, outside diameter 62 mm, "
         "a cup of 14°02′10″. Assumed, as makers do not print it: 17 rollers on 46 mm, the middle "
-        "of both diameters. Computed: rollers of 7.66 mm and 10.3 mm length, which have the "
-        "43.5 kN and 48 kN of a catalogue (Nachi) by ISO 281 and ISO 76; their stiffness by "
-        "ISO 16281. Assumed here too: rows 30 mm apart, an axial preload of "
+        "of both diameters. Computed: rollers of 7.66 mm and 10.3 mm length, which by ISO "
+        "281 and ISO 76 give the ratings of a catalogue (Nachi), 43.5 kN dynamic and 48 kN static; "
+        "their stiffness by ISO 16281. Assumed here too: rows 30 mm apart, an axial preload of "
         "6 µm, loads, speed, the defect, in the first row, and the rotor and support of the fan "
         "rig. The taper of the rollers, their swivelling and the friction of the rib are left out.",
     ),

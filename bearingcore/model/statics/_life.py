@@ -204,8 +204,8 @@ def life(scene: Scene, dynamic_load_rating: float | None = None, *, positions: s
         "all": loads averaged over all cage angles, and over all shaft angles if a defect turns with
         the shaft, because a turning cage reaches all of them. "load line": one cage angle, with a
         ball on the line of the radial load (angle 0 without one), as in the standard's examples
-        and commercial codes; only for a healthy bearing with rows alike. The two differ by up to
-        some 3 % with seven balls.
+        and commercial codes; only for a healthy bearing with identical rows. The two differ by up
+        to some 3 % with seven balls.
 
     Returns
     -------

@@ -1,7 +1,7 @@
 """Basic dynamic load rating C_r of a bearing: from its dimensions by ISO 281, or from a catalogue.
 
-C_r is the rating of all i rows together. If the rows are equal, one alone has the rating C_r/i^0.7
-(i^(7/9) for rollers). If they carry equal parts of the load, the bearing has the life by C_r.
+C_r is the rating of all i rows together. Alone, each of i identical rows has the rating C_r/i^0.7
+(i^(7/9) for rollers); if they carry equal parts of the load, the bearing has the life by C_r.
 ISO 16281 does not treat unlike rows. Here they share C_r in proportion to C_k, the ISO 281 rating
 of each row: alone, row k has the rating C_r i^0.3 C_k/Σ C, and all rows together have
 C_r = i^(−0.3) Σ C_k. If they carry parts of the load in that proportion, the life is that by C_r.
@@ -61,7 +61,7 @@ def dynamic_load_rating(bearing: BearingLike) -> float:
 
     f_c is a formula that meets the standard's tables within 0.2 %. For balls it holds for grooves
     of 0.52 (inner) and 0.53 (outer) ball diameters. Wider grooves lower it, closer grooves do not
-    raise it, and unknown ones count as 0.52, 0.53. Ratings in catalogues are higher if the maker
+    raise it, and unknown grooves count as these. Ratings in catalogues are higher if the maker
     guarantees better steel. Unlike rows have i^(−0.3) Σ C_k: see the head of the module.
 
     Raises ValueError for self-aligning bearings, which have other tables in the standard, and for

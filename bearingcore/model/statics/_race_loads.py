@@ -105,8 +105,8 @@ def snapshot_loads(
 ) -> RaceLoads:
     """Return the means over the balls at one cage angle [rad], as the standard takes them.
 
-    They are right for a healthy bearing with rows alike. The state half a ball spacing later must
-    have known loads too.
+    They are right for a healthy bearing with identical rows. The state half a ball spacing later
+    must have known loads too.
     """
     state = static_state(scene, [cage_angle, cage_angle + 0.5 * scene.bearing.ball_spacing])
     loads = loads_or_compressions(state)

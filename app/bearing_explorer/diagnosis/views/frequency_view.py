@@ -234,8 +234,8 @@ class FrequencyView(LookView, MeasuredView):
         else:
             greatest = float(np.nanmax(height, initial=0.0)) / (1.0 - room)
             ends = self._heights.fit(np.array([0.0, greatest]))
-        turn = math.nan if speed is None else speed / (2.0 * math.pi)
-        per = turn if self._axis == "orders" else 1.0  # hertz per unit of the axis
+        shaft = math.nan if speed is None else speed / (2.0 * math.pi)
+        per = shaft if self._axis == "orders" else 1.0  # hertz per unit of the axis
         ranges = {f"{p}_frequency": (0.0, top / per), f"{p}_amplitude": ends}
         sources |= frequency_lines.columns(p, lines, look["lines"], top, FRAME)
         # on an axis of orders, divide frequencies by that of the shaft
@@ -243,7 +243,7 @@ class FrequencyView(LookView, MeasuredView):
             for name in {"frequency", "low", "high", "label_at"} & set(columns):
                 columns[name] = columns[name] / per
         cage = math.nan if turning is None else fundamentals(turning)["ftf"]
-        return sources | self._cursor.columns(turn, cage, per), ranges
+        return sources | self._cursor.columns(shaft, cage, per), ranges
 
     def columns_of(self, model: Model, measured: Measured) -> dict[str, np.ndarray]:
         shown = self.shown(model, measured)

@@ -133,8 +133,8 @@ class MeasuredEnvelope(FrequencyView):
         )
         sets: list[dict[str, float]] = []
         if turning is not None:
-            turn = turning.shaft_speed / (2.0 * math.pi)
-            sets = [first | {"shaft": turn} for first in row_frequencies(turning)]
+            shaft = turning.shaft_speed / (2.0 * math.pi)
+            sets = [first | {"shaft": shaft} for first in row_frequencies(turning)]
             if shown.top == high - low:
                 words += f"It has no lines above {shown.top:.0f} Hz, the width of that band. "
         diagnosis = self.measurement.diagnosis()

@@ -17,7 +17,7 @@ from bearingcore.common import percent_off, probability, span
 from bearingcore.measured.diagnosis import LIKELY, LOUDEST, NONE_SEEN, OUTER, SLIP, perhaps_a_ball
 
 COUNTED = (
-    " The number of {} is an estimate: with another one, damage of a race shows at another "
+    " The number of {} is an estimate: if it is wrong, damage of a race shows at another "
     "frequency and is missed. Count them, or take the frequencies from the maker's sheet."
 )
 """Warning after "no damage seen" if the number of balls or rollers is an estimate."""
@@ -68,8 +68,8 @@ def explanation(answer: Diagnosis, question: Question) -> str:
     if answer.fault == NONE_SEEN:
         return (
             "No impacts repeat as those of a damaged outer race, inner race or ball would. Impacts "
-            f"that make its power swing by {swing(answer.detectable_depth)} of the mean, at each "
-            "harmonic, would have shown in nine of ten such records."
+            f"that make the vibration's power swing by {swing(answer.detectable_depth)} of its "
+            "mean, at each harmonic, would have shown in nine of ten such records."
             f"{estimate_warning(question)}"
         )
     return answer.detail
@@ -86,7 +86,7 @@ def length(measured: MeasuredExtent, sizing: Sizing | None = None) -> str:
     if sizing is not None and sizing.conclusive:
         return f"{size_in_words(sizing)} long, by the frequencies at which the machine rings"
     if measured.measured:
-        return f"{measured.size} long, or that and whole ball spacings, interval of 95 %"
+        return f"{measured.size} long (95 % interval), or longer by whole ball spacings"
     return measured.size or LENGTH_HIDDEN
 
 
@@ -118,7 +118,7 @@ def speed_sentence(measured: Measured) -> str:
     if machine.shaft_speed is None and measured.speeds is not None:
         return "A pulse of the tachometer counts as a turn until a shaft speed is given."
     if machine.shaft_speed is None:
-        return "The shaft speed is not known; it is looked for with the bearing."
+        return "The shaft speed is not known; it is searched once the bearing is known."
     speed = f"{_rpm(machine.shaft_speed)}{machine.ratio_words}"
     return f"Shaft speed: {speed}, {machine.source_of('speed')}."
 
@@ -215,7 +215,7 @@ def _origin(question: Question) -> str:
     machine, estimated = question.measured.machine, question.bearing.estimated
     source = machine.source_of("bearing")
     if machine.by_frequencies:
-        return f", from its {machine.bearing_name} ({source}); sizes are in proportion only"
+        return f", from its {machine.bearing_name} ({source}); only ratios of sizes are known"
     known = "".join(f", {words}" for words in (machine.bearing_name, source) if words)
     if not estimated:
         return known

@@ -43,7 +43,7 @@ class PartPanel(pn.Column):
     Parameters
     ----------
     report_on
-        called with the words for the report, by the names of `REPORTED`.
+        called with the texts typed for the report, by the names in `REPORTED`.
     """
 
     def __init__(

@@ -87,7 +87,7 @@ class Endurance:
 
 Result = TypeVar("Result")
 
-_LIFE_ASSUMES = "Life assumes usual ones, by which no limit is judged"
+_LIFE_ASSUMES = "Life assumes usual ones, but no limit is judged by them"
 
 
 @cached

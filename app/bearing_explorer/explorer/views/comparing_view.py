@@ -24,7 +24,7 @@ class ComparingView(View[Results]):
 
     @classmethod
     def caption(cls, content: Results | None = None) -> str:
-        if content is not None and not content.grey.label:  # grey is the scene itself: no defect
+        if content is not None and not content.grey.label:  # no defect: the scene itself is grey
             return _OF_DEFECT.sub("", cls.about)
         return cls.about.replace("{grey}", content.grey.name if content else WITHOUT_DEFECT)
 

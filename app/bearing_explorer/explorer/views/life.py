@@ -215,8 +215,8 @@ def _life(results: Results, answer: endurance.Endurance) -> FactGroup:
         Fact(
             "Dynamic equivalent reference load P",
             style.with_prefix(healthy.equivalent_load, "N", 4) if known else "not known",
-            "The load under which ISO 281 gives this life: C/P to the power 3 of balls, 10/3 of "
-            "rollers.",
+            "The load under which ISO 281 gives this life: (C/P)³ million turns for balls, "
+            "(C/P)^(10/3) for rollers.",
         ),
     ]
     if len(healthy.rows) > 1 and known:
@@ -267,7 +267,7 @@ def _damaged_words(damaged: Life) -> str:
     share = damaged.share_of_healthy
     why = ", as the defect takes load off the balls that carry most" if share > 1.0 else ""
     return (
-        f"With the loads as the defect changes them the same formula gives {percent(share)} of "
+        f"With the loads changed by the defect, the same formula gives {percent(share)} of "
         f"that{why}. {LEFT_OUT}"
     )
 

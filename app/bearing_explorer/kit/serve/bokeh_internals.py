@@ -5,7 +5,7 @@ The list says what each name is for, measured on two busy cores, and what happen
 * Those in `_WALK_NAMES`, `_property_values`, `_unstable_default_values`: opening three tabs holds
   the event loop for 253 ms (`find_models_quickly`). Without: 1,231 ms.
 * `_held_events`, `_new_models`, `_references`, `_subscribed_connections`, `_socket`: a change is
-  one message, and a class of 20 gets 74 pictures a second (`send_changes`). Without: 50.
+  one message, and a class of 20 students gets 74 pictures a second (`send_changes`). Without: 50.
 * `_event_callbacks`: an event goes to its model (`dispatch_event`). Without: every model is asked.
 * `_needs_document_lock`, `_needs_document_lock_on_loop`, `_current_patch_connection`: changes are
   made on the event loop (`locked`, `apply_patch`). Without: from Bokeh 3.10 on in a thread each.

@@ -31,7 +31,7 @@ SESSION_GRACE_SECONDS = 15.0
 
 _SWITCH_INTERVAL = 0.0005
 """Longest time [s] that a thread keeps the interpreter while the event loop waits for it.
-With Python's own 5 ms, a class of thirty waits a sixth longer."""
+With Python's own 5 ms, a class of thirty students waits a sixth longer."""
 
 
 @dataclass(frozen=True)
@@ -114,9 +114,9 @@ def freeze_startup_objects() -> None:
     """Exclude from garbage collections what lasts as long as the process: modules, kernels.
 
     Objects of a session refer to each other, so only collections free them. Panel starts one five
-    seconds after the last session has ended. While a class is present, a full collection frees
-    nothing and holds the event loop for a second with thirty sessions. So full collections are made
-    a hundred times less often; where people always come and go, `collect_now_and_then` makes them.
+    seconds after the last session has ended. While thirty students are at work, a full collection
+    frees nothing and holds the event loop for a second. So full collections are made a hundred
+    times less often; where people always come and go, `collect_now_and_then` makes them.
     """
     gc.collect()
     gc.freeze()

@@ -34,7 +34,7 @@ LARGEST_BODY = 64_000
 SLOWEST_HEADERS = 8.0
 """Time [s] that headers may take, and that a connection may wait for its next request."""
 MOST_UNFINISHED = 60
-"""Connections at once whose headers are under way; the oldest makes room for another."""
+"""Largest number of connections that have not sent all headers; the oldest makes room for more."""
 HTTP_OPTIONS = {
     "max_header_size": LARGEST_HEADERS,
     "max_body_size": LARGEST_BODY,

@@ -22,16 +22,16 @@ _OWN_LINE = """@media (max-width: 820px) {
   :host { flex: 1 0 100%; }
   * { align-self: start !important; }
 }"""
-"""Style for a phone: the fields that belong to a list stand together in the line after it."""
+"""Style for a phone: a list takes the whole line, so that its own fields share the next one."""
 
 
 class FieldSpec(TypedDict, total=False):
     """A field of a form, or a choice above a figure.
 
-    Without `options` text is typed into it. An option is [value, words] or [value, words, heading];
-    where `some` of several can be chosen, [value, words, colour]. `hint` is the placeholder of a
-    text field. `within` describes a number: its name in a sentence, its unit, its least and its
-    greatest value.
+    Without `options` text is typed into it. An option is [value, words] or [value, words, heading].
+    If `some` is true, several can be chosen: each is [value, words, colour]. `hint` is the
+    placeholder of a text field. `within` describes a number: its name in a sentence, its unit, its
+    least and its greatest value.
     """
 
     name: str
@@ -82,7 +82,7 @@ def row(*parts: Any, **params: Any) -> pn.Row:
 
 
 def stack(*parts: Any, **params: Any) -> pn.Column:
-    """Put parts below one another, as wide as their place, and as high if one of them is."""
+    """Put parts below one another; the stack stretches as its parts do."""
     return pn.Column(*parts, **({"margin": 0} | params))
 
 

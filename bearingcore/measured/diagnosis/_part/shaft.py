@@ -37,8 +37,8 @@ CLEAR = 3.0
 """Least lead [dB] of the shaft's lines over noise."""
 
 FEWEST = 3
-"""Fewest lines of the shaft that no other source may have made: without the loudest, no single line
-decides."""
+"""Least number of the shaft's lines that no other source explains. Their mean level leaves out the
+loudest, so that no single line decides."""
 
 ERROR = 1e-3
 """Greatest relative error of a speed from the shaft's lines, in two standard errors."""
@@ -109,13 +109,13 @@ def shaft_lines(
         if excess[index] <= best.excess:
             continue
         noise = noise_level(RARE / cells, levels.averages)
-        turn = _slowest_comb(levels, float(frequency[index]), low, noise)
+        shaft = _slowest_comb(levels, float(frequency[index]), low, noise)
         # fit without the lines of both mains if enough remain, else without those of one of them
         either = hidden[0] | hidden[1]
-        fits = [_fit_comb(levels, mains, turn, resolution, noise) for mains in (either, *hidden)]
-        turn, error = fits[0] if np.isfinite(fits[0][1]) else _better_fit(fits[1:])
-        inside = min(max(turn, low), high)
-        if abs(turn - inside) > 2.0 * error:  # the lines belong to a frequency outside the range
+        fits = [_fit_comb(levels, mains, shaft, resolution, noise) for mains in (either, *hidden)]
+        shaft, error = fits[0] if np.isfinite(fits[0][1]) else _better_fit(fits[1:])
+        inside = min(max(shaft, low), high)
+        if abs(shaft - inside) > 2.0 * error:  # the lines belong to a frequency outside the range
             error = np.inf
         best = ShaftLines(inside, float(excess[index]), error / inside)
     return best
@@ -127,7 +127,7 @@ def _excess(
     frequency: NDArray[np.float64],
     chance: float,
 ) -> NDArray[np.float64]:
-    """Return the least level [dB] of combs (n,) above noise without the lines of another source."""
+    """Leave out the lines of each other source; return the least level [dB] of combs over noise."""
     lines = _lines(levels, frequency, HARMONICS)
     order = np.arange(1, HARMONICS + 1)[:, None]
     masks = [np.broadcast_to(order % part != 0, lines.shape) for part in (2, 3)]
@@ -154,7 +154,7 @@ def _lines(levels: LineLevels, frequency: NDArray[np.float64], count: int) -> ND
 
 
 def _better_fit(fits: Sequence[tuple[float, float]]) -> tuple[float, float]:
-    """Return the fit [Hz] of two with the smaller error, which is infinite if they disagree."""
+    """Return the frequency [Hz] of the better fit and its error, infinite if the two disagree."""
     (best, error), (other, larger) = sorted(fits, key=lambda fit: fit[1])
     disagree = abs(best - other) > 2.0 * (error + larger)
     return best, np.inf if disagree else error
@@ -198,13 +198,13 @@ def _fit_comb(
 
 
 def _slowest_comb(levels: LineLevels, frequency: float, low: float, noise: float) -> float:
-    """Return the lowest part of a frequency [Hz] whose lines all show, as one turn of the shaft."""
-    for parts in SUBMULTIPLES:
-        part = frequency / parts
-        if part < low:
+    """Return the lowest submultiple of a frequency [Hz] whose lines all show: the shaft's."""
+    for divisor in SUBMULTIPLES:
+        submultiple = frequency / divisor
+        if submultiple < low:
             continue
-        lines = _lines(levels, np.array([part]), 2 * HARMONICS)[:, 0]
-        between = np.sort(lines[np.arange(1, len(lines) + 1) % parts != 0])
+        lines = _lines(levels, np.array([submultiple]), 2 * HARMONICS)[:, 0]
+        between = np.sort(lines[np.arange(1, len(lines) + 1) % divisor != 0])
         if between[:-1].mean() >= noise + CLEAR:
-            return part
+            return submultiple
     return frequency

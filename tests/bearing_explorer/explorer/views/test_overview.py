@@ -452,7 +452,7 @@ def test_what_life_assumes_is_said_by_life_and_limits_alike() -> None:
     assert len(pressures) == 2
     for limit in pressures:
         assert math.isnan(limit.value)
-        assert limit.sentence.endswith("Life assumes usual ones, by which no limit is judged.")
+        assert limit.sentence.endswith("Life assumes usual ones, but no limit is judged by them.")
     assert not any("Life assumes" in limit.sentence for limit in Results(presets["nu208"]).limits)
 
 

@@ -81,8 +81,7 @@ _EQUAL_ASPECT = f"""{style.LARGER}
 let w = 0, h = 0
 try {{ w = plot.inner_width; h = plot.inner_height }} catch {{ return }}  // not laid out yet
 if (!(w > 0 && h > 0)) return
-// the names of several rows are below them
-const several = shown.end > 1.01*half, of_rows = several ? (h - 68*larger)/{ROW_NAMES} : Infinity
+const several = shown.end > 1.01*half
 // the number on the lowest bar is below it, and larger numbers need more
 const low = 21*larger
 // so does the number at 0°, which stands beside the ring
@@ -91,14 +90,18 @@ const beside = (w - 2*({NUMBER_RIGHT} + {NUMBER_HALF})*larger)/(shown.end - half
 const fitted = (above) => {{
   const high = above ? {HIGHEST} : half
   const room = 2*(h - above - low - 35*(larger - 1))/(high + {LOWEST})
+  // the names of several rows are below them
+  const of_rows = several ? (h - above - 68*larger)/{ROW_NAMES} : Infinity
   const unit = Math.min(w/shown.end, room, of_rows, Math.max(beside, 0.3*w))
   return [unit, (high - {LOWEST})/2 - (h - above + low)/unit]
 }}
 let [unit, start] = fitted(0)
-// the words on the load, top left, are above a ring whose numbers would reach into them
-const right = w/2 - unit/2*(shown.end - (several ? {OF_A_ROW} : half)) - {WORDS_WIDE}*larger
+// the words on the load, top left, are above a ring whose numbers would reach into them; several
+// small rings have room beside them, but on a phone
+const right = w/2 - unit/2*(shown.end - half) - {WORDS_WIDE}*larger
 const down = h + start*unit/2 - {WORDS_HIGH}*larger
-if (Math.hypot(Math.max(right, 0), Math.max(down, 0)) < {SIDE}*unit/2 + {NUMBER_HALF}*larger)
+const reach = {SIDE}*unit/2 + {NUMBER_HALF}*larger
+if (several ? w < 420 : Math.hypot(Math.max(right, 0), Math.max(down, 0)) < reach)
   [unit, start] = fitted({WORDS_HIGH}*larger)
 const x = w/unit, end = start + 2*h/unit
 plot.x_range.setv({{start: -x, end: x, reset_start: -x, reset_end: x}})

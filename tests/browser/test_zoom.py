@@ -50,9 +50,10 @@ def test_figures_zoom_stay_zoomed_and_go_back(desk: Visitor) -> None:
     assert shown() == whole, "the wheel alone scrolls the page"
     page.keyboard.down("Control")
     page.mouse.wheel(0, -200)
+    nearer = f"most => {{ const [start, end] = ({RANGE})('modes'); return end - start < most }}"
+    page.wait_for_function(nearer, arg=0.9 * (whole[1] - whole[0]))  # no call waits for a wheel
     page.keyboard.up("Control")
     near = shown()
-    assert near[1] - near[0] < 0.9 * (whole[1] - whole[0])
     move(slider(page, "extent_deg"), 25)
     settle(page)
     assert shown() == near, "what is drawn anew does not take the place away"
@@ -87,6 +88,7 @@ def test_figures_zoom_stay_zoomed_and_go_back(desk: Visitor) -> None:
     page.keyboard.down("Control")
     for _ in range(8):
         page.mouse.wheel(0, -200)
+    page.wait_for_function(f"({axes})().every(Boolean)")
     page.keyboard.up("Control")
     painted(page)
     left, below = page.evaluate(axes)

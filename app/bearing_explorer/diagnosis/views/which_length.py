@@ -68,7 +68,7 @@ class WhichLength(JobView[Model, SizedDefect, Editor], MeasuredView):
     name = "which-length"
     title = "Which of these lengths?"
     about = (
-        "Measured spectrum, and over it those simulated for each length. Shaded: natural "
+        "Spectra: measured, and simulated for each length. Shaded: natural "
         "frequencies of the best length as balls pass. Vertical lines: harmonics of the measured "
         "mean ball pass. Curves: the same for the best lengths, scaled to the same size. Bars at "
         "the top: natural frequencies of each length. Entry and exit give the length up to whole "

@@ -189,7 +189,7 @@ export function render({ model }) {
   const show_cue = () => {
     const count = Math.floor(values[spec.extent] / spacing + 1e-9)
     if (count === inside_before) return
-    cue.textContent = count ? `Now always at least ${count === 1 ? "one rolling element" : `${count} rolling elements`} inside` : ""
+    cue.textContent = count ? `${count === 1 ? "One rolling element" : `${count} rolling elements`} always inside` : ""
     flash?.cancel()
     if (inside_before !== null && !still) flash = cue.animate({ opacity: [0.7, 0] }, { duration: 1200, pseudoElement: "::after" })
     inside_before = count

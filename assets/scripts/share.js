@@ -123,7 +123,7 @@ export function render({ model }) {
       const changes = !moved && !changed && !returning && place.scene !== scene
       changed = place.lesson === lesson && (changed || changes)
       returning = false
-      history[moved || changes ? "pushState" : "replaceState"]({ ...place, changed }, "", `?${address}`)
+      history[moved || changes ? "pushState" : "replaceState"]({ ...place, changed }, "", `?${address}${document.documentElement.hasAttribute("data-projector") ? "#projector" : ""}`)
     }
     shown = address
     if (said !== sentence.number) say(sentence.words)
@@ -173,7 +173,7 @@ export function render({ model }) {
   window.addEventListener("keydown", (event) => {
     if (!(event.ctrlKey || event.metaKey) || event.altKey) return
     const [at] = event.composedPath()
-    if (at instanceof Element && at.matches("textarea, input:not([type=range]):not([type=file])")) return
+    if (at instanceof Element && at.matches("textarea, input:not([type=range], [type=file], [type=radio])")) return
     const key = event.key.toLowerCase()
     const wanted = key === "z" ? (event.shiftKey ? "redo" : "undo") : key === "y" ? "redo" : null
     if (!wanted) return

@@ -813,7 +813,7 @@ def test_first_visits_are_shown_in(visitor: Visitor) -> None:
     beside = visitor.box("Load, downwards").bounding_box()
     visitor.sees_change(lambda: visitor.press("Make the defect longer", welcome))
     assert visitor.number("Length of the defect") == pytest.approx(12.9 + spacing, abs=0.01)
-    expect(visitor.page.get_by_text("Now always at least one rolling element")).to_be_visible()
+    expect(visitor.page.get_by_text("One rolling element always inside")).to_be_visible()
     assert visitor.box("Load, downwards").bounding_box() == beside  # the cue moves nothing
     visitor.press("Undo")
     expect(visitor.box("Length of the defect")).to_have_value("12.9")

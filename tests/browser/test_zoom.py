@@ -3,10 +3,12 @@
 from typing import Any
 
 import pytest
+from playwright.sync_api import Page, ViewportSize
 
-from tests.browser.explorer_page import painted, place, settle, show, slider
-from tests.browser.helpers import move
-from tests.browser.visitor import Visitor
+from tests.browser.explorer_page import open_page, painted, place, settle, show, slider
+from tests.browser.helpers import Server, move
+
+LAPTOP: ViewportSize = {"width": 1366, "height": 768}
 
 RANGE = """view => {
   const inside = (root) => {
@@ -32,9 +34,9 @@ NAMES_OF_BANDS = """() => {
 
 
 @pytest.mark.proof
-def test_figures_zoom_stay_zoomed_and_go_back(desk: Visitor) -> None:
-    page = desk.page
-    desk.begin("Frequencies")
+def test_figures_zoom_stay_zoomed_and_go_back(page: Page, explorer: Server) -> None:
+    page.set_viewport_size(LAPTOP)
+    open_page(page, explorer, "modes")
 
     def shown() -> list[float]:
         painted(page)
